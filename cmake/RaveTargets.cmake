@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: Apache-2.0
+# One function per kind of target. A folder's CMakeLists.txt is a list of calls to these.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+# The installed layout, repeated in the build tree, so that `rave` finds its plug-ins the same way.
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
+set(RAVE_PLUGIN_DIR "lib/rave/plugins")
+
+# What every RAVE target is compiled with. The floating-point flags are part of the contract that
+# a run gives the same bits everywhere; they are exported to plug-ins through rave::base.
+add_library(rave_build_flags INTERFACE)
+target_compile_options(rave_build_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
+  -Wnon-virtual-dtor -Woverloaded-virtual -Wimplicit-fallthrough
+  $<$<BOOL:${RAVE_WERROR}>:-Werror>
+  -ffile-prefix-map=${CMAKE_SOURCE_DIR}/=)
+if(RAVE_SANITIZE)
+  target_compile_options(rave_build_flags INTERFACE
+    -fsanitize=${RAVE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(rave_build_flags INTERFACE -fsanitize=${RAVE_SANITIZE})
+endif()
+
+# rave_library(NAME [DEPS ...] [PRIVATE_DEPS ...] [SOURCES ...])
+# The static library rave_NAME (alias rave::NAME) of the calling folder: public headers in
+# include/rave/NAME, sources in src/, unit tests in tests/.
+function(rave_library name)
+  cmake_parse_arguments(ARG "" "" "DEPS;PRIVATE_DEPS;SOURCES" ${ARGN})
+  if(ARG_SOURCES)
+    add_library(rave_${name} STATIC ${ARG_SOURCES})
+    set(scope PUBLIC)
+    target_link_libraries(rave_${name} PRIVATE $<BUILD_INTERFACE:rave_build_flags> ${ARG_PRIVATE_DEPS})
+  else()
+    add_library(rave_${name} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  add_library(rave::${name} ALIAS rave_${name})
+  set_target_properties(rave_${name} PROPERTIES EXPORT_NAME ${name})
+  target_compile_features(rave_${name} ${scope} cxx_std_20)
+  target_include_directories(rave_${name} ${scope}
+    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
+  target_link_libraries(rave_${name} ${scope} ${ARG_DEPS})
+  set_property(GLOBAL APPEND PROPERTY RAVE_INSTALL_TARGETS rave_${name})
+  if(EXISTS "${CMAKE_CURRENT_SOURCE_DIR}/include")
+    set_property(GLOBAL APPEND PROPERTY RAVE_INSTALL_INCLUDES "${CMAKE_CURRENT_SOURCE_DIR}/include/")
+  endif()
+endfunction()
+
+# rave_plugin(NAME SOURCES ... [DEPS ...])
+# The plug-in NAME.so, loaded at run time and linked by nobody.
+function(rave_plugin name)
+  cmake_parse_arguments(ARG "" "" "DEPS;SOURCES" ${ARGN})
+  add_library(rave_plugin_${name} MODULE ${ARG_SOURCES})
+  target_link_libraries(rave_plugin_${name} PRIVATE rave_build_flags ${ARG_DEPS})
+  set_target_properties(rave_plugin_${name} PROPERTIES PREFIX "" OUTPUT_NAME ${name}
+    LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${RAVE_PLUGIN_DIR}")
+  # Only the one entry point and the stamp are visible; static libraries stay inside.
+  target_link_options(rave_plugin_${name} PRIVATE
+    -Wl,--exclude-libs,ALL -Wl,--no-undefined)
+  set_property(GLOBAL APPEND PROPERTY RAVE_PLUGIN_TARGETS rave_plugin_${name})
+endfunction()
+
+# rave_driver(NAME SOURCES ... DEPS ...): a plug-in that serves devices.
+function(rave_driver name)
+  rave_plugin(${name} ${ARGN})
+endfunction()
+
+# rave_program(NAME SOURCES ...): a decision process; it is given the robot library and no more.
+function(rave_program name)
+  rave_plugin(${name} ${ARGN} DEPS rave::robot)
+endfunction()
+
+# rave_executable(NAME SOURCES ... DEPS ...)
+function(rave_executable name)
+  cmake_parse_arguments(ARG "" "" "DEPS;SOURCES" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE rave_build_flags ${ARG_DEPS})
+endfunction()
+
+# rave_test(NAME SOURCES ... [DEPS ...] [LABELS ...] [TIMEOUT seconds] [NEEDS target...])
+# A GoogleTest program, run by ctest as NAME. NEEDS names targets it starts or loads.
+function(rave_test name)
+  if(NOT RAVE_TESTS)
+    return()
+  endif()
+  cmake_parse_arguments(ARG "" "TIMEOUT" "DEPS;SOURCES;LABELS;NEEDS;ENVIRONMENT" ${ARGN})
+  add_executable(test_${name} ${ARG_SOURCES})
+  target_link_libraries(test_${name} PRIVATE rave_build_flags ${ARG_DEPS} GTest::gtest_main)
+  set_target_properties(test_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
+  target_compile_definitions(test_${name} PRIVATE
+    RAVE_SOURCE_DIR="${CMAKE_SOURCE_DIR}" RAVE_BINARY_DIR="${CMAKE_BINARY_DIR}")
+  if(ARG_NEEDS)
+    add_dependencies(test_${name} ${ARG_NEEDS})
+  endif()
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 300)
+  endif()
+  if(NOT ARG_LABELS)
+    set(ARG_LABELS unit)
+  endif()
+  add_test(NAME ${name} COMMAND test_${name} WORKING_DIRECTORY "${CMAKE_BINARY_DIR}")
+  set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}"
+    ENVIRONMENT "${ARG_ENVIRONMENT}")
+endfunction()
+
+# rave_check(NAME COMMAND ... [LABELS ...]): any other command as a test.
+function(rave_check name)
+  if(NOT RAVE_TESTS)
+    return()
+  endif()
+  cmake_parse_arguments(ARG "" "TIMEOUT" "COMMAND;LABELS" ${ARGN})
+  add_test(NAME ${name} COMMAND ${ARG_COMMAND} WORKING_DIRECTORY "${CMAKE_SOURCE_DIR}")
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 300)
+  endif()
+  set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}")
+endfunction()
+
+# rave_fuzzer(NAME SOURCES ... DEPS ... CORPUS folder)
+# With clang and RAVE_FUZZERS a libFuzzer program; otherwise a program that replays the corpus and
+# seeded mutations of it, so that every build checks every parser against what is known.
+function(rave_fuzzer name)
+  if(NOT RAVE_TESTS)
+    return()
+  endif()
+  cmake_parse_arguments(ARG "" "CORPUS" "DEPS;SOURCES" ${ARGN})
+  add_executable(fuzz_${name} ${ARG_SOURCES})
+  target_link_libraries(fuzz_${name} PRIVATE rave_build_flags ${ARG_DEPS})
+  set_target_properties(fuzz_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/fuzz")
+  if(RAVE_FUZZERS)
+    target_compile_options(fuzz_${name} PRIVATE -fsanitize=fuzzer)
+    target_link_options(fuzz_${name} PRIVATE -fsanitize=fuzzer)
+  else()
+    target_sources(fuzz_${name} PRIVATE "${CMAKE_SOURCE_DIR}/tests/fuzz/replay_main.cpp")
+    add_test(NAME fuzz_${name}
+      COMMAND fuzz_${name} "${CMAKE_CURRENT_SOURCE_DIR}/${ARG_CORPUS}")
+    set_tests_properties(fuzz_${name} PROPERTIES TIMEOUT 300 LABELS fuzz)
+  endif()
+endfunction()
+
+# rave_benchmark(NAME SOURCES ... DEPS ...): a Google Benchmark program.
+function(rave_benchmark name)
+  if(NOT RAVE_BENCHMARKS)
+    return()
+  endif()
+  cmake_parse_arguments(ARG "" "" "DEPS;SOURCES" ${ARGN})
+  add_executable(bench_${name} ${ARG_SOURCES})
+  target_link_libraries(bench_${name} PRIVATE rave_build_flags ${ARG_DEPS} benchmark::benchmark_main)
+  set_target_properties(bench_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bench")
+endfunction()

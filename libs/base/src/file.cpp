@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/base/file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+namespace rave {
+namespace {
+
+/// Closes a file descriptor when it goes out of scope.
+class FileHandle {
+ public:
+  explicit FileHandle(int fd) noexcept : fd_(fd) {}
+  FileHandle(const FileHandle&) = delete;
+  FileHandle& operator=(const FileHandle&) = delete;
+  ~FileHandle() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  [[nodiscard]] int get() const noexcept { return fd_; }
+
+ private:
+  int fd_;
+};
+
+tl::unexpected<Error> system_failure(const std::filesystem::path& path, std::string_view what) {
+  const int code = errno;
+  return fail(code == ENOENT ? ErrorCode::kNotFound : ErrorCode::kIo, "cannot {} `{}`: {}", what,
+              path.string(), std::strerror(code));
+}
+
+}  // namespace
+
+Result<std::string> read_file(const std::filesystem::path& path, std::size_t max_bytes) {
+  const FileHandle file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (file.get() < 0) return system_failure(path, "open");
+  struct stat info {};
+  if (::fstat(file.get(), &info) != 0) return system_failure(path, "inspect");
+  if (S_ISDIR(info.st_mode)) {
+    return fail(ErrorCode::kIo, "cannot read `{}`: it is a folder", path.string());
+  }
+  std::string content;
+  char buffer[1 << 16];
+  while (true) {
+    const ssize_t count = ::read(file.get(), buffer, sizeof buffer);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return system_failure(path, "read");
+    if (count == 0) return content;
+    content.append(buffer, static_cast<std::size_t>(count));
+    if (content.size() > max_bytes) {
+      return fail(ErrorCode::kIo, "cannot read `{}`: it is larger than {} bytes", path.string(),
+                  max_bytes);
+    }
+  }
+}
+
+Status write_file_atomically(const std::filesystem::path& path, std::string_view content) {
+  std::filesystem::path temporary = path;
+  temporary += fmt::format(".{}.part", ::getpid());
+  {
+    const FileHandle file(
+        ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
+    if (file.get() < 0) return system_failure(temporary, "create");
+    std::string_view rest = content;
+    while (!rest.empty()) {
+      const ssize_t count = ::write(file.get(), rest.data(), rest.size());
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) {
+        auto failure = system_failure(temporary, "write");
+        ::unlink(temporary.c_str());
+        return failure;
+      }
+      rest.remove_prefix(static_cast<std::size_t>(count));
+    }
+    if (::fsync(file.get()) != 0 && errno != EINVAL) return system_failure(temporary, "flush");
+  }
+  if (::rename(temporary.c_str(), path.c_str()) != 0) {
+    auto failure = system_failure(path, "replace");
+    ::unlink(temporary.c_str());
+    return failure;
+  }
+  return {};
+}
+
+}  // namespace rave

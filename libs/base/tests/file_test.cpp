@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/base/file.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace rave {
+namespace {
+
+class FileTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() /
+              ("rave_file_test_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::filesystem::path folder_;
+};
+
+TEST_F(FileTest, WritesAndReadsBackAllBytes) {
+  const std::string content("a\0b\nc", 5);
+  ASSERT_TRUE(write_file_atomically(folder_ / "x", content));
+  EXPECT_EQ(read_file(folder_ / "x").value(), content);
+}
+
+TEST_F(FileTest, AFailedWriteLeavesNothingBehind) {
+  std::filesystem::create_directories(folder_ / "target" / "occupied");
+  const auto status = write_file_atomically(folder_ / "target", "new");
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().code, ErrorCode::kIo);
+  std::size_t entries = 0;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder_)) ++entries;
+  EXPECT_EQ(entries, 1U);
+}
+
+TEST_F(FileTest, SaysWhatIsWrong) {
+  EXPECT_EQ(read_file(folder_ / "none").error().code, ErrorCode::kNotFound);
+  EXPECT_EQ(read_file(folder_).error().code, ErrorCode::kIo);
+  ASSERT_TRUE(write_file_atomically(folder_ / "x", "12345"));
+  EXPECT_EQ(read_file(folder_ / "x", 4).error().code, ErrorCode::kIo);
+}
+
+}  // namespace
+}  // namespace rave

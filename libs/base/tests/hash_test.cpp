@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/base/hash.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace rave {
+namespace {
+
+ItemHash pose_item(std::uint64_t step, std::uint32_t robot, double x) {
+  ItemHash item(step, robot, HashChannel::kPose, 0);
+  item.add(x);
+  return item;
+}
+
+TEST(RunHash, DoesNotDependOnTheOrderOfItems) {
+  RunHash forward;
+  RunHash backward;
+  for (std::uint32_t i = 0; i < 100; ++i) forward.add(pose_item(7, i, 0.5 * i));
+  for (std::uint32_t i = 100; i-- > 0;) backward.add(pose_item(7, i, 0.5 * i));
+  EXPECT_EQ(forward, backward);
+}
+
+TEST(RunHash, PartialSumsOfProcessesAddUp) {
+  RunHash whole;
+  RunHash first;
+  RunHash second;
+  for (std::uint32_t i = 0; i < 10; ++i) {
+    whole.add(pose_item(1, i, i));
+    (i < 3 ? first : second).add(pose_item(1, i, i));
+  }
+  first.merge(second);
+  EXPECT_EQ(whole, first);
+}
+
+TEST(RunHash, NoticesEveryPartOfAnItem) {
+  const auto base = pose_item(3, 4, 1.0).value();
+  EXPECT_NE(base, pose_item(2, 4, 1.0).value());
+  EXPECT_NE(base, pose_item(3, 5, 1.0).value());
+  EXPECT_NE(base, pose_item(3, 4, 1.0000000000000002).value());
+  ItemHash other_channel(3, 4, HashChannel::kEvent, 0);
+  other_channel.add(1.0);
+  EXPECT_NE(base, other_channel.value());
+  ItemHash other_device(3, 4, HashChannel::kPose, 1);
+  other_device.add(1.0);
+  EXPECT_NE(base, other_device.value());
+}
+
+TEST(ItemHash, EveryFlippedBitOfAPayloadChangesIt) {
+  std::array<std::byte, 21> payload{};
+  ItemHash clean(1, 2, HashChannel::kPercept, 3);
+  clean.add_bytes(payload);
+  for (std::size_t bit = 0; bit < payload.size() * 8; ++bit) {
+    auto flipped = payload;
+    flipped[bit / 8] ^= static_cast<std::byte>(1U << (bit % 8));
+    ItemHash item(1, 2, HashChannel::kPercept, 3);
+    item.add_bytes(flipped);
+    EXPECT_NE(item.value(), clean.value()) << "bit " << bit;
+  }
+}
+
+TEST(ItemHash, TheLengthOfAPayloadCounts) {
+  std::array<std::byte, 8> payload{};
+  ItemHash shorter(1, 2, HashChannel::kPercept, 3);
+  shorter.add_bytes(std::span(payload).first(5));
+  ItemHash longer(1, 2, HashChannel::kPercept, 3);
+  longer.add_bytes(payload);
+  EXPECT_NE(shorter.value(), longer.value());
+}
+
+}  // namespace
+}  // namespace rave

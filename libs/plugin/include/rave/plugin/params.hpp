@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace rave {
+
+enum class ParamType : std::uint32_t { kBool, kInteger, kNumber, kText, kChoice, kNumbers };
+
+/// One parameter of a driver or program as its author declares it. All pointers are to constants
+/// that live as long as the plug-in. Make them with the functions below.
+struct ParamSpec {
+  const char* name = "";  ///< With its unit: `range_m`, `period_s`, `fov_deg`.
+  ParamType type = ParamType::kNumber;
+  std::uint32_t required = 0;            ///< 1: a file must give it.
+  const char* unit = "";                 ///< For people: `m`, `rad/s`; empty for a pure number.
+  double min = 0;                        ///< Smallest value of an integer, number or list element.
+  double max = 0;                        ///< Largest value.
+  double default_number = 0;             ///< Default of bool (0 or 1), integer and number.
+  const char* default_text = "";         ///< Default of text and choice.
+  const char* const* choices = nullptr;  ///< Names of a choice.
+  std::uint64_t choice_count = 0;
+  const char* doc = "";  ///< One sentence.
+};
+
+constexpr ParamSpec number_param(const char* name, const char* unit, double value, double min,
+                                 double max, const char* doc) noexcept {
+  ParamSpec spec;
+  spec.name = name;
+  spec.unit = unit;
+  spec.default_number = value;
+  spec.min = min;
+  spec.max = max;
+  spec.doc = doc;
+  return spec;
+}
+
+constexpr ParamSpec integer_param(const char* name, std::int64_t value, std::int64_t min,
+                                  std::int64_t max, const char* doc) noexcept {
+  ParamSpec spec = number_param(name, "", static_cast<double>(value), static_cast<double>(min),
+                                static_cast<double>(max), doc);
+  spec.type = ParamType::kInteger;
+  return spec;
+}
+
+constexpr ParamSpec bool_param(const char* name, bool value, const char* doc) noexcept {
+  ParamSpec spec = number_param(name, "", value ? 1 : 0, 0, 1, doc);
+  spec.type = ParamType::kBool;
+  return spec;
+}
+
+constexpr ParamSpec text_param(const char* name, const char* value, const char* doc) noexcept {
+  ParamSpec spec;
+  spec.name = name;
+  spec.type = ParamType::kText;
+  spec.default_text = value;
+  spec.doc = doc;
+  return spec;
+}
+
+constexpr ParamSpec choice_param(const char* name, const char* value,
+                                 std::span<const char* const> choices, const char* doc) noexcept {
+  ParamSpec spec = text_param(name, value, doc);
+  spec.type = ParamType::kChoice;
+  spec.choices = choices.data();
+  spec.choice_count = choices.size();
+  return spec;
+}
+
+/// A list of numbers, empty by default.
+constexpr ParamSpec numbers_param(const char* name, const char* unit, double min, double max,
+                                  const char* doc) noexcept {
+  ParamSpec spec = number_param(name, unit, 0, min, max, doc);
+  spec.type = ParamType::kNumbers;
+  return spec;
+}
+
+/// The same parameter without a default.
+constexpr ParamSpec required(ParamSpec spec) noexcept {
+  spec.required = 1;
+  return spec;
+}
+
+/// The value of one parameter, checked against its spec by the host. Which member counts is said
+/// by the type of the spec.
+struct ParamValue {
+  const char* name = "";
+  double number = 0;  ///< Bool, integer (exact up to 2^53) and number.
+  const char* text = "";
+  const double* list = nullptr;
+  std::uint64_t list_size = 0;
+};
+
+/// All parameters of one driver or program, in the order of its specs, defaults filled in.
+/// A view: valid during the call it is passed to.
+class Params {
+ public:
+  constexpr Params() noexcept = default;
+  constexpr explicit Params(std::span<const ParamValue> values) noexcept
+      : values_(values.data()), count_(values.size()) {}
+
+  /// The value of the declared parameter `name`. Asking for one that was not declared gives 0,
+  /// an empty text or an empty list: a mistake of the author, which the driver's own test finds.
+  [[nodiscard]] constexpr double number(std::string_view name) const noexcept {
+    return find(name).number;
+  }
+  [[nodiscard]] constexpr std::int64_t integer(std::string_view name) const noexcept {
+    return static_cast<std::int64_t>(find(name).number);
+  }
+  [[nodiscard]] constexpr bool flag(std::string_view name) const noexcept {
+    return find(name).number != 0;
+  }
+  [[nodiscard]] constexpr std::string_view text(std::string_view name) const noexcept {
+    return find(name).text;
+  }
+  [[nodiscard]] constexpr std::span<const double> numbers(std::string_view name) const noexcept {
+    const ParamValue& value = find(name);
+    return {value.list, value.list_size};
+  }
+  [[nodiscard]] constexpr std::span<const ParamValue> values() const noexcept {
+    return {values_, count_};
+  }
+
+ private:
+  [[nodiscard]] constexpr const ParamValue& find(std::string_view name) const noexcept {
+    for (const ParamValue& value : values()) {
+      if (name == value.name) return value;
+    }
+    return kMissing;
+  }
+
+  static constexpr ParamValue kMissing{};
+  const ParamValue* values_ = nullptr;
+  std::uint64_t count_ = 0;
+};
+
+}  // namespace rave

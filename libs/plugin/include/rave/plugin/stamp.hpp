@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+
+#include "rave/base/result.hpp"
+
+namespace rave::plugin {
+
+/// Written into the section `.rave_stamp` of every plug-in and read from the file before the
+/// plug-in is loaded, so that one built for another interface never gets to run. Plain bytes.
+struct Stamp {
+  static constexpr std::uint64_t kMagic = 0x31504d5453455652ULL;  // "RVESTMP1", little endian
+
+  std::uint64_t magic = kMagic;
+  /// Layout of everything in rave/robot that crosses the interface; see interface_hash.hpp there.
+  std::uint64_t robot_interface = 0;
+  /// Layout of the virtual-driver interface in rave/sim; 0 in plug-ins that do not use it.
+  std::uint64_t virtual_interface = 0;
+  /// The C++ ABI of the compiler (`__GXX_ABI_VERSION`).
+  std::uint32_t compiler_abi = 0;
+  /// `alignof(std::max_align_t)` and the vector alignment that the flags imply.
+  std::uint32_t alignment = 0;
+  /// 0 none, 1 address, 2 thread: a plug-in must be built as its host is.
+  std::uint32_t sanitizer = 0;
+  std::uint32_t reserved = 0;
+  /// Names of the drivers inside, separated by blanks, so that a host loads only what it needs.
+  char provides[216] = {};
+};
+static_assert(sizeof(Stamp) == 256);
+
+namespace detail {
+constexpr std::uint32_t sanitizer_of_this_build() noexcept {
+#if defined(__SANITIZE_ADDRESS__)
+  return 1;
+#elif defined(__SANITIZE_THREAD__)
+  return 2;
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+  return 1;
+#elif __has_feature(thread_sanitizer)
+  return 2;
+#else
+  return 0;
+#endif
+#else
+  return 0;
+#endif
+}
+}  // namespace detail
+
+/// The stamp of the translation unit that calls it. `provides` lists the drivers inside, separated
+/// by blanks, in at most 215 characters.
+constexpr Stamp make_stamp(std::uint64_t robot_interface, std::uint64_t virtual_interface,
+                           std::string_view provides) noexcept {
+  Stamp stamp;
+  for (std::size_t i = 0; i < provides.size() && i + 1 < sizeof stamp.provides; ++i) {
+    stamp.provides[i] = provides[i];
+  }
+  stamp.robot_interface = robot_interface;
+  stamp.virtual_interface = virtual_interface;
+  stamp.compiler_abi = __GXX_ABI_VERSION;
+  stamp.alignment = alignof(std::max_align_t);
+  stamp.sanitizer = detail::sanitizer_of_this_build();
+  return stamp;
+}
+
+/// Reads the stamp of a shared library without loading it.
+/// Errors: kNotFound, kIo, kParse (not a 64-bit ELF file, damaged), kIncompatible (no stamp).
+[[nodiscard]] Result<Stamp> read_stamp(const std::filesystem::path& path);
+
+/// The same from the bytes of a file; the decoder that the fuzz target drives.
+[[nodiscard]] Result<Stamp> parse_stamp(std::string_view bytes);
+
+/// Says in words what keeps a plug-in with stamp `plugin` from running in a host with stamp `host`;
+/// success if nothing does.
+[[nodiscard]] Status check_stamp(const Stamp& plugin, const Stamp& host);
+
+}  // namespace rave::plugin

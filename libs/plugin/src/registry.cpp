@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/plugin/registry.hpp"
+
+namespace rave {
+
+std::string_view to_string(DriverKind kind) noexcept {
+  switch (kind) {
+    case DriverKind::kSensor:
+      return "sensor";
+    case DriverKind::kVirtualSensor:
+      return "virtual sensor";
+    case DriverKind::kHybridSensor:
+      return "hybrid sensor";
+    case DriverKind::kActuator:
+      return "actuator";
+    case DriverKind::kVirtualActuator:
+      return "virtual actuator";
+    case DriverKind::kController:
+      return "controller";
+    case DriverKind::kCommunicator:
+      return "communicator";
+    case DriverKind::kTransmitter:
+      return "transmitter";
+    case DriverKind::kProgram:
+      return "program";
+  }
+  return "unknown";
+}
+
+std::string_view to_string(DriverClock clock) noexcept {
+  switch (clock) {
+    case DriverClock::kStepped:
+      return "stepped";
+    case DriverClock::kLive:
+      return "live";
+    case DriverClock::kEither:
+      return "stepped or live";
+  }
+  return "unknown";
+}
+
+}  // namespace rave

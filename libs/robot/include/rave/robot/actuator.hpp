@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "rave/base/random.hpp"
+#include "rave/robot/controller.hpp"
+
+namespace rave {
+
+/// What the driver of a simulated actuator knows in one step.
+struct MotionInput {
+  Command command;  ///< From the controller; kNone before the first.
+  Twist2 velocity;  ///< What the world let the body do in the last step, body frame.
+  double dt_s = 0;
+  std::uint64_t seed = 0;
+  std::uint32_t robot = 0;
+  std::uint32_t device = 0;
+  std::uint32_t step = 0;
+  std::uint32_t contact = 0;  ///< 1: something limited the last motion.
+
+  [[nodiscard]] RandomStream random() const noexcept { return {seed, robot, device, step}; }
+};
+
+/// The dynamics of a simulated robot: proposes a motion, which the world then limits. One object
+/// per robot.
+class VirtualActuator {
+ public:
+  virtual ~VirtualActuator() = default;
+  virtual Status start(const DeviceSetup& setup) = 0;
+  /// The body velocity of this step, body frame; held over the step along the exact arc.
+  virtual Twist2 propose(const MotionInput& input) = 0;
+};
+
+struct VirtualActuatorOps {
+  InstanceOps instance;
+  int (*start)(void* instance, const DeviceSetup* setup, ErrorText* error) = nullptr;
+  void (*propose)(void* first, std::uint64_t stride, const MotionInput* inputs, Twist2* outputs,
+                  std::uint64_t count, std::uint8_t* failed, ErrorText* error) = nullptr;
+};
+
+/// Hands commands to hardware. One object per robot. write() is called in the act phase and must
+/// return at once: a driver with a slow line posts to its own thread.
+class HardwareActuator {
+ public:
+  virtual ~HardwareActuator() = default;
+  /// Opens the device. Errors keep the run from starting.
+  virtual Status open(const DeviceSetup& setup) = 0;
+  virtual Status write(const Command& command, SimTime now) = 0;
+  /// Stops the robot and lets the device go; called also after errors.
+  virtual void close() = 0;
+  /// False for a device that cannot obey, such as a recording: the run's summary says so.
+  [[nodiscard]] virtual bool obeys() const { return true; }
+};
+
+struct HardwareActuatorOps {
+  InstanceOps instance;
+  int (*open)(void* instance, const DeviceSetup* setup, ErrorText* error) = nullptr;
+  int (*write)(void* instance, const Command* command, std::int64_t now_ns,
+               ErrorText* error) = nullptr;
+  void (*close)(void* instance) = nullptr;
+  int (*obeys)(void* instance) = nullptr;
+};
+
+namespace detail {
+template <class T>
+constexpr VirtualActuatorOps virtual_actuator_ops() noexcept {
+  VirtualActuatorOps ops;
+  ops.instance = instance_ops<T>();
+  ops.start = [](void* instance, const DeviceSetup* setup, ErrorText* error) {
+    return guarded(error, [&] { return static_cast<T*>(instance)->start(*setup); });
+  };
+  ops.propose = [](void* first, std::uint64_t stride, const MotionInput* inputs, Twist2* outputs,
+                   std::uint64_t count, std::uint8_t* failed, ErrorText* error) {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (failed[i] != 0) continue;
+      const int status = guarded(error, [&]() -> Status {
+        outputs[i] = instance_at<T>(first, stride, i).T::propose(inputs[i]);
+        return {};
+      });
+      if (status != 0) {
+        failed[i] = 1;
+        error->slot = static_cast<std::uint32_t>(i);
+      }
+    }
+  };
+  return ops;
+}
+
+template <class T>
+constexpr HardwareActuatorOps hardware_actuator_ops() noexcept {
+  HardwareActuatorOps ops;
+  ops.instance = instance_ops<T>();
+  ops.open = [](void* instance, const DeviceSetup* setup, ErrorText* error) {
+    return guarded(error, [&] { return static_cast<T*>(instance)->open(*setup); });
+  };
+  ops.write = [](void* instance, const Command* command, std::int64_t now_ns, ErrorText* error) {
+    return guarded(error, [&] { return static_cast<T*>(instance)->write(*command, {now_ns}); });
+  };
+  ops.close = [](void* instance) {
+    ErrorText ignored;
+    guarded(&ignored, [&]() -> Status {
+      static_cast<T*>(instance)->close();
+      return {};
+    });
+  };
+  ops.obeys = [](void* instance) { return static_cast<T*>(instance)->obeys() ? 1 : 0; };
+  return ops;
+}
+}  // namespace detail
+}  // namespace rave

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "rave/base/time.hpp"
+#include "rave/robot/controller.hpp"
+
+namespace rave {
+
+/// Where the thread of a hardware sensor puts its samples. Belongs to the host; one thread of the
+/// driver writes; valid from open() until close() has returned.
+class SampleSink {
+ public:
+  /// Waits until simulation time `t` is due: at once in a stepped run, by the wall clock in a live
+  /// one. False: the sensor is being closed, end the thread.
+  virtual bool wait_until(SimTime t) noexcept = 0;
+  /// Hands over `count` records that were true at `stamp`, which must not step back. In a stepped
+  /// run it waits for room; false: the sensor is being closed.
+  virtual bool publish(SimTime stamp, const void* records, std::uint32_t count) noexcept = 0;
+  /// Promises that nothing with a stamp up to `t` will come any more. Stepped drivers must call it;
+  /// the end of a recording is `SimTime` of the largest value.
+  virtual void complete_up_to(SimTime t) noexcept = 0;
+  /// Reports that the device is gone; `text` is copied.
+  virtual void fail(const char* text, std::uint64_t size) noexcept = 0;
+
+ protected:
+  ~SampleSink() = default;
+};
+
+/// What a hardware sensor is given when it starts.
+struct HardwareSetup {
+  RobotInfo robot;
+  HostServices host;
+  const ParamValue* params = nullptr;
+  std::uint64_t param_count = 0;
+  /// Folder of the robot file: relative paths in parameters start there.
+  const char* folder = "";
+  std::uint64_t reserved = 0;
+
+  [[nodiscard]] Params parameters() const noexcept {
+    return Params(std::span(params, param_count));
+  }
+};
+
+/// What a hardware sensor says of itself once it knows its parameters. Pointers live as long as
+/// the instance.
+struct HardwareDeclaration {
+  std::uint32_t capacity = 1;  ///< Records of one step at most.
+  DriverClock clock = DriverClock::kStepped;
+  /// 1: records of one step are put together (events); 0: the newest sample counts (states).
+  std::uint32_t collect = 0;
+  std::uint32_t reserved = 0;
+  double range_min_m = 0;  ///< Ranges only, as in SensorInfo.
+  double range_max_m = 0;
+  const double* bearings_rad = nullptr;
+  double cone_rad = 0;
+};
+
+/// A sensor of the real world, or a recording of one. One object per robot and sensor. configure()
+/// comes once; open() and close() alternate (a reset of the run closes and opens again).
+class HardwareSensor {
+ public:
+  virtual ~HardwareSensor() = default;
+  virtual Status configure(const HardwareSetup& setup, HardwareDeclaration& declaration) = 0;
+  /// Starts the driver's own thread, which writes to `sink`.
+  virtual Status open(SampleSink& sink) = 0;
+  /// Ends the thread and waits for it.
+  virtual void close() = 0;
+  /// What an experimenter should know of the stream, as one JSON object (`{}` if nothing).
+  [[nodiscard]] virtual std::string report() const { return "{}"; }
+};
+
+struct HardwareSensorOps {
+  InstanceOps instance;
+  int (*configure)(void* instance, const HardwareSetup* setup, HardwareDeclaration* declaration,
+                   ErrorText* error) = nullptr;
+  int (*open)(void* instance, SampleSink* sink, ErrorText* error) = nullptr;
+  void (*close)(void* instance) = nullptr;
+  /// Calls `take` with the text of the report.
+  void (*report)(void* instance, void* context,
+                 void (*take)(void* context, const char* text, std::uint64_t size)) = nullptr;
+};
+
+namespace detail {
+template <class T>
+constexpr HardwareSensorOps hardware_sensor_ops() noexcept {
+  HardwareSensorOps ops;
+  ops.instance = instance_ops<T>();
+  ops.configure = [](void* instance, const HardwareSetup* setup, HardwareDeclaration* declaration,
+                     ErrorText* error) {
+    return guarded(error,
+                   [&] { return static_cast<T*>(instance)->configure(*setup, *declaration); });
+  };
+  ops.open = [](void* instance, SampleSink* sink, ErrorText* error) {
+    return guarded(error, [&] { return static_cast<T*>(instance)->open(*sink); });
+  };
+  ops.close = [](void* instance) {
+    ErrorText ignored;
+    guarded(&ignored, [&]() -> Status {
+      static_cast<T*>(instance)->close();
+      return {};
+    });
+  };
+  ops.report = [](void* instance, void* context,
+                  void (*take)(void* context, const char* text, std::uint64_t size)) {
+    ErrorText ignored;
+    guarded(&ignored, [&]() -> Status {
+      const std::string text = static_cast<T*>(instance)->report();
+      take(context, text.data(), text.size());
+      return {};
+    });
+  };
+  return ops;
+}
+}  // namespace detail
+}  // namespace rave

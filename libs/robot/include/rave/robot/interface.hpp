@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdarg>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <new>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "rave/base/log.hpp"
+#include "rave/base/result.hpp"
+#include "rave/math/pose.hpp"
+#include "rave/plugin/params.hpp"
+
+namespace rave {
+
+/// What every driver interface is made of: plain structs and function pointers. A table of
+/// functions is made from the author's class by the templates beside each interface; they catch
+/// what the class throws, so no exception crosses the edge of a plug-in.
+
+/// Text of a failure, filled by a plug-in and read by the host.
+struct ErrorText {
+  char text[512] = {};
+  std::uint32_t slot = 0;  ///< Which instance of a batch failed.
+  std::uint32_t reserved = 0;
+
+  void set(std::string_view message) noexcept {
+    const std::size_t size = message.size() < sizeof text ? message.size() : sizeof text - 1;
+    std::memcpy(text, message.data(), size);
+    text[size] = '\0';
+  }
+};
+
+/// What a host does for a driver or program. Valid as long as the instance lives. `log` may be
+/// called from any thread.
+struct HostServices {
+  void* context = nullptr;
+  void (*log)(void* context, LogLevel level, const char* text, std::uint64_t size) = nullptr;
+
+  void write(LogLevel level, std::string_view text) const noexcept {
+    if (log != nullptr) log(context, level, text.data(), text.size());
+  }
+};
+
+/// Who an instance works for; fixed when the run starts. Pointers live as long as the instance.
+struct RobotInfo {
+  const char* name = "";
+  const char* team = "";
+  std::uint32_t id = 0;  ///< RobotId.
+  std::uint32_t reserved = 0;
+  double radius_m = 0;     ///< Of the smallest disc about the robot's origin that holds its body.
+  std::uint64_t seed = 0;  ///< Of the run.
+};
+
+/// How to make instances in memory of the host, so that those of many robots lie side by side.
+struct InstanceOps {
+  std::uint64_t size = 0;
+  std::uint64_t alignment = 0;
+  /// Makes an instance at `where`; returns 0, or 1 with `error` set.
+  int (*construct)(void* where, ErrorText* error) = nullptr;
+  void (*destroy)(void* instance) = nullptr;
+};
+
+namespace detail {
+
+/// Runs `body`, which returns a Status, and turns failure or exception into an ErrorText.
+template <class Body>
+int guarded(ErrorText* error, Body&& body) noexcept {
+  try {
+    const Status status = body();
+    if (status) return 0;
+    error->set(status.error().text());
+  } catch (const std::exception& e) {
+    error->set(std::string("threw an exception: ") + e.what());
+  } catch (...) {
+    error->set("threw something that is not a std::exception");
+  }
+  return 1;
+}
+
+template <class T>
+constexpr InstanceOps instance_ops() noexcept {
+  InstanceOps ops;
+  ops.size = sizeof(T);
+  ops.alignment = alignof(T);
+  ops.construct = [](void* where, ErrorText* error) {
+    return guarded(error, [&]() -> Status {
+      ::new (where) T();
+      return {};
+    });
+  };
+  ops.destroy = [](void* instance) { static_cast<T*>(instance)->~T(); };
+  return ops;
+}
+
+/// The i-th of the instances of one class that lie side by side.
+template <class T>
+T& instance_at(void* first, std::uint64_t stride, std::size_t i) noexcept {
+  return *std::launder(reinterpret_cast<T*>(static_cast<std::byte*>(first) + stride * i));
+}
+
+}  // namespace detail
+}  // namespace rave

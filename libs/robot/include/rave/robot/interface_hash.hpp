@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+
+#include "rave/base/hash.hpp"
+#include "rave/plugin/registry.hpp"
+#include "rave/robot/actuator.hpp"
+#include "rave/robot/controller.hpp"
+#include "rave/robot/hardware_sensor.hpp"
+#include "rave/robot/program.hpp"
+
+namespace rave {
+
+/// Raised by hand when the meaning of the interface changes while its layout stays.
+inline constexpr std::uint64_t kRobotInterfaceVersion = 1;
+
+namespace detail {
+constexpr std::uint64_t hash_layout(std::uint64_t version,
+                                    std::initializer_list<std::size_t> numbers) noexcept {
+  std::uint64_t hash = mix64(version);
+  for (const std::size_t number : numbers) hash = mix64(hash ^ number) + number;
+  return hash;
+}
+}  // namespace detail
+
+/// A number that changes with the layout of anything that crosses the plug-in interface.
+constexpr std::uint64_t robot_interface_hash() noexcept {
+  return detail::hash_layout(kRobotInterfaceVersion,
+                             {sizeof(DriverInfo),         offsetof(DriverInfo, param_count),
+                              sizeof(ParamSpec),          offsetof(ParamSpec, choices),
+                              sizeof(ParamValue),         sizeof(ErrorText),
+                              sizeof(HostServices),       sizeof(RobotInfo),
+                              offsetof(RobotInfo, seed),  sizeof(InstanceOps),
+                              sizeof(SensorInfo),         offsetof(SensorInfo, bearings_rad),
+                              sizeof(SampleHeader),       sizeof(Sighting),
+                              sizeof(PoseReading),        sizeof(OdometryReading),
+                              sizeof(NeighbourReading),   sizeof(ContactReading),
+                              sizeof(VelocityReading),    sizeof(Command),
+                              sizeof(ControllerInfo),     sizeof(SensorView),
+                              sizeof(ProgramSetup),       offsetof(ProgramSetup, period_s),
+                              sizeof(DecideItem),         offsetof(DecideItem, pose),
+                              sizeof(ProgramOps),         sizeof(DeviceSetup),
+                              sizeof(ControlInput),       offsetof(ControlInput, velocity),
+                              sizeof(ControllerOps),      sizeof(MotionInput),
+                              sizeof(VirtualActuatorOps), sizeof(HardwareActuatorOps),
+                              sizeof(HardwareSetup),      sizeof(HardwareDeclaration),
+                              sizeof(HardwareSensorOps)});
+}
+
+}  // namespace rave

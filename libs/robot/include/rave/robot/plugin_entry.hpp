@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+#include "rave/plugin/registry.hpp"
+#include "rave/plugin/stamp.hpp"
+#include "rave/robot/actuator.hpp"
+#include "rave/robot/controller.hpp"
+#include "rave/robot/hardware_sensor.hpp"
+#include "rave/robot/interface_hash.hpp"
+#include "rave/robot/program.hpp"
+
+namespace rave {
+
+/// How an author describes a driver: `{.name = "wander", .version = "1.0", .summary = "...",
+/// .params = kParams}`. Everything must be constant for the life of the plug-in.
+struct Description {
+  const char* name = "";
+  const char* version = "1.0";
+  const char* summary = "";
+  std::span<const ParamSpec> params = {};
+  DriverClock clock = DriverClock::kStepped;
+
+  [[nodiscard]] DriverInfo info(DriverKind kind, std::uint32_t data_kind) const noexcept {
+    DriverInfo info;
+    info.kind = kind;
+    info.clock = clock;
+    info.name = name;
+    info.version = version;
+    info.summary = summary;
+    info.params = params.data();
+    info.param_count = params.size();
+    info.data_kind = data_kind;
+    return info;
+  }
+};
+
+/// Registers a decision process.
+template <class T>
+void add_program(RegistrySink& registry, const Description& description) {
+  static constexpr ProgramOps kOps = detail::program_ops<T>();
+  registry.add(description.info(DriverKind::kProgram, 0), &kOps);
+}
+
+/// Registers a controller: T::kAccepts and T::kGives say its command kinds.
+template <class T>
+void add_controller(RegistrySink& registry, const Description& description) {
+  static constexpr ControllerOps kOps = detail::controller_ops<T>();
+  registry.add(description.info(DriverKind::kController, static_cast<std::uint32_t>(T::kAccepts)),
+               &kOps);
+}
+
+/// Registers the dynamics of a simulated actuator: T::kAccepts says its command kind.
+template <class T>
+void add_virtual_actuator(RegistrySink& registry, const Description& description) {
+  static constexpr VirtualActuatorOps kOps = detail::virtual_actuator_ops<T>();
+  registry.add(
+      description.info(DriverKind::kVirtualActuator, static_cast<std::uint32_t>(T::kAccepts)),
+      &kOps);
+}
+
+/// Registers an actuator of a real robot: T::kAccepts says its command kind.
+template <class T>
+void add_actuator(RegistrySink& registry, const Description& description) {
+  static constexpr HardwareActuatorOps kOps = detail::hardware_actuator_ops<T>();
+  registry.add(description.info(DriverKind::kActuator, static_cast<std::uint32_t>(T::kAccepts)),
+               &kOps);
+}
+
+/// Registers a sensor of the real world: T::kReading says what it gives.
+template <class T>
+void add_sensor(RegistrySink& registry, const Description& description) {
+  static constexpr HardwareSensorOps kOps = detail::hardware_sensor_ops<T>();
+  registry.add(description.info(DriverKind::kSensor, static_cast<std::uint32_t>(T::kReading)),
+               &kOps);
+}
+
+}  // namespace rave
+
+/// Stands once in every plug-in, before the body of the function that registers its drivers:
+/// `RAVE_PLUGIN("wander") { rave::add_program<Wander>(registry, {...}); }`. The text lists the
+/// names of all drivers inside, separated by blanks.
+#define RAVE_PLUGIN_WITH_STAMP_(stamp)                                                         \
+  static void rave_register_drivers(::rave::RegistrySink& registry);                           \
+  extern "C" {                                                                                 \
+  extern __attribute__((visibility("default"))) const ::rave::plugin::Stamp rave_plugin_stamp; \
+  __attribute__((section(".rave_stamp"), used, aligned(8)))                                    \
+  const ::rave::plugin::Stamp rave_plugin_stamp = stamp;                                       \
+  __attribute__((visibility("default"))) void rave_register_plugin(                            \
+      ::rave::RegistrySink* registry);                                                         \
+  __attribute__((visibility("default"))) void rave_register_plugin(                            \
+      ::rave::RegistrySink* registry) {                                                        \
+    rave_register_drivers(*registry);                                                          \
+  }                                                                                            \
+  }                                                                                            \
+  static void rave_register_drivers([[maybe_unused]] ::rave::RegistrySink& registry)
+
+#define RAVE_PLUGIN(provides) \
+  RAVE_PLUGIN_WITH_STAMP_(::rave::plugin::make_stamp(::rave::robot_interface_hash(), 0, provides))

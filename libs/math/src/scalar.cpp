@@ -72,8 +72,7 @@ ReducedAngle reduce_huge(double angle) noexcept {
   const double low =
       static_cast<double>(((top & 0x7FFU) << 42U) | (middle >> 22U)) * 0x1p-106 * power;
   const TwoSum product = two_product(high, 0x1.921fb54442d18p+0);
-  const double rest =
-      product.error + (high * 0x1.1a62633145c07p-54 + low * 0x1.921fb54442d18p+0);
+  const double rest = product.error + (high * 0x1.1a62633145c07p-54 + low * 0x1.921fb54442d18p+0);
   double value = product.sum + rest;
   double tail = (product.sum - value) + rest;
   if ((bits >> 63U) != 0) {
@@ -103,8 +102,7 @@ double wrap_outside(double angle) noexcept {
   } else {
     const ReducedAngle reduced = reduce_huge(angle);
     // Quadrant 3 is one back rather than three on.
-    const double quarters =
-        reduced.quadrant == 3U ? -1.0 : static_cast<double>(reduced.quadrant);
+    const double quarters = reduced.quadrant == 3U ? -1.0 : static_cast<double>(reduced.quadrant);
     wrapped = quarters * (0.5 * kPi) + reduced.value;
   }
   // Half a turn has one name, and rounding may have left the interval by a little.

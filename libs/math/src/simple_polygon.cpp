@@ -116,8 +116,8 @@ Result<SimplePolygon> check_simple(std::span<const Vec2> vertices, std::size_t m
     polygon.source.pop_back();
   }
   if (polygon.vertices.size() < 3) {
-    return fail(ErrorCode::kInvalidArgument,
-                "a polygon needs 3 distinct vertices, this one has {}", polygon.vertices.size());
+    return fail(ErrorCode::kInvalidArgument, "a polygon needs 3 distinct vertices, this one has {}",
+                polygon.vertices.size());
   }
   if (const auto pair = find_crossing(polygon.vertices)) {
     const auto ends = [&](std::size_t edge) {

@@ -38,10 +38,9 @@ TEST(Gaussian, HasTheMomentsAndTheShapeOfTheNormalDistribution) {
   std::sort(draws.begin(), draws.end());
   double gap = 0;
   for (int i = 0; i < kCount; ++i) {
-    const double expected =
-        0.5 * std::erfc(-draws[static_cast<std::size_t>(i)] / std::sqrt(2.0));
-    gap = std::max({gap, std::abs(expected - 1.0 * i / kCount),
-                    std::abs(expected - (i + 1.0) / kCount)});
+    const double expected = 0.5 * std::erfc(-draws[static_cast<std::size_t>(i)] / std::sqrt(2.0));
+    gap = std::max(
+        {gap, std::abs(expected - 1.0 * i / kCount), std::abs(expected - (i + 1.0) / kCount)});
   }
   EXPECT_LT(gap, 1.95 / std::sqrt(kCount));
 }

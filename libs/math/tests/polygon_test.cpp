@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rave/math/convex_polygon.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +6,7 @@
 #include <string>
 
 #include "random_shapes.hpp"
+#include "rave/math/convex_polygon.hpp"
 #include "rave/math/scalar.hpp"
 
 namespace rave {

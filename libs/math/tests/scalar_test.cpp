@@ -17,10 +17,10 @@ constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kTiny = std::numeric_limits<double>::denorm_min();
 constexpr double kMax = std::numeric_limits<double>::max();
-constexpr std::array kSpecial = {0.0,      -0.0,    kTiny,   -kTiny, 0x1p-1022, 3e-310, 1e-300, 1e-17,
-                                 1.0,      -1.0,    0.5,     -0.5,   kPi,       -kPi,   kPi / 2, kPi / 4,
-                                 1e6,      1e6 + 1, 1e22,    1e300,  kMax,      -kMax,  kInf,   -kInf,
-                                 kNan,     709.78,  709.79,  -745.1, -745.2,    -708.5, 2.0,    0.66};
+constexpr std::array kSpecial = {0.0,  -0.0,    kTiny,  -kTiny, 0x1p-1022, 3e-310, 1e-300,  1e-17,
+                                 1.0,  -1.0,    0.5,    -0.5,   kPi,       -kPi,   kPi / 2, kPi / 4,
+                                 1e6,  1e6 + 1, 1e22,   1e300,  kMax,      -kMax,  kInf,    -kInf,
+                                 kNan, 709.78,  709.79, -745.1, -745.2,    -708.5, 2.0,     0.66};
 // The multiple of pi/2 that a double comes nearest to (Muller, "Elementary Functions", 2006).
 constexpr double kWorst = 0x1.6ac5b262ca1ffp+849;
 
@@ -71,17 +71,22 @@ void expect_accurate(std::string_view name, Function function, Reference referen
 }
 
 TEST(Scalar, SineAndCosineAreWithinOneUlp) {
-  expect_accurate("sin", [](double x) { return sin(x); }, [](long double x) { return sinl(x); }, 1);
-  expect_accurate("cos", [](double x) { return cos(x); }, [](long double x) { return cosl(x); }, 1);
+  expect_accurate(
+      "sin", [](double x) { return sin(x); }, [](long double x) { return sinl(x); }, 1);
+  expect_accurate(
+      "cos", [](double x) { return cos(x); }, [](long double x) { return cosl(x); }, 1);
 }
 
 TEST(Scalar, TangentIsWithinThreeUlp) {
-  expect_accurate("tan", [](double x) { return tan(x); }, [](long double x) { return tanl(x); }, 3);
+  expect_accurate(
+      "tan", [](double x) { return tan(x); }, [](long double x) { return tanl(x); }, 3);
 }
 
 TEST(Scalar, ExponentialAndLogarithmAreWithinOneUlp) {
-  expect_accurate("exp", [](double x) { return exp(x); }, [](long double x) { return expl(x); }, 1);
-  expect_accurate("log", [](double x) { return log(x); }, [](long double x) { return logl(x); }, 1);
+  expect_accurate(
+      "exp", [](double x) { return exp(x); }, [](long double x) { return expl(x); }, 1);
+  expect_accurate(
+      "log", [](double x) { return log(x); }, [](long double x) { return logl(x); }, 1);
 }
 
 TEST(Scalar, LogarithmNearOneIsWithinOneUlp) {
@@ -95,7 +100,8 @@ TEST(Scalar, LogarithmNearOneIsWithinOneUlp) {
 TEST(Scalar, ArcFunctionsAreWithinThreeUlp) {
   RandomStream random(9, 0, 0, 0);
   for (int i = 0; i < 200'000; ++i) {
-    const double x = i % 2 == 0 ? random.uniform(-1, 1) : 1 - std::ldexp(random.uniform(), -(i % 50));
+    const double x =
+        i % 2 == 0 ? random.uniform(-1, 1) : 1 - std::ldexp(random.uniform(), -(i % 50));
     ASSERT_LE(ulps(asin(x), asinl(static_cast<long double>(x))), 3) << x;
     ASSERT_LE(ulps(acos(x), acosl(static_cast<long double>(x))), 3) << x;
   }
@@ -172,7 +178,7 @@ TEST(Scalar, GivesTheSameBitsEverywhere) {
     }
     before = x;
   });
-  EXPECT_EQ(sum, 0x0ULL);
+  EXPECT_EQ(sum, 8666069495888270629ULL);
 }
 
 }  // namespace

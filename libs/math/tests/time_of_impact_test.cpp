@@ -107,8 +107,10 @@ TEST(TimeOfImpact, AgreesWithSmallSteps) {
     const Pose2 X_WA = random_pose(random, 2);
     const Pose2 X_WB = random_pose(random, 2);
     if (distance(a, X_WA, b, X_WB).distance_m < kSkin_m) continue;
-    const Pose2 d = random_pose(random, 3);
-    const Motion2 motion{d.x, d.y, i % 3 == 0 ? 0.0 : 2 * d.yaw};
+    // Roughly towards b.
+    const Pose2 d = random_pose(random, 1);
+    const Motion2 motion{X_WB.x - X_WA.x + d.x, X_WB.y - X_WA.y + d.y,
+                         i % 3 == 0 ? 0.0 : 2 * d.yaw};
     const Impact impact = time_of_impact(a, X_WA, motion, b, X_WB);
     hits += impact.hit ? 1 : 0;
     for (int k = 0; k <= 100; ++k) {

@@ -24,11 +24,10 @@ namespace rave {
   const double low = n * 0x1.a39ef35793c76p-33;
   const double r = high - low;
   const double z = r * r;
-  const double c =
-      r - z * (0x1.555555555553ep-3 +
-               z * (-0x1.6c16c16bebd93p-9 +
-                    z * (0x1.1566aaf25de2cp-14 +
-                         z * (-0x1.bbd41c5d26bf1p-20 + z * 0x1.6376972bea4dp-25))));
+  const double c = r - z * (0x1.555555555553ep-3 +
+                            z * (-0x1.6c16c16bebd93p-9 +
+                                 z * (0x1.1566aaf25de2cp-14 +
+                                      z * (-0x1.bbd41c5d26bf1p-20 + z * 0x1.6376972bea4dp-25))));
   const double value = 1.0 - ((low - (r * c) / (2.0 - c)) - high);
   // Two factors, because 2^n itself may not be a normal number.
   const auto k = static_cast<std::int32_t>(std::bit_cast<std::uint64_t>(shifted));

@@ -21,8 +21,8 @@ struct Separation {
 /// Signed separation of polygon `a` at X_WA and polygon `b` at X_WB: all edge normals are tried
 /// (separating axis theorem), then the nearest vertices. Of equally good axes the first of a, then
 /// the first of b is taken; equal bits everywhere. No allocation; any thread.
-[[nodiscard]] Separation distance(const ConvexPolygon& a, const Pose2& X_WA,
-                                  const ConvexPolygon& b, const Pose2& X_WB) noexcept;
+[[nodiscard]] Separation distance(const ConvexPolygon& a, const Pose2& X_WA, const ConvexPolygon& b,
+                                  const Pose2& X_WB) noexcept;
 
 /// The same for polygon `a` and a disc B of radius_m >= 0 about p_WC.
 [[nodiscard]] Separation distance(const ConvexPolygon& a, const Pose2& X_WA, Vec2 p_WC,

@@ -71,12 +71,11 @@ inline constexpr double kRounder = 0x1.8p52;
            z * (0x1.71de357b1fe7dp-19 + z * (-0x1.ae5e68a2b9cebp-26 + z * 0x1.5d93a5acfd57cp-33)));
   const double cube = z * x;
   const double sine = x - ((z * (0.5 * tail - cube * s) - tail) + cube * 0x1.5555555555549p-3);
-  const double c =
-      z * (0x1.555555555554cp-5 +
-           z * (-0x1.6c16c16c15177p-10 +
-                z * (0x1.a01a019cb159p-16 +
-                     z * (-0x1.27e4f809c52adp-22 +
-                          z * (0x1.1ee9ebdb4b1c4p-29 + z * -0x1.8fae9be8838d4p-37)))));
+  const double c = z * (0x1.555555555554cp-5 +
+                        z * (-0x1.6c16c16c15177p-10 +
+                             z * (0x1.a01a019cb159p-16 +
+                                  z * (-0x1.27e4f809c52adp-22 +
+                                       z * (0x1.1ee9ebdb4b1c4p-29 + z * -0x1.8fae9be8838d4p-37)))));
   const double half = 0.5 * z;
   const double near_one = 1.0 - half;
   const double cosine = near_one + (((1.0 - near_one) - half) + (z * c - x * tail));

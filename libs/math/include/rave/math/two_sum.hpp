@@ -28,8 +28,7 @@ struct TwoSum {
   const double b_high = b_scaled - (b_scaled - b);
   const double b_low = b - b_high;
   const double product = a * b;
-  return {product,
-          ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low};
+  return {product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low};
 }
 
 }  // namespace rave::detail

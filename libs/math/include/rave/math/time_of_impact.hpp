@@ -42,7 +42,8 @@ struct ImpactLimits {
 /// overlap), the separation must not shrink: moving apart and sliding are free, anything else
 /// yields fraction 0. Never steps over anything, however thin or fast (conservative advancement;
 /// Mirtich, "Impulse-based dynamic simulation of rigid body systems", 1996, with second-order steps
-/// per vertex). After 200 steps without a decision the share proven free is returned as a hit.
+/// per vertex). All numbers must be finite. After 200 steps without a decision the share proven
+/// free is returned as a hit.
 [[nodiscard]] Impact time_of_impact(const ConvexPolygon& a, const Pose2& X_WA,
                                     const Motion2& motion_W, const ConvexPolygon& b,
                                     const Pose2& X_WB, const ImpactLimits& limits = {}) noexcept;

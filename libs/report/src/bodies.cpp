@@ -18,10 +18,13 @@ void hatch(Pen& pen, const std::vector<Vec2>& outline, Rgb colour) {
   const double reach = box.height();
   // A body that fills the page at a huge zoom still gets a bounded number of lines.
   const double spacing = std::max(kSpacing, (box.width() + reach) / 200);
+  std::vector<Vec2> ends;
   for (double x = box.x0 - reach; x < box.x1; x += spacing) {
-    pen.line({x, box.y1}, {x + reach, box.y0});
-    pen.stroke(colour, 0.7, 0.8);
+    ends.push_back({x, box.y1});
+    ends.push_back({x + reach, box.y0});
   }
+  pen.segments(ends);
+  pen.stroke(colour, 0.7, 0.8);
   pen.unclip();
 }
 
@@ -95,7 +98,9 @@ void label_bodies(Stage& stage) {
   std::size_t labelled = 0;
   for (const PictureBody& body : stage.picture.bodies) {
     stage.labels.block(bounds_of(to_page(stage.panel, body.outline_W)));
-    if (!body.label.empty()) ++labelled;
+    if (body.label.empty()) continue;
+    stage.labels.add_anchor(middle_of(bounds_of(to_page(stage.panel, body.outline_W))));
+    ++labelled;
   }
   if (labelled > kMostLabels) return;
   for (const PictureBody& body : stage.picture.bodies) {

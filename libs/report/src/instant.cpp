@@ -7,29 +7,63 @@
 namespace rave::report {
 namespace {
 
-constexpr Rgb kFan = {0.93, 0.75, 0.15};
+/// One run of hits that share their start: the start, then the ends, on the page.
+struct Fan {
+  Vec2 from_W;
+  std::vector<Vec2> outline;
+};
 
-/// The ends of each run of hits that share their start.
-std::vector<std::vector<Vec2>> fans_of(const Stage& stage) {
-  std::vector<std::vector<Vec2>> fans;
-  const std::vector<PictureHit>& hits = stage.picture.instant->hits;
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    if (i == 0 || !(hits[i].from_W == hits[i - 1].from_W)) {
-      fans.push_back({stage.panel.to_page(hits[i].from_W)});
+std::vector<Fan> fans_of(const Stage& stage) {
+  std::vector<Fan> fans;
+  for (const PictureHit& hit : stage.picture.instant->hits) {
+    if (fans.empty() || !(hit.from_W == fans.back().from_W)) {
+      fans.push_back({hit.from_W, {stage.panel.to_page(hit.from_W)}});
     }
-    fans.back().push_back(stage.panel.to_page(hits[i].to_W));
+    fans.back().outline.push_back(stage.panel.to_page(hit.to_W));
   }
   return fans;
 }
 
+/// The robot that carries a laser: the one nearest to where its rays start; null without robots.
+const PictureRobot* owner_of(const PictureInstant& instant, Vec2 from_W) {
+  const auto nearest = std::min_element(instant.robots.begin(), instant.robots.end(),
+                                        [&](const PictureRobot& a, const PictureRobot& b) {
+                                          return squared_norm(a.X_WB.position() - from_W) <
+                                                 squared_norm(b.X_WB.position() - from_W);
+                                        });
+  return nearest == instant.robots.end() ? nullptr : &*nearest;
+}
+
+/// Whose rays went how far: so faint that a dozen of them on top of each other stay light.
 void draw_fans(Stage& stage) {
   const auto fans = fans_of(stage);
   if (fans.size() > kMostFans) return;
-  for (const auto& fan : fans) {
-    if (fan.size() < 3) continue;
-    stage.pen.path(fan, true);
-    stage.pen.fill(kFan, 0.07);
+  for (const Fan& fan : fans) {
+    if (fan.outline.size() < 3) continue;
+    const PictureRobot* owner = owner_of(*stage.picture.instant, fan.from_W);
+    const bool is_strong = owner != nullptr && owner->kind == Kind::kRecordedRobot;
+    const Rgb colour =
+        is_strong ? rgb_of(owner->colour, owner->kind) : rgb_of("", Kind::kSimulatedRobot);
+    stage.pen.path(fan.outline, true);
+    stage.pen.fill_keeping_path(colour, is_strong ? 0.08 : 0.035);
+    stage.pen.stroke(colour, 0.5, is_strong ? 0.25 : 0.12);
   }
+}
+
+/// The hits on one kind of thing, thinned where neighbours of a scan would run into each other.
+std::vector<Vec2> places_of_hits(const Stage& stage, Kind kind) {
+  constexpr double kLeastSpacing = 2.6;
+  std::vector<Vec2> places;
+  const PictureHit* last = nullptr;
+  for (const PictureHit& hit : stage.picture.instant->hits) {
+    const Vec2 at = stage.panel.to_page(hit.to_W);
+    if (hit.kind != kind || !stage.panel.frame.contains(at)) continue;
+    const bool is_same_scan = last != nullptr && last->from_W == hit.from_W;
+    if (is_same_scan && squared_norm(at - places.back()) < kLeastSpacing * kLeastSpacing) continue;
+    places.push_back(at);
+    last = &hit;
+  }
+  return places;
 }
 
 /// The outermost distance of the outline from the robot's own point: where the nose goes.
@@ -62,28 +96,26 @@ void draw_robot(Pen& pen, const std::vector<Vec2>& outline, Vec2 centre, Vec2 no
   pen.stroke(is_light ? colour : kWhite, is_light ? 1.1 : 1.5);
 }
 
-void draw_hit(Pen& pen, Vec2 at, Kind kind) {
-  constexpr double kSize = 1.45;
+void draw_hits(Pen& pen, const std::vector<Vec2>& places, Kind kind) {
+  if (places.empty()) return;
+  // One path for all: thousands of elements would make an SVG of megabytes.
+  constexpr double kSize = 1.35;
+  std::vector<Vec2> corners;
   switch (kind) {
     case Kind::kVirtualObstacle:
-      pen.box({at.x - kSize, at.y - kSize, at.x + kSize, at.y + kSize});
-      break;
-    case Kind::kRecordedRobot:
-    case Kind::kHunter:
-      pen.path(
-          {at + 1.5 * kSize * Vec2{0, -1}, at + kSize * Vec2{1.4, 1}, at + kSize * Vec2{-1.4, 1}},
-          true);
+      corners = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
       break;
     case Kind::kSimulatedRobot:
-      pen.path({at + 1.5 * kSize * Vec2{0, -1}, at + 1.5 * kSize * Vec2{1, 0},
-                at + 1.5 * kSize * Vec2{0, 1}, at + 1.5 * kSize * Vec2{-1, 0}},
-               true);
+      corners = {{0, -1.5}, {1.5, 0}, {0, 1.5}, {-1.5, 0}};
       break;
     default:
-      pen.disc(at, kSize);
+      corners = {{-0.45, -1}, {0.45, -1}, {1, -0.45}, {1, 0.45},
+                 {0.45, 1},   {-0.45, 1}, {-1, 0.45}, {-1, -0.45}};
   }
-  pen.fill_keeping_path(rgb_of(palette_for(kind).colour));
-  pen.stroke(kWhite, 0.35);
+  pen.polygons(corners, kSize, places);
+  const Rgb colour = rgb_of(palette_for(kind).colour);
+  pen.stroke_keeping_path(kWhite, 0.9, 0.85);
+  pen.fill(kind == Kind::kSimulatedRobot ? rgb_of("#5b6478") : colour);
 }
 
 void draw_sighting(Pen& pen, Vec2 from, Vec2 to, const std::optional<Vec2>& tube, Rgb colour) {
@@ -115,11 +147,10 @@ void draw_instant(Stage& stage) {
                stage.panel.to_page(robot.X_WB.position()), nose_of(robot, stage.panel), robot.kind,
                rgb_of(robot.colour, robot.kind));
   }
-  for (const PictureHit& hit : instant.hits) {
-    const Vec2 at = stage.panel.to_page(hit.to_W);
-    if (!hit.kind || !stage.panel.frame.contains(at)) continue;
-    draw_hit(stage.pen, at, *hit.kind);
-    stage.labels.weigh(at);
+  for (const Kind kind : kAllKinds) {
+    const std::vector<Vec2> places = places_of_hits(stage, kind);
+    for (const Vec2 at : places) stage.labels.weigh(at);
+    draw_hits(stage.pen, places, kind);
   }
 }
 

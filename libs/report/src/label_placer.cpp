@@ -13,6 +13,8 @@ constexpr double kDiagonal = 0.70710678118654752;
 constexpr std::array<Vec2, 8> kDirections = {
     Vec2{1, 0},  Vec2{kDiagonal, -kDiagonal},  Vec2{-1, 0}, Vec2{kDiagonal, kDiagonal},
     Vec2{0, -1}, Vec2{-kDiagonal, -kDiagonal}, Vec2{0, 1},  Vec2{-kDiagonal, kDiagonal}};
+/// What it costs to stand nearer to another labelled thing.
+constexpr double kMisleading = 20;
 constexpr std::array<double, 4> kFarther = {0, 4, 9, 15};
 
 std::size_t cell_of(double from_edge, std::size_t count) {
@@ -61,6 +63,16 @@ double LabelPlacer::weight_under(const PageBox& box) const {
   return weight;
 }
 
+bool LabelPlacer::is_nearer_to_another(const PageBox& box, Vec2 own) const {
+  const auto squared_distance = [&](Vec2 p) {
+    return squared_norm(p - Vec2{std::clamp(p.x, box.x0, box.x1), std::clamp(p.y, box.y0, box.y1)});
+  };
+  const double own_distance = squared_distance(own);
+  return std::any_of(anchors_.begin(), anchors_.end(), [&](Vec2 other) {
+    return !(other == own) && squared_distance(other) < own_distance;
+  });
+}
+
 std::optional<PageBox> LabelPlacer::place(Vec2 anchor, double width, double height,
                                           double clearance) {
   std::optional<PageBox> best;
@@ -68,8 +80,10 @@ std::optional<PageBox> LabelPlacer::place(Vec2 anchor, double width, double heig
   for (const double farther : kFarther) {
     for (std::size_t i = 0; i < kDirections.size(); ++i) {
       const PageBox box = box_beside(anchor, kDirections[i], clearance + farther, width, height);
-      const double cost = weight_under(box) + 0.4 * farther + 0.15 * static_cast<double>(i);
+      double cost = weight_under(box) + 0.4 * farther + 0.15 * static_cast<double>(i);
       if ((best && cost >= best_cost) || !is_free(box)) continue;
+      if (is_nearer_to_another(box, anchor)) cost += kMisleading;
+      if (best && cost >= best_cost) continue;
       best = box;
       best_cost = cost;
     }

@@ -16,6 +16,8 @@ class LabelPlacer {
 
   /// No label may cover this.
   void block(const PageBox& box) { blocked_.push_back(box); }
+  /// Something that has a label: a label rather is not nearer to this than to its own thing.
+  void add_anchor(Vec2 anchor) { anchors_.push_back(anchor); }
   /// Labels rather do not cover this point (of a line, say).
   void weigh(Vec2 point);
 
@@ -28,11 +30,13 @@ class LabelPlacer {
  private:
   [[nodiscard]] bool is_free(const PageBox& box) const;
   [[nodiscard]] double weight_under(const PageBox& box) const;
+  [[nodiscard]] bool is_nearer_to_another(const PageBox& box, Vec2 own) const;
   [[nodiscard]] std::size_t column_of(double x) const;
   [[nodiscard]] std::size_t row_of(double y) const;
 
   PageBox area_;
   std::vector<PageBox> blocked_;
+  std::vector<Vec2> anchors_;
   std::size_t columns_;
   std::size_t rows_;
   std::vector<int> weights_;  ///< Points per cell, row by row.

@@ -47,8 +47,9 @@ void add_lines(const Picture& picture, std::vector<LegendEntry>& entries) {
       continue;
     }
     for (const PictureTrack* track : tracks) {
-      std::string text = fmt::format("{} ({})", track->label, palette_for(kind).singular);
-      if (track->label.empty()) text = palette_for(kind).singular;
+      const std::string kind_name(palette_for(kind).singular);
+      std::string text = fmt::format("{} ({})", track->label, kind_name);
+      if (track->label.empty() || track->label == kind_name) text = kind_name;
       entries.push_back(line_entry(*track, false, std::move(text)));
     }
   }
@@ -140,6 +141,19 @@ void add_bodies(const Picture& picture, std::vector<LegendEntry>& entries) {
   }
 }
 
+void add_sweep(const PictureInstant& instant, std::vector<LegendEntry>& entries) {
+  if (instant.hits.empty()) return;
+  entries.push_back(
+      {[](Pen& pen, const PageBox& box) {
+         const Vec2 c = middle_of(box);
+         const Rgb colour = rgb_of("", Kind::kRecordedRobot);
+         pen.path({c + Vec2{-9, 0}, c + Vec2{8, -5}, c + Vec2{10, 0}, c + Vec2{8, 5}}, true);
+         pen.fill_keeping_path(colour, 0.12);
+         pen.stroke(colour, 0.5, 0.4);
+       },
+       "swept by a robot's laser"});
+}
+
 void add_instant(const PictureInstant& instant, std::vector<LegendEntry>& entries) {
   for (const Kind kind : kAllKinds) {
     const auto is_of_kind = [&](const auto& robot) { return robot.kind == kind; };
@@ -164,12 +178,12 @@ void add_instant(const PictureInstant& instant, std::vector<LegendEntry>& entrie
                                      [&](const PictureHit& hit) { return hit.kind == kind; });
     if (count == 0) continue;
     entries.push_back({[kind](Pen& pen, const PageBox& box) {
-                         for (const double x : {-7.0, 0.0, 7.0}) {
-                           draw_hit(pen, middle_of(box) + Vec2{x, 0}, kind);
-                         }
+                         const Vec2 c = middle_of(box);
+                         draw_hits(pen, {c - Vec2{7, 0}, c, c + Vec2{7, 0}}, kind);
                        },
                        fmt::format("laser hit on {}", palette_for(kind).singular)});
   }
+  add_sweep(instant, entries);
   if (instant.sightings.empty()) return;
   entries.push_back(
       {[](Pen& pen, const PageBox& box) {
@@ -179,13 +193,46 @@ void add_instant(const PictureInstant& instant, std::vector<LegendEntry>& entrie
        "real sighting, line to the truth"});
 }
 
+struct Slot {
+  std::size_t column = 0;
+  std::size_t row = 0;
+};
+
+struct PlacedGroup {
+  Slot heading;
+  std::vector<Slot> entries;
+};
+
+/// The groups in columns of so many rows, a short group below the one before it where it fits;
+/// empty if that takes more columns than there are.
+std::vector<PlacedGroup> placed_in(const std::vector<LegendGroup>& groups, std::size_t rows) {
+  std::vector<PlacedGroup> placed;
+  Slot next;
+  for (const LegendGroup& group : groups) {
+    const std::size_t count = group.entries.size();
+    const bool fits_below = next.row > 0 && next.row + 2 + count <= rows;
+    if (!fits_below && next.row > 0) next = {next.column + 1, 0};
+    if (fits_below) ++next.row;  // A blank row between them.
+    std::size_t each = fits_below ? count : rows - 1;
+    const std::size_t columns = (count + each - 1) / each;
+    if (&group == &groups.back()) each = (count + columns - 1) / columns;  // Of like height.
+    placed.push_back({next, {}});
+    for (std::size_t i = 0; i < count; ++i) {
+      placed.back().entries.push_back({next.column + i / each, next.row + 1 + i % each});
+    }
+    next = placed.back().entries.back();
+    ++next.row;
+    if (next.column >= kColumns) return {};
+  }
+  return placed;
+}
+
+/// The least rows, two or more, that hold the groups.
 std::size_t rows_of(const std::vector<LegendGroup>& groups) {
   if (groups.empty()) return 0;
-  for (std::size_t rows = 1;; ++rows) {
-    std::size_t columns = 0;
-    for (const LegendGroup& group : groups) columns += (group.entries.size() + rows - 1) / rows;
-    if (columns <= kColumns) return rows;
-  }
+  std::size_t rows = 2;
+  while (placed_in(groups, rows).empty()) ++rows;
+  return rows;
 }
 
 }  // namespace
@@ -204,6 +251,13 @@ std::vector<LegendGroup> legend_of(const Picture& picture) {
   if (picture.instant) {
     LegendGroup instant{fmt::format("At t = {:g} s", picture.instant->t_s), {}};
     add_instant(*picture.instant, instant.entries);
+    if (!groups.empty() && groups.front().heading == "Tracks") {
+      instant.entries.push_back({[](Pen& pen, const PageBox& box) {
+                                   pen.line(left_of(box), right_of(box));
+                                   pen.stroke(rgb_of("#55585e"), 1.4, 0.55);
+                                 },
+                                 fmt::format("path of the last {:g} s", picture.tick_s)});
+    }
     if (!instant.entries.empty()) groups.push_back(std::move(instant));
   }
   return groups;
@@ -211,26 +265,28 @@ std::vector<LegendGroup> legend_of(const Picture& picture) {
 
 double height_of(const std::vector<LegendGroup>& groups) {
   if (groups.empty()) return 0;
-  return kRowHeight * static_cast<double>(rows_of(groups) + 1);
+  return kRowHeight * static_cast<double>(rows_of(groups));
 }
 
 void draw_legend(Pen& pen, const std::vector<LegendGroup>& groups, const PageBox& box) {
-  const std::size_t rows = rows_of(groups);
+  const std::vector<PlacedGroup> placed = placed_in(groups, rows_of(groups));
   const double column_width = box.width() / static_cast<double>(kColumns);
+  const auto corner_of = [&](Slot slot) {
+    return Vec2{box.x0 + column_width * static_cast<double>(slot.column),
+                box.y0 + kRowHeight * static_cast<double>(slot.row)};
+  };
   const TextStyle heading{.size = 9.5, .colour = kInk, .bold = true};
   const TextStyle style{.size = 9, .colour = kInk};
-  double x = box.x0;
-  for (const LegendGroup& group : groups) {
-    pen.text({x, box.y0 + 9}, pen.fit(group.heading, column_width - 8, heading), heading);
-    for (std::size_t i = 0; i < group.entries.size(); ++i) {
-      const double entry_x = x + column_width * static_cast<double>(i / rows);
-      const double y = box.y0 + kRowHeight * static_cast<double>(i % rows + 1);
-      group.entries[i].draw(pen, {entry_x, y, entry_x + kSymbolWidth, y + kRowHeight});
-      const double text_x = entry_x + kSymbolWidth + 4;
-      pen.text({text_x, y + 10.5},
-               pen.fit(group.entries[i].text, column_width - kSymbolWidth - 10, style), style);
+  for (std::size_t g = 0; g < placed.size(); ++g) {
+    pen.text(corner_of(placed[g].heading) + Vec2{0, 9},
+             pen.fit(groups[g].heading, column_width - 8, heading), heading);
+    for (std::size_t i = 0; i < placed[g].entries.size(); ++i) {
+      const LegendEntry& entry = groups[g].entries[i];
+      const Vec2 corner = corner_of(placed[g].entries[i]);
+      entry.draw(pen, {corner.x, corner.y, corner.x + kSymbolWidth, corner.y + kRowHeight});
+      pen.text(corner + Vec2{kSymbolWidth + 4, 10.5},
+               pen.fit(entry.text, column_width - kSymbolWidth - 10, style), style);
     }
-    x += column_width * static_cast<double>((group.entries.size() + rows - 1) / rows);
   }
 }
 

@@ -6,9 +6,9 @@ namespace rave::report {
 KindStyle palette_for(Kind kind) noexcept {
   switch (kind) {
     case Kind::kMappedWall:
-      return {"#1a1a1a", "mapped wall", "mapped walls"};
+      return {"#8c7a66", "mapped wall", "mapped walls"};
     case Kind::kLandmark:
-      return {"#3d3d3d", "tube", "tubes"};
+      return {"#2b2b2b", "tube", "tubes"};
     case Kind::kVirtualObstacle:
       return {"#56b4e9", "virtual obstacle", "virtual obstacles"};
     case Kind::kRecordedRobot:
@@ -16,7 +16,7 @@ KindStyle palette_for(Kind kind) noexcept {
     case Kind::kSimulatedRobot:
       return {"#8a93a3", "simulated robot", "simulated robots"};
     case Kind::kHunter:
-      return {"#000000", "hunter", "hunters"};
+      return {"#882255", "hunter", "hunters"};
     case Kind::kOther:
       break;
   }

@@ -41,6 +41,19 @@ void Pen::path(const std::vector<Vec2>& points, bool closed) {
   if (closed) cairo_close_path(cr_);
 }
 
+void Pen::polygons(const std::vector<Vec2>& corners, double scale,
+                   const std::vector<Vec2>& places) {
+  cairo_new_path(cr_);
+  for (const Vec2 place : places) {
+    cairo_new_sub_path(cr_);
+    for (const Vec2 corner : corners) {
+      const Vec2 p = place + scale * corner;
+      cairo_line_to(cr_, p.x, p.y);
+    }
+    cairo_close_path(cr_);
+  }
+}
+
 void Pen::disc(Vec2 centre, double radius) {
   cairo_new_path(cr_);
   cairo_arc(cr_, centre.x, centre.y, radius, 0, kTau);
@@ -56,6 +69,14 @@ void Pen::line(Vec2 a, Vec2 b) {
   cairo_new_path(cr_);
   cairo_move_to(cr_, a.x, a.y);
   cairo_line_to(cr_, b.x, b.y);
+}
+
+void Pen::segments(const std::vector<Vec2>& ends) {
+  cairo_new_path(cr_);
+  for (std::size_t i = 0; i + 1 < ends.size(); i += 2) {
+    cairo_move_to(cr_, ends[i].x, ends[i].y);
+    cairo_line_to(cr_, ends[i + 1].x, ends[i + 1].y);
+  }
 }
 
 void Pen::fill(Rgb rgb, double alpha) {

@@ -49,9 +49,13 @@ class Pen {
     cairo_set_source_rgba(cr_, colour.r, colour.g, colour.b, alpha);
   }
   void path(const std::vector<Vec2>& points, bool closed);
+  /// The same polygon, `scale` times as large, at each place: one path.
+  void polygons(const std::vector<Vec2>& corners, double scale, const std::vector<Vec2>& places);
   void disc(Vec2 centre, double radius);
   void box(const PageBox& box);
   void line(Vec2 a, Vec2 b);
+  /// A line between the first two points, the next two, and so on: one path.
+  void segments(const std::vector<Vec2>& ends);
   void fill(Rgb colour, double alpha = 1);
   void fill_keeping_path(Rgb colour, double alpha = 1);
   void stroke(Rgb colour, double width, double alpha = 1);

@@ -52,7 +52,8 @@ void label_beside(Stage& stage, Vec2 anchor, double clearance, std::string_view 
 void draw_body(Pen& pen, const std::vector<Vec2>& outline, Kind kind, Rgb colour);
 void draw_robot(Pen& pen, const std::vector<Vec2>& outline, Vec2 centre, Vec2 nose, Kind kind,
                 Rgb colour);
-void draw_hit(Pen& pen, Vec2 at, Kind kind);
+/// The marks of all hits on one kind of thing; each kind has a shape beside its colour.
+void draw_hits(Pen& pen, const std::vector<Vec2>& places, Kind kind);
 void draw_sighting(Pen& pen, Vec2 from, Vec2 to, const std::optional<Vec2>& tube, Rgb colour);
 void draw_lost_mark(Pen& pen, Vec2 at, Rgb colour);
 void draw_gap_mark(Pen& pen, Vec2 at, Rgb colour);

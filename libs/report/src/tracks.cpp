@@ -43,6 +43,39 @@ Vec2 direction_at(const PictureTrack& track, const Panel& panel, double t_s) {
   return length < 0.3 ? Vec2{} : (1 / length) * along;
 }
 
+/// The points that a line needs to stay within `tolerance` of all of them (Douglas and Peucker,
+/// 1973), without recursion.
+std::vector<Vec2> simplified(const std::vector<Vec2>& points, double tolerance) {
+  if (points.size() < 3) return points;
+  std::vector<bool> keep(points.size(), false);
+  keep.front() = keep.back() = true;
+  std::vector<std::pair<std::size_t, std::size_t>> open = {{0, points.size() - 1}};
+  while (!open.empty()) {
+    const auto [first, last] = open.back();
+    open.pop_back();
+    const Vec2 chord = points[last] - points[first];
+    const double length = length_of(chord);
+    double farthest = tolerance;
+    std::size_t split = first;
+    for (std::size_t i = first + 1; i < last; ++i) {
+      const Vec2 to = points[i] - points[first];
+      const double distance = length > 0 ? std::abs(cross(chord, to)) / length : length_of(to);
+      if (distance <= farthest) continue;
+      farthest = distance;
+      split = i;
+    }
+    if (split == first) continue;
+    keep[split] = true;
+    open.push_back({first, split});
+    open.push_back({split, last});
+  }
+  std::vector<Vec2> kept;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (keep[i]) kept.push_back(points[i]);
+  }
+  return kept;
+}
+
 /// The stretch of a track between two times as runs of one kind, thinned to what can be seen.
 struct Run {
   bool in_gap = false;
@@ -80,8 +113,12 @@ std::vector<Run> runs_of(const PictureTrack& track, const Panel& panel, double t
 
 void draw_line(Stage& stage, const PictureTrack& track) {
   const TrackLook look = look_of(track);
-  const auto runs = runs_of(track, stage.panel, track.points.front().t_s, track.points.back().t_s,
-                            look.is_strong ? 0.4 : 0.8);
+  auto runs = runs_of(track, stage.panel, track.points.front().t_s, track.points.back().t_s,
+                      look.is_strong ? 0.4 : 0.8);
+  for (Run& run : runs) {
+    for (const Vec2 p : run.points) stage.labels.weigh(p);
+    run.points = simplified(run.points, look.is_strong ? 0.08 : 0.12);
+  }
   for (const Run& run : runs) {
     if (!look.is_strong || run.in_gap) continue;
     stage.pen.path(run.points, false);
@@ -89,7 +126,6 @@ void draw_line(Stage& stage, const PictureTrack& track) {
   }
   for (const Run& run : runs) stroke_track(stage.pen, track, run.points, run.in_gap);
   for (const Run& run : runs) {
-    for (const Vec2 p : run.points) stage.labels.weigh(p);
     if (!run.in_gap) continue;
     const Vec2 a = run.points.front();
     const Vec2 b = run.points.back();
@@ -106,6 +142,7 @@ void draw_ticks(Stage& stage, const PictureTrack& track) {
   const double last = std::floor(track.points.back().t_s / tick_s);
   // A tick for each of a million seconds would be a solid band, and slow.
   if (last - first > 2000) return;
+  std::vector<Vec2> ends;
   for (double k = first; k <= last; k += 1) {
     const Vec2 at = page_at(track, stage.panel, k * tick_s);
     const Vec2 along = direction_at(track, stage.panel, k * tick_s);
@@ -116,9 +153,11 @@ void draw_ticks(Stage& stage, const PictureTrack& track) {
       continue;
     }
     const Vec2 across = look.tick * Vec2{-along.y, along.x};
-    stage.pen.line(at - across, at + across);
-    stage.pen.stroke(colour, look.is_strong ? 1.1 : 0.7, look.alpha);
+    ends.push_back(at - across);
+    ends.push_back(at + across);
   }
+  stage.pen.segments(ends);
+  stage.pen.stroke(colour, look.is_strong ? 1.1 : 0.7, look.alpha);
 }
 
 void draw_ends(Stage& stage, const PictureTrack& track) {

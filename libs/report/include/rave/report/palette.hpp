@@ -34,7 +34,7 @@ struct KindStyle {
 
 /// The one source of colours for kinds, for every output of RAVE. The hues are those of Okabe and
 /// Ito ("Color Universal Design", 2008), which people with any common colour blindness can tell
-/// apart; what is only context is grey.
+/// apart, with Tol's wine for the hunter and greys and browns for what is only context.
 [[nodiscard]] KindStyle palette_for(Kind kind) noexcept;
 
 /// The colour of the index-th of several recorded robots: five hues of the same set that differ

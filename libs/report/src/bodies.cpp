@@ -71,8 +71,9 @@ void draw_body(Pen& pen, const std::vector<Vec2>& outline, Kind kind, Rgb colour
   pen.stroke(colour, 0.5);
 }
 
-void draw_bodies(Stage& stage) {
+void draw_bodies(Stage& stage, bool landmarks) {
   for (const PictureBody& body : stage.picture.bodies) {
+    if ((body.kind == Kind::kLandmark) != landmarks) continue;
     draw_body(stage.pen, to_page(stage.panel, body.outline_W), body.kind,
               rgb_of(body.colour, body.kind));
   }
@@ -89,7 +90,7 @@ void label_beside(Stage& stage, Vec2 anchor, double clearance, std::string_view 
   const double reach = clearance + 4;
   if (squared_norm(nearest - anchor) > reach * reach) {
     stage.pen.line(anchor, nearest);
-    stage.pen.stroke(style.colour, 0.5, 0.6);
+    stage.pen.stroke(style.colour, 0.6, 0.9);
   }
   stage.pen.text({box->x0 + 1, box->y1 - 0.14 * style.size}, text, style);
 }

@@ -134,7 +134,8 @@ void draw_instant(Stage& stage) {
   const PictureInstant& instant = *stage.picture.instant;
   draw_fans(stage);
   draw_trails(stage, instant.t_s);
-  draw_bodies(stage);
+  draw_bodies(stage, false);
+  draw_bodies(stage, true);
   for (const PictureSighting& sighting : instant.sightings) {
     std::optional<Vec2> tube;
     if (sighting.tube_W) tube = stage.panel.to_page(*sighting.tube_W);
@@ -149,7 +150,7 @@ void draw_instant(Stage& stage) {
   }
   for (const Kind kind : kAllKinds) {
     const std::vector<Vec2> places = places_of_hits(stage, kind);
-    for (const Vec2 at : places) stage.labels.weigh(at);
+    for (const Vec2 at : places) stage.labels.weigh(at, kStrongWeight);
     draw_hits(stage.pen, places, kind);
   }
 }

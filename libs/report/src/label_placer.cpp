@@ -42,8 +42,10 @@ LabelPlacer::LabelPlacer(const PageBox& area)
 std::size_t LabelPlacer::column_of(double x) const { return cell_of(x - area_.x0, columns_); }
 std::size_t LabelPlacer::row_of(double y) const { return cell_of(y - area_.y0, rows_); }
 
-void LabelPlacer::weigh(Vec2 point) {
-  if (area_.contains(point)) ++weights_[row_of(point.y) * columns_ + column_of(point.x)];
+void LabelPlacer::weigh(Vec2 point, int weight) {
+  if (!area_.contains(point)) return;
+  int& cell = weights_[row_of(point.y) * columns_ + column_of(point.x)];
+  cell = std::max(cell, weight);
 }
 
 bool LabelPlacer::is_free(const PageBox& box) const {
@@ -57,7 +59,7 @@ double LabelPlacer::weight_under(const PageBox& box) const {
   double weight = 0;
   for (std::size_t row = row_of(box.y0); row <= row_of(box.y1); ++row) {
     for (std::size_t column = column_of(box.x0); column <= column_of(box.x1); ++column) {
-      weight += std::min(weights_[row * columns_ + column], 3);
+      weight += weights_[row * columns_ + column];
     }
   }
   return weight;

@@ -18,8 +18,8 @@ class LabelPlacer {
   void block(const PageBox& box) { blocked_.push_back(box); }
   /// Something that has a label: a label rather is not nearer to this than to its own thing.
   void add_anchor(Vec2 anchor) { anchors_.push_back(anchor); }
-  /// Labels rather do not cover this point (of a line, say).
-  void weigh(Vec2 point);
+  /// Labels rather do not cover this point (of a line, say), a heavier one still less.
+  void weigh(Vec2 point, int weight);
 
   /// A box of the given size beside the anchor, `clearance` away from it or somewhat farther, free
   /// of what is blocked, inside the area, where least is covered; it is blocked from now on.
@@ -39,7 +39,7 @@ class LabelPlacer {
   std::vector<Vec2> anchors_;
   std::size_t columns_;
   std::size_t rows_;
-  std::vector<int> weights_;  ///< Points per cell, row by row.
+  std::vector<int> weights_;  ///< The heaviest point of each cell, row by row.
 };
 
 }  // namespace rave::report

@@ -65,8 +65,9 @@ void draw_panel(Pen& pen, const Picture& picture, const Panel& panel, char lette
     label_bodies(stage);
     label_instant(stage);
   } else {
-    draw_bodies(stage);
+    draw_bodies(stage, false);
     draw_tracks(stage);
+    draw_bodies(stage, true);
     label_bodies(stage);
     label_tracks(stage);
   }

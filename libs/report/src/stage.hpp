@@ -16,6 +16,10 @@ inline constexpr std::size_t kMostLabels = 60;
 inline constexpr std::size_t kMostFans = 60;
 inline constexpr std::size_t kMostNamedTracks = 8;
 
+/// How much a label avoids to cover: faint lines, the lines and marks that matter.
+inline constexpr int kFaintWeight = 1;
+inline constexpr int kStrongWeight = 4;
+
 /// What the parts of one panel's drawing share.
 struct Stage {
   const Picture& picture;
@@ -27,8 +31,9 @@ struct Stage {
 /// The panel's grid and background (before), and its frame, axes and heading (after the content).
 void draw_grid(Stage& stage);
 void draw_frame(Stage& stage, std::string_view heading, bool with_y_labels);
-/// The bodies that do not move, and their labels.
-void draw_bodies(Stage& stage);
+/// The bodies that do not move, either the landmarks (thin: drawn above lines) or the others, and
+/// the labels of all.
+void draw_bodies(Stage& stage, bool landmarks);
 void label_bodies(Stage& stage);
 /// Tracks with ticks, gaps and end marks, and their labels.
 void draw_tracks(Stage& stage);

@@ -116,7 +116,8 @@ void draw_line(Stage& stage, const PictureTrack& track) {
   auto runs = runs_of(track, stage.panel, track.points.front().t_s, track.points.back().t_s,
                       look.is_strong ? 0.4 : 0.8);
   for (Run& run : runs) {
-    for (const Vec2 p : run.points) stage.labels.weigh(p);
+    for (const Vec2 p : run.points)
+      stage.labels.weigh(p, look.is_strong ? kStrongWeight : kFaintWeight);
     run.points = simplified(run.points, look.is_strong ? 0.08 : 0.12);
   }
   for (const Run& run : runs) {

@@ -37,7 +37,7 @@ TEST(LabelPlacer, GivesUpWhereThereIsNoRoom) {
 
 TEST(LabelPlacer, AvoidsLinesAndOtherThings) {
   LabelPlacer placer(kArea);
-  for (double x = 52; x < 80; x += 1) placer.weigh({x, 50});
+  for (double x = 52; x < 80; x += 1) placer.weigh({x, 50}, 4);
   const auto off_line = placer.place({50, 50}, 20, 8, 3);
   ASSERT_TRUE(off_line);
   EXPECT_FALSE(off_line->overlaps({52, 49.9, 80, 50.1}));

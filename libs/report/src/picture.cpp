@@ -8,6 +8,7 @@
 #include <memory>
 #include <new>
 
+#include "leak_notes.hpp"
 #include "page.hpp"
 #include "rave/base/file.hpp"
 #include "svg_text.hpp"
@@ -41,6 +42,7 @@ Status check_cairo(cairo_status_t status) {
 
 Status draw_on(cairo_surface_t* surface, const Picture& picture, const Layout& layout,
                double scale) {
+  link_leak_notes();
   RAVE_TRY(check_cairo(cairo_surface_status(surface)));
   const Context context(cairo_create(surface));
   cairo_scale(context.get(), scale, scale);

@@ -57,6 +57,10 @@ struct MapImage {
 /// ignored in the other modes.
 [[nodiscard]] Result<MapImage> read_map(const std::filesystem::path& yaml_path);
 
+/// The same for YAML that was already loaded; `yaml_path` tells where the image lies.
+[[nodiscard]] Result<MapImage> read_map_text(std::string_view yaml,
+                                             const std::filesystem::path& yaml_path);
+
 /// Decodes PGM (P2 or P5, comments, up to 16 bits) or PNG (grey, RGB, palette, alpha; 16 bits are
 /// reduced to 8), told apart by their first bytes. `file_name` is for messages. Errors: kParse.
 [[nodiscard]] Result<GreyImage> decode_image(std::string_view bytes, std::string_view file_name);

@@ -71,6 +71,7 @@ RawNode Codec<std::string>::schema(const FieldOptions& options) {
 }
 
 std::string Codec<std::string>::expectation(const FieldOptions& options) {
+  if (options.min_items == 1 && !options.max_items) return "text that is not empty";
   return "text" + length_expectation(options, "byte");
 }
 
@@ -222,6 +223,13 @@ FieldOptions element_options(const FieldOptions& options) {
 std::string item_label(const ReadContext& context, std::size_t index) {
   return context.label.empty() ? fmt::format("item {}", index + 1)
                                : fmt::format("item {} of {}", index + 1, context.label);
+}
+
+void add_shorthand(const ReadContext& context, const RawNode& node, Status status) {
+  if (!status && !context.label.empty()) {
+    status = tl::unexpected<Error>(std::move(status).error().with_context(context.label));
+  }
+  add_validation(node, context.diagnostics, std::move(status));
 }
 
 void add_validation(const RawNode& node, Diagnostics& diagnostics, Status status) {

@@ -168,8 +168,10 @@ ParamValues read_params(const RawNode& node, std::span<const FieldSpec> specs,
     known.push_back({spec.name, spec.unit});
     if (const RawNode* given = node.find(spec.name)) {
       const FieldOptions options = options_of(spec);
-      const ReadContext read{diagnostics, options, fmt::format("{}`{}`", prefix, spec.name)};
+      Diagnostics found;
+      const ReadContext read{found, options, fmt::format("`{}`", spec.name)};
       values.add({spec.name, read_value(read, *given, spec), given->where()});
+      for (const Error& error : found.errors()) report(error.where, error.message);
     } else if (spec.default_value) {
       values.add({spec.name, *spec.default_value, {}});
     } else {

@@ -35,7 +35,10 @@ class TreeBuilder : public YAML::EventHandler {
   [[nodiscard]] SourceLocation place(const YAML::Mark& mark) const {
     return {*file_, mark.line + 1, mark.column + 1};
   }
-  [[nodiscard]] bool complete() const noexcept { return root_.has_value(); }
+  /// Where the last scalar of the file begins if it is quoted.
+  [[nodiscard]] const std::optional<YAML::Mark>& last_quoted() const noexcept {
+    return last_scalar_;
+  }
   [[nodiscard]] std::optional<RawNode> take() { return std::move(root_); }
 
   void OnDocumentStart(const YAML::Mark& mark) override {
@@ -55,6 +58,7 @@ class TreeBuilder : public YAML::EventHandler {
     count(1, mark);
     check_tag(tag, mark);
     // The parser marks quoted scalars with the tag `!` and plain ones with `?`.
+    last_scalar_ = tag == "!" ? std::optional(mark) : std::nullopt;
     value(located(tag == "!" ? RawNode::text(text) : RawNode::plain(text), mark), mark, anchor, 1);
   }
 
@@ -196,6 +200,7 @@ class TreeBuilder : public YAML::EventHandler {
   std::vector<Frame> stack_;
   std::map<YAML::anchor_t, Anchored> anchors_;
   std::size_t nodes_ = 0;
+  std::optional<YAML::Mark> last_scalar_;
   std::optional<RawNode> root_;
 };
 
@@ -226,6 +231,49 @@ std::optional<Error> check_characters(std::string_view text, std::string_view fi
   return std::nullopt;
 }
 
+void parse_all(const std::string& text, YAML::EventHandler& handler) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  while (parser.HandleNextDocument(handler)) {
+  }
+}
+
+/// Looks for a text in the scalars of a document.
+class ScalarSearch : public YAML::EventHandler {
+ public:
+  explicit ScalarSearch(std::string_view wanted) : wanted_(wanted) {}
+  [[nodiscard]] bool found() const noexcept { return found_; }
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                const std::string& text) override {
+    found_ = found_ || text.find(wanted_) != std::string::npos;
+  }
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+
+ private:
+  std::string_view wanted_;
+  bool found_ = false;
+};
+
+/// yaml-cpp takes the end of the file for a closing quote if a line break stands before it, so that
+/// a file that was cut in the middle would pass. A comment that is put behind such a file becomes
+/// part of the scalar; behind a whole file it stays a comment.
+bool is_quote_open(std::string_view text) {
+  constexpr std::string_view kMark = "#end-of-file-2f6c1d";
+  ScalarSearch search(kMark);
+  parse_all(fmt::format("{}\n{}\n", text, kMark), search);
+  return search.found();
+}
+
 }  // namespace
 
 std::optional<RawNode> parse_yaml(std::string_view text, std::string_view file_name,
@@ -236,9 +284,9 @@ std::optional<RawNode> parse_yaml(std::string_view text, std::string_view file_n
   }
   TreeBuilder builder(file_name, diagnostics);
   try {
-    std::istringstream stream{std::string(text)};
-    YAML::Parser parser(stream);
-    while (parser.HandleNextDocument(builder)) {
+    parse_all(std::string(text), builder);
+    if (const auto& mark = builder.last_quoted(); mark && is_quote_open(text)) {
+      throw Abort{{ErrorCode::kParse, "YAML syntax: a quote is not closed", builder.place(*mark)}};
     }
   } catch (const Abort& abort) {
     diagnostics.add(abort.error);

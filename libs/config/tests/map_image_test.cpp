@@ -104,7 +104,8 @@ TEST_F(MapFolder, ErrorsNameFileAndReason) {
       {"P5 3", "`m.pgm`: the PGM header is cut or damaged"},
       {"P5 3 x 255\n", "`m.pgm`: the PGM header is cut or damaged"},
       {"P5 0 3 255\n", "`m.pgm`: the image has no pixels (0 x 3)"},
-      {"P5 9000 9000 255\n", "`m.pgm`: the image is too large (9000 x 9000; at most 64000000 pixels)"},
+      {"P5 9000 9000 255\n",
+       "`m.pgm`: the image is too large (9000 x 9000; at most 64000000 pixels)"},
       {"P5 2 2 0\n1234", "`m.pgm`: the PGM's largest grey value is 0, expected 1 to 65535"},
       {"P5 2 2 255\n123", "`m.pgm`: the image is cut: 3 of 4 bytes"},
       {"P5 2 2 300\n1234567", "`m.pgm`: the image is cut: 7 of 8 bytes"},
@@ -175,7 +176,8 @@ TEST(Png, AllKindsOfPixels) {
   using Shades = std::vector<std::uint8_t>;
   EXPECT_EQ(shades(make_png(PNG_FORMAT_GRAY, {7, 200})), (Shades{7, 200}));
   EXPECT_EQ(shades(make_png(PNG_FORMAT_RGB, {0, 30, 60, 255, 255, 255})), (Shades{30, 255}));
-  EXPECT_EQ(shades(make_png(PNG_FORMAT_RGB_COLORMAP, {1, 0}, {0, 0, 0, 90, 0, 0})), (Shades{30, 0}));
+  EXPECT_EQ(shades(make_png(PNG_FORMAT_RGB_COLORMAP, {1, 0}, {0, 0, 0, 90, 0, 0})),
+            (Shades{30, 0}));
   const auto alpha = decode_png(make_png(PNG_FORMAT_RGBA, {9, 9, 9, 255, 60, 60, 60, 0}), "x");
   EXPECT_EQ(alpha.value().opaque, (Shades{1, 0}));
   EXPECT_EQ(alpha->shade, (Shades{9, 60}));

@@ -44,7 +44,8 @@ std::string error_of(std::string_view text) {
 }
 
 TEST(Params, GivenValuesAndDefaultsInTheOrderOfTheSpecs) {
-  const auto values = read_params(parse("port: /dev/ttyS0\nkind: sonar\nrange_m: 3\n"), specs(), "d");
+  const auto values =
+      read_params(parse("port: /dev/ttyS0\nkind: sonar\nrange_m: 3\n"), specs(), "d");
   ASSERT_TRUE(values.has_value()) << values.error().text();
   ASSERT_EQ(values->size(), 7U);
   EXPECT_EQ(values->all()[0].name, "range_m");
@@ -61,8 +62,9 @@ TEST(Params, BadValuesAreNamed) {
   EXPECT_EQ(error_of("port: a\nrange_m: -1\n"),
             "r.yaml:2:10: driver `x`: `range_m`: found the number -1, expected a number (greater "
             "than 0, in metres)");
-  EXPECT_EQ(error_of("port: a\nrange: 1\n"),
-            "r.yaml:2:1: driver `x`: unknown key `range`: unit missing: expected `range_m` (metres)");
+  EXPECT_EQ(
+      error_of("port: a\nrange: 1\n"),
+      "r.yaml:2:1: driver `x`: unknown key `range`: unit missing: expected `range_m` (metres)");
   EXPECT_EQ(error_of("port: a\nkinds: sonar\n"),
             "r.yaml:2:1: driver `x`: unknown key `kinds`; did you mean `kind`?");
   EXPECT_EQ(error_of("port: a\nkind: sonr\n"),
@@ -72,7 +74,7 @@ TEST(Params, BadValuesAreNamed) {
             "r.yaml:2:7: driver `x`: `rays`: found the number 2.5, expected a whole number (at "
             "least 1)");
   EXPECT_EQ(error_of("port: a\nweights: [1, -1]\n"),
-            "r.yaml:2:14: item 2 of driver `x`: `weights`: found the number -1, expected a number "
+            "r.yaml:2:14: driver `x`: item 2 of `weights`: found the number -1, expected a number "
             "(at least 0)");
   EXPECT_EQ(error_of("rays: 3\n"), "r.yaml:1:1: driver `x`: missing key `port`: expected text");
   EXPECT_EQ(error_of("[1]"), "r.yaml:1:1: driver `x`: found a list, expected a mapping");

@@ -34,7 +34,8 @@ TEST(RawNode, DoublesAreShortAndExact) {
   EXPECT_EQ(text(1e21), "1.0e+21");
   EXPECT_EQ(text(1.5e-300), "1.5e-300");
   EXPECT_EQ(text(-std::numeric_limits<double>::infinity()), "-.inf");
-  for (const double value : {0.1, 1.0 / 3, 5e-324, 1.7976931348623157e308, -0.0, 1e22, 123456789.125}) {
+  for (const double value :
+       {0.1, 1.0 / 3, 5e-324, 1.7976931348623157e308, -0.0, 1e22, 123456789.125}) {
     const auto again = RawNode::plain(text(value)).as_double();
     ASSERT_TRUE(again.has_value());
     EXPECT_EQ(*again, value);

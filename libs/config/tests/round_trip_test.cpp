@@ -97,8 +97,8 @@ class Generator {
   }
   std::string word() {
     static constexpr std::array<std::string_view, 24> kPieces = {
-        "a", "no", "true", "~", ":", " ", "#", "-", "\n", "\t", "\"", "\\",
-        "'", "ü", "3", ".5", "{", "]", "&", "*", "!", "\x01", "\xC2\x85", "\xF0\x9F\xA4\x96"};
+        "a", "no", "true", "~",  ":", " ", "#", "-", "\n", "\t",   "\"",       "\\",
+        "'", "ü",  "3",    ".5", "{", "]", "&", "*", "!",  "\x01", "\xC2\x85", "\xF0\x9F\xA4\x96"};
     std::string text;
     for (auto n = below(5); n > 0; --n) text += kPieces[below(24)];
     return text;

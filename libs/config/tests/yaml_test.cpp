@@ -34,7 +34,8 @@ TEST(Yaml, AliasesAreExpanded) {
 }
 
 TEST(Yaml, TheWordsOfYaml11AreText) {
-  for (const char* word : {"yes", "no", "on", "off", "y", "True", "010", "0x1F", "1_000", "12:30"}) {
+  for (const char* word :
+       {"yes", "no", "on", "off", "y", "True", "010", "0x1F", "1_000", "12:30"}) {
     const RawNode node = parse(std::string("a: ") + word);
     EXPECT_EQ(node.find("a")->as_text(), word);
   }
@@ -42,7 +43,8 @@ TEST(Yaml, TheWordsOfYaml11AreText) {
 
 TEST(Yaml, WrittenTextIsQuotedWhereItMustBe) {
   RawNode node = RawNode::mapping();
-  for (const char* word : {"plain", "a b", "yes", "3", "", "null", "a: b", "#x", "x\ny", "ü", "-"}) {
+  for (const char* word :
+       {"plain", "a b", "yes", "3", "", "null", "a: b", "#x", "x\ny", "ü", "-"}) {
     node.set(fmt::format("k{}", node.size()), RawNode::text(word));
   }
   EXPECT_EQ(to_yaml(node),

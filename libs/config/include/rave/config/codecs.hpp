@@ -44,6 +44,7 @@ bool check_map(const ReadContext& context, const RawNode& node, std::string_view
 /// The options of the elements: those of the whole without the limits on its length.
 FieldOptions element_options(const FieldOptions& options);
 std::string item_label(const ReadContext& context, std::size_t index);
+void add_shorthand(const ReadContext& context, const RawNode& node, Status status);
 void add_validation(const RawNode& node, Diagnostics& diagnostics, Status status);
 
 template <class E>
@@ -270,7 +271,7 @@ struct Codec<T> {
       describe(reader, value);
       reader.finish();
     } else if constexpr (kHasShorthand) {
-      detail::add_validation(node, context.diagnostics, read_shorthand(node, value));
+      detail::add_shorthand(context, node, read_shorthand(node, value));
     } else {
       context.wrong(node, "a mapping");
     }

@@ -80,6 +80,33 @@ TEST_F(MapFolder, NegatedAndRaw) {
   EXPECT_EQ(states(read_map(path("m.yaml")).value()), ".#?/");
 }
 
+/// A PNG of 2 x 1 pixels made by libpng's simplified writer.
+std::string make_png(std::uint32_t format, std::vector<std::uint8_t> pixels,
+                     const std::vector<std::uint8_t>& colours = {}) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = 2;
+  image.height = 1;
+  image.format = format;
+  image.colormap_entries = static_cast<png_uint_32>(colours.size() / 3);
+  std::string bytes(4096, '\0');
+  png_alloc_size_t size = bytes.size();
+  EXPECT_NE(png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels.data(), 0,
+                                      colours.empty() ? nullptr : colours.data()),
+            0)
+      << image.message;
+  bytes.resize(size);
+  return bytes;
+}
+
+TEST_F(MapFolder, TransparentIsUnknownInModeScaleOnly) {
+  write("m.pgm", make_png(PNG_FORMAT_RGBA, {0, 0, 0, 255, 0, 0, 0, 0}));
+  write("m.yaml", with("negate: 0", "negate: 0\nmode: scale"));
+  EXPECT_EQ(states(read_map(path("m.yaml")).value()), "#?/");
+  write("m.yaml", kYaml);
+  EXPECT_EQ(states(read_map(path("m.yaml")).value()), "##/");
+}
+
 TEST_F(MapFolder, RectanglesAreInMetresWithYUp) {
   write("m.yaml", kYaml);
   write("m.pgm", "P2 3 2 255 0 0 255 255 255 0");
@@ -150,25 +177,6 @@ TEST(Pgm, SixteenBits) {
   const auto image = decode_pgm("P5\n3 1\n65535\n\x00\x00\x80\x00\xff\xff"s, "x");
   ASSERT_TRUE(image.has_value()) << image.error().text();
   EXPECT_EQ(image->shade, (std::vector<std::uint8_t>{0, 128, 255}));
-}
-
-/// A PNG of 2 x 1 pixels made by libpng's simplified writer.
-std::string make_png(std::uint32_t format, std::vector<std::uint8_t> pixels,
-                     const std::vector<std::uint8_t>& colours = {}) {
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  image.width = 2;
-  image.height = 1;
-  image.format = format;
-  image.colormap_entries = static_cast<png_uint_32>(colours.size() / 3);
-  std::string bytes(4096, '\0');
-  png_alloc_size_t size = bytes.size();
-  EXPECT_NE(png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels.data(), 0,
-                                      colours.empty() ? nullptr : colours.data()),
-            0)
-      << image.message;
-  bytes.resize(size);
-  return bytes;
 }
 
 TEST(Png, AllKindsOfPixels) {

@@ -6,6 +6,24 @@
 #include "rave/base/random.hpp"
 #include "sample_config.hpp"
 
+namespace rave::checked {
+
+struct Even {
+  int n = 0;
+};
+
+template <class V>
+void describe(V& v, Even& c) {
+  v.field("n", c.n);
+}
+
+inline Status validate(const Even& c) {
+  if (c.n % 2 == 0) return {};
+  return fail(ErrorCode::kParse, "{} is odd", c.n);
+}
+
+}  // namespace rave::checked
+
 namespace rave::config {
 namespace {
 
@@ -34,6 +52,12 @@ TEST(Read, AllTypes) {
   EXPECT_EQ(laser->driver.where.text(), "a.yaml:2:9");
   EXPECT_EQ(laser->params.find("gain")->where().text(), "a.yaml:13:16");
   EXPECT_EQ(laser->rays, 180);
+}
+
+TEST(Read, AStatusFromValidateGetsThePlaceOfTheMapping) {
+  using List = std::vector<checked::Even>;
+  EXPECT_EQ(read_text<List>("- n: 2\n- n: 3\n", "a.yaml").error().text(), "a.yaml:2:3: 3 is odd");
+  EXPECT_EQ(read_text<List>("- n: 2\n", "a.yaml")->at(0).n, 2);
 }
 
 TEST(Write, EveryFieldWithItsUnitAndSentence) {

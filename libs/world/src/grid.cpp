@@ -61,9 +61,8 @@ void Grid::build(std::span<const GridItem> items, double cell_m) {
   sorted_.resize(total);
   // Backwards, so that items of one cell end up in their order.
   for (std::size_t i = items.size(); i-- > 0;) {
-    for_each_cell(items[i], [&](std::size_t cell_index) {
-      sorted_[--begin_[cell_index]] = items[i];
-    });
+    for_each_cell(items[i],
+                  [&](std::size_t cell_index) { sorted_[--begin_[cell_index]] = items[i]; });
   }
 }
 

@@ -27,14 +27,14 @@ struct BoundingDisc {
 
 BoundingDisc bound(const Shape& shape) noexcept {
   if (shape.kind == ShapeKind::kDisc) return {shape.centre, shape.radius_m};
-  Vec2 low = shape.vertices.front();
+  Vec2 low = shape.vertices().front();
   Vec2 high = low;
-  for (const Vec2 v : shape.vertices) {
+  for (const Vec2 v : shape.vertices()) {
     low = {std::min(low.x, v.x), std::min(low.y, v.y)};
     high = {std::max(high.x, v.x), std::max(high.y, v.y)};
   }
   BoundingDisc disc{0.5 * (low + high), 0};
-  for (const Vec2 v : shape.vertices) {
+  for (const Vec2 v : shape.vertices()) {
     disc.radius_m = std::max(disc.radius_m, std::sqrt(squared_norm(v - disc.centre)));
   }
   return disc;
@@ -61,6 +61,9 @@ Snapshot::Snapshot(const WorldModel& model)
     }
   }
   fixed_grid_.build(fixed, kCellSize_m);
+  for (const Body& body : model.robots) {
+    largest_robot_m_ = std::max(largest_robot_m_, body.radius_m());
+  }
   rebuild();
 }
 
@@ -72,26 +75,25 @@ void Snapshot::add_shapes(std::uint32_t body, const Body& description) {
     placed.kind = shape.kind;
     placed.layer = description.layer;
     placed.first_vertex = static_cast<std::uint32_t>(vertices_.size());
-    placed.vertex_count = static_cast<std::uint32_t>(shape.vertices.size());
+    placed.vertex_count = static_cast<std::uint32_t>(shape.vertices().size());
     placed.radius_m = bound(shape).radius_m;
     placed.z0_m = shape.z0_m;
     placed.z1_m = shape.z1_m;
     shapes_.push_back(placed);
-    vertices_.insert(vertices_.end(), shape.vertices.begin(), shape.vertices.end());
+    vertices_.insert(vertices_.end(), shape.vertices().begin(), shape.vertices().end());
   }
 }
 
-void Snapshot::place(std::uint32_t body, const Body& description, const Pose2& X_WB,
-                     bool present) {
+void Snapshot::place(std::uint32_t body, const Body& description, const Pose2& X_WB, bool present) {
   const SinCos turn = sincos(X_WB.yaw);
   const Vec2 p_WB = X_WB.position();
   for (std::size_t i = 0; i < description.shapes.size(); ++i) {
     const Shape& shape = description.shapes[i];
     PlacedShape& placed = shapes_[first_shape_[body] + i];
     placed.centre_W = present ? p_WB + rotate(turn, bound(shape).centre) : kNowhere;
-    for (std::size_t k = 0; k < shape.vertices.size(); ++k) {
+    for (std::size_t k = 0; k < shape.vertices().size(); ++k) {
       vertices_[placed.first_vertex + k] =
-          present ? p_WB + rotate(turn, shape.vertices[k]) : kNowhere;
+          present ? p_WB + rotate(turn, shape.vertices()[k]) : kNowhere;
     }
   }
 }
@@ -138,8 +140,8 @@ void Snapshot::gather(Vec2 p_W, double radius_m, std::vector<std::uint32_t>& fou
   found.erase(std::unique(found.begin(), found.end()), found.end());
 }
 
-RayHit Snapshot::nearest(Vec2 p_W, Vec2 direction, double z_m, double range_max_m,
-                         LayerMask layers, BodyId a, BodyId b) const {
+RayHit Snapshot::nearest(Vec2 p_W, Vec2 direction, double z_m, double range_max_m, LayerMask layers,
+                         BodyId a, BodyId b) const {
   std::vector<std::uint32_t>& found = scratch();
   gather(p_W + 0.5 * range_max_m * direction, 0.5 * range_max_m, found);
   RayHit hit;
@@ -147,10 +149,9 @@ RayHit Snapshot::nearest(Vec2 p_W, Vec2 direction, double z_m, double range_max_
     const PlacedShape& candidate = shapes_[index];
     if (!contains(layers, candidate.layer) || !candidate.at_height(z_m)) continue;
     if (candidate.body == a.value() || candidate.body == b.value()) continue;
-    const double range =
-        candidate.kind == ShapeKind::kDisc
-            ? cast_disc(p_W, direction, candidate.centre_W, candidate.radius_m)
-            : cast_polygon(p_W, direction, vertices_W(candidate));
+    const double range = candidate.kind == ShapeKind::kDisc
+                             ? cast_disc(p_W, direction, candidate.centre_W, candidate.radius_m)
+                             : cast_polygon(p_W, direction, vertices_W(candidate));
     if (range <= range_max_m && range < hit.range_m) hit = {range, BodyId(candidate.body)};
   }
   return hit;
@@ -193,7 +194,7 @@ std::uint32_t Snapshot::robots_within(Vec2 p_W, double radius_m,
                                       std::span<RobotId> found) const noexcept {
   std::vector<std::uint32_t>& shapes = scratch();
   shapes.clear();
-  moving_grid_.gather(p_W, radius_m, shapes);
+  moving_grid_.gather(p_W, radius_m + largest_robot_m_, shapes);
   std::sort(shapes.begin(), shapes.end());
   const auto obstacle_count = static_cast<std::uint32_t>(model_->obstacles.size());
   std::uint32_t count = 0;

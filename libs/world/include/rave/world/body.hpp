@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "rave/base/ids.hpp"
 #include "rave/base/result.hpp"
+#include "rave/math/convex_polygon.hpp"
 #include "rave/math/pose.hpp"
 #include "rave/world/layer.hpp"
 
@@ -22,17 +24,22 @@ enum class ShapeKind : std::uint8_t {
 /// prism is the first kind of shape; the list is open for others.
 struct Shape {
   ShapeKind kind = ShapeKind::kDisc;
-  std::vector<Vec2> vertices;  ///< Polygon: 3 or more, body frame, metres.
-  Vec2 centre;                 ///< Disc: body frame.
-  double radius_m = 0;         ///< Disc.
-  double z0_m = 0;             ///< Lowest height above the floor.
-  double z1_m = 1;             ///< Highest.
+  std::optional<ConvexPolygon> polygon;  ///< Polygon: body frame.
+  Vec2 centre;                           ///< Disc: body frame.
+  double radius_m = 0;                   ///< Disc.
+  double z0_m = 0;                       ///< Lowest height above the floor.
+  double z1_m = 1;                       ///< Highest.
+
+  /// Of a polygon, counter-clockwise; empty for a disc.
+  [[nodiscard]] std::span<const Vec2> vertices() const noexcept {
+    return polygon ? polygon->vertices() : std::span<const Vec2>();
+  }
 };
 
 /// Checks and orders the vertices of a polygon: counter-clockwise, convex pieces. A simple polygon
 /// that is not convex becomes several shapes. Errors: kInvalidArgument (self-crossing, fewer than
 /// three distinct vertices, not finite, z1 <= z0).
-[[nodiscard]] Result<std::vector<Shape>> make_prisms(const std::vector<Vec2>& outline, double z0_m,
+[[nodiscard]] Result<std::vector<Shape>> make_prisms(std::span<const Vec2> outline, double z0_m,
                                                      double z1_m);
 [[nodiscard]] Result<Shape> make_disc(Vec2 centre, double radius_m, double z0_m, double z1_m);
 

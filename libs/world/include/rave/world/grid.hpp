@@ -41,7 +41,7 @@ class Grid {
   double cells_per_m_ = 1;
   int width_ = 0;
   int height_ = 0;
-  std::vector<std::uint32_t> begin_;   ///< Per cell; one more at the end.
+  std::vector<std::uint32_t> begin_;  ///< Per cell; one more at the end.
   std::vector<GridItem> sorted_;
 };
 

@@ -17,8 +17,8 @@ struct PlacedShape {
   Layer layer = Layer::kVirtualObstacles;
   std::uint32_t first_vertex = 0;
   std::uint32_t vertex_count = 0;
-  Vec2 centre_W;          ///< Of the bounding disc.
-  double radius_m = 0;    ///< Of the bounding disc; of the disc itself for kDisc.
+  Vec2 centre_W;        ///< Of the bounding disc.
+  double radius_m = 0;  ///< Of the bounding disc; of the disc itself for kDisc.
   double z0_m = 0;
   double z1_m = 0;
 

@@ -81,6 +81,7 @@ class Snapshot final : public WorldView {
   std::vector<TouchState> touch_;
   std::vector<Landmark> landmarks_;
   std::vector<Landmark> fixed_landmarks_;
+  double largest_robot_m_ = 0;
   Grid fixed_grid_;
   Grid moving_grid_;
 };

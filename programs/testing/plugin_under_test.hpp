@@ -10,6 +10,9 @@
 
 #include "rave/robot/plugin_entry.hpp"
 
+/// The entry point of the plug-in whose source is compiled into the test.
+extern "C" void rave_register_plugin(rave::RegistrySink* registry);
+
 namespace rave::testing {
 
 using RegisterPlugin = void (*)(RegistrySink*);

@@ -114,9 +114,10 @@ class GoToGoal final : public DecisionProcess {
   FreeHeading along_wall(Vec2 goal_R, const Pose2& X_WR, SimTime now) {
     const double distance_m = std::sqrt(squared_norm(goal_R));
     const double bearing_rad = atan2(goal_R.y, goal_R.x);
-    const bool nearer = distance_m < nearest_m_ - 0.1;
-    const bool open = steering_.free_m(points_R_, bearing_rad, distance_m) >=
-                      std::min(distance_m, look_m_) - 1e-9;
+    const FreeHeading direct = steering_.best(points_R_, bearing_rad, distance_m);
+    const bool nearer = distance_m < nearest_m_ - 0.2;
+    const bool open = direct.free_m >= std::min(distance_m, look_m_) &&
+                      std::abs(wrap_angle(direct.heading_rad - bearing_rad)) < deg_to_rad(60);
     if (nearer && open) {
       side_ = 0;
       nearest_m_ = distance_m;
@@ -130,8 +131,26 @@ class GoToGoal final : public DecisionProcess {
       nearest_m_ = kFar_m;
       nearer_at_ = now;
     }
-    if (side_ == 0) return steering_.best(points_R_, bearing_rad, distance_m);
-    return steering_.first(points_R_, -side_ * deg_to_rad(100), side_, kFollowLook_m);
+    if (side_ == 0) return direct;
+    return steering_.first(points_R_, wall_bearing_rad(), side_, kFollowLook_m);
+  }
+
+  /// Where the wall is that it follows: the nearest remembered point on the side of its hand or
+  /// ahead, so that the other wall of a corridor does not count; else the nearest of all.
+  double wall_bearing_rad() const {
+    double nearest_m2 = kFar_m;
+    double bearing_rad = -side_ * deg_to_rad(90);
+    for (const bool any_side : {false, true}) {
+      for (const Vec2 p_R : points_R_) {
+        if (squared_norm(p_R) >= nearest_m2) continue;
+        const double angle_rad = atan2(p_R.y, p_R.x);
+        if (!any_side && angle_rad * side_ > deg_to_rad(30)) continue;
+        nearest_m2 = squared_norm(p_R);
+        bearing_rad = angle_rad;
+      }
+      if (nearest_m2 < kFar_m) break;
+    }
+    return bearing_rad;
   }
 
   /// Whether it is back where it began to follow, after having been elsewhere.

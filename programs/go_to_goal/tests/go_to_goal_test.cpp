@@ -79,9 +79,11 @@ TEST(GoToGoal, GetsOutOfAConcaveTrap) {
   // A bay of 2 m by 3 m, open toward the start, between start and goal.
   room.wall({1.0, -1.5}, {3.0, -1.5}).wall({3.0, -1.5}, {3.0, 1.5}).wall({3.0, 1.5}, {1.0, 1.5});
   for (const Suite suite : testing::kSuites) {
-    const Trip result = go(suite, room, 6, 0, 300);
-    EXPECT_GT(result.arrived_s, 0) << "suite " << static_cast<int>(suite);
-    EXPECT_GT(result.nearest_m, 0.0) << "suite " << static_cast<int>(suite);
+    for (const double goal_y_m : {-1.0, 0.0, 0.7}) {
+      const Trip result = go(suite, room, 6, goal_y_m, 300);
+      EXPECT_GT(result.arrived_s, 0) << "suite " << static_cast<int>(suite) << " y " << goal_y_m;
+      EXPECT_GT(result.nearest_m, 0.0) << "suite " << static_cast<int>(suite) << " y " << goal_y_m;
+    }
   }
 }
 

@@ -51,6 +51,10 @@ class GoToGoal final : public DecisionProcess {
   void decide(const Percepts& percepts, Commands& commands) override {
     const PoseReading& pose = percepts.pose();
     const Pose2 X_WR{pose.x_m, pose.y_m, pose.yaw_rad};
+    if (!(std::abs(pose.x_m) + std::abs(pose.y_m) < kFar_m) || !std::isfinite(pose.yaw_rad)) {
+      commands.velocity(drive_, 0, 0);  // It does not know where it is.
+      return;
+    }
     scan_.update(percepts);
     memory_.update(scan_, X_WR, percepts.now());
     points_R_.clear();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/robot/scan.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -52,8 +53,9 @@ void Scan::update(const Percepts& percepts) {
 
 void Scan::add(const Ray& ray, float range_m, double limit_m) {
   if (std::isnan(range_m)) return;
-  const bool hit = std::isfinite(range_m);
-  const double free_m = hit ? static_cast<double>(range_m) : limit_m;
+  const bool hit = range_m < std::numeric_limits<float>::infinity();
+  // Minus infinity says "too near to measure" (REP-117).
+  const double free_m = hit ? std::max(static_cast<double>(range_m), 0.0) : limit_m;
   beams_.push_back({ray.origin_R, ray.directions_R[0], free_m, ray.spread_rad});
   if (!hit) return;
   const int edges = ray.spread_rad > 0 ? 3 : 1;

@@ -66,6 +66,12 @@ TEST_F(ScanTest, NoReturnIsFreeAndNotANumberIsNothing) {
   EXPECT_EQ(scan.beams()[0].free_m, 4.0);
 }
 
+TEST_F(ScanTest, TooNearToMeasureIsAHitAtTheSensor) {
+  const Scan scan = scan_of(0, {-std::numeric_limits<float>::infinity(), 3.0F});
+  ASSERT_EQ(scan.hits().size(), 2U);
+  EXPECT_NEAR(scan.hits()[0].distance_m, 0.1, 1e-12);
+}
+
 TEST_F(ScanTest, IsEmptyBeforeTheFirstSample) { EXPECT_TRUE(scan_of(0, {}).beams().empty()); }
 
 }  // namespace

@@ -116,6 +116,18 @@ TEST(GoToGoal, TakesGoalsInOrderAndStaysAtTheLast) {
   EXPECT_NEAR(rig.pose.y_m, 1, 0.15);
 }
 
+TEST(GoToGoal, StandsStillWhileItDoesNotKnowWhereItIs) {
+  testing::ProgramUnderTest program(rave_register_plugin, "go_to_goal");
+  Rig& rig = program.add_robot();
+  rig.params.set("goal_x_m", 4.0);
+  ASSERT_EQ(program.start(1), "");
+  program.decide({});
+  EXPECT_GT(rig.command().value[0], 0.0);
+  rig.pose.x_m = std::numeric_limits<double>::quiet_NaN();
+  program.decide({100'000'000});
+  EXPECT_EQ(rig.command(), velocity_command(0, 0));
+}
+
 TEST(GoToGoal, RefusesHalfAGoal) {
   testing::ProgramUnderTest program(rave_register_plugin, "go_to_goal");
   program.add_robot().params.set("goals_m", {1, 2, 3});

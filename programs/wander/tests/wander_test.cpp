@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "programs/testing/room.hpp"
 
 namespace rave {
@@ -94,6 +96,21 @@ TEST(Wander, TurnsToTheFreerSideAndSlower) {
   EXPECT_EQ(rig.command().value[1], 1.0);
   EXPECT_LT(rig.command().value[0], 0.15);
   EXPECT_GT(rig.command().value[0], 0.0);
+}
+
+TEST(Wander, GoesOnTurningTheSameWayWhileItIsBlocked) {
+  testing::ProgramUnderTest program(rave_register_plugin, "wander");
+  Rig& rig = program.add_robot();
+  rig.add_ranges({0.6, -0.6}, 0, 4.0);
+  ASSERT_EQ(program.start(1), "");
+  for (int k = 0; k < 100; ++k) {
+    // The freer side changes all the time, as it does in a corner.
+    const std::vector<float> ranges_m =
+        k % 2 == 0 ? std::vector<float>{0.5F, 0.4F} : std::vector<float>{0.4F, 0.5F};
+    rig.sensors[0].give(ranges_m, 0);
+    program.decide({k * 100'000'000LL});
+    ASSERT_EQ(rig.command().value[1], 1.0) << "decision " << k;
+  }
 }
 
 TEST(Wander, StaysWithinItsArea) {

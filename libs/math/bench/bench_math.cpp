@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <benchmark/benchmark.h>
+
+#include <array>
+
+#include "rave/math/gaussian.hpp"
+#include "rave/math/polygon.hpp"
+#include "rave/math/scalar.hpp"
+
+namespace rave {
+namespace {
+
+/// 1024 arguments, so that branches cannot be learnt by heart.
+std::array<double, 1024> arguments(double low, double high) {
+  std::array<double, 1024> values{};
+  RandomStream random(1, 0, 0, 0);
+  for (double& value : values) value = random.uniform(low, high);
+  return values;
+}
+
+template <class Function>
+void run(benchmark::State& state, double low, double high, Function function) {
+  const auto values = arguments(low, high);
+  std::size_t i = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(function(values[i]));
+    i = (i + 1) % values.size();
+  }
+}
+
+void bench_sincos(benchmark::State& state) {
+  run(state, -4, 4, [](double x) { return sincos(x); });
+}
+void bench_sincos_huge(benchmark::State& state) {
+  run(state, 1e7, 1e300, [](double x) { return sincos(x); });
+}
+void bench_atan2(benchmark::State& state) {
+  run(state, -3, 3, [](double x) { return atan2(x, 1.0 - x); });
+}
+void bench_exp(benchmark::State& state) {
+  run(state, -20, 20, [](double x) { return exp(x); });
+}
+void bench_log(benchmark::State& state) {
+  run(state, 0, 20, [](double x) { return log(x); });
+}
+void bench_gaussian(benchmark::State& state) {
+  RandomStream stream(1, 2, 3, 4);
+  for (auto _ : state) benchmark::DoNotOptimize(gaussian(stream));
+}
+
+void bench_distance(benchmark::State& state) {
+  const auto a = ConvexPolygon::regular(static_cast<int>(state.range(0)), 0.3).value();
+  const auto b = ConvexPolygon::box(2, 0.2).value();
+  run(state, -3, 3, [&](double x) { return distance(a, {x, 1, x}, b, {0, 0, 0.2}); });
+}
+
+void bench_time_of_impact(benchmark::State& state) {
+  const auto a = ConvexPolygon::regular(static_cast<int>(state.range(0)), 0.3).value();
+  const auto b = ConvexPolygon::box(2, 0.2).value();
+  run(state, -1, 1, [&](double x) {
+    return time_of_impact(a, {x, 0.45, x}, {0.05, -0.1, 0.1}, b, {0, 0, 0});
+  });
+}
+
+BENCHMARK(bench_sincos);
+BENCHMARK(bench_sincos_huge);
+BENCHMARK(bench_atan2);
+BENCHMARK(bench_exp);
+BENCHMARK(bench_log);
+BENCHMARK(bench_gaussian);
+BENCHMARK(bench_distance)->Arg(4)->Arg(16)->Arg(64);
+BENCHMARK(bench_time_of_impact)->Arg(4)->Arg(16);
+
+}  // namespace
+}  // namespace rave

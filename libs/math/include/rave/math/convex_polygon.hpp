@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "rave/base/result.hpp"
+#include "rave/math/pose.hpp"
+
+namespace rave {
+
+/// The shadow of a polygon on an axis, metres along it.
+struct Extent {
+  double min = 0;
+  double max = 0;
+};
+
+/// A convex polygon in a frame of its own: 3 to 64 vertices, counter-clockwise, strictly convex,
+/// metres. An immutable value.
+class ConvexPolygon {
+ public:
+  static constexpr std::size_t kMaxVertices = 64;
+  /// Coordinates beyond this are refused, metres.
+  static constexpr double kMaxCoordinate_m = 1.0e9;
+
+  /// Takes the vertices in either sense of rotation; repeated and collinear ones (turn below
+  /// 1e-9 rad) are removed. The errors (kInvalidArgument) name vertices and edges by their index in
+  /// `vertices`, edge i leading from vertex i to the next: not finite or beyond kMaxCoordinate_m,
+  /// fewer than 3 distinct vertices, two edges that cross, area not above 1e-9 m^2, not convex,
+  /// more than kMaxVertices.
+  [[nodiscard]] static Result<ConvexPolygon> make(std::span<const Vec2> vertices);
+  /// n corners on a circle about the origin, the first on the x axis; n from 3 to 64, radius_m from
+  /// 1e-4 (below it a triangle is too small) to kMaxCoordinate_m.
+  [[nodiscard]] static Result<ConvexPolygon> regular(int n, double radius_m);
+  /// A rectangle about the origin, length_m along x and width_m along y.
+  [[nodiscard]] static Result<ConvexPolygon> box(double length_m, double width_m);
+
+  [[nodiscard]] std::span<const Vec2> vertices() const noexcept { return vertices_; }
+  /// The outward unit normal of each edge, edge i leading from vertex i to the next.
+  [[nodiscard]] std::span<const Vec2> normals() const noexcept { return normals_; }
+  [[nodiscard]] std::size_t size() const noexcept { return vertices_.size(); }
+
+  /// m^2.
+  [[nodiscard]] double area() const noexcept;
+  [[nodiscard]] Vec2 centroid() const noexcept;
+  /// The radius of the smallest disc about `center` that holds the polygon.
+  [[nodiscard]] double bounding_radius(Vec2 center = {}) const noexcept;
+
+  /// The index of the vertex farthest along `direction`, the lowest one if several are.
+  [[nodiscard]] std::size_t support(Vec2 direction) const noexcept;
+  [[nodiscard]] Extent extent(Vec2 direction) const noexcept;
+
+  /// True inside and on the border.
+  [[nodiscard]] bool contains(Vec2 point) const noexcept;
+  /// Positive outside, zero on the border, minus the depth inside.
+  [[nodiscard]] double signed_distance(Vec2 point) const noexcept;
+  /// Zero inside.
+  [[nodiscard]] double distance(Vec2 point) const noexcept;
+
+ private:
+  explicit ConvexPolygon(std::vector<Vec2> vertices);
+
+  std::vector<Vec2> vertices_;
+  std::vector<Vec2> normals_;
+};
+
+/// How far along the ray from `origin` in the unit vector `direction` the polygon begins, all in
+/// the polygon's frame: 0 from inside or the border, +inf if it is missed. The plain
+/// double-precision reference for faster range kernels.
+[[nodiscard]] double cast_ray(Vec2 origin, Vec2 direction, const ConvexPolygon& polygon) noexcept;
+
+}  // namespace rave

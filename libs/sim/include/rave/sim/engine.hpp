@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rave/base/hash.hpp"
+#include "rave/sim/engine_spec.hpp"
+#include "rave/world/snapshot.hpp"
+
+namespace rave::sim {
+
+enum class EventKind : std::uint32_t {
+  kContact = 1,        ///< A robot began to touch something.
+  kPinned = 2,         ///< A simulated robot cannot get out of a real robot's way.
+  kPoseStale = 3,      ///< A reported pose is older than its limit.
+  kPoseBack = 4,       ///< ... and came again.
+  kProgramFailed = 5,  ///< A program threw, crashed or hung; its robot stops.
+  kDriverFailed = 6,   ///< A driver threw or lost its device.
+};
+[[nodiscard]] std::string_view to_string(EventKind kind) noexcept;
+
+/// Something that happened to a robot in one step.
+struct Event {
+  std::uint64_t step = 0;
+  RobotId robot;
+  EventKind kind = EventKind::kContact;
+  BodyId other;      ///< Contacts and pins: with whom.
+  std::string text;  ///< For people. Not part of the run hash.
+};
+
+/// Where a robot is told to be.
+struct ReportedPose {
+  PoseReading pose;  ///< In W.
+  Twist2 velocity;   ///< Body frame.
+  SimTime stamp;
+  bool known = false;  ///< False before the first.
+  bool stale = false;
+};
+
+/// The latest sample of one sensor of one robot, for observers and records. Views into the engine.
+struct SensorSample {
+  const SensorInfo* info = nullptr;
+  const SampleHeader* header = nullptr;
+  const void* records = nullptr;
+  std::span<const std::uint32_t> bodies;  ///< Fans: the body each ray met, BodyId::kNone for none.
+};
+
+/// Runs the world: sense (const world), decide (const percepts), act (drivers propose motions),
+/// resolve (the world limits them), publish. Belongs to one thread; uses others inside step().
+/// Between steps everything may be read. Same spec, same run, whatever the number of threads.
+class Engine {
+ public:
+  /// Makes all instances, opens hardware, starts programs. Errors: whatever a driver or program
+  /// says, with the name of robot and device.
+  [[nodiscard]] static Result<std::unique_ptr<Engine>> create(EngineSpec spec);
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+  ~Engine();
+
+  /// One base period. Errors end the run: a stepped driver that does not answer.
+  Status step();
+  /// Back to the exact state after create(): the same steps follow.
+  Status reset();
+
+  [[nodiscard]] const EngineSpec& spec() const noexcept;
+  /// The step that comes next; the last one showed the world at time().
+  [[nodiscard]] std::uint64_t steps_done() const noexcept;
+  /// Time of the snapshot: when the last step sensed.
+  [[nodiscard]] SimTime time() const noexcept;
+  /// The world as the last step sensed it.
+  [[nodiscard]] const world::Snapshot& snapshot() const noexcept;
+  [[nodiscard]] const ReportedPose& reported(RobotId robot) const noexcept;
+  /// True pose of a simulated robot after the last step.
+  [[nodiscard]] Pose2 true_pose(RobotId robot) const noexcept;
+  /// Sensors in the order of the robot's type.
+  [[nodiscard]] SensorSample sensor(RobotId robot, std::uint32_t index) const noexcept;
+  /// The last command that the program gave to a controller.
+  [[nodiscard]] Command command(RobotId robot, std::uint32_t controller) const noexcept;
+  /// How many commands the program gave in all, and whether the actuator behind obeys.
+  [[nodiscard]] std::uint64_t commands_given(RobotId robot) const noexcept;
+  [[nodiscard]] bool obeys(RobotId robot) const noexcept;
+  /// False once the robot's program has failed.
+  [[nodiscard]] bool program_alive(RobotId robot) const noexcept;
+  /// What a hardware sensor reports of its stream (JSON); `{}` for virtual ones.
+  [[nodiscard]] std::string sensor_report(RobotId robot, std::uint32_t index) const;
+  /// Events of the last step, ordered by robot.
+  [[nodiscard]] std::span<const Event> events() const noexcept;
+  [[nodiscard]] RunHash hash() const noexcept;
+  /// Changes one bit of the newest delivered percept of a robot's sensor before it is hashed, in
+  /// the next step only. For the test that the hash notices.
+  void flip_percept_bit(RobotId robot, std::uint32_t sensor) noexcept;
+
+  /// What a virtual sensor of `robot` reads at `stamp`, within the history: the world and the
+  /// robot's own pose are taken at that instant, between samples interpolated. Processing is not
+  /// applied. `records` has room for the sensor's capacity. Errors: kInvalidArgument (not a virtual
+  /// sensor, outside the history).
+  [[nodiscard]] Result<SampleHeader> sample_at(RobotId robot, std::uint32_t sensor, SimTime stamp,
+                                               void* records);
+  /// The pose of a robot at an instant within the history.
+  [[nodiscard]] Result<Pose2> pose_at(RobotId robot, SimTime stamp) const;
+
+ private:
+  struct Impl;
+  explicit Engine(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace rave::sim

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rave/base/log.hpp"
+#include "rave/base/result.hpp"
+#include "rave/plugin/param_set.hpp"
+#include "rave/robot/actuator.hpp"
+#include "rave/robot/controller.hpp"
+#include "rave/robot/hardware_sensor.hpp"
+#include "rave/robot/processing.hpp"
+#include "rave/robot/program.hpp"
+#include "rave/robot/sample_queue.hpp"
+#include "rave/sim/virtual_sensor.hpp"
+#include "rave/world/body.hpp"
+
+namespace rave::sim {
+
+/// A program in a process of its own. One object per robot; begin() of many may come before their
+/// end(), so that they decide at the same time. After an error the program is not asked again.
+class ProgramProcess {
+ public:
+  virtual ~ProgramProcess() = default;
+  virtual Status begin(const DecideItem& item) = 0;
+  virtual Status end(const DecideItem& item) = 0;
+};
+using ProgramProcessFactory =
+    std::function<Result<std::unique_ptr<ProgramProcess>>(const ProgramSetup&)>;
+
+/// One sensor of a type of robot. Exactly one of the two ops is set.
+struct SensorSpec {
+  std::string name;
+  std::string driver;
+  ReadingKind kind = ReadingKind::kNone;
+  const VirtualSensorOps* virtual_ops = nullptr;
+  const HardwareSensorOps* hardware_ops = nullptr;
+  plugin::ParamSet params;
+  Pose2 X_RS;
+  double z_m = 0;
+  std::uint32_t period_steps = 1;
+  std::uint32_t phase_steps = 0;
+  LayerMask layers = kAllLayers;
+  ProcessingSpec processing;
+};
+
+struct ControllerSpec {
+  std::string name;
+  std::string driver;
+  const ControllerOps* ops = nullptr;
+  plugin::ParamSet params;
+  CommandKind accepts = CommandKind::kNone;
+  std::uint32_t actuator = 0;  ///< Index into RobotType::actuators.
+};
+
+/// One actuator. Exactly one of the two ops is set.
+struct ActuatorSpec {
+  std::string name;
+  std::string driver;
+  const VirtualActuatorOps* virtual_ops = nullptr;
+  const HardwareActuatorOps* hardware_ops = nullptr;
+  plugin::ParamSet params;
+};
+
+struct ProgramSpec {
+  std::string driver;
+  const ProgramOps* ops = nullptr;
+  plugin::ParamSet params;
+  std::uint32_t period_steps = 1;
+  std::uint32_t phase_steps = 0;
+  ProgramProcessFactory isolate;  ///< Set: each robot's program gets a process of its own.
+};
+
+/// Robots that came from one file with the same variables: they share drivers and parameters.
+struct RobotType {
+  std::string name;
+  std::string folder;     ///< Of the robot file; relative paths of drivers start there.
+  bool simulated = true;  ///< Has a true pose; otherwise only a reported one.
+  std::vector<SensorSpec> sensors;
+  std::vector<ControllerSpec> controllers;
+  std::vector<ActuatorSpec> actuators;
+  std::optional<ProgramSpec> program;
+  /// The sensor that says where the robot is; none: the truth (simulated robots only).
+  std::optional<std::uint32_t> pose_from;
+  std::optional<Pose2> X_WM;  ///< Frame of that sensor; none: the start pose for odometry, else W.
+  Duration staleness = from_seconds(0.5);  ///< A reported pose older than this is stale.
+};
+
+struct RobotSpec {
+  std::string name;
+  std::string team;
+  std::uint32_t type = 0;
+  Pose2 X_WR;  ///< Where a simulated robot starts.
+};
+
+/// Everything an Engine is made from. Robots are in the order of their ids, which is also the order
+/// of `world.robots`.
+struct EngineSpec {
+  world::WorldModel world;
+  std::vector<RobotType> types;
+  std::vector<RobotSpec> robots;
+  Duration step = from_seconds(0.01);
+  std::uint64_t seed = 1;
+  unsigned threads = 1;
+  /// How far sample_at() can look back; zero if it is not needed.
+  Duration history = {};
+  /// Wall clock of a live run; null for a stepped one. Not owned.
+  const RunClock* live_clock = nullptr;
+  /// How long a stepped hardware driver may take, wall time, before the run is given up.
+  std::chrono::milliseconds host_timeout{10'000};
+  /// Not owned; outlives the engine.
+  LogSink* log = nullptr;
+};
+
+}  // namespace rave::sim

@@ -1,0 +1,385 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robot_group.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace rave::sim {
+namespace {
+
+constexpr std::size_t kQueueDepth = 256;
+
+HostServices services_of(RobotLog& log) {
+  HostServices services;
+  services.context = &log;
+  services.log = [](void* context, LogLevel level, const char* text, std::uint64_t size) {
+    const auto* robot = static_cast<const RobotLog*>(context);
+    if (robot->sink != nullptr) robot->sink->write(level, robot->source, {text, size});
+  };
+  return services;
+}
+
+RobotInfo info_of(const GroupContext& context, RobotId id) {
+  const RobotSpec& robot = context.spec.robots[id.value()];
+  RobotInfo info;
+  info.name = robot.name.c_str();
+  info.team = robot.team.c_str();
+  info.id = id.value();
+  info.radius_m = context.spec.world.robots[id.value()].radius_m();
+  info.seed = context.spec.seed;
+  return info;
+}
+
+Error named(const GroupContext& context, RobotId id, std::string_view kind, std::string_view name,
+            std::string_view driver, Error error) {
+  return std::move(error).with_context(fmt::format("robot `{}`, {} `{}` (driver `{}`)",
+                                                   context.spec.robots[id.value()].name, kind, name,
+                                                   driver));
+}
+
+/// Runs a function of a plug-in that returns 0 or sets an ErrorText.
+template <class Call>
+Status called(Call&& call) {
+  ErrorText error;
+  if (call(&error) == 0) return {};
+  return fail(ErrorCode::kPlugin, "{}", error.text);
+}
+
+void allocate(SensorSlots& slots, std::size_t count) {
+  slots.stride = slots.capacity * record_size(slots.spec->kind);
+  // Whole words, so that records of every member are aligned.
+  slots.stride = (slots.stride + 7U) / 8U * 8U;
+  slots.headers.resize(count);
+  slots.records.resize(slots.stride * count);
+  if (slots.uses_fan) slots.bodies.resize(std::size_t{slots.capacity} * count);
+  slots.sequence.resize(count);
+  slots.failed.resize(count);
+  slots.flip.resize(count);
+  if (slots.is_virtual()) slots.driver_state.resize(slots.spec->virtual_ops->state_size * count);
+  if (slots.processing || !slots.is_virtual()) {
+    slots.raw_headers.resize(count);
+    slots.raw_records.resize(slots.stride * count);
+  }
+  if (slots.processing) slots.processing_state.resize(slots.processing->state_size() * count);
+}
+
+void clear_samples(SensorSlots& slots) {
+  std::fill(slots.headers.begin(), slots.headers.end(), SampleHeader{});
+  std::fill(slots.raw_headers.begin(), slots.raw_headers.end(), SampleHeader{});
+  std::fill(slots.records.begin(), slots.records.end(), std::byte{});
+  std::fill(slots.raw_records.begin(), slots.raw_records.end(), std::byte{});
+  std::fill(slots.bodies.begin(), slots.bodies.end(), BodyId::kNone);
+  std::fill(slots.driver_state.begin(), slots.driver_state.end(), std::byte{});
+  std::fill(slots.sequence.begin(), slots.sequence.end(), 0U);
+  std::fill(slots.failed.begin(), slots.failed.end(), std::uint8_t{0});
+  std::fill(slots.flip.begin(), slots.flip.end(), std::uint8_t{0});
+  if (!slots.processing) return;
+  for (std::size_t m = 0; m < slots.headers.size(); ++m) {
+    slots.processing->reset(slots.processing_state_of(m));
+  }
+}
+
+void describe(SensorSlots& slots, double step_s) {
+  SensorInfo& info = slots.info;
+  info.name = slots.spec->name.c_str();
+  info.kind = slots.spec->kind;
+  info.capacity = slots.capacity;
+  info.X_RS = slots.spec->X_RS;
+  info.z_m = slots.spec->z_m;
+  info.period_s = slots.spec->period_steps * step_s;
+}
+
+Status configure_virtual(const GroupContext& context, RobotGroup& group, SensorSlots& slots) {
+  const SensorSpec& spec = *slots.spec;
+  RAVE_TRY(slots.instances.make(spec.virtual_ops->instance, 1));
+  VirtualSensorSetup setup;
+  setup.host = services_of(context.logs[group.members.front().value()]);
+  setup.params = spec.params.values().data();
+  setup.param_count = spec.params.values().size();
+  setup.layers = spec.layers;
+  setup.period_s = spec.period_steps * context.spec.step.seconds();
+  setup.z_m = spec.z_m;
+  VirtualDeclaration declaration;
+  RAVE_TRY(called([&](ErrorText* error) {
+    return spec.virtual_ops->configure(slots.instances.at(0), &setup, &declaration, error);
+  }));
+  slots.capacity = declaration.capacity;
+  slots.uses_fan = declaration.uses_fan != 0;
+  if (slots.uses_fan) {
+    if (spec.kind != ReadingKind::kRanges || declaration.fan.rays_per_reading == 0 ||
+        declaration.fan.ray_count == 0 ||
+        declaration.fan.ray_count % declaration.fan.rays_per_reading != 0) {
+      return fail(ErrorCode::kPlugin, "declared a fan of {} rays, {} a reading, for {}",
+                  declaration.fan.ray_count, declaration.fan.rays_per_reading,
+                  to_string(spec.kind));
+    }
+    slots.fan = FanTable::make(declaration.fan, spec.layers);
+    slots.capacity = slots.fan.readings();
+    slots.info.range_min_m = declaration.fan.range_min_m;
+    slots.info.range_max_m = declaration.fan.range_max_m;
+    slots.info.bearings_rad = declaration.reading_bearings_rad != nullptr
+                                  ? declaration.reading_bearings_rad
+                                  : declaration.fan.bearings_rad;
+    slots.info.cone_rad = declaration.cone_rad;
+  }
+  return {};
+}
+
+Status configure_hardware(const GroupContext& context, RobotGroup& group, SensorSlots& slots) {
+  const SensorSpec& spec = *slots.spec;
+  RAVE_TRY(slots.instances.make(spec.hardware_ops->instance, group.members.size()));
+  for (std::size_t m = 0; m < group.members.size(); ++m) {
+    HardwareSetup setup;
+    setup.robot = info_of(context, group.members[m]);
+    setup.host = services_of(context.logs[group.members[m].value()]);
+    setup.params = spec.params.values().data();
+    setup.param_count = spec.params.values().size();
+    setup.folder = group.type->folder.c_str();
+    HardwareDeclaration declaration;
+    RAVE_TRY(called([&](ErrorText* error) {
+      return spec.hardware_ops->configure(slots.instances.at(m), &setup, &declaration, error);
+    }));
+    slots.capacity = std::max(slots.capacity, declaration.capacity);
+    slots.collect = declaration.collect != 0;
+    slots.live = declaration.clock == DriverClock::kLive;
+    slots.info.range_min_m = declaration.range_min_m;
+    slots.info.range_max_m = declaration.range_max_m;
+    slots.info.bearings_rad = declaration.bearings_rad;
+    slots.info.cone_rad = declaration.cone_rad;
+  }
+  if (slots.live && context.spec.live_clock == nullptr) {
+    return fail(ErrorCode::kState, "runs by the clock on the wall, but the run is stepped");
+  }
+  for (std::size_t m = 0; m < group.members.size(); ++m) {
+    slots.queues.push_back(std::make_unique<SampleQueue>(
+        spec.kind, slots.capacity, kQueueDepth, slots.live ? context.spec.live_clock : nullptr));
+  }
+  return {};
+}
+
+Status make_sensor(const GroupContext& context, RobotGroup& group, SensorSlots& slots) {
+  RAVE_TRY(slots.is_virtual() ? configure_virtual(context, group, slots)
+                              : configure_hardware(context, group, slots));
+  const double step_s = context.spec.step.seconds();
+  if (!slots.spec->processing.empty()) {
+    const double period_s = slots.is_virtual() ? slots.spec->period_steps * step_s : 0;
+    RAVE_TRY_ASSIGN(slots.processing, Processing::make(slots.spec->processing, slots.spec->kind,
+                                                       slots.capacity, period_s));
+  }
+  allocate(slots, group.members.size());
+  clear_samples(slots);
+  describe(slots, step_s);
+  return {};
+}
+
+Status open_hardware(const GroupContext& context, RobotGroup& group) {
+  for (SensorSlots& slots : group.sensors) {
+    for (std::size_t m = 0; m < slots.queues.size(); ++m) {
+      const Status status = called([&](ErrorText* error) {
+        return slots.spec->hardware_ops->open(slots.instances.at(m), slots.queues[m].get(), error);
+      });
+      if (!status) {
+        return tl::unexpected(named(context, group.members[m], "sensor", slots.spec->name,
+                                    slots.spec->driver, status.error()));
+      }
+    }
+  }
+  return {};
+}
+
+DeviceSetup device_setup(const GroupContext& context, RobotId id, const plugin::ParamSet& params) {
+  DeviceSetup setup;
+  setup.robot = info_of(context, id);
+  setup.host = services_of(context.logs[id.value()]);
+  setup.params = params.values().data();
+  setup.param_count = params.values().size();
+  setup.step_s = context.spec.step.seconds();
+  return setup;
+}
+
+Status start_controllers(const GroupContext& context, RobotGroup& group) {
+  const std::size_t count = group.members.size();
+  for (ControllerSlots& slots : group.controllers) {
+    RAVE_TRY(slots.instances.make(slots.spec->ops->instance, count));
+    slots.last.assign(count, Command{});
+    slots.last_step.assign(count, -1);
+    slots.inputs.assign(count, ControlInput{});
+    slots.outputs.assign(count, Command{});
+    slots.failed.assign(count, 0);
+    for (std::size_t m = 0; m < count; ++m) {
+      const DeviceSetup setup = device_setup(context, group.members[m], slots.spec->params);
+      const Status status = called([&](ErrorText* error) {
+        return slots.spec->ops->start(slots.instances.at(m), &setup, error);
+      });
+      if (!status) {
+        return tl::unexpected(named(context, group.members[m], "controller", slots.spec->name,
+                                    slots.spec->driver, status.error()));
+      }
+    }
+  }
+  return {};
+}
+
+Status start_actuator(const GroupContext& context, RobotGroup& group, ActuatorSlots& slots,
+                      std::size_t m) {
+  const DeviceSetup setup = device_setup(context, group.members[m], slots.spec->params);
+  void* instance = slots.instances.at(m);
+  if (slots.spec->virtual_ops != nullptr) {
+    return called(
+        [&](ErrorText* error) { return slots.spec->virtual_ops->start(instance, &setup, error); });
+  }
+  RAVE_TRY(called(
+      [&](ErrorText* error) { return slots.spec->hardware_ops->open(instance, &setup, error); }));
+  slots.open[m] = 1;
+  slots.obeys[m] = slots.spec->hardware_ops->obeys(instance) != 0 ? 1 : 0;
+  return {};
+}
+
+Status start_actuators(const GroupContext& context, RobotGroup& group) {
+  const std::size_t count = group.members.size();
+  for (ActuatorSlots& slots : group.actuators) {
+    const InstanceOps& ops = slots.spec->virtual_ops != nullptr
+                                 ? slots.spec->virtual_ops->instance
+                                 : slots.spec->hardware_ops->instance;
+    RAVE_TRY(slots.instances.make(ops, count));
+    slots.inputs.assign(count, MotionInput{});
+    slots.outputs.assign(count, Twist2{});
+    slots.commands.assign(count, Command{});
+    slots.failed.assign(count, 0);
+    slots.obeys.assign(count, 1);
+    slots.open.assign(count, 0);
+    for (std::size_t m = 0; m < count; ++m) {
+      const Status status = start_actuator(context, group, slots, m);
+      if (!status) {
+        return tl::unexpected(named(context, group.members[m], "actuator", slots.spec->name,
+                                    slots.spec->driver, status.error()));
+      }
+    }
+  }
+  return {};
+}
+
+void lay_out_program(const GroupContext& context, RobotGroup& group) {
+  ProgramSlots& slots = group.program;
+  const std::size_t count = group.members.size();
+  const std::size_t sensors = group.sensors.size();
+  const std::size_t controllers = group.controllers.size();
+  slots.commands.assign(count * controllers, Command{});
+  slots.views.resize(count * sensors);
+  slots.items.assign(count, DecideItem{});
+  slots.setups.assign(count, ProgramSetup{});
+  slots.failed.assign(count, 0);
+  slots.given.assign(count, 0);
+  for (std::size_t m = 0; m < count; ++m) {
+    for (std::size_t s = 0; s < sensors; ++s) {
+      slots.views[m * sensors + s] = {&group.sensors[s].headers[m], group.sensors[s].records_of(m)};
+    }
+    DecideItem& item = slots.items[m];
+    item.sensors = slots.views.data() + m * sensors;
+    item.commands = slots.commands.data() + m * controllers;
+    item.robot = group.members[m].value();
+    item.seed = context.spec.seed;
+    if (slots.spec == nullptr) continue;
+    ProgramSetup& setup = slots.setups[m];
+    setup.robot = info_of(context, group.members[m]);
+    setup.host = services_of(context.logs[group.members[m].value()]);
+    setup.sensors = group.sensor_infos.data();
+    setup.sensor_count = sensors;
+    setup.controllers = group.controller_infos.data();
+    setup.controller_count = controllers;
+    setup.params = slots.spec->params.values().data();
+    setup.param_count = slots.spec->params.values().size();
+    setup.period_s = slots.spec->period_steps * context.spec.step.seconds();
+  }
+}
+
+Status start_programs(const GroupContext& context, RobotGroup& group) {
+  lay_out_program(context, group);
+  ProgramSlots& slots = group.program;
+  if (slots.spec == nullptr) return {};
+  const bool isolated = static_cast<bool>(slots.spec->isolate);
+  slots.processes.clear();
+  slots.instances.clear();
+  if (!isolated) RAVE_TRY(slots.instances.make(slots.spec->ops->instance, group.members.size()));
+  for (std::size_t m = 0; m < group.members.size(); ++m) {
+    Status status;
+    if (isolated) {
+      auto process = slots.spec->isolate(slots.setups[m]);
+      if (process) {
+        slots.processes.push_back(*std::move(process));
+      } else {
+        status = tl::unexpected(std::move(process).error());
+      }
+    } else {
+      status = called([&](ErrorText* error) {
+        return slots.spec->ops->start(slots.instances.at(m), &slots.setups[m], error);
+      });
+    }
+    if (!status) {
+      return tl::unexpected(named(context, group.members[m], "program", slots.spec->driver,
+                                  slots.spec->driver, status.error()));
+    }
+  }
+  return {};
+}
+
+Status start_devices(const GroupContext& context, RobotGroup& group) {
+  RAVE_TRY(start_controllers(context, group));
+  RAVE_TRY(start_actuators(context, group));
+  RAVE_TRY(start_programs(context, group));
+  return open_hardware(context, group);
+}
+
+}  // namespace
+
+Status make_group(GroupContext context, RobotGroup& group) {
+  group.sensors.resize(group.type->sensors.size());
+  for (std::size_t s = 0; s < group.sensors.size(); ++s) {
+    SensorSlots& slots = group.sensors[s];
+    slots.spec = &group.type->sensors[s];
+    const Status status = make_sensor(context, group, slots);
+    if (!status) {
+      return tl::unexpected(named(context, group.members.front(), "sensor", slots.spec->name,
+                                  slots.spec->driver, status.error()));
+    }
+    group.sensor_infos.push_back(slots.info);
+  }
+  group.controllers.resize(group.type->controllers.size());
+  for (std::size_t c = 0; c < group.controllers.size(); ++c) {
+    group.controllers[c].spec = &group.type->controllers[c];
+    group.controller_infos.push_back(
+        {group.controllers[c].spec->name.c_str(), group.controllers[c].spec->accepts, 0});
+  }
+  group.actuators.resize(group.type->actuators.size());
+  for (std::size_t a = 0; a < group.actuators.size(); ++a) {
+    group.actuators[a].spec = &group.type->actuators[a];
+  }
+  if (group.type->program) group.program.spec = &*group.type->program;
+  return start_devices(context, group);
+}
+
+Status reset_group(GroupContext context, RobotGroup& group) {
+  close_group(group);
+  for (SensorSlots& slots : group.sensors) {
+    clear_samples(slots);
+    for (auto& queue : slots.queues) queue->reopen();
+  }
+  return start_devices(context, group);
+}
+
+void close_group(RobotGroup& group) noexcept {
+  for (SensorSlots& slots : group.sensors) {
+    for (auto& queue : slots.queues) queue->close();
+    for (std::size_t m = 0; m < slots.queues.size(); ++m) {
+      slots.spec->hardware_ops->close(slots.instances.at(m));
+    }
+  }
+  for (ActuatorSlots& slots : group.actuators) {
+    for (std::size_t m = 0; m < slots.open.size(); ++m) {
+      if (slots.open[m] != 0) slots.spec->hardware_ops->close(slots.instances.at(m));
+      slots.open[m] = 0;
+    }
+  }
+}
+
+}  // namespace rave::sim

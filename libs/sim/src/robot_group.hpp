@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "instances.hpp"
+#include "rave/sim/engine_spec.hpp"
+#include "rave/sim/range_engine.hpp"
+
+namespace rave::sim {
+
+/// One sensor of a type, for all robots of it. Vectors are indexed by member; after creation none
+/// changes its size, so views into them stay valid.
+struct SensorSlots {
+  const SensorSpec* spec = nullptr;
+  SensorInfo info;
+  InstanceArray instances;  ///< One for all if virtual, one each if hardware.
+  bool uses_fan = false;
+  FanTable fan;
+  std::uint32_t capacity = 0;
+  std::uint32_t stride = 0;  ///< Bytes of all records of one member.
+  bool collect = false;
+  bool live = false;
+  std::optional<Processing> processing;
+
+  std::vector<SampleHeader> raw_headers;
+  std::vector<std::byte> raw_records;
+  std::vector<SampleHeader> headers;
+  std::vector<std::byte> records;
+  std::vector<std::uint32_t> bodies;  ///< Fans: what each reading met.
+  std::vector<std::byte> driver_state;
+  std::vector<std::byte> processing_state;
+  std::vector<std::uint32_t> sequence;
+  std::vector<std::uint8_t> failed;
+  std::vector<std::uint8_t> flip;  ///< Test hook: change a bit of the next delivery.
+  std::vector<std::unique_ptr<SampleQueue>> queues;
+
+  [[nodiscard]] bool is_virtual() const noexcept { return spec->virtual_ops != nullptr; }
+  [[nodiscard]] std::byte* records_of(std::size_t member) noexcept {
+    return records.data() + stride * member;
+  }
+  [[nodiscard]] std::byte* raw_records_of(std::size_t member) noexcept {
+    return raw_records.data() + stride * member;
+  }
+  [[nodiscard]] std::byte* processing_state_of(std::size_t member) noexcept {
+    return processing_state.data() + processing->state_size() * member;
+  }
+};
+
+struct ControllerSlots {
+  const ControllerSpec* spec = nullptr;
+  InstanceArray instances;
+  std::vector<Command> last;            ///< Given by the program.
+  std::vector<std::int64_t> last_step;  ///< When; -1: never.
+  std::vector<ControlInput> inputs;
+  std::vector<Command> outputs;
+  std::vector<std::uint8_t> failed;
+};
+
+struct ActuatorSlots {
+  const ActuatorSpec* spec = nullptr;
+  InstanceArray instances;
+  std::vector<MotionInput> inputs;
+  std::vector<Twist2> outputs;
+  std::vector<Command> commands;
+  std::vector<std::uint8_t> failed;
+  std::vector<std::uint8_t> obeys;
+  std::vector<std::uint8_t> open;
+};
+
+struct ProgramSlots {
+  const ProgramSpec* spec = nullptr;
+  InstanceArray instances;
+  std::vector<ProgramSetup> setups;
+  std::vector<DecideItem> items;
+  std::vector<Command> commands;  ///< Members x controllers.
+  std::vector<SensorView> views;  ///< Members x sensors.
+  std::vector<std::uint8_t> failed;
+  std::vector<std::uint64_t> given;
+  std::vector<std::unique_ptr<ProgramProcess>> processes;
+};
+
+/// All robots of one type and what serves them.
+struct RobotGroup {
+  const RobotType* type = nullptr;
+  std::vector<RobotId> members;
+  std::vector<SensorSlots> sensors;
+  std::vector<ControllerSlots> controllers;
+  std::vector<ActuatorSlots> actuators;
+  ProgramSlots program;
+  std::vector<SensorInfo> sensor_infos;
+  std::vector<ControllerInfo> controller_infos;
+};
+
+/// Where messages of one robot's drivers and program go.
+struct RobotLog {
+  LogSink* sink = nullptr;
+  std::string source;
+};
+
+/// What a group needs to know of its engine while it is made.
+struct GroupContext {
+  const EngineSpec& spec;
+  std::vector<RobotLog>& logs;  ///< By RobotId.
+};
+
+/// Makes all instances of a group and starts them. Errors name robot and device.
+Status make_group(GroupContext context, RobotGroup& group);
+/// Puts everything back to how make_group left it.
+Status reset_group(GroupContext context, RobotGroup& group);
+/// Closes hardware; after that nothing of the group runs any more.
+void close_group(RobotGroup& group) noexcept;
+
+}  // namespace rave::sim

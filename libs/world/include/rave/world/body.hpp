@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "rave/base/ids.hpp"
+#include "rave/base/result.hpp"
+#include "rave/math/convex_polygon.hpp"
+#include "rave/math/pose.hpp"
+#include "rave/world/layer.hpp"
+
+namespace rave::world {
+
+enum class ShapeKind : std::uint8_t {
+  kPolygon,  ///< Convex, counter-clockwise.
+  kDisc,
+};
+
+/// One upright piece of a body: an outline in the plane, extended over a range of heights. The
+/// prism is the first kind of shape; the list is open for others.
+struct Shape {
+  ShapeKind kind = ShapeKind::kDisc;
+  std::optional<ConvexPolygon> polygon;  ///< Polygon: body frame.
+  Vec2 centre;                           ///< Disc: body frame.
+  double radius_m = 0;                   ///< Disc.
+  double z0_m = 0;                       ///< Lowest height above the floor.
+  double z1_m = 1;                       ///< Highest.
+
+  /// Of a polygon, counter-clockwise; empty for a disc.
+  [[nodiscard]] std::span<const Vec2> vertices() const noexcept {
+    return polygon ? polygon->vertices() : std::span<const Vec2>();
+  }
+};
+
+/// Checks and orders the vertices of a polygon: counter-clockwise, convex pieces. A simple polygon
+/// that is not convex becomes several shapes. Errors: kInvalidArgument (self-crossing, fewer than
+/// three distinct vertices, not finite, z1 <= z0).
+[[nodiscard]] Result<std::vector<Shape>> make_prisms(std::span<const Vec2> outline, double z0_m,
+                                                     double z1_m);
+[[nodiscard]] Result<Shape> make_disc(Vec2 centre, double radius_m, double z0_m, double z1_m);
+
+/// Something with a place: an obstacle or the body of a robot.
+struct Body {
+  std::string name;
+  std::vector<Shape> shapes;
+  Layer layer = Layer::kVirtualObstacles;
+  std::optional<std::int32_t> code;  ///< What a landmark camera reads on it.
+  double code_z0_m = 0;              ///< Height range of the printed code.
+  double code_z1_m = 0;
+  std::string colour;  ///< `#rrggbb`, or empty for the kind's own.
+
+  /// Radius of the smallest disc about the body's origin that holds all shapes.
+  [[nodiscard]] double radius_m() const noexcept;
+};
+
+/// An obstacle stands where its pose says.
+struct Obstacle {
+  Body body;
+  Pose2 X_WB;
+};
+
+/// Everything that is fixed while a run goes: which bodies there are. Poses of robots live in
+/// Snapshot. Robots are in the order of their RobotId. Body ids: obstacles first, then robots.
+struct WorldModel {
+  std::vector<Obstacle> obstacles;
+  std::vector<Body> robots;
+
+  [[nodiscard]] std::uint32_t body_count() const noexcept {
+    return static_cast<std::uint32_t>(obstacles.size() + robots.size());
+  }
+  [[nodiscard]] const Body& body(std::uint32_t id) const noexcept {
+    return id < obstacles.size() ? obstacles[id].body : robots[id - obstacles.size()];
+  }
+};
+
+}  // namespace rave::world

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "rave/math/pose.hpp"
+#include "rave/world/grid.hpp"
+#include "rave/world/placed_shape.hpp"
+#include "rave/world/world_view.hpp"
+
+namespace rave::world {
+
+/// Where a robot is at one instant, as others sense it.
+struct RobotState {
+  Pose2 X_WR;
+  Twist2 velocity_W;     ///< Of the origin over ground, axes of W.
+  bool present = false;  ///< False before the first pose of a real robot: nobody senses it.
+};
+
+/// The world at one instant, ready for queries. Set the robots, then rebuild(), then look at it
+/// from as many threads as you like until the next set_robot(). No allocation after the first
+/// rebuild() of a world. Keeps a pointer to the model, which must outlive it.
+class Snapshot final : public WorldView {
+ public:
+  explicit Snapshot(const WorldModel& model);
+
+  void set_time(SimTime time) noexcept { time_ = time; }
+  void set_robot(RobotId robot, const RobotState& state) noexcept;
+  void set_touch(RobotId robot, const TouchState& touch) noexcept;
+  /// Moves all shapes of robots to their places and sorts them into the grid.
+  void rebuild();
+
+  /// Shapes whose bounding disc comes within `radius_m` of a point, ascending and without
+  /// repetition, put into `found` (its former content is dropped).
+  void gather(Vec2 p_W, double radius_m, std::vector<std::uint32_t>& found) const;
+
+  [[nodiscard]] const PlacedShape& shape(std::uint32_t index) const noexcept {
+    return shapes_[index];
+  }
+  [[nodiscard]] std::span<const Vec2> vertices_W(const PlacedShape& shape) const noexcept {
+    return std::span(vertices_).subspan(shape.first_vertex, shape.vertex_count);
+  }
+  [[nodiscard]] std::span<const PlacedShape> shapes() const noexcept { return shapes_; }
+  [[nodiscard]] const RobotState& robot(RobotId robot) const noexcept {
+    return robots_[robot.value()];
+  }
+  [[nodiscard]] const WorldModel& model() const noexcept { return *model_; }
+
+  // WorldView
+  [[nodiscard]] SimTime time() const noexcept override { return time_; }
+  [[nodiscard]] std::uint32_t robot_count() const noexcept override;
+  [[nodiscard]] BodyId body_of(RobotId robot) const noexcept override;
+  [[nodiscard]] Pose2 pose(RobotId robot) const noexcept override;
+  [[nodiscard]] Twist2 velocity_W(RobotId robot) const noexcept override;
+  [[nodiscard]] Layer layer_of(BodyId body) const noexcept override;
+  [[nodiscard]] std::span<const Landmark> landmarks() const noexcept override;
+  [[nodiscard]] RayHit cast(Vec2 p_W, double z_m, double bearing_rad, double range_max_m,
+                            LayerMask layers, BodyId skip) const noexcept override;
+  [[nodiscard]] bool visible(Vec2 p_from, Vec2 p_to, double z_m, LayerMask layers, BodyId a,
+                             BodyId b) const noexcept override;
+  [[nodiscard]] std::uint32_t robots_within(Vec2 p_W, double radius_m,
+                                            std::span<RobotId> found) const noexcept override;
+  [[nodiscard]] TouchState touch(RobotId robot) const noexcept override;
+
+ private:
+  void place(std::uint32_t body, const Body& description, const Pose2& X_WB, bool present);
+  void add_shapes(std::uint32_t body, const Body& description);
+  void rebuild_landmarks();
+  [[nodiscard]] RayHit nearest(Vec2 p_W, Vec2 direction, double z_m, double range_max_m,
+                               LayerMask layers, BodyId a, BodyId b) const;
+
+  const WorldModel* model_;
+  SimTime time_;
+  std::vector<PlacedShape> shapes_;
+  std::vector<Vec2> vertices_;
+  std::vector<std::uint32_t> first_shape_;  ///< Per body; one more at the end.
+  std::vector<RobotState> robots_;
+  std::vector<TouchState> touch_;
+  std::vector<Landmark> landmarks_;
+  std::vector<Landmark> fixed_landmarks_;
+  double largest_robot_m_ = 0;
+  Grid fixed_grid_;
+  Grid moving_grid_;
+};
+
+}  // namespace rave::world

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "rave/math/separation.hpp"
+#include "rave/math/time_of_impact.hpp"
+#include "rave/world/body.hpp"
+
+namespace rave::world {
+
+/// Signed separation of two shapes at their poses; see rave/math/separation.hpp. Shapes whose
+/// heights do not overlap are infinitely far apart.
+[[nodiscard]] Separation separation(const Shape& a, const Pose2& X_WA, const Shape& b,
+                                    const Pose2& X_WB) noexcept;
+
+/// The least separation over all pairs of shapes of two bodies.
+[[nodiscard]] Separation separation(const Body& a, const Pose2& X_WA, const Body& b,
+                                    const Pose2& X_WB) noexcept;
+
+/// How far body `a` may move from X_WA until it comes within `limits.skin_m` of body `b`, which
+/// stands at X_WB; see rave/math/time_of_impact.hpp, whose rules hold for discs too.
+[[nodiscard]] Impact time_of_impact(const Body& a, const Pose2& X_WA, const Motion2& motion_W,
+                                    const Body& b, const Pose2& X_WB,
+                                    const ImpactLimits& limits = {}) noexcept;
+
+}  // namespace rave::world

@@ -2,13 +2,14 @@
 #include "place_finder.hpp"
 
 #include <backtrace.h>
-#include <link.h>
 #include <ucontext.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <utility>
+
+#include "one_module.hpp"
 
 namespace rave::isolation {
 
@@ -35,7 +36,7 @@ void PlaceFinder::learn(const void* address) {
     PlaceFinder* finder;
     std::uintptr_t address;
   } query{this, reinterpret_cast<std::uintptr_t>(address)};
-  ::dl_iterate_phdr(
+  visit_all_modules(
       [](dl_phdr_info* info, std::size_t, void* data) {
         const auto& wanted = *static_cast<Query*>(data);
         PlaceFinder& self = *wanted.finder;
@@ -59,6 +60,7 @@ void PlaceFinder::learn(const void* address) {
         return 1;
       },
       &query);
+  show_only_module_of(address);
   ensure_state();
   Search search{this};
   ::backtrace_pcinfo(state_, query.address, &on_line, &ignore_error, &search);
@@ -137,8 +139,9 @@ void PlaceFinder::on_symbol(void* data, std::uintptr_t, const char* name, std::u
 }
 
 void PlaceFinder::note(Search& search, const char* file, int line, const char* function) {
-  const int size = std::snprintf(text_.data(), text_.size(), "%s\n%d\n%s", file, line,
-                                 function != nullptr ? function : "");
+  const int size = std::snprintf(text_.data(), text_.size(), "%s\n%d\n%s\n%s", file, line,
+                                 function != nullptr ? function : "",
+                                 search.linker_name != nullptr ? search.linker_name : "");
   if (size > 0) search.size = std::min(static_cast<std::size_t>(size), text_.size() - 1);
 }
 

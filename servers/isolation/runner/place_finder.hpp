@@ -17,10 +17,10 @@ class PlaceFinder {
   /// Takes the part of the file that holds `address` as the plug-in.
   void learn(const void* address);
 
-  /// `file\nline\nfunction` (see parse_place) of the innermost frame of the calling thread that
-  /// lies in the plug-in; of those inlined or called there the first that is not from a library's
-  /// header. Empty if there is none. `interrupted` is the context of a signal. The view is valid
-  /// until the next call.
+  /// `file\nline\nfunction\nframe` (see parse_place) of the innermost frame of the calling thread
+  /// that lies in the plug-in; of those inlined or called there the first that is not from a
+  /// library's header. Empty if there is none. `interrupted` is the context of a signal. The view
+  /// is valid until the next call.
   [[nodiscard]] std::string_view find(const void* interrupted);
 
  private:

@@ -11,8 +11,10 @@ namespace rave::isolation {
 /// `segmentation fault`, `bus error`, ...; `signal 12` for those that are not faults.
 [[nodiscard]] std::string signal_name(int signal);
 
-/// `Wander::decide` for a linker name or a function with its parameters.
-[[nodiscard]] std::string short_function(std::string_view name);
+/// `Wander::decide` for a linker name or a function with its parameters. `frame` is the linker's
+/// name of the function that it is inlined in; it tells the class of `decide` and `start`, for
+/// which the line table of an optimised program has no class.
+[[nodiscard]] std::string short_function(std::string_view name, std::string_view frame = {});
 
 /// ` at programs/wander/wander.cpp:42 in Wander::decide`, leaving out what is unknown.
 [[nodiscard]] std::string at_place(const Place& place);

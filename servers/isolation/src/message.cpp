@@ -52,7 +52,10 @@ Place parse_place(std::string_view text) noexcept {
   const std::size_t function = text.find('\n', line + 1);
   const std::size_t line_end = std::min(function, text.size());
   std::from_chars(text.data() + line + 1, text.data() + line_end, place.line);
-  if (function != std::string_view::npos) place.function = text.substr(function + 1);
+  if (function == std::string_view::npos) return place;
+  const std::size_t frame = text.find('\n', function + 1);
+  place.function = text.substr(function + 1, frame - function - 1);
+  if (frame != std::string_view::npos) place.frame = text.substr(frame + 1);
   return place;
 }
 

@@ -59,11 +59,12 @@ bool send_message(int socket, const MessageHead& head, std::string_view text, bo
 /// `bytes`.
 [[nodiscard]] std::optional<Message> parse_message(std::string_view bytes) noexcept;
 
-/// Where in the source a program was: `file\nline\nfunction`, function as the linker writes it.
+/// Where in the source a program was: `file\nline\nfunction\nframe`.
 struct Place {
-  std::string_view file;  ///< Empty: not known.
-  int line = 0;           ///< 0: not known.
-  std::string_view function;
+  std::string_view file;      ///< Empty: not known.
+  int line = 0;               ///< 0: not known.
+  std::string_view function;  ///< As the source or the linker writes it.
+  std::string_view frame;     ///< The linker's name of the function that it is inlined in.
 };
 [[nodiscard]] Place parse_place(std::string_view text) noexcept;
 

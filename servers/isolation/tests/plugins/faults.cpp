@@ -50,7 +50,7 @@ struct NullCall final : Fault {
 
 struct Division final : Fault {
   RAVE_WANTED_FAULT void decide(const Percepts&, Commands&) override {
-    divisor = 1 / divisor;  // mark: division
+    divisor = 100 / divisor;  // mark: division
   }
   volatile int divisor = 0;
 };
@@ -60,9 +60,10 @@ struct StackOverflow final : Fault {
   RAVE_WANTED_FAULT __attribute__((noinline)) int recurse(int level) {
     volatile char room[512] = {};  // mark: stack_overflow
     room[level % 512] = 1;
-    return recurse(level + 1) + room[0];  // mark: stack_overflow_end
+    return level == enough ? 0 : recurse(level + 1) + room[0];  // mark: stack_overflow_end
   }
   int depth = 0;
+  volatile int enough = 0;
 };
 
 struct Abort final : Fault {

@@ -10,4 +10,6 @@ class Idle final : public rave::DecisionProcess {
 };
 }  // namespace
 
-RAVE_PLUGIN("idle") { rave::add_program<Idle>(registry, {.name = "idle"}); }
+RAVE_PLUGIN("idle") {
+  rave::add_program<Idle>(registry, {.name = "idle", .summary = "Does nothing."});
+}

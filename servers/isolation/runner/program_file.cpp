@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program_file.hpp"
 
-#include <dlfcn.h>
+#include <array>
+#include <utility>
 
-#include <string>
-
-#include "rave/plugin/registry.hpp"
+#include "rave/plugin/catalogue.hpp"
+#include "rave/robot/interface_hash.hpp"
 
 namespace rave::isolation {
 
-struct ProgramFile::Impl final : RegistrySink {
-  std::string wanted;
-  const ProgramOps* ops = nullptr;
-  void add(const DriverInfo& info, const void* table) override {
-    if (info.kind == DriverKind::kProgram && info.name == wanted) {
-      ops = static_cast<const ProgramOps*>(table);
-    }
-  }
+struct ProgramFile::Impl {
+  // A program uses nothing of the virtual world, so any version of that interface will do: 0.
+  plugin::Catalogue catalogue{plugin::make_stamp(robot_interface_hash(), 0, "")};
 };
 
 ProgramFile::ProgramFile(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -24,18 +19,13 @@ ProgramFile::~ProgramFile() = default;
 
 Result<std::unique_ptr<ProgramFile>> ProgramFile::load(const std::filesystem::path& file,
                                                        std::string_view program) {
-  auto impl = std::make_unique<Impl>();
-  impl->wanted = program;
-  void* handle = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (handle == nullptr) return fail(ErrorCode::kNotFound, "{}", ::dlerror());
-  auto entry = reinterpret_cast<void (*)(RegistrySink*)>(::dlsym(handle, "rave_register_plugin"));
-  if (entry == nullptr) return fail(ErrorCode::kPlugin, "{}: no entry point", file.string());
-  entry(impl.get());
-  if (impl->ops == nullptr) {
-    return fail(ErrorCode::kNotFound, "{} has no program `{}`", file.string(), program);
-  }
-  std::unique_ptr<ProgramFile> result(new ProgramFile(std::move(impl)));
-  result->ops_ = result->impl_->ops;
+  std::unique_ptr<ProgramFile> result(new ProgramFile(std::make_unique<Impl>()));
+  plugin::Catalogue& catalogue = result->impl_->catalogue;
+  RAVE_TRY(catalogue.load(file));
+  constexpr std::array kKinds{DriverKind::kProgram};
+  auto driver = catalogue.find(kKinds, program);
+  if (!driver) return tl::unexpected(std::move(driver).error().with_context(file.string()));
+  result->ops_ = static_cast<const ProgramOps*>((*driver)->ops);
   return result;
 }
 

@@ -46,4 +46,7 @@ class Echo final : public rave::DecisionProcess {
 
 }  // namespace
 
-RAVE_PLUGIN("echo") { rave::add_program<Echo>(registry, {.name = "echo"}); }
+RAVE_PLUGIN("echo") {
+  rave::add_program<Echo>(registry,
+                          {.name = "echo", .summary = "Answers with all that it is given."});
+}

@@ -162,23 +162,25 @@ struct LastWords final : Fault {
 
 }  // namespace
 
-RAVE_PLUGIN("faults") {
-  rave::add_program<NullPointer>(registry, {.name = "null_pointer"});
-  rave::add_program<NullCall>(registry, {.name = "null_call"});
-  rave::add_program<Division>(registry, {.name = "division"});
-  rave::add_program<StackOverflow>(registry, {.name = "stack_overflow"});
-  rave::add_program<Abort>(registry, {.name = "abort"});
-  rave::add_program<BadVector>(registry, {.name = "bad_vector"});
-  rave::add_program<Throws>(registry, {.name = "throws"});
-  rave::add_program<Endless>(registry, {.name = "endless"});
-  rave::add_program<Sleeps>(registry, {.name = "sleeps"});
-  rave::add_program<Exits>(registry, {.name = "exits"});
-  rave::add_program<Killed>(registry, {.name = "killed"});
-  rave::add_program<ClosesFiles>(registry, {.name = "closes_files"});
-  rave::add_program<Garbage>(registry, {.name = "garbage"});
-  rave::add_program<StartError>(registry, {.name = "start_error"});
-  rave::add_program<StartHangs>(registry, {.name = "start_hangs"});
-  rave::add_program<StartCrashes>(registry, {.name = "start_crashes"});
-  rave::add_program<Talks>(registry, {.name = "talks"});
-  rave::add_program<LastWords>(registry, {.name = "last_words"});
+RAVE_PLUGIN(
+    "null_pointer null_call division stack_overflow abort bad_vector throws endless sleeps "
+    "exits killed closes_files garbage start_error start_hangs start_crashes talks last_words") {
+  rave::add_program<NullPointer>(registry, {.name = "null_pointer", .summary = "Goes wrong."});
+  rave::add_program<NullCall>(registry, {.name = "null_call", .summary = "Goes wrong."});
+  rave::add_program<Division>(registry, {.name = "division", .summary = "Goes wrong."});
+  rave::add_program<StackOverflow>(registry, {.name = "stack_overflow", .summary = "Goes wrong."});
+  rave::add_program<Abort>(registry, {.name = "abort", .summary = "Goes wrong."});
+  rave::add_program<BadVector>(registry, {.name = "bad_vector", .summary = "Goes wrong."});
+  rave::add_program<Throws>(registry, {.name = "throws", .summary = "Goes wrong."});
+  rave::add_program<Endless>(registry, {.name = "endless", .summary = "Goes wrong."});
+  rave::add_program<Sleeps>(registry, {.name = "sleeps", .summary = "Goes wrong."});
+  rave::add_program<Exits>(registry, {.name = "exits", .summary = "Goes wrong."});
+  rave::add_program<Killed>(registry, {.name = "killed", .summary = "Goes wrong."});
+  rave::add_program<ClosesFiles>(registry, {.name = "closes_files", .summary = "Goes wrong."});
+  rave::add_program<Garbage>(registry, {.name = "garbage", .summary = "Goes wrong."});
+  rave::add_program<StartError>(registry, {.name = "start_error", .summary = "Goes wrong."});
+  rave::add_program<StartHangs>(registry, {.name = "start_hangs", .summary = "Goes wrong."});
+  rave::add_program<StartCrashes>(registry, {.name = "start_crashes", .summary = "Goes wrong."});
+  rave::add_program<Talks>(registry, {.name = "talks", .summary = "Goes wrong."});
+  rave::add_program<LastWords>(registry, {.name = "last_words", .summary = "Goes wrong."});
 }

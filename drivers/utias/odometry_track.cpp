@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "utias/scalar_shim.hpp"
+#include "rave/math/scalar.hpp"
 
 namespace rave::utias {
 namespace {
@@ -24,10 +24,10 @@ Pose2 move_on_arc(const Pose2& from, const OdometrySample& command, std::int64_t
   const double dt_s = static_cast<double>(length_ns) * 1e-9;
   const double half_turn = 0.5 * command.w_radps * dt_s;
   const double shrink =
-      std::abs(half_turn) < 1e-4 ? 1 - half_turn * half_turn / 6 : shim_sin(half_turn) / half_turn;
+      std::abs(half_turn) < 1e-4 ? 1 - half_turn * half_turn / 6 : rave::sin(half_turn) / half_turn;
   const double chord_m = command.v_mps * dt_s * shrink;
   const double heading = from.yaw + half_turn;
-  return {from.x + chord_m * shim_cos(heading), from.y + chord_m * shim_sin(heading),
+  return {from.x + chord_m * rave::cos(heading), from.y + chord_m * rave::sin(heading),
           wrap_angle(from.yaw + 2 * half_turn)};
 }
 

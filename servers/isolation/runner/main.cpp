@@ -15,19 +15,15 @@
 #include "message.hpp"
 #include "program_host.hpp"
 
-// Sanitizers leave the signals to crash_report.cpp, which tells the host.
-#if defined(__SANITIZE_ADDRESS__)
-#define RAVE_SANITIZER_OPTIONS __asan_default_options
-#elif defined(__SANITIZE_THREAD__)
-#define RAVE_SANITIZER_OPTIONS __tsan_default_options
-#endif
-#if defined(RAVE_SANITIZER_OPTIONS)
-extern "C" __attribute__((visibility("default"))) const char* RAVE_SANITIZER_OPTIONS();
-extern "C" const char* RAVE_SANITIZER_OPTIONS() {
+// Sanitizers leave the signals to crash_report.cpp, which tells the host. Nobody calls these
+// functions in a build without sanitizers.
+extern "C" __attribute__((visibility("default"))) const char* __asan_default_options();
+extern "C" __attribute__((visibility("default"))) const char* __tsan_default_options();
+extern "C" const char* __asan_default_options() {
   return "handle_segv=0:handle_sigbus=0:handle_sigfpe=0:handle_sigill=0:handle_abort=0:"
          "use_sigaltstack=0:allow_user_segv_handler=1";
 }
-#endif
+extern "C" const char* __tsan_default_options() { return __asan_default_options(); }
 
 namespace rave::isolation {
 namespace {

@@ -25,7 +25,7 @@ struct IsolatedProgram::Impl {
       : timeout_s(options.decide_timeout_s),
         memory(std::move(shared)),
         layout(std::move(where)),
-        link(std::move(who), host, std::move(child), std::move(socket)) {}
+        link(std::move(who), host, std::move(child), std::move(socket), options.last_word_s) {}
 
   [[nodiscard]] Status copy_in(const DecideItem& item) const;
   void copy_out(const DecideItem& item) const {
@@ -104,7 +104,8 @@ Result<std::unique_ptr<IsolatedProgram>> IsolatedProgram::start(const IsolationO
   const std::string who =
       fmt::format("program `{}` of robot `{}`", options.program, setup.robot.name);
   // The upper limit keeps milliseconds within an int.
-  for (const double timeout_s : {options.decide_timeout_s, options.start_timeout_s}) {
+  for (const double timeout_s :
+       {options.decide_timeout_s, options.start_timeout_s, options.last_word_s}) {
     if (!(timeout_s > 0 && timeout_s <= 1e6)) {
       return fail(ErrorCode::kInvalidArgument, "{}: a timeout of {} s is not in (0, 1e6] s", who,
                   timeout_s);

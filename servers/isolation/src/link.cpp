@@ -14,9 +14,10 @@
 namespace rave::isolation {
 namespace {
 
-/// How long a child may take to say where it hangs, or to end after its socket has closed.
-constexpr double kLastWordS = 0.2;
+/// How long a child may take to end when it was asked to.
 constexpr int kEndMs = 500;
+/// How long after its socket has closed a child is taken to be about to end.
+constexpr int kEndAfterCloseMs = 1000;
 /// More than a child can send in one decision without breaking the bounds of message.hpp; room
 /// for threads of a program that log between decisions.
 constexpr int kMaxMessages = 4096;
@@ -28,11 +29,13 @@ ErrorCode error_code(std::uint32_t number) {
 
 }  // namespace
 
-Link::Link(std::string who, HostServices host, ChildProcess child, FileDescriptor socket)
+Link::Link(std::string who, HostServices host, ChildProcess child, FileDescriptor socket,
+           double last_word_s)
     : who_(std::move(who)),
       host_(host),
       child_(std::move(child)),
       socket_(std::move(socket)),
+      last_word_s_(last_word_s),
       buffer_(kMaxMessageBytes + 1) {}
 
 Link::~Link() {
@@ -44,7 +47,7 @@ Status Link::ask(std::uint32_t decision) {
   RAVE_TRY(state_);
   if (!send_message(socket_.get(), {MessageKind::kDecide, decision, 0}, {}, false)) {
     // What the child said before it went tells why.
-    return await(MessageKind::kDecided, decision, Deadline(kLastWordS), "has not listened");
+    return await(MessageKind::kDecided, decision, Deadline(last_word_s_), "has not listened");
   }
   return {};
 }
@@ -119,7 +122,7 @@ std::optional<Status> Link::handle(const Message& message, MessageKind kind, std
 }
 
 Status Link::end_of_conversation() {
-  if (child_.wait_for_end(static_cast<int>(kLastWordS * 1000))) {
+  if (child_.wait_for_end(kEndAfterCloseMs)) {
     return give_up(ErrorCode::kPlugin, child_.how());
   }
   return give_up(ErrorCode::kPlugin, "closed its connection to the host");
@@ -127,7 +130,7 @@ Status Link::end_of_conversation() {
 
 Status Link::stuck(std::string_view late) {
   child_.signal(kWhereSignal);
-  const Deadline deadline(kLastWordS);
+  const Deadline deadline(last_word_s_);
   int remaining_ms = 0;
   do {
     remaining_ms = deadline.remaining_ms();

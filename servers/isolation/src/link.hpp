@@ -20,8 +20,10 @@ namespace rave::isolation {
 /// kept.
 class Link {
  public:
-  /// `who` begins every error: "program `wander` of robot `anna`".
-  Link(std::string who, HostServices host, ChildProcess child, FileDescriptor socket);
+  /// `who` begins every error: "program `wander` of robot `anna`". `last_word_s`: how long a child
+  /// that is late may take to say where it is.
+  Link(std::string who, HostServices host, ChildProcess child, FileDescriptor socket,
+       double last_word_s);
   Link(const Link&) = delete;
   Link& operator=(const Link&) = delete;
   ~Link();
@@ -51,6 +53,7 @@ class Link {
   HostServices host_;
   ChildProcess child_;
   FileDescriptor socket_;
+  double last_word_s_;
   std::vector<char> buffer_;
   Status state_;
 };

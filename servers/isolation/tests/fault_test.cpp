@@ -84,16 +84,16 @@ TEST(Fault, ExceptionIsReportedAsItIsInTheHost) {
 }
 
 TEST(Fault, EndlessLoopNamesItsLine) {
-  const Error error = decision_error("endless", 0.25);
+  const Error error = decision_error("endless", 0.75);
   EXPECT_EQ(error.code, ErrorCode::kTimeout);
-  EXPECT_EQ(error.text(), who("endless") + "has not decided for 0.25 s; it was at " +
+  EXPECT_EQ(error.text(), who("endless") + "has not decided for 0.75 s; it was at " +
                               place_of("endless") + " in Endless::decide");
 }
 
 TEST(Fault, SleepNamesTheLineThatCalls) {
-  const Error error = decision_error("sleeps", 0.25);
+  const Error error = decision_error("sleeps", 0.75);
   EXPECT_EQ(error.code, ErrorCode::kTimeout);
-  EXPECT_EQ(error.text(), who("sleeps") + "has not decided for 0.25 s; it was at " +
+  EXPECT_EQ(error.text(), who("sleeps") + "has not decided for 0.75 s; it was at " +
                               place_of("sleeps") + " in Sleeps::decide");
 }
 
@@ -168,10 +168,10 @@ TEST(StartFault, Crash) {
 
 TEST(StartFault, Hang) {
   IsolationOptions options = options_for("faults", "start_hangs");
-  options.start_timeout_s = 1;
+  options.start_timeout_s = 2;
   const Error error = start_error(options);
   EXPECT_EQ(error.code, ErrorCode::kTimeout);
-  EXPECT_EQ(error.text(), who("start_hangs") + "has not started for 1.0 s; it was at " +
+  EXPECT_EQ(error.text(), who("start_hangs") + "has not started for 2.0 s; it was at " +
                               place_of("start_hangs") + " in StartHangs::start");
 }
 

@@ -28,6 +28,7 @@ inline IsolationOptions options_for(const std::string& plugin, const std::string
   options.program = program;
   options.decide_timeout_s = 60;  // Tests must not depend on the speed of the machine.
   options.start_timeout_s = 60;
+  options.last_word_s = 60;
   return options;
 }
 

@@ -17,6 +17,7 @@ struct IsolationOptions {
   std::string program;            ///< Name of the program as it is registered.
   double decide_timeout_s = 1.0;  ///< Wall time from begin_decide(); above 0.
   double start_timeout_s = 5.0;   ///< Wall time for loading and starting; above 0.
+  double last_word_s = 0.2;       ///< Wall time to say where it hangs before it is killed.
 };
 
 /// A robot program in a child process, so that a crash or an endless loop costs only its robot.

@@ -34,10 +34,10 @@ struct Event {
 
 /// Where a robot is told to be.
 struct ReportedPose {
-  PoseReading pose;          ///< In W.
-  Twist2 velocity;           ///< Body frame.
+  PoseReading pose;  ///< In W.
+  Twist2 velocity;   ///< Body frame.
   SimTime stamp;
-  bool known = false;        ///< False before the first.
+  bool known = false;  ///< False before the first.
   bool stale = false;
 };
 

@@ -78,7 +78,7 @@ struct ProgramSpec {
 /// Robots that came from one file with the same variables: they share drivers and parameters.
 struct RobotType {
   std::string name;
-  std::string folder;  ///< Of the robot file; relative paths of drivers start there.
+  std::string folder;     ///< Of the robot file; relative paths of drivers start there.
   bool simulated = true;  ///< Has a true pose; otherwise only a reported one.
   std::vector<SensorSpec> sensors;
   std::vector<ControllerSpec> controllers;

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "utias/dataset.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "rave/base/time.hpp"
+#include "utias/folder.hpp"
+#include "utias/streams.hpp"
+
+namespace rave::utias {
+namespace {
+
+/// The three logs of one robot, as read.
+struct RobotFiles {
+  LogFile poses;
+  LogFile odometry;
+  LogFile sightings;
+};
+
+Status check_seconds(std::string_view name, double value, double least, double most) {
+  if (value >= least && value <= most) return {};
+  return fail(ErrorCode::kInvalidArgument, "{} is {}: expected seconds from {} to {}", name, value,
+              least, most);
+}
+
+Status check_options(const LoadOptions& options) {
+  constexpr double kLongest_s = 1e9;
+  RAVE_TRY(check_seconds("start_s", options.start_s.value_or(0), 0, kLongest_s));
+  RAVE_TRY(check_seconds("end_s", options.end_s.value_or(0), 0, kLongest_s));
+  RAVE_TRY(check_seconds("margin_s", options.margin_s, 0, 1000));
+  RAVE_TRY(check_seconds("clock_offset_s", options.clock_offset_s, -1000, 1000));
+  RAVE_TRY(check_seconds("pose_gap_limit_s", options.pose_gap_limit_s, 0, kLongest_s));
+  RAVE_TRY(check_seconds("odometry_gap_limit_s", options.odometry_gap_limit_s, 0, kLongest_s));
+  RAVE_TRY(check_seconds("sighting_gap_limit_s", options.sighting_gap_limit_s, 0, kLongest_s));
+  if (options.robots.empty()) return fail(ErrorCode::kInvalidArgument, "no robot was asked for");
+  for (auto robot = options.robots.begin(); robot != options.robots.end(); ++robot) {
+    if (std::find(options.robots.begin(), robot, *robot) == robot) continue;
+    return fail(ErrorCode::kInvalidArgument, "robot {} was asked for twice", *robot);
+  }
+  return {};
+}
+
+Status check_robots(const Folder& folder, const LoadOptions& options) {
+  const std::vector<int>& present = folder.robots();
+  for (const int robot : options.robots) {
+    if (std::find(present.begin(), present.end(), robot) != present.end()) continue;
+    std::string names;
+    for (const int number : present)
+      names += fmt::format("{}{}", names.empty() ? "" : ", ", number);
+    return fail(ErrorCode::kNotFound, "`{}` has no logs of robot {}; it has robots: {}",
+                folder.path().string(), robot, names.empty() ? "none" : names);
+  }
+  return {};
+}
+
+Result<RobotFiles> read_robot(const Folder& folder, int robot, const LoadOptions& options) {
+  const std::string prefix = fmt::format("Robot{}_", robot);
+  RobotFiles files;
+  RAVE_TRY_ASSIGN(files.poses, folder.read(prefix + "Groundtruth", pose_columns(), options));
+  RAVE_TRY_ASSIGN(files.odometry, folder.read(prefix + "Odometry", odometry_columns(), options));
+  RAVE_TRY_ASSIGN(files.sightings,
+                  folder.read(prefix + "Measurement", sighting_columns(), options));
+  return files;
+}
+
+/// First and last absolute stamp of all logs.
+std::pair<std::int64_t, std::int64_t> stamp_range(const std::map<int, RobotFiles>& robots) {
+  std::int64_t first = std::numeric_limits<std::int64_t>::max();
+  std::int64_t last = 0;
+  for (const auto& [number, files] : robots) {
+    for (const LogFile* file : {&files.poses, &files.odometry, &files.sightings}) {
+      for (const LogRow& row : file->log.rows) {
+        first = std::min(first, row.stamp_ns);
+        last = std::max(last, row.stamp_ns);
+      }
+    }
+  }
+  return {first, last};
+}
+
+Result<StreamWindow> choose_window(const Folder& folder, const std::map<int, RobotFiles>& robots,
+                                   const LoadOptions& options) {
+  StreamWindow window;
+  if (folder.stretch()) {
+    window.origin_ns = folder.stretch()->origin_ns;
+    window.start_ns = folder.stretch()->start_ns;
+    window.end_ns = folder.stretch()->end_ns;
+  } else {
+    const auto [first, last] = stamp_range(robots);
+    if (first > last) {
+      return fail(ErrorCode::kParse, "no log in `{}` has a row", folder.path().string());
+    }
+    window.origin_ns = first;
+    window.end_ns = last - first;
+  }
+  const StreamWindow held = window;
+  if (options.start_s) window.start_ns = from_seconds(*options.start_s).ns;
+  if (options.end_s) window.end_ns = from_seconds(*options.end_s).ns;
+  window.margin_ns = from_seconds(options.margin_s).ns;
+  if (window.start_ns >= held.start_ns && window.end_ns <= held.end_ns &&
+      window.start_ns < window.end_ns) {
+    return window;
+  }
+  return fail(ErrorCode::kInvalidArgument,
+              "the window from {} to {} s is empty or not within the {} to {} s that `{}` holds",
+              Duration{window.start_ns}.seconds(), Duration{window.end_ns}.seconds(),
+              Duration{held.start_ns}.seconds(), Duration{held.end_ns}.seconds(),
+              folder.path().string());
+}
+
+Result<RobotLog> make_robot(int number, RobotFiles files, const StreamWindow& window,
+                            const LoadOptions& options, const Subjects& subjects) {
+  const std::string pose_path = files.poses.path;
+  auto poses =
+      make_poses(std::move(files.poses), number, window, from_seconds(options.pose_gap_limit_s).ns);
+  if (poses.samples.empty()) {
+    return fail_at({pose_path, 0, 0}, ErrorCode::kParse,
+                   "robot {} has no pose up to the end of the window at {} s", number,
+                   Duration{window.end_ns}.seconds());
+  }
+  auto odometry = make_odometry(std::move(files.odometry), number, window,
+                                from_seconds(options.odometry_gap_limit_s).ns);
+  auto sightings = make_sightings(
+      std::move(files.sightings), number, window, from_seconds(options.sighting_gap_limit_s).ns,
+      from_seconds(options.clock_offset_s).ns, options.code_meaning, subjects);
+  RobotLog robot;
+  robot.subject = number;
+  robot.poses = PoseTrack(std::move(poses.samples));
+  robot.odometry = std::move(odometry.samples);
+  robot.sightings = SightingLog(std::move(sightings.samples));
+  robot.pose_report = std::move(poses.report);
+  robot.odometry_report = std::move(odometry.report);
+  robot.sighting_report = std::move(sightings.report);
+  return robot;
+}
+
+Result<Subjects> read_subjects(const Folder& folder, const LoadOptions& options) {
+  RAVE_TRY_ASSIGN(const LogFile barcodes, folder.read("Barcodes", barcode_columns(), options));
+  RAVE_TRY_ASSIGN(const LogFile landmarks,
+                  folder.read("Landmark_Groundtruth", landmark_columns(), options));
+  return Subjects::join(barcodes.log.rows, barcodes.path, landmarks.log.rows, landmarks.path,
+                        folder.robots());
+}
+
+}  // namespace
+
+const RobotLog* Dataset::robot(int subject) const noexcept {
+  const auto found = std::find_if(robots.begin(), robots.end(),
+                                  [&](const RobotLog& log) { return log.subject == subject; });
+  return found == robots.end() ? nullptr : &*found;
+}
+
+Result<Dataset> load(const std::filesystem::path& path, const LoadOptions& options) {
+  RAVE_TRY(check_options(options));
+  RAVE_TRY_ASSIGN(const Folder folder, Folder::open(path));
+  RAVE_TRY(check_robots(folder, options));
+  Dataset data;
+  RAVE_TRY_ASSIGN(data.subjects, read_subjects(folder, options));
+  std::map<int, RobotFiles> files;
+  // Without a stated origin every robot is read: the earliest stamp may be of one not asked for.
+  for (const int robot : folder.stretch() ? options.robots : folder.robots()) {
+    RAVE_TRY_ASSIGN(files[robot], read_robot(folder, robot, options));
+  }
+  RAVE_TRY_ASSIGN(const StreamWindow window, choose_window(folder, files, options));
+  data.origin_ns = window.origin_ns;
+  data.start_ns = window.start_ns;
+  data.end_ns = window.end_ns;
+  for (const int number : options.robots) {
+    RAVE_TRY_ASSIGN(RobotLog robot,
+                    make_robot(number, std::move(files[number]), window, options, data.subjects));
+    data.robots.push_back(std::move(robot));
+  }
+  return data;
+}
+
+}  // namespace rave::utias

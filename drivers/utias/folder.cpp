@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "utias/folder.hpp"
+
+#include <charconv>
+#include <set>
+#include <system_error>
+
+#include "rave/base/file.hpp"
+#include "utias/unpack.hpp"
+
+namespace rave::utias {
+namespace {
+
+constexpr std::string_view kStretchFile = "stretch.txt";
+constexpr std::size_t kLargestStretchFile = std::size_t{1} << 20;
+
+bool is_file(const std::filesystem::path& path) noexcept {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(path, ignored);
+}
+
+/// The N of `RobotN_…`, or 0.
+int robot_number(std::string_view name) noexcept {
+  constexpr std::string_view kPrefix = "Robot";
+  if (!name.starts_with(kPrefix)) return 0;
+  name.remove_prefix(kPrefix.size());
+  int number = 0;
+  const auto [stop, status] = std::from_chars(name.data(), name.data() + name.size(), number);
+  const bool named = status == std::errc() && stop != name.data() + name.size() && *stop == '_';
+  return named && number > 0 ? number : 0;
+}
+
+bool accepted_as_cut(const ParsedLog& log) noexcept {
+  for (const Repair& repair : log.repairs) {
+    if (repair.kind == RepairKind::kCutLine) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Result<Folder> Folder::open(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(path, ignored)) {
+    return fail(ErrorCode::kNotFound, "there is no folder `{}` with UTIAS logs", path.string());
+  }
+  Folder folder;
+  folder.path_ = path;
+  RAVE_TRY(folder.find_robots());
+  const std::filesystem::path stretch_path = path / kStretchFile;
+  if (is_file(stretch_path)) {
+    RAVE_TRY_ASSIGN(const std::string text, read_file(stretch_path, kLargestStretchFile));
+    RAVE_TRY_ASSIGN(folder.stretch_, parse_stretch(text, stretch_path.string()));
+  }
+  return folder;
+}
+
+Status Folder::find_robots() {
+  std::set<int> found;
+  std::error_code status;
+  std::filesystem::directory_iterator entry(path_, status);
+  while (!status && entry != std::filesystem::directory_iterator()) {
+    const int number = robot_number(entry->path().filename().string());
+    if (number > 0) found.insert(number);
+    entry.increment(status);
+  }
+  if (status) {
+    return fail(ErrorCode::kIo, "cannot list `{}`: {}", path_.string(), status.message());
+  }
+  robots_.assign(found.begin(), found.end());
+  return {};
+}
+
+Result<LogFile> Folder::read(std::string_view stem, std::span<const Column> columns,
+                             const LoadOptions& options) const {
+  const std::string plain = std::string(stem) + ".dat";
+  const std::string packed = plain + ".gz";
+  LogFile file;
+  file.name = is_file(path_ / packed) ? packed : plain;
+  const std::filesystem::path path = path_ / file.name;
+  file.path = path.string();
+  if (!is_file(path)) {
+    return fail(ErrorCode::kNotFound, "`{}` has neither `{}` nor `{}`", path_.string(), packed,
+                plain);
+  }
+  RAVE_TRY_ASSIGN(const std::string bytes, read_file(path, options.max_unpacked_bytes));
+  file.sha256 = sha256_hex(bytes);
+  RAVE_TRY_ASSIGN(const UnpackedText text,
+                  unpack_text(bytes, file.path, options.max_unpacked_bytes));
+  RAVE_TRY_ASSIGN(file.log, parse_log(text, file.path, columns, options.parse));
+  if (!stretch_) return file;
+  const auto expected = stretch_->sha256.find(file.name);
+  if (expected == stretch_->sha256.end()) return file;
+  file.unchanged = expected->second == file.sha256;
+  // Last, so that a log with a fault is refused with the place of the fault.
+  if (!*file.unchanged && options.require_unchanged && !accepted_as_cut(file.log)) {
+    return fail_at({file.path, 0, 0}, ErrorCode::kParse,
+                   "the file is not the one that {} lists (SHA-256 {}, listed {}); restore it, or "
+                   "set require_unchanged to false",
+                   kStretchFile, file.sha256, expected->second);
+  }
+  return file;
+}
+
+}  // namespace rave::utias

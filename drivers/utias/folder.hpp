@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rave/base/result.hpp"
+#include "utias/load_options.hpp"
+#include "utias/stretch.hpp"
+#include "utias/text_log.hpp"
+
+namespace rave::utias {
+
+/// One log file, read and parsed; stamps still absolute.
+struct LogFile {
+  std::string path;  ///< As it is named in messages.
+  std::string name;  ///< Without folder.
+  std::string sha256;
+  std::optional<bool> unchanged;
+  ParsedLog log;
+};
+
+/// The folder of a data set. Keeps no file open.
+class Folder {
+ public:
+  /// Reads `stretch.txt` if there is one. Errors: kNotFound if there is no such folder; those of
+  /// parse_stretch.
+  [[nodiscard]] static Result<Folder> open(const std::filesystem::path& path);
+
+  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
+  [[nodiscard]] const std::optional<Stretch>& stretch() const noexcept { return stretch_; }
+  /// The numbers of the robots that have at least one log here, ascending.
+  [[nodiscard]] const std::vector<int>& robots() const noexcept { return robots_; }
+
+  /// Reads `<stem>.dat.gz` or, without that, `<stem>.dat`. Errors: kNotFound (names the file),
+  /// those of unpack_text and parse_log, and kParse for a file that differs from its digest.
+  [[nodiscard]] Result<LogFile> read(std::string_view stem, std::span<const Column> columns,
+                                     const LoadOptions& options) const;
+
+ private:
+  Status find_robots();
+
+  std::filesystem::path path_;
+  std::optional<Stretch> stretch_;
+  std::vector<int> robots_;
+};
+
+}  // namespace rave::utias

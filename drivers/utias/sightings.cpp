@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "utias/sightings.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "rave/base/check.hpp"
+
+namespace rave::utias {
+
+SightingLog::SightingLog(std::vector<Sighting> sightings) : sightings_(std::move(sightings)) {
+  for (std::size_t i = 0; i < sightings_.size(); ++i) {
+    RAVE_CHECK(i == 0 || sightings_[i - 1].t_ns <= sightings_[i].t_ns);
+    if (i == 0 || sightings_[i - 1].t_ns != sightings_[i].t_ns) group_begins_.push_back(i);
+  }
+}
+
+std::span<const Sighting> SightingLog::group(std::size_t index) const noexcept {
+  RAVE_CHECK(index < group_begins_.size());
+  const std::size_t begin = group_begins_[index];
+  const std::size_t end =
+      index + 1 < group_begins_.size() ? group_begins_[index + 1] : sightings_.size();
+  return std::span(sightings_).subspan(begin, end - begin);
+}
+
+std::size_t SightingLog::first_group_after(std::int64_t t_ns) const noexcept {
+  const auto found = std::upper_bound(
+      group_begins_.begin(), group_begins_.end(), t_ns,
+      [this](std::int64_t t, std::size_t begin) { return t < sightings_[begin].t_ns; });
+  return static_cast<std::size_t>(found - group_begins_.begin());
+}
+
+}  // namespace rave::utias

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace rave::utias {
+
+/// No subject has this number.
+inline constexpr int kUnknownSubject = 0;
+
+/// One barcode seen by a robot's camera. Nanoseconds from the origin.
+struct Sighting {
+  std::int64_t t_ns = 0;
+  /// The number in the log: a barcode, whatever the log's header says.
+  int code = 0;
+  /// Whom the code belongs to (robots 1 to 5, landmarks 6 to 20), or kUnknownSubject.
+  int subject = kUnknownSubject;
+  /// From the robot's centre to the centre of the subject, metres.
+  double range_m = 0;
+  /// From the robot's heading, counter-clockwise, radians.
+  double bearing_rad = 0;
+};
+
+/// The sightings of one robot in order of time; those of one stamp in the order of the file.
+/// Immutable; may be read from any thread.
+class SightingLog {
+ public:
+  SightingLog() = default;
+  /// `sightings`: ascending in time (a programmer's mistake otherwise).
+  explicit SightingLog(std::vector<Sighting> sightings);
+
+  [[nodiscard]] std::span<const Sighting> all() const noexcept { return sightings_; }
+
+  /// Sightings of one stamp come from one camera image: they are read as one group.
+  [[nodiscard]] std::size_t group_count() const noexcept { return group_begins_.size(); }
+  /// `index` < group_count(); never empty.
+  [[nodiscard]] std::span<const Sighting> group(std::size_t index) const noexcept;
+  /// The index of the first group stamped after a moment; group_count() if there is none.
+  [[nodiscard]] std::size_t first_group_after(std::int64_t t_ns) const noexcept;
+
+ private:
+  std::vector<Sighting> sightings_;
+  std::vector<std::size_t> group_begins_;
+};
+
+}  // namespace rave::utias

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "utias/streams.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
+
+namespace rave::utias {
+namespace {
+
+constexpr std::array<Column, 4> kPoseColumns{{{"time [s]", ColumnKind::kStamp},
+                                              {"x [m]", ColumnKind::kReal},
+                                              {"y [m]", ColumnKind::kReal},
+                                              {"orientation [rad]", ColumnKind::kReal}}};
+constexpr std::array<Column, 3> kOdometryColumns{{{"time [s]", ColumnKind::kStamp},
+                                                  {"forward velocity [m/s]", ColumnKind::kReal},
+                                                  {"angular velocity [rad/s]", ColumnKind::kReal}}};
+constexpr std::array<Column, 4> kSightingColumns{{{"time [s]", ColumnKind::kStamp},
+                                                  {"barcode", ColumnKind::kCode},
+                                                  {"range [m]", ColumnKind::kNonNegative},
+                                                  {"bearing [rad]", ColumnKind::kReal}}};
+constexpr std::array<Column, 2> kBarcodeColumns{
+    {{"subject", ColumnKind::kCode}, {"barcode", ColumnKind::kCode}}};
+constexpr std::array<Column, 5> kLandmarkColumns{{{"subject", ColumnKind::kCode},
+                                                  {"x [m]", ColumnKind::kReal},
+                                                  {"y [m]", ColumnKind::kReal},
+                                                  {"x std-dev [m]", ColumnKind::kNonNegative},
+                                                  {"y std-dev [m]", ColumnKind::kNonNegative}}};
+
+StreamReport begin_report(LogFile& file, int robot, StreamKind kind, std::int64_t gap_limit_ns) {
+  StreamReport report;
+  report.robot = robot;
+  report.kind = kind;
+  report.file = std::move(file.name);
+  report.sha256 = std::move(file.sha256);
+  report.unchanged = file.unchanged;
+  report.repairs = std::move(file.log.repairs);
+  report.gap_limit_ns = gap_limit_ns;
+  return report;
+}
+
+/// Orders rows by stamp, rows of one stamp as in the file, and reports each step back.
+void sort_rows(std::vector<LogRow>& rows, StreamReport& report) {
+  bool sorted = true;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    if (rows[i].stamp_ns >= rows[i - 1].stamp_ns) continue;
+    report.add_repair(RepairKind::kStepBack, 1, rows[i].line);
+    sorted = false;
+  }
+  if (sorted) return;
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const LogRow& a, const LogRow& b) { return a.stamp_ns < b.stamp_ns; });
+}
+
+/// Keeps the last row of each stamp: the value that held from then on.
+void drop_duplicates(std::vector<LogRow>& rows, StreamReport& report) {
+  std::vector<LogRow> kept;
+  kept.reserve(rows.size());
+  for (const LogRow& row : rows) {
+    if (!kept.empty() && kept.back().stamp_ns == row.stamp_ns) {
+      report.add_repair(RepairKind::kDuplicateStamp, 1, row.line);
+      kept.back() = row;
+    } else {
+      kept.push_back(row);
+    }
+  }
+  rows = std::move(kept);
+}
+
+void wrap_heading(Pose2& pose, int line, StreamReport& report) {
+  const double wrapped = wrap_angle(pose.yaw);
+  if (wrapped == pose.yaw) return;
+  report.add_repair(RepairKind::kHeadingWrapped, 1, line);
+  pose.yaw = wrapped;
+}
+
+template <class Sample>
+void describe(StreamReport& report, const std::vector<Sample>& samples,
+              const StreamWindow& window) {
+  std::vector<std::int64_t> stamps;
+  stamps.reserve(samples.size());
+  for (const Sample& sample : samples) stamps.push_back(sample.t_ns);
+  describe_timing(report, stamps, window.start_ns, window.end_ns);
+}
+
+/// Cuts to the window and its margin, keeping one row before it.
+template <class Sample>
+void trim(std::vector<Sample>& samples, const StreamWindow& window) {
+  const std::int64_t first_ns = window.start_ns - window.margin_ns;
+  const std::int64_t last_ns = window.end_ns + window.margin_ns;
+  const auto later = [](std::int64_t t, const Sample& sample) { return t < sample.t_ns; };
+  samples.erase(std::upper_bound(samples.begin(), samples.end(), last_ns, later), samples.end());
+  const auto first = std::upper_bound(samples.begin(), samples.end(), first_ns, later);
+  if (first != samples.begin()) samples.erase(samples.begin(), first - 1);
+}
+
+void count_unknown(StreamReport& report, const std::vector<Sighting>& sightings) {
+  std::map<int, std::int64_t> counts;
+  for (const Sighting& sighting : sightings) {
+    if (sighting.subject == kUnknownSubject) ++counts[sighting.code];
+  }
+  for (const auto& [code, count] : counts) report.unknown_codes.push_back({code, count});
+}
+
+int subject_of(int code, CodeMeaning meaning, const Subjects& subjects) noexcept {
+  if (meaning == CodeMeaning::kBarcode) return subjects.subject_of_code(code);
+  return subjects.code_of_subject(code) >= 0 ? code : kUnknownSubject;
+}
+
+}  // namespace
+
+std::span<const Column> pose_columns() noexcept { return kPoseColumns; }
+std::span<const Column> odometry_columns() noexcept { return kOdometryColumns; }
+std::span<const Column> sighting_columns() noexcept { return kSightingColumns; }
+std::span<const Column> barcode_columns() noexcept { return kBarcodeColumns; }
+std::span<const Column> landmark_columns() noexcept { return kLandmarkColumns; }
+
+Stream<std::vector<PoseSample>> make_poses(LogFile file, int robot, const StreamWindow& window,
+                                           std::int64_t gap_limit_ns) {
+  Stream<std::vector<PoseSample>> stream;
+  stream.report = begin_report(file, robot, StreamKind::kPoses, gap_limit_ns);
+  sort_rows(file.log.rows, stream.report);
+  drop_duplicates(file.log.rows, stream.report);
+  stream.samples.reserve(file.log.rows.size());
+  for (const LogRow& row : file.log.rows) {
+    PoseSample sample{row.stamp_ns - window.origin_ns, {row.reals[0], row.reals[1], row.reals[2]}};
+    wrap_heading(sample.pose, row.line, stream.report);
+    stream.samples.push_back(sample);
+  }
+  describe(stream.report, stream.samples, window);
+  trim(stream.samples, window);
+  return stream;
+}
+
+Stream<std::vector<OdometrySample>> make_odometry(LogFile file, int robot,
+                                                  const StreamWindow& window,
+                                                  std::int64_t gap_limit_ns) {
+  Stream<std::vector<OdometrySample>> stream;
+  stream.report = begin_report(file, robot, StreamKind::kOdometry, gap_limit_ns);
+  sort_rows(file.log.rows, stream.report);
+  drop_duplicates(file.log.rows, stream.report);
+  stream.samples.reserve(file.log.rows.size());
+  for (const LogRow& row : file.log.rows) {
+    stream.samples.push_back({row.stamp_ns - window.origin_ns, row.reals[0], row.reals[1]});
+  }
+  describe(stream.report, stream.samples, window);
+  trim(stream.samples, window);
+  return stream;
+}
+
+Stream<std::vector<Sighting>> make_sightings(LogFile file, int robot, const StreamWindow& window,
+                                             std::int64_t gap_limit_ns,
+                                             std::int64_t clock_offset_ns, CodeMeaning meaning,
+                                             const Subjects& subjects) {
+  Stream<std::vector<Sighting>> stream;
+  stream.report = begin_report(file, robot, StreamKind::kSightings, gap_limit_ns);
+  sort_rows(file.log.rows, stream.report);
+  for (const LogRow& row : file.log.rows) {
+    const int code = row.codes[0];
+    stream.samples.push_back({row.stamp_ns - window.origin_ns + clock_offset_ns, code,
+                              subject_of(code, meaning, subjects), row.reals[0], row.reals[1]});
+  }
+  describe(stream.report, stream.samples, window);
+  std::erase_if(stream.samples, [&](const Sighting& sighting) {
+    return sighting.t_ns < window.start_ns || sighting.t_ns > window.end_ns;
+  });
+  count_unknown(stream.report, stream.samples);
+  return stream;
+}
+
+}  // namespace rave::utias

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "utias/folder.hpp"
+#include "utias/odometry_track.hpp"
+#include "utias/pose_track.hpp"
+#include "utias/sightings.hpp"
+#include "utias/stream_report.hpp"
+#include "utias/subjects.hpp"
+
+namespace rave::utias {
+
+/// The formats of the logs.
+[[nodiscard]] std::span<const Column> pose_columns() noexcept;
+[[nodiscard]] std::span<const Column> odometry_columns() noexcept;
+[[nodiscard]] std::span<const Column> sighting_columns() noexcept;
+[[nodiscard]] std::span<const Column> barcode_columns() noexcept;
+[[nodiscard]] std::span<const Column> landmark_columns() noexcept;
+
+/// What turns the rows of a file into samples. Nanoseconds; the window counts from the origin.
+struct StreamWindow {
+  std::int64_t origin_ns = 0;  ///< Absolute.
+  std::int64_t start_ns = 0;
+  std::int64_t end_ns = 0;
+  std::int64_t margin_ns = 0;
+};
+
+template <class Samples>
+struct Stream {
+  Samples samples;
+  StreamReport report;
+};
+
+/// Sort, drop doubles, bring headings into range, cut to the window with its margin; report it.
+[[nodiscard]] Stream<std::vector<PoseSample>> make_poses(LogFile file, int robot,
+                                                         const StreamWindow& window,
+                                                         std::int64_t gap_limit_ns);
+[[nodiscard]] Stream<std::vector<OdometrySample>> make_odometry(LogFile file, int robot,
+                                                                const StreamWindow& window,
+                                                                std::int64_t gap_limit_ns);
+/// The same for sightings: equal stamps stay, the offset is added to the stamps, and nothing
+/// outside of the window is kept.
+[[nodiscard]] Stream<std::vector<Sighting>> make_sightings(
+    LogFile file, int robot, const StreamWindow& window, std::int64_t gap_limit_ns,
+    std::int64_t clock_offset_ns, CodeMeaning meaning, const Subjects& subjects);
+
+}  // namespace rave::utias

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "rave/config/diagnostics.hpp"
+#include "rave/config/field_options.hpp"
+#include "rave/config/raw_node.hpp"
+
+namespace rave::config {
+
+/// What reading one value needs to know about its surroundings.
+struct ReadContext {
+  Diagnostics& diagnostics;
+  const FieldOptions& options;
+  /// How messages call the value, such as "`range_m`" or "item 3 of `mounts`"; may be empty.
+  std::string label;
+
+  /// Reports `label: found …, expected …` at the node.
+  void wrong(const RawNode& node, std::string_view expected) const;
+  /// Reports a message at the node.
+  void error(const RawNode& node, std::string message) const;
+};
+
+/// How one type is read, written and described. Specialise it for a type of your own that is not a
+/// described struct; the four functions have the signatures of those in codecs.hpp:
+///   static void read(const ReadContext&, const RawNode&, T&);      reports to the diagnostics
+///   static RawNode write(const T&);
+///   static RawNode schema(const FieldOptions&);                    a JSON Schema as a mapping
+///   static std::string expectation(const FieldOptions&);           "a number (in metres)"
+template <class T>
+struct Codec;
+
+/// One row of the name table of an enum.
+template <class E>
+struct EnumName {
+  E value;
+  std::string_view name;
+  constexpr EnumName(E v, std::string_view n) noexcept : value(v), name(n) {}
+};
+
+/// Selects the name table of an enum. In the enum's namespace write
+/// `constexpr auto enum_names(rave::config::EnumTag<Role>) {
+///    return std::array{rave::config::EnumName{Role::kObserver, "observer"}, …}; }`
+template <class E>
+struct EnumTag {};
+
+/// Given to `validate(const T&, CheckContext&)`, which is called after a struct was read without an
+/// error, to check what concerns several fields.
+class CheckContext {
+ public:
+  CheckContext(const RawNode& mapping, Diagnostics& diagnostics)
+      : mapping_(mapping), diagnostics_(diagnostics) {}
+
+  /// Reports an error at the value of `key`, or at the mapping if the key was left out or is empty.
+  template <class... Args>
+  void error(std::string_view key, fmt::format_string<Args...> format, Args&&... args) {
+    report(key, fmt::format(format, std::forward<Args>(args)...));
+  }
+  /// Where the struct stands in the file.
+  [[nodiscard]] SourceLocation where() const { return mapping_.where(); }
+  /// The mapping as read, to ask whether a key was given.
+  [[nodiscard]] const RawNode& node() const noexcept { return mapping_; }
+
+ private:
+  void report(std::string_view key, std::string message);
+
+  const RawNode& mapping_;
+  Diagnostics& diagnostics_;
+};
+
+}  // namespace rave::config

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "rave/base/result.hpp"
+#include "rave/config/diagnostics.hpp"
+#include "rave/config/raw_node.hpp"
+
+namespace rave::config {
+
+/// The types a parameter that is only known at run time (of a plug-in) can have.
+enum class ParamType : std::uint8_t { kBool, kInt, kDouble, kString, kEnum, kDoubleList };
+
+/// The value of a parameter; an enum is the std::string of its choice.
+using ParamValue = std::variant<bool, std::int64_t, double, std::string, std::vector<double>>;
+
+/// The description of one parameter at run time: what FieldOptions are to a member of a struct.
+struct FieldSpec {
+  std::string name;
+  ParamType type = ParamType::kDouble;
+  std::string doc = {};
+  std::optional<double> min = {};  ///< Also of each number of a list.
+  bool exclusive_min = false;
+  std::optional<double> max = {};
+  bool exclusive_max = false;
+  std::string unit = {};                         ///< SI symbol, or empty.
+  std::vector<std::string> choices = {};         ///< Of an enum.
+  std::optional<std::size_t> min_items = {};     ///< Of a list, or bytes of a string.
+  std::optional<std::size_t> max_items = {};     ///< Likewise.
+  std::optional<ParamValue> default_value = {};  ///< None: the parameter must be given.
+};
+
+/// One parameter with its value.
+struct Param {
+  std::string name;
+  ParamValue value;
+  SourceLocation where = {};  ///< Of the value in the file; without a file for a default.
+  friend bool operator==(const Param& a, const Param& b) {
+    return a.name == b.name && a.value == b.value;
+  }
+};
+
+/// All parameters of one plug-in instance, in the order of the specs.
+class ParamValues {
+ public:
+  void add(Param param) { params_.push_back(std::move(param)); }
+  [[nodiscard]] std::span<const Param> all() const noexcept { return params_; }
+  [[nodiscard]] std::size_t size() const noexcept { return params_.size(); }
+  /// nullptr if there is none of this name.
+  [[nodiscard]] const Param* find(std::string_view name) const noexcept;
+  /// The value as T; nullptr if there is none of this name and type.
+  template <class T>
+  [[nodiscard]] const T* get(std::string_view name) const noexcept {
+    const Param* param = find(name);
+    return param ? std::get_if<T>(&param->value) : nullptr;
+  }
+  friend bool operator==(const ParamValues&, const ParamValues&) = default;
+
+ private:
+  std::vector<Param> params_;
+};
+
+/// Whether the specs themselves are sound: names unique and not empty, choices for every enum,
+/// defaults of the right type and within their own limits. Errors: kInvalidArgument.
+[[nodiscard]] Status check_specs(std::span<const FieldSpec> specs);
+
+/// Reads parameters from a mapping (or null: none given) strictly and fills in the defaults.
+/// `context` begins each message, for example "driver `virtual_laser`". Problems go to the
+/// diagnostics; the values are complete only if none were added.
+[[nodiscard]] ParamValues read_params(const RawNode& node, std::span<const FieldSpec> specs,
+                                      std::string_view context, Diagnostics& diagnostics);
+/// The same with all problems joined into one Error.
+[[nodiscard]] Result<ParamValues> read_params(const RawNode& node, std::span<const FieldSpec> specs,
+                                              std::string_view context);
+
+/// The values as a mapping with units and sentences as comments (to_yaml gives the text).
+/// Parameters without a value are left out.
+[[nodiscard]] RawNode write_params(const ParamValues& values, std::span<const FieldSpec> specs);
+
+/// The JSON Schema fragment (draft 07) of a mapping with these parameters.
+[[nodiscard]] RawNode params_schema(std::span<const FieldSpec> specs);
+
+}  // namespace rave::config

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <concepts>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "rave/config/codec_support.hpp"
+#include "rave/config/visitors.hpp"
+
+namespace rave::config {
+
+/// A struct that `describe` is defined for.
+template <class T>
+concept Described = std::is_class_v<T> && requires(Writer& v, T& c) { describe(v, c); };
+
+template <Described T>
+struct Codec<T> {
+  static constexpr bool kHasShorthand = requires(const RawNode& n, T& c) {
+    { read_shorthand(n, c) } -> std::same_as<Status>;
+  };
+
+  static void read(const ReadContext& context, const RawNode& node, T& value) {
+    const std::size_t errors_before = context.diagnostics.size();
+    if (node.is_mapping()) {
+      Reader reader(node, context.diagnostics);
+      describe(reader, value);
+      reader.finish();
+    } else if constexpr (kHasShorthand) {
+      detail::add_shorthand(context, node, read_shorthand(node, value));
+    } else {
+      context.wrong(node, "a mapping");
+    }
+    if (context.diagnostics.size() != errors_before) return;
+    if constexpr (requires(CheckContext& c) { validate(value, c); }) {
+      CheckContext check(node, context.diagnostics);
+      validate(std::as_const(value), check);
+    } else if constexpr (requires { validate(value); }) {
+      detail::add_validation(node, context.diagnostics, validate(std::as_const(value)));
+    }
+  }
+  static RawNode write(const T& value) {
+    Writer writer;
+    // One describe serves readers and writers, so it takes the struct by mutable reference; the
+    // writer only reads.
+    describe(writer, const_cast<T&>(value));  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+    return std::move(writer).take();
+  }
+  static RawNode schema(const FieldOptions&) {
+    SchemaWriter writer;
+    T value{};
+    describe(writer, value);
+    RawNode schema = std::move(writer).take();
+    return kHasShorthand ? detail::shorthand_schema(std::move(schema)) : schema;
+  }
+  static std::string expectation(const FieldOptions&) { return "a mapping"; }
+};
+
+}  // namespace rave::config

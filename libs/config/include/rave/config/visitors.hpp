@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "rave/config/codec_base.hpp"
+
+// What `describe(v, config)` is called with. All have the same functions:
+//   v.field(name, member, options)     may be left out: then the member keeps its initial value
+//   v.required(name, member, options)  must be given
+//   v.location(member)                 a SourceLocation that receives the place of the mapping
+namespace rave::config {
+
+/// Reads the entries of one mapping.
+class Reader {
+ public:
+  Reader(const RawNode& mapping, Diagnostics& diagnostics)
+      : mapping_(mapping), diagnostics_(diagnostics) {}
+
+  template <class T>
+  void field(std::string_view name, T& target, const FieldOptions& options = {}) {
+    if (const RawNode* node = take(name, options)) read(name, *node, target, options);
+  }
+  template <class T>
+  void required(std::string_view name, T& target, const FieldOptions& options = {}) {
+    if (const RawNode* node = take(name, options)) {
+      read(name, *node, target, options);
+    } else {
+      missing(name, Codec<T>::expectation(options));
+    }
+  }
+  void location(SourceLocation& target) { target = mapping_.where(); }
+
+  /// Reports the keys that no field claimed. Called once, after describe.
+  void finish();
+
+ private:
+  struct Known {
+    std::string_view name;
+    std::string_view unit;
+  };
+
+  template <class T>
+  void read(std::string_view name, const RawNode& node, T& target, const FieldOptions& options) {
+    const ReadContext context{diagnostics_, options, fmt::format("`{}`", name)};
+    Codec<T>::read(context, node, target);
+  }
+  const RawNode* take(std::string_view name, const FieldOptions& options);
+  void missing(std::string_view name, std::string_view expected);
+
+  const RawNode& mapping_;
+  Diagnostics& diagnostics_;
+  std::vector<Known> known_;
+};
+
+/// Collects the values of one struct as a mapping with comments.
+class Writer {
+ public:
+  template <class T>
+  void field(std::string_view name, const T& value, const FieldOptions& options = {}) {
+    mapping_.append(std::string(name), Codec<T>::write(value), comment_of(options));
+  }
+  template <class T>
+  void required(std::string_view name, const T& value, const FieldOptions& options = {}) {
+    field(name, value, options);
+  }
+  void location(const SourceLocation& /*where*/) {}
+
+  [[nodiscard]] RawNode take() && { return std::move(mapping_); }
+
+ private:
+  static std::string comment_of(const FieldOptions& options);
+
+  RawNode mapping_ = RawNode::mapping();
+};
+
+/// Collects the JSON Schema of one struct.
+class SchemaWriter {
+ public:
+  template <class T>
+  void field(std::string_view name, const T& value, const FieldOptions& options = {}) {
+    const RawNode initial = Codec<T>::write(value);
+    add(name, Codec<T>::schema(options), options, &initial);
+  }
+  template <class T>
+  void required(std::string_view name, const T& /*value*/, const FieldOptions& options = {}) {
+    add(name, Codec<T>::schema(options), options, nullptr);
+    required_.push_back(RawNode::text(std::string(name)));
+  }
+  void location(const SourceLocation& /*where*/) {}
+
+  [[nodiscard]] RawNode take() &&;
+
+ private:
+  void add(std::string_view name, RawNode schema, const FieldOptions& options,
+           const RawNode* initial);
+
+  RawNode properties_ = RawNode::mapping();
+  RawNode required_ = RawNode::sequence();
+};
+
+}  // namespace rave::config

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/config/map_image.hpp"
+
+#include "rave/config/fields.hpp"
+
+namespace rave::config {
+namespace {
+
+enum class MapMode : std::uint8_t { kTrinary, kScale, kRaw };
+
+constexpr auto enum_names(EnumTag<MapMode>) {
+  return std::array{EnumName{MapMode::kTrinary, "trinary"}, EnumName{MapMode::kScale, "scale"},
+                    EnumName{MapMode::kRaw, "raw"}};
+}
+
+/// `negate` is 0 or 1 in the files that ROS writes; true and false are understood as well.
+struct MapFlag {
+  bool on = false;
+};
+
+struct MapFile {
+  Located<std::string> image;
+  double resolution_m = 0;
+  std::array<double, 3> origin{};
+  MapFlag negate;
+  double occupied_thresh = 0;
+  double free_thresh = 0;
+  MapMode mode = MapMode::kTrinary;
+};
+
+}  // namespace
+
+template <>
+struct Codec<MapFlag> {
+  static void read(const ReadContext& context, const RawNode& node, MapFlag& value) {
+    const auto number = node.as_int();
+    if (const auto flag = node.as_bool()) {
+      value.on = *flag;
+    } else if (number == 0 || number == 1) {
+      value.on = *number == 1;
+    } else {
+      context.wrong(node, expectation(context.options));
+    }
+  }
+  static RawNode write(const MapFlag& value) { return RawNode::integer(value.on ? 1 : 0); }
+  static RawNode schema(const FieldOptions&) { return RawNode::mapping(); }
+  static std::string expectation(const FieldOptions&) { return "0, 1, false or true"; }
+};
+
+namespace {
+
+template <class V>
+void describe(V& v, MapFile& c) {
+  v.required("image", c.image, {.min_items = 1, .max_items = 4096});
+  v.required("resolution", c.resolution_m,
+             {.min = 0, .exclusive_min = true, .max = 1000, .unit = "m"});
+  v.required("origin", c.origin, {.min = -1e7, .max = 1e7});
+  v.required("negate", c.negate);
+  v.required("occupied_thresh", c.occupied_thresh, {.min = 0, .max = 1});
+  v.required("free_thresh", c.free_thresh, {.min = 0, .max = 1});
+  v.field("mode", c.mode);
+}
+
+void validate(const MapFile& c, CheckContext& check) {
+  if (c.free_thresh > c.occupied_thresh) {
+    check.error("free_thresh", "`free_thresh`: found {}, expected at most `occupied_thresh` ({})",
+                c.free_thresh, c.occupied_thresh);
+  }
+}
+
+/// Source: http://wiki.ros.org/map_server, "Value Interpretation".
+CellState state_of(std::uint8_t shade, bool opaque, const MapFile& file) {
+  double p = file.negate.on ? shade / 255.0 : (255 - shade) / 255.0;
+  if (file.mode == MapMode::kScale && !opaque) return CellState::kUnknown;
+  if (file.mode == MapMode::kRaw) {
+    if (shade > 100) return CellState::kUnknown;
+    p = shade / 100.0;
+  }
+  if (p > file.occupied_thresh) return CellState::kOccupied;
+  return p < file.free_thresh ? CellState::kFree : CellState::kUnknown;
+}
+
+}  // namespace
+
+Result<GreyImage> decode_image(std::string_view bytes, std::string_view file_name) {
+  if (bytes.starts_with("\x89PNG")) return decode_png(bytes, file_name);
+  if (bytes.starts_with("P2") || bytes.starts_with("P5")) return decode_pgm(bytes, file_name);
+  if (bytes.empty()) return fail(ErrorCode::kParse, "`{}`: the image file is empty", file_name);
+  return fail(ErrorCode::kParse, "`{}`: neither a PGM (P2, P5) nor a PNG image", file_name);
+}
+
+Result<MapImage> read_map(const std::filesystem::path& yaml_path) {
+  RAVE_TRY_ASSIGN(const std::string yaml, rave::read_file(yaml_path, kMaxFileBytes));
+  return read_map_text(yaml, yaml_path);
+}
+
+Result<MapImage> read_map_text(std::string_view yaml, const std::filesystem::path& yaml_path) {
+  constexpr std::size_t kMaxImageBytes = std::size_t{512} << 20;
+  RAVE_TRY_ASSIGN(const MapFile file, read_text<MapFile>(yaml, yaml_path.string()));
+  const std::filesystem::path path = yaml_path.parent_path() / file.image.value;
+  const auto decode = [&path]() -> Result<GreyImage> {
+    // Reading a pipe or a terminal would wait for ever.
+    std::error_code ignored;
+    if (std::filesystem::exists(path, ignored) &&
+        !std::filesystem::is_regular_file(path, ignored)) {
+      return fail(ErrorCode::kIo, "cannot read `{}`: it is not a regular file", path.string());
+    }
+    RAVE_TRY_ASSIGN(const std::string bytes, rave::read_file(path, kMaxImageBytes));
+    return decode_image(bytes, path.string());
+  };
+  Result<GreyImage> image = decode();
+  if (!image) {
+    Error error = std::move(image).error();
+    error.where = file.image.where;
+    return tl::unexpected<Error>(std::move(error));
+  }
+  MapImage map;
+  map.width = image->width;
+  map.height = image->height;
+  map.resolution_m = file.resolution_m;
+  map.origin_x_m = file.origin[0];
+  map.origin_y_m = file.origin[1];
+  map.origin_yaw_rad = file.origin[2];
+  map.cells.reserve(image->shade.size());
+  for (std::size_t i = 0; i < image->shade.size(); ++i) {
+    map.cells.push_back(state_of(image->shade[i], image->opaque[i] != 0, file));
+  }
+  return map;
+}
+
+}  // namespace rave::config

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/config/raw_node.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <limits>
+#include <utility>
+
+#include "numbers.hpp"
+#include "rave/base/check.hpp"
+
+namespace rave::config {
+namespace {
+
+/// from_chars knows no leading plus sign.
+std::string_view without_plus(std::string_view text) {
+  return text.starts_with('+') ? text.substr(1) : text;
+}
+
+template <class T>
+std::optional<T> parse_number(std::string_view text) {
+  const std::string_view digits = without_plus(text);
+  T value{};
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error != std::errc{} || end != digits.data() + digits.size()) return std::nullopt;
+  return value;
+}
+
+/// At most 40 bytes on one line, cut between characters.
+std::string excerpt(std::string_view text) {
+  constexpr std::size_t kMaxBytes = 40;
+  std::string part(text.substr(0, kMaxBytes));
+  if (text.size() > kMaxBytes) {
+    std::size_t cut = kMaxBytes;
+    while (cut > 0 && (static_cast<unsigned char>(text[cut]) & 0xC0U) == 0x80U) --cut;
+    part.resize(cut);
+    part += "...";
+  }
+  for (char& c : part) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
+  }
+  return part;
+}
+
+}  // namespace
+
+RawNode RawNode::text(std::string value) {
+  RawNode node = plain(std::move(value));
+  node.kind_ = Kind::kScalar;
+  node.quoted_ = true;
+  return node;
+}
+
+RawNode RawNode::plain(std::string value) {
+  RawNode node;
+  node.kind_ = plain_type(value) == PlainType::kNull ? Kind::kNull : Kind::kScalar;
+  node.scalar_ = std::move(value);
+  return node;
+}
+
+RawNode RawNode::boolean(bool value) { return plain(value ? "true" : "false"); }
+RawNode RawNode::integer(std::int64_t value) { return plain(fmt::format("{}", value)); }
+RawNode RawNode::unsigned_integer(std::uint64_t value) { return plain(fmt::format("{}", value)); }
+RawNode RawNode::number(double value) { return plain(number_text(value)); }
+
+RawNode RawNode::sequence() {
+  RawNode node;
+  node.kind_ = Kind::kSequence;
+  return node;
+}
+
+RawNode RawNode::mapping() {
+  RawNode node;
+  node.kind_ = Kind::kMapping;
+  return node;
+}
+
+bool RawNode::is_text() const noexcept {
+  return is_scalar() && (quoted_ || plain_type(scalar_) == PlainType::kText);
+}
+
+bool RawNode::is_whole_number() const noexcept {
+  return is_scalar() && !quoted_ && plain_type(scalar_) == PlainType::kWhole;
+}
+
+std::optional<bool> RawNode::as_bool() const {
+  if (!is_scalar() || quoted_ || plain_type(scalar_) != PlainType::kBool) return std::nullopt;
+  return scalar_ == "true";
+}
+
+std::optional<std::int64_t> RawNode::as_int() const {
+  return is_whole_number() ? parse_number<std::int64_t>(scalar_) : std::nullopt;
+}
+
+std::optional<std::uint64_t> RawNode::as_uint() const {
+  return is_whole_number() ? parse_number<std::uint64_t>(scalar_) : std::nullopt;
+}
+
+std::optional<double> RawNode::as_double() const {
+  if (!is_scalar() || quoted_) return std::nullopt;
+  switch (plain_type(scalar_)) {
+    case PlainType::kWhole:
+    case PlainType::kReal:
+      return parse_number<double>(scalar_);
+    case PlainType::kInfinite:
+      return scalar_[0] == '-' ? -std::numeric_limits<double>::infinity()
+                               : std::numeric_limits<double>::infinity();
+    case PlainType::kNan:
+      return std::numeric_limits<double>::quiet_NaN();
+    default:
+      return std::nullopt;
+  }
+}
+
+std::optional<std::string> RawNode::as_text() const {
+  return is_text() ? std::optional(scalar_) : std::nullopt;
+}
+
+SourceLocation RawNode::where() const { return {file_ ? *file_ : std::string{}, line_, column_}; }
+
+SourceLocation RawNode::key_where(std::size_t i) const {
+  return {file_ ? *file_ : std::string{}, keys_[i].line, keys_[i].column};
+}
+
+std::vector<std::string_view> RawNode::keys() const {
+  std::vector<std::string_view> names;
+  names.reserve(keys_.size());
+  for (const Key& key : keys_) names.push_back(key.name);
+  return names;
+}
+
+const RawNode* RawNode::find(std::string_view key) const noexcept {
+  for (std::size_t i = 0; i < keys_.size(); ++i) {
+    if (keys_[i].name == key) return &children_[i];
+  }
+  return nullptr;
+}
+
+std::string RawNode::found_text() const {
+  switch (kind_) {
+    case Kind::kNull:
+      return "nothing";
+    case Kind::kSequence:
+      return "a list";
+    case Kind::kMapping:
+      return "a mapping";
+    case Kind::kScalar:
+      break;
+  }
+  if (is_text()) return fmt::format("the text \"{}\"", excerpt(scalar_));
+  return as_bool() ? scalar_ : fmt::format("the number {}", excerpt(scalar_));
+}
+
+void RawNode::push_back(RawNode item) {
+  RAVE_CHECK(is_sequence());
+  children_.push_back(std::move(item));
+}
+
+void RawNode::append(std::string key, RawNode value, std::string comment) {
+  RAVE_CHECK(is_mapping());
+  keys_.push_back(Key{std::move(key), std::move(comment), 0, 0});
+  children_.push_back(std::move(value));
+}
+
+void RawNode::set(std::string_view key, RawNode value) {
+  for (std::size_t i = 0; i < keys_.size(); ++i) {
+    if (keys_[i].name == key) {
+      children_[i] = std::move(value);
+      return;
+    }
+  }
+  append(std::string(key), std::move(value));
+}
+
+bool RawNode::erase(std::string_view key) {
+  for (std::size_t i = 0; i < keys_.size(); ++i) {
+    if (keys_[i].name != key) continue;
+    keys_.erase(keys_.begin() + static_cast<std::ptrdiff_t>(i));
+    children_.erase(children_.begin() + static_cast<std::ptrdiff_t>(i));
+    return true;
+  }
+  return false;
+}
+
+void RawNode::set_where(std::shared_ptr<const std::string> file, int line, int column) {
+  file_ = std::move(file);
+  line_ = line;
+  column_ = column;
+}
+
+void RawNode::set_key_where(std::size_t i, int line, int column) {
+  keys_[i].line = line;
+  keys_[i].column = column;
+}
+
+bool operator==(const RawNode& a, const RawNode& b) {
+  if (a.kind_ != b.kind_ || a.children_.size() != b.children_.size()) return false;
+  if (a.is_scalar() && (a.scalar_ != b.scalar_ || a.is_text() != b.is_text())) return false;
+  for (std::size_t i = 0; i < a.keys_.size(); ++i) {
+    if (a.keys_[i].name != b.keys_[i].name) return false;
+  }
+  return a.children_ == b.children_;
+}
+
+}  // namespace rave::config

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "pen.hpp"
+
+namespace rave::report {
+
+/// Title and subtitle, and the lines below the legend: how high they are and how they are drawn.
+[[nodiscard]] double height_of_head(Pen& pen, const Picture& picture, double width);
+[[nodiscard]] double height_of_caption(Pen& pen, const Picture& picture, double width);
+
+/// The whole page, on white.
+void draw_page(Pen& pen, const Picture& picture, const Layout& layout);
+
+}  // namespace rave::report

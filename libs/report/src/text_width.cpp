@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text_width.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+namespace rave::report {
+namespace {
+
+struct CodePoint {
+  std::uint32_t value = 0;
+  std::size_t bytes = 1;
+  bool valid = false;
+};
+
+struct Range {
+  std::uint32_t first;
+  std::uint32_t last;
+};
+
+/// The code point at the start of `text`, which is not empty.
+CodePoint decode(std::string_view text) noexcept {
+  const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
+  const std::uint8_t lead = byte(0);
+  if (lead < 0x80) return {lead, 1, true};
+  const std::size_t bytes = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
+  if (lead < 0xC2 || lead > 0xF4 || text.size() < bytes) return {lead, 1, false};
+  std::uint32_t value = lead & (0xFFU >> (bytes + 1));
+  for (std::size_t i = 1; i < bytes; ++i) {
+    if ((byte(i) & 0xC0U) != 0x80U) return {lead, 1, false};
+    value = (value << 6U) | (byte(i) & 0x3FU);
+  }
+  static constexpr std::array<std::uint32_t, 5> kLeast = {0, 0, 0x80, 0x800, 0x10000};
+  const bool valid =
+      value >= kLeast[bytes] && value <= 0x10FFFF && !(value >= 0xD800 && value <= 0xDFFF);
+  return valid ? CodePoint{value, bytes, true} : CodePoint{lead, 1, false};
+}
+
+/// The blocks that terminals draw over the preceding character, or not at all.
+constexpr std::array kZeroWidth = {Range{0x0300, 0x036F}, Range{0x200B, 0x200F},
+                                   Range{0x20D0, 0x20FF}, Range{0xFE00, 0xFE0F},
+                                   Range{0xFE20, 0xFE2F}, Range{0xFEFF, 0xFEFF}};
+/// The blocks whose East Asian width is W or F (Unicode Annex 11), to block precision.
+constexpr std::array kWide = {
+    Range{0x1100, 0x115F},   Range{0x2E80, 0x303E},   Range{0x3041, 0xA4CF},
+    Range{0xAC00, 0xD7A3},   Range{0xF900, 0xFAFF},   Range{0xFE30, 0xFE6F},
+    Range{0xFF00, 0xFF60},   Range{0xFFE0, 0xFFE6},   Range{0x1F300, 0x1F64F},
+    Range{0x1F680, 0x1F6FF}, Range{0x1F900, 0x1F9FF}, Range{0x20000, 0x3FFFD}};
+
+std::size_t columns_of(CodePoint point) noexcept {
+  const auto in = [&](const Range& range) {
+    return point.value >= range.first && point.value <= range.last;
+  };
+  if (!point.valid) return 1;
+  if (point.value < 0x20 || (point.value >= 0x7F && point.value < 0xA0)) return 0;
+  if (std::any_of(kZeroWidth.begin(), kZeroWidth.end(), in)) return 0;
+  return std::any_of(kWide.begin(), kWide.end(), in) ? 2 : 1;
+}
+
+}  // namespace
+
+bool is_utf8(std::string_view text) noexcept {
+  while (!text.empty()) {
+    const CodePoint point = decode(text);
+    if (!point.valid) return false;
+    text.remove_prefix(point.bytes);
+  }
+  return true;
+}
+
+std::size_t columns_of(std::string_view text) noexcept {
+  std::size_t columns = 0;
+  while (!text.empty()) {
+    const CodePoint point = decode(text);
+    columns += columns_of(point);
+    text.remove_prefix(point.bytes);
+  }
+  return columns;
+}
+
+std::string clip_to_columns(std::string_view text, std::size_t columns) {
+  if (columns_of(text) <= columns) return std::string(text);
+  if (columns == 0) return {};
+  std::size_t used = 0;
+  std::size_t bytes = 0;
+  while (bytes < text.size()) {
+    const CodePoint point = decode(text.substr(bytes));
+    if (used + columns_of(point) > columns - 1) break;
+    used += columns_of(point);
+    bytes += point.bytes;
+  }
+  return std::string(text.substr(0, bytes)) + "…";
+}
+
+}  // namespace rave::report

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/sim/engine.hpp"
+
+#include <algorithm>
+
+#include "engine_impl.hpp"
+#include "rave/base/check.hpp"
+#include "rave/math/transform.hpp"
+
+namespace rave::sim {
+namespace {
+
+/// Robots that one thread takes at a time. Part of no result; the buffers in the phases rely on it.
+constexpr std::uint32_t kBlockSize = 64;
+
+Status check(const EngineSpec& spec) {
+  RAVE_CHECK(spec.robots.size() == spec.world.robots.size());
+  if (spec.step.ns <= 0) return fail(ErrorCode::kInvalidArgument, "the step must be above 0 s");
+  for (const RobotSpec& robot : spec.robots) {
+    const RobotType& type = spec.types[robot.type];
+    if (!type.simulated && !type.pose_from) {
+      return fail(ErrorCode::kInvalidArgument,
+                  "robot `{}` is real, so something must say where it is: `pose_from`", robot.name);
+    }
+    for (const SensorSpec& sensor : type.sensors) {
+      RAVE_CHECK((sensor.virtual_ops == nullptr) != (sensor.hardware_ops == nullptr));
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string_view to_string(EventKind kind) noexcept {
+  switch (kind) {
+    case EventKind::kContact:
+      return "contact";
+    case EventKind::kPinned:
+      return "pinned";
+    case EventKind::kPoseStale:
+      return "pose stale";
+    case EventKind::kPoseBack:
+      return "pose back";
+    case EventKind::kProgramFailed:
+      return "program failed";
+    case EventKind::kDriverFailed:
+      return "driver failed";
+  }
+  return "unknown";
+}
+
+Engine::Impl::Impl(EngineSpec s)
+    : spec(std::move(s)),
+      pool(spec.threads),
+      workers(pool.threads()),
+      resolver(spec.world),
+      snapshot(spec.world),
+      past(spec.world) {}
+
+Engine::Impl::~Impl() {
+  for (RobotGroup& group : groups) close_group(group);
+}
+
+Status Engine::Impl::make() {
+  const std::size_t count = spec.robots.size();
+  logs.resize(count);
+  group_index.resize(count);
+  member_index.resize(count);
+  std::vector<std::uint32_t> group_of_type(spec.types.size(), RobotId::kNone);
+  for (std::uint32_t r = 0; r < count; ++r) {
+    logs[r] = {spec.log, fmt::format("robot {}", spec.robots[r].name)};
+    std::uint32_t& index = group_of_type[spec.robots[r].type];
+    if (index == RobotId::kNone) {
+      index = static_cast<std::uint32_t>(groups.size());
+      groups.emplace_back().type = &spec.types[spec.robots[r].type];
+    }
+    group_index[r] = index;
+    member_index[r] = static_cast<std::uint32_t>(groups[index].members.size());
+    groups[index].members.emplace_back(r);
+  }
+  for (std::uint32_t g = 0; g < groups.size(); ++g) {
+    RAVE_TRY(make_group({spec, logs}, groups[g]));
+    const auto size = static_cast<std::uint32_t>(groups[g].members.size());
+    for (std::uint32_t begin = 0; begin < size; begin += kBlockSize) {
+      blocks.push_back({g, begin, std::min(begin + kBlockSize, size)});
+    }
+  }
+  set_initial_state();
+  return {};
+}
+
+Status Engine::Impl::reset() {
+  for (RobotGroup& group : groups) RAVE_TRY(reset_group({spec, logs}, group));
+  set_initial_state();
+  return {};
+}
+
+void Engine::Impl::set_initial_state() {
+  const std::size_t count = spec.robots.size();
+  step = 0;
+  now = {};
+  slack_m = 0;
+  hash = RunHash();
+  events.clear();
+  notes.clear();
+  history.clear();
+  movers.resize(count);
+  velocity.assign(count, Twist2{});
+  proposal.assign(count, Twist2{});
+  limited.assign(count, 0);
+  touch.assign(count, TouchState{});
+  touching_before.assign(count, 0);
+  pinned_before.assign(count, 0);
+  reported.assign(count, ReportedPose{});
+  const Duration keep = std::max(spec.history, from_seconds(1.0));
+  tracks.assign(count, PoseTrack(keep));
+  for (std::uint32_t r = 0; r < count; ++r) {
+    const RobotType& type = spec.types[spec.robots[r].type];
+    movers[r] = {spec.robots[r].X_WR, type.simulated, type.simulated};
+    snapshot.set_robot(RobotId(r), {movers[r].X_WR, {}, movers[r].present});
+    snapshot.set_touch(RobotId(r), {});
+    if (!type.simulated || !type.pose_from) continue;
+    // Until its pose source speaks, a simulated robot is told where it was put.
+    const Pose2& X_WR = movers[r].X_WR;
+    reported[r] = {{X_WR.x, X_WR.y, X_WR.yaw, 0, 0}, {}, {}, true, false};
+  }
+  snapshot.set_time(now);
+  snapshot.rebuild();
+}
+
+Engine::Engine(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Engine::~Engine() = default;
+
+Result<std::unique_ptr<Engine>> Engine::create(EngineSpec spec) {
+  RAVE_TRY(check(spec));
+  auto impl = std::make_unique<Impl>(std::move(spec));
+  RAVE_TRY(impl->make());
+  return std::unique_ptr<Engine>(new Engine(std::move(impl)));
+}
+
+Status Engine::step() {
+  Impl& engine = *impl_;
+  engine.now = engine.step_time(engine.step);
+  engine.events.clear();
+  RAVE_TRY(engine.ingest());
+  engine.sense();
+  engine.decide();
+  engine.act();
+  engine.resolve();
+  engine.publish();
+  ++engine.step;
+  return {};
+}
+
+Status Engine::reset() { return impl_->reset(); }
+
+const EngineSpec& Engine::spec() const noexcept { return impl_->spec; }
+std::uint64_t Engine::steps_done() const noexcept { return impl_->step; }
+SimTime Engine::time() const noexcept { return impl_->now; }
+const world::Snapshot& Engine::snapshot() const noexcept { return impl_->snapshot; }
+const ReportedPose& Engine::reported(RobotId robot) const noexcept {
+  return impl_->reported[robot.value()];
+}
+Pose2 Engine::true_pose(RobotId robot) const noexcept { return impl_->movers[robot.value()].X_WR; }
+std::span<const Event> Engine::events() const noexcept { return impl_->events; }
+RunHash Engine::hash() const noexcept { return impl_->hash; }
+
+SensorSample Engine::sensor(RobotId robot, std::uint32_t index) const noexcept {
+  const RobotGroup& group = impl_->group_of(robot);
+  const SensorSlots& slots = group.sensors[index];
+  const std::size_t m = impl_->member_index[robot.value()];
+  SensorSample sample{
+      &slots.info, &slots.headers[m], slots.records.data() + std::size_t{slots.stride} * m, {}};
+  if (slots.uses_fan) {
+    sample.bodies =
+        std::span(slots.bodies).subspan(std::size_t{slots.capacity} * m, slots.capacity);
+  }
+  return sample;
+}
+
+Command Engine::command(RobotId robot, std::uint32_t controller) const noexcept {
+  return impl_->group_of(robot).controllers[controller].last[impl_->member_index[robot.value()]];
+}
+
+std::uint64_t Engine::commands_given(RobotId robot) const noexcept {
+  return impl_->group_of(robot).program.given[impl_->member_index[robot.value()]];
+}
+
+bool Engine::obeys(RobotId robot) const noexcept {
+  const std::size_t m = impl_->member_index[robot.value()];
+  const auto& actuators = impl_->group_of(robot).actuators;
+  return !actuators.empty() && std::all_of(actuators.begin(), actuators.end(),
+                                           [&](const auto& slots) { return slots.obeys[m] != 0; });
+}
+
+bool Engine::program_alive(RobotId robot) const noexcept {
+  const RobotGroup& group = impl_->group_of(robot);
+  return group.program.spec != nullptr &&
+         group.program.failed[impl_->member_index[robot.value()]] == 0;
+}
+
+std::string Engine::sensor_report(RobotId robot, std::uint32_t index) const {
+  const SensorSlots& slots = impl_->group_of(robot).sensors[index];
+  if (slots.is_virtual()) return "{}";
+  std::string text;
+  slots.spec->hardware_ops->report(slots.instances.at(impl_->member_index[robot.value()]), &text,
+                                   [](void* context, const char* part, std::uint64_t size) {
+                                     static_cast<std::string*>(context)->append(part, size);
+                                   });
+  return text;
+}
+
+void Engine::flip_percept_bit(RobotId robot, std::uint32_t sensor) noexcept {
+  RobotGroup& group = impl_->groups[impl_->group_index[robot.value()]];
+  group.sensors[sensor].flip[impl_->member_index[robot.value()]] = 1;
+}
+
+Result<Pose2> Engine::pose_at(RobotId robot, SimTime stamp) const {
+  const Impl& engine = *impl_;
+  const std::uint32_t r = robot.value();
+  std::optional<Pose2> pose;
+  if (!engine.movers[r].simulated) {
+    pose = engine.tracks[r].at(stamp);
+  } else if (!engine.history.empty() && stamp >= engine.history.front().time &&
+             stamp <= engine.history.back().time) {
+    std::size_t i = engine.history.size() - 1;
+    while (i > 0 && engine.history[i].time > stamp) --i;
+    const HistoryFrame& a = engine.history[i];
+    pose = a.robots[r].X_WR;
+    if (i + 1 < engine.history.size()) {
+      const HistoryFrame& b = engine.history[i + 1];
+      const double s =
+          static_cast<double>((stamp - a.time).ns) / static_cast<double>((b.time - a.time).ns);
+      pose = interpolate(a.robots[r].X_WR, b.robots[r].X_WR, s);
+    }
+  }
+  if (pose) return *pose;
+  return fail(ErrorCode::kInvalidArgument, "robot `{}` has no pose at {:.3f} s in the history",
+              engine.spec.robots[r].name, stamp.seconds());
+}
+
+Result<SampleHeader> Engine::sample_at(RobotId robot, std::uint32_t sensor, SimTime stamp,
+                                       void* records) {
+  Impl& engine = *impl_;
+  RobotGroup& group = engine.groups[engine.group_index[robot.value()]];
+  SensorSlots& slots = group.sensors[sensor];
+  if (!slots.is_virtual()) {
+    return fail(ErrorCode::kInvalidArgument, "sensor `{}` is not virtual", slots.spec->name);
+  }
+  if (engine.past.time() != stamp || stamp.ns == 0) {
+    for (std::uint32_t r = 0; r < engine.movers.size(); ++r) {
+      const auto pose = pose_at(RobotId(r), stamp);
+      engine.past.set_robot(RobotId(r), {pose.value_or(Pose2{}), {}, pose.has_value()});
+    }
+    engine.past.set_time(stamp);
+    engine.past.rebuild();
+  }
+  RAVE_TRY_ASSIGN(const Pose2 X_WR, pose_at(robot, stamp));
+  const Pose2 X_WS = compose(X_WR, slots.spec->X_RS);
+  SampleHeader header;
+  header.stamp_ns = stamp.ns;
+  if (slots.uses_fan) {
+    std::vector<std::uint32_t> bodies(slots.capacity);
+    cast_fan(engine.past, slots.fan, X_WS, slots.spec->z_m, engine.past.body_of(robot),
+             engine.past_scratch, {static_cast<float*>(records), slots.capacity}, bodies);
+    header.count = slots.capacity;
+    return header;
+  }
+  std::vector<std::byte> state(slots.spec->virtual_ops->state_size);
+  SampleItem item;
+  item.robot = robot;
+  item.device = sensor;
+  item.seed = engine.spec.seed;
+  item.capacity = slots.capacity;
+  item.X_WR = X_WR;
+  item.X_WS = X_WS;
+  item.z_m = slots.spec->z_m;
+  item.header = &header;
+  item.records = records;
+  item.state = state.data();
+  std::uint8_t failed = 0;
+  ErrorText error;
+  slots.spec->virtual_ops->sample(slots.instances.at(0), &engine.past, &item, 1, &failed, &error);
+  if (failed != 0) return fail(ErrorCode::kPlugin, "{}", error.text);
+  header.count = std::min(header.count, slots.capacity);
+  return header;
+}
+
+}  // namespace rave::sim

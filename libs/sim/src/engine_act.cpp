@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "engine_impl.hpp"
+#include "rave/math/transform.hpp"
+
+namespace rave::sim {
+
+void Engine::Impl::act() {
+  pool.for_each_block(blocks.size(),
+                      [this](std::size_t b, unsigned w) { act_block(blocks[b], workers[w]); });
+  // Hardware is written to from one thread, in the order of the robots.
+  for (RobotGroup& group : groups) {
+    for (ActuatorSlots& slots : group.actuators) {
+      if (slots.spec->hardware_ops == nullptr) continue;
+      for (std::size_t m = 0; m < group.members.size(); ++m) {
+        if (slots.failed[m] != 0 || slots.commands[m].kind == CommandKind::kNone) continue;
+        ErrorText error;
+        if (slots.spec->hardware_ops->write(slots.instances.at(m), &slots.commands[m], now.ns,
+                                            &error) == 0) {
+          continue;
+        }
+        slots.failed[m] = 1;
+        note({step, group.members[m], EventKind::kDriverFailed, BodyId(),
+              fmt::format("actuator `{}`: {}", slots.spec->name, error.text)});
+      }
+    }
+  }
+}
+
+void Engine::Impl::act_block(const Block& block, Worker& worker) {
+  RobotGroup& group = groups[block.group];
+  control(group, block, worker);
+  actuate(group, block, worker);
+}
+
+void Engine::Impl::control(RobotGroup& group, const Block& block, Worker& worker) {
+  for (ControllerSlots& slots : group.controllers) {
+    for (std::uint32_t m = block.begin; m < block.end; ++m) {
+      const ReportedPose& pose = reported[group.members[m].value()];
+      ControlInput& input = slots.inputs[m];
+      input.command = slots.last[m];
+      input.command_age_s =
+          slots.last_step[m] < 0
+              ? 0
+              : (Duration{spec.step.ns * (static_cast<std::int64_t>(step) - slots.last_step[m])})
+                    .seconds();
+      input.pose = pose.pose;
+      input.velocity = pose.velocity;
+      input.dt_s = spec.step.seconds();
+    }
+    std::uint8_t failed_before[64];
+    std::copy(slots.failed.begin() + block.begin, slots.failed.begin() + block.end, failed_before);
+    ErrorText error;
+    slots.spec->ops->control(slots.instances.at(block.begin), slots.instances.stride(),
+                             slots.inputs.data() + block.begin, slots.outputs.data() + block.begin,
+                             block.end - block.begin, slots.failed.data() + block.begin, &error);
+    for (std::uint32_t m = block.begin; m < block.end; ++m) {
+      if (slots.failed[m] == 0) continue;
+      slots.outputs[m] = {slots.spec->ops->gives, 0, {}};
+      if (failed_before[m - block.begin] != 0) continue;
+      worker.events.push_back({step, group.members[m], EventKind::kDriverFailed, BodyId(),
+                               fmt::format("controller `{}`: {}", slots.spec->name, error.text)});
+    }
+  }
+}
+
+void Engine::Impl::actuate(RobotGroup& group, const Block& block, Worker& worker) {
+  for (std::uint32_t a = 0; a < group.actuators.size(); ++a) {
+    ActuatorSlots& slots = group.actuators[a];
+    for (std::uint32_t m = block.begin; m < block.end; ++m) {
+      // The controller that was given a command last speaks; before that, the first one.
+      const ControllerSlots* active = nullptr;
+      for (const ControllerSlots& controller : group.controllers) {
+        if (controller.spec->actuator != a) continue;
+        if (active == nullptr || controller.last_step[m] > active->last_step[m]) {
+          active = &controller;
+        }
+      }
+      slots.commands[m] = active != nullptr ? active->outputs[m] : Command{};
+      if (slots.spec->virtual_ops == nullptr) continue;
+      const std::uint32_t r = group.members[m].value();
+      slots.inputs[m] = {slots.commands[m],
+                         velocity[r],
+                         spec.step.seconds(),
+                         spec.seed,
+                         r,
+                         a | 0x4000'0000U,
+                         static_cast<std::uint32_t>(step),
+                         limited[r]};
+    }
+    if (slots.spec->virtual_ops == nullptr) continue;
+    ErrorText error;
+    std::uint8_t failed_before[64];
+    std::copy(slots.failed.begin() + block.begin, slots.failed.begin() + block.end, failed_before);
+    slots.spec->virtual_ops->propose(slots.instances.at(block.begin), slots.instances.stride(),
+                                     slots.inputs.data() + block.begin,
+                                     slots.outputs.data() + block.begin, block.end - block.begin,
+                                     slots.failed.data() + block.begin, &error);
+    for (std::uint32_t m = block.begin; m < block.end; ++m) {
+      Twist2 twist = slots.outputs[m];
+      std::string_view problem = error.text;
+      if (slots.failed[m] == 0 &&
+          !(std::isfinite(twist.vx) && std::isfinite(twist.vy) && std::isfinite(twist.wz))) {
+        slots.failed[m] = 1;
+        problem = "proposed a velocity that is not a number";
+      }
+      if (slots.failed[m] != 0) {
+        twist = {};
+        if (failed_before[m - block.begin] == 0) {
+          worker.events.push_back({step, group.members[m], EventKind::kDriverFailed, BodyId(),
+                                   fmt::format("actuator `{}`: {}", slots.spec->name, problem)});
+        }
+      }
+      proposal[group.members[m].value()] = twist;
+    }
+  }
+}
+
+void Engine::Impl::resolve() {
+  const double dt_s = spec.step.seconds();
+  slack_m = 0;
+  for (std::uint32_t r = 0; r < movers.size(); ++r) {
+    if (!movers[r].simulated) continue;
+    const Twist2& twist = proposal[r];
+    slack_m = std::max(slack_m, std::sqrt(twist.vx * twist.vx + twist.vy * twist.vy) * dt_s);
+  }
+  notes.clear();
+  for (std::uint32_t r = 0; r < movers.size(); ++r) {
+    if (!movers[r].simulated) continue;
+    touch[r] = {};
+    const Pose2 X_before = movers[r].X_WR;
+    const Twist2& twist = proposal[r];
+    if (twist == Twist2{}) {
+      velocity[r] = {};
+      limited[r] = 0;
+      continue;
+    }
+    const Pose2 X_wanted = integrate(X_before, twist, dt_s);
+    const std::size_t first = notes.size();
+    resolver.move(r, {X_wanted.x - X_before.x, X_wanted.y - X_before.y, twist.wz * dt_s}, snapshot,
+                  slack_m, movers, notes);
+    limited[r] = notes.size() > first ? 1 : 0;
+    if (limited[r] == 0) {
+      movers[r].X_WR = X_wanted;
+      velocity[r] = twist;
+    } else {
+      movers[r].X_WR.yaw = wrap_angle(movers[r].X_WR.yaw);
+      velocity[r] = twist_between(X_before, movers[r].X_WR, dt_s);
+    }
+  }
+  for (const ContactNote& contact : notes) {
+    touch[contact.robot] = {true, contact.direction_W};
+    const auto obstacles = static_cast<std::uint32_t>(spec.world.obstacles.size());
+    if (contact.other.value() < obstacles) continue;
+    const std::uint32_t other = contact.other.value() - obstacles;
+    if (movers[other].simulated) touch[other] = {true, -contact.direction_W};
+  }
+  for (const ContactNote& contact : notes) {
+    if (touching_before[contact.robot] != 0) continue;
+    touching_before[contact.robot] = 1;
+    note({step, RobotId(contact.robot), EventKind::kContact, contact.other, ""});
+  }
+}
+
+void Engine::Impl::publish() {
+  for (Worker& worker : workers) {
+    hash.merge(worker.hash);
+    worker.hash = RunHash();
+    for (Event& event : worker.events) events.push_back(std::move(event));
+    worker.events.clear();
+  }
+  // Which thread noted an event is chance; its robot, kind and text are not.
+  std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) {
+    return std::tie(a.robot, a.kind, a.other, a.text) < std::tie(b.robot, b.kind, b.other, b.text);
+  });
+  for (const Event& event : events) {
+    ItemHash item(step, event.robot.value(), HashChannel::kEvent,
+                  static_cast<std::uint32_t>(event.kind));
+    item.add(std::uint64_t{event.other.value()});
+    hash.add(item);
+  }
+  for (std::uint32_t r = 0; r < movers.size(); ++r) {
+    if (!movers[r].present) continue;
+    ItemHash item(step, r, HashChannel::kPose, 0);
+    item.add(movers[r].X_WR.x);
+    item.add(movers[r].X_WR.y);
+    item.add(movers[r].X_WR.yaw);
+    item.add(velocity[r].vx);
+    item.add(velocity[r].vy);
+    item.add(velocity[r].wz);
+    item.add(std::uint64_t{touch[r].touching});
+    hash.add(item);
+  }
+}
+
+}  // namespace rave::sim

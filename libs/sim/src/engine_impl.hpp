@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "pose_track.hpp"
+#include "rave/sim/engine.hpp"
+#include "rave/sim/thread_pool.hpp"
+#include "resolver.hpp"
+#include "robot_group.hpp"
+
+namespace rave::sim {
+
+/// Members [begin, end) of a group: what one thread does at a time. Fixed once, so that results do
+/// not depend on how many threads there are.
+struct Block {
+  std::uint32_t group = 0;
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+};
+
+/// What each thread has of its own during a phase.
+struct Worker {
+  FanScratch fan;
+  RunHash hash;
+  std::vector<Event> events;
+};
+
+/// The world at the end of one past step, for looking back.
+struct HistoryFrame {
+  SimTime time;
+  std::vector<world::RobotState> robots;
+};
+
+/// The state of an engine. The phases are its functions, each in a file of its own.
+struct Engine::Impl {
+  explicit Impl(EngineSpec s);
+  ~Impl();
+
+  Status make();
+  Status reset();
+  void set_initial_state();
+
+  // engine_ingest.cpp: samples of hardware, reported poses, the snapshot of this step
+  Status ingest();
+  Status ingest_sensor(RobotGroup& group, SensorSlots& slots, std::size_t member);
+  void accept_hardware_sample(RobotGroup& group, SensorSlots& slots, std::size_t member);
+  void note_reported_pose(RobotGroup& group, const SensorSlots& slots, std::size_t member,
+                          const SampleHeader& header, const std::byte* record);
+  void refresh_reported();
+  void make_way_for_real_robots();
+  void place_robots();
+  void remember();
+
+  // engine_sense.cpp: virtual sensors
+  void sense();
+  void sense_block(const Block& block, Worker& worker);
+  void sample_members(RobotGroup& group, SensorSlots& slots, std::uint32_t device,
+                      const Block& block, Worker& worker);
+  void deliver(RobotGroup& group, SensorSlots& slots, std::uint32_t device, std::size_t member,
+               Worker& worker);
+  void hash_delivery(const RobotGroup& group, SensorSlots& slots, std::uint32_t device,
+                     std::size_t member, RunHash& hash);
+
+  // engine_decide.cpp: programs
+  void decide();
+  void decide_block(const Block& block, Worker& worker);
+  void decide_isolated();
+  void accept_commands(RobotGroup& group, std::size_t member, RunHash& hash);
+  void fail_program(RobotGroup& group, std::size_t member, std::string_view text,
+                    std::vector<Event>& events);
+
+  // engine_act.cpp: controllers, actuators, the limits of motion
+  void act();
+  void act_block(const Block& block, Worker& worker);
+  void control(RobotGroup& group, const Block& block, Worker& worker);
+  void actuate(RobotGroup& group, const Block& block, Worker& worker);
+  void resolve();
+  void publish();
+
+  void note(Event event) { events.push_back(std::move(event)); }
+  [[nodiscard]] bool due(std::uint32_t period, std::uint32_t phase) const noexcept {
+    return step >= phase && (step - phase) % period == 0;
+  }
+  [[nodiscard]] SimTime step_time(std::uint64_t k) const noexcept {
+    return SimTime{static_cast<std::int64_t>(k) * spec.step.ns};
+  }
+  [[nodiscard]] const RobotGroup& group_of(RobotId robot) const noexcept {
+    return groups[group_index[robot.value()]];
+  }
+
+  EngineSpec spec;
+  std::vector<RobotLog> logs;
+  std::deque<RobotGroup> groups;  ///< Deque: groups never move, views into them stay valid.
+  std::vector<std::uint32_t> group_index;   ///< By robot.
+  std::vector<std::uint32_t> member_index;  ///< By robot.
+  std::vector<Block> blocks;
+  ThreadPool pool;
+  std::vector<Worker> workers;
+  Resolver resolver;
+
+  std::uint64_t step = 0;
+  SimTime now;
+  world::Snapshot snapshot;
+  world::Snapshot past;  ///< For sample_at().
+  std::deque<HistoryFrame> history;
+  std::vector<Mover> movers;     ///< True poses of simulated, reported poses of real robots.
+  std::vector<Twist2> velocity;  ///< Body frame, of the last step.
+  std::vector<Twist2> proposal;
+  std::vector<std::uint8_t> limited;  ///< The last motion was cut short.
+  std::vector<TouchState> touch;
+  std::vector<std::uint8_t> touching_before;
+  std::vector<std::uint8_t> pinned_before;
+  std::vector<ReportedPose> reported;
+  std::vector<PoseTrack> tracks;
+  std::vector<ContactNote> notes;
+  double slack_m = 0;  ///< How far robots may have moved since the snapshot.
+  std::vector<Event> events;
+  RunHash hash;
+  FanScratch past_scratch;
+};
+
+}  // namespace rave::sim

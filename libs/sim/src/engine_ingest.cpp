@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "engine_impl.hpp"
+#include "rave/math/transform.hpp"
+
+namespace rave::sim {
+namespace {
+
+/// Random numbers for the processing of hardware samples: the sequence number stands for the
+/// sample.
+RandomStream processing_stream(const EngineSpec& spec, RobotId robot, std::uint32_t device,
+                               std::uint32_t sequence) {
+  return {spec.seed, robot.value(), device | 0x8000'0000U, sequence};
+}
+
+}  // namespace
+
+Status Engine::Impl::ingest() {
+  for (RobotGroup& group : groups) {
+    for (SensorSlots& slots : group.sensors) {
+      if (slots.is_virtual()) continue;
+      for (std::size_t m = 0; m < group.members.size(); ++m) {
+        RAVE_TRY(ingest_sensor(group, slots, m));
+      }
+    }
+  }
+  refresh_reported();
+  make_way_for_real_robots();
+  place_robots();
+  remember();
+  return {};
+}
+
+Status Engine::Impl::ingest_sensor(RobotGroup& group, SensorSlots& slots, std::size_t member) {
+  SampleQueue& queue = *slots.queues[member];
+  const auto device = static_cast<std::uint32_t>(&slots - group.sensors.data());
+  const RobotId robot = group.members[member];
+  while (true) {
+    // Stepped drivers promise what is complete; a full queue must be emptied before they can.
+    const auto wait = slots.live || slots.failed[member] != 0
+                          ? SampleQueue::Wait::kComplete
+                          : queue.wait_complete(now, spec.host_timeout);
+    while (queue.next(now, &slots.raw_headers[member], slots.raw_records_of(member))) {
+      slots.raw_headers[member].sequence = ++slots.sequence[member];
+      accept_hardware_sample(group, slots, member);
+    }
+    if (wait == SampleQueue::Wait::kFull) continue;
+    if (wait == SampleQueue::Wait::kTimeout) {
+      return fail(ErrorCode::kTimeout,
+                  "robot `{}`, sensor `{}` (driver `{}`) has not said for {} ms what it has up to "
+                  "{:.3f} s; the run cannot go on",
+                  spec.robots[robot.value()].name, slots.spec->name, slots.spec->driver,
+                  spec.host_timeout.count(), now.seconds());
+    }
+    break;
+  }
+  if (slots.failed[member] == 0 && !queue.failure().empty()) {
+    slots.failed[member] = 1;
+    note({step, robot, EventKind::kDriverFailed, BodyId(),
+          fmt::format("sensor `{}`: {}", slots.spec->name, queue.failure())});
+  }
+  if (slots.processing) {
+    SampleHeader header = slots.headers[member];
+    if (slots.processing->deliver(now, slots.processing_state_of(member), &header,
+                                  slots.records_of(member))) {
+      header.fresh = 1;
+      slots.headers[member] = header;
+      hash_delivery(group, slots, device, member, hash);
+      note_reported_pose(group, slots, member, header, slots.records_of(member));
+    }
+  } else if (slots.headers[member].fresh == 2) {
+    slots.headers[member].fresh = 1;
+    hash_delivery(group, slots, device, member, hash);
+  }
+  return {};
+}
+
+void Engine::Impl::accept_hardware_sample(RobotGroup& group, SensorSlots& slots,
+                                          std::size_t member) {
+  const SampleHeader& raw = slots.raw_headers[member];
+  const auto device = static_cast<std::uint32_t>(&slots - group.sensors.data());
+  if (slots.processing) {
+    slots.processing->push(raw, slots.raw_records_of(member),
+                           processing_stream(spec, group.members[member], device, raw.sequence),
+                           slots.processing_state_of(member));
+    return;
+  }
+  SampleHeader& header = slots.headers[member];
+  const std::uint32_t size = record_size(slots.spec->kind);
+  const bool append = slots.collect && header.fresh != 0;
+  const std::uint32_t first = append ? header.count : 0;
+  const std::uint32_t fitting = std::min(raw.count, slots.capacity - first);
+  std::memcpy(slots.records_of(member) + std::size_t{first} * size, slots.raw_records_of(member),
+              std::size_t{fitting} * size);
+  header.stamp_ns = raw.stamp_ns;
+  header.sequence = raw.sequence;
+  header.count = first + fitting;
+  header.dropped = (append ? header.dropped : 0) + raw.count - fitting;
+  header.fresh = 2;  // arrived in this step; becomes 1 when the step's delivery is complete
+  note_reported_pose(group, slots, member, raw, slots.raw_records_of(member));
+}
+
+void Engine::Impl::note_reported_pose(RobotGroup& group, const SensorSlots& slots,
+                                      std::size_t member, const SampleHeader& header,
+                                      const std::byte* record) {
+  const auto device = static_cast<std::uint32_t>(&slots - group.sensors.data());
+  if (group.type->pose_from != device || header.count == 0) return;
+  const RobotId robot = group.members[member];
+  PoseReading reading;
+  Pose2 X_WM;
+  if (slots.spec->kind == ReadingKind::kPose) {
+    std::memcpy(&reading, record, sizeof reading);
+    X_WM = group.type->X_WM.value_or(Pose2{});
+  } else {
+    OdometryReading odometry;
+    std::memcpy(&odometry, record, sizeof odometry);
+    reading = {odometry.x_m, odometry.y_m, odometry.yaw_rad, odometry.variance_xy_m2,
+               odometry.variance_yaw_rad2};
+    X_WM = group.type->X_WM.value_or(spec.robots[robot.value()].X_WR);
+  }
+  const Pose2 X_WR = compose(X_WM, {reading.x_m, reading.y_m, reading.yaw_rad});
+  if (!std::isfinite(X_WR.x) || !std::isfinite(X_WR.y) || !std::isfinite(X_WR.yaw)) return;
+  ReportedPose& pose = reported[robot.value()];
+  pose.pose = {X_WR.x, X_WR.y, X_WR.yaw, reading.variance_xy_m2, reading.variance_yaw_rad2};
+  pose.stamp = {header.stamp_ns};
+  pose.known = true;
+  tracks[robot.value()].add(pose.stamp, X_WR);
+  pose.velocity = tracks[robot.value()].velocity();
+}
+
+void Engine::Impl::refresh_reported() {
+  for (const RobotGroup& group : groups) {
+    for (const RobotId robot : group.members) {
+      const std::uint32_t r = robot.value();
+      ReportedPose& pose = reported[r];
+      if (!group.type->pose_from) {
+        const Pose2& X_WR = movers[r].X_WR;
+        pose = {{X_WR.x, X_WR.y, X_WR.yaw, 0, 0}, velocity[r], now, true, false};
+        continue;
+      }
+      const bool stale = pose.known && now - pose.stamp > group.type->staleness;
+      if (stale != pose.stale) {
+        note({step, robot, stale ? EventKind::kPoseStale : EventKind::kPoseBack, BodyId(),
+              stale ? fmt::format("its last pose is from {:.2f} s", pose.stamp.seconds())
+                    : fmt::format("poses come again from {:.2f} s", pose.stamp.seconds())});
+        pose.stale = stale;
+      }
+      if (stale) pose.velocity = {};
+      if (group.type->simulated) continue;
+      movers[r].X_WR = {pose.pose.x_m, pose.pose.y_m, pose.pose.yaw_rad};
+      movers[r].present = pose.known;
+      velocity[r] = pose.velocity;
+    }
+  }
+}
+
+void Engine::Impl::make_way_for_real_robots() {
+  notes.clear();
+  bool any = false;
+  for (std::uint32_t r = 0; r < movers.size(); ++r) {
+    if (movers[r].simulated) continue;
+    any = any || movers[r].present;
+    snapshot.set_robot(RobotId(r), {movers[r].X_WR, {}, movers[r].present});
+  }
+  if (!any) return;
+  // Real robots may have jumped (a first pose, the end of a gap): the broad phase must know.
+  snapshot.rebuild();
+  for (std::uint32_t r = 0; r < movers.size(); ++r) {
+    if (movers[r].simulated || !movers[r].present) continue;
+    resolver.make_way(r, snapshot, slack_m, movers, notes);
+  }
+}
+
+void Engine::Impl::place_robots() {
+  const double before_m = slack_m;
+  for (std::uint32_t r = 0; r < movers.size(); ++r) {
+    const RobotId robot(r);
+    const SinCos turn = sincos(movers[r].X_WR.yaw);
+    const Vec2 over_ground = rotate(turn, {velocity[r].vx, velocity[r].vy});
+    snapshot.set_robot(
+        robot, {movers[r].X_WR, {over_ground.x, over_ground.y, velocity[r].wz}, movers[r].present});
+  }
+  // Contacts: of simulated robots those of the last motion and of making way; of real robots those
+  // that their place shows.
+  for (const ContactNote& contact : notes) {
+    touch[contact.robot] = {true, contact.direction_W};
+    if (contact.pinned && pinned_before[contact.robot] == 0) {
+      note({step, RobotId(contact.robot), EventKind::kPinned, contact.other,
+            "cannot get out of the way"});
+    }
+  }
+  std::fill(pinned_before.begin(), pinned_before.end(), std::uint8_t{0});
+  for (const ContactNote& contact : notes) {
+    if (contact.pinned) pinned_before[contact.robot] = 1;
+  }
+  constexpr double kTouch_m = 1e-3;
+  for (std::uint32_t r = 0; r < movers.size(); ++r) {
+    if (movers[r].simulated || !movers[r].present) continue;
+    const std::size_t first = notes.size();
+    resolver.probe(r, snapshot, before_m, kTouch_m, movers, notes);
+    touch[r] = notes.size() > first ? TouchState{true, notes.back().direction_W} : TouchState{};
+  }
+  for (const ContactNote& contact : notes) {
+    std::uint8_t& before = touching_before[contact.robot];
+    if (before == 0) {
+      note({step, RobotId(contact.robot), EventKind::kContact, contact.other, ""});
+      before = 1;
+    }
+  }
+  for (std::uint32_t r = 0; r < movers.size(); ++r) {
+    touching_before[r] = touch[r].touching ? 1 : 0;
+    snapshot.set_touch(RobotId(r), touch[r]);
+  }
+  snapshot.set_time(now);
+  snapshot.rebuild();
+  slack_m = 0;
+}
+
+void Engine::Impl::remember() {
+  if (spec.history.ns <= 0) return;
+  HistoryFrame frame;
+  if (!history.empty() && now - history.front().time > spec.history) {
+    frame = std::move(history.front());
+    history.pop_front();
+  }
+  frame.time = now;
+  frame.robots.resize(movers.size());
+  for (std::uint32_t r = 0; r < movers.size(); ++r) frame.robots[r] = snapshot.robot(RobotId(r));
+  history.push_back(std::move(frame));
+}
+
+}  // namespace rave::sim

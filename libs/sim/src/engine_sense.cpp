@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "engine_impl.hpp"
+#include "rave/math/transform.hpp"
+
+namespace rave::sim {
+
+void Engine::Impl::sense() {
+  pool.for_each_block(blocks.size(),
+                      [this](std::size_t b, unsigned w) { sense_block(blocks[b], workers[w]); });
+}
+
+void Engine::Impl::sense_block(const Block& block, Worker& worker) {
+  RobotGroup& group = groups[block.group];
+  for (std::uint32_t device = 0; device < group.sensors.size(); ++device) {
+    SensorSlots& slots = group.sensors[device];
+    if (!slots.is_virtual()) continue;
+    if (due(slots.spec->period_steps, slots.spec->phase_steps)) {
+      sample_members(group, slots, device, block, worker);
+    }
+    if (!slots.processing) continue;
+    for (std::uint32_t m = block.begin; m < block.end; ++m) {
+      deliver(group, slots, device, m, worker);
+    }
+  }
+}
+
+void Engine::Impl::sample_members(RobotGroup& group, SensorSlots& slots, std::uint32_t device,
+                                  const Block& block, Worker& worker) {
+  const SensorSpec& sensor = *slots.spec;
+  const double period_s = sensor.period_steps * spec.step.seconds();
+  for (std::uint32_t m = block.begin; m < block.end; ++m) {
+    const RobotId robot = group.members[m];
+    if (slots.failed[m] != 0 || !movers[robot.value()].present) continue;
+    const bool direct = !slots.processing;
+    SampleHeader& header = direct ? slots.headers[m] : slots.raw_headers[m];
+    std::byte* records = direct ? slots.records_of(m) : slots.raw_records_of(m);
+    const std::uint32_t sequence = slots.sequence[m]++;
+    header = {now.ns, sequence + 1, 0, 1, 0};
+    const Pose2& X_WR = movers[robot.value()].X_WR;
+    const Pose2 X_WS = compose(X_WR, sensor.X_RS);
+    if (slots.uses_fan) {
+      const std::size_t first = std::size_t{slots.capacity} * m;
+      cast_fan(snapshot, slots.fan, X_WS, sensor.z_m, snapshot.body_of(robot), worker.fan,
+               {reinterpret_cast<float*>(records), slots.capacity},
+               {slots.bodies.data() + first, slots.capacity});
+      header.count = slots.capacity;
+    } else {
+      SampleItem item;
+      item.robot = robot;
+      item.device = device;
+      item.seed = spec.seed;
+      item.sequence = sequence;
+      item.capacity = slots.capacity;
+      item.X_WR = X_WR;
+      item.X_WS = X_WS;
+      item.z_m = sensor.z_m;
+      item.elapsed_s = sequence == 0 ? 0 : period_s;
+      item.header = &header;
+      item.records = records;
+      item.state = slots.driver_state.data() + sensor.virtual_ops->state_size * m;
+      std::uint8_t failed = 0;
+      ErrorText error;
+      sensor.virtual_ops->sample(slots.instances.at(0), &snapshot, &item, 1, &failed, &error);
+      header.count = std::min(header.count, slots.capacity);
+      if (failed != 0) {
+        slots.failed[m] = 1;
+        header.count = 0;
+        worker.events.push_back(
+            {step, robot, EventKind::kDriverFailed, BodyId(),
+             fmt::format("sensor `{}` (driver `{}`): {}", sensor.name, sensor.driver, error.text)});
+      }
+    }
+    if (direct) {
+      hash_delivery(group, slots, device, m, worker.hash);
+    } else {
+      slots.processing->push(
+          header, records, RandomStream(spec.seed, robot.value(), device | 0x8000'0000U, sequence),
+          slots.processing_state_of(m));
+    }
+  }
+}
+
+void Engine::Impl::deliver(RobotGroup& group, SensorSlots& slots, std::uint32_t device,
+                           std::size_t member, Worker& worker) {
+  SampleHeader header = slots.headers[member];
+  if (!slots.processing->deliver(now, slots.processing_state_of(member), &header,
+                                 slots.records_of(member))) {
+    return;
+  }
+  header.fresh = 1;
+  slots.headers[member] = header;
+  hash_delivery(group, slots, device, member, worker.hash);
+}
+
+void Engine::Impl::hash_delivery(const RobotGroup& group, SensorSlots& slots, std::uint32_t device,
+                                 std::size_t member, RunHash& sum) {
+  const SampleHeader& header = slots.headers[member];
+  const std::size_t bytes = std::size_t{header.count} * record_size(slots.spec->kind);
+  std::byte* records = slots.records_of(member);
+  if (slots.flip[member] != 0 && bytes > 0) {
+    records[0] ^= std::byte{1};
+    slots.flip[member] = 0;
+  }
+  ItemHash item(step, group.members[member].value(), HashChannel::kPercept, device);
+  item.add(static_cast<std::uint64_t>(header.stamp_ns));
+  item.add_bytes({records, bytes});
+  sum.add(item);
+}
+
+}  // namespace rave::sim

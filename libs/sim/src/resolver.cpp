@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "resolver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rave/math/scalar.hpp"
+
+namespace rave::sim {
+namespace {
+
+constexpr ImpactLimits kLimits;
+constexpr int kMaxSlides = 4;
+constexpr int kMaxPushes = 8;
+/// Deeper than this after all pushes is worth telling.
+constexpr double kPinnedDepth_m = 1e-3;
+
+Motion2 scaled(const Motion2& motion, double s) noexcept {
+  return {s * motion.dx, s * motion.dy, s * motion.dyaw};
+}
+
+}  // namespace
+
+Resolver::Resolver(const world::WorldModel& model) : model_(&model) {
+  for (std::uint32_t body = 0; body < model.body_count(); ++body) {
+    radius_m_.push_back(model.body(body).radius_m());
+  }
+}
+
+Pose2 Resolver::pose_of(std::uint32_t body, std::span<const Mover> movers) const {
+  const std::size_t obstacles = model_->obstacles.size();
+  return body < obstacles ? model_->obstacles[body].X_WB : movers[body - obstacles].X_WR;
+}
+
+void Resolver::find_near(std::uint32_t id, Vec2 p_W, double reach_m,
+                         const world::Snapshot& snapshot) {
+  snapshot.gather(p_W, reach_m, found_);
+  near_.clear();
+  const auto self = static_cast<std::uint32_t>(model_->obstacles.size()) + id;
+  for (const std::uint32_t shape : found_) {
+    const std::uint32_t body = snapshot.shape(shape).body;
+    if (body != self && (near_.empty() || near_.back() != body)) near_.push_back(body);
+  }
+}
+
+bool Resolver::advance_until_hit(std::uint32_t id, const Motion2& motion, std::span<Mover> movers) {
+  Mover& mover = movers[id];
+  impact_ = Impact{};
+  bool hit = false;
+  const double length_m = std::sqrt(motion.dx * motion.dx + motion.dy * motion.dy);
+  const auto self = static_cast<std::uint32_t>(model_->obstacles.size()) + id;
+  for (const std::uint32_t body : near_) {
+    if (body == ignored_) continue;
+    const Pose2 X_WB = pose_of(body, movers);
+    const bool standing = body < model_->obstacles.size();
+    if (!standing) {
+      const double reach = length_m + radius_m_[self] + radius_m_[body] + kLimits.skin_m + 1e-6;
+      if (squared_norm(X_WB.position() - mover.X_WR.position()) > reach * reach) continue;
+    }
+    const Impact impact = world::time_of_impact(model_->robots[id], mover.X_WR, motion,
+                                                model_->body(body), X_WB, kLimits);
+    if (impact.hit && (!hit || impact.fraction < impact_.fraction)) {
+      hit = true;
+      impact_ = impact;
+      obstacle_ = body;
+    }
+  }
+  if (hit) mover.X_WR = advance(mover.X_WR, motion, impact_.fraction);
+  return hit;
+}
+
+void Resolver::move(std::uint32_t id, const Motion2& motion_W, const world::Snapshot& snapshot,
+                    double slack_m, std::span<Mover> movers, std::vector<ContactNote>& notes) {
+  Mover& mover = movers[id];
+  const double length_m = std::sqrt(motion_W.dx * motion_W.dx + motion_W.dy * motion_W.dy);
+  const auto self = static_cast<std::uint32_t>(model_->obstacles.size()) + id;
+  find_near(id, mover.X_WR.position(), radius_m_[self] + length_m + slack_m + 1e-3, snapshot);
+  ignored_ = BodyId::kNone;
+  Motion2 rest = motion_W;
+  for (int slide = 0; slide < kMaxSlides; ++slide) {
+    if (!advance_until_hit(id, rest, movers)) {
+      mover.X_WR = advance(mover.X_WR, rest, 1);
+      return;
+    }
+    notes.push_back({id, BodyId(obstacle_), impact_.normal_W, false});
+    rest = scaled(rest, 1 - impact_.fraction);
+    const Vec2 d{rest.dx, rest.dy};
+    const double into = dot(d, impact_.normal_W);
+    // What drives the body into the obstacle is taken away. If that was no translation, it was the
+    // turn: the body then slides without turning.
+    if (into <= 1e-12) rest.dyaw = 0;
+    if (into > 0) {
+      rest.dx -= into * impact_.normal_W.x;
+      rest.dy -= into * impact_.normal_W.y;
+    }
+    if (rest.dx == 0 && rest.dy == 0 && rest.dyaw == 0) return;
+  }
+}
+
+bool Resolver::push_out(std::uint32_t real, std::uint32_t id, std::span<Mover> movers) {
+  for (int push = 0; push < kMaxPushes; ++push) {
+    const Separation gap = world::separation(model_->robots[real], movers[real].X_WR,
+                                             model_->robots[id], movers[id].X_WR);
+    const double missing = kLimits.skin_m - gap.distance_m;
+    if (!(missing > 1e-7)) return true;
+    Motion2 away{missing * gap.normal_W.x, missing * gap.normal_W.y, 0};
+    for (int slide = 0; slide < kMaxSlides; ++slide) {
+      if (!advance_until_hit(id, away, movers)) {
+        movers[id].X_WR = advance(movers[id].X_WR, away, 1);
+        break;
+      }
+      away = scaled(away, 1 - impact_.fraction);
+      const double into = dot({away.dx, away.dy}, impact_.normal_W);
+      if (into > 0) {
+        away.dx -= into * impact_.normal_W.x;
+        away.dy -= into * impact_.normal_W.y;
+      }
+    }
+  }
+  return world::separation(model_->robots[real], movers[real].X_WR, model_->robots[id],
+                           movers[id].X_WR)
+             .distance_m > -kPinnedDepth_m;
+}
+
+void Resolver::make_way(std::uint32_t id, const world::Snapshot& snapshot, double slack_m,
+                        std::span<Mover> movers, std::vector<ContactNote>& notes) {
+  const auto obstacles = static_cast<std::uint32_t>(model_->obstacles.size());
+  find_near(id, movers[id].X_WR.position(), radius_m_[obstacles + id] + slack_m + 1e-3, snapshot);
+  crowd_.clear();
+  for (const std::uint32_t body : near_) {
+    if (body >= obstacles && movers[body - obstacles].simulated) {
+      crowd_.push_back(body - obstacles);
+    }
+  }
+  for (const std::uint32_t robot : crowd_) {
+    const Separation gap = world::separation(model_->robots[id], movers[id].X_WR,
+                                             model_->robots[robot], movers[robot].X_WR);
+    if (gap.distance_m >= kLimits.skin_m) continue;
+    find_near(robot, movers[robot].X_WR.position(),
+              radius_m_[obstacles + robot] + kLimits.skin_m - gap.distance_m + slack_m + 1e-3,
+              snapshot);
+    ignored_ = obstacles + id;
+    const bool free = push_out(id, robot, movers);
+    notes.push_back({robot, BodyId(obstacles + id), -gap.normal_W, !free});
+  }
+}
+
+void Resolver::probe(std::uint32_t id, const world::Snapshot& snapshot, double slack_m,
+                     double within_m, std::span<const Mover> movers,
+                     std::vector<ContactNote>& notes) {
+  const auto obstacles = static_cast<std::uint32_t>(model_->obstacles.size());
+  find_near(id, movers[id].X_WR.position(), radius_m_[obstacles + id] + slack_m + within_m,
+            snapshot);
+  Separation least;
+  least.distance_m = within_m;
+  std::uint32_t nearest = BodyId::kNone;
+  for (const std::uint32_t body : near_) {
+    const Separation gap = world::separation(model_->robots[id], movers[id].X_WR,
+                                             model_->body(body), pose_of(body, movers));
+    if (gap.distance_m < least.distance_m) {
+      least = gap;
+      nearest = body;
+    }
+  }
+  if (nearest != BodyId::kNone) notes.push_back({id, BodyId(nearest), least.normal_W, false});
+}
+
+}  // namespace rave::sim

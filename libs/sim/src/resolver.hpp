@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rave/world/snapshot.hpp"
+#include "rave/world/touching.hpp"
+
+namespace rave::sim {
+
+/// A body as the resolver moves it.
+struct Mover {
+  Pose2 X_WR;
+  bool simulated = true;  ///< Real robots are never moved.
+  bool present = true;
+};
+
+/// What stopped or touched a robot.
+struct ContactNote {
+  std::uint32_t robot = 0;
+  BodyId other;
+  Vec2 direction_W;  ///< From the robot towards the other.
+  bool pinned = false;
+};
+
+/// The world authority's last word on motion: robots are moved one after the other, in the order of
+/// their ids, each as far as it can go without coming nearer than the skin to anything that stands,
+/// then along what stopped it. So overlap is never created and nothing is passed through. One
+/// thread; the result depends on nothing but its input.
+class Resolver {
+ public:
+  explicit Resolver(const world::WorldModel& model);
+
+  /// Moves robot `id` from movers[id] by `motion_W`. `snapshot` is the broad phase: poses in it may
+  /// be up to `slack_m` away from those in `movers`.
+  void move(std::uint32_t id, const Motion2& motion_W, const world::Snapshot& snapshot,
+            double slack_m, std::span<Mover> movers, std::vector<ContactNote>& notes);
+
+  /// Pushes simulated robots out of the real robot `id`, which has just come to its place; one that
+  /// cannot get away is noted as pinned.
+  void make_way(std::uint32_t id, const world::Snapshot& snapshot, double slack_m,
+                std::span<Mover> movers, std::vector<ContactNote>& notes);
+
+  /// What robot `id` touches or overlaps (nearer than `within_m`); the nearest one is noted.
+  void probe(std::uint32_t id, const world::Snapshot& snapshot, double slack_m, double within_m,
+             std::span<const Mover> movers, std::vector<ContactNote>& notes);
+
+ private:
+  void find_near(std::uint32_t id, Vec2 p_W, double reach_m, const world::Snapshot& snapshot);
+  /// Moves until something stops it; true if something did, which is then described in `impact_`
+  /// and `obstacle_`.
+  bool advance_until_hit(std::uint32_t id, const Motion2& motion, std::span<Mover> movers);
+  [[nodiscard]] Pose2 pose_of(std::uint32_t body, std::span<const Mover> movers) const;
+  bool push_out(std::uint32_t real, std::uint32_t id, std::span<Mover> movers);
+
+  const world::WorldModel* model_;
+  std::vector<double> radius_m_;  ///< Per body, about its origin.
+  std::vector<std::uint32_t> found_;
+  std::vector<std::uint32_t> near_;   ///< Bodies that may be met.
+  std::vector<std::uint32_t> crowd_;  ///< Simulated robots near a real one.
+  std::uint32_t ignored_ = BodyId::kNone;
+  Impact impact_;
+  std::uint32_t obstacle_ = 0;
+};
+
+}  // namespace rave::sim

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "rave/base/time.hpp"
+#include "rave/plugin/registry.hpp"
 #include "rave/robot/controller.hpp"
 
 namespace rave {

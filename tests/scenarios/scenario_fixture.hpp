@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "rave/base/log.hpp"
+#include "rave/robot_host/build.hpp"
+#include "rave/robot_host/run.hpp"
+#include "rave/sim/engine.hpp"
+
+namespace rave::tests {
+
+/// Real scenarios with the real plug-ins of the build, run inside the test.
+class ScenarioTest : public testing::Test {
+ protected:
+  static config::ExpandedScenario load(std::string_view name) {
+    const auto path = std::filesystem::path(RAVE_SOURCE_DIR) / "scenarios" / name / "scenario.yaml";
+    auto scenario = config::expand_scenario(path);
+    EXPECT_TRUE(scenario) << (scenario ? "" : scenario.error().text());
+    return scenario.value_or(config::ExpandedScenario{});
+  }
+
+  static std::unique_ptr<plugin::Catalogue> plugins() {
+    auto catalogue = std::make_unique<plugin::Catalogue>(robot_host::host_stamp());
+    EXPECT_TRUE(catalogue->add_folder(std::filesystem::path(RAVE_BINARY_DIR) / "lib/rave/plugins"));
+    return catalogue;
+  }
+
+  /// An engine for a scenario, with the catalogue that its drivers live in.
+  struct World {
+    std::unique_ptr<plugin::Catalogue> catalogue;
+    std::unique_ptr<sim::Engine> engine;
+
+    void run_until(double end_s) const {
+      while (engine->time().seconds() < end_s - 1e-9 || engine->steps_done() == 0) {
+        const Status status = engine->step();
+        ASSERT_TRUE(status) << status.error().text();
+      }
+    }
+  };
+  World make_world(const config::ExpandedScenario& scenario) {
+    World world{plugins(), nullptr};
+    auto built = robot_host::build(scenario, *world.catalogue, options());
+    EXPECT_TRUE(built) << (built ? "" : built.error().text());
+    if (!built) return world;
+    built->spec.live_clock = nullptr;
+    auto engine = sim::Engine::create(std::move(built->spec));
+    EXPECT_TRUE(engine) << (engine ? "" : engine.error().text());
+    if (engine) world.engine = *std::move(engine);
+    return world;
+  }
+
+  robot_host::BuildOptions options() {
+    return {std::filesystem::path(RAVE_BINARY_DIR) / "bin/rave-program-runner", &log_, nullptr};
+  }
+
+  robot_host::RunOutcome run(const config::ExpandedScenario& scenario, bool picture = false) {
+    const auto catalogue = plugins();
+    robot_host::RunOptions options;
+    options.output = folder_;
+    options.program_runner = std::filesystem::path(RAVE_BINARY_DIR) / "bin/rave-program-runner";
+    options.picture = picture;
+    options.log = &log_;
+    auto outcome = robot_host::run(scenario, *catalogue, options);
+    EXPECT_TRUE(outcome) << (outcome ? "" : outcome.error().text());
+    return outcome.value_or(robot_host::RunOutcome{});
+  }
+
+  static std::uint32_t robot_named(const sim::Engine& engine, std::string_view name) {
+    for (std::uint32_t r = 0; r < engine.spec().robots.size(); ++r) {
+      if (engine.spec().robots[r].name == name) return r;
+    }
+    ADD_FAILURE() << "no robot " << name;
+    return 0;
+  }
+  static std::uint32_t sensor_named(const sim::Engine& engine, std::uint32_t robot,
+                                    std::string_view name) {
+    const auto& sensors = engine.spec().types[engine.spec().robots[robot].type].sensors;
+    for (std::uint32_t s = 0; s < sensors.size(); ++s) {
+      if (sensors[s].name == name) return s;
+    }
+    ADD_FAILURE() << "no sensor " << name;
+    return 0;
+  }
+
+  void SetUp() override {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::temp_directory_path() /
+              (std::string("rave_") + test->name() + "_" + std::to_string(::getpid()));
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  NullLogSink log_;
+  std::filesystem::path folder_;
+};
+
+}  // namespace rave::tests

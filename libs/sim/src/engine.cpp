@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "engine_impl.hpp"
+#include "rave/base/check.hpp"
 #include "rave/math/transform.hpp"
 
 namespace rave::sim {

@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "rave/base/result.hpp"
 
@@ -69,14 +71,18 @@ constexpr Stamp make_stamp(std::uint64_t robot_interface, std::uint64_t virtual_
 }
 
 /// Reads the stamp of a shared library without loading it.
-/// Errors: kNotFound, kIo, kParse (not a 64-bit ELF file, damaged), kIncompatible (no stamp).
+/// Errors: kNotFound, kIo, kParse (not a 64-bit ELF file, damaged), kIncompatible (no stamp, for
+/// another processor). They give the reason and leave it to the caller to name the file.
 [[nodiscard]] Result<Stamp> read_stamp(const std::filesystem::path& path);
 
 /// The same from the bytes of a file; the decoder that the fuzz target drives.
 [[nodiscard]] Result<Stamp> parse_stamp(std::string_view bytes);
 
-/// Says in words what keeps a plug-in with stamp `plugin` from running in a host with stamp `host`;
-/// success if nothing does.
+/// The driver names that a stamp lists, in its order.
+[[nodiscard]] std::vector<std::string> parse_provides(const Stamp& stamp);
+
+/// Says in words everything that keeps a plug-in with stamp `plugin` from running in a host with
+/// stamp `host`, and what to do about it; success if nothing does. Error: kIncompatible.
 [[nodiscard]] Status check_stamp(const Stamp& plugin, const Stamp& host);
 
 }  // namespace rave::plugin

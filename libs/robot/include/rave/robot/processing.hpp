@@ -52,9 +52,9 @@ struct FilterSpec {
 
 /// What lies between a raw sample of a sensor and the robot's program, in this order.
 struct ProcessingSpec {
-  NoiseSpec noise;
+  NoiseSpec noise{};
   double latency_s = 0;  ///< From the stamp of a sample to its delivery; at most 3600.
-  std::vector<FilterSpec> filters;
+  std::vector<FilterSpec> filters{};
 
   [[nodiscard]] bool empty() const noexcept;
 };

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "rave/math/scalar.hpp"
+#include "rave/robot/plugin_entry.hpp"
+
+namespace rave {
+namespace {
+
+constexpr ParamSpec kParams[] = {
+    number_param("max_speed_mps", "m/s", 0.5, 0.001, 100, "Largest speed."),
+    number_param("max_turn_rate_radps", "rad/s", 2.0, 0.001, 100, "Largest turning rate."),
+    number_param("max_deceleration_mps2", "m/s^2", 0.5, 0.001, 100,
+                 "What the robot can surely brake with; sets where it begins to slow down."),
+    number_param("tolerance_m", "m", 0.05, 0.001, 100, "Nearer than this is there."),
+    number_param("distance_gain_per_s", "1/s", 1.0, 0.01, 100, "Speed per metre of distance."),
+    number_param("heading_gain_per_s", "1/s", 3.0, 0.01, 100, "Turning rate per radian of error."),
+    number_param("turn_in_place_rad", "rad", 1.0, 0.1, 1.5,
+                 "With a larger heading error it turns without driving."),
+    number_param("watchdog_s", "s", 1.0, 0.001, 3600,
+                 "A command older than this is answered by a stop."),
+};
+
+/// Drives to a point of the world by the reported pose.
+/// Law: M. Aicardi, G. Casalino, A. Bicchi, A. Balestrino, "Closed loop steering of unicycle-like
+/// vehicles via Lyapunov techniques", IEEE Robotics & Automation Magazine 2(1), 1995, without the
+/// term for the final orientation. See README.md.
+class GoalPointController final : public Controller {
+ public:
+  static constexpr CommandKind kAccepts = CommandKind::kGoal;
+  static constexpr CommandKind kGives = CommandKind::kVelocity;
+
+  Status start(const DeviceSetup& setup) override {
+    const Params params = setup.parameters();
+    host_ = setup.host;
+    max_speed_mps_ = params.number("max_speed_mps");
+    max_turn_rate_radps_ = params.number("max_turn_rate_radps");
+    max_deceleration_mps2_ = params.number("max_deceleration_mps2");
+    tolerance_m_ = params.number("tolerance_m");
+    distance_gain_per_s_ = params.number("distance_gain_per_s");
+    heading_gain_per_s_ = params.number("heading_gain_per_s");
+    turn_in_place_rad_ = params.number("turn_in_place_rad");
+    watchdog_s_ = params.number("watchdog_s");
+    complained_ = false;
+    return {};
+  }
+
+  Command control(const ControlInput& input) override {
+    const Command& goal = input.command;
+    if (goal.kind != kAccepts || !(input.command_age_s <= watchdog_s_)) return kStop;
+    if (!finite(input)) {
+      complain();
+      return kStop;
+    }
+    const double dx_m = goal.value[0] - input.pose.x_m;
+    const double dy_m = goal.value[1] - input.pose.y_m;
+    const double distance_m = hypot(dx_m, dy_m);
+    if (distance_m <= tolerance_m_) return kStop;
+    return drive(distance_m, wrap_angle(atan2(dy_m, dx_m) - input.pose.yaw_rad),
+                 speed_limit(goal.value[2]));
+  }
+
+ private:
+  static constexpr Command kStop = velocity_command(0, 0);
+
+  static bool finite(const ControlInput& input) {
+    // A sum of finite numbers may overflow; that too is no place to drive to.
+    return std::isfinite(input.command.value[0] + input.command.value[1] + input.command.value[2] +
+                         input.pose.x_m + input.pose.y_m + input.pose.yaw_rad);
+  }
+
+  double speed_limit(double wanted_mps) const {
+    return wanted_mps > 0 ? std::min(wanted_mps, max_speed_mps_) : max_speed_mps_;
+  }
+
+  Command drive(double distance_m, double error_rad, double limit_mps) const {
+    if (std::abs(error_rad) > turn_in_place_rad_) {
+      return velocity_command(0, std::clamp(heading_gain_per_s_ * error_rad, -max_turn_rate_radps_,
+                                            max_turn_rate_radps_));
+    }
+    // From this speed the robot can still stop at the goal.
+    const double braking_mps = std::sqrt(2.0 * max_deceleration_mps2_ * distance_m);
+    const double gain_per_s =
+        std::min({distance_gain_per_s_, limit_mps / distance_m, braking_mps / distance_m});
+    const SinCos error = sincos(error_rad);
+    const double v_mps = gain_per_s * distance_m * error.cos;
+    const double w_radps = heading_gain_per_s_ * error_rad + gain_per_s * error.sin * error.cos;
+    // Slowing both alike keeps the curvature, so the path stays that of the law.
+    const double scale = std::min(1.0, max_turn_rate_radps_ / std::max(std::abs(w_radps), 1e-9));
+    return velocity_command(scale * v_mps, scale * w_radps);
+  }
+
+  void complain() {
+    if (complained_) return;
+    complained_ = true;
+    host_.write(LogLevel::kWarning,
+                "the goal or the reported pose is not finite; the robot stops; later ones are not "
+                "reported");
+  }
+
+  HostServices host_;
+  double max_speed_mps_ = 0;
+  double max_turn_rate_radps_ = 0;
+  double max_deceleration_mps2_ = 0;
+  double tolerance_m_ = 0;
+  double distance_gain_per_s_ = 0;
+  double heading_gain_per_s_ = 0;
+  double turn_in_place_rad_ = 0;
+  double watchdog_s_ = 0;
+  bool complained_ = false;
+};
+
+}  // namespace
+}  // namespace rave
+
+RAVE_PLUGIN("goal_point") {
+  rave::add_controller<rave::GoalPointController>(
+      registry, {.name = "goal_point",
+                 .summary = "Drives to a point of the world by the reported pose, and stops there.",
+                 .params = rave::kParams});
+}

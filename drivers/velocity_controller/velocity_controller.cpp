@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "rave/robot/plugin_entry.hpp"
+
+namespace rave {
+namespace {
+
+constexpr ParamSpec kParams[] = {
+    number_param("max_speed_mps", "m/s", 0.5, 0, 100, "Largest speed, forward and backward."),
+    number_param("max_turn_rate_radps", "rad/s", 2.0, 0, 100, "Largest turning rate, both ways."),
+    number_param("watchdog_s", "s", 0.5, 0.001, 3600,
+                 "A command older than this is answered by a stop."),
+};
+
+/// Passes velocities on within limits; stops without a fresh and finite command.
+class VelocityController final : public Controller {
+ public:
+  static constexpr CommandKind kAccepts = CommandKind::kVelocity;
+  static constexpr CommandKind kGives = CommandKind::kVelocity;
+
+  Status start(const DeviceSetup& setup) override {
+    host_ = setup.host;
+    max_speed_mps_ = setup.parameters().number("max_speed_mps");
+    max_turn_rate_radps_ = setup.parameters().number("max_turn_rate_radps");
+    watchdog_s_ = setup.parameters().number("watchdog_s");
+    complained_ = false;
+    return {};
+  }
+
+  Command control(const ControlInput& input) override {
+    if (input.command.kind != kAccepts || !(input.command_age_s <= watchdog_s_)) return kStop;
+    const double v_mps = input.command.value[0];
+    const double w_radps = input.command.value[1];
+    if (!std::isfinite(v_mps) || !std::isfinite(w_radps)) {
+      complain(v_mps, w_radps);
+      return kStop;
+    }
+    return velocity_command(std::clamp(v_mps, -max_speed_mps_, max_speed_mps_),
+                            std::clamp(w_radps, -max_turn_rate_radps_, max_turn_rate_radps_));
+  }
+
+ private:
+  static constexpr Command kStop = velocity_command(0, 0);
+
+  // Once, because a broken program sends the same in every decision.
+  void complain(double v_mps, double w_radps) {
+    if (complained_) return;
+    complained_ = true;
+    host_.write(LogLevel::kWarning,
+                fmt::format("a velocity command is not finite (v = {} m/s, w = {} rad/s); "
+                            "the robot stops; later ones are not reported",
+                            v_mps, w_radps));
+  }
+
+  HostServices host_;
+  double max_speed_mps_ = 0;
+  double max_turn_rate_radps_ = 0;
+  double watchdog_s_ = 0;
+  bool complained_ = false;
+};
+
+}  // namespace
+}  // namespace rave
+
+RAVE_PLUGIN("velocity") {
+  rave::add_controller<rave::VelocityController>(
+      registry, {.name = "velocity",
+                 .summary = "Passes velocities on within limits; stops when they stop coming.",
+                 .params = rave::kParams});
+}

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "description_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace rave::plugin {
+namespace {
+
+bool empty(const char* text) noexcept { return text == nullptr || *text == '\0'; }
+
+bool is_snake_case(std::string_view name) noexcept {
+  const auto inner = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  };
+  return !name.empty() && name.front() >= 'a' && name.front() <= 'z' &&
+         std::all_of(name.begin(), name.end(), inner);
+}
+
+/// What is wrong with the choices of `spec`; empty if nothing is.
+std::string choices_problem(const ParamSpec& spec) {
+  if (spec.choices == nullptr || spec.choice_count == 0) return "it has no choices";
+  const std::span choices(spec.choices, spec.choice_count);
+  if (std::any_of(choices.begin(), choices.end(), empty)) return "one of its choices is empty";
+  const std::string_view value = spec.default_text;
+  if (spec.required == 0 && std::none_of(choices.begin(), choices.end(),
+                                         [&](const char* choice) { return value == choice; })) {
+    return fmt::format("its default `{}` is none of its choices", value);
+  }
+  return {};
+}
+
+/// The same for the range and the default of a number, integer, bool or list.
+std::string range_problem(const ParamSpec& spec) {
+  // Written so that a NaN fails as well.
+  if (!(spec.min <= spec.max)) {
+    return fmt::format("its range is upside down (min {}, max {})", spec.min, spec.max);
+  }
+  if (spec.type == ParamType::kNumbers || spec.required != 0) return {};
+  const double value = spec.default_number;
+  if (!(value >= spec.min && value <= spec.max)) {
+    return fmt::format("its default {} is outside {} to {}", value, spec.min, spec.max);
+  }
+  if (spec.type != ParamType::kNumber && std::floor(value) != value) {
+    return fmt::format("its default {} is not a whole number", value);
+  }
+  return {};
+}
+
+std::string param_problem(const ParamSpec& spec) {
+  if (spec.unit == nullptr || spec.default_text == nullptr) return "it has a null text";
+  if (empty(spec.doc)) return "it has no sentence that explains it";
+  switch (spec.type) {
+    case ParamType::kText:
+      return {};
+    case ParamType::kChoice:
+      return choices_problem(spec);
+    case ParamType::kBool:
+    case ParamType::kInteger:
+    case ParamType::kNumber:
+    case ParamType::kNumbers:
+      return range_problem(spec);
+  }
+  return fmt::format("its type {} is unknown", static_cast<std::uint32_t>(spec.type));
+}
+
+Status check_params(const DriverInfo& info) {
+  if (info.param_count > 0 && info.params == nullptr) {
+    return fail(ErrorCode::kPlugin, "driver `{}` says {} parameters and gives none", info.name,
+                info.param_count);
+  }
+  std::set<std::string_view> names;
+  for (const ParamSpec& spec : info.param_specs()) {
+    if (empty(spec.name) || !is_snake_case(spec.name)) {
+      return fail(ErrorCode::kPlugin,
+                  "a parameter of driver `{}` is called `{}`: names are lower_snake_case",
+                  info.name, empty(spec.name) ? "" : spec.name);
+    }
+    if (!names.insert(spec.name).second) {
+      return fail(ErrorCode::kPlugin, "driver `{}` has parameter `{}` twice", info.name, spec.name);
+    }
+    if (const std::string problem = param_problem(spec); !problem.empty()) {
+      return fail(ErrorCode::kPlugin, "parameter `{}` of driver `{}`: {}", spec.name, info.name,
+                  problem);
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Status check_description(const DriverInfo& info, const void* ops) {
+  if (empty(info.name)) return fail(ErrorCode::kPlugin, "registers a driver with an empty name");
+  if (!is_snake_case(info.name)) {
+    return fail(ErrorCode::kPlugin, "driver name `{}` is not lower_snake_case", info.name);
+  }
+  if (static_cast<std::uint32_t>(info.kind) >= kDriverKindCount) {
+    return fail(ErrorCode::kPlugin, "driver `{}` is of unknown kind {}", info.name,
+                static_cast<std::uint32_t>(info.kind));
+  }
+  if (info.clock > DriverClock::kEither) {
+    return fail(ErrorCode::kPlugin, "driver `{}` has the unknown clock {}", info.name,
+                static_cast<std::uint32_t>(info.clock));
+  }
+  if (empty(info.version)) {
+    return fail(ErrorCode::kPlugin, "driver `{}` has no version", info.name);
+  }
+  if (empty(info.summary)) {
+    return fail(ErrorCode::kPlugin, "driver `{}` has no summary", info.name);
+  }
+  if (ops == nullptr) {
+    return fail(ErrorCode::kPlugin, "driver `{}` comes without a function table (null ops)",
+                info.name);
+  }
+  return check_params(info);
+}
+
+}  // namespace rave::plugin

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/plugin/params_text.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "text_table.hpp"
+
+namespace rave::plugin {
+namespace {
+
+/// Beyond this an author means "no limit": the largest double or integer.
+bool is_unlimited(const ParamSpec& spec, double limit) noexcept {
+  const double far = spec.type == ParamType::kInteger ? 9007199254740992.0 : 1e300;
+  return !(std::abs(limit) < far);
+}
+
+std::string yaml_number(double value) { return fmt::format("{}", value); }
+
+std::string join_choices(const ParamSpec& spec) {
+  std::string text;
+  for (const char* choice : std::span(spec.choices, spec.choice_count)) {
+    if (!text.empty()) text += ", ";
+    text += choice;
+  }
+  return text;
+}
+
+/// The cells of one row, the order of both tables.
+std::array<std::string, 6> cells_of(const ParamSpec& spec) {
+  return {spec.name,          std::string(to_string(spec.type)),
+          spec.unit,          range_text(spec),
+          default_text(spec), spec.doc};
+}
+
+constexpr std::array<std::string_view, 6> kHeadings{"name",  "type",    "unit",
+                                                    "range", "default", "meaning"};
+
+/// A cell of a Markdown table must not hold the signs that end it or start markup.
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '|' || c == '<' || c == '*' || c == '\\') out += '\\';
+    out += c == '\n' ? ' ' : c;
+  }
+  return out;
+}
+
+/// `text` as code if there is any. Inside code only the bar needs escaping.
+std::string as_code(std::string_view text) {
+  if (text.empty()) return {};
+  std::string out = "`";
+  for (const char c : text) {
+    if (c == '|') out += '\\';
+    out += c;
+  }
+  return out + "`";
+}
+
+}  // namespace
+
+std::string_view to_string(ParamType type) noexcept {
+  switch (type) {
+    case ParamType::kBool:
+      return "bool";
+    case ParamType::kInteger:
+      return "integer";
+    case ParamType::kNumber:
+      return "number";
+    case ParamType::kText:
+      return "text";
+    case ParamType::kChoice:
+      return "choice";
+    case ParamType::kNumbers:
+      return "list";
+  }
+  return "unknown";
+}
+
+std::string range_text(const ParamSpec& spec) {
+  if (spec.type == ParamType::kText) return {};
+  if (spec.type == ParamType::kBool) return "true, false";
+  if (spec.type == ParamType::kChoice) return join_choices(spec);
+  const bool no_min = is_unlimited(spec, spec.min);
+  const bool no_max = is_unlimited(spec, spec.max);
+  if (no_min && no_max) return {};
+  if (no_max) return fmt::format("{} or more", yaml_number(spec.min));
+  if (no_min) return fmt::format("at most {}", yaml_number(spec.max));
+  return fmt::format("{} to {}", yaml_number(spec.min), yaml_number(spec.max));
+}
+
+std::string default_text(const ParamSpec& spec) {
+  if (spec.required != 0) return "required";
+  switch (spec.type) {
+    case ParamType::kBool:
+      return spec.default_number != 0 ? "true" : "false";
+    case ParamType::kInteger:
+    case ParamType::kNumber:
+      return yaml_number(spec.default_number);
+    case ParamType::kText:
+      return *spec.default_text == '\0' ? "\"\"" : spec.default_text;
+    case ParamType::kChoice:
+      return spec.default_text;
+    case ParamType::kNumbers:
+      return "[]";
+  }
+  return {};
+}
+
+std::string describe(const Driver& driver) {
+  const DriverInfo& info = driver.info;
+  std::string page = fmt::format("{}\n", info.name);
+  page += wrapped(info.summary, 2, kPageWidth);
+  page += fmt::format("\n  kind     {}\n  version  {}\n  clock    {}\n  file     {}\n\n",
+                      rave::to_string(info.kind), info.version, rave::to_string(info.clock),
+                      driver.file.string());
+  if (info.param_count == 0) return page + "It has no parameters.\n";
+  page += "Parameters\n";
+  TextTable table(kHeadings);
+  for (const ParamSpec& spec : info.param_specs()) table.add(cells_of(spec));
+  return page + table.text();
+}
+
+std::string markdown(const Driver& driver) {
+  const DriverInfo& info = driver.info;
+  std::string section =
+      fmt::format("### `{}`\n\n{}\n\nKind: {}. Version: {}. Clock: {}. Plug-in: `{}`.\n\n",
+                  info.name, escaped(info.summary), rave::to_string(info.kind), info.version,
+                  rave::to_string(info.clock), driver.file.filename().string());
+  if (info.param_count == 0) return section + "It has no parameters.\n";
+  section += "| name | type | unit | range | default | meaning |\n|---|---|---|---|---|---|\n";
+  for (const ParamSpec& spec : info.param_specs()) {
+    const auto [name, type, unit, range, value, doc] = cells_of(spec);
+    section +=
+        fmt::format("| {} | {} | {} | {} | {} | {} |\n", as_code(name), type, escaped(unit),
+                    escaped(range), spec.required != 0 ? value : as_code(value), escaped(doc));
+  }
+  return section;
+}
+
+}  // namespace rave::plugin

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "field_filter.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "rave/math/scalar.hpp"
+
+namespace rave::detail {
+namespace {
+
+constexpr std::size_t kLargestWindow = 99;
+
+/// Followed by `window` doubles, a ring of the last readings.
+struct MedianMemory {
+  double output = 0;
+  std::uint32_t filled = 0;
+  std::uint32_t next = 0;
+};
+
+struct ExponentialMemory {
+  double output = 0;
+  std::int64_t stamp_ns = 0;
+  std::uint32_t valid = 0;
+  std::uint32_t reserved = 0;
+};
+
+/// Numbers in order, then what is not a number: an order even for readings of a broken device.
+bool before(double a, double b) noexcept {
+  if (std::isnan(a)) return false;
+  return std::isnan(b) || a < b;
+}
+
+}  // namespace
+
+FilterFields filter_fields(ReadingKind kind) noexcept {
+  switch (kind) {
+    case ReadingKind::kRanges:
+    case ReadingKind::kValues:
+      return {1};
+    case ReadingKind::kVelocity:
+      return {2};
+    case ReadingKind::kPose:
+      return {3, 2};
+    case ReadingKind::kOdometry:
+      return {5, 2};
+    default:
+      return {};
+  }
+}
+
+std::size_t filter_memory(const FilterSpec& filter) noexcept {
+  if (filter.kind == FilterSpec::Kind::kExponential) return sizeof(ExponentialMemory);
+  return sizeof(MedianMemory) + static_cast<std::size_t>(filter.window) * sizeof(double);
+}
+
+double FieldFilter::operator()(double x, std::int64_t stamp_ns, bool angle,
+                               std::byte* memory) noexcept {
+  if (filter_.kind == FilterSpec::Kind::kExponential) {
+    return exponential(x, stamp_ns, angle, memory);
+  }
+  return median(x, angle, memory);
+}
+
+double FieldFilter::median(double x, bool angle, std::byte* memory) const noexcept {
+  auto& own = *reinterpret_cast<MedianMemory*>(memory);
+  auto* const history = reinterpret_cast<double*>(memory + sizeof(MedianMemory));
+  const auto window = static_cast<std::uint32_t>(filter_.window);
+  if (own.filled == 0) own.output = x;
+  history[own.next] = x;
+  own.next = (own.next + 1) % window;
+  own.filled = std::min(own.filled + 1, window);
+
+  std::array<double, kLargestWindow> sorted;
+  for (std::uint32_t i = 0; i < own.filled; ++i) {
+    // Angles as differences to the last output, so that the jump from pi to -pi is none.
+    sorted[i] = angle ? wrap_angle(history[i] - own.output) : history[i];
+  }
+  auto* const middle = sorted.data() + (own.filled - 1) / 2;
+  std::nth_element(sorted.data(), middle, sorted.data() + own.filled, before);
+  own.output = angle ? wrap_angle(own.output + *middle) : *middle;
+  return own.output;
+}
+
+double FieldFilter::exponential(double x, std::int64_t stamp_ns, bool angle,
+                                std::byte* memory) noexcept {
+  auto& own = *reinterpret_cast<ExponentialMemory*>(memory);
+  if (!std::isfinite(x)) {
+    own = {};
+    return x;
+  }
+  if (own.valid == 0) {
+    own = {x, stamp_ns, 1, 0};
+    return x;
+  }
+  const std::int64_t dt_ns = stamp_ns - own.stamp_ns;
+  if (dt_ns != dt_ns_) {
+    dt_ns_ = dt_ns;
+    gain_ = 1.0 - exp(-static_cast<double>(dt_ns) * 1e-9 / filter_.time_constant_s);
+  }
+  own.output = angle ? wrap_angle(own.output + gain_ * wrap_angle(x - own.output))
+                     : own.output + gain_ * (x - own.output);
+  own.stamp_ns = stamp_ns;
+  return own.output;
+}
+
+}  // namespace rave::detail

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/robot/processing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "field_filter.hpp"
+
+namespace rave {
+namespace {
+
+constexpr std::uint32_t kIrregularDepth = 64;
+constexpr double kLongestLatency_s = 3600;
+constexpr std::size_t kLargestState = std::size_t{64} << 20;
+
+/// At the start of the state; the ring of slots and the filters' memory follow.
+struct Ring {
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+  std::uint32_t dropped = 0;
+  std::uint32_t reserved = 0;
+};
+
+std::size_t whole_words(std::size_t bytes) { return (bytes + 7) / 8 * 8; }
+
+Status check_amount(const char* name, double value, bool applies, ReadingKind kind) {
+  if (!std::isfinite(value) || value < 0) {
+    return fail(ErrorCode::kInvalidArgument,
+                "noise: `{}` is {}; it must be a finite number of at least 0", name, value);
+  }
+  if (value > 0 && !applies) {
+    return fail(ErrorCode::kInvalidArgument,
+                "noise: `{}` has nothing to act on in a sensor of kind `{}`", name,
+                to_string(kind));
+  }
+  return {};
+}
+
+Status check_noise(const NoiseSpec& noise, ReadingKind kind) {
+  using enum ReadingKind;
+  const bool posed = kind == kPose || kind == kOdometry;
+  const bool angle = posed || kind == kSightings || kind == kNeighbours;
+  const bool length = angle || kind == kRanges;
+  const bool velocity = kind == kOdometry || kind == kNeighbours || kind == kVelocity;
+  RAVE_TRY(check_amount("length_sigma_m", noise.length_sigma_m, length, kind));
+  RAVE_TRY(check_amount("length_quantum_m", noise.length_quantum_m, length, kind));
+  RAVE_TRY(check_amount("angle_sigma_rad", noise.angle_sigma_rad, angle, kind));
+  RAVE_TRY(check_amount("angle_quantum_rad", noise.angle_quantum_rad, angle, kind));
+  RAVE_TRY(check_amount("velocity_sigma_mps", noise.velocity_sigma_mps, velocity, kind));
+  RAVE_TRY(check_amount("velocity_quantum_mps", noise.velocity_quantum_mps, velocity, kind));
+  if (!(noise.dropout_probability >= 0 && noise.dropout_probability <= 1)) {
+    return fail(ErrorCode::kInvalidArgument,
+                "noise: `dropout_probability` is {}; it must lie between 0 and 1",
+                noise.dropout_probability);
+  }
+  return {};
+}
+
+Status check_filter(const FilterSpec& filter, ReadingKind kind) {
+  if (detail::filter_fields(kind).count == 0) {
+    return fail(ErrorCode::kInvalidArgument,
+                "filter: a sensor of kind `{}` cannot be filtered, since its records come and go; "
+                "filters work on ranges, pose, odometry, velocity and values",
+                to_string(kind));
+  }
+  if (filter.kind == FilterSpec::Kind::kMedian) {
+    if (filter.window < 1 || filter.window > 99 || filter.window % 2 == 0) {
+      return fail(ErrorCode::kInvalidArgument,
+                  "median filter: `window` is {}; it must be an odd number from 1 to 99",
+                  filter.window);
+    }
+    return {};
+  }
+  if (!std::isfinite(filter.time_constant_s) || filter.time_constant_s <= 0) {
+    return fail(ErrorCode::kInvalidArgument,
+                "exponential filter: `time_constant_s` is {}; it must be a finite number above 0",
+                filter.time_constant_s);
+  }
+  return {};
+}
+
+Status check_times(double latency_s, double period_s) {
+  if (!(latency_s >= 0 && latency_s <= kLongestLatency_s)) {
+    return fail(ErrorCode::kInvalidArgument,
+                "`latency_s` is {}; it must lie between 0 and {} seconds", latency_s,
+                kLongestLatency_s);
+  }
+  if (!(period_s == 0 || (period_s >= 1e-9 && period_s <= 1e9))) {
+    return fail(ErrorCode::kInvalidArgument,
+                "the period is {} s; it must be 0 for an irregular source or lie between 1e-9 and "
+                "1e9 seconds",
+                period_s);
+  }
+  return {};
+}
+
+std::uint64_t ring_depth(Duration latency, Duration period) {
+  if (period.ns == 0) return kIrregularDepth;
+  return static_cast<std::uint64_t>((latency.ns + period.ns - 1) / period.ns + 1);
+}
+
+}  // namespace
+
+bool ProcessingSpec::empty() const noexcept {
+  return !noise.any() && latency_s == 0 && filters.empty();
+}
+
+Result<Processing> Processing::make(const ProcessingSpec& spec, ReadingKind kind,
+                                    std::uint32_t capacity, double period_s) {
+  if (rave::record_size(kind) == 0 || capacity == 0) {
+    return fail(ErrorCode::kInvalidArgument,
+                "a sensor of kind `{}` with {} records has nothing to process", to_string(kind),
+                capacity);
+  }
+  RAVE_TRY(check_noise(spec.noise, kind));
+  RAVE_TRY(check_times(spec.latency_s, period_s));
+  for (const FilterSpec& filter : spec.filters) RAVE_TRY(check_filter(filter, kind));
+
+  Processing made;
+  made.noise_ = spec.noise;
+  made.noisy_ = spec.noise.any();
+  made.kind_ = kind;
+  made.capacity_ = capacity;
+  made.record_size_ = rave::record_size(kind);
+  made.latency_ = from_seconds(spec.latency_s);
+  const std::size_t records_size = std::size_t{made.record_size_} * capacity;
+  made.slot_size_ = sizeof(SampleHeader) + whole_words(records_size);
+  const std::uint64_t depth = ring_depth(made.latency_, from_seconds(period_s));
+  const std::size_t fields = std::size_t{capacity} * detail::filter_fields(kind).count;
+  // All factors are far below 2^48, and the sum is tested before a next one could overflow it.
+  bool fits = depth <= kLargestState / made.slot_size_;
+  std::size_t size = sizeof(Ring) + (fits ? depth * made.slot_size_ : 0);
+  for (const FilterSpec& filter : spec.filters) {
+    made.stages_.push_back({filter, size});
+    size += fields * detail::filter_memory(filter);
+    fits = fits && size <= kLargestState;
+    if (!fits) break;
+  }
+  if (!fits) {
+    return fail(ErrorCode::kInvalidArgument,
+                "the processing chain would need more than {} MiB for each robot: {} samples under "
+                "way of {} records each and {} filters; shorten the latency, lengthen the period "
+                "or use smaller filters",
+                kLargestState >> 20, depth, capacity, spec.filters.size());
+  }
+  made.depth_ = static_cast<std::uint32_t>(depth);
+  made.state_size_ = size;
+  return made;
+}
+
+void Processing::reset(std::byte* state) const noexcept { std::memset(state, 0, state_size_); }
+
+std::byte* Processing::slot(std::byte* state, std::uint32_t index) const noexcept {
+  return state + sizeof(Ring) + slot_size_ * (index % depth_);
+}
+
+void Processing::push(const SampleHeader& raw, const void* records, RandomStream random,
+                      std::byte* state) const noexcept {
+  auto& ring = *reinterpret_cast<Ring*>(state);
+  if (ring.count == depth_) {
+    const auto& lost = *reinterpret_cast<const SampleHeader*>(slot(state, ring.first));
+    ring.dropped += lost.count + lost.dropped;
+    ring.first = (ring.first + 1) % depth_;
+    --ring.count;
+  }
+  std::byte* const place = slot(state, ring.first + ring.count);
+  ++ring.count;
+  auto& header = *reinterpret_cast<SampleHeader*>(place);
+  header = raw;
+  header.count = std::min(raw.count, capacity_);
+  header.dropped += raw.count - header.count;
+  std::byte* const own = place + sizeof(SampleHeader);
+  if (header.count > 0) std::memcpy(own, records, std::size_t{header.count} * record_size_);
+  apply_noise(header, own, random);
+}
+
+bool Processing::deliver(SimTime now, std::byte* state, SampleHeader* out,
+                         void* out_records) const noexcept {
+  auto& ring = *reinterpret_cast<Ring*>(state);
+  std::byte* newest = nullptr;
+  while (ring.count > 0) {
+    std::byte* const place = slot(state, ring.first);
+    const auto& header = *reinterpret_cast<const SampleHeader*>(place);
+    if (SimTime{header.stamp_ns} + latency_ > now) break;
+    for (const Stage& stage : stages_) filter(stage, header, place + sizeof(SampleHeader), state);
+    ring.dropped += header.dropped;
+    ring.first = (ring.first + 1) % depth_;
+    --ring.count;
+    newest = place;
+  }
+  if (newest == nullptr) return false;
+  *out = *reinterpret_cast<const SampleHeader*>(newest);
+  out->dropped = ring.dropped;
+  ring.dropped = 0;
+  if (out->count > 0) {
+    std::memcpy(out_records, newest + sizeof(SampleHeader), std::size_t{out->count} * record_size_);
+  }
+  return true;
+}
+
+void Processing::filter(const Stage& stage, const SampleHeader& header, void* records,
+                        std::byte* state) const noexcept {
+  detail::FieldFilter run(stage.filter);
+  const std::size_t each = detail::filter_memory(stage.filter);
+  std::byte* memory = state + stage.offset;
+  if (kind_ == ReadingKind::kRanges) {
+    auto* const rays = static_cast<float*>(records);
+    for (std::uint32_t i = 0; i < header.count; ++i, memory += each) {
+      rays[i] = static_cast<float>(run(rays[i], header.stamp_ns, false, memory));
+    }
+    return;
+  }
+  const detail::FilterFields fields = detail::filter_fields(kind_);
+  auto* record = static_cast<double*>(records);
+  for (std::uint32_t i = 0; i < header.count; ++i, record += record_size_ / sizeof(double)) {
+    for (std::uint32_t k = 0; k < fields.count; ++k, memory += each) {
+      record[k] = run(record[k], header.stamp_ns, k == fields.angle, memory);
+    }
+  }
+}
+
+}  // namespace rave

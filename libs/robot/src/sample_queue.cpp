@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/robot/sample_queue.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "rave/base/check.hpp"
+
+namespace rave {
+namespace {
+
+using Lock = std::unique_lock<std::mutex>;
+
+constexpr std::size_t kLongestText = 4096;
+
+std::string text_of(std::int64_t ns) { return fmt::format("{:.9f} s", SimTime{ns}.seconds()); }
+
+}  // namespace
+
+SampleQueue::SampleQueue(ReadingKind kind, std::uint32_t max_records, std::size_t depth,
+                         const RunClock* live)
+    : max_records_(max_records),
+      record_size_(record_size(kind)),
+      depth_(depth),
+      live_(live),
+      headers_(depth),
+      records_(depth * max_records * record_size_) {
+  RAVE_CHECK(record_size_ > 0 && max_records > 0 && depth > 0);
+}
+
+std::byte* SampleQueue::records_of(std::size_t slot) noexcept {
+  return records_.data() + slot * max_records_ * record_size_;
+}
+
+bool SampleQueue::wait_until(SimTime t) noexcept {
+  Lock lock(mutex_);
+  if (live_ == nullptr) return !closed_;
+  producer_waits_ = true;
+  while (!closed_ && live_->now() < t) {
+    const auto due = live_->wall_time_of(t);
+    const auto woken = to_producer_.wait_until(lock, due);
+    // The two views of the clock may differ by a rounding; the wall decides.
+    if (woken == std::cv_status::timeout && live_->wall_time_of(t) <= due) break;
+  }
+  producer_waits_ = false;
+  return !closed_;
+}
+
+bool SampleQueue::refused(SimTime stamp, std::uint32_t count) {
+  std::string why;
+  if (count > max_records_) {
+    why = fmt::format("holds {} records, more than the {} that were declared", count, max_records_);
+  } else if (stamp.ns < newest_ns_) {
+    why = "came after one of " + text_of(newest_ns_) + "; stamps must not step back";
+  } else if (live_ == nullptr && stamp.ns <= complete_ns_) {
+    why = "came after completeness had been promised up to " + text_of(complete_ns_);
+  } else {
+    return false;
+  }
+  ++dropped_;
+  dropped_since_next_ += count;
+  if (complaint_.empty()) {
+    complaint_ = fmt::format("the sample of {} was dropped: it {}", text_of(stamp.ns), why);
+  }
+  return true;
+}
+
+void SampleQueue::lose_oldest() {
+  ++dropped_;
+  dropped_since_next_ += headers_[first_].count;
+  first_ = (first_ + 1) % depth_;
+  --count_;
+}
+
+bool SampleQueue::publish(SimTime stamp, const void* records, std::uint32_t count) noexcept {
+  Lock lock(mutex_);
+  if (closed_) return false;
+  if (refused(stamp, count)) return true;
+  if (live_ != nullptr) {
+    if (count_ == depth_) lose_oldest();
+  } else if (count_ == depth_) {
+    producer_waits_ = true;
+    to_producer_.wait(lock, [&] { return closed_ || count_ < depth_; });
+    producer_waits_ = false;
+    if (closed_) return false;
+  }
+  const std::size_t slot = (first_ + count_) % depth_;
+  ++count_;
+  newest_ns_ = stamp.ns;
+  headers_[slot] = {stamp.ns, ++sequence_, count, 0, 0};
+  if (count > 0) std::memcpy(records_of(slot), records, std::size_t{count} * record_size_);
+  if (consumer_waits_) to_consumer_.notify_one();
+  return true;
+}
+
+void SampleQueue::complete_up_to(SimTime t) noexcept {
+  Lock lock(mutex_);
+  complete_ns_ = std::max(complete_ns_, t.ns);
+  if (consumer_waits_) to_consumer_.notify_one();
+}
+
+void SampleQueue::fail(const char* text, std::uint64_t size) noexcept {
+  Lock lock(mutex_);
+  if (failed_) return;
+  failed_ = true;
+  failure_.assign(text, std::min<std::size_t>(size, kLongestText));
+  if (failure_.empty()) failure_ = "the driver gave no reason";
+  to_consumer_.notify_one();
+}
+
+SampleQueue::Wait SampleQueue::wait_complete(SimTime t, std::chrono::milliseconds limit) {
+  Lock lock(mutex_);
+  if (live_ != nullptr) return failed_ || closed_ ? Wait::kFailed : Wait::kComplete;
+  const auto state = [&] {
+    // Stamps do not step back, so one after t proves that all up to t have come.
+    if (complete_ns_ >= t.ns || newest_ns_ > t.ns) return Wait::kComplete;
+    if (failed_ || closed_) return Wait::kFailed;
+    return count_ == depth_ ? Wait::kFull : Wait::kTimeout;
+  };
+  if (const Wait now = state(); now != Wait::kTimeout) return now;
+  consumer_waits_ = true;
+  if (producer_waits_) to_producer_.notify_one();  // there is room that next() kept quiet about
+  to_consumer_.wait_for(lock, limit, [&] { return state() != Wait::kTimeout; });
+  consumer_waits_ = false;
+  return state();
+}
+
+bool SampleQueue::next(SimTime up_to, SampleHeader* header, void* records) {
+  Lock lock(mutex_);
+  if (count_ == 0 || headers_[first_].stamp_ns > up_to.ns) return false;
+  *header = headers_[first_];
+  header->dropped = dropped_since_next_;
+  dropped_since_next_ = 0;
+  if (header->count > 0) {
+    std::memcpy(records, records_of(first_), std::size_t{header->count} * record_size_);
+  }
+  first_ = (first_ + 1) % depth_;
+  --count_;
+  // Waking the producer for each sample would switch threads for each sample. It sleeps until half
+  // of the room is free, or until the consumer has to wait for it.
+  if (live_ == nullptr && producer_waits_ && count_ <= depth_ / 2) to_producer_.notify_one();
+  return true;
+}
+
+void SampleQueue::close() {
+  const Lock lock(mutex_);
+  closed_ = true;
+  to_producer_.notify_all();
+  to_consumer_.notify_all();
+}
+
+void SampleQueue::reopen() {
+  const Lock lock(mutex_);
+  first_ = 0;
+  count_ = 0;
+  closed_ = false;
+  failed_ = false;
+  newest_ns_ = INT64_MIN;
+  complete_ns_ = INT64_MIN;
+  sequence_ = 0;
+  dropped_since_next_ = 0;
+  dropped_ = 0;
+  failure_.clear();
+  complaint_.clear();
+}
+
+void SampleQueue::clock_changed() {
+  const Lock lock(mutex_);
+  to_producer_.notify_all();
+}
+
+std::string SampleQueue::failure() const {
+  const Lock lock(mutex_);
+  return failure_;
+}
+
+std::string SampleQueue::complaint() const {
+  const Lock lock(mutex_);
+  return complaint_;
+}
+
+std::uint64_t SampleQueue::dropped() const {
+  const Lock lock(mutex_);
+  return dropped_;
+}
+
+}  // namespace rave

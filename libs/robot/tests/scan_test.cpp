@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/robot/scan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "rave/math/scalar.hpp"
+
+namespace rave {
+namespace {
+
+/// A robot with one range sensor of two beams, 0.1 m ahead of its origin and turned to the left.
+class ScanTest : public ::testing::Test {
+ protected:
+  Scan scan_of(double cone_rad, const std::vector<float>& ranges_m) {
+    info_.name = "sonars";
+    info_.kind = ReadingKind::kRanges;
+    info_.capacity = 2;
+    info_.X_RS = {0.1, 0, 0.5 * kPi};
+    info_.range_max_m = 4;
+    info_.bearings_rad = bearings_rad_;
+    info_.cone_rad = cone_rad;
+    raw_.sensors = &info_;
+    raw_.sensor_count = 1;
+    header_.count = static_cast<std::uint32_t>(ranges_m.size());
+    view_ = {&header_, ranges_m.data()};
+    DecideItem item;
+    item.sensors = &view_;
+    Scan scan{rave::Setup(raw_)};
+    scan.update(Percepts(item));
+    return scan;
+  }
+
+  static constexpr double bearings_rad_[2] = {0.0, -0.5 * kPi};
+  SensorInfo info_;
+  ProgramSetup raw_;
+  SampleHeader header_;
+  SensorView view_;
+};
+
+TEST_F(ScanTest, PutsRaysIntoTheRobotsFrame) {
+  const Scan scan = scan_of(0, {2.0F, 3.0F});
+  ASSERT_EQ(scan.hits().size(), 2U);
+  EXPECT_NEAR(scan.hits()[0].p_R.x, 0.1, 1e-12);
+  EXPECT_NEAR(scan.hits()[0].p_R.y, 2.0, 1e-12);
+  EXPECT_NEAR(scan.hits()[1].distance_m, 3.1, 1e-12);
+  EXPECT_NEAR(scan.hits()[1].bearing_rad, 0, 1e-12);
+  EXPECT_NEAR(scan.nearest_m(-0.1, 0.1), 3.1, 1e-12);
+  EXPECT_EQ(scan.nearest_m(-2, -1), std::numeric_limits<double>::infinity());
+}
+
+TEST_F(ScanTest, AConeStandsForItsWholeArc) {
+  const Scan scan = scan_of(0.4, {2.0F, 3.0F});
+  ASSERT_EQ(scan.hits().size(), 6U);
+  EXPECT_NEAR(scan.hits()[4].p_R.x, 0.1 + 3.0 * cos(0.2), 1e-12);
+  EXPECT_NEAR(scan.hits()[4].p_R.y, 3.0 * sin(0.2), 1e-12);
+  EXPECT_NEAR(scan.hits()[5].p_R.y, -3.0 * sin(0.2), 1e-12);
+}
+
+TEST_F(ScanTest, NoReturnIsFreeAndNotANumberIsNothing) {
+  const Scan scan =
+      scan_of(0, {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()});
+  EXPECT_TRUE(scan.hits().empty());
+  ASSERT_EQ(scan.beams().size(), 1U);
+  EXPECT_EQ(scan.beams()[0].free_m, 4.0);
+}
+
+TEST_F(ScanTest, TooNearToMeasureIsAHitAtTheSensor) {
+  const Scan scan = scan_of(0, {-std::numeric_limits<float>::infinity(), 3.0F});
+  ASSERT_EQ(scan.hits().size(), 2U);
+  EXPECT_NEAR(scan.hits()[0].distance_m, 0.1, 1e-12);
+}
+
+TEST_F(ScanTest, IsEmptyBeforeTheFirstSample) { EXPECT_TRUE(scan_of(0, {}).beams().empty()); }
+
+}  // namespace
+}  // namespace rave

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/world/snapshot.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "rave/base/random.hpp"
+#include "rave/math/scalar.hpp"
+
+namespace rave::world {
+namespace {
+
+Body disc_body(double radius_m, Layer layer, double z1_m = 1) {
+  Body body;
+  body.shapes.push_back(make_disc({}, radius_m, 0, z1_m).value());
+  body.layer = layer;
+  return body;
+}
+
+/// A tube with a code, a low robot beside the line to it, and a looking robot.
+WorldModel tube_and_robots() {
+  WorldModel model;
+  Body tube = disc_body(0.05, Layer::kMappedReal);
+  tube.code = 72;
+  tube.code_z0_m = 0.1;
+  tube.code_z1_m = 0.9;
+  model.obstacles.push_back({tube, {4, 0, 0}});
+  model.robots.push_back(disc_body(0.165, Layer::kRealRobots, 0.1));
+  Body coded = disc_body(0.165, Layer::kSimulatedRobots, 0.1);
+  coded.code = 14;
+  model.robots.push_back(coded);
+  return model;
+}
+
+TEST(Snapshot, SeesOverALowRobotButNotThroughIt) {
+  const WorldModel model = tube_and_robots();
+  Snapshot world(model);
+  world.set_robot(RobotId(0), {{0, 0, 0}, {}, true});
+  world.set_robot(RobotId(1), {{2, 0, 0}, {}, true});
+  world.rebuild();
+  EXPECT_TRUE(world.visible({0, 0}, {4, 0}, 0.3, kAllLayers, BodyId(1), BodyId(0)));
+  EXPECT_FALSE(world.visible({0, 0}, {4, 0}, 0.05, kAllLayers, BodyId(1), BodyId(0)));
+  EXPECT_TRUE(world.visible({0, 0}, {4, 0}, 0.05, static_cast<LayerMask>(Layer::kMappedReal),
+                            BodyId(1), BodyId(0)));
+}
+
+TEST(Snapshot, ListsLandmarksOfObstaclesAndOfRobotsThatAreThere) {
+  const WorldModel model = tube_and_robots();
+  Snapshot world(model);
+  world.set_robot(RobotId(1), {{2, 1, 0}, {}, false});
+  world.rebuild();
+  ASSERT_EQ(world.landmarks().size(), 1U);
+  EXPECT_EQ(world.landmarks()[0].code, 72);
+  world.set_robot(RobotId(1), {{2, 1, 0}, {}, true});
+  world.rebuild();
+  ASSERT_EQ(world.landmarks().size(), 2U);
+  EXPECT_EQ(world.landmarks()[1].code, 14);
+  EXPECT_EQ(world.landmarks()[1].robot, RobotId(1));
+  EXPECT_EQ(world.landmarks()[1].p_WL, (Vec2{2, 1}));
+}
+
+TEST(Snapshot, ARobotThatIsNotThereIsNeitherSeenNorFound) {
+  const WorldModel model = tube_and_robots();
+  Snapshot world(model);
+  world.set_robot(RobotId(0), {{0, 0, 0}, {}, false});
+  world.rebuild();
+  EXPECT_FALSE(world.cast({-1, 0}, 0.05, 0, 3, kAllLayers, BodyId()).body.valid());
+  std::array<RobotId, 4> found;
+  EXPECT_EQ(world.robots_within({0, 0}, 100, found), 0U);
+}
+
+TEST(Snapshot, FindsRobotsWithinADistanceInTheirOrder) {
+  WorldModel model;
+  for (int i = 0; i < 50; ++i) model.robots.push_back(disc_body(0.1, Layer::kSimulatedRobots));
+  Snapshot world(model);
+  RandomStream random(1, 1, 1, 1);
+  std::vector<Vec2> places;
+  for (std::uint32_t r = 0; r < 50; ++r) {
+    places.push_back({random.uniform(-10, 10), random.uniform(-10, 10)});
+    world.set_robot(RobotId(r), {{places[r].x, places[r].y, 0}, {}, true});
+  }
+  world.rebuild();
+  std::vector<RobotId> expected;
+  for (std::uint32_t r = 0; r < 50; ++r) {
+    if (squared_norm(places[r] - Vec2{1, 2}) <= 25) expected.emplace_back(r);
+  }
+  std::array<RobotId, 50> found;
+  const std::uint32_t count = world.robots_within({1, 2}, 5, found);
+  EXPECT_EQ(std::vector<RobotId>(found.begin(), found.begin() + count), expected);
+  EXPECT_GT(count, 3U);
+  std::array<RobotId, 2> few;
+  EXPECT_EQ(world.robots_within({1, 2}, 5, few), count) << "tells how many there are in all";
+  EXPECT_EQ(few[1], expected[1]);
+}
+
+TEST(Snapshot, ARayMeetsTheNearestBody) {
+  const WorldModel model = tube_and_robots();
+  Snapshot world(model);
+  world.set_robot(RobotId(0), {{0, 0, 0}, {}, true});
+  world.set_robot(RobotId(1), {{2, 0.1, 0}, {}, true});
+  world.rebuild();
+  const RayHit hit = world.cast({0, 0}, 0.05, 0, 8, kAllLayers, world.body_of(RobotId(0)));
+  EXPECT_EQ(hit.body, world.body_of(RobotId(1)));
+  EXPECT_NEAR(hit.range_m, 2 - std::sqrt(0.165 * 0.165 - 0.01), 1e-12);
+}
+
+TEST(Grid, FindsWhatALinearSearchFinds) {
+  RandomStream random(2, 7, 1, 8);
+  for (int world = 0; world < 50; ++world) {
+    std::vector<GridItem> items;
+    for (std::uint32_t i = 0; i < 200; ++i) {
+      items.push_back({{random.uniform(-20, 20), random.uniform(-3, 3)}, random.uniform(0, 2), i});
+    }
+    Grid grid;
+    grid.build(items, 1.5);
+    for (int query = 0; query < 20; ++query) {
+      const Vec2 p{random.uniform(-25, 25), random.uniform(-5, 5)};
+      const double radius = random.uniform(0, 6);
+      std::vector<std::uint32_t> expected;
+      for (const GridItem& item : items) {
+        const double reach = radius + item.radius_m;
+        if (squared_norm(item.centre - p) <= reach * reach) expected.push_back(item.index);
+      }
+      std::vector<std::uint32_t> found;
+      grid.gather(p, radius, found);
+      std::sort(found.begin(), found.end());
+      found.erase(std::unique(found.begin(), found.end()), found.end());
+      ASSERT_EQ(found, expected);
+    }
+  }
+}
+
+TEST(CastPolygon, IsExactOnASquare) {
+  const std::array<Vec2, 4> square = {{{1, -1}, {3, -1}, {3, 1}, {1, 1}}};
+  EXPECT_DOUBLE_EQ(cast_polygon({0, 0}, {1, 0}, square), 1);
+  EXPECT_DOUBLE_EQ(cast_polygon({2, 0}, {1, 0}, square), 0);
+  EXPECT_EQ(cast_polygon({0, 0}, {-1, 0}, square), kNoHit);
+  EXPECT_EQ(cast_polygon({0, 2}, {1, 0}, square), kNoHit);
+}
+
+TEST(MakePrisms, SplitsWhatIsNotConvex) {
+  const std::array<Vec2, 6> corner = {{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}};
+  const auto shapes = make_prisms(corner, 0, 1);
+  ASSERT_TRUE(shapes);
+  double area = 0;
+  for (const Shape& shape : *shapes) area += shape.polygon->area();
+  EXPECT_GE(shapes->size(), 2U);
+  EXPECT_NEAR(area, 3, 1e-9);
+}
+
+TEST(MakePrisms, RefusesWhatIsNoPolygon) {
+  const std::array<Vec2, 4> bow_tie = {{{0, 0}, {1, 1}, {1, 0}, {0, 1}}};
+  EXPECT_NE(make_prisms(bow_tie, 0, 1).error().message.find("cross"), std::string::npos);
+  const std::array<Vec2, 3> triangle = {{{0, 0}, {1, 0}, {0, 1}}};
+  EXPECT_NE(make_prisms(triangle, 1, 1).error().message.find("from low to high"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace rave::world

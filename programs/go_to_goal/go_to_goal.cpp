@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "obstacle_memory.hpp"
+#include "rave/math/scalar.hpp"
+#include "rave/robot/plugin_entry.hpp"
+#include "rave/robot/steering.hpp"
+
+namespace rave {
+namespace {
+
+constexpr ParamSpec kParams[] = {
+    number_param("goal_x_m", "m", 0, -1e6, 1e6, "Goal in the world frame, unless `goals_m`."),
+    number_param("goal_y_m", "m", 0, -1e6, 1e6, "Goal in the world frame, unless `goals_m`."),
+    numbers_param("goals_m", "m", -1e6, 1e6, "Several goals in order: x, y, x, y, ..."),
+    number_param("tolerance_m", "m", 0.15, 0.01, 100, "Nearer than this is there."),
+    number_param("cruise_mps", "m/s", 0.4, 0.01, 10, "Largest speed."),
+    number_param("turn_gain_per_s", "1/s", 2.0, 0.1, 100, "Turning rate per radian of error."),
+    number_param("max_turn_rate_radps", "rad/s", 1.5, 0.1, 10, "Largest turning rate."),
+    number_param("margin_m", "m", 0.1, 0, 10, "Kept free beside the body."),
+    number_param("look_m", "m", 1.0, 0.1, 2.5, "How far ahead the way must be free."),
+    number_param("patience_s", "s", 10, 0.1, 3600,
+                 "Without coming nearer for so long, it follows the wall."),
+};
+
+/// Drives to its goals around obstacles. Where heading for the goal leads no nearer, it follows the
+/// boundary until it is nearer to the goal than ever and sees the way free: the leave condition of
+/// TangentBug (I. Kamon, E. Rivlin, E. Rimon, "A new range-sensor based globally convergent
+/// navigation algorithm for mobile robots", ICRA 1996). Directions are chosen as in VFH+.
+class GoToGoal final : public DecisionProcess {
+ public:
+  Status start(const Setup& setup) override {
+    const Params params = setup.params();
+    setup_ = setup;
+    RAVE_TRY_ASSIGN(drive_, setup.controller(CommandKind::kVelocity));
+    RAVE_TRY(read_goals(params));
+    scan_ = Scan(setup);
+    points_R_.reserve(ObstacleMemory::kSide * ObstacleMemory::kSide);
+    look_m_ = params.number("look_m");
+    steering_ = Steering(setup.robot_radius_m() + params.number("margin_m"), look_m_);
+    tolerance_m_ = params.number("tolerance_m");
+    cruise_mps_ = params.number("cruise_mps");
+    turn_gain_per_s_ = params.number("turn_gain_per_s");
+    max_turn_rate_radps_ = params.number("max_turn_rate_radps");
+    patience_ = from_seconds(params.number("patience_s"));
+    return {};
+  }
+
+  void decide(const Percepts& percepts, Commands& commands) override {
+    const PoseReading& pose = percepts.pose();
+    const Pose2 X_WR{pose.x_m, pose.y_m, pose.yaw_rad};
+    if (!(std::abs(pose.x_m) + std::abs(pose.y_m) < kFar_m) || !std::isfinite(pose.yaw_rad)) {
+      commands.velocity(drive_, 0, 0);  // It does not know where it is.
+      return;
+    }
+    scan_.update(percepts);
+    memory_.update(scan_, X_WR, percepts.now());
+    points_R_.clear();
+    memory_.append_to(points_R_, X_WR, look_m_ + 0.5);
+
+    if (current_ < goals_W_.size()) arrive(X_WR, percepts.now());
+    if (current_ == goals_W_.size()) {
+      commands.velocity(drive_, 0, 0);
+      return;
+    }
+    const Vec2 goal_R = transform_back(X_WR, goals_W_[current_]);
+    const FreeHeading way =
+        side_ == 0 ? toward(goal_R, percepts.now()) : along_wall(goal_R, X_WR, percepts.now());
+    drive(way, std::sqrt(squared_norm(goal_R)), commands);
+  }
+
+ private:
+  Status read_goals(const Params& params) {
+    const std::span<const double> list_m = params.numbers("goals_m");
+    if (list_m.size() % 2 != 0) {
+      return fail(ErrorCode::kInvalidArgument,
+                  "`goals_m` must hold x, y, x, y, ...; it has {} numbers", list_m.size());
+    }
+    for (std::size_t i = 0; i < list_m.size(); i += 2)
+      goals_W_.push_back({list_m[i], list_m[i + 1]});
+    if (goals_W_.empty())
+      goals_W_.push_back({params.number("goal_x_m"), params.number("goal_y_m")});
+    return {};
+  }
+
+  /// Takes the next goal when this one is reached.
+  void arrive(const Pose2& X_WR, SimTime now) {
+    const double distance_m = std::sqrt(squared_norm(goals_W_[current_] - X_WR.position()));
+    if (distance_m > tolerance_m_) return;
+    setup_->log(fmt::format("goal {} of {} reached at {:.2f} s", current_ + 1, goals_W_.size(),
+                            now.seconds()));
+    ++current_;
+    side_ = 0;
+    nearest_m_ = kFar_m;
+  }
+
+  /// Heads for the goal; begins to follow the wall when that brings it no nearer.
+  FreeHeading toward(Vec2 goal_R, SimTime now) {
+    const double distance_m = std::sqrt(squared_norm(goal_R));
+    if (distance_m < nearest_m_ - 0.05) {
+      nearest_m_ = distance_m;
+      nearer_at_ = now;
+    }
+    const double bearing_rad = atan2(goal_R.y, goal_R.x);
+    const FreeHeading way = steering_.best(points_R_, bearing_rad, distance_m);
+    const double detour_rad = wrap_angle(way.heading_rad - bearing_rad);
+    const bool backward = std::abs(detour_rad) > deg_to_rad(90) || way.free_m < 0.05;
+    if (!backward && now - nearer_at_ < patience_) return way;
+    // The wall comes to lie on the side that the goal would have it pass: left detour, right hand.
+    side_ = detour_rad >= 0 ? 1 : -1;
+    follow_from_W_.reset();
+    return way;
+  }
+
+  /// Keeps a hand on the wall: side 1 has it on the right, side -1 on the left.
+  FreeHeading along_wall(Vec2 goal_R, const Pose2& X_WR, SimTime now) {
+    const double distance_m = std::sqrt(squared_norm(goal_R));
+    const double bearing_rad = atan2(goal_R.y, goal_R.x);
+    const FreeHeading direct = steering_.best(points_R_, bearing_rad, distance_m);
+    const bool nearer = distance_m < nearest_m_ - 0.2;
+    const bool open = direct.free_m >= std::min(distance_m, look_m_) &&
+                      std::abs(wrap_angle(direct.heading_rad - bearing_rad)) < deg_to_rad(60);
+    if (nearer && open) {
+      side_ = 0;
+      nearest_m_ = distance_m;
+      nearer_at_ = now;
+    } else if (went_round(X_WR)) {
+      // Once around without a way: what it remembers may be wrong, or the world has changed.
+      setup_->log(fmt::format("no way to goal {} found so far at {:.2f} s; trying anew",
+                              current_ + 1, now.seconds()));
+      memory_.forget();
+      side_ = 0;
+      nearest_m_ = kFar_m;
+      nearer_at_ = now;
+    }
+    if (side_ == 0) return direct;
+    return steering_.first(points_R_, wall_bearing_rad(), side_, kFollowLook_m);
+  }
+
+  /// Where the wall is that it follows: the nearest remembered point on the side of its hand or
+  /// ahead, so that the other wall of a corridor does not count; else the nearest of all.
+  double wall_bearing_rad() const {
+    double nearest_m2 = kFar_m;
+    double bearing_rad = -side_ * deg_to_rad(90);
+    for (const bool any_side : {false, true}) {
+      for (const Vec2 p_R : points_R_) {
+        if (squared_norm(p_R) >= nearest_m2) continue;
+        const double angle_rad = atan2(p_R.y, p_R.x);
+        if (!any_side && angle_rad * side_ > deg_to_rad(30)) continue;
+        nearest_m2 = squared_norm(p_R);
+        bearing_rad = angle_rad;
+      }
+      if (nearest_m2 < kFar_m) break;
+    }
+    return bearing_rad;
+  }
+
+  /// Whether it is back where it began to follow, after having been elsewhere.
+  bool went_round(const Pose2& X_WR) {
+    if (!follow_from_W_) {
+      follow_from_W_ = X_WR.position();
+      left_start_ = false;
+    }
+    const double from_start_m2 = squared_norm(X_WR.position() - *follow_from_W_);
+    if (from_start_m2 > 1.0) left_start_ = true;
+    return left_start_ && from_start_m2 < 0.3 * 0.3;
+  }
+
+  void drive(const FreeHeading& way, double distance_m, Commands& commands) {
+    // Slower where it is narrow and near the goal; none while it still has to turn far.
+    const double room = std::clamp(way.free_m / kFollowLook_m, 0.0, 1.0);
+    const double turned = std::max(0.0, 1.0 - std::abs(way.heading_rad) / deg_to_rad(60));
+    const double v_mps = std::min(cruise_mps_, distance_m) * room * turned;
+    commands.velocity(drive_, v_mps,
+                      std::clamp(turn_gain_per_s_ * way.heading_rad, -max_turn_rate_radps_,
+                                 max_turn_rate_radps_));
+  }
+
+  static constexpr double kFar_m = 1e9;
+  static constexpr double kFollowLook_m = 0.4;
+
+  std::optional<Setup> setup_;
+  ControllerHandle drive_;
+  Scan scan_;
+  ObstacleMemory memory_;
+  Steering steering_;
+  std::vector<Vec2> points_R_;
+  std::vector<Vec2> goals_W_;
+  double look_m_ = 0;
+  double tolerance_m_ = 0;
+  double cruise_mps_ = 0;
+  double turn_gain_per_s_ = 0;
+  double max_turn_rate_radps_ = 0;
+  Duration patience_;
+
+  std::size_t current_ = 0;    ///< Of the goals.
+  int side_ = 0;               ///< 0: toward the goal; else along a wall.
+  double nearest_m_ = kFar_m;  ///< To this goal so far, while heading for it.
+  SimTime nearer_at_;          ///< When it last came nearer.
+  std::optional<Vec2> follow_from_W_;
+  bool left_start_ = false;
+};
+
+}  // namespace
+}  // namespace rave
+
+RAVE_PLUGIN("go_to_goal") {
+  rave::add_program<rave::GoToGoal>(
+      registry, {.name = "go_to_goal",
+                 .summary = "Drives to one or more goals around obstacles, out of traps too.",
+                 .params = rave::kParams});
+}

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "programs/testing/plugin_under_test.hpp"
+#include "rave/math/scalar.hpp"
+
+namespace rave::testing {
+
+/// A sensor of a test robot, with its latest sample.
+struct RigSensor {
+  std::string name;
+  SensorInfo info;
+  std::vector<double> bearings_rad;
+  std::vector<std::byte> records;
+  SampleHeader header;
+
+  template <class Record>
+  void give(const std::vector<Record>& values, std::int64_t stamp_ns) {
+    records.resize(values.size() * sizeof(Record));
+    if (!values.empty()) std::memcpy(records.data(), values.data(), records.size());
+    header.count = static_cast<std::uint32_t>(values.size());
+    header.stamp_ns = stamp_ns;
+    ++header.sequence;
+    header.fresh = 1;
+  }
+};
+
+/// A test robot: what its program is told, and what it commands.
+struct Rig {
+  explicit Rig(const DriverInfo& info) : params(info) {}
+
+  /// Sonars (cone_rad > 0) or rays at `bearings_rad`, all in the middle of the robot.
+  RigSensor& add_ranges(std::vector<double> bearings_rad, double cone_rad, double max_m) {
+    RigSensor& sensor = add(ReadingKind::kRanges, "ranges");
+    sensor.bearings_rad = std::move(bearings_rad);
+    sensor.info.capacity = static_cast<std::uint32_t>(sensor.bearings_rad.size());
+    sensor.info.cone_rad = cone_rad;
+    sensor.info.range_max_m = max_m;
+    return sensor;
+  }
+  RigSensor& add(ReadingKind kind, std::string name) {
+    sensors.emplace_back();
+    sensors.back().name = std::move(name);
+    sensors.back().info.kind = kind;
+    return sensors.back();
+  }
+  [[nodiscard]] const Command& command() const { return commands.front(); }
+
+  ParamSet params;
+  LogLines log;
+  std::deque<RigSensor> sensors;
+  std::vector<ControllerInfo> controllers{{"velocity", CommandKind::kVelocity, 0}};
+  std::vector<Command> commands;
+  PoseReading pose;
+  std::uint32_t id = 0;
+  double radius_m = 0.17;
+
+  // Filled by the harness; the program keeps pointers into them.
+  std::vector<SensorInfo> infos;
+  std::vector<SensorView> views;
+  ProgramSetup setup;
+};
+
+/// Robots with one program, started and asked as the engine does: instances side by side, one call
+/// for all of them.
+class ProgramUnderTest {
+ public:
+  static constexpr double kPeriod_s = 0.1;
+
+  ProgramUnderTest(RegisterPlugin register_plugin, std::string_view name)
+      : plugin_(register_plugin, DriverKind::kProgram, name) {}
+  ProgramUnderTest(const ProgramUnderTest&) = delete;
+  ProgramUnderTest& operator=(const ProgramUnderTest&) = delete;
+  ~ProgramUnderTest() {
+    for (std::size_t i = 0; i < constructed_; ++i) ops().instance.destroy(slot(i));
+    ::operator delete(memory_, std::align_val_t{ops().instance.alignment});
+  }
+
+  Rig& add_robot() {
+    rigs.push_back(std::make_unique<Rig>(plugin_.info()));
+    rigs.back()->id = static_cast<std::uint32_t>(rigs.size() - 1);
+    return *rigs.back();
+  }
+
+  /// The text of the first error; empty if all robots started.
+  std::string start(std::uint64_t seed) {
+    seed_ = seed;
+    memory_ = static_cast<std::byte*>(::operator new(ops().instance.size* rigs.size(),
+                                                     std::align_val_t{ops().instance.alignment}));
+    ErrorText error;
+    for (const std::unique_ptr<Rig>& rig : rigs) {
+      prepare(*rig);
+      if (ops().instance.construct(slot(constructed_), &error) != 0) return error.text;
+      ++constructed_;
+      if (ops().start(slot(constructed_ - 1), &rig->setup, &error) != 0) return error.text;
+    }
+    return {};
+  }
+
+  void decide(SimTime now) {
+    std::vector<DecideItem> items(rigs.size());
+    for (std::size_t i = 0; i < rigs.size(); ++i) items[i] = item(*rigs[i], now);
+    std::vector<std::uint8_t> failed(rigs.size());
+    ErrorText error;
+    ops().decide(memory_, ops().instance.size, items.data(), items.size(), failed.data(), &error);
+    for (const std::uint8_t one : failed) ASSERT_EQ(one, 0) << error.text;
+    ++decision_;
+  }
+
+  std::vector<std::unique_ptr<Rig>> rigs;
+
+ private:
+  [[nodiscard]] const ProgramOps& ops() const { return plugin_.ops<ProgramOps>(); }
+  [[nodiscard]] void* slot(std::size_t i) const { return memory_ + i * ops().instance.size; }
+
+  void prepare(Rig& rig) {
+    for (RigSensor& sensor : rig.sensors) {
+      sensor.info.name = sensor.name.c_str();
+      sensor.info.period_s = kPeriod_s;
+      if (!sensor.bearings_rad.empty()) sensor.info.bearings_rad = sensor.bearings_rad.data();
+      rig.infos.push_back(sensor.info);
+    }
+    rig.commands.resize(rig.controllers.size());
+    rig.views.resize(rig.sensors.size());
+    rig.setup.robot.name = "robot";
+    rig.setup.robot.id = rig.id;
+    rig.setup.robot.radius_m = rig.radius_m;
+    rig.setup.robot.seed = seed_;
+    rig.setup.host = rig.log.host();
+    rig.setup.sensors = rig.infos.data();
+    rig.setup.sensor_count = rig.infos.size();
+    rig.setup.controllers = rig.controllers.data();
+    rig.setup.controller_count = rig.controllers.size();
+    rig.setup.params = rig.params.values().data();
+    rig.setup.param_count = rig.params.values().size();
+    rig.setup.period_s = kPeriod_s;
+  }
+
+  DecideItem item(Rig& rig, SimTime now) {
+    for (std::size_t i = 0; i < rig.sensors.size(); ++i) {
+      rig.views[i] = {&rig.sensors[i].header, rig.sensors[i].records.data()};
+    }
+    DecideItem item;
+    item.sensors = rig.views.data();
+    item.commands = rig.commands.data();
+    item.now_ns = now.ns;
+    item.pose = rig.pose;
+    item.decision = decision_;
+    item.robot = rig.id;
+    item.seed = seed_;
+    return item;
+  }
+
+  PluginUnderTest plugin_;
+  std::byte* memory_ = nullptr;
+  std::size_t constructed_ = 0;
+  std::uint64_t seed_ = 0;
+  std::uint32_t decision_ = 0;
+};
+
+}  // namespace rave::testing

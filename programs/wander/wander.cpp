@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "rave/math/scalar.hpp"
+#include "rave/math/transform.hpp"
+#include "rave/robot/plugin_entry.hpp"
+#include "rave/robot/scan.hpp"
+
+namespace rave {
+namespace {
+
+constexpr ParamSpec kParams[] = {
+    number_param("cruise_mps", "m/s", 0.3, 0, 10, "Speed while nothing is near."),
+    number_param("avoid_m", "m", 0.6, 0, 100, "It turns when its body comes nearer than this."),
+    number_param("stop_m", "m", 0.15, 0, 100, "Nearer than this it only turns on the spot."),
+    number_param("turn_radps", "rad/s", 1.0, 0.01, 10, "Turning rate while avoiding."),
+    number_param("front_deg", "deg", 70, 1, 180, "What counts as ahead, to each side."),
+    integer_param("turn_decisions_min", 3, 1, 10'000, "A turn lasts at least so many decisions."),
+    integer_param("turn_decisions_max", 15, 1, 10'000, "A turn lasts at most so many decisions."),
+    number_param("centre_x_m", "m", 0, -1e6, 1e6, "Middle of the area to stay in, world frame."),
+    number_param("centre_y_m", "m", 0, -1e6, 1e6, "Middle of the area to stay in, world frame."),
+    number_param("stay_within_m", "m", 0, 0, 1e6, "Radius of that area; 0: it may go anywhere."),
+};
+
+/// Drives ahead; turns away from whatever comes near, to the freer side, for a random time.
+class Wander final : public DecisionProcess {
+ public:
+  Status start(const Setup& setup) override {
+    const Params params = setup.params();
+    RAVE_TRY_ASSIGN(drive_, setup.controller(CommandKind::kVelocity));
+    scan_ = Scan(setup);
+    radius_m_ = setup.robot_radius_m();
+    cruise_mps_ = params.number("cruise_mps");
+    avoid_m_ = params.number("avoid_m");
+    stop_m_ = params.number("stop_m");
+    turn_radps_ = params.number("turn_radps");
+    front_rad_ = deg_to_rad(params.number("front_deg"));
+    shortest_turn_ = params.integer("turn_decisions_min");
+    longest_turn_ = std::max(shortest_turn_, params.integer("turn_decisions_max"));
+    centre_W_ = {params.number("centre_x_m"), params.number("centre_y_m")};
+    stay_within_m_ = params.number("stay_within_m");
+    if (stop_m_ >= avoid_m_) {
+      return fail(ErrorCode::kInvalidArgument, "`stop_m` ({}) must be less than `avoid_m` ({})",
+                  stop_m_, avoid_m_);
+    }
+    return {};
+  }
+
+  void decide(const Percepts& percepts, Commands& commands) override {
+    scan_.update(percepts);
+    const double clearance_m = scan_.nearest_m(-front_rad_, front_rad_) - radius_m_;
+    const int home = way_home(percepts.pose());
+    const bool must_turn = clearance_m < avoid_m_ || home != 0;
+
+    if (turns_left_ == 0 && must_turn) {
+      // Still blocked after a turn: go on the same way round, or a corner would trap it.
+      if (!turning_) side_ = home != 0 ? home : freer_side(percepts);
+      turns_left_ = turn_length(percepts);
+    }
+    turning_ = turns_left_ > 0;
+    if (turning_) --turns_left_;
+
+    // Full speed at avoid_m, none at stop_m: a disc that only turns cannot hit anything.
+    const double share = std::clamp((clearance_m - stop_m_) / (avoid_m_ - stop_m_), 0.0, 1.0);
+    const double most_mps = turning_ ? 0.5 * cruise_mps_ : cruise_mps_;
+    commands.velocity(drive_, most_mps * share, turning_ ? side_ * turn_radps_ : 0);
+  }
+
+ private:
+  /// 1: left, -1: right; by chance when both are the same.
+  int freer_side(const Percepts& percepts) const {
+    const double left_m = scan_.nearest_m(0, front_rad_ + 0.5);
+    const double right_m = scan_.nearest_m(-front_rad_ - 0.5, 0);
+    if (left_m == right_m) return percepts.random().bits() % 2 == 0 ? 1 : -1;
+    return left_m > right_m ? 1 : -1;
+  }
+
+  std::int64_t turn_length(const Percepts& percepts) const {
+    const auto choices = static_cast<double>(longest_turn_ - shortest_turn_ + 1);
+    return shortest_turn_ + static_cast<std::int64_t>(percepts.random().uniform(0, choices));
+  }
+
+  /// The side on which the middle of its area lies, if it has left it and is not heading back; 0 if
+  /// all is well.
+  int way_home(const PoseReading& pose) const {
+    const Vec2 to_centre_W = centre_W_ - Vec2{pose.x_m, pose.y_m};
+    if (stay_within_m_ <= 0 || squared_norm(to_centre_W) < stay_within_m_ * stay_within_m_)
+      return 0;
+    const Vec2 to_centre_R = rotate(-pose.yaw_rad, to_centre_W);
+    const double bearing_rad = atan2(to_centre_R.y, to_centre_R.x);
+    if (std::abs(bearing_rad) < deg_to_rad(60)) return 0;
+    return bearing_rad > 0 ? 1 : -1;
+  }
+
+  ControllerHandle drive_;
+  Scan scan_;
+  double radius_m_ = 0;
+  double cruise_mps_ = 0;
+  double avoid_m_ = 0;
+  double stop_m_ = 0;
+  double turn_radps_ = 0;
+  double front_rad_ = 0;
+  std::int64_t shortest_turn_ = 0;
+  std::int64_t longest_turn_ = 0;
+  Vec2 centre_W_;
+  double stay_within_m_ = 0;
+  std::int64_t turns_left_ = 0;
+  int side_ = 1;
+  bool turning_ = false;
+};
+
+}  // namespace
+}  // namespace rave
+
+RAVE_PLUGIN("wander") {
+  rave::add_program<rave::Wander>(
+      registry, {.name = "wander",
+                 .summary = "Drives about and turns away from whatever comes near.",
+                 .params = rave::kParams});
+}

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <link.h>
+
+#include <cstddef>
+
+namespace rave::isolation {
+
+using ModuleVisitor = int (*)(dl_phdr_info* info, std::size_t size, void* data);
+
+/// dl_iterate_phdr as the C library has it: all modules of the process.
+int visit_all_modules(ModuleVisitor visitor, void* data);
+
+/// From now on libbacktrace sees only the module that holds `address`. It reads the debug
+/// information of all modules that it sees, which for the system's libraries takes longer than all
+/// the rest of a start.
+void show_only_module_of(const void* address);
+
+}  // namespace rave::isolation

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program_host.hpp"
+
+#include <sys/socket.h>
+
+#include <cerrno>
+#include <span>
+#include <utility>
+
+#include "crash_report.hpp"
+#include "message.hpp"
+
+namespace rave::isolation {
+
+Result<std::unique_ptr<ProgramHost>> ProgramHost::create(SharedMemory memory, int socket) {
+  const auto* head = memory.at<SharedHead>(0);
+  if (memory.size() < sizeof(SharedHead) || head->magic != SharedHead::kMagic ||
+      head->total_bytes != memory.size() || head->setup_bytes > memory.size()) {
+    return fail(ErrorCode::kParse, "the shared memory was not made by a host of this version");
+  }
+  // Where the setup lies does not depend on what comes after it.
+  const std::size_t at = make_layout(head->setup_bytes, {}, 0).setup;
+  RAVE_TRY_ASSIGN(auto setup, SetupCopy::decode({memory.at<char>(at), head->setup_bytes}));
+  std::unique_ptr<ProgramHost> host(new ProgramHost(std::move(memory), std::move(setup), socket));
+  if (host->layout_.total_bytes != host->memory_.size()) {
+    return fail(ErrorCode::kParse, "the shared memory has {} bytes where its setup needs {}",
+                host->memory_.size(), host->layout_.total_bytes);
+  }
+  return host;
+}
+
+ProgramHost::ProgramHost(SharedMemory memory, std::unique_ptr<SetupCopy> setup, int socket)
+    : socket_(socket), memory_(std::move(memory)), setup_(std::move(setup)), log_(socket) {
+  setup_->set_host(log_.services());
+  const ProgramSetup& raw = setup_->setup();
+  layout_ = make_layout(memory_.at<SharedHead>(0)->setup_bytes,
+                        std::span(raw.sensors, raw.sensor_count), raw.controller_count);
+  if (layout_.total_bytes != memory_.size()) return;
+  for (const Layout::Sensor& sensor : layout_.sensors) {
+    views_.push_back(
+        {memory_.at<SampleHeader>(sensor.header), memory_.at<std::byte>(sensor.records)});
+  }
+}
+
+ProgramHost::~ProgramHost() {
+  if (constructed_) file_->ops().instance.destroy(instance_.get());
+}
+
+Status ProgramHost::load_and_start() {
+  RAVE_TRY_ASSIGN(file_, ProgramFile::load(order().plugin, order().program));
+  const ProgramOps& ops = file_->ops();
+  learn_plugin(reinterpret_cast<const void*>(ops.decide));
+  const std::align_val_t alignment{ops.instance.alignment};
+  instance_ = {::operator new(ops.instance.size, alignment), FreeAligned{alignment}};
+  ErrorText error;
+  constructed_ = ops.instance.construct(instance_.get(), &error) == 0;
+  if (!constructed_ || ops.start(instance_.get(), &setup_->setup(), &error) != 0) {
+    return fail(ErrorCode::kPlugin, "{}", error.text);
+  }
+  return {};
+}
+
+Status ProgramHost::start() {
+  Status status = load_and_start();
+  const std::uint32_t dropped = log_.begin_next();
+  if (status) {
+    send_message(socket_, {MessageKind::kStarted, 0, dropped}, {}, true);
+  } else {
+    const auto code = static_cast<std::uint32_t>(status.error().code);
+    send_message(socket_, {MessageKind::kStartFailed, code, dropped}, status.error().text(), true);
+  }
+  return status;
+}
+
+void ProgramHost::serve() {
+  for (;;) {
+    MessageHead head;
+    const ssize_t size = ::recv(socket_, &head, sizeof head, 0);
+    if (size < 0 && errno == EINTR) continue;
+    if (size != static_cast<ssize_t>(sizeof head) || head.kind != MessageKind::kDecide) return;
+    if (!decide(head.number)) return;
+  }
+}
+
+bool ProgramHost::decide(std::uint32_t decision) {
+  const auto& shared = *memory_.at<SharedDecide>(layout_.decide);
+  DecideItem item;
+  item.sensors = views_.data();
+  item.commands = memory_.at<Command>(layout_.commands);
+  item.now_ns = shared.now_ns;
+  item.pose = shared.pose;
+  item.decision = shared.decision;
+  item.robot = shared.robot;
+  item.seed = shared.seed;
+  const ProgramOps& ops = file_->ops();
+  std::uint8_t failed = 0;
+  ErrorText error;
+  ops.decide(instance_.get(), ops.instance.size, &item, 1, &failed, &error);
+  const auto kind = failed != 0 ? MessageKind::kDecideFailed : MessageKind::kDecided;
+  return send_message(socket_, {kind, decision, log_.begin_next()}, failed != 0 ? error.text : "",
+                      true) &&
+         failed == 0;
+}
+
+}  // namespace rave::isolation

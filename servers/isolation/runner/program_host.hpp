@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <new>
+#include <vector>
+
+#include "layout.hpp"
+#include "log_sender.hpp"
+#include "program_file.hpp"
+#include "rave/base/result.hpp"
+#include "rave/robot/program.hpp"
+#include "setup_copy.hpp"
+#include "shared_memory.hpp"
+
+namespace rave::isolation {
+
+/// Frees memory of the aligned operator new.
+struct FreeAligned {
+  std::align_val_t alignment{1};
+  void operator()(void* memory) const noexcept { ::operator delete(memory, alignment); }
+};
+
+/// One program in its own process: takes percepts from the shared memory and answers its host
+/// until the host closes the socket.
+class ProgramHost {
+ public:
+  /// Reads what is to run from `memory`. Errors: kParse.
+  [[nodiscard]] static Result<std::unique_ptr<ProgramHost>> create(SharedMemory memory, int socket);
+  ~ProgramHost();
+  ProgramHost(const ProgramHost&) = delete;
+  ProgramHost& operator=(const ProgramHost&) = delete;
+
+  [[nodiscard]] const Order& order() const noexcept { return setup_->order(); }
+  /// Loads, constructs and starts the program, and tells the host how that went.
+  Status start();
+  /// Answers until the host is gone or a decision failed.
+  void serve();
+
+ private:
+  ProgramHost(SharedMemory memory, std::unique_ptr<SetupCopy> setup, int socket);
+
+  Status load_and_start();
+  bool decide(std::uint32_t decision);
+
+  int socket_;
+  SharedMemory memory_;
+  std::unique_ptr<SetupCopy> setup_;
+  Layout layout_;
+  LogSender log_;
+  std::unique_ptr<ProgramFile> file_;
+  std::vector<SensorView> views_;
+  std::unique_ptr<void, FreeAligned> instance_;
+  bool constructed_ = false;
+};
+
+}  // namespace rave::isolation

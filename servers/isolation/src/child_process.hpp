@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <sys/types.h>
+
+#include <string>
+#include <vector>
+
+#include "file_descriptor.hpp"
+#include "rave/base/result.hpp"
+
+namespace rave::isolation {
+
+/// A child process, held by a descriptor, so that a signal never hits a stranger with its old id.
+class ChildProcess {
+ public:
+  /// Starts `arguments[0]` with `socket` and `memory` as kChildSocket and kChildMemory, standard
+  /// output and error inherited, standard input empty and everything else closed.
+  /// Errors: kNotFound, kIo.
+  [[nodiscard]] static Result<ChildProcess> spawn(const std::vector<std::string>& arguments,
+                                                  int socket, int memory);
+  ChildProcess() = default;
+  ChildProcess(ChildProcess&&) noexcept = default;
+  ChildProcess& operator=(ChildProcess&&) noexcept = default;
+  /// Must be gone by then: see wait_for_end() and kill().
+  ~ChildProcess() = default;
+
+  /// 0 once it is gone.
+  [[nodiscard]] pid_t id() const noexcept { return id_; }
+  void signal(int number) const noexcept;
+  /// Waits at most `milliseconds`; true if it is gone, and `how` says how it ended.
+  bool wait_for_end(int milliseconds);
+  void kill();
+  /// `ended itself with exit code 3`, `was ended by segmentation fault`.
+  [[nodiscard]] const std::string& how() const noexcept { return how_; }
+
+ private:
+  void reap();
+  pid_t id_ = 0;
+  FileDescriptor handle_;
+  std::string how_;
+};
+
+}  // namespace rave::isolation

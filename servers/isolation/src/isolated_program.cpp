@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/isolation/isolated_program.hpp"
+
+#include <fmt/format.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <span>
+#include <utility>
+
+#include "deadline.hpp"
+#include "describe.hpp"
+#include "layout.hpp"
+#include "link.hpp"
+#include "setup_copy.hpp"
+#include "shared_memory.hpp"
+
+namespace rave::isolation {
+
+struct IsolatedProgram::Impl {
+  Impl(const IsolationOptions& options, std::string who, const HostServices& host,
+       SharedMemory shared, Layout where, ChildProcess child, FileDescriptor socket)
+      : timeout_s(options.decide_timeout_s),
+        memory(std::move(shared)),
+        layout(std::move(where)),
+        link(std::move(who), host, std::move(child), std::move(socket), options.last_word_s) {}
+
+  [[nodiscard]] Status copy_in(const DecideItem& item) const;
+  void copy_out(const DecideItem& item) const {
+    std::memcpy(item.commands, memory.at<Command>(layout.commands),
+                layout.command_count * sizeof(Command));
+  }
+
+  double timeout_s;
+  SharedMemory memory;
+  Layout layout;
+  Link link;
+  bool deciding = false;
+  std::uint32_t decision = 0;
+  Deadline deadline;
+};
+
+Status IsolatedProgram::Impl::copy_in(const DecideItem& item) const {
+  for (std::size_t i = 0; i < layout.sensors.size(); ++i) {
+    const Layout::Sensor& sensor = layout.sensors[i];
+    const SampleHeader header =
+        item.sensors[i].header != nullptr ? *item.sensors[i].header : SampleHeader{};
+    if (header.count > sensor.capacity) {
+      return fail(ErrorCode::kInvalidArgument, "sensor {} has {} records, more than its {}", i,
+                  header.count, sensor.capacity);
+    }
+    *memory.at<SampleHeader>(sensor.header) = header;
+    const std::size_t bytes = std::size_t{header.count} * sensor.record_bytes;
+    if (bytes > 0) {
+      std::memcpy(memory.at<std::byte>(sensor.records), item.sensors[i].records, bytes);
+    }
+  }
+  *memory.at<SharedDecide>(layout.decide) = {item.now_ns, item.pose, item.decision, item.robot,
+                                             item.seed};
+  if (layout.command_count > 0) {
+    std::memcpy(memory.at<Command>(layout.commands), item.commands,
+                layout.command_count * sizeof(Command));
+  }
+  return {};
+}
+
+namespace {
+
+struct Sockets {
+  FileDescriptor host;
+  FileDescriptor child;
+};
+
+Result<Sockets> make_sockets() {
+  int files[2];
+  if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, files) != 0) {
+    return fail(ErrorCode::kIo, "cannot make a socket pair: {}", std::strerror(errno));
+  }
+  return Sockets{FileDescriptor(files[0]), FileDescriptor(files[1])};
+}
+
+struct Shared {
+  SharedMemory memory;
+  Layout layout;
+};
+
+Result<Shared> make_shared(const IsolationOptions& options, const ProgramSetup& setup) {
+  const std::string bytes =
+      encode_setup({options.plugin.string(), options.program, ::getpid()}, setup);
+  Layout layout = make_layout(bytes.size(), std::span(setup.sensors, setup.sensor_count),
+                              setup.controller_count);
+  RAVE_TRY_ASSIGN(SharedMemory memory, SharedMemory::create(layout.total_bytes));
+  *memory.at<SharedHead>(0) = {SharedHead::kMagic, layout.total_bytes, bytes.size()};
+  std::memcpy(memory.at<char>(layout.setup), bytes.data(), bytes.size());
+  return Shared{std::move(memory), std::move(layout)};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<IsolatedProgram>> IsolatedProgram::start(const IsolationOptions& options,
+                                                                const ProgramSetup& setup) {
+  const std::string who =
+      fmt::format("program `{}` of robot `{}`", options.program, setup.robot.name);
+  // The upper limit keeps milliseconds within an int.
+  for (const double timeout_s :
+       {options.decide_timeout_s, options.start_timeout_s, options.last_word_s}) {
+    if (!(timeout_s > 0 && timeout_s <= 1e6)) {
+      return fail(ErrorCode::kInvalidArgument, "{}: a timeout of {} s is not in (0, 1e6] s", who,
+                  timeout_s);
+    }
+  }
+  RAVE_TRY_ASSIGN(Shared shared, make_shared(options, setup));
+  RAVE_TRY_ASSIGN(Sockets sockets, make_sockets());
+  auto child = ChildProcess::spawn({options.runner.string(), options.program, setup.robot.name},
+                                   sockets.child.get(), shared.memory.file());
+  if (!child) return tl::unexpected(std::move(child).error().with_context(who));
+  sockets.child.reset();
+  std::unique_ptr<IsolatedProgram> program(new IsolatedProgram(std::make_unique<Impl>(
+      options, who, setup.host, std::move(shared.memory), std::move(shared.layout),
+      *std::move(child), std::move(sockets.host))));
+  RAVE_TRY(program->impl_->link.await(
+      MessageKind::kStarted, 0, Deadline(options.start_timeout_s),
+      fmt::format("has not started for {}", seconds_text(options.start_timeout_s))));
+  return program;
+}
+
+IsolatedProgram::IsolatedProgram(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+IsolatedProgram::~IsolatedProgram() = default;
+
+Status IsolatedProgram::begin_decide(const DecideItem& item) {
+  Impl& impl = *impl_;
+  RAVE_TRY(impl.link.state());
+  if (impl.deciding) return fail(ErrorCode::kState, "the program is still deciding");
+  RAVE_TRY(impl.copy_in(item));
+  impl.decision = item.decision;
+  impl.deadline = Deadline(impl.timeout_s);
+  RAVE_TRY(impl.link.ask(item.decision));
+  impl.deciding = true;
+  return {};
+}
+
+Status IsolatedProgram::end_decide(const DecideItem& item) {
+  Impl& impl = *impl_;
+  RAVE_TRY(impl.link.state());
+  if (!impl.deciding) return fail(ErrorCode::kState, "no decision of the program was begun");
+  impl.deciding = false;
+  RAVE_TRY(impl.link.await(MessageKind::kDecided, impl.decision, impl.deadline,
+                           fmt::format("has not decided for {}", seconds_text(impl.timeout_s))));
+  if (impl.layout.command_count > 0) impl.copy_out(item);
+  return {};
+}
+
+int IsolatedProgram::process_id() const noexcept { return impl_->link.process_id(); }
+
+}  // namespace rave::isolation

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "layout.hpp"
+
+namespace rave::isolation {
+namespace {
+
+/// Hands out stretches of memory that begin on cache lines.
+class Allocator {
+ public:
+  std::size_t take(std::size_t bytes) {
+    constexpr std::size_t kLine = 64;
+    const std::size_t at = end_;
+    end_ += (bytes + kLine - 1) / kLine * kLine;
+    return at;
+  }
+  [[nodiscard]] std::size_t end() const { return end_; }
+
+ private:
+  std::size_t end_ = 0;
+};
+
+}  // namespace
+
+Layout make_layout(std::size_t setup_bytes, std::span<const SensorInfo> sensors,
+                   std::size_t command_count) {
+  Layout layout;
+  Allocator memory;
+  memory.take(sizeof(SharedHead));
+  layout.setup = memory.take(setup_bytes);
+  layout.decide = memory.take(sizeof(SharedDecide));
+  for (const SensorInfo& info : sensors) {
+    Layout::Sensor sensor;
+    sensor.capacity = info.capacity;
+    sensor.record_bytes = record_size(info.kind);
+    sensor.header = memory.take(sizeof(SampleHeader));
+    sensor.records = memory.take(std::size_t{sensor.capacity} * sensor.record_bytes);
+    layout.sensors.push_back(sensor);
+  }
+  layout.command_count = command_count;
+  layout.commands = memory.take(command_count * sizeof(Command));
+  layout.total_bytes = memory.end();
+  return layout;
+}
+
+}  // namespace rave::isolation

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rave/robot/program.hpp"
+
+namespace rave::isolation {
+
+/// Stands at offset 0 of the shared memory.
+struct SharedHead {
+  static constexpr std::uint64_t kMagic = 0x314f534945564152ULL;  // "RAVEISO1", little endian
+  std::uint64_t magic = kMagic;
+  std::uint64_t total_bytes = 0;
+  std::uint64_t setup_bytes = 0;
+};
+
+/// The part of a DecideItem that is no pointer.
+struct SharedDecide {
+  std::int64_t now_ns = 0;
+  PoseReading pose;
+  std::uint32_t decision = 0;
+  std::uint32_t robot = 0;
+  std::uint64_t seed = 0;
+};
+
+/// Where things lie in the memory that host and child share. A function of the setup alone, so
+/// both sides compute it and the host never trusts a number that the child could change.
+struct Layout {
+  struct Sensor {
+    std::size_t header = 0;   ///< Offset of the SampleHeader.
+    std::size_t records = 0;  ///< Offset of the records.
+    std::uint32_t capacity = 0;
+    std::uint32_t record_bytes = 0;
+  };
+
+  std::size_t setup = 0;
+  std::size_t decide = 0;
+  std::vector<Sensor> sensors;
+  std::size_t commands = 0;
+  std::size_t command_count = 0;
+  std::size_t total_bytes = 0;
+};
+
+[[nodiscard]] Layout make_layout(std::size_t setup_bytes, std::span<const SensorInfo> sensors,
+                                 std::size_t command_count);
+
+}  // namespace rave::isolation

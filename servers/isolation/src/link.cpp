@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "link.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/socket.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+
+#include "describe.hpp"
+
+namespace rave::isolation {
+namespace {
+
+/// How long a child may take to end when it was asked to.
+constexpr int kEndMs = 500;
+/// How long after its socket has closed a child is taken to be about to end.
+constexpr int kEndAfterCloseMs = 1000;
+/// More than a child can send in one decision without breaking the bounds of message.hpp; room
+/// for threads of a program that log between decisions.
+constexpr int kMaxMessages = 4096;
+
+ErrorCode error_code(std::uint32_t number) {
+  return number <= static_cast<std::uint32_t>(ErrorCode::kState) ? static_cast<ErrorCode>(number)
+                                                                 : ErrorCode::kPlugin;
+}
+
+}  // namespace
+
+Link::Link(std::string who, HostServices host, ChildProcess child, FileDescriptor socket,
+           double last_word_s)
+    : who_(std::move(who)),
+      host_(host),
+      child_(std::move(child)),
+      socket_(std::move(socket)),
+      last_word_s_(last_word_s),
+      buffer_(kMaxMessageBytes + 1) {}
+
+Link::~Link() {
+  socket_.reset();  // The child takes the end of its socket as the wish that it end.
+  if (!child_.wait_for_end(kEndMs)) child_.kill();
+}
+
+Status Link::ask(std::uint32_t decision) {
+  RAVE_TRY(state_);
+  if (!send_message(socket_.get(), {MessageKind::kDecide, decision, 0}, {}, false)) {
+    // What the child said before it went tells why.
+    return await(MessageKind::kDecided, decision, Deadline(last_word_s_), "has not listened");
+  }
+  return {};
+}
+
+Link::Receipt Link::receive(int timeout_ms, Message& message) {
+  pollfd watch{socket_.get(), POLLIN, 0};
+  const int ready = ::poll(&watch, 1, timeout_ms);
+  if (ready <= 0) return Receipt::kNothing;  // Also when a signal came: the caller asks again.
+  const ssize_t size = ::recv(socket_.get(), buffer_.data(), buffer_.size(), MSG_DONTWAIT);
+  if (size == 0) return Receipt::kClosed;
+  if (size < 0) {
+    // A reset is told once, before what the child had sent.
+    return errno == EAGAIN || errno == EINTR || errno == ECONNRESET ? Receipt::kNothing
+                                                                    : Receipt::kClosed;
+  }
+  const auto parsed = parse_message({buffer_.data(), static_cast<std::size_t>(size)});
+  if (!parsed) return Receipt::kGarbage;
+  message = *parsed;
+  return Receipt::kMessage;
+}
+
+Status Link::await(MessageKind kind, std::uint32_t number, const Deadline& deadline,
+                   std::string_view late) {
+  RAVE_TRY(state_);
+  for (int messages = 0; messages < kMaxMessages;) {
+    const int remaining_ms = deadline.remaining_ms();
+    Message message;
+    switch (receive(remaining_ms, message)) {
+      case Receipt::kNothing:
+        if (remaining_ms == 0) return stuck(late);
+        break;
+      case Receipt::kClosed:
+        return end_of_conversation();
+      case Receipt::kGarbage:
+        return give_up(ErrorCode::kPlugin, "sent something that is not a message to its host");
+      case Receipt::kMessage:
+        ++messages;
+        if (const auto result = handle(message, kind, number)) return *result;
+    }
+  }
+  return give_up(ErrorCode::kPlugin,
+                 fmt::format("sent more than {} messages in one decision", kMaxMessages));
+}
+
+std::optional<Status> Link::handle(const Message& message, MessageKind kind, std::uint32_t number) {
+  const MessageHead& head = message.head;
+  if (head.kind == MessageKind::kLog) {
+    if (head.number <= static_cast<std::uint32_t>(LogLevel::kError)) {
+      host_.write(static_cast<LogLevel>(head.number), message.text);
+    }
+    return {};
+  }
+  if (head.kind == MessageKind::kCrash) {
+    const std::string signal =
+        head.count != 0 ? "stack overflow" : signal_name(static_cast<int>(head.number));
+    return give_up(ErrorCode::kPlugin,
+                   fmt::format("crashed: {}{}", signal, at_place(parse_place(message.text))));
+  }
+  if (head.kind == kind && (kind == MessageKind::kStarted || head.number == number)) {
+    report_dropped(head.count);
+    return Status{};
+  }
+  if (head.kind == MessageKind::kStartFailed && kind == MessageKind::kStarted) {
+    report_dropped(head.count);
+    return give_up(error_code(head.number), fmt::format("did not start: {}", message.text));
+  }
+  if (head.kind == MessageKind::kDecideFailed && kind == MessageKind::kDecided) {
+    report_dropped(head.count);
+    return give_up(ErrorCode::kPlugin, std::string(message.text));
+  }
+  return give_up(ErrorCode::kPlugin, "sent a message to its host that is out of turn");
+}
+
+Status Link::end_of_conversation() {
+  if (child_.wait_for_end(kEndAfterCloseMs)) {
+    return give_up(ErrorCode::kPlugin, child_.how());
+  }
+  return give_up(ErrorCode::kPlugin, "closed its connection to the host");
+}
+
+Status Link::stuck(std::string_view late) {
+  child_.signal(kWhereSignal);
+  const Deadline deadline(last_word_s_);
+  int remaining_ms = 0;
+  do {
+    remaining_ms = deadline.remaining_ms();
+    Message message;
+    const Receipt receipt = receive(remaining_ms, message);
+    if (receipt == Receipt::kClosed || receipt == Receipt::kGarbage) break;
+    if (receipt != Receipt::kMessage) continue;
+    if (message.head.kind == MessageKind::kCrash) {
+      return *handle(message, MessageKind::kCrash, 0);
+    }
+    if (message.head.kind != MessageKind::kWhere) continue;
+    const std::string place = at_place(parse_place(message.text));
+    if (place.empty()) break;
+    return give_up(ErrorCode::kTimeout, fmt::format("{}; it was{}", late, place));
+  } while (remaining_ms > 0);
+  return give_up(ErrorCode::kTimeout, std::string(late));
+}
+
+Status Link::give_up(ErrorCode code, const std::string& what) {
+  child_.kill();
+  socket_.reset();
+  state_ = fail(code, "{} {}", who_, what);
+  return state_;
+}
+
+void Link::report_dropped(std::uint32_t count) const {
+  if (count == 0) return;
+  host_.write(LogLevel::kWarning,
+              fmt::format("dropped {} log lines of one decision that were too many", count));
+}
+
+}  // namespace rave::isolation

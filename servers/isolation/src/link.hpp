@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "child_process.hpp"
+#include "deadline.hpp"
+#include "file_descriptor.hpp"
+#include "message.hpp"
+#include "rave/base/result.hpp"
+#include "rave/robot/interface.hpp"
+
+namespace rave::isolation {
+
+/// The host's end of the conversation with one child. The first failure ends the child and is
+/// kept.
+class Link {
+ public:
+  /// `who` begins every error: "program `wander` of robot `anna`". `last_word_s`: how long a child
+  /// that is late may take to say where it is.
+  Link(std::string who, HostServices host, ChildProcess child, FileDescriptor socket,
+       double last_word_s);
+  Link(const Link&) = delete;
+  Link& operator=(const Link&) = delete;
+  ~Link();
+
+  /// The first failure, if there was one.
+  [[nodiscard]] const Status& state() const noexcept { return state_; }
+  [[nodiscard]] int process_id() const noexcept { return child_.id(); }
+
+  /// Wakes the child to make `decision`.
+  Status ask(std::uint32_t decision);
+  /// Waits for `kind` with `number`, delivering log lines on the way. `late` says what the child
+  /// has not done by then: "has not decided for 1.0 s".
+  Status await(MessageKind kind, std::uint32_t number, const Deadline& deadline,
+               std::string_view late);
+
+ private:
+  enum class Receipt { kMessage, kNothing, kClosed, kGarbage };
+  Receipt receive(int timeout_ms, Message& message);
+  /// Success: `message` was the awaited one. Nothing: go on waiting.
+  std::optional<Status> handle(const Message& message, MessageKind kind, std::uint32_t number);
+  Status end_of_conversation();
+  Status stuck(std::string_view late);
+  Status give_up(ErrorCode code, const std::string& what);
+  void report_dropped(std::uint32_t count) const;
+
+  std::string who_;
+  HostServices host_;
+  ChildProcess child_;
+  FileDescriptor socket_;
+  double last_word_s_;
+  std::vector<char> buffer_;
+  Status state_;
+};
+
+}  // namespace rave::isolation

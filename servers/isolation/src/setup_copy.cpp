@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "setup_copy.hpp"
+
+#include <cstring>
+#include <span>
+#include <type_traits>
+
+namespace rave::isolation {
+namespace {
+
+class Writer {
+ public:
+  template <class T>
+  void value(const T& value) {
+    static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>);
+    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  void text(std::string_view text) {
+    value(std::uint64_t{text.size()});
+    bytes_.append(text);
+  }
+  void list(std::span<const double> list) {
+    value(std::uint64_t{list.size()});
+    for (const double number : list) value(number);
+  }
+  void sensor(const SensorInfo& info) {
+    text(info.name);
+    value(info.kind);
+    value(info.capacity);
+    value(info.X_RS);
+    value(info.z_m);
+    value(info.period_s);
+    value(info.range_min_m);
+    value(info.range_max_m);
+    value(info.cone_rad);
+    value(std::uint8_t{info.bearings_rad != nullptr});
+    if (info.bearings_rad != nullptr) list({info.bearings_rad, info.capacity});
+  }
+  void param(const ParamValue& param) {
+    text(param.name);
+    value(param.number);
+    text(param.text == nullptr ? "" : param.text);
+    list({param.list, param.list_size});
+  }
+  [[nodiscard]] std::string take() { return std::move(bytes_); }
+
+ private:
+  std::string bytes_;
+};
+
+}  // namespace
+
+std::string encode_setup(const Order& order, const ProgramSetup& setup) {
+  Writer out;
+  out.text(order.plugin);
+  out.text(order.program);
+  out.value(order.parent);
+  out.text(setup.robot.name);
+  out.text(setup.robot.team);
+  out.value(setup.robot.id);
+  out.value(setup.robot.radius_m);
+  out.value(setup.robot.seed);
+  out.value(setup.period_s);
+  out.value(setup.sensor_count);
+  for (std::uint64_t i = 0; i < setup.sensor_count; ++i) out.sensor(setup.sensors[i]);
+  out.value(setup.controller_count);
+  for (std::uint64_t i = 0; i < setup.controller_count; ++i) {
+    out.text(setup.controllers[i].name);
+    out.value(setup.controllers[i].accepts);
+  }
+  out.value(setup.param_count);
+  for (std::uint64_t i = 0; i < setup.param_count; ++i) out.param(setup.params[i]);
+  return out.take();
+}
+
+/// Reads in the order of Writer; after the first thing that does not fit all values are empty.
+class SetupCopy::Reader {
+ public:
+  Reader(std::string_view bytes, SetupCopy& copy) : bytes_(bytes), copy_(copy) {}
+
+  template <class T>
+  void value(T& value) {
+    if (bytes_.size() < sizeof value) return fail_here();
+    std::memcpy(&value, bytes_.data(), sizeof value);
+    bytes_.remove_prefix(sizeof value);
+  }
+  /// How many things follow, each of at least `least_bytes`.
+  std::size_t count(std::size_t least_bytes) {
+    std::uint64_t number = 0;
+    value(number);
+    if (number <= bytes_.size() / least_bytes) return number;
+    fail_here();
+    return 0;
+  }
+  std::string_view text() {
+    const std::size_t size = count(1);
+    const std::string_view text = bytes_.substr(0, size);
+    bytes_.remove_prefix(size);
+    return text;
+  }
+  const char* kept_text() { return copy_.texts_.emplace_back(text()).c_str(); }
+  std::span<const double> list() {
+    std::vector<double>& list = copy_.lists_.emplace_back(count(sizeof(double)));
+    for (double& number : list) value(number);
+    return list;
+  }
+  void sensor(SensorInfo& info) {
+    info.name = kept_text();
+    value(info.kind);
+    value(info.capacity);
+    value(info.X_RS);
+    value(info.z_m);
+    value(info.period_s);
+    value(info.range_min_m);
+    value(info.range_max_m);
+    value(info.cone_rad);
+    std::uint8_t has_bearings = 0;
+    value(has_bearings);
+    if (has_bearings == 0) return;
+    const std::span<const double> bearings = list();
+    if (bearings.size() != info.capacity) fail_here();
+    info.bearings_rad = bearings.data();
+  }
+  void param(ParamValue& param) {
+    param.name = kept_text();
+    value(param.number);
+    param.text = kept_text();
+    const std::span<const double> numbers = list();
+    param.list = numbers.data();
+    param.list_size = numbers.size();
+  }
+  [[nodiscard]] bool whole() const { return ok_ && bytes_.empty(); }
+
+ private:
+  void fail_here() {
+    ok_ = false;
+    bytes_ = {};
+  }
+  std::string_view bytes_;
+  SetupCopy& copy_;
+  bool ok_ = true;
+};
+
+Result<std::unique_ptr<SetupCopy>> SetupCopy::decode(std::string_view bytes) {
+  std::unique_ptr<SetupCopy> copy(new SetupCopy);
+  ProgramSetup& setup = copy->setup_;
+  Reader in(bytes, *copy);
+  copy->order_.plugin = in.text();
+  copy->order_.program = in.text();
+  in.value(copy->order_.parent);
+  setup.robot.name = in.kept_text();
+  setup.robot.team = in.kept_text();
+  in.value(setup.robot.id);
+  in.value(setup.robot.radius_m);
+  in.value(setup.robot.seed);
+  in.value(setup.period_s);
+  copy->sensors_.resize(in.count(sizeof(std::uint64_t)));
+  for (SensorInfo& info : copy->sensors_) in.sensor(info);
+  copy->controllers_.resize(in.count(sizeof(std::uint64_t)));
+  for (ControllerInfo& info : copy->controllers_) {
+    info.name = in.kept_text();
+    in.value(info.accepts);
+  }
+  copy->params_.resize(in.count(sizeof(std::uint64_t)));
+  for (ParamValue& value : copy->params_) in.param(value);
+  if (!in.whole()) return fail(ErrorCode::kParse, "the setup of an isolated program is damaged");
+  setup.sensors = copy->sensors_.data();
+  setup.sensor_count = copy->sensors_.size();
+  setup.controllers = copy->controllers_.data();
+  setup.controller_count = copy->controllers_.size();
+  setup.params = copy->params_.data();
+  setup.param_count = copy->params_.size();
+  return copy;
+}
+
+}  // namespace rave::isolation

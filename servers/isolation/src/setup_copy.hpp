@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rave/base/result.hpp"
+#include "rave/robot/program.hpp"
+
+namespace rave::isolation {
+
+/// What a child is told to run.
+struct Order {
+  std::string plugin;
+  std::string program;
+  std::int64_t parent = 0;  ///< Process id of the host.
+};
+
+/// Order and setup as bytes, without `setup.host`.
+[[nodiscard]] std::string encode_setup(const Order& order, const ProgramSetup& setup);
+
+/// A setup read back from bytes, with all that it points to.
+class SetupCopy {
+ public:
+  /// Errors: kParse.
+  [[nodiscard]] static Result<std::unique_ptr<SetupCopy>> decode(std::string_view bytes);
+  SetupCopy(const SetupCopy&) = delete;
+  SetupCopy& operator=(const SetupCopy&) = delete;
+
+  [[nodiscard]] const Order& order() const noexcept { return order_; }
+  /// Points into this object.
+  [[nodiscard]] const ProgramSetup& setup() const noexcept { return setup_; }
+  void set_host(const HostServices& host) noexcept { setup_.host = host; }
+
+ private:
+  SetupCopy() = default;
+  class Reader;
+  Order order_;
+  ProgramSetup setup_;
+  std::vector<SensorInfo> sensors_;
+  std::vector<ControllerInfo> controllers_;
+  std::vector<ParamValue> params_;
+  std::deque<std::string> texts_;
+  std::deque<std::vector<double>> lists_;
+};
+
+}  // namespace rave::isolation

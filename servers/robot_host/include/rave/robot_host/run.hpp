@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "rave/base/log.hpp"
+#include "rave/base/result.hpp"
+#include "rave/config/expanded_scenario.hpp"
+#include "rave/plugin/catalogue.hpp"
+#include "rave/report/progress.hpp"
+
+namespace rave::robot_host {
+
+/// How to run a scenario. What the command line overrides (seed, duration, threads, pace) is put
+/// into the ExpandedScenario before.
+struct RunOptions {
+  /// Folder for everything that the run leaves; created. Files of an earlier run are replaced.
+  std::filesystem::path output;
+  std::filesystem::path program_runner;  ///< The executable for isolated programs.
+  bool picture = true;                   ///< Draw picture.svg and picture.png.
+  LogSink* log = nullptr;                ///< Not owned; outlives the call.
+  /// Called in the calling thread about ten times a second of wall time; may be empty.
+  std::function<void(const report::Progress&)> on_progress;
+  /// Set by a signal handler or another thread to end the run early; may be null.
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// How a run ended. What it found lies in `output`: result.json, summary.txt, picture.svg,
+/// picture.png, events.log, scenario.yaml (with all defaults).
+struct RunOutcome {
+  bool whole = false;         ///< Ran to its end without losing a driver or a program.
+  bool checks_hold = true;    ///< All checks of the scenario hold.
+  std::vector<std::string> problems;  ///< One sentence each for why not; empty if all is well.
+  std::string hash;           ///< 16 hexadecimal digits; empty for a live run.
+  std::string summary;        ///< The table for a terminal, without colours.
+};
+
+/// Runs a scenario to its end in the calling thread. Errors: what keeps it from starting, and a
+/// stepped driver that stops answering. A run that is merely not whole is no Error.
+[[nodiscard]] Result<RunOutcome> run(const config::ExpandedScenario& scenario,
+                                     plugin::Catalogue& catalogue, const RunOptions& options);
+
+}  // namespace rave::robot_host

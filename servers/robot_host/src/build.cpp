@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/robot_host/build.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "devices.hpp"
+#include "places.hpp"
+#include "rave/config/map_image.hpp"
+#include "rave/math/scalar.hpp"
+#include "rave/math/transform.hpp"
+#include "rave/sim/virtual_sensor.hpp"
+
+namespace rave::robot_host {
+namespace {
+
+std::vector<Vec2> corners_of(const config::Outline& outline) {
+  std::vector<Vec2> corners;
+  if (outline.box_m) {
+    const double x = (*outline.box_m)[0] / 2;
+    const double y = (*outline.box_m)[1] / 2;
+    corners = {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
+  } else if (outline.polygon_m) {
+    for (const auto& [x, y] : *outline.polygon_m) corners.push_back({x, y});
+  }
+  return corners;
+}
+
+/// The shapes of one outline, placed at X_BO in its body.
+Result<std::vector<world::Shape>> shapes_of(const config::Outline& outline, const Pose2& X_BO,
+                                            const config::HeightRange& z_m) {
+  if (outline.disc_radius_m) {
+    RAVE_TRY_ASSIGN(auto disc,
+                    world::make_disc(X_BO.position(), *outline.disc_radius_m, z_m[0], z_m[1]));
+    return std::vector<world::Shape>{std::move(disc)};
+  }
+  std::vector<Vec2> corners = corners_of(outline);
+  for (Vec2& corner : corners) corner = transform(X_BO, corner);
+  return world::make_prisms(corners, z_m[0], z_m[1]);
+}
+
+Layer layer_of(config::ObstacleLayer layer) {
+  return layer == config::ObstacleLayer::kMappedReal ? Layer::kMappedReal
+                                                     : Layer::kVirtualObstacles;
+}
+
+Result<world::Obstacle> make_obstacle(const config::ObstacleFile& file) {
+  world::Obstacle obstacle;
+  obstacle.body.name = file.name.value;
+  obstacle.body.layer = layer_of(file.layer);
+  obstacle.body.colour = file.colour.value_or("");
+  obstacle.X_WB = {file.x_m, file.y_m, wrap_angle(deg_to_rad(file.yaw_deg))};
+  auto shapes = shapes_of(file.outline, {}, file.z_m);
+  if (!shapes) {
+    return fail_at(file.name.where, ErrorCode::kInvalidArgument, "obstacle `{}`: {}",
+                   file.name.value, shapes.error().message);
+  }
+  obstacle.body.shapes = *std::move(shapes);
+  if (file.barcode) {
+    const config::HeightRange code_z_m = file.barcode_z_m.value_or(file.z_m);
+    obstacle.body.code = *file.barcode;
+    obstacle.body.code_z0_m = code_z_m[0];
+    obstacle.body.code_z1_m = code_z_m[1];
+  }
+  return obstacle;
+}
+
+/// The walls of a map: one box for each rectangle of occupied cells.
+Status add_map(const config::MapFile& file, world::WorldModel& world) {
+  auto map = config::read_map(file.file.value);
+  if (!map) {
+    Error error = std::move(map).error();
+    error.message = fmt::format("map `{}`: {}", file.file.value, error.text());
+    error.where = file.file.where;
+    return tl::unexpected(std::move(error));
+  }
+  const Pose2 X_WMap{map->origin_x_m, map->origin_y_m, wrap_angle(map->origin_yaw_rad)};
+  const std::string stem = std::filesystem::path(file.file.value).stem().string();
+  std::size_t number = 0;
+  for (const config::MapRectangle& r : config::rectangles_of(*map)) {
+    world::Obstacle wall;
+    wall.body.name = fmt::format("{}-{}", stem, ++number);
+    wall.body.layer = layer_of(file.layer);
+    const Vec2 middle{(r.min_x_m + r.max_x_m) / 2, (r.min_y_m + r.max_y_m) / 2};
+    wall.X_WB = compose(X_WMap, {middle.x, middle.y, 0});
+    const double x = (r.max_x_m - r.min_x_m) / 2;
+    const double y = (r.max_y_m - r.min_y_m) / 2;
+    RAVE_TRY_ASSIGN(wall.body.shapes,
+                    world::make_prisms(std::vector<Vec2>{{-x, -y}, {x, -y}, {x, y}, {-x, y}},
+                                       file.z_m[0], file.z_m[1]));
+    world.obstacles.push_back(std::move(wall));
+  }
+  return {};
+}
+
+Result<world::Body> make_body(const config::RobotGroup& group) {
+  world::Body body;
+  const config::BodyFile& file = group.robot.body.value;
+  body.colour = file.colour.value_or("");
+  double low = 0;
+  double high = 0;
+  for (const config::ShapeFile& shape : file.shapes) {
+    const Pose2 X_BO{shape.centre_m[0], shape.centre_m[1], wrap_angle(deg_to_rad(shape.yaw_deg))};
+    auto pieces = shapes_of(shape.outline, X_BO, shape.z_m);
+    if (!pieces) {
+      return fail_at(group.robot.body.where, ErrorCode::kInvalidArgument, "body of `{}`: {}",
+                     group.name.value, pieces.error().message);
+    }
+    low = body.shapes.empty() ? shape.z_m[0] : std::min(low, shape.z_m[0]);
+    high = body.shapes.empty() ? shape.z_m[1] : std::max(high, shape.z_m[1]);
+    for (world::Shape& piece : *pieces) body.shapes.push_back(std::move(piece));
+  }
+  if (file.barcode) {
+    const config::HeightRange code_z_m = file.barcode_z_m.value_or(config::HeightRange{low, high});
+    body.code = *file.barcode;
+    body.code_z0_m = code_z_m[0];
+    body.code_z1_m = code_z_m[1];
+  }
+  return body;
+}
+
+/// Says what is odd and obeys: sensors inside the body, for example, are allowed (#30).
+void note_oddities(const config::RobotGroup& group, const world::Body& body, BuiltScenario& built) {
+  for (const config::SensorFile& sensor : group.robot.sensors) {
+    const config::MountFile& mount = sensor.mount.value;
+    for (const world::Shape& shape : body.shapes) {
+      if (shape.polygon || mount.z_m < shape.z0_m || mount.z_m > shape.z1_m) continue;
+      const Vec2 off{mount.x_m - shape.centre.x, mount.y_m - shape.centre.y};
+      if (squared_norm(off) > 4 * shape.radius_m * shape.radius_m) {
+        built.notes.push_back(fmt::format(
+            "sensor `{}` of `{}` is mounted {:.2f} m from the middle of a body of {:.2f} m radius",
+            sensor.name.value, group.name.value, std::sqrt(squared_norm(off)), shape.radius_m));
+      }
+    }
+  }
+}
+
+Status add_groups(const config::ExpandedScenario& scenario, plugin::Catalogue& catalogue,
+                  const BuildOptions& options, BuiltScenario& built,
+                  std::vector<world::Body>& bodies) {
+  for (const config::RobotGroup& group : scenario.groups) {
+    sim::RobotType type;
+    type.name = group.name.value;
+    type.folder = std::filesystem::path(group.file).parent_path().string();
+    type.staleness = from_seconds(group.robot.staleness_s);
+    RAVE_TRY(add_devices({scenario, catalogue, options, built}, group, type));
+    RAVE_TRY_ASSIGN(auto body, make_body(group));
+    body.layer = type.simulated ? Layer::kSimulatedRobots : Layer::kRealRobots;
+    note_oddities(group, body, built);
+    bodies.push_back(std::move(body));
+    built.spec.types.push_back(std::move(type));
+  }
+  return {};
+}
+
+}  // namespace
+
+plugin::Stamp host_stamp() {
+  return plugin::make_stamp(robot_interface_hash(), virtual_interface_hash(), "");
+}
+
+Result<BuiltScenario> build(const config::ExpandedScenario& scenario, plugin::Catalogue& catalogue,
+                            const BuildOptions& options) {
+  BuiltScenario built;
+  sim::EngineSpec& spec = built.spec;
+  spec.step = from_seconds(scenario.scenario.step_s.value);
+  spec.seed = scenario.scenario.seed;
+  spec.threads = static_cast<unsigned>(scenario.scenario.threads);
+  spec.history = from_seconds(scenario.scenario.history_s);
+  spec.log = options.log;
+  spec.live_clock = options.live_clock;
+  for (const config::ObstacleFile& file : scenario.world.obstacles) {
+    RAVE_TRY_ASSIGN(auto obstacle, make_obstacle(file));
+    spec.world.obstacles.push_back(std::move(obstacle));
+  }
+  for (const config::MapFile& map : scenario.world.maps) RAVE_TRY(add_map(map, spec.world));
+  std::vector<world::Body> bodies;
+  RAVE_TRY(add_groups(scenario, catalogue, options, built, bodies));
+  for (const config::ExpandedRobot& robot : scenario.robots) {
+    world::Body body = bodies[robot.group];
+    body.name = robot.name;
+    spec.world.robots.push_back(std::move(body));
+    const config::RobotGroup& group = scenario.group_of(robot);
+    built.robot_kinds.push_back(group.kind.value_or(""));
+    spec.robots.push_back({robot.name, group.team, static_cast<std::uint32_t>(robot.group), {}});
+  }
+  RAVE_TRY(put_down_robots(scenario, spec));
+  return built;
+}
+
+}  // namespace rave::robot_host

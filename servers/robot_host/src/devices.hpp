@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "rave/config/params.hpp"
+#include "rave/robot_host/build.hpp"
+
+namespace rave::robot_host {
+
+/// What is needed to turn the devices of one robot file into those of a robot type.
+struct DeviceContext {
+  const config::ExpandedScenario& scenario;
+  plugin::Catalogue& catalogue;
+  const BuildOptions& options;
+  BuiltScenario& built;
+};
+
+/// The description of a driver's parameters in the terms of the configuration library.
+[[nodiscard]] std::vector<config::FieldSpec> field_specs(const DriverInfo& info);
+
+/// Fills in sensors, actuators, controllers, program and pose source of `type`.
+Status add_devices(const DeviceContext& context, const config::RobotGroup& group,
+                   sim::RobotType& type);
+
+}  // namespace rave::robot_host

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hit_counter.hpp"
+
+namespace rave::robot_host {
+
+void HitCounter::after_step(sim::Engine& engine) {
+  const sim::EngineSpec& spec = engine.spec();
+  for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
+    const sim::RobotType& type = spec.types[spec.robots[r].type];
+    for (std::uint32_t s = 0; s < type.sensors.size(); ++s) {
+      const sim::SensorSample sample = engine.sensor(RobotId(r), s);
+      if (sample.bodies.empty() || sample.header->stamp_ns != engine.time().ns ||
+          sample.header->sequence == 0) {
+        continue;
+      }
+      const std::string_view who = type.simulated ? "simulated" : "real";
+      for (const std::uint32_t body : sample.bodies) {
+        const std::string_view what = body == BodyId::kNone ? "nothing" : kinds_->word(body);
+        ++counts_[{who, what}];
+      }
+    }
+  }
+}
+
+std::map<std::string, std::map<std::string, std::uint64_t>> HitCounter::counts() const {
+  std::map<std::string, std::map<std::string, std::uint64_t>> result;
+  for (const auto& [key, count] : counts_) {
+    result[std::string(key.first)][std::string(key.second)] = count;
+  }
+  return result;
+}
+
+}  // namespace rave::robot_host

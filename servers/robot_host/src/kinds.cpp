@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kinds.hpp"
+
+namespace rave::robot_host {
+
+BodyKinds::BodyKinds(const sim::EngineSpec& spec, const std::vector<std::string>& robot_words)
+    : first_robot_(static_cast<std::uint32_t>(spec.world.obstacles.size())) {
+  for (const world::Obstacle& obstacle : spec.world.obstacles) {
+    const bool real = obstacle.body.layer == Layer::kMappedReal;
+    const bool landmark = real && obstacle.body.code.has_value();
+    words_.push_back(landmark ? "landmark" : (real ? "mapped_wall" : "virtual_obstacle"));
+    kinds_.push_back(landmark ? report::Kind::kLandmark
+                              : (real ? report::Kind::kMappedWall
+                                      : report::Kind::kVirtualObstacle));
+    colours_.push_back(obstacle.body.colour);
+    names_.push_back(obstacle.body.name);
+  }
+  std::size_t real_robots = 0;
+  for (std::size_t r = 0; r < spec.robots.size(); ++r) {
+    const bool simulated = spec.types[spec.robots[r].type].simulated;
+    words_.push_back(simulated ? "simulated" : "real");
+    const bool hunter = robot_words[r] == "hunter";
+    kinds_.push_back(hunter ? report::Kind::kHunter
+                            : (simulated ? report::Kind::kSimulatedRobot
+                                         : report::Kind::kRecordedRobot));
+    std::string colour = spec.world.robots[r].colour;
+    if (colour.empty() && !simulated) colour = report::robot_colour(real_robots);
+    if (!simulated) ++real_robots;
+    colours_.push_back(std::move(colour));
+    names_.push_back(spec.robots[r].name);
+  }
+}
+
+}  // namespace rave::robot_host

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rave/report/palette.hpp"
+#include "rave/sim/engine.hpp"
+
+namespace rave::robot_host {
+
+/// What the bodies of a run are called and how they look. Fixed when the run starts.
+class BodyKinds {
+ public:
+  /// `robot_words`: the free word of each robot, such as `hunter`; empty for none.
+  BodyKinds(const sim::EngineSpec& spec, const std::vector<std::string>& robot_words);
+
+  /// `real`, `simulated`, `landmark`, `mapped_wall` or `virtual_obstacle`.
+  [[nodiscard]] std::string_view word(std::uint32_t body) const { return words_[body]; }
+  [[nodiscard]] report::Kind kind(std::uint32_t body) const { return kinds_[body]; }
+  [[nodiscard]] std::string colour(std::uint32_t body) const { return colours_[body]; }
+  [[nodiscard]] std::string_view name(std::uint32_t body) const { return names_[body]; }
+  [[nodiscard]] std::uint32_t body_of(RobotId robot) const noexcept {
+    return first_robot_ + robot.value();
+  }
+  [[nodiscard]] bool is_robot(std::uint32_t body) const noexcept { return body >= first_robot_; }
+  [[nodiscard]] std::uint32_t count() const noexcept {
+    return static_cast<std::uint32_t>(words_.size());
+  }
+
+ private:
+  std::uint32_t first_robot_ = 0;
+  std::vector<std::string_view> words_;
+  std::vector<report::Kind> kinds_;
+  std::vector<std::string> colours_;
+  std::vector<std::string> names_;
+};
+
+}  // namespace rave::robot_host

@@ -26,6 +26,11 @@ if(RAVE_SANITIZE)
     -fsanitize=${RAVE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(rave_build_flags INTERFACE -fsanitize=${RAVE_SANITIZE})
 endif()
+if(RAVE_FUZZERS)
+  # What the libraries do guides the fuzzer; its own main comes with the targets only.
+  target_compile_options(rave_build_flags INTERFACE -fsanitize=fuzzer-no-link)
+  add_custom_target(rave_fuzzers)
+endif()
 
 # rave_library(NAME [DEPS ...] [PRIVATE_DEPS ...] [SOURCES ...])
 # The static library rave_NAME (alias rave::NAME) of the calling folder: public headers in
@@ -136,6 +141,10 @@ function(rave_fuzzer name)
   if(RAVE_FUZZERS)
     target_compile_options(fuzz_${name} PRIVATE -fsanitize=fuzzer)
     target_link_options(fuzz_${name} PRIVATE -fsanitize=fuzzer)
+    add_dependencies(rave_fuzzers fuzz_${name})
+    # Read by tools/fuzz.py.
+    file(WRITE "${CMAKE_BINARY_DIR}/fuzz/fuzz_${name}.corpus"
+      "${CMAKE_CURRENT_SOURCE_DIR}/${ARG_CORPUS}\n")
   else()
     target_sources(fuzz_${name} PRIVATE "${CMAKE_SOURCE_DIR}/tests/fuzz/replay_main.cpp")
     add_test(NAME fuzz_${name}

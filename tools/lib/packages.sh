@@ -4,8 +4,8 @@
 # The command that a package is missed by on systems that are not Debian 12.
 rave_tools_of_group() {
   case "$1" in
-    build) echo "g++ cmake ninja ccache pkg-config git" ;;
-    check) echo "python3 clang-format-16 readelf nm" ;;
+    build) echo "g++ cmake ninja ccache pkg-config git python3" ;;
+    check) echo "clang-format-16 readelf nm" ;;
     full) echo "clang++-16 clang-tidy-16" ;;
   esac
 }

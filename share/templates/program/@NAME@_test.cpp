@@ -9,9 +9,14 @@ namespace {
 // What the program commands when every ray of its sensor reads `range_m`; `error` if it refuses.
 rave::Command command_at(float range_m, std::string& error) {
   const double bearings_rad[] = {-0.5, 0.0, 0.5};
-  rave::SensorInfo laser{.name = "laser", .kind = rave::ReadingKind::kRanges, .capacity = 3};
+  rave::SensorInfo laser;
+  laser.name = "laser";
+  laser.kind = rave::ReadingKind::kRanges;
+  laser.capacity = 3;
   laser.bearings_rad = bearings_rad;
-  const rave::ControllerInfo drive{.name = "drive", .accepts = rave::CommandKind::kVelocity};
+  rave::ControllerInfo drive;
+  drive.name = "drive";
+  drive.accepts = rave::CommandKind::kVelocity;
   rave::ParamValue params[2];
   params[0].name = "speed_mps";
   params[0].number = 0.2;
@@ -26,7 +31,9 @@ rave::Command command_at(float range_m, std::string& error) {
   setup.param_count = 2;
 
   const float ranges_m[] = {range_m, range_m, range_m};
-  const rave::SampleHeader header{.sequence = 1, .count = 3, .fresh = 1};
+  rave::SampleHeader header;
+  header.sequence = 1;
+  header.count = 3;
   const rave::SensorView view{&header, ranges_m};
   rave::Command command;
   rave::DecideItem item;

@@ -35,6 +35,7 @@ Status check_options(const LoadOptions& options) {
   RAVE_TRY(check_seconds("end_s", options.end_s.value_or(0), 0, kLongest_s));
   RAVE_TRY(check_seconds("margin_s", options.margin_s, 0, 1000));
   RAVE_TRY(check_seconds("clock_offset_s", options.clock_offset_s, -1000, 1000));
+  RAVE_TRY(check_seconds("state_clock_offset_s", options.state_clock_offset_s, -1000, 1000));
   RAVE_TRY(check_seconds("pose_gap_limit_s", options.pose_gap_limit_s, 0, kLongest_s));
   RAVE_TRY(check_seconds("odometry_gap_limit_s", options.odometry_gap_limit_s, 0, kLongest_s));
   RAVE_TRY(check_seconds("sighting_gap_limit_s", options.sighting_gap_limit_s, 0, kLongest_s));
@@ -59,13 +60,20 @@ Status check_robots(const Folder& folder, const LoadOptions& options) {
   return {};
 }
 
-Result<RobotFiles> read_robot(const Folder& folder, int robot, const LoadOptions& options) {
+Result<RobotFiles> read_robot(const Folder& folder, int robot, const StreamChoice& streams,
+                              const LoadOptions& options) {
   const std::string prefix = fmt::format("Robot{}_", robot);
   RobotFiles files;
-  RAVE_TRY_ASSIGN(files.poses, folder.read(prefix + "Groundtruth", pose_columns(), options));
-  RAVE_TRY_ASSIGN(files.odometry, folder.read(prefix + "Odometry", odometry_columns(), options));
-  RAVE_TRY_ASSIGN(files.sightings,
-                  folder.read(prefix + "Measurement", sighting_columns(), options));
+  if (streams.poses) {
+    RAVE_TRY_ASSIGN(files.poses, folder.read(prefix + "Groundtruth", pose_columns(), options));
+  }
+  if (streams.odometry) {
+    RAVE_TRY_ASSIGN(files.odometry, folder.read(prefix + "Odometry", odometry_columns(), options));
+  }
+  if (streams.sightings) {
+    RAVE_TRY_ASSIGN(files.sightings,
+                    folder.read(prefix + "Measurement", sighting_columns(), options));
+  }
   return files;
 }
 
@@ -114,29 +122,44 @@ Result<StreamWindow> choose_window(const Folder& folder, const std::map<int, Rob
               folder.path().string());
 }
 
-Result<RobotLog> make_robot(int number, RobotFiles files, const StreamWindow& window,
-                            const LoadOptions& options, const Subjects& subjects) {
-  const std::string pose_path = files.poses.path;
+Status add_poses(RobotLog& robot, LogFile file, const StreamWindow& window,
+                 const LoadOptions& options) {
+  const std::string path = file.path;
   auto poses =
-      make_poses(std::move(files.poses), number, window, from_seconds(options.pose_gap_limit_s).ns);
+      make_poses(std::move(file), robot.subject, window, from_seconds(options.pose_gap_limit_s).ns);
   if (poses.samples.empty()) {
-    return fail_at({pose_path, 0, 0}, ErrorCode::kParse,
-                   "robot {} has no pose up to the end of the window at {} s", number,
+    return fail_at({path, 0, 0}, ErrorCode::kParse,
+                   "robot {} has no pose up to the end of the window at {} s", robot.subject,
                    Duration{window.end_ns}.seconds());
   }
-  auto odometry = make_odometry(std::move(files.odometry), number, window,
-                                from_seconds(options.odometry_gap_limit_s).ns);
-  auto sightings = make_sightings(
-      std::move(files.sightings), number, window, from_seconds(options.sighting_gap_limit_s).ns,
-      from_seconds(options.clock_offset_s).ns, options.code_meaning, subjects);
+  robot.poses = PoseTrack(std::move(poses.samples));
+  robot.pose_report = std::move(poses.report);
+  return {};
+}
+
+Result<RobotLog> make_robot(int number, RobotFiles files, const StreamWindow& window,
+                            const LoadOptions& options, const Subjects& subjects) {
   RobotLog robot;
   robot.subject = number;
-  robot.poses = PoseTrack(std::move(poses.samples));
-  robot.odometry = std::move(odometry.samples);
-  robot.sightings = SightingLog(std::move(sightings.samples));
-  robot.pose_report = std::move(poses.report);
-  robot.odometry_report = std::move(odometry.report);
-  robot.sighting_report = std::move(sightings.report);
+  // An earlier origin is the same as later stamps.
+  StreamWindow state_window = window;
+  state_window.origin_ns -= from_seconds(options.state_clock_offset_s).ns;
+  if (options.streams.poses) {
+    RAVE_TRY(add_poses(robot, std::move(files.poses), state_window, options));
+  }
+  if (options.streams.odometry) {
+    auto odometry = make_odometry(std::move(files.odometry), number, state_window,
+                                  from_seconds(options.odometry_gap_limit_s).ns);
+    robot.odometry = std::move(odometry.samples);
+    robot.odometry_report = std::move(odometry.report);
+  }
+  if (options.streams.sightings) {
+    auto sightings = make_sightings(
+        std::move(files.sightings), number, window, from_seconds(options.sighting_gap_limit_s).ns,
+        from_seconds(options.clock_offset_s).ns, options.code_meaning, subjects);
+    robot.sightings = SightingLog(std::move(sightings.samples));
+    robot.sighting_report = std::move(sightings.report);
+  }
   return robot;
 }
 
@@ -164,8 +187,9 @@ Result<Dataset> load(const std::filesystem::path& path, const LoadOptions& optio
   RAVE_TRY_ASSIGN(data.subjects, read_subjects(folder, options));
   std::map<int, RobotFiles> files;
   // Without a stated origin every robot is read: the earliest stamp may be of one not asked for.
+  const StreamChoice streams = folder.stretch() ? options.streams : StreamChoice{};
   for (const int robot : folder.stretch() ? options.robots : folder.robots()) {
-    RAVE_TRY_ASSIGN(files[robot], read_robot(folder, robot, options));
+    RAVE_TRY_ASSIGN(files[robot], read_robot(folder, robot, streams, options));
   }
   RAVE_TRY_ASSIGN(const StreamWindow window, choose_window(folder, files, options));
   data.origin_ns = window.origin_ns;

@@ -16,9 +16,18 @@ enum class CodeMeaning : std::uint8_t {
   kSubject,  ///< What the log's header claims; wrong, and here to show that a check notices.
 };
 
+/// Which logs of a robot are wanted; the others stay empty in its RobotLog and are not read, unless
+/// the folder has no `stretch.txt` and the origin must be found.
+struct StreamChoice {
+  bool poses = true;
+  bool odometry = true;
+  bool sightings = true;
+};
+
 struct LoadOptions {
   /// The robots to load, by subject number.
   std::vector<int> robots = {1, 2, 3, 4, 5};
+  StreamChoice streams;
 
   /// The window, seconds from the origin of the data set, both ends included. By default the
   /// stretch that the folder holds; a wider one than that is refused.
@@ -31,6 +40,8 @@ struct LoadOptions {
   CodeMeaning code_meaning = CodeMeaning::kBarcode;
   /// Added to the stamps of sightings only, seconds within +-1000; the window applies afterwards.
   double clock_offset_s = 0;
+  /// The same for poses and odometry. A stretch cut by tools/cut_utias.py holds a margin of 1 s.
+  double state_clock_offset_s = 0;
 
   ParsePolicy parse;
   /// Refuse files whose SHA-256 differs from `stretch.txt` (a log accepted as cut is exempt).

@@ -24,6 +24,7 @@ struct PoseCovariance {
 
   /// Carries the covariance along an arc of `length_m` whose chord points along `chord`:
   /// P' = F P F^T + G Q G^T with F = d pose'/d pose and G = d pose'/d (length, turn).
+  /// The chord counts as long as the arc: turns between samples are small.
   /// Source: Siegwart and Nourbakhsh, "Introduction to Autonomous Mobile Robots", 2004, 5.2.4.
   void grow(double length_m, SinCos chord, const ArcVariance& arc) noexcept {
     // How the end of the arc shifts per radian of error of the heading at its start.

@@ -55,10 +55,10 @@ TEST_F(VirtualLandmarkCamera, FieldIsAsymmetric) {
   add_tube(polar(3, 32.99), 3);
   add_tube(polar(4, 33.01), 4);
   add_tube(polar(3, 180), 5);
-  SensorUnderTest camera({{"fov_min_deg", -34}, {"fov_max_deg", 33}});
+  SensorUnderTest camera({{"fov_min_deg", -34}, {"fov_max_deg", 33}, {"occlusion", 0}});
   EXPECT_EQ(codes(camera), (Codes{1, 3}));
-  SensorUnderTest turned({{"fov_min_deg", -34.02}, {"fov_max_deg", -34}});
-  EXPECT_EQ(codes(turned), (Codes{2}));
+  SensorUnderTest sliver({{"fov_min_deg", -34.02}, {"fov_max_deg", -34}, {"occlusion", 0}});
+  EXPECT_EQ(codes(sliver), (Codes{2}));
   SensorUnderTest all({{"fov_min_deg", -180}, {"fov_max_deg", 180}, {"occlusion", 0}});
   EXPECT_EQ(codes(all), (Codes{1, 2, 3, 4, 5}));
 }

@@ -44,7 +44,7 @@ class TestClock final : public RunClock {
   [[nodiscard]] Clock::time_point wall_time_of(SimTime) const noexcept override {
     asked.store(true);
     asked.notify_all();
-    return paused.load() ? Clock::time_point::max() : Clock::now();
+    return paused.load() ? Clock::time_point::max() : Clock::time_point{};  // long past
   }
   std::atomic<std::int64_t> now_ns = 0;
   std::atomic<bool> paused = true;

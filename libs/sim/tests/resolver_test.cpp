@@ -149,7 +149,9 @@ TEST(Resolver, ACrowdDrivenIntoACornerNeverOverlaps) {
           {random.uniform(0, 0.06), random.uniform(0, 0.06), random.uniform(-0.1, 0.1)});
     }
     arena.step(motions, 0.09);
-    if (i % 20 == 0) ASSERT_GE(arena.least_separation(), 0) << "step " << i;
+    if (i % 20 == 0) {
+      ASSERT_GE(arena.least_separation(), 0) << "step " << i;
+    }
   }
   EXPECT_GE(arena.least_separation(), 0);
 }

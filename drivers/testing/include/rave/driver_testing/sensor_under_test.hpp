@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <limits>
 #include <memory>
 #include <new>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -56,7 +59,8 @@ class SensorUnderTest {
     setup.layers = layers;
     layers_ = layers;
     configured = constructed_ && ops_->configure(memory_, &setup, &declaration, &error_) == 0;
-    state_.assign(ops_->state_size / sizeof(std::max_align_t) + 1, {});
+    state_.resize(ops_->state_size / sizeof(std::max_align_t) + 1);
+    reset();
   }
   SensorUnderTest(const SensorUnderTest&) = delete;
   SensorUnderTest& operator=(const SensorUnderTest&) = delete;
@@ -101,7 +105,7 @@ class SensorUnderTest {
   }
 
   /// As after a reset of the run.
-  void reset() { std::fill(state_.begin(), state_.end(), std::max_align_t{}); }
+  void reset() { std::memset(state_.data(), 0, state_.size() * sizeof(std::max_align_t)); }
   [[nodiscard]] std::string error() const { return error_.text; }
 
   DriverInfo info;

@@ -61,6 +61,12 @@ class CheckContext {
   void error(std::string_view key, fmt::format_string<Args...> format, Args&&... args) {
     report(key, fmt::format(format, std::forward<Args>(args)...));
   }
+  /// Reports an error at a place of its own, such as that of a Located value further down.
+  template <class... Args>
+  void error_at(SourceLocation where, fmt::format_string<Args...> format, Args&&... args) {
+    diagnostics_.add(Error{ErrorCode::kParse, fmt::format(format, std::forward<Args>(args)...),
+                           std::move(where)});
+  }
   /// Where the struct stands in the file.
   [[nodiscard]] SourceLocation where() const { return mapping_.where(); }
   /// The mapping as read, to ask whether a key was given.

@@ -19,7 +19,8 @@ namespace rave {
 class RunClock {
  public:
   [[nodiscard]] virtual SimTime now() const noexcept = 0;
-  /// When `t` is due; time_point::max() while the run is paused.
+  /// When `t` is due: the same answer until clock_changed(); time_point::max() while the run is
+  /// paused.
   [[nodiscard]] virtual std::chrono::steady_clock::time_point wall_time_of(
       SimTime t) const noexcept = 0;
 
@@ -61,7 +62,7 @@ class SampleQueue final : public SampleSink {
 
   /// Takes out the oldest sample if its stamp is at most `up_to`; false: there is none. `records`
   /// has room for `max_records`. `header->sequence` counts published samples from 1, `dropped` the
-  /// samples lost since the last call that gave one; `fresh` is 0.
+  /// records lost since the last call that gave one; `fresh` is 0.
   [[nodiscard]] bool next(SimTime up_to, SampleHeader* header, void* records);
 
   /// Unblocks the producer; its calls return false from now on. Samples can still be taken out.

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+
+#include "rave/robot/plugin_entry.hpp"
+#include "utias/plugins/player.hpp"
+
+namespace rave::utias {
+namespace {
+
+constexpr std::array<const char*, 2> kCodes{"barcode", "subject"};
+constexpr auto kParams = with_playback_params(std::array<ParamSpec, 1>{
+    choice_param("codes", "barcode", kCodes,
+                 "How the number in the log is read; `subject` is the classical mistake, for "
+                 "checks that must notice it."),
+});
+
+/// What the camera is said to have read on a landmark. A number that is no subject must not turn
+/// into somebody's barcode by chance: it becomes a negative one, which nobody carries.
+int code_read(int number, CodeMeaning meaning, const Subjects& subjects) {
+  if (meaning == CodeMeaning::kBarcode) return number;
+  const int code = subjects.code_of_subject(number);
+  return code >= 0 ? code : -1 - number;
+}
+
+/// The barcodes that the robot's camera saw, all of one image in one sample.
+struct Camera {
+  using Record = rave::Sighting;
+  static constexpr ReadingKind kReading = ReadingKind::kSightings;
+  static constexpr StreamKind kKind = StreamKind::kSightings;
+  static constexpr std::uint32_t kCapacity = 64;
+  static constexpr std::uint32_t kCollect = 1;
+
+  static CodeMeaning code_meaning(const Params& params) {
+    return params.text("codes") == "subject" ? CodeMeaning::kSubject : CodeMeaning::kBarcode;
+  }
+
+  static Timeline<Record> timeline(const Params& params, const Playback& playback) {
+    Timeline<Record> timeline;
+    const SightingLog& log = playback.robot().sightings;
+    for (std::size_t i = 0; i < log.group_count(); ++i) {
+      const SimTime stamp = playback.run_time(log.group(i).front().t_ns);
+      timeline.begin(stamp);
+      for (const Sighting& seen : log.group(i)) {
+        timeline.add({.stamp_ns = stamp.ns,
+                      .code = code_read(seen.code, code_meaning(params), playback.data.subjects),
+                      .range_m = static_cast<float>(seen.range_m),
+                      .bearing_rad = static_cast<float>(seen.bearing_rad)});
+      }
+    }
+    return timeline;
+  }
+};
+
+}  // namespace
+}  // namespace rave::utias
+
+RAVE_PLUGIN("utias_camera") {
+  rave::add_sensor<rave::utias::Player<rave::utias::Camera>>(
+      registry, {.name = "utias_camera",
+                 .summary = "Plays the barcode sightings of a recorded UTIAS robot.",
+                 .params = rave::utias::kParams,
+                 .clock = rave::DriverClock::kEither});
+}

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rave/base/result.hpp"
+#include "rave/config/scenario_file.hpp"
+
+namespace rave::config {
+
+/// What the robots of one entry of the scenario have in common.
+struct RobotGroup {
+  Located<std::string> name;  ///< As written; the place is the entry's, for later errors.
+  std::string team;
+  std::optional<std::string> kind;
+  /// Absolute path of the robot file, which relative paths among its parameters start from; empty
+  /// if the robot was written out in the scenario alone.
+  std::string file;
+  RobotFile robot;
+  std::optional<ScatterFile> scatter;  ///< Set: the robots have no poses yet.
+  bool operator==(const RobotGroup&) const = default;
+};
+
+/// One robot. Its id is its index in ExpandedScenario::robots.
+struct ExpandedRobot {
+  std::string name;
+  std::size_t group = 0;
+  /// Unset: it is scattered, or the scenario gives no pose.
+  std::optional<PoseFile> pose;
+  bool operator==(const ExpandedRobot&) const = default;
+};
+
+/// A scenario with all that it refers to. A value.
+struct ExpandedScenario {
+  /// Settings, checks and picture. Its world, obstacles, maps and robots were moved to the members
+  /// below and are empty here.
+  ScenarioFile scenario;
+  std::vector<RobotGroup> groups;     ///< In the order of the file.
+  std::vector<ExpandedRobot> robots;  ///< By group; names are unique.
+  /// World and scenario together; names are unique, map files absolute and present.
+  WorldFile world;
+
+  [[nodiscard]] const RobotGroup& group_of(const ExpandedRobot& robot) const {
+    return groups[robot.group];
+  }
+  bool operator==(const ExpandedScenario&) const = default;
+};
+
+/// Reads a scenario and the files it names (a robot file once per entry) and checks them together:
+/// names, periods that are multiples of the step, sensors that checks and picture name, files that
+/// do not exist (error at the line that names them). Errors: kNotFound, kIo, kParse.
+[[nodiscard]] Result<ExpandedScenario> expand_scenario(const std::filesystem::path& path);
+/// The same for a text that stands in for the file `path`.
+[[nodiscard]] Result<ExpandedScenario> expand_scenario_text(std::string_view text,
+                                                            const std::filesystem::path& path);
+
+/// One scenario file that says everything, all defaults included; expanding it anywhere gives an
+/// equal value as long as the maps exist.
+[[nodiscard]] std::string write_expanded(const ExpandedScenario& expanded);
+
+}  // namespace rave::config

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rave/config/located.hpp"
+#include "rave/config/raw_node.hpp"
+#include "rave/config/shape_file.hpp"
+
+// What a robot file says of the devices of a robot. Plain values; driver names and parameters are
+// checked later against the drivers that are loaded.
+namespace rave::config {
+
+/// Pose of a sensor in the body frame. Roll and pitch other than 0 are refused.
+struct MountFile {
+  double x_m = 0;
+  double y_m = 0;
+  double z_m = 0;  ///< Height above the floor.
+  double yaw_deg = 0;
+  double roll_deg = 0;
+  double pitch_deg = 0;
+  bool operator==(const MountFile&) const = default;
+};
+
+/// Errors that are put on every reading; 0 switches each of them off.
+struct NoiseFile {
+  double length_sigma_m = 0;  ///< Standard deviations of Gaussian noise.
+  double angle_sigma_deg = 0;
+  double velocity_sigma_mps = 0;
+  double length_quantum_m = 0;  ///< Steps that values are rounded to.
+  double angle_quantum_deg = 0;
+  double velocity_quantum_mps = 0;
+  double dropout_probability = 0;  ///< 0 to 1; that a reading (or one of its items) is lost.
+  bool operator==(const NoiseFile&) const = default;
+};
+
+struct MedianFilterFile {
+  int window = 5;  ///< Readings, odd, 1 to 101.
+  bool operator==(const MedianFilterFile&) const = default;
+};
+
+struct ExponentialFilterFile {
+  double time_constant_s = 0.1;  ///< Greater than 0.
+  bool operator==(const ExponentialFilterFile&) const = default;
+};
+
+/// One stage of a sensor's processing chain; exactly one is set.
+struct FilterFile {
+  std::optional<MedianFilterFile> median;
+  std::optional<ExponentialFilterFile> exponential;
+  bool operator==(const FilterFile&) const = default;
+};
+
+struct SensorFile {
+  Located<std::string> name;
+  Located<std::string> driver;
+  Located<MountFile> mount;
+  /// Unset: the scenario's step. expand_scenario checks that it is a multiple of that.
+  std::optional<Located<double>> period_s;
+  Located<double> phase_s = 0.0;  ///< At least 0, less than the period, a multiple of the step.
+  /// Unset: the default of the driver's kind (virtual: all; hybrid: what its real half cannot see).
+  std::optional<Located<std::vector<SensedLayer>>> senses;
+  RawNode params;  ///< A mapping or null.
+  NoiseFile noise;
+  double latency_s = 0;
+  std::vector<FilterFile> filters;
+  bool operator==(const SensorFile&) const = default;
+};
+
+struct ActuatorFile {
+  Located<std::string> name;
+  Located<std::string> driver;
+  RawNode params;  ///< A mapping or null.
+  bool operator==(const ActuatorFile&) const = default;
+};
+
+struct ControllerFile {
+  Located<std::string> name;
+  Located<std::string> driver;
+  Located<std::string> actuator;  ///< Names one of the robot's actuators.
+  RawNode params;                 ///< A mapping or null.
+  bool operator==(const ControllerFile&) const = default;
+};
+
+/// The decision process.
+struct ProgramFile {
+  Located<std::string> driver;
+  std::optional<Located<double>> period_s;  ///< Unset: the scenario's step.
+  Located<double> phase_s = 0.0;
+  bool isolate = false;  ///< In a process of its own.
+  RawNode params;        ///< A mapping or null.
+  bool operator==(const ProgramFile&) const = default;
+};
+
+}  // namespace rave::config

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rave/base/result.hpp"
+#include "rave/config/located.hpp"
+#include "rave/config/pace.hpp"
+#include "rave/config/robot_file.hpp"
+#include "rave/config/world_file.hpp"
+
+namespace rave::config {
+
+/// A rectangle of the world in which robots are placed at random by the seed.
+struct ScatterFile {
+  int count = 1;                ///< 1 to 100000.
+  std::array<double, 2> x_m{};  ///< Low, high; low <= high.
+  std::array<double, 2> y_m{};
+  double clearance_m = 0.1;  ///< Free space around each body, at least 0.
+  bool operator==(const ScatterFile&) const = default;
+};
+
+/// One entry of `robots:`, which stands for one robot or several equal ones.
+struct RobotEntry {
+  /// Of the robot, or with several of them what `-1`, `-2`, … is put behind.
+  Located<std::string> name;
+  /// The robot file. With `robot` given too it is not opened and only says where that came from.
+  std::optional<Located<std::string>> file;
+  std::optional<RobotFile> robot;  ///< Written out in place; its variables are already put in.
+  std::string team;
+  Variables variables;
+  std::optional<PoseFile> pose;  ///< At most one of pose, poses and scatter is set.
+  std::optional<std::vector<std::array<double, 3>>> poses;  ///< Each x [m], y [m], yaw [deg].
+  std::optional<ScatterFile> scatter;
+  std::optional<std::string> kind;  ///< A free word for pictures.
+  bool operator==(const RobotEntry&) const = default;
+};
+
+/// Compares real barcode sightings with those of a virtual camera on the same robot.
+struct SightingsCheckFile {
+  Located<std::string> real;  ///< Names of sensors that at least one robot has both of.
+  Located<std::string> twin;
+  double range_m = 0.5;
+  double bearing_deg = 5;
+  double min_within_pct = 99;
+  bool operator==(const SightingsCheckFile&) const = default;
+};
+
+struct ChecksFile {
+  std::optional<SightingsCheckFile> sightings;
+  bool operator==(const ChecksFile&) const = default;
+};
+
+struct PictureFile {
+  std::optional<double> instant_s;  ///< The frozen instant; unset: the middle of the run.
+  std::string title;                ///< Empty: the scenario's name.
+  std::optional<Located<std::string>> odometry_sensor;  ///< Whose track is drawn dashed.
+  bool operator==(const PictureFile&) const = default;
+};
+
+struct ScenarioFile {
+  Located<std::string> name;
+  std::string description;
+  std::optional<Located<std::string>> world;  ///< As written: relative to the scenario file.
+  std::vector<ObstacleFile> obstacles;        ///< Added to those of the world.
+  std::vector<MapFile> maps;                  ///< Added to those of the world.
+  std::uint64_t seed = 1;
+  double duration_s = 60;
+  Located<double> step_s = 0.01;
+  int threads = 1;
+  Pace pace;
+  double history_s = 0;
+  std::vector<RobotEntry> robots;
+  ChecksFile checks;
+  std::optional<PictureFile> picture;
+  bool operator==(const ScenarioFile&) const = default;
+};
+
+/// Reads a scenario file without opening the files it names. Errors: those of rave::read_file, and
+/// kParse with file:line:column for what is wrong in it.
+[[nodiscard]] Result<ScenarioFile> read_scenario_file(const std::filesystem::path& path);
+/// The same for a text; `file_name` is for messages.
+[[nodiscard]] Result<ScenarioFile> read_scenario_text(std::string_view text,
+                                                      std::string_view file_name);
+
+/// The JSON Schema (draft 07) of scenario files.
+[[nodiscard]] std::string scenario_schema();
+
+}  // namespace rave::config

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <map>
+
+#include "expansion_checks.hpp"
+#include "rave/config/expanded_scenario.hpp"
+#include "scenario_fields.hpp"
+
+namespace rave::config {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Expansion {
+ public:
+  Expansion(ScenarioFile scenario, const fs::path& path) : folder_(path.parent_path()) {
+    expanded_.scenario = std::move(scenario);
+  }
+
+  Result<ExpandedScenario> run() && {
+    expand_world();
+    expand_robots();
+    if (diagnostics_.ok()) check_expansion(expanded_, diagnostics_);
+    if (diagnostics_.ok()) return std::move(expanded_);
+    return tl::unexpected<Error>(diagnostics_.joined());
+  }
+
+ private:
+  void report(const SourceLocation& where, std::string message,
+              ErrorCode code = ErrorCode::kParse) {
+    diagnostics_.add(Error{code, std::move(message), where});
+  }
+
+  /// The text of a file that a line names; what is wrong is reported at that line.
+  std::optional<std::string> read(const fs::path& path, const SourceLocation& where) {
+    auto text = rave::read_file(path, kMaxFileBytes);
+    if (text) return *std::move(text);
+    report(where, text.error().message, text.error().code);
+    return std::nullopt;
+  }
+
+  static fs::path beside(const fs::path& folder, const std::string& name) {
+    return (folder / name).lexically_normal();
+  }
+
+  /// Without a look at the disk other than for the current folder, which may be gone.
+  static std::string absolute(const fs::path& path) {
+    std::error_code error;
+    const fs::path whole = fs::absolute(path, error);
+    return (error ? path : whole).lexically_normal().string();
+  }
+
+  void expand_world() {
+    WorldFile& world = expanded_.world;
+    ScenarioFile& scenario = expanded_.scenario;
+    if (scenario.world) {
+      const fs::path path = beside(folder_, **scenario.world);
+      if (const auto text = read(path, scenario.world->where)) {
+        auto read_world = read_world_text(*text, path.string());
+        if (read_world) {
+          world = *std::move(read_world);
+        } else {
+          diagnostics_.add(std::move(read_world).error());
+        }
+      }
+      resolve_maps(world.maps, path.parent_path());
+    }
+    resolve_maps(scenario.maps, folder_);
+    std::move(scenario.obstacles.begin(), scenario.obstacles.end(),
+              std::back_inserter(world.obstacles));
+    std::move(scenario.maps.begin(), scenario.maps.end(), std::back_inserter(world.maps));
+    scenario.obstacles.clear();
+    scenario.maps.clear();
+    scenario.world.reset();
+    world.description.clear();
+  }
+
+  void resolve_maps(std::vector<MapFile>& maps, const fs::path& folder) {
+    for (MapFile& map : maps) {
+      const fs::path path = beside(folder, *map.file);
+      (void)read(path, map.file.where);
+      map.file.value = absolute(path);
+    }
+  }
+
+  void expand_robots() {
+    std::vector<RobotEntry> entries = std::move(expanded_.scenario.robots);
+    expanded_.scenario.robots.clear();
+    for (RobotEntry& entry : entries) expand_entry(entry);
+  }
+
+  void expand_entry(RobotEntry& entry) {
+    const std::size_t group = expanded_.groups.size();
+    RobotGroup& common = expanded_.groups.emplace_back();
+    common.name = entry.name;
+    common.team = std::move(entry.team);
+    common.kind = std::move(entry.kind);
+    common.scatter = entry.scatter;
+    if (entry.file) common.file = absolute(beside(folder_, **entry.file));
+    if (entry.robot) {
+      common.robot = *std::move(entry.robot);
+    } else {
+      read_robot(entry, common.robot);
+    }
+    add_robots(entry, group);
+  }
+
+  void read_robot(const RobotEntry& entry, RobotFile& robot) {
+    const fs::path path = beside(folder_, **entry.file);
+    const auto text = read(path, entry.file->where);
+    if (!text) return;
+    auto result = read_robot_text(*text, path.string(), entry.variables);
+    if (result) {
+      robot = *std::move(result);
+    } else {
+      diagnostics_.add(std::move(result).error());
+    }
+  }
+
+  void add_robots(const RobotEntry& entry, std::size_t group) {
+    std::size_t count = 1;
+    if (entry.scatter) count = static_cast<std::size_t>(entry.scatter->count);
+    if (entry.poses) count = entry.poses->size();
+    if (expanded_.robots.size() + count > static_cast<std::size_t>(kMaxRobots)) {
+      return report(entry.name.where, fmt::format("more than {} robots", kMaxRobots));
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      ExpandedRobot robot;
+      robot.group = group;
+      robot.name = count == 1 ? *entry.name : fmt::format("{}-{}", *entry.name, i + 1);
+      robot.pose = entry.pose;
+      if (entry.poses) {
+        const auto& [x_m, y_m, yaw_deg] = (*entry.poses)[i];
+        robot.pose = PoseFile{x_m, y_m, yaw_deg};
+      }
+      expanded_.robots.push_back(std::move(robot));
+    }
+  }
+
+  fs::path folder_;
+  ExpandedScenario expanded_;
+  Diagnostics diagnostics_;
+};
+
+}  // namespace
+
+Result<ExpandedScenario> expand_scenario_text(std::string_view text,
+                                              const std::filesystem::path& path) {
+  RAVE_TRY_ASSIGN(ScenarioFile scenario, read_scenario_text(text, path.string()));
+  return Expansion(std::move(scenario), path).run();
+}
+
+Result<ExpandedScenario> expand_scenario(const std::filesystem::path& path) {
+  RAVE_TRY_ASSIGN(const std::string text, rave::read_file(path, kMaxFileBytes));
+  return expand_scenario_text(text, path);
+}
+
+}  // namespace rave::config

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "expansion_checks.hpp"
+
+#include <algorithm>
+#include <set>
+#include <unordered_map>
+
+#include "file_checks.hpp"
+#include "rave/base/names.hpp"
+#include "rave/base/time.hpp"
+
+namespace rave::config {
+namespace {
+
+class Checks {
+ public:
+  Checks(const ExpandedScenario& expanded, Diagnostics& diagnostics)
+      : expanded_(expanded), scenario_(expanded.scenario), diagnostics_(diagnostics) {}
+
+  void run() {
+    unique_obstacles();
+    unique_robots();
+    for (const RobotGroup& group : expanded_.groups) timing(group.robot);
+    sightings();
+    odometry();
+  }
+
+ private:
+  template <class... Args>
+  void report(const SourceLocation& where, fmt::format_string<Args...> format, Args&&... args) {
+    diagnostics_.add(
+        Error{ErrorCode::kParse, fmt::format(format, std::forward<Args>(args)...), where});
+  }
+
+  void unique_obstacles() {
+    const RawNode nowhere;
+    CheckContext check(nowhere, diagnostics_);
+    check_unique("obstacle", expanded_.world.obstacles, check);
+  }
+
+  void unique_robots() {
+    std::unordered_map<std::string_view, std::size_t> seen;
+    for (const ExpandedRobot& robot : expanded_.robots) {
+      const auto [first, is_new] = seen.emplace(robot.name, robot.group);
+      if (is_new) continue;
+      report(expanded_.group_of(robot).name.where, "{}",
+             named_twice("robot", robot.name, expanded_.groups[first->second].name.where));
+    }
+  }
+
+  void timing(const RobotFile& robot) {
+    for (const SensorFile& sensor : robot.sensors) timing(sensor.period_s, sensor.phase_s);
+    if (robot.program) timing(robot.program->period_s, robot.program->phase_s);
+  }
+
+  void timing(const std::optional<Located<double>>& period_s, const Located<double>& phase_s) {
+    if (period_s) multiple_of_step("period_s", *period_s);
+    multiple_of_step("phase_s", phase_s);
+    if (!period_s && *phase_s >= *scenario_.step_s) {
+      report(phase_s.where,
+             "`phase_s`: found {}, expected less than the period, which is the step ({} s)",
+             *phase_s, *scenario_.step_s);
+    }
+  }
+
+  void multiple_of_step(std::string_view key, const Located<double>& time_s) {
+    const std::int64_t step_ns = from_seconds(*scenario_.step_s).ns;
+    const std::int64_t ns = from_seconds(*time_s).ns;
+    // A period below half a nanosecond rounds to none.
+    if (ns % step_ns == 0 && (ns > 0 || *time_s == 0)) return;
+    report(time_s.where, "`{}`: found {}, expected a multiple of the scenario's step ({} s)", key,
+           *time_s, *scenario_.step_s);
+  }
+
+  static bool has_sensor(const RobotGroup& group, const std::string& name) {
+    const auto& sensors = group.robot.sensors;
+    return std::any_of(sensors.begin(), sensors.end(),
+                       [&name](const SensorFile& s) { return *s.name == name; });
+  }
+
+  /// Whether any robot has the sensor; reports if not.
+  bool sensor_exists(std::string_view key, const Located<std::string>& name) {
+    std::set<std::string_view> all;
+    for (const RobotGroup& group : expanded_.groups) {
+      for (const SensorFile& sensor : group.robot.sensors) all.insert(*sensor.name);
+    }
+    if (all.contains(*name)) return true;
+    const std::vector<std::string_view> names(all.begin(), all.end());
+    report(name.where, "`{}`: no robot has a sensor `{}`{}", key, *name, suggestion(*name, names));
+    return false;
+  }
+
+  void sightings() {
+    if (!scenario_.checks.sightings) return;
+    const SightingsCheckFile& check = *scenario_.checks.sightings;
+    const bool has_real = sensor_exists("real", check.real);
+    const bool has_twin = sensor_exists("twin", check.twin);
+    if (!has_real || !has_twin) return;
+    const auto& groups = expanded_.groups;
+    const bool together = std::any_of(groups.begin(), groups.end(), [&](const RobotGroup& group) {
+      return has_sensor(group, *check.real) && has_sensor(group, *check.twin);
+    });
+    if (together) return;
+    report(check.twin.where, "no robot has both the sensors `{}` and `{}`", *check.real,
+           *check.twin);
+  }
+
+  void odometry() {
+    if (!scenario_.picture || !scenario_.picture->odometry_sensor) return;
+    (void)sensor_exists("odometry_sensor", *scenario_.picture->odometry_sensor);
+  }
+
+  const ExpandedScenario& expanded_;
+  const ScenarioFile& scenario_;
+  Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+void check_expansion(const ExpandedScenario& expanded, Diagnostics& diagnostics) {
+  Checks(expanded, diagnostics).run();
+}
+
+}  // namespace rave::config

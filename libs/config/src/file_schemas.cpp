@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "scenario_fields.hpp"
+
+namespace rave::config {
+namespace {
+
+constexpr const char* kOneVariable = "^\\$\\([A-Za-z_][A-Za-z0-9_]*\\)$";
+
+bool is_type(const RawNode& node, std::string_view type) {
+  return node.is_text() && node.scalar() == type;
+}
+
+RawNode variable_schema() {
+  RawNode schema = RawNode::mapping();
+  schema.append("type", RawNode::text("string"));
+  schema.append("pattern", RawNode::text("\\$\\("));
+  return schema;
+}
+
+/// `{type: T, …}` becomes `{type: [T, string], pattern: …, …}`: the limits of numbers do not
+/// concern strings and the pattern does not concern numbers.
+void allow_variable_as_number(RawNode& schema) {
+  const RawNode type = *schema.find("type");
+  RawNode types = RawNode::sequence();
+  types.push_back(type);
+  types.push_back(RawNode::text("string"));
+  schema.set("type", std::move(types));
+  schema.append("pattern", RawNode::text(kOneVariable));
+}
+
+void allow_variable_as_choice(RawNode& schema) {
+  RawNode choice = RawNode::mapping();
+  for (const char* key : {"type", "enum"}) {
+    choice.append(key, *schema.find(key));
+    (void)schema.erase(key);
+  }
+  RawNode choices = RawNode::sequence();
+  choices.push_back(std::move(choice));
+  choices.push_back(variable_schema());
+  schema.append("anyOf", std::move(choices));
+}
+
+/// A robot file's schema in which `$(name)` may stand for every number, bool and choice.
+void allow_variables(RawNode& schema) {
+  if (!schema.is_mapping()) return;
+  const RawNode* type = schema.find("type");
+  const bool scalar =
+      type && (is_type(*type, "number") || is_type(*type, "integer") || is_type(*type, "boolean"));
+  if (scalar) return allow_variable_as_number(schema);
+  if (type && schema.find("enum")) return allow_variable_as_choice(schema);
+  for (std::size_t i = 0; i < schema.size(); ++i) {
+    const std::string& key = schema.key(i);
+    RawNode& child = schema.child(i);
+    if (key == "items") allow_variables(child);
+    if (key == "properties" || key == "anyOf") {
+      for (std::size_t k = 0; k < child.size(); ++k) allow_variables(child.child(k));
+    }
+  }
+}
+
+RawNode* child_of(RawNode& schema, std::string_view key) {
+  for (std::size_t i = 0; i < schema.size(); ++i) {
+    if (schema.key(i) == key) return &schema.child(i);
+  }
+  return nullptr;
+}
+
+std::string finish(const RawNode& body, std::string_view title, std::string_view file) {
+  RawNode schema = RawNode::mapping();
+  schema.append("$schema", RawNode::text("http://json-schema.org/draft-07/schema#"));
+  schema.append("$id", RawNode::text(std::string(file)));
+  schema.append("title", RawNode::text(std::string(title)));
+  for (std::size_t i = 0; i < body.size(); ++i) schema.append(body.key(i), body.child(i));
+  return to_json(schema);
+}
+
+}  // namespace
+
+std::string robot_schema() {
+  RawNode schema = Codec<RobotFile>::schema({});
+  allow_variables(schema);
+  return finish(schema, "RAVE robot file", "robot.schema.json");
+}
+
+std::string world_schema() {
+  return finish(Codec<WorldFile>::schema({}), "RAVE world file", "world.schema.json");
+}
+
+std::string scenario_schema() {
+  RawNode schema = Codec<ScenarioFile>::schema({});
+  RawNode* place = &schema;
+  for (const char* key : {"properties", "robots", "items", "properties", "robot"}) {
+    place = child_of(*place, key);
+  }
+  allow_variables(*place);
+  return finish(schema, "RAVE scenario file", "scenario.schema.json");
+}
+
+}  // namespace rave::config

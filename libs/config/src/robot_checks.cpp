@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "robot_fields.hpp"
+
+namespace rave::config {
+namespace {
+
+void check_level(std::string_view key, double angle_deg, CheckContext& check) {
+  if (angle_deg == 0) return;
+  check.error(key,
+              "`{}`: found {}, expected 0: anything else needs the 3-D world, which does not exist "
+              "yet",
+              key, angle_deg);
+}
+
+void check_phase(const std::optional<Located<double>>& period_s, const Located<double>& phase_s,
+                 CheckContext& check) {
+  if (!period_s || *phase_s < **period_s) return;
+  check.error("phase_s", "`phase_s`: found {}, expected less than `period_s` ({})", *phase_s,
+              **period_s);
+}
+
+}  // namespace
+
+void validate(const MountFile& c, CheckContext& check) {
+  check_level("roll_deg", c.roll_deg, check);
+  check_level("pitch_deg", c.pitch_deg, check);
+}
+
+void validate(const MedianFilterFile& c, CheckContext& check) {
+  if (c.window % 2 == 0) {
+    check.error("window", "`window`: found {}, expected an odd number", c.window);
+  }
+}
+
+void validate(const FilterFile& c, CheckContext& check) {
+  const int count = int{c.median.has_value()} + int{c.exponential.has_value()};
+  if (count == 1) return;
+  check.error("", "expected exactly one of `median` and `exponential`, found {}",
+              count == 0 ? "none" : "two");
+}
+
+void validate(const SensorFile& c, CheckContext& check) {
+  check_name("name", *c.name, check);
+  check_params(c.params, check);
+  check_phase(c.period_s, c.phase_s, check);
+  if (!c.senses) return;
+  std::vector<SensedLayer> layers = **c.senses;
+  std::sort(layers.begin(), layers.end());
+  if (std::adjacent_find(layers.begin(), layers.end()) != layers.end()) {
+    check.error("senses", "`senses` names a layer twice");
+  }
+}
+
+void validate(const ActuatorFile& c, CheckContext& check) {
+  check_name("name", *c.name, check);
+  check_params(c.params, check);
+}
+
+void validate(const ControllerFile& c, CheckContext& check) {
+  check_name("name", *c.name, check);
+  check_params(c.params, check);
+}
+
+void validate(const ProgramFile& c, CheckContext& check) {
+  check_params(c.params, check);
+  check_phase(c.period_s, c.phase_s, check);
+}
+
+void validate(const BodyFile& c, CheckContext& check) {
+  check_colour(c.colour, check);
+  check_barcode(c.barcode, c.barcode_z_m, check);
+}
+
+void validate(const RobotFile& c, CheckContext& check) {
+  check_unique("sensor", c.sensors, check);
+  check_unique("actuator", c.actuators, check);
+  check_unique("controller", c.controllers, check);
+  if (c.pose_from) {
+    check_reference("pose_from", "sensor", *c.pose_from, names_of(c.sensors), check);
+  }
+  for (const ControllerFile& controller : c.controllers) {
+    check_reference("actuator", "actuator", controller.actuator, names_of(c.actuators), check);
+  }
+}
+
+}  // namespace rave::config

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "rave/config/robot_file.hpp"
+#include "shape_fields.hpp"
+
+// How robot files are read, written and described.
+namespace rave::config {
+
+inline constexpr double kLongest_s = 1.0e6;
+
+constexpr FieldOptions period_s() {
+  return {.doc = "Time between two samples, a multiple of the step; null: the step.",
+          .min = 0,
+          .exclusive_min = true,
+          .max = kLongest_s,
+          .unit = "s"};
+}
+constexpr FieldOptions phase_s() {
+  return {.doc = "Time of the first sample, a multiple of the step, less than the period.",
+          .min = 0,
+          .max = kLongest_s,
+          .unit = "s"};
+}
+constexpr FieldOptions error_size(std::string_view doc, std::string_view unit) {
+  return {.doc = doc, .min = 0, .unit = unit};
+}
+constexpr FieldOptions driver_name() {
+  return {.doc = "The driver that serves it; `rave drivers` lists them.", .min_items = 1};
+}
+constexpr FieldOptions driver_params() {
+  return {.doc = "What the driver takes; `rave describe DRIVER` lists it."};
+}
+
+template <class V>
+void describe(V& v, MountFile& c) {
+  v.field("x_m", c.x_m, length_m("Forward of the body's origin."));
+  v.field("y_m", c.y_m, length_m("To the left of the body's origin."));
+  v.field("z_m", c.z_m, length_m("Height above the floor."));
+  v.field("yaw_deg", c.yaw_deg, angle_deg("Counter-clockwise from ahead."));
+  v.field("roll_deg", c.roll_deg, angle_deg("0; anything else needs the 3-D world."));
+  v.field("pitch_deg", c.pitch_deg, angle_deg("0; anything else needs the 3-D world."));
+}
+
+void validate(const MountFile& c, CheckContext& check);
+
+template <class V>
+void describe(V& v, NoiseFile& c) {
+  v.field("length_sigma_m", c.length_sigma_m,
+          error_size("Standard deviation of lengths and coordinates.", "m"));
+  v.field("angle_sigma_deg", c.angle_sigma_deg, error_size("Standard deviation of angles.", "deg"));
+  v.field("velocity_sigma_mps", c.velocity_sigma_mps,
+          error_size("Standard deviation of velocities.", "m/s"));
+  v.field("length_quantum_m", c.length_quantum_m,
+          error_size("Step that lengths are rounded to; 0: not rounded.", "m"));
+  v.field("angle_quantum_deg", c.angle_quantum_deg,
+          error_size("Step that angles are rounded to; 0: not rounded.", "deg"));
+  v.field("velocity_quantum_mps", c.velocity_quantum_mps,
+          error_size("Step that velocities are rounded to; 0: not rounded.", "m/s"));
+  v.field("dropout_probability", c.dropout_probability,
+          {.doc = "That a reading is lost.", .min = 0, .max = 1});
+}
+
+template <class V>
+void describe(V& v, MedianFilterFile& c) {
+  v.field("window", c.window,
+          {.doc = "Readings that it looks at, an odd number.", .min = 1, .max = 101});
+}
+
+void validate(const MedianFilterFile& c, CheckContext& check);
+
+template <class V>
+void describe(V& v, ExponentialFilterFile& c) {
+  v.required("time_constant_s", c.time_constant_s,
+             {.doc = "After which a step has been followed to 63 per cent.",
+              .min = 0,
+              .exclusive_min = true,
+              .unit = "s"});
+}
+
+template <class V>
+void describe(V& v, FilterFile& c) {
+  v.field("median", c.median, {.doc = "The median of the last readings."});
+  v.field("exponential", c.exponential, {.doc = "First-order low pass."});
+}
+
+void validate(const FilterFile& c, CheckContext& check);
+
+template <class V>
+void describe(V& v, SensorFile& c) {
+  v.required("name", c.name, {.doc = "By which the program asks for it."});
+  v.required("driver", c.driver, driver_name());
+  v.field("mount", c.mount, {.doc = "Pose in the body frame."});
+  v.field("period_s", c.period_s, period_s());
+  v.field("phase_s", c.phase_s, phase_s());
+  v.field("senses", c.senses,
+          {.doc = "Layers of the world that it senses; null: all, or for the virtual half of a "
+                  "hybrid sensor what its real half cannot see.",
+           .min_items = 1});
+  v.field("params", c.params, driver_params());
+  v.field("noise", c.noise, {.doc = "Errors put on every reading."});
+  v.field("latency_s", c.latency_s,
+          {.doc = "By which readings arrive late.", .min = 0, .max = kLongest_s, .unit = "s"});
+  v.field("filters", c.filters, {.doc = "Applied in this order.", .max_items = 16});
+}
+
+void validate(const SensorFile& c, CheckContext& check);
+
+template <class V>
+void describe(V& v, ActuatorFile& c) {
+  v.required("name", c.name, {.doc = "By which controllers refer to it."});
+  v.required("driver", c.driver, driver_name());
+  v.field("params", c.params, driver_params());
+}
+
+void validate(const ActuatorFile& c, CheckContext& check);
+
+template <class V>
+void describe(V& v, ControllerFile& c) {
+  v.required("name", c.name, {.doc = "By which the program asks for it."});
+  v.required("driver", c.driver, driver_name());
+  v.required("actuator", c.actuator, {.doc = "The actuator that it drives."});
+  v.field("params", c.params, driver_params());
+}
+
+void validate(const ControllerFile& c, CheckContext& check);
+
+template <class V>
+void describe(V& v, ProgramFile& c) {
+  v.required("driver", c.driver, driver_name());
+  v.field("period_s", c.period_s, period_s());
+  v.field("phase_s", c.phase_s, phase_s());
+  v.field("isolate", c.isolate, {.doc = "Whether it runs in a process of its own."});
+  v.field("params", c.params, driver_params());
+}
+
+void validate(const ProgramFile& c, CheckContext& check);
+
+template <class V>
+void describe(V& v, BodyFile& c) {
+  v.required("shapes", c.shapes,
+             {.doc = "Upright prisms that make up the body.", .min_items = 1, .max_items = 64});
+  v.field("mass_kg", c.mass_kg,
+          {.doc = "Mass.", .min = 0, .exclusive_min = true, .max = 1e6, .unit = "kg"});
+  v.field("colour", c.colour, {.doc = "`#rrggbb`; null: pictures choose."});
+  describe_barcode(v, c.barcode, c.barcode_z_m);
+}
+
+void validate(const BodyFile& c, CheckContext& check);
+
+template <class V>
+void describe(V& v, RobotFile& c) {
+  v.field("description", c.description, {.doc = "For people."});
+  v.field("variables", c.variables,
+          {.doc = "Values that stand as $(name) in this file; a scenario may set others."});
+  v.required("body", c.body, {.doc = "What others sense and touch."});
+  v.field("pose_from", c.pose_from,
+          {.doc = "The sensor that says where it is; null: the truth (simulated robots only)."});
+  v.field("source_frame", c.source_frame,
+          {.doc = "Pose in the world of the frame that pose_from reports in."});
+  v.field("staleness_s", c.staleness_s,
+          {.doc = "Age after which a reported pose counts as lost.",
+           .min = 0,
+           .max = kLongest_s,
+           .unit = "s"});
+  v.field("sensors", c.sensors, {.doc = "Each with its processing chain.", .max_items = 1000});
+  v.field("actuators", c.actuators, {.doc = "What moves it.", .max_items = 1000});
+  v.field("controllers", c.controllers, {.doc = "What takes commands.", .max_items = 1000});
+  v.field("program", c.program, {.doc = "The decision process; null: none."});
+}
+
+void validate(const RobotFile& c, CheckContext& check);
+
+}  // namespace rave::config

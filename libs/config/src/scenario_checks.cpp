@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenario_fields.hpp"
+
+namespace rave::config {
+
+void Codec<Pace>::read(const ReadContext& context, const RawNode& node, Pace& value) {
+  const auto text = node.as_text();
+  const auto pace = text ? parse_pace(*text) : Result<Pace>(Pace{});
+  if (text && pace) {
+    value = *pace;
+  } else {
+    context.wrong(node, expectation(context.options));
+  }
+}
+
+RawNode Codec<Pace>::schema(const FieldOptions& /*options*/) {
+  RawNode schema = RawNode::mapping();
+  schema.append("type", RawNode::text("string"));
+  schema.append("pattern", RawNode::text("^(max|realtime|[0-9][0-9.e+-]*x)$"));
+  return schema;
+}
+
+std::string Codec<Pace>::expectation(const FieldOptions& /*options*/) {
+  return "`max`, `realtime` or a positive number followed by `x`, such as `10x`";
+}
+
+void validate(const ScatterFile& c, CheckContext& check) {
+  for (const auto& [key, range] : {std::pair("x_m", c.x_m), std::pair("y_m", c.y_m)}) {
+    if (range[0] <= range[1]) continue;
+    check.error(key, "`{}`: found {} to {}, expected the first not to be greater", key, range[0],
+                range[1]);
+  }
+}
+
+void validate(const RobotEntry& c, CheckContext& check) {
+  check_name("name", *c.name, check);
+  if (c.kind) check_name("kind", *c.kind, check);
+  if (!c.file && !c.robot) {
+    check.error("", "the robot `{}` has neither `file` nor `robot`", *c.name);
+  }
+  const int starts =
+      int{c.pose.has_value()} + int{c.poses.has_value()} + int{c.scatter.has_value()};
+  if (starts > 1) {
+    check.error("", "the robot `{}` has more than one of `pose`, `poses` and `scatter`", *c.name);
+  }
+}
+
+void validate(const ScenarioFile& c, CheckContext& check) {
+  check_name("name", *c.name, check);
+  check_unique("obstacle", c.obstacles, check);
+  if (c.picture && c.picture->instant_s && *c.picture->instant_s > c.duration_s) {
+    check.error("picture", "`instant_s`: found {}, expected at most `duration_s` ({})",
+                *c.picture->instant_s, c.duration_s);
+  }
+}
+
+namespace {
+
+RawNode* find_child(RawNode& mapping, std::string_view key) {
+  for (std::size_t i = 0; mapping.is_mapping() && i < mapping.size(); ++i) {
+    if (mapping.key(i) == key) return &mapping.child(i);
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+void substitute_inline_robots(RawNode& scenario, Diagnostics& diagnostics) {
+  RawNode* robots = find_child(scenario, "robots");
+  if (!robots || !robots->is_sequence()) return;
+  for (std::size_t i = 0; i < robots->size(); ++i) {
+    RawNode& entry = robots->child(i);
+    RawNode* robot = find_child(entry, "robot");
+    if (!robot) continue;
+    Variables given;
+    if (const RawNode* values = entry.find("variables"); values && values->is_mapping()) {
+      for (std::size_t k = 0; k < values->size(); ++k) given[values->key(k)] = values->child(k);
+    }
+    substitute_variables(*robot, given, diagnostics);
+  }
+}
+
+}  // namespace rave::config

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "rave/config/scenario_file.hpp"
+#include "robot_fields.hpp"
+#include "world_fields.hpp"
+
+// How scenario files are read, written and described.
+namespace rave::config {
+
+inline constexpr double kMaxRobots = 100000;
+
+template <>
+struct Codec<Pace> {
+  static void read(const ReadContext& context, const RawNode& node, Pace& value);
+  static RawNode write(const Pace& value) { return RawNode::text(to_string(value)); }
+  static RawNode schema(const FieldOptions& options);
+  static std::string expectation(const FieldOptions& options);
+};
+
+template <class V>
+void describe(V& v, ScatterFile& c) {
+  v.field("count", c.count, {.doc = "How many robots.", .min = 1, .max = kMaxRobots});
+  v.required("x_m", c.x_m, length_m("Low and high x."));
+  v.required("y_m", c.y_m, length_m("Low and high y."));
+  v.field("clearance_m", c.clearance_m,
+          {.doc = "Free space around each body.", .min = 0, .max = kFarthest_m, .unit = "m"});
+}
+
+void validate(const ScatterFile& c, CheckContext& check);
+
+template <class V>
+void describe(V& v, RobotEntry& c) {
+  v.required("name", c.name, {.doc = "With several poses or scattered, -1, -2, ... is added."});
+  v.field("file", c.file,
+          {.doc = "The robot file, relative to this file; beside `robot` only its origin.",
+           .min_items = 1});
+  v.field("robot", c.robot, {.doc = "A robot file written out in place."});
+  v.field("team", c.team, {.doc = "Robots of one team know one another."});
+  v.field("variables", c.variables, {.doc = "Values for the variables of the robot file."});
+  v.field("pose", c.pose, {.doc = "Where it starts."});
+  v.field("poses", c.poses,
+          {.doc = "Where several start, each [x in m, y in m, yaw in deg].",
+           .min = -kFarthest_m,
+           .max = kFarthest_m,
+           .min_items = 1,
+           .max_items = static_cast<std::size_t>(kMaxRobots)});
+  v.field("scatter", c.scatter, {.doc = "Places at random by the seed."});
+  v.field("kind", c.kind, {.doc = "A word for pictures; null: what the drivers say."});
+}
+
+void validate(const RobotEntry& c, CheckContext& check);
+
+template <class V>
+void describe(V& v, SightingsCheckFile& c) {
+  v.required("real", c.real, {.doc = "The sensor that delivers recorded sightings."});
+  v.required("twin", c.twin, {.doc = "The virtual camera on the same robot."});
+  v.field("range_m", c.range_m,
+          {.doc = "Largest difference in range.", .min = 0, .max = kFarthest_m, .unit = "m"});
+  v.field("bearing_deg", c.bearing_deg,
+          {.doc = "Largest difference in bearing.", .min = 0, .max = 180, .unit = "deg"});
+  v.field("min_within_pct", c.min_within_pct,
+          {.doc = "Share of the sightings that must lie within both.",
+           .min = 0,
+           .max = 100,
+           .unit = "%"});
+}
+
+template <class V>
+void describe(V& v, ChecksFile& c) {
+  v.field("sightings", c.sightings, {.doc = "Compares real sightings with a virtual camera's."});
+}
+
+template <class V>
+void describe(V& v, PictureFile& c) {
+  v.field("instant_s", c.instant_s,
+          {.doc = "The frozen instant; null: the middle.", .min = 0, .max = 1e9, .unit = "s"});
+  v.field("title", c.title, {.doc = "Empty: the scenario's name."});
+  v.field("odometry_sensor", c.odometry_sensor,
+          {.doc = "The sensor whose track is drawn dashed; null: none."});
+}
+
+template <class V>
+void describe_run(V& v, ScenarioFile& c) {
+  v.field("seed", c.seed, {.doc = "Of all chance in the run."});
+  v.field("duration_s", c.duration_s,
+          {.doc = "Simulated time.", .min = 0, .exclusive_min = true, .max = 1e9, .unit = "s"});
+  v.field("step_s", c.step_s, {.doc = "Base period.", .min = 1e-4, .max = 10, .unit = "s"});
+  v.field("threads", c.threads, {.doc = "They do not change the result.", .min = 1, .max = 1024});
+  v.field("pace", c.pace, {.doc = "max, realtime, or a factor such as 10x."});
+  v.field(
+      "history_s", c.history_s,
+      {.doc = "How far hybrid sensors and checks look back.", .min = 0, .max = 3600, .unit = "s"});
+}
+
+template <class V>
+void describe(V& v, ScenarioFile& c) {
+  v.required("name", c.name, {.doc = "Letters, digits, - and _; names the run's folder."});
+  v.field("description", c.description, {.doc = "For people."});
+  v.field("world", c.world, {.doc = "The world file, relative to this file; null: an empty one."});
+  v.field("obstacles", c.obstacles, obstacle_list());
+  v.field("maps", c.maps, map_list());
+  describe_run(v, c);
+  v.required(
+      "robots", c.robots,
+      {.doc = "At least one.", .min_items = 1, .max_items = static_cast<std::size_t>(kMaxRobots)});
+  v.field("checks", c.checks, {.doc = "What must hold for the run to count as good."});
+  v.field("picture", c.picture, {.doc = "Settings of the picture of the run; null: the usual."});
+}
+
+void validate(const ScenarioFile& c, CheckContext& check);
+
+/// Puts the variables of robots that are written out in place into the tree.
+void substitute_inline_robots(RawNode& scenario, Diagnostics& diagnostics);
+
+}  // namespace rave::config

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/config/scenario_file.hpp"
+
+#include "scenario_fields.hpp"
+
+namespace rave::config {
+
+Result<ScenarioFile> read_scenario_text(std::string_view text, std::string_view file_name) {
+  Diagnostics diagnostics;
+  ScenarioFile scenario;
+  if (auto tree = parse_yaml(text, file_name, diagnostics)) {
+    const std::size_t errors_before = diagnostics.size();
+    substitute_inline_robots(*tree, diagnostics);
+    if (diagnostics.size() == errors_before) scenario = read_node<ScenarioFile>(*tree, diagnostics);
+  }
+  if (diagnostics.ok()) return scenario;
+  diagnostics.sort();
+  return tl::unexpected<Error>(diagnostics.joined());
+}
+
+Result<ScenarioFile> read_scenario_file(const std::filesystem::path& path) {
+  RAVE_TRY_ASSIGN(const std::string text, rave::read_file(path, kMaxFileBytes));
+  return read_scenario_text(text, path.string());
+}
+
+}  // namespace rave::config

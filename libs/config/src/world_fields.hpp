@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "rave/config/world_file.hpp"
+#include "shape_fields.hpp"
+
+// How world files are read, written and described.
+namespace rave::config {
+
+template <class V>
+void describe(V& v, ObstacleFile& c) {
+  v.required("name", c.name, {.doc = "Unique in the world."});
+  describe_outline(v, c.outline);
+  v.field("x_m", c.x_m, length_m("Where the outline's origin stands."));
+  v.field("y_m", c.y_m, length_m("Where the outline's origin stands."));
+  v.field("yaw_deg", c.yaw_deg, angle_deg("Turn of the outline about its origin."));
+  v.field("z_m", c.z_m, length_m("Heights above the floor, low and high."));
+  v.field("layer", c.layer, {.doc = "Whether it exists on the real floor too."});
+  describe_barcode(v, c.barcode, c.barcode_z_m);
+  v.field("colour", c.colour, {.doc = "`#rrggbb`; null: pictures choose."});
+}
+
+inline void validate(const ObstacleFile& c, CheckContext& check) {
+  check_name("name", *c.name, check);
+  check_outline(c.outline, check);
+  check_heights("z_m", c.z_m, check);
+  check_barcode(c.barcode, c.barcode_z_m, check);
+  check_colour(c.colour, check);
+}
+
+template <class V>
+void describe(V& v, MapFile& c) {
+  v.required("file", c.file,
+             {.doc = "The YAML of a ROS map_server map, relative to this file.", .min_items = 1});
+  v.field("z_m", c.z_m, length_m("Heights of its walls, low and high."));
+  v.field("layer", c.layer, {.doc = "Whether its walls exist on the real floor too."});
+}
+
+inline void validate(const MapFile& c, CheckContext& check) { check_heights("z_m", c.z_m, check); }
+
+constexpr FieldOptions obstacle_list() {
+  return {.doc = "Upright prisms that stand still.", .max_items = 100000};
+}
+constexpr FieldOptions map_list() {
+  return {.doc = "Maps whose occupied cells are walls.", .max_items = 100};
+}
+
+template <class V>
+void describe(V& v, WorldFile& c) {
+  v.field("description", c.description, {.doc = "For people."});
+  v.field("obstacles", c.obstacles, obstacle_list());
+  v.field("maps", c.maps, map_list());
+}
+
+inline void validate(const WorldFile& c, CheckContext& check) {
+  check_unique("obstacle", c.obstacles, check);
+}
+
+}  // namespace rave::config

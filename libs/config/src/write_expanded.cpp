@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/config/expanded_scenario.hpp"
+#include "scenario_fields.hpp"
+
+namespace rave::config {
+namespace {
+
+RobotEntry entry_of(const RobotGroup& group) {
+  RobotEntry entry;
+  entry.name = group.name;
+  entry.team = group.team;
+  entry.kind = group.kind;
+  entry.robot = group.robot;
+  entry.scatter = group.scatter;
+  if (!group.file.empty()) entry.file = Located<std::string>(group.file);
+  return entry;
+}
+
+/// The poses of the group's robots, which follow each other from `first` on.
+void add_poses(std::span<const ExpandedRobot> robots, RobotEntry& entry) {
+  if (robots.empty() || !robots.front().pose) return;
+  if (robots.size() == 1) {
+    entry.pose = robots.front().pose;
+    return;
+  }
+  auto& poses = entry.poses.emplace();
+  for (const ExpandedRobot& robot : robots) {
+    poses.push_back({robot.pose->x_m, robot.pose->y_m, robot.pose->yaw_deg});
+  }
+}
+
+RawNode escaped(RawNode node) {
+  escape_variables(node);
+  return node;
+}
+
+}  // namespace
+
+std::string write_expanded(const ExpandedScenario& expanded) {
+  ScenarioFile scenario = expanded.scenario;
+  scenario.obstacles = expanded.world.obstacles;
+  scenario.maps = expanded.world.maps;
+  std::size_t first = 0;
+  for (std::size_t group = 0; group < expanded.groups.size(); ++group) {
+    std::size_t end = first;
+    while (end < expanded.robots.size() && expanded.robots[end].group == group) ++end;
+    RobotEntry& entry = scenario.robots.emplace_back(entry_of(expanded.groups[group]));
+    add_poses(std::span(expanded.robots).subspan(first, end - first), entry);
+    first = end;
+  }
+  RawNode tree = write_node(scenario);
+  RawNode robots = *tree.find("robots");
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    robots.child(i).set("robot", escaped(*robots.child(i).find("robot")));
+  }
+  tree.set("robots", std::move(robots));
+  return to_yaml(tree);
+}
+
+}  // namespace rave::config

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "rave/config/expanded_scenario.hpp"
+
+namespace rave::config {
+namespace {
+
+const std::filesystem::path kData = RAVE_SOURCE_DIR "/libs/config/tests/data";
+
+std::string error_of(std::string_view text) {
+  const auto expanded = expand_scenario_text(text, kData / "scenarios/s.yaml");
+  if (expanded) return "none";
+  // Without the folder of the checkout, which differs from machine to machine.
+  std::string all = expanded.error().text();
+  const std::string folder = kData.string() + "/";
+  for (auto at = all.find(folder); at != std::string::npos; at = all.find(folder)) {
+    all.erase(at, folder.size());
+  }
+  return all;
+}
+
+TEST(Expand, PutsFilesTogether) {
+  const auto expanded = expand_scenario(kData / "scenarios/mixed.yaml");
+  ASSERT_TRUE(expanded.has_value()) << expanded.error().text();
+  std::vector<std::string> names;
+  for (const ExpandedRobot& robot : expanded->robots) names.push_back(robot.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"one", "two", "walker-1", "walker-2", "loner",
+                                             "prey-1", "prey-2", "prey-3"}));
+  EXPECT_EQ(expanded->groups.size(), 5U);
+  const auto group = [&](std::size_t i) { return expanded->group_of(expanded->robots[i]); };
+  EXPECT_EQ(group(0).robot.body->barcode, 5);
+  EXPECT_EQ(group(1).robot.body->barcode, 14);
+  EXPECT_EQ(group(4).robot.sensors[0].params.find("range_m")->as_double(), 2.5);
+  EXPECT_EQ(group(2).team, "green");
+  EXPECT_EQ(group(7).kind, "prey");
+  EXPECT_EQ(group(7).scatter->count, 3);
+  EXPECT_EQ(expanded->robots[3].pose, (PoseFile{1, 0.5, -90}));
+  EXPECT_FALSE(expanded->robots[0].pose.has_value());
+  EXPECT_FALSE(expanded->robots[7].pose.has_value());
+  EXPECT_EQ(group(0).file, (kData / "robots/recorded.yaml").string());
+  ASSERT_EQ(expanded->world.obstacles.size(), 3U);
+  EXPECT_EQ(*expanded->world.obstacles[2].name, "box-1");
+  EXPECT_EQ(*expanded->world.maps.at(0).file, (kData / "maps/lab.yaml").string());
+  EXPECT_EQ(expanded->scenario.pace.factor, 10);
+  EXPECT_FALSE(expanded->scenario.world.has_value());
+}
+
+TEST(Expand, WhatIsWrittenExpandsToTheSameAnywhere) {
+  for (const char* name : {"mixed", "small"}) {
+    const auto expanded = expand_scenario(kData / "scenarios" / (std::string(name) + ".yaml"));
+    ASSERT_TRUE(expanded.has_value()) << expanded.error().text();
+    const std::string text = write_expanded(*expanded);
+    const auto again = expand_scenario_text(text, "/elsewhere/again.yaml");
+    ASSERT_TRUE(again.has_value()) << again.error().text();
+    EXPECT_EQ(*again, *expanded);
+    EXPECT_EQ(write_expanded(*again), text);
+  }
+}
+
+TEST(Expand, AnInlineRobotTakesTheVariablesOfItsEntry) {
+  const auto expanded = expand_scenario(kData / "scenarios/small.yaml");
+  ASSERT_TRUE(expanded.has_value()) << expanded.error().text();
+  EXPECT_EQ(expanded->groups.at(0).robot.body->shapes.at(0).outline.disc_radius_m, 0.2);
+  EXPECT_EQ(expanded->groups.at(0).file, "");
+}
+
+#define WALKER "robots: [{name: w, file: ../robots/walker.yaml}]\n"
+
+TEST(ExpandBadInput, FilesThatDoNotExistAreReportedAtTheLineThatNamesThem) {
+  EXPECT_EQ(error_of("name: a\nrobots:\n  - {name: r, file: no.yaml}\n"),
+            "scenarios/s.yaml:3:21: cannot open `scenarios/no.yaml`: No such file or directory");
+  EXPECT_EQ(error_of("name: a\nworld: no.yaml\n" WALKER),
+            "scenarios/s.yaml:2:8: cannot open `scenarios/no.yaml`: No such file or directory");
+  EXPECT_EQ(error_of("name: a\nmaps:\n  - {file: no.yaml}\n" WALKER),
+            "scenarios/s.yaml:3:12: cannot open `scenarios/no.yaml`: No such file or directory");
+}
+
+TEST(ExpandBadInput, AllMissingFilesAtOnce) {
+  EXPECT_EQ(error_of("name: a\nworld: w.yaml\nrobots: [{name: r, file: r.yaml}]\n"),
+            "scenarios/s.yaml:2:8: cannot open `scenarios/w.yaml`: No such file or directory\n"
+            "scenarios/s.yaml:3:26: cannot open `scenarios/r.yaml`: No such file or directory");
+}
+
+TEST(ExpandBadInput, Names) {
+  EXPECT_EQ(error_of("name: a\nrobots:\n  - {name: w-1, file: ../robots/walker.yaml}\n"
+                     "  - {name: w, file: ../robots/walker.yaml, poses: [[0, 0, 0], [1, 1, 1]]}\n"),
+            "scenarios/s.yaml:4:12: two robots are named `w-1`; the first is at "
+            "scenarios/s.yaml:3:12");
+  EXPECT_EQ(error_of("name: a\nworld: ../worlds/hall.yaml\nobstacles:\n"
+                     "  - {name: tube-6, disc_radius_m: 1}\n" WALKER),
+            "scenarios/s.yaml:4:12: two obstacles are named `tube-6`; the first is at "
+            "worlds/hall.yaml:3:12");
+}
+
+TEST(ExpandBadInput, Variables) {
+  EXPECT_EQ(error_of("name: a\nrobots:\n  - name: w\n    file: ../robots/walker.yaml\n"
+                     "    variables: {rang: 3}\n"),
+            "scenarios/s.yaml:5:23: unknown variable `rang`; the robot file declares range and "
+            "colour");
+  EXPECT_EQ(error_of("name: a\nrobots:\n  - name: w\n    file: ../robots/walker.yaml\n"
+                     "    variables: {colour: blue}\n"),
+            "robots/walker.yaml:7:11: `colour`: found the text \"blue\", expected `#rrggbb` with "
+            "hexadecimal digits");
+}
+
+TEST(ExpandBadInput, PeriodsThatAreNoMultiplesOfTheStep) {
+  EXPECT_EQ(error_of("name: a\nstep_s: 0.03\n" WALKER),
+            "robots/walker.yaml:12:15: `period_s`: found 0.1, expected a multiple of the "
+            "scenario's step (0.03 s)\n"
+            "robots/walker.yaml:22:37: `period_s`: found 0.1, expected a multiple of the "
+            "scenario's step (0.03 s)");
+  const auto with_phase = [](std::string_view keys) {
+    return fmt::format(
+        "name: a\nrobots:\n  - name: r\n    robot:\n"
+        "      body: {{shapes: [{{disc_radius_m: 0.1, z_m: [0, 0.1]}}]}}\n"
+        "      sensors:\n        - {{name: s, driver: d, {}}}\n",
+        keys);
+  };
+  EXPECT_EQ(error_of(with_phase("phase_s: 0.01")),
+            "scenarios/s.yaml:7:41: `phase_s`: found 0.01, expected less than the period, which is "
+            "the step (0.01 s)");
+  EXPECT_EQ(error_of(with_phase("period_s: 0.1, phase_s: 0.005")),
+            "scenarios/s.yaml:7:56: `phase_s`: found 0.005, expected a multiple of the scenario's "
+            "step (0.01 s)");
+  EXPECT_EQ(error_of(with_phase("period_s: 0.0000000001")),
+            "scenarios/s.yaml:7:42: `period_s`: found 1e-10, expected a multiple of the scenario's "
+            "step (0.01 s)");
+  EXPECT_EQ(error_of(with_phase("period_s: 0.1, phase_s: 0.05")), "none");
+}
+
+TEST(ExpandBadInput, SensorsOfChecksAndPicture) {
+  EXPECT_EQ(error_of("name: a\n" WALKER "checks: {sightings: {real: lasre, twin: laser}}\n"),
+            "scenarios/s.yaml:3:28: `real`: no robot has a sensor `lasre`; did you mean `laser`?");
+  EXPECT_EQ(error_of("name: a\nrobots:\n  - {name: w, file: ../robots/walker.yaml}\n"
+                     "  - {name: r, file: ../robots/recorded.yaml}\n"
+                     "checks: {sightings: {real: camera, twin: laser}}\n"),
+            "scenarios/s.yaml:5:42: no robot has both the sensors `camera` and `laser`");
+  EXPECT_EQ(error_of("name: a\n" WALKER "picture: {odometry_sensor: odometry}\n"),
+            "scenarios/s.yaml:3:28: `odometry_sensor`: no robot has a sensor `odometry`; there are "
+            "laser");
+}
+
+TEST(ExpandBadInput, TooManyRobots) {
+  std::string text = "name: a\nrobots:\n";
+  for (const char* name : {"a", "b"}) {
+    text += fmt::format(
+        "  - {{name: {}, file: ../robots/walker.yaml, "
+        "scatter: {{count: 60000, x_m: [0, 1], y_m: [0, 1]}}}}\n",
+        name);
+  }
+  EXPECT_EQ(error_of(text), "scenarios/s.yaml:4:12: more than 100000 robots");
+}
+
+}  // namespace
+}  // namespace rave::config

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "track_recorder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rave/math/transform.hpp"
+
+namespace rave::robot_host {
+namespace {
+
+constexpr double kLeastInterval_s = 0.1;
+constexpr double kMostPoints = 4000;
+/// A pose source that is silent for longer has a gap worth showing.
+constexpr double kGap_s = 0.15;
+
+}  // namespace
+
+TrackRecorder::TrackRecorder(const BodyKinds& kinds, const sim::EngineSpec& spec,
+                             double duration_s, const std::string& odometry_sensor)
+    : kinds_(&kinds) {
+  const double interval_s = std::max(kLeastInterval_s, duration_s / kMostPoints);
+  every_ = std::max<std::uint64_t>(
+      1, static_cast<std::uint64_t>(std::llround(interval_s / spec.step.seconds())));
+  const std::size_t count = spec.robots.size();
+  poses_.resize(count);
+  odometry_tracks_.resize(count);
+  odometry_.resize(count);
+  last_.resize(count);
+  way_m_.resize(count);
+  last_stamp_ns_.resize(count);
+  for (std::uint32_t r = 0; r < count; ++r) {
+    const std::uint32_t body = kinds.body_of(RobotId(r));
+    poses_[r].label = spec.robots[r].name;
+    poses_[r].kind = kinds.kind(body);
+    poses_[r].colour = kinds.colour(body);
+    odometry_tracks_[r] = poses_[r];
+    odometry_tracks_[r].odometry_only = true;
+    const sim::RobotType& type = spec.types[spec.robots[r].type];
+    for (std::uint32_t s = 0; s < type.sensors.size(); ++s) {
+      if (type.sensors[s].name == odometry_sensor &&
+          type.sensors[s].kind == ReadingKind::kVelocity) {
+        odometry_[r] = Odometry{s, std::nullopt};
+      }
+    }
+  }
+}
+
+void TrackRecorder::after_step(sim::Engine& engine) {
+  const bool keep = (engine.steps_done() - 1) % every_ == 0;
+  for (std::uint32_t r = 0; r < poses_.size(); ++r) {
+    if (!engine.snapshot().robot(RobotId(r)).present) continue;
+    follow_pose(engine, r, keep);
+    if (odometry_[r]) follow_odometry(engine, r, keep);
+  }
+}
+
+void TrackRecorder::follow_pose(const sim::Engine& engine, std::uint32_t robot, bool keep) {
+  const Pose2 X_WR = engine.snapshot().pose(RobotId(robot));
+  const double now_s = engine.time().seconds();
+  if (last_[robot]) {
+    way_m_[robot] += std::sqrt(squared_norm(X_WR.position() - last_[robot]->position()));
+  }
+  last_[robot] = X_WR;
+  report::PictureTrack& track = poses_[robot];
+  const sim::ReportedPose& reported = engine.reported(RobotId(robot));
+  const std::int64_t stamp_ns = reported.stamp.ns;
+  if (stamp_ns != last_stamp_ns_[robot]) {
+    const double silent_s = static_cast<double>(stamp_ns - last_stamp_ns_[robot]) * 1e-9;
+    if (silent_s > kGap_s && !track.points.empty()) {
+      track.gaps.push_back({now_s - silent_s, now_s});
+    }
+    last_stamp_ns_[robot] = stamp_ns;
+    track.pose_lost_t_s.reset();
+  }
+  if (reported.stale && !track.pose_lost_t_s) track.pose_lost_t_s = reported.stamp.seconds();
+  if (keep) track.points.push_back({now_s, X_WR});
+}
+
+void TrackRecorder::follow_odometry(const sim::Engine& engine, std::uint32_t robot, bool keep) {
+  Odometry& odometry = *odometry_[robot];
+  if (!odometry.X_WR) {
+    odometry.X_WR = engine.snapshot().pose(RobotId(robot));
+  } else {
+    const sim::SensorSample sample = engine.sensor(RobotId(robot), odometry.sensor);
+    if (sample.header->count > 0) {
+      const auto* velocity = static_cast<const VelocityReading*>(sample.records);
+      odometry.X_WR = integrate(*odometry.X_WR, {velocity->v_mps, 0, velocity->w_radps},
+                                engine.spec().step.seconds());
+    }
+  }
+  if (keep) odometry_tracks_[robot].points.push_back({engine.time().seconds(), *odometry.X_WR});
+}
+
+std::vector<report::PictureTrack> TrackRecorder::tracks() const {
+  std::vector<report::PictureTrack> all = poses_;
+  for (std::size_t r = 0; r < odometry_.size(); ++r) {
+    if (odometry_[r]) all.push_back(odometry_tracks_[r]);
+  }
+  return all;
+}
+
+}  // namespace rave::robot_host

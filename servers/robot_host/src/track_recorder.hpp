@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kinds.hpp"
+#include "observer.hpp"
+#include "rave/report/picture.hpp"
+
+namespace rave::robot_host {
+
+/// Keeps where each robot was, thinned to what a picture can show, with the gaps of its pose source
+/// and, for real robots, the track that their commanded velocity alone would give.
+class TrackRecorder final : public Observer {
+ public:
+  /// `odometry_sensor`: name of the sensor whose velocity is integrated; empty for none.
+  TrackRecorder(const BodyKinds& kinds, const sim::EngineSpec& spec, double duration_s,
+                const std::string& odometry_sensor);
+
+  void after_step(sim::Engine& engine) override;
+
+  /// One track per robot, then the odometry-only ones.
+  [[nodiscard]] std::vector<report::PictureTrack> tracks() const;
+
+  /// Length of the way of each robot, metres, by RobotId.
+  [[nodiscard]] const std::vector<double>& way_m() const noexcept { return way_m_; }
+
+ private:
+  struct Odometry {
+    std::uint32_t sensor = 0;
+    std::optional<Pose2> X_WR;  ///< None until the robot has a pose.
+  };
+  void follow_pose(const sim::Engine& engine, std::uint32_t robot, bool keep);
+  void follow_odometry(const sim::Engine& engine, std::uint32_t robot, bool keep);
+
+  const BodyKinds* kinds_;
+  std::uint64_t every_ = 1;
+  std::vector<report::PictureTrack> poses_;
+  std::vector<report::PictureTrack> odometry_tracks_;
+  std::vector<std::optional<Odometry>> odometry_;
+  std::vector<std::optional<Pose2>> last_;
+  std::vector<double> way_m_;
+  std::vector<std::int64_t> last_stamp_ns_;
+};
+
+}  // namespace rave::robot_host

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=bash disable=SC2154
 # Configures and builds presets. Sourced; needs $root, the folder of the clone.
 
 rave_build_environment() {

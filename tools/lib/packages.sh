@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=bash disable=SC2154
 # Installs what is missing of tools/packages.txt. Sourced; needs $root, the folder of the clone.
 
 # The command that a package is missed by on systems that are not Debian 12.
@@ -11,7 +12,9 @@ rave_tools_of_group() {
 }
 
 rave_is_debian_12() {
-  [ -r /etc/os-release ] && (. /etc/os-release && [ "${ID:-}" = debian ] && [ "${VERSION_ID:-}" = 12 ])
+  local file="${RAVE_OS_RELEASE:-/etc/os-release}"
+  # shellcheck disable=SC1090
+  [ -r "$file" ] && (. "$file" && [ "${ID:-}" = debian ] && [ "${VERSION_ID:-}" = 12 ])
 }
 
 # Says so on another system and goes on if the tools of the groups are there.
@@ -56,7 +59,8 @@ rave_install_packages() {
   if [ "$(id -u)" != 0 ]; then
     if ! command -v sudo >/dev/null; then
       echo "Installing needs root, and there is no sudo. As root, run:" >&2
-      echo "  apt-get install --no-install-recommends" $missing >&2
+      # shellcheck disable=SC2086
+      echo "  apt-get install --no-install-recommends ${missing//$'\n'/ }" >&2
       return 1
     fi
     become=(sudo)

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=bash disable=SC2154
 # The steps of ./test. A step that fails is counted and the next one goes on, so that one run
 # shows everything that is wrong. Sourced; needs $root, $fuzz_seconds and tools/lib/build.sh.
 

@@ -15,12 +15,15 @@ set(RAVE_PLUGIN_DIR "lib/rave/plugins")
 
 # What every RAVE target is compiled with. The floating-point flags are part of the contract that
 # a run gives the same bits everywhere; they are exported to plug-ins through rave::base.
+file(RELATIVE_PATH rave_source_from_build "${CMAKE_BINARY_DIR}" "${CMAKE_SOURCE_DIR}")
 add_library(rave_build_flags INTERFACE)
 target_compile_options(rave_build_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
   -Wnon-virtual-dtor -Woverloaded-virtual -Wimplicit-fallthrough
   $<$<BOOL:${RAVE_WERROR}>:-Werror>
-  -ffile-prefix-map=${CMAKE_SOURCE_DIR}/=)
+  -ffile-prefix-map=${CMAKE_SOURCE_DIR}/=
+  # ccache with a base folder (see tools/lib/build.sh) hands the compiler relative paths.
+  -ffile-prefix-map=${rave_source_from_build}=)
 if(RAVE_SANITIZE)
   target_compile_options(rave_build_flags INTERFACE
     -fsanitize=${RAVE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)

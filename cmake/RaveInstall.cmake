@@ -1,1 +1,99 @@
 # SPDX-License-Identifier: Apache-2.0
+# What `cmake --install` puts where, and the package that find_package(rave) finds.
+#   component runtime     bin/, the plug-ins, share/rave (scenarios, robots, worlds, data, ...)
+#   component robot-dev   what a robot program is written with: no header of the simulator
+#   component driver-dev  on top of it: world and sim, for virtual drivers
+#   component config-dev  on top of it: the reader of configuration files
+include(CMakePackageConfigHelpers)
+set(RAVE_PACKAGE_DIR "lib/cmake/rave")
+
+# rave_closure(OUT target...): the libraries of ours that the targets stand on, themselves included.
+function(rave_closure out)
+  set(queue ${ARGN})
+  set(seen)
+  while(queue)
+    list(POP_FRONT queue target)
+    string(REGEX REPLACE "^\\$<LINK_ONLY:(.*)>$" "\\1" target "${target}")
+    string(REGEX REPLACE "^rave::" "rave_" target "${target}")
+    if(NOT TARGET "${target}" OR NOT target MATCHES "^rave_" OR target IN_LIST seen)
+      continue()
+    endif()
+    list(APPEND seen ${target})
+    get_target_property(links ${target} INTERFACE_LINK_LIBRARIES)
+    if(links)
+      list(APPEND queue ${links})
+    endif()
+  endwhile()
+  set(${out} ${seen} PARENT_SCOPE)
+endfunction()
+
+# rave_install_libraries(component target...): static libraries, headers and the export of a part.
+function(rave_install_libraries component)
+  set(names)
+  foreach(target ${ARGN})
+    list(APPEND names "${target}")
+    get_target_property(folder ${target} SOURCE_DIR)
+    install(DIRECTORY "${folder}/include/" DESTINATION include COMPONENT ${component}-dev
+      FILES_MATCHING PATTERN "*.hpp")
+  endforeach()
+  if(names)
+    install(TARGETS ${names} EXPORT rave-${component}
+      ARCHIVE DESTINATION lib COMPONENT ${component}-dev)
+    install(EXPORT rave-${component} NAMESPACE rave:: FILE rave-${component}-targets.cmake
+      DESTINATION ${RAVE_PACKAGE_DIR} COMPONENT ${component}-dev)
+  endif()
+endfunction()
+
+rave_closure(RAVE_ROBOT_PART rave_robot)
+rave_closure(RAVE_DRIVER_PART rave_sim rave_world)
+rave_closure(RAVE_CONFIG_PART rave_config)
+list(REMOVE_ITEM RAVE_DRIVER_PART ${RAVE_ROBOT_PART})
+list(REMOVE_ITEM RAVE_CONFIG_PART ${RAVE_ROBOT_PART} ${RAVE_DRIVER_PART})
+rave_install_libraries(robot ${RAVE_ROBOT_PART})
+rave_install_libraries(driver ${RAVE_DRIVER_PART})
+rave_install_libraries(config ${RAVE_CONFIG_PART})
+
+# Which part the reader of configuration files came into decides who must find its packages.
+foreach(part ROBOT DRIVER CONFIG)
+  if(rave_config IN_LIST RAVE_${part}_PART)
+    string(TOLOWER ${part} RAVE_YAML_PART)
+  endif()
+endforeach()
+configure_package_config_file("${CMAKE_SOURCE_DIR}/cmake/raveConfig.cmake.in"
+  "${CMAKE_BINARY_DIR}/cmake/raveConfig.cmake" INSTALL_DESTINATION ${RAVE_PACKAGE_DIR})
+write_basic_package_version_file("${CMAKE_BINARY_DIR}/cmake/raveConfigVersion.cmake"
+  COMPATIBILITY SameMinorVersion)
+install(FILES "${CMAKE_BINARY_DIR}/cmake/raveConfig.cmake"
+    "${CMAKE_BINARY_DIR}/cmake/raveConfigVersion.cmake"
+    "${CMAKE_SOURCE_DIR}/cmake/RaveAddPlugin.cmake"
+  DESTINATION ${RAVE_PACKAGE_DIR} COMPONENT robot-dev)
+
+# The running part, by the names that the targets have in the build tree.
+get_property(RAVE_PLUGINS GLOBAL PROPERTY RAVE_PLUGIN_TARGETS)
+if(RAVE_PLUGINS)
+  install(TARGETS ${RAVE_PLUGINS} LIBRARY DESTINATION ${RAVE_PLUGIN_DIR} COMPONENT runtime)
+endif()
+set(RAVE_RUNTIME_TARGETS ${RAVE_PLUGINS})
+foreach(program rave rave-program-runner)
+  if(TARGET ${program})
+    install(TARGETS ${program} RUNTIME DESTINATION bin COMPONENT runtime)
+    list(APPEND RAVE_RUNTIME_TARGETS ${program})
+  endif()
+endforeach()
+foreach(folder scenarios robots worlds data schemas)
+  if(EXISTS "${CMAKE_SOURCE_DIR}/${folder}")
+    install(DIRECTORY "${CMAKE_SOURCE_DIR}/${folder}" DESTINATION share/rave COMPONENT runtime)
+  endif()
+endforeach()
+install(DIRECTORY "${CMAKE_SOURCE_DIR}/share/templates" DESTINATION share/rave COMPONENT runtime)
+
+# All that ./run needs, and nothing that only tests need.
+add_custom_target(rave_runtime)
+if(RAVE_RUNTIME_TARGETS)
+  add_dependencies(rave_runtime ${RAVE_RUNTIME_TARGETS})
+endif()
+
+# All that `cmake --install` needs.
+add_custom_target(rave_installable)
+add_dependencies(rave_installable rave_runtime ${RAVE_ROBOT_PART} ${RAVE_DRIVER_PART}
+  ${RAVE_CONFIG_PART})

@@ -15,16 +15,24 @@ set(RAVE_PLUGIN_DIR "lib/rave/plugins")
 
 # What every RAVE target is compiled with. The floating-point flags are part of the contract that
 # a run gives the same bits everywhere; they are exported to plug-ins through rave::base.
+file(RELATIVE_PATH rave_source_from_build "${CMAKE_BINARY_DIR}" "${CMAKE_SOURCE_DIR}")
 add_library(rave_build_flags INTERFACE)
 target_compile_options(rave_build_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
   -Wnon-virtual-dtor -Woverloaded-virtual -Wimplicit-fallthrough
   $<$<BOOL:${RAVE_WERROR}>:-Werror>
-  -ffile-prefix-map=${CMAKE_SOURCE_DIR}/=)
+  -ffile-prefix-map=${CMAKE_SOURCE_DIR}/=
+  # ccache with a base folder (see tools/lib/build.sh) hands the compiler relative paths.
+  -ffile-prefix-map=${rave_source_from_build}=)
 if(RAVE_SANITIZE)
   target_compile_options(rave_build_flags INTERFACE
     -fsanitize=${RAVE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(rave_build_flags INTERFACE -fsanitize=${RAVE_SANITIZE})
+endif()
+if(RAVE_FUZZERS)
+  # What the libraries do guides the fuzzer; its own main comes with the targets only.
+  target_compile_options(rave_build_flags INTERFACE -fsanitize=fuzzer-no-link)
+  add_custom_target(rave_fuzzers)
 endif()
 
 # rave_library(NAME [DEPS ...] [PRIVATE_DEPS ...] [SOURCES ...])
@@ -136,6 +144,10 @@ function(rave_fuzzer name)
   if(RAVE_FUZZERS)
     target_compile_options(fuzz_${name} PRIVATE -fsanitize=fuzzer)
     target_link_options(fuzz_${name} PRIVATE -fsanitize=fuzzer)
+    add_dependencies(rave_fuzzers fuzz_${name})
+    # Read by tools/fuzz.py.
+    file(WRITE "${CMAKE_BINARY_DIR}/fuzz/fuzz_${name}.corpus"
+      "${CMAKE_CURRENT_SOURCE_DIR}/${ARG_CORPUS}\n")
   else()
     target_sources(fuzz_${name} PRIVATE "${CMAKE_SOURCE_DIR}/tests/fuzz/replay_main.cpp")
     add_test(NAME fuzz_${name}

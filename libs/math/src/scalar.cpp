@@ -43,7 +43,7 @@ ReducedAngle reduce_huge(double angle) noexcept {
   const std::uint64_t mantissa = (bits & 0xFFFFFFFFFFFFFULL) | 0x10000000000000ULL;
   const auto exponent = static_cast<int>((bits >> 52U) & 0x7FFU) - 1075;
   // Places of 2/pi that contribute whole multiples of 4 quadrants are left out.
-  const auto start = static_cast<std::size_t>(exponent - 2 + 64);
+  const auto start = static_cast<std::size_t>(exponent) + 62;
   const WideProduct third = multiply(mantissa, bits_from(start + 128));
   const WideProduct second = multiply(mantissa, bits_from(start + 64));
   std::uint64_t middle = second.low + third.high;

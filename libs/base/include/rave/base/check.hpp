@@ -8,7 +8,6 @@ namespace rave::detail {
 
 /// For programmer mistakes only: aborts with file and line when `condition` is false, in every
 /// build type. Bad input is an Error instead.
-#define RAVE_CHECK(condition)                                                 \
-  (static_cast<bool>(condition)                                               \
-       ? static_cast<void>(0)                                                 \
-       : ::rave::detail::check_failed(#condition, __FILE__, __LINE__))
+#define RAVE_CHECK(condition)                          \
+  (static_cast<bool>(condition) ? static_cast<void>(0) \
+                                : ::rave::detail::check_failed(#condition, __FILE__, __LINE__))

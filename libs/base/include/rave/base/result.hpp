@@ -38,21 +38,20 @@ template <class... Args>
 }  // namespace rave
 
 /// Leaves the calling function with the error of `expr` if it failed.
-#define RAVE_TRY(expr)                                                       \
-  do {                                                                       \
-    if (auto rave_try_status_ = (expr); !rave_try_status_) {                 \
-      return ::tl::unexpected<::rave::Error>(                                \
-          std::move(rave_try_status_).error());                              \
-    }                                                                        \
+#define RAVE_TRY(expr)                                                             \
+  do {                                                                             \
+    if (auto rave_try_status_ = (expr); !rave_try_status_) {                       \
+      return ::tl::unexpected<::rave::Error>(std::move(rave_try_status_).error()); \
+    }                                                                              \
   } while (false)
 
 #define RAVE_TRY_CONCAT_INNER_(a, b) a##b
 #define RAVE_TRY_CONCAT_(a, b) RAVE_TRY_CONCAT_INNER_(a, b)
-#define RAVE_TRY_ASSIGN_IMPL_(temporary, target, expr)                                 \
-  auto temporary = (expr);                                                             \
-  if (!temporary) {                                                                    \
-    return ::tl::unexpected<::rave::Error>(std::move(temporary).error());              \
-  }                                                                                    \
+#define RAVE_TRY_ASSIGN_IMPL_(temporary, target, expr)                    \
+  auto temporary = (expr);                                                \
+  if (!temporary) {                                                       \
+    return ::tl::unexpected<::rave::Error>(std::move(temporary).error()); \
+  }                                                                       \
   target = *std::move(temporary)
 
 /// `RAVE_TRY_ASSIGN(const auto file, open(path));` declares the target with the value of `expr`, or

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "new_project.hpp"
+
+#include <algorithm>
+#include <array>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "rave/base/file.hpp"
+#include "rave/base/names.hpp"
+
+namespace rave::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kLongestName = 48;
+constexpr std::array<std::string_view, 2> kKinds = {"program", "driver"};
+// Targets that CMake or CTest make by themselves.
+constexpr std::array<std::string_view, 10> kReserved = {
+    "all",     "clean",         "edit_cache", "help", "install", "list_install_components",
+    "package", "rebuild_cache", "test",       "rave"};
+
+bool is_lower(char c) { return c >= 'a' && c <= 'z'; }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+bool is_snake_case(std::string_view name) {
+  if (name.empty() || !is_lower(name.front()) || name.back() == '_') return false;
+  if (name.find("__") != std::string_view::npos) return false;
+  return std::all_of(name.begin(), name.end(),
+                     [](char c) { return is_lower(c) || is_digit(c) || c == '_'; });
+}
+
+void replace_all(std::string& text, std::string_view from, std::string_view to) {
+  for (std::size_t at = text.find(from); at != std::string::npos;
+       at = text.find(from, at + to.size())) {
+    text.replace(at, from.size(), to);
+  }
+}
+
+std::string filled_in(std::string text, const std::string& name) {
+  replace_all(text, "@NAME@", name);
+  replace_all(text, "@CLASS@", class_name_of(name));
+  return text;
+}
+
+/// The files below a folder, relative to it, in a fixed order.
+Result<std::vector<fs::path>> files_below(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  fs::recursive_directory_iterator at(folder, error);
+  if (error) return fail(ErrorCode::kNotFound, "no templates in `{}`", folder.string());
+  for (const fs::recursive_directory_iterator end; at != end; at.increment(error)) {
+    if (error) break;
+    if (at->is_regular_file(error)) files.push_back(at->path().lexically_relative(folder));
+  }
+  if (error) {
+    return fail(ErrorCode::kIo, "cannot list `{}`: {}", folder.string(), error.message());
+  }
+  if (files.empty()) return fail(ErrorCode::kNotFound, "no templates in `{}`", folder.string());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+Status copy_filled_in(const fs::path& from, const fs::path& to, const std::string& name) {
+  RAVE_TRY_ASSIGN(const std::vector<fs::path> files, files_below(from));
+  for (const fs::path& file : files) {
+    RAVE_TRY_ASSIGN(std::string text, read_file(from / file));
+    const fs::path path = to / filled_in(file.string(), name);
+    std::error_code error;
+    fs::create_directories(path.parent_path(), error);
+    if (error) {
+      return fail(ErrorCode::kIo, "cannot make the folder `{}`: {}", path.parent_path().string(),
+                  error.message());
+    }
+    RAVE_TRY(write_file_atomically(path, filled_in(std::move(text), name)));
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<ProjectKind> parse_project_kind(std::string_view text) {
+  if (text == kKinds[0]) return ProjectKind::kProgram;
+  if (text == kKinds[1]) return ProjectKind::kDriver;
+  return fail(ErrorCode::kInvalidArgument, "cannot make a new `{}`{}", text,
+              suggestion(text, kKinds));
+}
+
+std::string class_name_of(std::string_view project_name) {
+  std::string result;
+  bool start = true;
+  for (const char c : project_name) {
+    if (c == '_') {
+      start = true;
+      continue;
+    }
+    result += start && is_lower(c) ? static_cast<char>(c - 'a' + 'A') : c;
+    start = false;
+  }
+  return result;
+}
+
+Status check_project_name(std::string_view name) {
+  if (!is_snake_case(name)) {
+    return fail(ErrorCode::kInvalidArgument,
+                "`{}` cannot be a name: expected lower_snake_case, for example `avoid_walls`",
+                name);
+  }
+  if (name.size() > kLongestName) {
+    return fail(ErrorCode::kInvalidArgument, "`{}` is too long for a name: at most {} characters",
+                name, kLongestName);
+  }
+  if (std::find(kReserved.begin(), kReserved.end(), name) != kReserved.end()) {
+    return fail(ErrorCode::kInvalidArgument,
+                "`{}` cannot be a name: the build keeps it for itself; take another", name);
+  }
+  return {};
+}
+
+Status create_project(ProjectKind kind, const std::string& name, const fs::path& template_dir,
+                      const fs::path& target_dir) {
+  RAVE_TRY(check_project_name(name));
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(target_dir, error))) {
+    return fail(ErrorCode::kInvalidArgument, "`{}` exists already; nothing was changed",
+                target_dir.string());
+  }
+  const fs::path from = template_dir / kKinds[kind == ProjectKind::kProgram ? 0 : 1];
+  fs::path partial = target_dir;
+  partial += ".partial";
+  const Status copied = copy_filled_in(from, partial, name);
+  if (copied) fs::rename(partial, target_dir, error);
+  std::error_code ignored;
+  if (!copied || error) fs::remove_all(partial, ignored);
+  if (copied && error) {
+    return fail(ErrorCode::kIo, "cannot make `{}`: {}", target_dir.string(), error.message());
+  }
+  return copied;
+}
+
+}  // namespace rave::cli

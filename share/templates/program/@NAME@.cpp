@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "@NAME@.hpp"
+
+#include <algorithm>
+#include <rave/robot/plugin_entry.hpp>
+
+// Looks up once what decide() uses. A robot without it is refused with a message.
+rave::Status @CLASS@::start(const rave::Setup& setup) {
+  RAVE_TRY_ASSIGN(ranges_, setup.sensor<float>());
+  RAVE_TRY_ASSIGN(drive_, setup.controller(rave::CommandKind::kVelocity));
+  speed_mps_ = setup.params().number("speed_mps");
+  stop_m_ = setup.params().number("stop_m");
+  return {};
+}
+
+// Fill this in. Called once a period: what the robot knows goes in, what it wants comes out.
+// As it stands the robot drives ahead, and turns on the spot while something is near.
+void @CLASS@::decide(const rave::Percepts& percepts, rave::Commands& commands) {
+  const auto ranges_m = percepts[ranges_];
+  if (ranges_m.empty()) return;
+  const double nearest_m = *std::min_element(ranges_m.begin(), ranges_m.end());
+  if (nearest_m < stop_m_) {
+    commands.velocity(drive_, 0.0, 1.0);
+  } else {
+    commands.velocity(drive_, speed_mps_, 0.0);
+  }
+}
+
+namespace {
+constexpr rave::ParamSpec kParams[] = {
+    rave::number_param("speed_mps", "m/s", 0.2, 0.0, 2.0, "How fast it drives ahead."),
+    rave::number_param("stop_m", "m", 0.5, 0.0, 10.0, "Nearer than this it turns."),
+};
+}  // namespace
+
+RAVE_PLUGIN("@NAME@") {
+  rave::add_program<@CLASS@>(
+      registry, {.name = "@NAME@", .summary = "Says what it does.", .params = kParams});
+}

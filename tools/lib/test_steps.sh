@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=bash disable=SC2154
+# The steps of ./test. A step that fails is counted and the next one goes on, so that one run
+# shows everything that is wrong. Sourced; needs $root, $fuzz_seconds and tools/lib/build.sh.
+
+steps_begin() {
+  report="$root/build/test-report"
+  rm -rf "$report"
+  mkdir -p "$report"
+  SECONDS=0
+}
+
+# Notes one thing that is no ctest test: STEP SUITE passed|failed SECONDS.
+step_note() {
+  printf '%s\t%s\t%s\t%s\n' "$@" >>"$report/notes.tsv"
+}
+
+# Builds a preset as a part of the run that can fail: PRESET [targets].
+step_build() {
+  local begin=$SECONDS result=passed
+  rave_build "$@" || result=failed
+  step_note "$1" build "$result" $((SECONDS - begin))
+  [ "$result" = passed ]
+}
+
+# Runs the tests of a built preset: PRESET [ctest options].
+step_ctest() {
+  local preset="$1"
+  shift
+  ctest --test-dir "$root/build/$preset" --show-only=json-v1 "$@" >"$report/$preset.json"
+  # Its exit code is not needed: the report says which tests failed.
+  ctest --test-dir "$root/build/$preset" -j "$(nproc)" --output-on-failure --no-tests=error \
+    --output-junit "$report/$preset.xml" "$@" || true
+}
+
+step_release() {
+  step_build release || return 0
+  step_ctest release "$@"
+}
+
+# The hash of a run does not depend on optimisation, and checks of the debug library run here.
+step_debug() {
+  step_build debug || return 0
+  step_ctest debug -L '^(unit|hash)$'
+}
+
+# Checks of the source do not depend on the preset: release has run them.
+step_asan_ubsan() {
+  step_build asan-ubsan || return 0
+  ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1 \
+    UBSAN_OPTIONS=print_stacktrace=1 step_ctest asan-ubsan -LE '^(lint|docs|no_asan)$'
+}
+
+step_tsan() {
+  step_build tsan || return 0
+  TSAN_OPTIONS=second_deadlock_stack=1:halt_on_error=1 \
+    step_tsan_ctest -LE '^(lint|docs|no_tsan)$'
+}
+
+# A kernel that places memory at very random addresses stops gcc's thread sanitizer.
+step_tsan_ctest() {
+  if setarch "$(uname -m)" -R true 2>/dev/null; then
+    ctest() { command setarch "$(uname -m)" -R ctest "$@"; }
+    step_ctest tsan "$@"
+    unset -f ctest
+  else
+    step_ctest tsan "$@"
+  fi
+}
+
+step_tidy() {
+  local begin=$SECONDS
+  if ! rave_configure tidy; then
+    step_note tidy build failed $((SECONDS - begin))
+    return 0
+  fi
+  ninja -C "$root/build/tidy" build.ninja >/dev/null
+  python3 "$root/tools/tidy.py" --build "$root/build/tidy" --notes "$report/notes.tsv" || true
+}
+
+step_long_fuzz() {
+  rave_configure fuzz || { step_note long-fuzz build failed 0; return 0; }
+  step_build fuzz rave_fuzzers || return 0
+  python3 "$root/tools/fuzz.py" --build "$root/build/fuzz" --seconds "$fuzz_seconds" \
+    --notes "$report/notes.tsv" || true
+}
+
+steps_end() {
+  python3 "$root/tools/lib/summary.py" "$report" "$SECONDS"
+}

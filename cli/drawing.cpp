@@ -64,6 +64,8 @@ Kind kind_of_id(const world::WorldModel& world, std::uint32_t id) {
 void add_rays(const sim::Engine& engine, RobotId robot, std::uint32_t index, Picture& picture) {
   const sim::SensorSample sample = engine.sensor(robot, index);
   const SensorInfo& info = *sample.info;
+  // What a cone met lies anywhere on an arc.
+  const bool is_cone = info.cone_rad > 0;
   if (info.kind != ReadingKind::kRanges || info.bearings_rad == nullptr) return;
   const Pose2 X_WS = compose(engine.true_pose(robot), info.X_RS);
   const auto* const ranges_m = static_cast<const float*>(sample.records);
@@ -71,7 +73,7 @@ void add_rays(const sim::Engine& engine, RobotId robot, std::uint32_t index, Pic
     const double range_m = std::min(static_cast<double>(ranges_m[i]), info.range_max_m);
     report::PictureHit hit{X_WS.position(), {}, std::nullopt};
     hit.to_W = transform(X_WS, range_m * rotate(info.bearings_rad[i], {1, 0}));
-    if (i < sample.bodies.size() && sample.bodies[i] != BodyId::kNone) {
+    if (!is_cone && i < sample.bodies.size() && sample.bodies[i] != BodyId::kNone) {
       hit.kind = kind_of_id(engine.spec().world, sample.bodies[i]);
     }
     picture.instant->hits.push_back(hit);
@@ -88,7 +90,6 @@ Status add_robots(sim::EngineSpec spec, Picture& picture) {
   }();
   RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(spec)));
   RAVE_TRY(engine->step());
-  picture.instant.emplace();
   const world::WorldModel& world = engine->spec().world;
   for (std::uint32_t r = 0; r < world.robots.size(); ++r) {
     add_robot(world.robots[r], engine->true_pose(RobotId(r)), robot_kind(world.robots[r]), picture);
@@ -111,7 +112,10 @@ Result<Picture> draw_world(const InputFile& input, robot_host::BuiltScenario bui
     built.spec.robots.clear();
     built.spec.world.robots.clear();
   }
-  picture.title = input.kind == FileKind::kWorld ? "World" : input.scenario.scenario.name.value;
+  const bool has_robots = !built.spec.robots.empty();
+  picture.title = input.kind == FileKind::kWorld ? input.path.stem().string()
+                                                 : input.scenario.scenario.name.value;
+  picture.subtitle = input.kind == FileKind::kScenario ? input.scenario.scenario.description : "";
   for (const world::Obstacle& obstacle : built.spec.world.obstacles) {
     const bool from_map = !input.scenario.world.maps.empty() && !obstacle.body.code &&
                           obstacle.body.layer == Layer::kMappedReal;
@@ -124,12 +128,11 @@ Result<Picture> draw_world(const InputFile& input, robot_host::BuiltScenario bui
       label.clear();
     }
   }
-  if (built.spec.robots.empty()) {
-    picture.instant.emplace();
-  } else {
-    RAVE_TRY(add_robots(std::move(built.spec), picture));
-    picture.subtitle = "Robots where they start, and what their range sensors read there";
-  }
+  picture.instant.emplace();
+  if (has_robots) RAVE_TRY(add_robots(std::move(built.spec), picture));
+  picture.instant->heading =
+      has_robots ? "The robots where they start, and what their range sensors read there"
+                 : "The bodies that stand still";
   if (!unplaced.empty()) {
     picture.caption.push_back(fmt::format(
         "Not shown, because only a device says where they are: {}.", quote_names(unplaced)));

@@ -91,6 +91,7 @@ Result<InputFile> read_input(const std::filesystem::path& path) {
   RAVE_TRY_ASSIGN(const FileKind kind, recognise(path));
   InputFile input;
   input.kind = kind;
+  input.path = path;
   if (kind == FileKind::kScenario) {
     RAVE_TRY_ASSIGN(input.scenario, config::expand_scenario(path));
     return input;

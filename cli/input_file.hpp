@@ -20,6 +20,7 @@ enum class FileKind { kRobot, kWorld, kScenario };
 /// A file that `rave check` was given, as a scenario that can be built.
 struct InputFile {
   FileKind kind = FileKind::kScenario;
+  std::filesystem::path path;
   /// A robot file alone stands at the origin of an empty world; a world has a robot that nobody
   /// meets, because a scenario without any is none.
   config::ExpandedScenario scenario;

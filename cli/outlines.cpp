@@ -49,7 +49,7 @@ void add_robot(const world::Body& body, const Pose2& X_WR, report::Kind kind,
                        [](const auto& a, const auto& b) { return area_m2(a) < area_m2(b); });
   picture.instant->robots.push_back({*largest, X_WR, kind, body.name, body.colour});
   for (auto outline = outlines.begin(); outline != outlines.end(); ++outline) {
-    if (outline != largest) picture.bodies.push_back({*outline, report::Kind::kOther, "", ""});
+    if (outline != largest) picture.bodies.push_back({*outline, report::Kind::kRobotPart, "", ""});
   }
 }
 

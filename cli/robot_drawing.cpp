@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "outlines.hpp"
 #include "rave/math/scalar.hpp"
@@ -121,7 +120,7 @@ std::string line_of(const Look& look) {
 void add_sensor(const Look& look, const Pose2& X_WR, double body_m, double scale, std::size_t index,
                 Picture& picture) {
   const Pose2 X_WS = compose(X_WR, look.X_RS);
-  const double mark_m = 0.09 * body_m;
+  const double mark_m = 0.06 * body_m;
   picture.instant->robots.push_back({disc_outline(X_WS.position(), mark_m), X_WS, Kind::kSensor,
                                      look.name, std::string(report::robot_colour(index))});
   // Fans that begin at the same point are drawn as one: sensors in one place are told apart by a
@@ -138,7 +137,6 @@ void add_sensor(const Look& look, const Pose2& X_WR, double body_m, double scale
 
 Result<Picture> draw_one_robot(const InputFile& input, robot_host::BuiltScenario built) {
   const world::Body body = built.spec.world.robots[0];
-  const bool simulated = built.spec.types[0].simulated;
   std::vector<Look> looks = looks_of(built.spec);
   double farthest_m = 0;
   RAVE_TRY(add_rays(std::move(built.spec), looks));
@@ -146,16 +144,18 @@ Result<Picture> draw_one_robot(const InputFile& input, robot_host::BuiltScenario
     if (!look.bearings_rad.empty()) farthest_m = std::max(farthest_m, look.range_max_m);
   }
   Picture picture;
-  const std::filesystem::path file = input.scenario.groups[0].file;
-  picture.title = file.stem().string();
+  picture.title = input.path.stem().string();
   picture.subtitle = input.scenario.groups[0].robot.description;
   picture.instant.emplace();
   const double body_m = body.radius_m();
   const Pose2 X_WR;
-  add_robot(body, X_WR, simulated ? Kind::kSimulatedRobot : Kind::kRecordedRobot, picture);
-  for (report::PictureRobot& robot : picture.instant->robots) robot.label.clear();
+  for (const world::Shape& shape : body.shapes) {
+    picture.bodies.push_back({outline_of(shape, X_WR), Kind::kRobotPart, "", body.colour});
+  }
+  picture.instant->heading = "The body from above, with its sensors; forward is to the right";
+  picture.instant->show_all_rays = true;
   // Fields of view are many bodies long; the body is what this picture is about.
-  const double longest_m = 3 * body_m;
+  const double longest_m = 2.5 * body_m;
   const double scale = farthest_m > longest_m ? longest_m / farthest_m : 1;
   for (std::size_t i = 0; i < looks.size(); ++i) {
     add_sensor(looks[i], X_WR, body_m, scale, i, picture);

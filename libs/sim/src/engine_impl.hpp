@@ -46,7 +46,10 @@ struct Engine::Impl {
   // engine_ingest.cpp: samples of hardware, reported poses, the snapshot of this step
   Status ingest();
   Status ingest_sensor(RobotGroup& group, SensorSlots& slots, std::size_t member);
-  void accept_hardware_sample(RobotGroup& group, SensorSlots& slots, std::size_t member);
+  void accept_hardware_sample(RobotGroup& group, SensorSlots& slots, std::size_t member,
+                              const SampleHeader& sample);
+  void push_hardware_sample(RobotGroup& group, SensorSlots& slots, std::size_t member);
+  void process_hardware_samples(RobotGroup& group, SensorSlots& slots, std::size_t member);
   void note_reported_pose(RobotGroup& group, const SensorSlots& slots, std::size_t member,
                           const SampleHeader& header, const std::byte* record);
   void refresh_reported();

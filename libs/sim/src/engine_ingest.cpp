@@ -9,6 +9,20 @@
 namespace rave::sim {
 namespace {
 
+/// Copies the records of a sample to a header and its records, behind those that are there or in
+/// their place. What does not fit is counted.
+void take_over(const SensorSlots& slots, const SampleHeader& sample, const std::byte* records,
+               bool append, SampleHeader& header, std::byte* target) {
+  const std::uint32_t size = record_size(slots.spec->kind);
+  const std::uint32_t first = append ? header.count : 0;
+  const std::uint32_t fitting = std::min(sample.count, slots.capacity - first);
+  std::memcpy(target + std::size_t{first} * size, records, std::size_t{fitting} * size);
+  header.stamp_ns = sample.stamp_ns;
+  header.sequence = sample.sequence;
+  header.count = first + fitting;
+  header.dropped = (append ? header.dropped : 0) + sample.dropped + sample.count - fitting;
+}
+
 /// Random numbers for the processing of hardware samples: the sequence number stands for the
 /// sample.
 RandomStream processing_stream(const EngineSpec& spec, RobotId robot, std::uint32_t device,
@@ -43,9 +57,10 @@ Status Engine::Impl::ingest_sensor(RobotGroup& group, SensorSlots& slots, std::s
     const auto wait = slots.live || slots.failed[member] != 0
                           ? SampleQueue::Wait::kComplete
                           : queue.wait_complete(now, spec.host_timeout);
-    while (queue.next(now, &slots.raw_headers[member], slots.raw_records_of(member))) {
-      slots.raw_headers[member].sequence = ++slots.sequence[member];
-      accept_hardware_sample(group, slots, member);
+    SampleHeader sample;
+    while (queue.next(now, &sample, slots.scratch.data())) {
+      sample.sequence = ++slots.sequence[member];
+      accept_hardware_sample(group, slots, member, sample);
     }
     if (wait == SampleQueue::Wait::kFull) continue;
     if (wait == SampleQueue::Wait::kTimeout) {
@@ -62,45 +77,54 @@ Status Engine::Impl::ingest_sensor(RobotGroup& group, SensorSlots& slots, std::s
     note({step, robot, EventKind::kDriverFailed, BodyId(),
           fmt::format("sensor `{}`: {}", slots.spec->name, queue.failure())});
   }
-  if (slots.processing) {
-    SampleHeader header = slots.headers[member];
-    if (slots.processing->deliver(now, slots.processing_state_of(member), &header,
-                                  slots.records_of(member))) {
-      header.fresh = 1;
-      slots.headers[member] = header;
-      hash_delivery(group, slots, device, member, hash);
-      note_reported_pose(group, slots, member, header, slots.records_of(member));
-    }
-  } else if (slots.headers[member].fresh == 2) {
+  if (slots.processing) process_hardware_samples(group, slots, member);
+  if (slots.headers[member].fresh == 2) {
     slots.headers[member].fresh = 1;
     hash_delivery(group, slots, device, member, hash);
   }
   return {};
 }
 
-void Engine::Impl::accept_hardware_sample(RobotGroup& group, SensorSlots& slots,
-                                          std::size_t member) {
-  const SampleHeader& raw = slots.raw_headers[member];
-  const auto device = static_cast<std::uint32_t>(&slots - group.sensors.data());
+void Engine::Impl::accept_hardware_sample(RobotGroup& group, SensorSlots& slots, std::size_t member,
+                                          const SampleHeader& sample) {
   if (slots.processing) {
-    slots.processing->push(raw, slots.raw_records_of(member),
-                           processing_stream(spec, group.members[member], device, raw.sequence),
-                           slots.processing_state_of(member));
+    // Events of one step go through the chain as one sample, states one by one.
+    SampleHeader& raw = slots.raw_headers[member];
+    if (raw.fresh != 0 && !slots.collect) push_hardware_sample(group, slots, member);
+    take_over(slots, sample, slots.scratch.data(), raw.fresh != 0, raw,
+              slots.raw_records_of(member));
+    raw.fresh = 1;
     return;
   }
   SampleHeader& header = slots.headers[member];
-  const std::uint32_t size = record_size(slots.spec->kind);
-  const bool append = slots.collect && header.fresh != 0;
-  const std::uint32_t first = append ? header.count : 0;
-  const std::uint32_t fitting = std::min(raw.count, slots.capacity - first);
-  std::memcpy(slots.records_of(member) + std::size_t{first} * size, slots.raw_records_of(member),
-              std::size_t{fitting} * size);
-  header.stamp_ns = raw.stamp_ns;
-  header.sequence = raw.sequence;
-  header.count = first + fitting;
-  header.dropped = (append ? header.dropped : 0) + raw.count - fitting;
+  take_over(slots, sample, slots.scratch.data(), slots.collect && header.fresh != 0, header,
+            slots.records_of(member));
   header.fresh = 2;  // arrived in this step; becomes 1 when the step's delivery is complete
-  note_reported_pose(group, slots, member, raw, slots.raw_records_of(member));
+  note_reported_pose(group, slots, member, sample, slots.scratch.data());
+}
+
+void Engine::Impl::push_hardware_sample(RobotGroup& group, SensorSlots& slots, std::size_t member) {
+  SampleHeader& raw = slots.raw_headers[member];
+  const auto device = static_cast<std::uint32_t>(&slots - group.sensors.data());
+  slots.processing->push(raw, slots.raw_records_of(member),
+                         processing_stream(spec, group.members[member], device, raw.sequence),
+                         slots.processing_state_of(member));
+  raw.fresh = 0;
+}
+
+void Engine::Impl::process_hardware_samples(RobotGroup& group, SensorSlots& slots,
+                                            std::size_t member) {
+  if (slots.raw_headers[member].fresh != 0) push_hardware_sample(group, slots, member);
+  SampleHeader sample;
+  if (!slots.processing->deliver(now, slots.processing_state_of(member), &sample,
+                                 slots.scratch.data())) {
+    return;
+  }
+  SampleHeader& header = slots.headers[member];
+  take_over(slots, sample, slots.scratch.data(), slots.collect && header.fresh != 0, header,
+            slots.records_of(member));
+  header.fresh = 2;
+  note_reported_pose(group, slots, member, sample, slots.scratch.data());
 }
 
 void Engine::Impl::note_reported_pose(RobotGroup& group, const SensorSlots& slots,

@@ -74,6 +74,7 @@ void Engine::Impl::sample_members(RobotGroup& group, SensorSlots& slots, std::ui
     }
     if (direct) {
       hash_delivery(group, slots, device, m, worker.hash);
+      note_reported_pose(group, slots, m, header, records);
     } else {
       slots.processing->push(
           header, records, RandomStream(spec.seed, robot.value(), device | 0x8000'0000U, sequence),
@@ -92,6 +93,7 @@ void Engine::Impl::deliver(RobotGroup& group, SensorSlots& slots, std::uint32_t 
   header.fresh = 1;
   slots.headers[member] = header;
   hash_delivery(group, slots, device, member, worker.hash);
+  note_reported_pose(group, slots, member, header, slots.records_of(member));
 }
 
 void Engine::Impl::hash_delivery(const RobotGroup& group, SensorSlots& slots, std::uint32_t device,

@@ -56,7 +56,8 @@ void allocate(SensorSlots& slots, std::size_t count) {
   slots.failed.resize(count);
   slots.flip.resize(count);
   if (slots.is_virtual()) slots.driver_state.resize(slots.spec->virtual_ops->state_size * count);
-  if (slots.processing || !slots.is_virtual()) {
+  if (!slots.is_virtual()) slots.scratch.resize(slots.stride);
+  if (slots.processing) {
     slots.raw_headers.resize(count);
     slots.raw_records.resize(slots.stride * count);
   }

@@ -45,8 +45,8 @@ void Encounters::look_around(const sim::Engine& engine, RobotId robot) {
     last = body;
     const bool other_robot = kinds_->is_robot(body);
     if (other_robot && body < self) continue;  // each pair once
-    const Pose2 X_WB = other_robot ? world.pose(RobotId(body - obstacles))
-                                   : model.obstacles[body].X_WB;
+    const Pose2 X_WB =
+        other_robot ? world.pose(RobotId(body - obstacles)) : model.obstacles[body].X_WB;
     const double centres_m = std::sqrt(squared_norm(X_WB.position() - X_WR.position()));
     // Real robots come first in a name, so that each kind of pair has one.
     const bool swap = other_robot && kinds_->word(self) > kinds_->word(body);

@@ -29,8 +29,7 @@ std::vector<Vec2> outline_of(const world::Shape& shape, const Pose2& X_WB) {
   if (!shape.polygon) {
     for (int k = 0; k < kDiscCorners; ++k) {
       const SinCos turn = sincos(2 * kPi * k / kDiscCorners);
-      outline.push_back(
-          transform(X_WB, shape.centre + shape.radius_m * Vec2{turn.cos, turn.sin}));
+      outline.push_back(transform(X_WB, shape.centre + shape.radius_m * Vec2{turn.cos, turn.sin}));
     }
   }
   return outline;
@@ -59,8 +58,7 @@ void InstantKeeper::remember_sightings(sim::Engine& engine) {
         const SinCos bearing = sincos(double{sightings[i].bearing_rad});
         report::PictureSighting shown;
         shown.from_W = X_WS.position();
-        shown.to_W = transform(
-            X_WS, double{sightings[i].range_m} * Vec2{bearing.cos, bearing.sin});
+        shown.to_W = transform(X_WS, double{sightings[i].range_m} * Vec2{bearing.cos, bearing.sin});
         const auto landmark = landmark_of(engine.snapshot(), sightings[i].code);
         if (landmark) shown.tube_W = landmark->p_WL;
         shown.colour = kinds_->colour(kinds_->body_of(RobotId(r)));

@@ -9,9 +9,9 @@ BodyKinds::BodyKinds(const sim::EngineSpec& spec, const std::vector<std::string>
     const bool real = obstacle.body.layer == Layer::kMappedReal;
     const bool landmark = real && obstacle.body.code.has_value();
     words_.push_back(landmark ? "landmark" : (real ? "mapped_wall" : "virtual_obstacle"));
-    kinds_.push_back(landmark ? report::Kind::kLandmark
-                              : (real ? report::Kind::kMappedWall
-                                      : report::Kind::kVirtualObstacle));
+    kinds_.push_back(landmark
+                         ? report::Kind::kLandmark
+                         : (real ? report::Kind::kMappedWall : report::Kind::kVirtualObstacle));
     colours_.push_back(obstacle.body.colour);
     names_.push_back(obstacle.body.name);
   }
@@ -20,9 +20,9 @@ BodyKinds::BodyKinds(const sim::EngineSpec& spec, const std::vector<std::string>
     const bool simulated = spec.types[spec.robots[r].type].simulated;
     words_.push_back(simulated ? "simulated" : "real");
     const bool hunter = robot_words[r] == "hunter";
-    kinds_.push_back(hunter ? report::Kind::kHunter
-                            : (simulated ? report::Kind::kSimulatedRobot
-                                         : report::Kind::kRecordedRobot));
+    kinds_.push_back(
+        hunter ? report::Kind::kHunter
+               : (simulated ? report::Kind::kSimulatedRobot : report::Kind::kRecordedRobot));
     std::string colour = spec.world.robots[r].colour;
     if (colour.empty() && !simulated) colour = report::robot_colour(real_robots);
     if (!simulated) ++real_robots;

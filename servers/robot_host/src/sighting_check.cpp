@@ -72,8 +72,7 @@ void SightingCheck::compare(sim::Engine& engine, const Pair& pair, const Sightin
     const double range_error_m = std::abs(double{twin_[i].range_m} - double{sighting.range_m});
     const double bearing_error_rad =
         std::abs(wrap_angle(double{twin_[i].bearing_rad} - double{sighting.bearing_rad}));
-    if (range_error_m > limits_.range_m ||
-        rad_to_deg(bearing_error_rad) > limits_.bearing_deg) {
+    if (range_error_m > limits_.range_m || rad_to_deg(bearing_error_rad) > limits_.bearing_deg) {
       continue;
     }
     ++all_.within;

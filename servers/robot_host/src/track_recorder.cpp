@@ -16,8 +16,8 @@ constexpr double kGap_s = 0.15;
 
 }  // namespace
 
-TrackRecorder::TrackRecorder(const BodyKinds& kinds, const sim::EngineSpec& spec,
-                             double duration_s, const std::string& odometry_sensor)
+TrackRecorder::TrackRecorder(const BodyKinds& kinds, const sim::EngineSpec& spec, double duration_s,
+                             const std::string& odometry_sensor)
     : kinds_(&kinds) {
   const double interval_s = std::max(kLeastInterval_s, duration_s / kMostPoints);
   every_ = std::max<std::uint64_t>(

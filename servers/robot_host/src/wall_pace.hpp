@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "rave/robot/sample_queue.hpp"
+
+namespace rave::robot_host {
+
+/// Ties simulation time to the clock on the wall. Written by one thread before the run starts, read
+/// by any afterwards.
+class WallPace final : public RunClock {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// `factor`: simulated seconds per second; 0: as fast as it can.
+  explicit WallPace(double factor) : factor_(factor) {}
+
+  void set_factor(double factor) noexcept { factor_ = factor; }
+  void start() noexcept { begin_.store(Clock::now()); }
+
+  [[nodiscard]] SimTime now() const noexcept override {
+    const auto elapsed = std::chrono::duration<double>(Clock::now() - begin_.load());
+    return {static_cast<std::int64_t>(elapsed.count() * 1e9 * (factor_ == 0 ? 1 : factor_))};
+  }
+
+  [[nodiscard]] Clock::time_point wall_time_of(SimTime t) const noexcept override {
+    const double factor = factor_ == 0 ? 1 : factor_;
+    return begin_.load() +
+           std::chrono::nanoseconds(static_cast<std::int64_t>(static_cast<double>(t.ns) / factor));
+  }
+
+  /// Sleeps until `t` is due, looking at `stop` now and then; at once when there is no pace.
+  void wait_for(SimTime t, const std::atomic<bool>* stop) const {
+    if (factor_ == 0) return;
+    constexpr auto kLook = std::chrono::milliseconds(100);
+    const auto due = wall_time_of(t);
+    for (auto now = Clock::now(); now < due; now = Clock::now()) {
+      if (stop != nullptr && stop->load()) return;
+      std::this_thread::sleep_until(std::min(due, now + kLook));
+    }
+  }
+
+ private:
+  double factor_;
+  std::atomic<Clock::time_point> begin_{Clock::now()};
+};
+
+}  // namespace rave::robot_host

@@ -8,7 +8,7 @@
 namespace rave::cli {
 namespace {
 
-constexpr std::chrono::milliseconds kRedraw{100};
+constexpr std::chrono::milliseconds kRedraw{90};
 constexpr std::chrono::seconds kPlainLine{10};
 constexpr std::size_t kPlainWidth = 120;
 

@@ -80,11 +80,12 @@ Result<FileKind> recognise(const std::filesystem::path& path) {
   if (robot > scenario) return FileKind::kRobot;
   if (scenario > 0) return FileKind::kScenario;
   if (world > 0) return FileKind::kWorld;
-  return fail_at(
-      {path.string(), 1, 1}, ErrorCode::kParse,
-      "found {}, which is none of RAVE's files: a robot file has `body`, a world file "
-      "`obstacles` or `maps`, a scenario file `robots`",
-      root.is_mapping() ? fmt::format("the keys {}", join_names(root.keys())) : root.found_text());
+  return fail_at({path.string(), 1, 1}, ErrorCode::kParse,
+                 "found {}, which is none of RAVE's files: a robot file has `body`, a world file "
+                 "`obstacles` or `maps`, a scenario file `robots`",
+                 has_keys ? fmt::format("{} {}", root.size() == 1 ? "the key" : "the keys",
+                                        join_names(root.keys()))
+                          : root.found_text());
 }
 
 Result<InputFile> read_input(const std::filesystem::path& path) {

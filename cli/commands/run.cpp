@@ -114,12 +114,17 @@ int run(const RunCommand& options) {
   run_options.program_runner = program_runner();
   run_options.picture = !options.no_picture;
   run_options.log = &console;
-  run_options.on_progress = [&](const report::Progress& progress) { console.show(progress); };
+  bool started = false;
+  run_options.on_progress = [&](const report::Progress& progress) {
+    started = true;
+    console.show(progress);
+  };
   run_options.stop = &stop_requested;
   const auto outcome = robot_host::run(*scenario, catalogue, run_options);
   console.clear();
   if (outcome) return report_outcome(options, *outcome, folder->path());
-  folder->discard();
+  // What a run left that broke off tells why.
+  if (!started) folder->discard();
   return complain(outcome.error());
 }
 

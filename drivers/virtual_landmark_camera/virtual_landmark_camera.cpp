@@ -66,12 +66,25 @@ class VirtualLandmarkCamera final : public VirtualSensor {
   }
 
  private:
-  /// The line of sight runs at the height of the code that is nearest to the camera's own.
+  /// The line of sight runs at the height of the code that is nearest to the camera's own. The
+  /// code goes round its body, so it can be read from whatever part of the width is in view: the
+  /// middle and nearly the edges are tried.
   [[nodiscard]] bool readable(const WorldView& world, const SampleItem& item,
                               const Landmark& landmark) const {
+    constexpr double kNearlyEdge = 0.9;
     const double z_m = std::max(landmark.z0_m, std::min(item.z_m, landmark.z1_m));
-    return world.visible(item.X_WS.position(), landmark.p_WL, z_m, layers_,
-                         world.body_of(item.robot), landmark.body);
+    const Vec2 p_from = item.X_WS.position();
+    const Vec2 line = landmark.p_WL - p_from;
+    const double range_m = std::sqrt(squared_norm(line));
+    const double share = range_m > 0 ? kNearlyEdge * landmark.radius_m / range_m : 0;
+    const Vec2 aside{-share * line.y, share * line.x};
+    for (const Vec2 offset : {Vec2{}, aside, -aside}) {
+      if (world.visible(p_from, landmark.p_WL + offset, z_m, layers_, world.body_of(item.robot),
+                        landmark.body)) {
+        return true;
+      }
+    }
+    return false;
   }
 
   double range_min_m_ = 0;

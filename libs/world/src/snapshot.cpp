@@ -57,7 +57,8 @@ Snapshot::Snapshot(const WorldModel& model)
     }
     if (obstacle.body.code) {
       fixed_landmarks_.push_back({BodyId(body), *obstacle.body.code, obstacle.X_WB.position(),
-                                  obstacle.body.code_z0_m, obstacle.body.code_z1_m, RobotId()});
+                                  obstacle.body.code_z0_m, obstacle.body.code_z1_m, RobotId(),
+                                  obstacle.body.radius_m()});
     }
   }
   fixed_grid_.build(fixed, kCellSize_m);
@@ -128,7 +129,7 @@ void Snapshot::rebuild_landmarks() {
     const Body& body = model_->robots[r];
     if (!body.code || !robots_[r].present) continue;
     landmarks_.push_back({body_of(RobotId(r)), *body.code, robots_[r].X_WR.position(),
-                          body.code_z0_m, body.code_z1_m, RobotId(r)});
+                          body.code_z0_m, body.code_z1_m, RobotId(r), 0});
   }
 }
 

@@ -134,6 +134,8 @@ Status put_down_robots(const config::ExpandedScenario& scenario, sim::EngineSpec
                        "`poses` or `scatter`",
                        spec.robots[r].name);
       }
+      // Where a real robot is said to begin is kept free; where it is, its pose source will tell.
+      if (!simulated && pose) standing.add(r);
       if (!simulated) continue;
       const auto conflict = standing.conflict(r, spec.robots[r].X_WR, 0);
       if (conflict) {

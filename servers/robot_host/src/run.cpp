@@ -131,7 +131,8 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
   std::vector<sim::Event> events;
   const auto steps = static_cast<std::uint64_t>(std::llround(file.duration_s / file.step_s.value));
   StallWatch watch(options.log);
-  pace.start();
+  // Live drivers count from when they were opened; their clock must not jump.
+  if (!live) pace.start();
   const auto begin = Clock::now();
   auto next_progress = begin;
   bool stopped = false;

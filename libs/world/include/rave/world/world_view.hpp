@@ -22,7 +22,8 @@ struct Landmark {
   Vec2 p_WL;        ///< Its axis.
   double z0_m = 0;  ///< Height range of the printed code.
   double z1_m = 0;
-  RobotId robot;  ///< Valid if a robot carries it.
+  RobotId robot;        ///< Valid if a robot carries it.
+  double radius_m = 0;  ///< Of the body that the code goes round; 0 if not known.
 };
 
 /// What a ray met.

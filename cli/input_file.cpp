@@ -80,7 +80,8 @@ Result<FileKind> recognise(const std::filesystem::path& path) {
   if (robot > scenario) return FileKind::kRobot;
   if (scenario > 0) return FileKind::kScenario;
   if (world > 0) return FileKind::kWorld;
-  return fail_at({path.string(), 1, 1}, ErrorCode::kParse,
+  const bool has_keys = root.is_mapping() && root.size() > 0;
+  return fail_at(has_keys ? root.key_where(0) : root.where(), ErrorCode::kParse,
                  "found {}, which is none of RAVE's files: a robot file has `body`, a world file "
                  "`obstacles` or `maps`, a scenario file `robots`",
                  has_keys ? fmt::format("{} {}", root.size() == 1 ? "the key" : "the keys",

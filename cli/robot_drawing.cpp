@@ -119,14 +119,13 @@ std::string line_of(const Look& look) {
 
 void add_sensor(const Look& look, const Pose2& X_WR, double body_m, double scale, std::size_t index,
                 Picture& picture) {
-  const Pose2 X_WS = compose(X_WR, look.X_RS);
-  const double mark_m = 0.06 * body_m;
-  picture.instant->robots.push_back({disc_outline(X_WS.position(), mark_m), X_WS, Kind::kSensor,
-                                     look.name, std::string(report::robot_colour(index))});
+  Pose2 X_WS = compose(X_WR, look.X_RS);
   // Fans that begin at the same point are drawn as one: sensors in one place are told apart by a
   // distance that nobody sees.
-  const double apart_m = 1e-6 * body_m * static_cast<double>(index);
-  const Vec2 from_W = X_WS.position() + Vec2{apart_m, 0};
+  X_WS.x += 1e-6 * body_m * static_cast<double>(index);
+  const Vec2 from_W = X_WS.position();
+  picture.instant->robots.push_back({disc_outline(from_W, 0.06 * body_m), X_WS, Kind::kSensor,
+                                     look.name, std::string(report::robot_colour(index))});
   for (const double direction_rad : directions_of(look)) {
     const Vec2 to_S = (scale * look.range_max_m) * rotate(direction_rad, {1, 0});
     picture.instant->hits.push_back({from_W, transform(X_WS, to_S), std::nullopt});

@@ -67,7 +67,8 @@ void draw_body(Pen& pen, const std::vector<Vec2>& outline, Kind kind, Rgb colour
     return;
   }
   pen.path(outline, true);
-  pen.fill_keeping_path(kind == Kind::kOther ? lighter(colour, 0.6) : colour);
+  const bool is_light = kind == Kind::kOther || kind == Kind::kRobotPart;
+  pen.fill_keeping_path(is_light ? lighter(colour, 0.7) : colour);
   pen.stroke(colour, 0.5);
 }
 
@@ -98,7 +99,10 @@ void label_beside(Stage& stage, Vec2 anchor, double clearance, std::string_view 
 void label_bodies(Stage& stage) {
   std::size_t labelled = 0;
   for (const PictureBody& body : stage.picture.bodies) {
-    stage.labels.block(bounds_of(to_page(stage.panel, body.outline_W)));
+    // A robot's parts have room for the names of the sensors on them.
+    if (body.kind != Kind::kRobotPart) {
+      stage.labels.block(bounds_of(to_page(stage.panel, body.outline_W)));
+    }
     if (body.label.empty()) continue;
     stage.labels.add_anchor(middle_of(bounds_of(to_page(stage.panel, body.outline_W))));
     ++labelled;

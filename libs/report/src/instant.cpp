@@ -41,7 +41,8 @@ void draw_fans(Stage& stage) {
   for (const Fan& fan : fans) {
     if (fan.outline.size() < 3) continue;
     const PictureRobot* owner = owner_of(*stage.picture.instant, fan.from_W);
-    const bool is_strong = owner != nullptr && owner->kind == Kind::kRecordedRobot;
+    const bool is_strong =
+        owner != nullptr && (owner->kind == Kind::kRecordedRobot || owner->kind == Kind::kSensor);
     const Rgb colour =
         is_strong ? rgb_of(owner->colour, owner->kind) : rgb_of("", Kind::kSimulatedRobot);
     stage.pen.path(fan.outline, true);

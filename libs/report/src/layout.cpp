@@ -61,6 +61,9 @@ Extent extent_of(const Picture& picture) {
   }
   if (picture.instant) {
     for (const PictureRobot& robot : picture.instant->robots) extent.add(robot.outline_W);
+    for (const PictureHit& hit : picture.instant->hits) {
+      if (picture.instant->show_all_rays) extent.add(hit.to_W);
+    }
   }
   extent.close();
   return extent;

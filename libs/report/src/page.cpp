@@ -73,8 +73,9 @@ void draw_panel(Pen& pen, const Picture& picture, const Panel& panel, char lette
   }
   pen.unclip();
   std::string heading =
-      is_instant ? fmt::format("What the sensors see at t = {:g} s", picture.instant->t_s)
-                 : "Where the robots drove";
+      is_instant && !picture.instant->heading.empty() ? picture.instant->heading
+      : is_instant ? fmt::format("What the sensors see at t = {:g} s", picture.instant->t_s)
+                   : "Where the robots drove";
   if (letter != 0) heading = fmt::format("({})  {}", letter, heading);
   draw_frame(stage, heading, !beside);
 }

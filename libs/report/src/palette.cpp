@@ -17,6 +17,10 @@ KindStyle palette_for(Kind kind) noexcept {
       return {"#8a93a3", "simulated robot", "simulated robots"};
     case Kind::kHunter:
       return {"#882255", "hunter", "hunters"};
+    case Kind::kRobotPart:
+      return {"#98a0ae", "part of a robot", "parts of robots"};
+    case Kind::kSensor:
+      return {"#009e73", "sensor", "sensors"};
     case Kind::kOther:
       break;
   }

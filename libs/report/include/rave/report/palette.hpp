@@ -17,13 +17,15 @@ enum class Kind : std::uint8_t {
   kRecordedRobot,    ///< A robot that really drove (or drives now).
   kSimulatedRobot,   ///< A robot that exists in the simulation only.
   kHunter,           ///< A simulated robot that pursues another; drawn to stand out.
+  kRobotPart,        ///< A further prism of a robot's body.
+  kSensor,           ///< The mounting point of a sensor, in drawings of one robot.
   kOther,            ///< Anything else.
 };
 
 inline constexpr std::array kAllKinds = {
     Kind::kMappedWall,    Kind::kLandmark,       Kind::kVirtualObstacle,
     Kind::kRecordedRobot, Kind::kSimulatedRobot, Kind::kHunter,
-    Kind::kOther};
+    Kind::kRobotPart,     Kind::kSensor,         Kind::kOther};
 
 /// How a kind looks and what it is called. All views refer to static text.
 struct KindStyle {

@@ -72,6 +72,8 @@ struct PictureSighting {
 /// Everything that one moment of the run adds.
 struct PictureInstant {
   double t_s = 0;
+  std::string heading;         ///< Of its panel; empty: what the sensors see at `t_s`.
+  bool show_all_rays = false;  ///< The panel is large enough for all rays, not just the bodies.
   std::vector<PictureRobot> robots;
   std::vector<PictureHit> hits;
   std::vector<PictureSighting> sightings;

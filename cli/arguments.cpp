@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "arguments.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <algorithm>
+
+#include "error_text.hpp"
+#include "rave/base/names.hpp"
+#include "rave/base/result.hpp"
+
+namespace rave::cli {
+namespace {
+
+/// All options of all subcommands, one of which is used.
+struct Everything {
+  RunCommand run;
+  CheckCommand check;
+  DriversCommand drivers;
+  DescribeCommand describe;
+  NewCommand make;
+  SchemaCommand schema;
+};
+
+void add_plugins(CLI::App& app, std::vector<std::string>& folders) {
+  app.add_option("--plugins", folders,
+                 "Folder with more plug-ins; may be given several times and wins over "
+                 "RAVE_PLUGIN_PATH and the built-in ones")
+      ->type_name("DIR")
+      ->take_all()
+      ->allow_extra_args(false);
+}
+
+void add_run(CLI::App& root, RunCommand& c) {
+  CLI::App& app = *root.add_subcommand("run", "Run a scenario");
+  app.add_option("scenario", c.scenario, "A file, a folder with scenario.yaml, or a name")
+      ->required()
+      ->type_name("SCENARIO");
+  app.add_option("--output", c.output, "Folder for what the run leaves [runs/<time>-<scenario>]")
+      ->type_name("DIR");
+  app.add_option("--seed", c.seed, "Another seed of all chance")->type_name("N");
+  app.add_option("--threads", c.threads, "Threads; they do not change the result")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+  app.add_option("--duration", c.duration_s, "Simulated time in seconds")
+      ->type_name("S")
+      ->check(CLI::Range(1e-4, 1e9));
+  app.add_option("--pace", c.pace, "max, realtime, or a factor such as 10x")->type_name("PACE");
+  app.add_flag("--no-picture", c.no_picture, "Do not draw picture.svg and picture.png");
+  app.add_flag("--quiet", c.quiet, "Print errors and problems only");
+  add_plugins(app, c.plugins);
+  app.footer(
+      "Exit code: 0 if the run was whole and its checks hold, 1 if not, 2 for bad input.\n"
+      "Ctrl-C ends a run early and still writes its results; a second one kills it.\n\n"
+      "Examples:\n"
+      "  rave run mixed-reality --pace 10x\n"
+      "  rave run my/scenario.yaml --seed 7 --duration 30 --output results");
+}
+
+void add_check(CLI::App& root, CheckCommand& c) {
+  CLI::App& app =
+      *root.add_subcommand("check", "Check robot, world and scenario files, and draw them");
+  app.add_option("files", c.files, "Which of the three a file is, is seen by its keys")
+      ->required()
+      ->type_name("FILE");
+  app.add_flag("--expand", c.expand, "Print the file with all defaults");
+  app.add_option("--draw", c.draw,
+                 "Draw a robot with its sensors, or a world with the robots at their start")
+      ->type_name("OUT.svg|OUT.png");
+  add_plugins(app, c.plugins);
+  app.footer(
+      "Exit code: 0 if all files are right, 2 if not.\n\n"
+      "Examples:\n"
+      "  rave check robots/*.yaml\n"
+      "  rave check robot.yaml --draw robot.svg\n"
+      "  rave check scenario.yaml --expand > complete.yaml");
+}
+
+void add_drivers(CLI::App& root, DriversCommand& c) {
+  CLI::App& app = *root.add_subcommand("drivers", "List the drivers and programs there are");
+  app.add_option("--kind", c.kind, "Only one kind, such as virtual_sensor or program")
+      ->type_name("KIND");
+  auto* const json = app.add_flag("--json", c.json, "For other programs");
+  app.add_flag("--markdown-reference", c.markdown, "The whole reference as one page")
+      ->excludes(json);
+  add_plugins(app, c.plugins);
+  app.footer(
+      "Examples:\n"
+      "  rave drivers --kind program\n"
+      "  rave drivers --plugins my_driver/build");
+}
+
+void add_describe(CLI::App& root, DescribeCommand& c) {
+  CLI::App& app = *root.add_subcommand("describe", "Say what a driver or program is and takes");
+  app.add_option("driver", c.driver, "Its name; `rave drivers` lists them")
+      ->required()
+      ->type_name("DRIVER");
+  auto* const json = app.add_flag("--json", c.json, "For other programs");
+  app.add_flag("--markdown", c.markdown, "As a section of a page")->excludes(json);
+  add_plugins(app, c.plugins);
+  app.footer("Example:\n  rave describe virtual_laser");
+}
+
+void add_new(CLI::App& root, NewCommand& c) {
+  CLI::App& app = *root.add_subcommand("new", "Begin a robot program or driver of your own");
+  app.add_option("kind", c.kind, "program or driver")->required()->type_name("KIND");
+  app.add_option("name", c.name, "In lower_snake_case")->required()->type_name("NAME");
+  app.add_option("--directory", c.directory, "Where [NAME in this folder]")->type_name("DIR");
+  app.footer("Example:\n  rave new program follow_wall");
+}
+
+void add_schema(CLI::App& root, SchemaCommand& c) {
+  CLI::App& app = *root.add_subcommand("schema", "Print the JSON Schema of a kind of file");
+  app.add_option("kind", c.kind, "robot, world or scenario")->required()->type_name("KIND");
+  app.footer("Example:\n  rave schema robot > robot.schema.json");
+}
+
+std::vector<std::string_view> subcommands_of(const CLI::App& root,
+                                             std::vector<std::string>& names) {
+  for (const CLI::App* app : root.get_subcommands(nullptr)) names.push_back(app->get_name());
+  return {names.begin(), names.end()};
+}
+
+/// A word that is no subcommand, before CLI11 says something vague about it.
+std::optional<Finished> unknown_subcommand(const CLI::App& root, const std::string& word) {
+  std::vector<std::string> names;
+  const std::vector<std::string_view> views = subcommands_of(root, names);
+  if (word.starts_with("-") || std::find(views.begin(), views.end(), word) != views.end()) {
+    return std::nullopt;
+  }
+  const auto error = fail(ErrorCode::kInvalidArgument, "there is no subcommand `{}`{}", word,
+                          suggestion(word, views));
+  return Finished{complain(error.value())};
+}
+
+/// Says what is wrong with an option, and of an unknown one which is nearest.
+Finished usage_error(const CLI::App& root, const CLI::ParseError& e) {
+  const auto chosen = root.get_subcommands();
+  const CLI::App& app = chosen.empty() ? root : *chosen.front();
+  std::string message = e.what();
+  const std::vector<std::string> extras = app.remaining();
+  if (dynamic_cast<const CLI::ExtrasError*>(&e) != nullptr && !extras.empty()) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options()) {
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    }
+    const std::vector<std::string_view> views(names.begin(), names.end());
+    const std::string word = extras.front().substr(0, extras.front().find('='));
+    message = word.starts_with("-")
+                  ? fmt::format("there is no option `{}`{}", word, suggestion(word, views))
+                  : fmt::format("`{}` is one word too many", word);
+  }
+  while (!message.empty() && message.back() == '\n') message.pop_back();
+  const std::string name = chosen.empty() ? "rave" : "rave " + app.get_name();
+  complain({ErrorCode::kInvalidArgument, message, {}});
+  put(stderr, fmt::format("`{} --help` says how it is used\n", name));
+  return {kBadInput};
+}
+
+Command chosen_command(const CLI::App& root, const Everything& all) {
+  const std::string name = root.get_subcommands().front()->get_name();
+  if (name == "run") return all.run;
+  if (name == "check") return all.check;
+  if (name == "drivers") return all.drivers;
+  if (name == "describe") return all.describe;
+  if (name == "new") return all.make;
+  if (name == "schema") return all.schema;
+  return VersionCommand{};
+}
+
+}  // namespace
+
+Command parse_arguments(int argc, const char* const* argv) {
+  Everything all;
+  bool version = false;
+  CLI::App root("Real and simulated mobile robots in one world", "rave");
+  root.require_subcommand(0, 1);
+  root.add_flag("--version", version, "What this build is");
+  add_run(root, all.run);
+  add_check(root, all.check);
+  add_drivers(root, all.drivers);
+  add_describe(root, all.describe);
+  add_new(root, all.make);
+  add_schema(root, all.schema);
+  root.add_subcommand("version", "What this build is, and which plug-ins fit it");
+  root.footer(
+      "Examples:\n"
+      "  rave run mixed-reality\n"
+      "  rave check my/robot.yaml --draw robot.svg\n"
+      "  rave describe virtual_laser\n\n"
+      "`rave SUBCOMMAND --help` says more.");
+  if (argc > 1) {
+    if (const auto finished = unknown_subcommand(root, argv[1])) return *finished;
+  }
+  try {
+    root.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    const auto chosen = root.get_subcommands();
+    put(stdout, chosen.empty() ? root.help() : chosen.front()->help());
+    return Finished{kGood};
+  } catch (const CLI::ParseError& e) {
+    return usage_error(root, e);
+  }
+  if (version) return VersionCommand{};
+  if (root.get_subcommands().empty()) {
+    put(stderr, root.help());
+    return Finished{kBadInput};
+  }
+  return chosen_command(root, all);
+}
+
+}  // namespace rave::cli

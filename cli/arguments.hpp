@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <variant>
+
+#include "commands/check.hpp"
+#include "commands/describe.hpp"
+#include "commands/drivers.hpp"
+#include "commands/new.hpp"
+#include "commands/run.hpp"
+#include "commands/schema.hpp"
+
+namespace rave::cli {
+
+struct VersionCommand {};
+
+/// The command line ends here: help was printed, or a complaint.
+struct Finished {
+  int exit_code = 0;
+};
+
+using Command = std::variant<Finished, RunCommand, CheckCommand, DriversCommand, DescribeCommand,
+                             NewCommand, SchemaCommand, VersionCommand>;
+
+/// Reads the command line. Prints help and complaints itself.
+[[nodiscard]] Command parse_arguments(int argc, const char* const* argv);
+
+}  // namespace rave::cli

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "build_errors.hpp"
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <tuple>
+
+namespace rave::cli {
+namespace {
+
+using config::ExpandedScenario;
+using config::RobotFile;
+using config::RobotGroup;
+
+constexpr int kMostErrors = 200;
+
+bool same(const SourceLocation& a, const SourceLocation& b) {
+  return std::tie(a.file, a.line, a.column) == std::tie(b.file, b.line, b.column);
+}
+
+/// Whether `where` lies in the entry of a list that has its name at `name` and its driver at
+/// `driver`. Entries are as long as up to the next one, so the last that begins before wins.
+bool begins_before(const SourceLocation& begin, const SourceLocation& where) {
+  return begin.file == where.file &&
+         std::tie(begin.line, begin.column) <= std::tie(where.line, where.column);
+}
+
+class Search {
+ public:
+  explicit Search(ExpandedScenario scenario) : scenario_(std::move(scenario)) {}
+
+  std::vector<Error> run(plugin::Catalogue& catalogue, const robot_host::BuildOptions& options) {
+    for (int i = 0; i < kMostErrors && !scenario_.robots.empty(); ++i) {
+      auto built = robot_host::build(scenario_, catalogue, options);
+      if (built) break;
+      const Error& error = built.error();
+      const bool known = !texts_.insert(error.text()).second;
+      if (take_device(error.where)) {
+        if (!known) errors_.push_back(error);
+      } else {
+        const bool follows = is_tainted(error.where);
+        if (!known && !follows) errors_.push_back(error);
+        if (!take_group(error.where) && !take_map(error.where)) break;
+      }
+    }
+    return std::move(errors_);
+  }
+
+ private:
+  /// Takes out the device that a place lies in, of every group that came from the same file.
+  bool take_device(const SourceLocation& where) {
+    if (where.file.empty()) return false;
+    for (RobotGroup& group : scenario_.groups) {
+      RobotFile& robot = group.robot;
+      if (is_at_whole(group, where)) continue;
+      if (take_from(robot, where)) {
+        tainted_.insert(group.name.where.text());
+        return true;
+      }
+    }
+    return false;
+  }
+
+  static bool is_at_whole(const RobotGroup& group, const SourceLocation& where) {
+    return same(group.name.where, where) || same(group.robot.body.where, where) ||
+           (group.robot.pose_from && same(group.robot.pose_from->where, where));
+  }
+
+  /// Devices in the order of the file: the one whose beginning is the last before the place.
+  static bool take_from(RobotFile& robot, const SourceLocation& where) {
+    SourceLocation best;
+    int list = -1;
+    std::size_t index = 0;
+    const auto consider = [&](const SourceLocation& name, const SourceLocation& driver, int l,
+                              std::size_t i) {
+      const SourceLocation& begin = begins_before(name, driver) ? name : driver;
+      if (!begins_before(begin, where) || (list >= 0 && !begins_before(best, begin))) return;
+      std::tie(best, list, index) = std::tie(begin, l, i);
+    };
+    for (std::size_t i = 0; i < robot.sensors.size(); ++i) {
+      consider(robot.sensors[i].name.where, robot.sensors[i].driver.where, 0, i);
+    }
+    for (std::size_t i = 0; i < robot.actuators.size(); ++i) {
+      consider(robot.actuators[i].name.where, robot.actuators[i].driver.where, 1, i);
+    }
+    for (std::size_t i = 0; i < robot.controllers.size(); ++i) {
+      consider(robot.controllers[i].name.where, robot.controllers[i].driver.where, 2, i);
+    }
+    if (robot.program) consider(robot.program->driver.where, robot.program->driver.where, 3, 0);
+    if (list < 0) return false;
+    erase(robot, list, index);
+    return true;
+  }
+
+  static void erase(RobotFile& robot, int list, std::size_t index) {
+    const auto at = static_cast<std::ptrdiff_t>(index);
+    if (list == 0) {
+      const std::string name = robot.sensors[index].name.value;
+      if (robot.pose_from && robot.pose_from->value == name) robot.pose_from.reset();
+      robot.sensors.erase(robot.sensors.begin() + at);
+    } else if (list == 1) {
+      const std::string name = robot.actuators[index].name.value;
+      std::erase_if(robot.controllers, [&](const auto& c) { return c.actuator.value == name; });
+      robot.actuators.erase(robot.actuators.begin() + at);
+    } else if (list == 2) {
+      robot.controllers.erase(robot.controllers.begin() + at);
+    } else {
+      robot.program.reset();
+    }
+  }
+
+  [[nodiscard]] bool is_tainted(const SourceLocation& where) const {
+    return std::any_of(scenario_.groups.begin(), scenario_.groups.end(), [&](const auto& group) {
+      return is_at_whole(group, where) && tainted_.contains(group.name.where.text());
+    });
+  }
+
+  bool take_group(const SourceLocation& where) {
+    for (std::size_t g = 0; g < scenario_.groups.size(); ++g) {
+      if (!is_at_whole(scenario_.groups[g], where)) continue;
+      std::erase_if(scenario_.robots, [&](const auto& robot) { return robot.group == g; });
+      for (config::ExpandedRobot& robot : scenario_.robots) {
+        if (robot.group > g) --robot.group;
+      }
+      scenario_.groups.erase(scenario_.groups.begin() + static_cast<std::ptrdiff_t>(g));
+      return true;
+    }
+    return false;
+  }
+
+  bool take_map(const SourceLocation& where) {
+    const auto is_it = [&](const config::MapFile& map) { return same(map.file.where, where); };
+    return std::erase_if(scenario_.world.maps, is_it) > 0;
+  }
+
+  ExpandedScenario scenario_;
+  std::vector<Error> errors_;
+  std::set<std::string> texts_;    ///< Of errors seen, as several groups may use one file.
+  std::set<std::string> tainted_;  ///< Places of groups that lost a device.
+};
+
+}  // namespace
+
+std::vector<Error> build_errors(ExpandedScenario scenario, plugin::Catalogue& catalogue,
+                                const robot_host::BuildOptions& options) {
+  return Search(std::move(scenario)).run(catalogue, options);
+}
+
+}  // namespace rave::cli

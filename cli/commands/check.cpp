@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/check.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "build_errors.hpp"
+#include "drawing.hpp"
+#include "error_text.hpp"
+#include "input_file.hpp"
+#include "places.hpp"
+#include "rave/robot_host/build.hpp"
+
+namespace rave::cli {
+namespace {
+
+std::string counted(std::size_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+std::string devices_text(const config::RobotFile& robot) {
+  std::string text = fmt::format("{}, {}, {}", counted(robot.sensors.size(), "sensor"),
+                                 counted(robot.actuators.size(), "actuator"),
+                                 counted(robot.controllers.size(), "controller"));
+  if (robot.program) text += fmt::format(", program `{}`", robot.program->driver.value);
+  return text;
+}
+
+/// What a file was taken for and what is in it, in a line.
+std::string summary_of(const InputFile& input, const robot_host::BuiltScenario& built) {
+  const std::size_t obstacles = built.spec.world.obstacles.size();
+  std::size_t simulated = 0;
+  for (const sim::RobotSpec& robot : built.spec.robots) {
+    if (built.spec.types[robot.type].simulated) ++simulated;
+  }
+  switch (input.kind) {
+    case FileKind::kRobot:
+      return fmt::format("{} robot with {}", simulated == 1 ? "simulated" : "real",
+                         devices_text(input.scenario.groups[0].robot));
+    case FileKind::kWorld:
+      return fmt::format("world with {}", counted(obstacles, "obstacle"));
+    case FileKind::kScenario:
+      break;
+  }
+  std::set<std::string> drivers;
+  for (const sim::RobotType& type : built.spec.types) {
+    for (const auto& sensor : type.sensors) drivers.insert(sensor.driver);
+    for (const auto& actuator : type.actuators) drivers.insert(actuator.driver);
+    for (const auto& controller : type.controllers) drivers.insert(controller.driver);
+    if (type.program) drivers.insert(type.program->driver);
+  }
+  const std::size_t robots = built.spec.robots.size();
+  return fmt::format("scenario with {} ({} simulated, {} real), {}, {}, {:g} s",
+                     counted(robots, "robot"), simulated, robots - simulated,
+                     counted(obstacles, "obstacle"), counted(drivers.size(), "driver"),
+                     input.scenario.scenario.duration_s);
+}
+
+class Checker {
+ public:
+  Checker(const CheckCommand& options, plugin::Catalogue& catalogue)
+      : options_(options), catalogue_(catalogue) {}
+
+  [[nodiscard]] int run() {
+    int code = kGood;
+    for (const std::string& file : options_.files) {
+      if (!check_file(file)) code = kBadInput;
+    }
+    return code;
+  }
+
+ private:
+  bool check_file(const std::string& file) {
+    const auto kind = recognise(file);
+    if (!kind) return bad(file, "", kind.error());
+    auto input = read_input(file);
+    if (!input) return bad(file, to_string(*kind), input.error());
+    robot_host::BuildOptions build_options;
+    build_options.program_runner = program_runner();
+    auto built = robot_host::build(input->scenario, catalogue_, build_options);
+    if (!built) {
+      const Error first = built.error();
+      std::vector<Error> errors =
+          build_errors(std::move(input->scenario), catalogue_, build_options);
+      if (errors.empty()) errors.push_back(first);
+      for (const Error& error : errors) complain_about(error);
+      return verdict(file, to_string(*kind));
+    }
+    report_good(file, *input, *built);
+    if (options_.expand) put(stdout, write_input(*input));
+    if (!options_.draw.empty()) return draw_file(*input, *std::move(built));
+    return true;
+  }
+
+  /// The verdict goes beside the errors when the expanded file takes the standard output.
+  void report_good(const std::string& file, const InputFile& input,
+                   const robot_host::BuiltScenario& built) const {
+    std::FILE* const stream = options_.expand ? stderr : stdout;
+    const Terminal terminal = terminal_of(stream);
+    put(stream, fmt::format("{}: {}: {}\n", terminal.bold(file), terminal.green("ok"),
+                            summary_of(input, built)));
+    for (const std::string& note : built.notes) {
+      put(stream, fmt::format("{}: {} {}\n", terminal.bold(file), terminal.yellow("note:"), note));
+    }
+    if (!built.live_reason.empty()) {
+      put(stream, fmt::format("{}: {} a run is live, not repeatable: {}\n", terminal.bold(file),
+                              terminal.yellow("note:"), built.live_reason));
+    }
+  }
+
+  [[nodiscard]] bool draw_file(const InputFile& input, robot_host::BuiltScenario built) const {
+    Status drawn;
+    auto picture = draw(input, std::move(built));
+    if (picture) {
+      drawn = write_picture(*picture, options_.draw);
+    } else {
+      drawn = tl::unexpected(std::move(picture).error());
+    }
+    if (!drawn) return complain(drawn.error()) == kGood;
+    put(options_.expand ? stderr : stdout, fmt::format("drawn: {}\n", options_.draw));
+    return true;
+  }
+
+  static void complain_about(const Error& error) {
+    put(stderr, error_text(error, terminal_of(stderr)));
+  }
+  static bool bad(const std::string& file, std::string_view kind, const Error& error) {
+    complain_about(error);
+    return verdict(file, kind);
+  }
+  static bool verdict(const std::string& file, std::string_view kind) {
+    const Terminal terminal = terminal_of(stderr);
+    const std::string taken = kind.empty() ? "" : fmt::format(" (taken for a {} file)", kind);
+    put(stderr, fmt::format("{}: {}{}\n", terminal.bold(file), terminal.red("not usable"), taken));
+    return false;
+  }
+
+  const CheckCommand& options_;
+  plugin::Catalogue& catalogue_;
+};
+
+}  // namespace
+
+int check(const CheckCommand& options) {
+  plugin::Catalogue catalogue(robot_host::host_stamp());
+  if (auto added = add_plugin_folders(options.plugins, catalogue); !added) {
+    return complain(added.error());
+  }
+  if (!options.draw.empty() && options.files.size() > 1) {
+    return complain({ErrorCode::kInvalidArgument, "--draw takes one file at a time", {}});
+  }
+  return Checker(options, catalogue).run();
+}
+
+}  // namespace rave::cli

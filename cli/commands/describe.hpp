@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace rave::cli {
+
+/// `rave describe`.
+struct DescribeCommand {
+  std::string driver;
+  bool json = false;
+  bool markdown = false;
+  std::vector<std::string> plugins;
+};
+
+/// Prints what drivers of one name say of themselves; several kinds may share it. Returns 0 or 2.
+[[nodiscard]] int describe(const DescribeCommand& options);
+
+}  // namespace rave::cli

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/drivers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "driver_json.hpp"
+#include "error_text.hpp"
+#include "places.hpp"
+#include "rave/base/names.hpp"
+#include "rave/config/yaml.hpp"
+#include "rave/plugin/params_text.hpp"
+#include "rave/report/table.hpp"
+#include "rave/robot_host/build.hpp"
+
+namespace rave::cli {
+namespace {
+
+using Drivers = std::vector<const plugin::Driver*>;
+
+Result<DriverKind> kind_of(const std::string& name) {
+  std::vector<std::string_view> names;
+  for (std::uint32_t k = 0; k < kDriverKindCount; ++k) {
+    names.push_back(to_string(static_cast<DriverKind>(k)));
+    // `virtual_sensor` and `virtual-sensor` mean what `virtual sensor` does and need no quotes.
+    std::string plain = name;
+    std::replace_if(
+        plain.begin(), plain.end(), [](char c) { return c == '_' || c == '-'; }, ' ');
+    if (plain == names.back()) return static_cast<DriverKind>(k);
+  }
+  return fail(ErrorCode::kNotFound, "there is no kind of driver `{}`{}", name,
+              suggestion(name, names));
+}
+
+std::string table_of(const Drivers& drivers, const Terminal& terminal) {
+  report::Table table;
+  table.columns = {{"kind", report::Align::kLeft, false},    {"name", report::Align::kLeft, false},
+                   {"version", report::Align::kLeft, false}, {"clock", report::Align::kLeft, false},
+                   {"summary", report::Align::kLeft, true},  {"file", report::Align::kLeft, false}};
+  std::string_view last;
+  for (const plugin::Driver* driver : drivers) {
+    const DriverInfo& info = driver->info;
+    const std::string_view kind = to_string(info.kind);
+    if (!last.empty() && kind != last) table.rules_before.push_back(table.rows.size());
+    table.rows.push_back({kind == last ? "" : std::string(kind), info.name, info.version,
+                          std::string(to_string(info.clock)), info.summary,
+                          driver->file.filename().string()});
+    last = kind;
+  }
+  report::TableOptions options;
+  if (terminal.is_terminal) options.width = terminal.width;
+  options.ansi = terminal.colour;
+  return report::render_table(table, options);
+}
+
+std::string rejected_text(const plugin::Catalogue& catalogue, const Terminal& terminal) {
+  std::string text;
+  for (const plugin::RejectedPlugin& plugin : catalogue.rejected()) {
+    const std::string message = plugin.error.text();
+    const std::string file = plugin.file.string();
+    // The reasons name the files already.
+    text += fmt::format("{} {}\n", terminal.red("not usable:"),
+                        message.find(file) == std::string::npos ? file + ": " + message : message);
+  }
+  return text;
+}
+
+/// The generated reference: the same on every machine.
+std::string reference_of(const Drivers& drivers) {
+  std::string text =
+      "# Drivers and programs\n\nWhat `rave describe` says of the drivers and programs that come "
+      "with RAVE.\nGenerated from the code by `tools/reference.sh`; edit the drivers instead.\n";
+  std::string_view last;
+  for (const plugin::Driver* driver : drivers) {
+    const std::string_view kind = to_string(driver->info.kind);
+    if (kind != last) text += fmt::format("\n# Kind: {}\n", kind);
+    last = kind;
+    text += "\n" + plugin::markdown(*driver);
+  }
+  return text;
+}
+
+std::string json_of(const Drivers& drivers, const plugin::Catalogue& catalogue) {
+  config::RawNode list = config::RawNode::sequence();
+  for (const plugin::Driver* driver : drivers) list.push_back(driver_json(*driver));
+  config::RawNode refused = config::RawNode::sequence();
+  for (const plugin::RejectedPlugin& plugin : catalogue.rejected()) {
+    config::RawNode entry = config::RawNode::mapping();
+    entry.append("file", config::RawNode::text(plugin.file.string()));
+    entry.append("reason", config::RawNode::text(plugin.error.text()));
+    refused.push_back(std::move(entry));
+  }
+  config::RawNode root = config::RawNode::mapping();
+  root.append("drivers", std::move(list));
+  root.append("rejected", std::move(refused));
+  return config::to_json(root);
+}
+
+}  // namespace
+
+int drivers(const DriversCommand& options) {
+  plugin::Catalogue catalogue(robot_host::host_stamp());
+  std::optional<DriverKind> wanted;
+  if (!options.kind.empty()) {
+    const auto kind = kind_of(options.kind);
+    if (!kind) return complain(kind.error());
+    wanted = *kind;
+  }
+  if (auto added = add_plugin_folders(options.plugins, catalogue); !added) {
+    return complain(added.error());
+  }
+  Drivers found = catalogue.all();
+  std::erase_if(found, [&](const auto* driver) { return wanted && driver->info.kind != *wanted; });
+  if (options.json) return put(stdout, json_of(found, catalogue)), kGood;
+  if (options.markdown) return put(stdout, reference_of(found)), kGood;
+  put(stdout, found.empty() ? "no drivers\n" : table_of(found, terminal_of(stdout)));
+  put(stderr, rejected_text(catalogue, terminal_of(stderr)));
+  return kGood;
+}
+
+}  // namespace rave::cli

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/new.hpp"
+
+#include <fmt/format.h>
+
+#include "error_text.hpp"
+#include "new_project.hpp"
+#include "places.hpp"
+
+namespace rave::cli {
+namespace {
+
+/// A path as a shell takes it: in quotes where it must be.
+std::string quoted(const std::string& path) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789/._-+@%,:";
+  if (path.find_first_not_of(kPlain) == std::string::npos) return path;
+  std::string text = "'";
+  for (const char c : path) {
+    if (c == '\'') {
+      text += "'\\''";
+    } else {
+      text += c;
+    }
+  }
+  return text + "'";
+}
+
+}  // namespace
+
+int new_project(const NewCommand& options) {
+  const auto kind = parse_project_kind(options.kind);
+  if (!kind) return complain(kind.error());
+  const std::string folder = options.directory.empty() ? options.name : options.directory;
+  const auto created = create_project(*kind, options.name, share_folder() / "templates", folder);
+  if (!created) return complain(created.error());
+  const std::string prefix = executable_folder().parent_path().string();
+  const std::string shell_folder = quoted(folder);
+  const std::string build = quoted(folder + "/build");
+  put(stdout, fmt::format("made {0}; the code to fill in is {0}/{1}.cpp\n\nnext:\n"
+                          "  cmake -S {2} -B {3} -DCMAKE_PREFIX_PATH={4}\n"
+                          "  cmake --build {3}\n"
+                          "  rave describe {1} --plugins {3}\n",
+                          folder, options.name, shell_folder, build, quoted(prefix)));
+  put(stdout,
+      "then name it as `driver:` in a robot file, and give `--plugins` to `rave run` or set "
+      "RAVE_PLUGIN_PATH\n");
+  return kGood;
+}
+
+}  // namespace rave::cli

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/run.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <atomic>
+#include <csignal>
+
+#include "console.hpp"
+#include "error_text.hpp"
+#include "places.hpp"
+#include "rave/config/expanded_scenario.hpp"
+#include "rave/robot_host/build.hpp"
+#include "rave/robot_host/run.hpp"
+#include "run_folder.hpp"
+
+namespace rave::cli {
+namespace {
+
+/// A signal handler can reach nothing else.
+std::atomic<bool> stop_requested{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+extern "C" void request_stop(int /*signal*/) { stop_requested.store(true); }
+
+/// The first signal ends the run early with its results written; a second one kills.
+void listen_to_signals() {
+  struct sigaction action {};
+  action.sa_handler = request_stop;
+  action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+}
+
+Status override_settings(const RunCommand& options, config::ScenarioFile& scenario) {
+  if (options.seed) scenario.seed = *options.seed;
+  if (options.threads) scenario.threads = *options.threads;
+  if (options.pace) {
+    auto pace = config::parse_pace(*options.pace);
+    if (!pace) return tl::unexpected(std::move(pace).error().with_context("--pace"));
+    scenario.pace = *pace;
+  }
+  if (!options.duration_s) return {};
+  scenario.duration_s = *options.duration_s;
+  // An instant that a shorter run never reaches: the middle instead.
+  if (scenario.picture && scenario.picture->instant_s.value_or(0) > scenario.duration_s) {
+    scenario.picture->instant_s.reset();
+  }
+  return {};
+}
+
+/// The files that a run leaves and that people look at, in that order.
+std::string files_of(const std::filesystem::path& folder) {
+  constexpr std::array<std::string_view, 7> kFiles = {"summary.txt", "result.json", "picture.svg",
+                                                      "picture.png", "events.log",  "scenario.yaml",
+                                                      "console.log"};
+  std::string text;
+  std::error_code error;
+  for (const std::string_view file : kFiles) {
+    if (!std::filesystem::exists(folder / file, error)) continue;
+    text += (text.empty() ? "" : ", ") + std::string(file);
+  }
+  return fmt::format("{}: {}\n", folder.string(), text);
+}
+
+/// Tells how it ended; the exit code of the run.
+int report_outcome(const RunCommand& options, const robot_host::RunOutcome& outcome,
+                   const std::filesystem::path& folder) {
+  const bool good = outcome.whole && outcome.checks_hold;
+  if (!options.quiet) {
+    put(stdout, outcome.summary);
+    if (!outcome.summary.empty() && outcome.summary.back() != '\n') put(stdout, "\n");
+    put(stdout, files_of(folder));
+  }
+  const Terminal errors = terminal_of(stderr);
+  for (const std::string& problem : outcome.problems) {
+    put(stderr,
+        fmt::format("{} {}\n", good ? errors.yellow("note:") : errors.red("problem:"), problem));
+  }
+  if (!good) {
+    const std::string_view what =
+        outcome.whole ? "a check of the scenario does not hold" : "the run was not whole";
+    put(stderr, fmt::format("{} {}\n", errors.red("not good:"), what));
+  } else if (!options.quiet) {
+    put(stdout, terminal_of(stdout).green("done") + "\n");
+  }
+  return good ? kGood : kNotGood;
+}
+
+}  // namespace
+
+int run(const RunCommand& options) {
+  const auto path = find_scenario(options.scenario);
+  if (!path) return complain(path.error());
+  auto scenario = config::expand_scenario(*path);
+  if (!scenario) return complain(scenario.error());
+  if (auto status = override_settings(options, scenario->scenario); !status) {
+    return complain(status.error());
+  }
+  plugin::Catalogue catalogue(robot_host::host_stamp());
+  if (auto added = add_plugin_folders(options.plugins, catalogue); !added) {
+    return complain(added.error());
+  }
+  const auto folder = RunFolder::create(options.output, scenario->scenario.name.value);
+  if (!folder) return complain(folder.error());
+  Console console(options.quiet);
+  if (auto opened = console.open_file(folder->path() / "console.log"); !opened) {
+    return complain(opened.error());
+  }
+  listen_to_signals();
+  robot_host::RunOptions run_options;
+  run_options.output = folder->path();
+  run_options.program_runner = program_runner();
+  run_options.picture = !options.no_picture;
+  run_options.log = &console;
+  bool started = false;
+  run_options.on_progress = [&](const report::Progress& progress) {
+    started = true;
+    console.show(progress);
+  };
+  run_options.stop = &stop_requested;
+  const auto outcome = robot_host::run(*scenario, catalogue, run_options);
+  console.clear();
+  if (outcome) return report_outcome(options, *outcome, folder->path());
+  // What a run left that broke off tells why.
+  if (!started) folder->discard();
+  return complain(outcome.error());
+}
+
+}  // namespace rave::cli

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rave::cli {
+
+/// `rave run`. What is unset comes from the scenario.
+struct RunCommand {
+  std::string scenario;  ///< A file, a folder or a name.
+  std::string output;    ///< Empty: runs/<time>-<scenario>.
+  std::optional<std::uint64_t> seed;
+  std::optional<int> threads;
+  std::optional<double> duration_s;
+  std::optional<std::string> pace;
+  bool no_picture = false;
+  bool quiet = false;
+  std::vector<std::string> plugins;
+};
+
+/// Runs a scenario. Returns 0 if it was whole and its checks hold, 1 if not, 2 on bad input.
+[[nodiscard]] int run(const RunCommand& options);
+
+}  // namespace rave::cli

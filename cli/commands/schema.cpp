@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/schema.hpp"
+
+#include <array>
+
+#include "error_text.hpp"
+#include "rave/base/names.hpp"
+#include "rave/base/result.hpp"
+#include "rave/config/scenario_file.hpp"
+
+namespace rave::cli {
+
+int schema(const SchemaCommand& options) {
+  if (options.kind == "robot") return put(stdout, config::robot_schema()), kGood;
+  if (options.kind == "world") return put(stdout, config::world_schema()), kGood;
+  if (options.kind == "scenario") return put(stdout, config::scenario_schema()), kGood;
+  constexpr std::array<std::string_view, 3> kKinds = {"robot", "world", "scenario"};
+  const auto error = fail(ErrorCode::kNotFound, "there is no kind of file `{}`{}", options.kind,
+                          suggestion(options.kind, kKinds));
+  return complain(error.value());
+}
+
+}  // namespace rave::cli

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace rave::cli {
+
+/// `rave schema`.
+struct SchemaCommand {
+  std::string kind;  ///< robot, world or scenario.
+};
+
+/// Prints the JSON Schema of a kind of file. Returns 0 or 2.
+[[nodiscard]] int schema(const SchemaCommand& options);
+
+}  // namespace rave::cli

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "rave/config/raw_node.hpp"
+#include "rave/plugin/catalogue.hpp"
+
+namespace rave::cli {
+
+/// Everything that a driver says of itself, for other programs.
+[[nodiscard]] config::RawNode driver_json(const plugin::Driver& driver);
+
+}  // namespace rave::cli

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+#include <exception>
+
+#include "arguments.hpp"
+#include "commands/version.hpp"
+#include "error_text.hpp"
+
+namespace rave::cli {
+namespace {
+
+struct Dispatch {
+  int operator()(const Finished& finished) const { return finished.exit_code; }
+  int operator()(const RunCommand& options) const { return run(options); }
+  int operator()(const CheckCommand& options) const { return check(options); }
+  int operator()(const DriversCommand& options) const { return drivers(options); }
+  int operator()(const DescribeCommand& options) const { return describe(options); }
+  int operator()(const NewCommand& options) const { return new_project(options); }
+  int operator()(const SchemaCommand& options) const { return schema(options); }
+  int operator()(const VersionCommand& /*options*/) const { return version(); }
+};
+
+}  // namespace
+}  // namespace rave::cli
+
+int main(int argc, char** argv) {
+  try {
+    return std::visit(rave::cli::Dispatch{}, rave::cli::parse_arguments(argc, argv));
+  } catch (const std::exception& e) {
+    // Out of memory, or a defect: say so rather than abort without a word.
+    std::fprintf(stderr, "rave: unexpected failure: %s\n", e.what());
+    return rave::cli::kNotGood;
+  }
+}

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "places.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <optional>
+
+#include "rave/base/names.hpp"
+
+namespace rave::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kScenarioFile = "scenario.yaml";
+
+/// Where scenarios are looked up by name. Those of the share folder by their real place, because
+/// the files they name are relative to it.
+std::vector<fs::path> scenario_folders() {
+  std::error_code error;
+  std::vector<fs::path> folders = {"scenarios"};
+  const fs::path shared = fs::canonical(share_folder() / "scenarios", error);
+  if (!error) folders.push_back(shared);
+  return folders;
+}
+
+std::optional<fs::path> scenario_in(const fs::path& folder, const fs::path& name) {
+  std::error_code error;
+  fs::path yaml = folder / name;
+  yaml += ".yaml";
+  for (const fs::path& path : {folder / name / kScenarioFile, yaml, folder / name}) {
+    if (fs::is_regular_file(path, error)) return path;
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> scenario_names() {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const fs::path& folder : scenario_folders()) {
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+      const fs::path& path = entry->path();
+      std::error_code ignored;
+      if (fs::is_regular_file(path / kScenarioFile, ignored)) {
+        names.push_back(path.filename().string());
+      } else if (path.extension() == ".yaml") {
+        names.push_back(path.stem().string());
+      }
+    }
+  }
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+std::vector<std::string> folders_of_environment() {
+  std::vector<std::string> folders;
+  const char* const value = std::getenv("RAVE_PLUGIN_PATH");
+  std::string_view rest = value == nullptr ? "" : value;
+  while (!rest.empty()) {
+    const std::size_t colon = std::min(rest.find(':'), rest.size());
+    if (colon > 0) folders.emplace_back(rest.substr(0, colon));
+    rest.remove_prefix(std::min(colon + 1, rest.size()));
+  }
+  return folders;
+}
+
+}  // namespace
+
+fs::path executable_folder() {
+  std::error_code error;
+  return fs::read_symlink("/proc/self/exe", error).parent_path();
+}
+
+fs::path share_folder() {
+  const char* const given = std::getenv("RAVE_SHARE");
+  if (given != nullptr && *given != '\0') return given;
+  return executable_folder().parent_path() / "share" / "rave";
+}
+
+fs::path program_runner() { return executable_folder() / "rave-program-runner"; }
+
+Status add_plugin_folders(const std::vector<std::string>& given, plugin::Catalogue& catalogue) {
+  for (const std::string& folder : given) {
+    if (auto added = catalogue.add_folder(folder); !added) {
+      return tl::unexpected(std::move(added).error().with_context("--plugins"));
+    }
+  }
+  for (const std::string& folder : folders_of_environment()) {
+    if (auto added = catalogue.add_folder(folder); !added) {
+      return tl::unexpected(std::move(added).error().with_context("RAVE_PLUGIN_PATH"));
+    }
+  }
+  const fs::path own = executable_folder().parent_path() / "lib" / "rave" / "plugins";
+  return catalogue.add_folder(own);
+}
+
+Result<fs::path> find_scenario(std::string_view word) {
+  const fs::path path(word);
+  std::error_code error;
+  if (fs::is_directory(path, error)) {
+    if (fs::is_regular_file(path / kScenarioFile, error)) return path / kScenarioFile;
+  } else if (fs::exists(path, error)) {
+    return path;
+  }
+  if (word.find('/') == std::string_view::npos && !word.empty()) {
+    for (const fs::path& folder : scenario_folders()) {
+      if (auto found = scenario_in(folder, path)) return *std::move(found);
+    }
+  }
+  if (fs::is_directory(path, error)) {
+    return fail(ErrorCode::kNotFound, "the folder `{}` has no {}", word, kScenarioFile);
+  }
+  const std::vector<std::string> names = scenario_names();
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  return fail(
+      ErrorCode::kNotFound,
+      "there is no scenario `{}`: neither a file nor a folder, nor a name below `scenarios` "
+      "of this folder or `{}`{}",
+      word, share_folder().string(), suggestion(word, views));
+}
+
+}  // namespace rave::cli

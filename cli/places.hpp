@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rave/base/result.hpp"
+#include "rave/plugin/catalogue.hpp"
+
+namespace rave::cli {
+
+/// The folder of the running executable. The build tree has the layout of an installation, so
+/// everything else is found from here.
+[[nodiscard]] std::filesystem::path executable_folder();
+
+/// Templates and shipped scenarios: RAVE_SHARE, else `../share/rave` beside the executable.
+[[nodiscard]] std::filesystem::path share_folder();
+
+/// The executable for programs with `isolate: true`.
+[[nodiscard]] std::filesystem::path program_runner();
+
+/// Adds the folders given on the command line, those of RAVE_PLUGIN_PATH (separated by colons) and
+/// the built-in one; earlier ones win. Errors: a folder that is missing or cannot be read.
+Status add_plugin_folders(const std::vector<std::string>& given, plugin::Catalogue& catalogue);
+
+/// The scenario file that a word on the command line stands for: a file, a folder with
+/// `scenario.yaml`, or the name of a scenario below `scenarios` of the current folder or the share
+/// folder. Errors: kNotFound with the nearest name or the list.
+[[nodiscard]] Result<std::filesystem::path> find_scenario(std::string_view word);
+
+}  // namespace rave::cli

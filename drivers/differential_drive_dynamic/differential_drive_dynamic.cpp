@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "../differential_drive/wheel_speeds.hpp"
+#include "differential_drive/wheel_speeds.hpp"
 #include "rave/math/scalar.hpp"
 #include "rave/robot/plugin_entry.hpp"
 #include "second_order.hpp"

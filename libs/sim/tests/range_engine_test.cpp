@@ -182,7 +182,8 @@ double brute_force(const world::Snapshot& world, Vec2 p, Vec2 direction, double 
     } else {
       std::vector<Vec2> vertices(world.vertices_W(shape).begin(), world.vertices_W(shape).end());
       Vec2 middle;
-      for (const Vec2 v : vertices) middle = middle + (1.0 / static_cast<double>(vertices.size())) * v;
+      for (const Vec2 v : vertices)
+        middle = middle + (1.0 / static_cast<double>(vertices.size())) * v;
       for (Vec2& v : vertices) {
         const Vec2 out = v - middle;
         v = v + (inflate_m / std::sqrt(squared_norm(out))) * out;

@@ -32,11 +32,11 @@ struct RunOptions {
 /// How a run ended. What it found lies in `output`: result.json, summary.txt, picture.svg,
 /// picture.png, events.log, scenario.yaml (with all defaults).
 struct RunOutcome {
-  bool whole = false;         ///< Ran to its end without losing a driver or a program.
-  bool checks_hold = true;    ///< All checks of the scenario hold.
+  bool whole = false;                 ///< Ran to its end without losing a driver or a program.
+  bool checks_hold = true;            ///< All checks of the scenario hold.
   std::vector<std::string> problems;  ///< One sentence each for why not; empty if all is well.
-  std::string hash;           ///< 16 hexadecimal digits; empty for a live run.
-  std::string summary;        ///< The table for a terminal, without colours.
+  std::string hash;                   ///< 16 hexadecimal digits; empty for a live run.
+  std::string summary;                ///< The table for a terminal, without colours.
 };
 
 /// Runs a scenario to its end in the calling thread. Errors: what keeps it from starting, and a

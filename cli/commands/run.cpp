@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <atomic>
 #include <csignal>
 
 #include "console.hpp"
@@ -19,10 +18,9 @@ namespace rave::cli {
 namespace {
 
 /// A signal handler can reach nothing else.
-std::atomic<bool> stop_requested{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
+robot_host::RunControl run_control;
 
-extern "C" void request_stop(int /*signal*/) { stop_requested.store(true); }
+extern "C" void request_stop(int /*signal*/) { run_control.stop(); }
 
 /// The first signal ends the run early with its results written; a second one kills.
 void listen_to_signals() {
@@ -119,7 +117,7 @@ int run(const RunCommand& options) {
     started = true;
     console.show(progress);
   };
-  run_options.stop = &stop_requested;
+  run_options.control = &run_control;
   const auto outcome = robot_host::run(*scenario, catalogue, run_options);
   console.clear();
   if (outcome) return report_outcome(options, *outcome, folder->path());

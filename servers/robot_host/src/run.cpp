@@ -137,12 +137,18 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
   auto next_progress = begin;
   bool stopped = false;
   while (engine->steps_done() < steps) {
-    if (options.stop != nullptr && options.stop->load()) {
+    const auto asked = Clock::now();
+    // The world outside a live run goes on, so that is not held.
+    const bool held = !live && options.control != nullptr && options.control->paused();
+    const bool turn = options.control == nullptr ||
+                      (held ? options.control->wait_for_turn() : !options.control->stopping());
+    if (!turn) {
       stopped = true;
       break;
     }
+    if (held) pace.shift(Clock::now() - asked);
     pace.wait_for(SimTime{static_cast<std::int64_t>(engine->steps_done()) * engine->spec().step.ns},
-                  options.stop);
+                  options.control);
     watch.step_begins(engine->steps_done());
     RAVE_TRY(engine->step());
     watch.step_ends();

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "rave/robot/sample_queue.hpp"
+#include "rave/robot_host/run_control.hpp"
 
 namespace rave::robot_host {
 
@@ -32,13 +33,17 @@ class WallPace final : public RunClock {
            std::chrono::nanoseconds(static_cast<std::int64_t>(static_cast<double>(t.ns) / factor));
   }
 
-  /// Sleeps until `t` is due, looking at `stop` now and then; at once when there is no pace.
-  void wait_for(SimTime t, const std::atomic<bool>* stop) const {
+  /// Time that a stepped run was held for does not count.
+  void shift(Clock::duration held) noexcept { begin_.store(begin_.load() + held); }
+
+  /// Sleeps until `t` is due, looking now and then whether the run is to end; at once when there is
+  /// no pace.
+  void wait_for(SimTime t, const RunControl* control) const {
     if (factor_ == 0) return;
     constexpr auto kLook = std::chrono::milliseconds(100);
     const auto due = wall_time_of(t);
     for (auto now = Clock::now(); now < due; now = Clock::now()) {
-      if (stop != nullptr && stop->load()) return;
+      if (control != nullptr && control->stopping()) return;
       std::this_thread::sleep_until(std::min(due, now + kLook));
     }
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -12,6 +11,7 @@
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/plugin/catalogue.hpp"
 #include "rave/report/progress.hpp"
+#include "rave/robot_host/run_control.hpp"
 
 namespace rave::robot_host {
 
@@ -25,8 +25,8 @@ struct RunOptions {
   LogSink* log = nullptr;                ///< Not owned; outlives the call.
   /// Called in the calling thread about ten times a second of wall time; may be empty.
   std::function<void(const report::Progress&)> on_progress;
-  /// Set by a signal handler or another thread to end the run early; may be null.
-  const std::atomic<bool>* stop = nullptr;
+  /// Pauses, steps and ends the run from elsewhere; may be null. Not owned.
+  RunControl* control = nullptr;
 };
 
 /// How a run ended. What it found lies in `output`: result.json, summary.txt, picture.svg,

@@ -10,7 +10,9 @@
 namespace rave {
 namespace {
 
-constexpr std::uint32_t kIrregularDepth = 64;
+constexpr std::uint64_t kIrregularDepth = 64;
+/// Closer samples than these would push one another out of the ring before they are due.
+constexpr Duration kIrregularPeriod{5'000'000};
 constexpr double kLongestLatency_s = 3600;
 constexpr std::size_t kLargestState = std::size_t{64} << 20;
 
@@ -96,7 +98,7 @@ Status check_times(double latency_s, double period_s) {
 }
 
 std::uint64_t ring_depth(Duration latency, Duration period) {
-  if (period.ns == 0) return kIrregularDepth;
+  if (period.ns == 0) return std::max(kIrregularDepth, ring_depth(latency, kIrregularPeriod));
   return static_cast<std::uint64_t>((latency.ns + period.ns - 1) / period.ns + 1);
 }
 
@@ -177,9 +179,19 @@ void Processing::push(const SampleHeader& raw, const void* records, RandomStream
 
 bool Processing::deliver(SimTime now, std::byte* state, SampleHeader* out,
                          void* out_records) const noexcept {
+  return deliver_some(now, true, state, out, out_records);
+}
+
+bool Processing::deliver_oldest(SimTime now, std::byte* state, SampleHeader* out,
+                                void* out_records) const noexcept {
+  return deliver_some(now, false, state, out, out_records);
+}
+
+bool Processing::deliver_some(SimTime now, bool all, std::byte* state, SampleHeader* out,
+                              void* out_records) const noexcept {
   auto& ring = *reinterpret_cast<Ring*>(state);
   std::byte* newest = nullptr;
-  while (ring.count > 0) {
+  while (ring.count > 0 && (all || newest == nullptr)) {
     std::byte* const place = slot(state, ring.first);
     const auto& header = *reinterpret_cast<const SampleHeader*>(place);
     if (SimTime{header.stamp_ns} + latency_ > now) break;

@@ -13,18 +13,40 @@ namespace {
 /// Robots that one thread takes at a time. Part of no result; the buffers in the phases rely on it.
 constexpr std::uint32_t kBlockSize = 64;
 
+Status check_pose_source(const RobotType& type, const std::string& robot) {
+  if (!type.pose_from) return {};
+  RAVE_CHECK(*type.pose_from < type.sensors.size());
+  const SensorSpec& sensor = type.sensors[*type.pose_from];
+  if (sensor.kind != ReadingKind::kPose && sensor.kind != ReadingKind::kOdometry) {
+    return fail(ErrorCode::kInvalidArgument,
+                "robot `{}`: `pose_from` needs a pose or odometry, but `{}` gives {}", robot,
+                sensor.name, to_string(sensor.kind));
+  }
+  // A virtual sensor would have to know the pose that it is asked for.
+  if (!type.simulated && sensor.virtual_ops != nullptr) {
+    return fail(ErrorCode::kInvalidArgument,
+                "robot `{}` is real, so `pose_from` needs a real sensor, but `{}` is virtual",
+                robot, sensor.name);
+  }
+  return {};
+}
+
 Status check(const EngineSpec& spec) {
   RAVE_CHECK(spec.robots.size() == spec.world.robots.size());
   if (spec.step.ns <= 0) return fail(ErrorCode::kInvalidArgument, "the step must be above 0 s");
   for (const RobotSpec& robot : spec.robots) {
+    RAVE_CHECK(robot.type < spec.types.size());
     const RobotType& type = spec.types[robot.type];
     if (!type.simulated && !type.pose_from) {
       return fail(ErrorCode::kInvalidArgument,
                   "robot `{}` is real, so something must say where it is: `pose_from`", robot.name);
     }
+    RAVE_TRY(check_pose_source(type, robot.name));
     for (const SensorSpec& sensor : type.sensors) {
       RAVE_CHECK((sensor.virtual_ops == nullptr) != (sensor.hardware_ops == nullptr));
+      RAVE_CHECK(sensor.period_steps > 0);
     }
+    RAVE_CHECK(!type.program || type.program->period_steps > 0);
   }
   return {};
 }
@@ -55,7 +77,9 @@ Engine::Impl::Impl(EngineSpec s)
       workers(pool.threads()),
       resolver(spec.world),
       snapshot(spec.world),
-      past(spec.world) {}
+      past(spec.world) {
+  for (const world::Body& body : spec.world.robots) radius_m.push_back(body.radius_m());
+}
 
 Engine::Impl::~Impl() {
   for (RobotGroup& group : groups) close_group(group);
@@ -104,6 +128,7 @@ void Engine::Impl::set_initial_state() {
   events.clear();
   notes.clear();
   history.clear();
+  past_valid = false;
   movers.resize(count);
   velocity.assign(count, Twist2{});
   proposal.assign(count, Twist2{});
@@ -142,6 +167,7 @@ Status Engine::step() {
   Impl& engine = *impl_;
   engine.now = engine.step_time(engine.step);
   engine.events.clear();
+  engine.past_valid = false;  // samples of this step may change what the past looked like
   RAVE_TRY(engine.ingest());
   engine.sense();
   engine.decide();
@@ -215,11 +241,30 @@ void Engine::flip_percept_bit(RobotId robot, std::uint32_t sensor) noexcept {
   group.sensors[sensor].flip[impl_->member_index[robot.value()]] = 1;
 }
 
+/// Adds to the poses of `past` what is not interpolated, from the last frame up to `stamp`.
+void Engine::Impl::look_back(SimTime stamp) {
+  const HistoryFrame* frame = nullptr;
+  for (auto it = history.rbegin(); it != history.rend() && frame == nullptr; ++it) {
+    if (it->time <= stamp) frame = &*it;
+  }
+  for (std::uint32_t r = 0; frame != nullptr && r < movers.size(); ++r) {
+    world::RobotState state = past.robot(RobotId(r));
+    state.velocity_W = frame->robots[r].velocity_W;
+    past.set_robot(RobotId(r), state);
+    past.set_touch(RobotId(r), frame->touch[r]);
+  }
+  past.set_time(stamp);
+  past.rebuild();
+  past_valid = true;
+}
+
 Result<Pose2> Engine::pose_at(RobotId robot, SimTime stamp) const {
   const Impl& engine = *impl_;
   const std::uint32_t r = robot.value();
   std::optional<Pose2> pose;
-  if (!engine.movers[r].simulated) {
+  if (stamp > engine.now) {
+    // Where a robot will be is not known, even if nothing newer than its last pose is.
+  } else if (!engine.movers[r].simulated) {
     pose = engine.tracks[r].at(stamp);
   } else if (!engine.history.empty() && stamp >= engine.history.front().time &&
              stamp <= engine.history.back().time) {
@@ -247,15 +292,14 @@ Result<SampleHeader> Engine::sample_at(RobotId robot, std::uint32_t sensor, SimT
   if (!slots.is_virtual()) {
     return fail(ErrorCode::kInvalidArgument, "sensor `{}` is not virtual", slots.spec->name);
   }
-  if (engine.past.time() != stamp || stamp.ns == 0) {
+  RAVE_TRY_ASSIGN(const Pose2 X_WR, pose_at(robot, stamp));
+  if (!engine.past_valid || engine.past.time() != stamp) {
     for (std::uint32_t r = 0; r < engine.movers.size(); ++r) {
       const auto pose = pose_at(RobotId(r), stamp);
       engine.past.set_robot(RobotId(r), {pose.value_or(Pose2{}), {}, pose.has_value()});
     }
-    engine.past.set_time(stamp);
-    engine.past.rebuild();
+    engine.look_back(stamp);
   }
-  RAVE_TRY_ASSIGN(const Pose2 X_WR, pose_at(robot, stamp));
   const Pose2 X_WS = compose(X_WR, slots.spec->X_RS);
   SampleHeader header;
   header.stamp_ns = stamp.ns;

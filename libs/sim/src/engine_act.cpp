@@ -7,6 +7,19 @@
 #include "rave/math/transform.hpp"
 
 namespace rave::sim {
+namespace {
+
+bool is_finite(const Command& command) noexcept {
+  return std::all_of(std::begin(command.value), std::end(command.value),
+                     [](double value) { return std::isfinite(value); });
+}
+
+/// One text is kept per batch: that of the last one to fail.
+std::string_view text_for(const ErrorText& error, std::size_t slot) noexcept {
+  return error.slot == slot ? std::string_view(error.text) : "failed, as others did in this step";
+}
+
+}  // namespace
 
 void Engine::Impl::act() {
   pool.for_each_block(blocks.size(),
@@ -58,11 +71,16 @@ void Engine::Impl::control(RobotGroup& group, const Block& block, Worker& worker
                              slots.inputs.data() + block.begin, slots.outputs.data() + block.begin,
                              block.end - block.begin, slots.failed.data() + block.begin, &error);
     for (std::uint32_t m = block.begin; m < block.end; ++m) {
+      std::string_view problem = text_for(error, m - block.begin);
+      if (slots.failed[m] == 0 && !is_finite(slots.outputs[m])) {
+        slots.failed[m] = 1;
+        problem = "gave a command that is not a number";
+      }
       if (slots.failed[m] == 0) continue;
       slots.outputs[m] = {slots.spec->ops->gives, 0, {}};
       if (failed_before[m - block.begin] != 0) continue;
       worker.events.push_back({step, group.members[m], EventKind::kDriverFailed, BodyId(),
-                               fmt::format("controller `{}`: {}", slots.spec->name, error.text)});
+                               fmt::format("controller `{}`: {}", slots.spec->name, problem)});
     }
   }
 }
@@ -101,7 +119,7 @@ void Engine::Impl::actuate(RobotGroup& group, const Block& block, Worker& worker
                                      slots.failed.data() + block.begin, &error);
     for (std::uint32_t m = block.begin; m < block.end; ++m) {
       Twist2 twist = slots.outputs[m];
-      std::string_view problem = error.text;
+      std::string_view problem = text_for(error, m - block.begin);
       if (slots.failed[m] == 0 &&
           !(std::isfinite(twist.vx) && std::isfinite(twist.vy) && std::isfinite(twist.wz))) {
         slots.failed[m] = 1;
@@ -125,7 +143,9 @@ void Engine::Impl::resolve() {
   for (std::uint32_t r = 0; r < movers.size(); ++r) {
     if (!movers[r].simulated) continue;
     const Twist2& twist = proposal[r];
-    slack_m = std::max(slack_m, std::sqrt(twist.vx * twist.vx + twist.vy * twist.vy) * dt_s);
+    // A turn moves what lies off the body's origin.
+    const double speed_mps = std::sqrt(twist.vx * twist.vx + twist.vy * twist.vy);
+    slack_m = std::max(slack_m, (speed_mps + std::abs(twist.wz) * radius_m[r]) * dt_s);
   }
   notes.clear();
   for (std::uint32_t r = 0; r < movers.size(); ++r) {

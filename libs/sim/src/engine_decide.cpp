@@ -60,7 +60,6 @@ void Engine::Impl::decide_block(const Block& block, Worker& worker) {
       // One text is kept per batch: that of the last one to fail.
       const bool own_text = error.slot == m - block.begin;
       fail_program(group, m, own_text ? error.text : "threw an exception", worker.events);
-      continue;
     }
     if (program.failed[m] == 0) accept_commands(group, m, worker.hash);
     mark_consumed(group, m);
@@ -76,7 +75,11 @@ void Engine::Impl::decide_isolated() {
         continue;
       }
       for (std::size_t m = 0; m < group.members.size(); ++m) {
-        if (program.failed[m] == 0) visit(group, m);
+        if (program.failed[m] == 0) {
+          visit(group, m);
+        } else {
+          mark_consumed(group, m);
+        }
       }
     }
   };

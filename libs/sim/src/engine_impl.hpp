@@ -32,6 +32,7 @@ struct Worker {
 struct HistoryFrame {
   SimTime time;
   std::vector<world::RobotState> robots;
+  std::vector<TouchState> touch;
 };
 
 /// The state of an engine. The phases are its functions, each in a file of its own.
@@ -56,6 +57,7 @@ struct Engine::Impl {
   void make_way_for_real_robots();
   void place_robots();
   void remember();
+  void look_back(SimTime stamp);
 
   // engine_sense.cpp: virtual sensors
   void sense();
@@ -107,7 +109,8 @@ struct Engine::Impl {
   std::uint64_t step = 0;
   SimTime now;
   world::Snapshot snapshot;
-  world::Snapshot past;  ///< For sample_at().
+  world::Snapshot past;     ///< For sample_at().
+  bool past_valid = false;  ///< Still shows what is known of its time.
   std::deque<HistoryFrame> history;
   std::vector<Mover> movers;     ///< True poses of simulated, reported poses of real robots.
   std::vector<Twist2> velocity;  ///< Body frame, of the last step.
@@ -119,7 +122,8 @@ struct Engine::Impl {
   std::vector<ReportedPose> reported;
   std::vector<PoseTrack> tracks;
   std::vector<ContactNote> notes;
-  double slack_m = 0;  ///< How far robots may have moved since the snapshot.
+  std::vector<double> radius_m;  ///< Of each robot's body about its origin.
+  double slack_m = 0;            ///< How far robots may have moved since the snapshot.
   std::vector<Event> events;
   RunHash hash;
   FanScratch past_scratch;

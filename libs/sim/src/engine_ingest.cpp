@@ -52,6 +52,7 @@ Status Engine::Impl::ingest_sensor(RobotGroup& group, SensorSlots& slots, std::s
   SampleQueue& queue = *slots.queues[member];
   const auto device = static_cast<std::uint32_t>(&slots - group.sensors.data());
   const RobotId robot = group.members[member];
+  bool lost = slots.live;
   while (true) {
     // Stepped drivers promise what is complete; a full queue must be emptied before they can.
     const auto wait = slots.live || slots.failed[member] != 0
@@ -70,9 +71,12 @@ Status Engine::Impl::ingest_sensor(RobotGroup& group, SensorSlots& slots, std::s
                   spec.robots[robot.value()].name, slots.spec->name, slots.spec->driver,
                   spec.host_timeout.count(), now.seconds());
     }
+    // A stepped driver runs ahead: what it says of its device counts when its samples have been
+    // taken in, not when its thread happened to say it.
+    lost = lost || wait == SampleQueue::Wait::kFailed;
     break;
   }
-  if (slots.failed[member] == 0 && !queue.failure().empty()) {
+  if (lost && slots.failed[member] == 0 && !queue.failure().empty()) {
     slots.failed[member] = 1;
     note({step, robot, EventKind::kDriverFailed, BodyId(),
           fmt::format("sensor `{}`: {}", slots.spec->name, queue.failure())});
@@ -115,16 +119,18 @@ void Engine::Impl::push_hardware_sample(RobotGroup& group, SensorSlots& slots, s
 void Engine::Impl::process_hardware_samples(RobotGroup& group, SensorSlots& slots,
                                             std::size_t member) {
   if (slots.raw_headers[member].fresh != 0) push_hardware_sample(group, slots, member);
-  SampleHeader sample;
-  if (!slots.processing->deliver(now, slots.processing_state_of(member), &sample,
-                                 slots.scratch.data())) {
-    return;
-  }
   SampleHeader& header = slots.headers[member];
-  take_over(slots, sample, slots.scratch.data(), slots.collect && header.fresh != 0, header,
-            slots.records_of(member));
-  header.fresh = 2;
-  note_reported_pose(group, slots, member, sample, slots.scratch.data());
+  std::byte* const state = slots.processing_state_of(member);
+  std::byte* const scratch = slots.scratch.data();
+  SampleHeader sample;
+  // Of states the newest is enough; every event counts, even if several come due in one step.
+  while (slots.collect ? slots.processing->deliver_oldest(now, state, &sample, scratch)
+                       : slots.processing->deliver(now, state, &sample, scratch)) {
+    take_over(slots, sample, scratch, slots.collect && header.fresh != 0, header,
+              slots.records_of(member));
+    header.fresh = 2;
+    note_reported_pose(group, slots, member, sample, scratch);
+  }
 }
 
 void Engine::Impl::note_reported_pose(RobotGroup& group, const SensorSlots& slots,
@@ -194,7 +200,7 @@ void Engine::Impl::make_way_for_real_robots() {
   snapshot.rebuild();
   for (std::uint32_t r = 0; r < movers.size(); ++r) {
     if (movers[r].simulated || !movers[r].present) continue;
-    resolver.make_way(r, snapshot, slack_m, movers, notes);
+    slack_m += resolver.make_way(r, snapshot, slack_m, movers, notes);
   }
 }
 
@@ -253,6 +259,7 @@ void Engine::Impl::remember() {
   frame.time = now;
   frame.robots.resize(movers.size());
   for (std::uint32_t r = 0; r < movers.size(); ++r) frame.robots[r] = snapshot.robot(RobotId(r));
+  frame.touch = touch;
   history.push_back(std::move(frame));
 }
 

@@ -122,8 +122,8 @@ bool Resolver::push_out(std::uint32_t real, std::uint32_t id, std::span<Mover> m
              .distance_m > -kPinnedDepth_m;
 }
 
-void Resolver::make_way(std::uint32_t id, const world::Snapshot& snapshot, double slack_m,
-                        std::span<Mover> movers, std::vector<ContactNote>& notes) {
+double Resolver::make_way(std::uint32_t id, const world::Snapshot& snapshot, double slack_m,
+                          std::span<Mover> movers, std::vector<ContactNote>& notes) {
   const auto obstacles = static_cast<std::uint32_t>(model_->obstacles.size());
   find_near(id, movers[id].X_WR.position(), radius_m_[obstacles + id] + slack_m + 1e-3, snapshot);
   crowd_.clear();
@@ -132,17 +132,23 @@ void Resolver::make_way(std::uint32_t id, const world::Snapshot& snapshot, doubl
       crowd_.push_back(body - obstacles);
     }
   }
+  double pushed_m = 0;
   for (const std::uint32_t robot : crowd_) {
     const Separation gap = world::separation(model_->robots[id], movers[id].X_WR,
                                              model_->robots[robot], movers[robot].X_WR);
     if (gap.distance_m >= kLimits.skin_m) continue;
     find_near(robot, movers[robot].X_WR.position(),
-              radius_m_[obstacles + robot] + kLimits.skin_m - gap.distance_m + slack_m + 1e-3,
+              radius_m_[obstacles + robot] + kMaxPushes * (kLimits.skin_m - gap.distance_m) +
+                  slack_m + pushed_m + 1e-3,
               snapshot);
     ignored_ = obstacles + id;
+    const Vec2 p_before = movers[robot].X_WR.position();
     const bool free = push_out(id, robot, movers);
     notes.push_back({robot, BodyId(obstacles + id), -gap.normal_W, !free});
+    const Vec2 push = movers[robot].X_WR.position() - p_before;
+    pushed_m = std::max(pushed_m, std::sqrt(squared_norm(push)));
   }
+  return pushed_m;
 }
 
 void Resolver::probe(std::uint32_t id, const world::Snapshot& snapshot, double slack_m,

@@ -39,9 +39,10 @@ class Resolver {
             double slack_m, std::span<Mover> movers, std::vector<ContactNote>& notes);
 
   /// Pushes simulated robots out of the real robot `id`, which has just come to its place; one that
-  /// cannot get away is noted as pinned.
-  void make_way(std::uint32_t id, const world::Snapshot& snapshot, double slack_m,
-                std::span<Mover> movers, std::vector<ContactNote>& notes);
+  /// cannot get away is noted as pinned. Returns how far the farthest was pushed: by so much more
+  /// `snapshot` is behind from now on.
+  double make_way(std::uint32_t id, const world::Snapshot& snapshot, double slack_m,
+                  std::span<Mover> movers, std::vector<ContactNote>& notes);
 
   /// What robot `id` touches or overlaps (nearer than `within_m`); the nearest one is noted.
   void probe(std::uint32_t id, const world::Snapshot& snapshot, double slack_m, double within_m,

@@ -140,6 +140,7 @@ Status configure_hardware(const GroupContext& context, RobotGroup& group, Sensor
     RAVE_TRY(called([&](ErrorText* error) {
       return spec.hardware_ops->configure(slots.instances.at(m), &setup, &declaration, error);
     }));
+    if (declaration.capacity == 0) return fail(ErrorCode::kPlugin, "declared room for 0 records");
     slots.capacity = std::max(slots.capacity, declaration.capacity);
     slots.collect = declaration.collect != 0;
     slots.live = declaration.clock == DriverClock::kLive;
@@ -175,6 +176,7 @@ Status make_sensor(const GroupContext& context, RobotGroup& group, SensorSlots& 
 
 Status open_hardware(const GroupContext& context, RobotGroup& group) {
   for (SensorSlots& slots : group.sensors) {
+    slots.open.assign(slots.queues.size(), 0);
     for (std::size_t m = 0; m < slots.queues.size(); ++m) {
       const Status status = called([&](ErrorText* error) {
         return slots.spec->hardware_ops->open(slots.instances.at(m), slots.queues[m].get(), error);
@@ -183,6 +185,7 @@ Status open_hardware(const GroupContext& context, RobotGroup& group) {
         return tl::unexpected(named(context, group.members[m], "sensor", slots.spec->name,
                                     slots.spec->driver, status.error()));
       }
+      slots.open[m] = 1;
     }
   }
   return {};
@@ -371,8 +374,9 @@ Status reset_group(GroupContext context, RobotGroup& group) {
 void close_group(RobotGroup& group) noexcept {
   for (SensorSlots& slots : group.sensors) {
     for (auto& queue : slots.queues) queue->close();
-    for (std::size_t m = 0; m < slots.queues.size(); ++m) {
-      slots.spec->hardware_ops->close(slots.instances.at(m));
+    for (std::size_t m = 0; m < slots.open.size(); ++m) {
+      if (slots.open[m] != 0) slots.spec->hardware_ops->close(slots.instances.at(m));
+      slots.open[m] = 0;
     }
   }
   for (ActuatorSlots& slots : group.actuators) {

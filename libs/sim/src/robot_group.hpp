@@ -38,6 +38,7 @@ struct SensorSlots {
   std::vector<std::uint8_t> failed;
   std::vector<std::uint8_t> flip;  ///< Test hook: change a bit of the next delivery.
   std::vector<std::unique_ptr<SampleQueue>> queues;
+  std::vector<std::uint8_t> open;  ///< Hardware: has to be closed.
   std::vector<std::byte> scratch;  ///< Hardware: one sample on its way.
 
   [[nodiscard]] bool is_virtual() const noexcept { return spec->virtual_ops != nullptr; }

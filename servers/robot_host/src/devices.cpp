@@ -300,6 +300,12 @@ Status set_pose_source(const config::RobotGroup& group, sim::RobotType& type) {
                      "`pose_from` needs a sensor that gives a pose or odometry, but `{}` gives {}",
                      name.value, to_string(kind));
     }
+    if (!type.simulated && type.sensors[s].virtual_ops != nullptr) {
+      return fail_at(name.where, ErrorCode::kInvalidArgument,
+                     "robot `{}` is real, so `pose_from` needs a real sensor, but `{}` (driver "
+                     "`{}`) is virtual",
+                     group.name.value, name.value, type.sensors[s].driver);
+    }
     type.pose_from = s;
   }
   const config::PoseFile& frame = group.robot.source_frame;

@@ -9,10 +9,12 @@ void HitCounter::after_step(sim::Engine& engine) {
     const sim::RobotType& type = spec.types[spec.robots[r].type];
     for (std::uint32_t s = 0; s < type.sensors.size(); ++s) {
       const sim::SensorSample sample = engine.sensor(RobotId(r), s);
-      if (sample.bodies.empty() || sample.header->stamp_ns != engine.time().ns ||
-          sample.header->sequence == 0) {
-        continue;
-      }
+      // `bodies` belong to the newest scan, which latency may keep from the program for a while.
+      const std::uint64_t step = engine.steps_done() - 1;
+      const sim::SensorSpec& sensor = type.sensors[s];
+      const bool due =
+          step >= sensor.phase_steps && (step - sensor.phase_steps) % sensor.period_steps == 0;
+      if (sample.bodies.empty() || !due || !engine.snapshot().robot(RobotId(r)).present) continue;
       const std::string_view who = type.simulated ? "simulated" : "real";
       for (const std::uint32_t body : sample.bodies) {
         const std::string_view what = body == BodyId::kNone ? "nothing" : kinds_->word(body);

@@ -74,7 +74,10 @@ Json streams_json(const Findings& findings) {
       // A driver's text is not ours: what is no JSON is kept as text.
       const Json report = Json::parse(findings.engine.sensor_report(RobotId(r), s), nullptr, false);
       if (report.is_object()) {
-        stream.update(report);
+        // What the data calls its robot need not be what the scenario calls it.
+        for (const auto& [key, value] : report.items()) {
+          stream[stream.contains(key) ? "source_" + key : key] = value;
+        }
       } else {
         stream["report"] = findings.engine.sensor_report(RobotId(r), s);
       }

@@ -78,7 +78,8 @@ class Processing {
 
   /// Bytes per robot and sensor, a multiple of 8.
   [[nodiscard]] std::size_t state_size() const noexcept { return state_size_; }
-  /// Samples that can be under way at once: latency over period plus one; 64 for irregular ones.
+  /// Samples that can be under way at once: latency over period plus one; for irregular ones those
+  /// of 200 a second, at least 64.
   [[nodiscard]] std::uint32_t depth() const noexcept { return depth_; }
   /// Forgets everything; equal bits each time.
   void reset(std::byte* state) const noexcept;
@@ -95,6 +96,10 @@ class Processing {
   /// `sequence` and `fresh` are those of the raw sample. An empty sample passes the filters by.
   bool deliver(SimTime now, std::byte* state, SampleHeader* out, void* out_records) const noexcept;
 
+  /// As deliver(), but stops after the oldest sample that is due: for events, which all count.
+  bool deliver_oldest(SimTime now, std::byte* state, SampleHeader* out,
+                      void* out_records) const noexcept;
+
   /// The noise alone, in place: enough where there is neither latency nor filter. Drop-out may
   /// lower `header.count`; nothing else of the header changes.
   void apply_noise(SampleHeader& header, void* records, RandomStream random) const noexcept;
@@ -105,6 +110,8 @@ class Processing {
     std::size_t offset = 0;  ///< Of the filter's memory in the state.
   };
   Processing() = default;
+  bool deliver_some(SimTime now, bool all, std::byte* state, SampleHeader* out,
+                    void* out_records) const noexcept;
   [[nodiscard]] std::byte* slot(std::byte* state, std::uint32_t index) const noexcept;
   void filter(const Stage& stage, const SampleHeader& header, void* records,
               std::byte* state) const noexcept;

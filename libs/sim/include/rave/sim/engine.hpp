@@ -90,8 +90,8 @@ class Engine {
   /// Events of the last step, ordered by robot.
   [[nodiscard]] std::span<const Event> events() const noexcept;
   [[nodiscard]] RunHash hash() const noexcept;
-  /// Changes one bit of the newest delivered percept of a robot's sensor before it is hashed, in
-  /// the next step only. For the test that the hash notices.
+  /// Changes one bit of the next percept of a robot's sensor that has records, before it is
+  /// delivered and hashed. For the test that the hash notices.
   void flip_percept_bit(RobotId robot, std::uint32_t sensor) noexcept;
 
   /// What a virtual sensor of `robot` reads at `stamp`, within the history: the world and the

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <benchmark/benchmark.h>
+
+#include "../libs/sim/tests/engine_drivers.hpp"
+#include "rave/sim/engine.hpp"
+
+namespace {
+
+using namespace rave;
+using namespace rave::sim;
+using namespace rave::sim::testing;
+
+/// `count` robots with a laser of 16 rays and 3 m that roam a field with one robot on 4 m^2.
+EngineSpec crowd(std::uint32_t count, unsigned threads) {
+  static constexpr VirtualActuatorOps kWheels = rave::detail::virtual_actuator_ops<Wheels>();
+  static constexpr ControllerOps kPass = rave::detail::controller_ops<Pass>();
+  EngineSpec spec;
+  spec.threads = threads;
+  RobotType type;
+  SensorSpec laser;
+  laser.name = laser.driver = "laser";
+  laser.kind = ReadingKind::kRanges;
+  laser.virtual_ops = sensor_ops<Laser>();
+  laser.params.add_number("rays", 16);
+  laser.params.add_number("fov_rad", 4);
+  laser.params.add_number("range_m", 3);
+  laser.z_m = 0.1;
+  type.sensors.push_back(std::move(laser));
+  ActuatorSpec wheels;
+  wheels.name = wheels.driver = "wheels";
+  wheels.virtual_ops = &kWheels;
+  type.actuators.push_back(std::move(wheels));
+  ControllerSpec drive;
+  drive.name = drive.driver = "drive";
+  drive.ops = &kPass;
+  drive.accepts = CommandKind::kVelocity;
+  type.controllers.push_back(std::move(drive));
+  type.program.emplace();
+  type.program->driver = "roam";
+  type.program->ops = program_table<Roam>();
+  spec.types.push_back(std::move(type));
+  std::uint32_t columns = 1;
+  while (columns * columns < count) ++columns;
+  for (std::uint32_t r = 0; r < count; ++r) {
+    world::Body body;
+    body.shapes.push_back(world::make_disc({}, 0.15, 0, 0.3).value());
+    body.layer = Layer::kSimulatedRobots;
+    spec.world.robots.push_back(std::move(body));
+    spec.robots.push_back(
+        {std::to_string(r), "", 0, {2.0 * (r % columns), 2.0 * (r / columns), 0.1 * (r % 60)}});
+  }
+  return spec;
+}
+
+void engine_step(benchmark::State& state) {
+  const auto count = static_cast<std::uint32_t>(state.range(0));
+  const auto engine = Engine::create(crowd(count, static_cast<unsigned>(state.range(1)))).value();
+  for (auto _ : state) {
+    if (!engine->step()) state.SkipWithError("the run ended");
+  }
+  state.counters["robot_steps"] = benchmark::Counter(
+      static_cast<double>(state.iterations()) * count, benchmark::Counter::kIsRate);
+}
+BENCHMARK(engine_step)
+    ->Args({1000, 1})
+    ->Args({1000, 2})
+    ->Unit(benchmark::kMicrosecond)
+    ->UseRealTime();
+
+}  // namespace

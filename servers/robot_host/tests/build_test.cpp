@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host_fixture.hpp"
+
+namespace rave::robot_host::testing {
+namespace {
+
+std::string one(const std::string& devices, const std::string& place = "pose: {x_m: 0, y_m: 0}") {
+  return scenario_text("  - name: anna\n    " + place + "\n    robot: {" + kBody + ", " + devices +
+                       "}\n");
+}
+
+TEST(Build, TakesAGoodScenario) {
+  Host host;
+  EXPECT_EQ(host.error_of(one(kWheels)), "none");
+  const auto built = host.build_text(
+      one("sensors: [{name: laser, driver: virtual_laser, period_s: 0.1, phase_s: 0.02, mount: "
+          "{z_m: 0.1}, senses: [mapped_real]}], " +
+              kWheels + ", program: {driver: wander, period_s: 0.05}",
+          "pose: {x_m: 1, y_m: 2, yaw_deg: 90}"));
+  ASSERT_TRUE(built.has_value()) << built.error().text();
+  const sim::RobotType& type = built->spec.types.at(0);
+  EXPECT_TRUE(type.simulated);
+  EXPECT_EQ(type.sensors.at(0).period_steps, 10U);
+  EXPECT_EQ(type.sensors.at(0).phase_steps, 2U);
+  EXPECT_EQ(type.sensors.at(0).layers, static_cast<LayerMask>(Layer::kMappedReal));
+  EXPECT_EQ(type.program->period_steps, 5U);
+  EXPECT_EQ(built->spec.robots.at(0).X_WR.x, 1);
+  EXPECT_NEAR(built->spec.robots.at(0).X_WR.yaw, 1.5707963267948966, 1e-15);
+}
+
+TEST(BuildErrors, AnUnknownDriverNamesTheNearestAndThoseThereAre) {
+  Host host;
+  const std::string error =
+      host.error_of(one("sensors: [{name: eye, driver: virtual_lazer}], " + kWheels));
+  EXPECT_EQ(error.find("s.yaml:6:"), 0U) << error;
+  EXPECT_NE(error.find("`virtual_lazer`"), std::string::npos) << error;
+  EXPECT_NE(error.find("virtual_laser"), std::string::npos) << error;
+  EXPECT_NE(error.find("virtual_sonar"), std::string::npos) << error;
+}
+
+TEST(BuildErrors, AParameterThatIsWrongPointsAtItsPlace) {
+  Host host;
+  const std::string range = host.error_of(
+      one("sensors: [{name: eye, driver: virtual_laser, params: {range_max_m: -1}}], " + kWheels));
+  EXPECT_EQ(range.find("s.yaml:6:"), 0U) << range;
+  EXPECT_NE(range.find("`range_max_m`"), std::string::npos) << range;
+  const std::string name = host.error_of(
+      one("sensors: [{name: eye, driver: virtual_laser, params: {rayz: 5}}], " + kWheels));
+  EXPECT_EQ(name.find("s.yaml:6:"), 0U) << name;
+  EXPECT_NE(name.find("`rayz`"), std::string::npos) << name;
+  EXPECT_NE(name.find("`rays`"), std::string::npos) << name;
+}
+
+TEST(BuildErrors, ARealRobotMustSayWhereItIs) {
+  Host host;
+  const std::string deaf =
+      "actuators: [{name: wheels, driver: replay_ignored}], controllers: [{name: drive, driver: "
+      "velocity, actuator: wheels}]";
+  const std::string silent = host.error_of(one(deaf));
+  EXPECT_EQ(silent.find("s.yaml:6:"), 0U) << silent;
+  EXPECT_NE(silent.find("robot `anna` is real, so others can sense it only if something says where "
+                        "it is: expected `pose_from:` with the name of a sensor that gives a pose "
+                        "or odometry"),
+            std::string::npos)
+      << silent;
+  const std::string circular = host.error_of(
+      one(deaf + ", sensors: [{name: gps, driver: indoor_positioning}], pose_from: gps"));
+  EXPECT_NE(circular.find("robot `anna` is real, so `pose_from` needs a real sensor, but `gps` "
+                          "(driver `indoor_positioning`) is virtual"),
+            std::string::npos)
+      << circular;
+}
+
+TEST(BuildErrors, PoseFromNeedsAPose) {
+  Host host;
+  const std::string error = host.error_of(
+      one("sensors: [{name: eye, driver: virtual_laser}], pose_from: eye, " + kWheels));
+  EXPECT_NE(error.find("`pose_from` needs a sensor that gives a pose or odometry, but `eye` gives "
+                       "ranges"),
+            std::string::npos)
+      << error;
+}
+
+TEST(BuildErrors, SensesIsForVirtualSensors) {
+  Host host;
+  const std::string error = host.error_of(
+      one("sensors: [{name: mocap, driver: utias_mocap, senses: [mapped_real], params: {folder: x, "
+          "robot: 1}}], pose_from: mocap"));
+  EXPECT_EQ(error.find("s.yaml:6:"), 0U) << error;
+  EXPECT_NE(error.find("`senses` is for virtual sensors; the driver `utias_mocap` of sensor "
+                       "`mocap` is real"),
+            std::string::npos)
+      << error;
+}
+
+TEST(BuildErrors, OneActuatorMovesABody) {
+  Host host;
+  const std::string two =
+      host.error_of(one("actuators: [{name: a, driver: differential_drive}, {name: b, driver: "
+                        "differential_drive}]"));
+  EXPECT_NE(two.find("actuators `a` and `b` both move the body; one can"), std::string::npos)
+      << two;
+  const std::string mixed = host.error_of(
+      one("actuators: [{name: a, driver: differential_drive}, {name: b, driver: replay_ignored}]"));
+  EXPECT_NE(mixed.find("actuator `a` is simulated and `b` is real; a robot is the one or the "
+                       "other"),
+            std::string::npos)
+      << mixed;
+}
+
+TEST(BuildErrors, ARobotThatStartsInsideSomethingIsToldWhatAndHowDeep) {
+  Host host;
+  const std::string error = host.error_of(scenario_text(
+      "  - {name: anna, pose: {x_m: 0.6, y_m: 0}, robot: {" + kBody + ", " + kWheels + "}}\n",
+      "obstacles: [{name: crate, box_m: [1, 1], x_m: 0, y_m: 0, z_m: [0, 1]}]\n"));
+  EXPECT_NE(error.find("robot `anna` starts inside `crate` (0.050 m deep); expected a free place"),
+            std::string::npos)
+      << error;
+  const std::string twins =
+      host.error_of(scenario_text("  - {name: anna, poses: [[0, 0, 0], [0.2, 0, 0]], robot: {" +
+                                  kBody + ", " + kWheels + "}}\n"));
+  EXPECT_NE(twins.find("robot `anna-2` starts inside `anna-1` (0.100 m deep)"), std::string::npos)
+      << twins;
+}
+
+TEST(BuildErrors, ASimulatedRobotMustBePutSomewhere) {
+  Host host;
+  const std::string error =
+      host.error_of(scenario_text("  - {name: anna, robot: {" + kBody + ", " + kWheels + "}}\n"));
+  EXPECT_NE(error.find("robot `anna` is simulated and must be put somewhere: expected `pose`, "
+                       "`poses` or `scatter`"),
+            std::string::npos)
+      << error;
+}
+
+TEST(BuildErrors, ScatterThatIsTooFullSaysSo) {
+  Host host;
+  const std::string error = host.error_of(
+      scenario_text("  - {name: anna, scatter: {count: 12, x_m: [0, 1], y_m: [0, 0.2]}, robot: {" +
+                    kBody + ", " + kWheels + "}}\n"));
+  EXPECT_NE(error.find("after 10000 tries: `scatter` asks for too many robots, or for more "
+                       "clearance than x_m 0 to 1 and y_m 0 to 0.2 leave"),
+            std::string::npos)
+      << error;
+}
+
+TEST(Build, ScatteredRobotsKeepTheirClearanceAndFollowTheSeed) {
+  Host host;
+  const auto places = [&host](int seed) {
+    const auto built = host.build_text(scenario_text(
+        "  - {name: anna, scatter: {count: 30, x_m: [0, 5], y_m: [0, 5], clearance_m: 0.2}, robot: "
+        "{" +
+            kBody + ", " + kWheels + "}}\n",
+        "seed: " + std::to_string(seed) + "\n"));
+    EXPECT_TRUE(built.has_value());
+    std::vector<Vec2> all;
+    for (const sim::RobotSpec& robot : built->spec.robots) all.push_back(robot.X_WR.position());
+    return all;
+  };
+  const std::vector<Vec2> first = places(1);
+  ASSERT_EQ(first.size(), 30U);
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      EXPECT_GE(squared_norm(first[i] - first[k]), 0.25 - 1e-12);
+    }
+  }
+  EXPECT_EQ(places(1), first);
+  EXPECT_NE(places(2), first);
+}
+
+}  // namespace
+}  // namespace rave::robot_host::testing

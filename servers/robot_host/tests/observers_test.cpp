@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "../src/encounters.hpp"
+#include "../src/hit_counter.hpp"
+#include "../src/sighting_check.hpp"
+#include "host_fixture.hpp"
+
+namespace rave::robot_host::testing {
+namespace {
+
+std::string standing(const std::string& name, double x_m, double y_m,
+                     const std::string& more = {}) {
+  return fmt::format("  - {{name: {}, pose: {{x_m: {}, y_m: {}}}, robot: {{{}, {}{}}}}}\n", name,
+                     x_m, y_m, kBody, kWheels, more);
+}
+
+/// Five rays ahead over 4 degrees, 3 m, every 0.1 s.
+std::string laser(const std::string& more = {}) {
+  return ", sensors: [{name: laser, driver: virtual_laser, period_s: 0.1, mount: {z_m: 0.1}, "
+         "params: {rays: 5, fov_deg: 4, range_max_m: 3}" +
+         more + "}]";
+}
+
+/// The five recorded robots among what `world` says, for two minutes.
+std::string recorded(const std::string& world) {
+  std::string text = "name: recorded\nduration_s: 120\nhistory_s: 1\n" + world + "robots:\n";
+  const int codes[] = {5, 14, 41, 32, 23};
+  for (int robot = 1; robot <= 5; ++robot) {
+    text += fmt::format(
+        "  - {{name: real-{}, file: ../robots/recorded-create.yaml, variables: {{robot: {}, "
+        "barcode: {}}}}}\n",
+        robot, robot, codes[robot - 1]);
+  }
+  return text;
+}
+
+TEST(Encounters, KeepsTheClosestOfEachKindOfPair) {
+  Host host;
+  const auto engine = host.engine_of(scenario_text(
+      standing("a", 0, 0) + standing("b", 1, 0) + standing("c", 1, 0.5) + standing("far", 50, 0),
+      "obstacles: [{name: crate, box_m: [1, 1], x_m: -1.2, y_m: 0, z_m: [0, 1]}, {name: high, "
+      "box_m: [1, 1], x_m: 1, y_m: -0.7, z_m: [1, 2]}]\n"));
+  const BodyKinds kinds(engine->spec(), host.kinds());
+  Encounters encounters(kinds, engine->spec());
+  EXPECT_EQ(encounters.headline(), "");
+  for (int k = 0; k < 3; ++k) {
+    ASSERT_TRUE(engine->step().has_value());
+    encounters.after_step(*engine);
+  }
+  // What hangs above the robots is no encounter.
+  ASSERT_EQ(encounters.closest().size(), 2U);
+  const Encounter& robots = encounters.closest().at("simulated-simulated");
+  EXPECT_NEAR(robots.gap_m, 0.2, 1e-9);
+  EXPECT_NEAR(robots.centres_m, 0.5, 1e-9);
+  EXPECT_EQ(robots.time_s, 0);
+  EXPECT_EQ(kinds.name(robots.a), "b");
+  EXPECT_EQ(kinds.name(robots.b), "c");
+  EXPECT_NEAR(encounters.closest().at("simulated-virtual_obstacle").gap_m, 0.55, 1e-9);
+  EXPECT_EQ(encounters.headline(), "closest simulated-simulated 0.20 m");
+}
+
+TEST(HitCounter, CountsEachScanOnceByWhatItMet) {
+  for (const char* const more : {"", ", latency_s: 0.13"}) {
+    Host host;
+    const auto engine = host.engine_of(
+        scenario_text(standing("a", 0, 0, laser(more)) + standing("b", 1, 0, laser(more)),
+                      "obstacles: [{name: wall, box_m: [1, 9], x_m: 3.5, y_m: 0, z_m: [0, 1]}]\n"));
+    const BodyKinds kinds(engine->spec(), host.kinds());
+    HitCounter hits(kinds);
+    for (int k = 0; k < 21; ++k) {
+      ASSERT_TRUE(engine->step().has_value());
+      hits.after_step(*engine);
+    }
+    // Scans in steps 0, 10 and 20, five rays each: a sees b, b sees the wall.
+    const auto counts = hits.counts();
+    ASSERT_EQ(counts.size(), 1U) << more;
+    EXPECT_EQ(counts.at("simulated").size(), 2U);
+    EXPECT_EQ(counts.at("simulated").at("simulated"), 15U) << more;
+    EXPECT_EQ(counts.at("simulated").at("virtual_obstacle"), 15U) << more;
+  }
+}
+
+TEST(SightingCheck, ConfirmsARecordedCameraAndFailsWithTightLimits) {
+  for (const bool generous : {true, false}) {
+    Host host;
+    const auto engine = host.engine_of(recorded("world: ../worlds/utias.yaml\n"));
+    ASSERT_NE(engine, nullptr);
+    config::SightingsCheckFile file;
+    file.real.value = "camera";
+    file.twin.value = "camera_twin";
+    if (!generous) file.range_m = 0.001;
+    SightingCheck check(file, engine->spec());
+    EXPECT_FALSE(check.holds()) << "nothing was seen yet";
+    for (int k = 0; k < 12000; ++k) {
+      ASSERT_TRUE(engine->step().has_value());
+      check.after_step(*engine);
+    }
+    EXPECT_GT(check.all().total, 500U);
+    EXPECT_EQ(check.by_robot().size(), 5U);
+    EXPECT_EQ(check.holds(), generous) << check.all().within_pct();
+  }
+}
+
+TEST(SightingCheck, CountsCodesThatTheWorldDoesNotKnow) {
+  Host host;
+  const auto engine = host.engine_of(recorded(""));
+  config::SightingsCheckFile file;
+  file.real.value = "camera";
+  file.twin.value = "camera_twin";
+  SightingCheck check(file, engine->spec());
+  for (int k = 0; k < 12000; ++k) {
+    ASSERT_TRUE(engine->step().has_value());
+    check.after_step(*engine);
+  }
+  // Without the tubes only the robots themselves are known.
+  EXPECT_GT(check.all().unknown, 500U);
+  std::uint64_t sum = 0;
+  for (const auto& [code, count] : check.unknown_codes()) sum += count;
+  EXPECT_EQ(sum, check.all().unknown);
+  for (const int robot_code : {5, 14, 41, 32, 23}) {
+    EXPECT_FALSE(check.unknown_codes().contains(robot_code));
+  }
+}
+
+}  // namespace
+}  // namespace rave::robot_host::testing

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/robot_host/run.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "host_fixture.hpp"
+#include "rave/base/file.hpp"
+
+namespace rave::robot_host::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Runs a scenario into a folder of its own; gives what result.json says.
+Json result_of(const std::string& text, const std::string& name, RunOutcome& outcome) {
+  Host host;
+  const auto scenario = host.expand(text);
+  if (!scenario) {
+    ADD_FAILURE() << scenario.error().text();
+    return {};
+  }
+  RunOptions options;
+  options.output = std::filesystem::path(::testing::TempDir()) / ("rave_run_" + name);
+  std::filesystem::remove_all(options.output);
+  options.picture = false;
+  const auto run_outcome = run(*scenario, host.catalogue(), options);
+  if (!run_outcome) {
+    ADD_FAILURE() << run_outcome.error().text();
+    return {};
+  }
+  outcome = *run_outcome;
+  for (const char* const file : {"summary.txt", "events.log", "scenario.yaml"}) {
+    EXPECT_TRUE(std::filesystem::exists(options.output / file)) << file;
+  }
+  const auto json = read_file(options.output / "result.json");
+  EXPECT_TRUE(json.has_value());
+  std::filesystem::remove_all(options.output);
+  return Json::parse(json.value_or("{}"));
+}
+
+TEST(Run, ResultHasEverythingThatAnExperimenterNeeds) {
+  RunOutcome outcome;
+  const Json result = result_of(
+      "name: recorded\nduration_s: 45\nworld: ../worlds/utias.yaml\npace: max\nrobots:\n"
+      "  - {name: real-1, file: ../robots/recorded-create.yaml, variables: {robot: 1, barcode: 5}, "
+      "pose: {x_m: 0.66, y_m: 1.4}}\n"
+      "  - {name: walker, file: ../robots/wanderer.yaml, scatter: {count: 3, x_m: [0.3, 4.6], y_m: "
+      "[-3.2, 4.6], clearance_m: 0.35}}\n"
+      "checks:\n  sightings: {real: camera, twin: camera_twin, min_within_pct: 80}\n",
+      "full", outcome);
+  EXPECT_EQ(result.at("scenario"), "recorded");
+  EXPECT_EQ(result.at("whole"), outcome.whole);
+  EXPECT_TRUE(outcome.whole) << result.at("problems");
+  EXPECT_EQ(result.at("steps"), 4500);
+  EXPECT_EQ(result.at("hash"), outcome.hash);
+  EXPECT_EQ(outcome.hash.size(), 16U);
+  const Json& sightings = result.at("sightings");
+  EXPECT_GT(sightings.at("total"), 0);
+  EXPECT_TRUE(sightings.contains("unknown"));
+  EXPECT_GT(sightings.at("within_pct"), 80);
+  EXPECT_TRUE(sightings.at("unknown_codes").is_array());
+  EXPECT_EQ(sightings.at("robots").at("real-1").at("total"), sightings.at("total"));
+  EXPECT_TRUE(result.at("hits").contains("real"));
+  EXPECT_TRUE(result.at("hits").contains("simulated"));
+  for (const auto& [pair, closest] : result.at("closest").items()) {
+    EXPECT_TRUE(closest.contains("gap_m") && closest.contains("time_s")) << pair;
+  }
+  EXPECT_TRUE(result.at("closest").contains("real-landmark"));
+  ASSERT_EQ(result.at("streams").size(), 3U);
+  for (const Json& stream : result.at("streams")) {
+    EXPECT_EQ(stream.at("robot"), "real-1");
+    for (const char* const key : {"sha256", "first_stamp_s", "last_stamp_s", "rate_hz", "gaps",
+                                  "largest_age_s", "repairs", "start_s", "end_s"}) {
+      EXPECT_TRUE(stream.contains(key)) << stream.at("sensor") << " lacks " << key << "\n"
+                                        << stream;
+    }
+  }
+  ASSERT_EQ(result.at("robots").size(), 4U);
+  EXPECT_FALSE(result.at("robots").at(0).at("obeys"));
+  EXPECT_TRUE(result.at("robots").at(1).at("obeys"));
+}
+
+TEST(Run, GivesTheSameHashForAnyNumberOfThreadsAndAnotherForAnotherSeed) {
+  const auto hash = [](const std::string& settings) {
+    RunOutcome outcome;
+    result_of("name: crowd\nduration_s: 3\npace: max\n" + settings +
+                  "robots:\n  - {name: walker, file: ../robots/wanderer.yaml, scatter: {count: 70, "
+                  "x_m: [0, 6], y_m: [0, 6]}}\n",
+              "hash", outcome);
+    EXPECT_TRUE(outcome.whole);
+    return outcome.hash;
+  };
+  const std::string one = hash("threads: 1\n");
+  EXPECT_EQ(hash("threads: 3\n"), one);
+  EXPECT_NE(hash("seed: 2\n"), one);
+}
+
+TEST(Run, IsNotWholeWhenARecordingHasNoPoseOfItsRobot) {
+  RunOutcome outcome;
+  // Nothing of the first step is known yet of a robot whose first pose comes later.
+  const Json result = result_of(
+      "name: early\nduration_s: 0.01\npace: max\nchecks:\n  sightings: {real: camera, twin: "
+      "camera_twin}\nrobots:\n  - {name: real-1, file: ../robots/recorded-create.yaml, variables: "
+      "{robot: 1, barcode: 5}}\n",
+      "early", outcome);
+  EXPECT_FALSE(outcome.checks_hold);
+  EXPECT_FALSE(result.at("checks_hold"));
+  ASSERT_FALSE(outcome.problems.empty());
+  EXPECT_NE(outcome.problems.back().find("the sighting check fails: 0 of 0"), std::string::npos)
+      << outcome.problems.back();
+}
+
+}  // namespace
+}  // namespace rave::robot_host::testing

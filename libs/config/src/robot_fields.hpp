@@ -64,7 +64,7 @@ void describe(V& v, NoiseFile& c) {
 template <class V>
 void describe(V& v, MedianFilterFile& c) {
   v.field("window", c.window,
-          {.doc = "Readings that it looks at, an odd number.", .min = 1, .max = 101});
+          {.doc = "Readings that it looks at, an odd number.", .min = 1, .max = 99});
 }
 
 void validate(const MedianFilterFile& c, CheckContext& check);

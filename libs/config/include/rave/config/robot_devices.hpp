@@ -37,7 +37,7 @@ struct NoiseFile {
 };
 
 struct MedianFilterFile {
-  int window = 5;  ///< Readings, odd, 1 to 101.
+  int window = 5;  ///< Readings, odd, 1 to 99.
   bool operator==(const MedianFilterFile&) const = default;
 };
 

@@ -82,7 +82,24 @@ Engine::Impl::Impl(EngineSpec s)
 }
 
 Engine::Impl::~Impl() {
+  tell_complaints();
   for (RobotGroup& group : groups) close_group(group);
+}
+
+void Engine::Impl::tell_complaints() const {
+  if (spec.log == nullptr) return;
+  for (const RobotGroup& group : groups) {
+    for (const SensorSlots& slots : group.sensors) {
+      for (std::size_t m = 0; m < slots.queues.size(); ++m) {
+        const std::string complaint = slots.queues[m]->complaint();
+        if (complaint.empty()) continue;
+        spec.log->warn(
+            logs[group.members[m].value()].source,
+            "sensor `{}` (driver `{}`) broke its contract; samples dropped: {}; first: {}",
+            slots.spec->name, slots.spec->driver, slots.queues[m]->dropped(), complaint);
+      }
+    }
+  }
 }
 
 Status Engine::Impl::make() {
@@ -114,6 +131,7 @@ Status Engine::Impl::make() {
 }
 
 Status Engine::Impl::reset() {
+  tell_complaints();
   for (RobotGroup& group : groups) RAVE_TRY(reset_group({spec, logs}, group));
   set_initial_state();
   return {};

@@ -43,6 +43,9 @@ struct Engine::Impl {
   Status make();
   Status reset();
   void set_initial_state();
+  /// What drivers did wrong with their samples. Told at the end, since when their threads did it is
+  /// chance.
+  void tell_complaints() const;
 
   // engine_ingest.cpp: samples of hardware, reported poses, the snapshot of this step
   Status ingest();

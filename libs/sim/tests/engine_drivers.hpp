@@ -249,6 +249,7 @@ class Recording final : public HardwareSensor {
     gap_end_s_ = params.number("gap_end_s");
     fail_s_ = params.number("fail_s");
     silent_ = params.flag("silent");
+    steps_back_ = params.flag("steps_back");
     if (params.flag("live")) declaration.clock = DriverClock::kLive;
     return {};
   }
@@ -276,6 +277,7 @@ class Recording final : public HardwareSensor {
       if (!sink.wait_until(stamp)) return;
       const PoseReading pose{x_m_ + vx_mps_ * t_s, y_m_ + vy_mps_ * t_s, 0, 0, 0};
       if (!sink.publish(stamp, &pose, 1)) return;
+      if (steps_back_ && k == 3 && !sink.publish(SimTime{}, &pose, 1)) return;
     }
     sink.complete_up_to(kEver);
   }
@@ -289,6 +291,7 @@ class Recording final : public HardwareSensor {
   double gap_end_s_ = 0;
   double fail_s_ = 0;
   bool silent_ = false;
+  bool steps_back_ = false;
   std::thread thread_;
 };
 

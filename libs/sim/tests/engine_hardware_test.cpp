@@ -75,6 +75,30 @@ TEST(EngineHardware, AStalePoseIsToldAndSoIsItsReturn) {
   EXPECT_NEAR(engine->reported(real).velocity.vx, 0.1, 1e-9);
 }
 
+/// Keeps what it is told.
+class Ears final : public LogSink {
+ public:
+  void write(LogLevel, std::string_view source, std::string_view message) override {
+    heard += fmt::format("{}: {}\n", source, message);
+  }
+  std::string heard;
+};
+
+TEST(EngineHardware, SamplesThatHadToBeDroppedAreToldAtTheEnd) {
+  Ears ears;
+  EngineSpec spec;
+  spec.log = &ears;
+  add_robot(spec, real_type({{"steps_back", 1}}));
+  auto engine = make_engine(std::move(spec));
+  EXPECT_TRUE(of_kind(run(*engine, 20), EventKind::kDriverFailed).empty());
+  EXPECT_EQ(ears.heard, "");
+  engine.reset();
+  EXPECT_EQ(ears.heard,
+            "robot r0: sensor `mocap` (driver `mocap`) broke its contract; samples dropped: 1; "
+            "first: the sample of 0.000000000 s was dropped: it came after one of 0.021000000 s; "
+            "stamps must not step back\n");
+}
+
 TEST(EngineHardware, CommandsToADeafRobotAreCounted) {
   EngineSpec spec;
   RobotType type = real_type({});

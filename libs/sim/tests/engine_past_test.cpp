@@ -16,11 +16,15 @@ EngineSpec moving_world() {
   RobotType turning = simulated_type();
   turning.program = program<Drive>({{"v", 0.5}, {"w", 1}});
   add_robot(spec, std::move(turning), {0, 2, 0});
+  RobotType watching = simulated_type();
+  watching.sensors.push_back(laser(1, 0, 9));
+  add_robot(spec, std::move(watching), {-1, 0, 0});
   return spec;
 }
 
 constexpr RobotId kReal(0);
 constexpr RobotId kTurning(1);
+constexpr RobotId kWatching(2);  // stands behind the real one and looks at it
 
 double range_at(Engine& engine, double t_s) {
   float reading = -1;
@@ -30,6 +34,12 @@ double range_at(Engine& engine, double t_s) {
     EXPECT_EQ(header->stamp_ns, from_seconds(t_s).ns);
   }
   return double{reading};
+}
+
+double seen_x_m(Engine& engine, double t_s) {
+  float reading = -1;
+  EXPECT_TRUE(engine.sample_at(kWatching, 0, {from_seconds(t_s).ns}, &reading).has_value());
+  return double{reading} - 1 + 0.15;
 }
 
 TEST(EnginePast, PosesLieOnTheWaysThatWereDriven) {
@@ -85,20 +95,24 @@ TEST(EnginePast, LearnsFromSamplesThatComeLater) {
   run(*engine, 101);
   // Of 1.00 s only the pose of 0.994 s is known; one step later that of 1.008 s is, too.
   EXPECT_NEAR(range_at(*engine, 1.0), 3 - 0.5 * 0.994, 1e-6);
+  EXPECT_NEAR(seen_x_m(*engine, 1.0), 0.5 * 0.994, 1e-6);
   run(*engine, 1);
   EXPECT_NEAR(range_at(*engine, 1.0), 2.5, 1e-6);
+  EXPECT_NEAR(seen_x_m(*engine, 1.0), 0.5, 1e-6);
 }
 
 TEST(EnginePast, IsForgottenInAReset) {
   const auto engine = make_engine(moving_world());
   run(*engine, 101);
   EXPECT_NEAR(range_at(*engine, 0.6), 2.7, 1e-6);
+  EXPECT_NEAR(seen_x_m(*engine, 0.6), 0.3, 1e-6);
   ASSERT_TRUE(engine->reset().has_value());
   float reading = 0;
   EXPECT_FALSE(engine->sample_at(kReal, 1, {from_seconds(0.6).ns}, &reading).has_value());
   EXPECT_FALSE(engine->pose_at(kReal, {0}).has_value());
   run(*engine, 61);  // shows 0.60 s; the newest pose is that of 0.595 s
   EXPECT_NEAR(range_at(*engine, 0.6), 3 - 0.5 * 0.595, 1e-6);
+  EXPECT_NEAR(seen_x_m(*engine, 0.6), 0.5 * 0.595, 1e-6);
 }
 
 TEST(EnginePast, LookingBackChangesNothing) {

@@ -201,5 +201,24 @@ TEST(Resolver, BodiesAtOtherHeightsDoNotMeet) {
   EXPECT_NEAR(arena.movers[0].X_WR.x, 2.0, 1e-9);
 }
 
+TEST(Resolver, WhoWasPushedByOneRealRobotIsFoundByTheNext) {
+  Arena arena;
+  // The first real robot throws the simulated one half a metre ahead, on to the second.
+  for (int i = 0; i < 2; ++i) arena.model.robots.push_back(disc_robot(0.4));
+  arena.model.robots.push_back(disc_robot(0.1));
+  arena.movers = {
+      {{0, 0, 0}, false, true}, {{0.78, 0.3, 0}, false, true}, {{0.05, 0, 0}, true, true}};
+  arena.begin();
+  double slack_m = 0;
+  for (const std::uint32_t real : {0U, 1U}) {
+    slack_m += arena.resolver->make_way(real, *arena.snapshot, slack_m, arena.movers, arena.notes);
+  }
+  EXPECT_GT(slack_m, 0.4);
+  EXPECT_GE(world::separation(arena.model.robots[2], arena.movers[2].X_WR, arena.model.robots[1],
+                              arena.movers[1].X_WR)
+                .distance_m,
+            0);
+}
+
 }  // namespace
 }  // namespace rave::sim

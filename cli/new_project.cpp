@@ -130,7 +130,7 @@ Status create_project(ProjectKind kind, const std::string& name, const fs::path&
   const fs::path from = template_dir / kKinds[kind == ProjectKind::kProgram ? 0 : 1];
   fs::path partial = target_dir;
   partial += ".partial";
-  const Status copied = copy_filled_in(from, partial, name);
+  Status copied = copy_filled_in(from, partial, name);
   if (copied) fs::rename(partial, target_dir, error);
   std::error_code ignored;
   if (!copied || error) fs::remove_all(partial, ignored);

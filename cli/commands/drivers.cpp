@@ -60,8 +60,9 @@ std::string rejected_text(const plugin::Catalogue& catalogue, const Terminal& te
     const std::string message = plugin.error.text();
     const std::string file = plugin.file.string();
     // The reasons name the files already.
-    text += fmt::format("{} {}\n", terminal.red("not usable:"),
-                        message.find(file) == std::string::npos ? file + ": " + message : message);
+    const bool named = message.find(file) != std::string::npos;
+    text += fmt::format("{} {}{}{}\n", terminal.red("not usable:"), named ? "" : file,
+                        named ? "" : ": ", message);
   }
   return text;
 }

@@ -32,10 +32,10 @@ inline constexpr std::array<ParamSpec, 7> kPlaybackParams{
 };
 
 /// The common parameters and those of one player.
-template <std::size_t N>
-constexpr std::array<ParamSpec, kPlaybackParams.size() + N> with_playback_params(
-    const std::array<ParamSpec, N>& own) noexcept {
-  std::array<ParamSpec, kPlaybackParams.size() + N> all{};
+template <std::size_t kCount>
+constexpr std::array<ParamSpec, kPlaybackParams.size() + kCount> with_playback_params(
+    const std::array<ParamSpec, kCount>& own) noexcept {
+  std::array<ParamSpec, kPlaybackParams.size() + kCount> all{};
   std::size_t count = 0;
   for (const ParamSpec& spec : kPlaybackParams) all[count++] = spec;
   for (const ParamSpec& spec : own) all[count++] = spec;

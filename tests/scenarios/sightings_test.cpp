@@ -79,6 +79,28 @@ TEST_F(Sightings, HoldsOnTheOtherStretchToo) {
   EXPECT_NEAR(touch["time_s"].get<double>(), 81.2, 0.2);
 }
 
+/// The same recording by the clock on the wall: nothing promises that it can be repeated, so no
+/// hash is printed, and the run says why.
+TEST_F(Sightings, ARecordingCanPlayInRealTime) {
+  auto scenario = load("mixed-reality");
+  for (const char* sensor : {"mocap", "commanded", "camera"}) {
+    set_param(scenario, sensor, "clock", config::RawNode::text("live"));
+  }
+  scenario.scenario.duration_s = 2;
+  scenario.scenario.picture.reset();
+  scenario.scenario.checks.sightings.reset();
+  const auto outcome = run(scenario);
+  EXPECT_TRUE(outcome.whole) << (outcome.problems.empty() ? "" : outcome.problems.front());
+  EXPECT_TRUE(outcome.hash.empty());
+  const auto json = result();
+  EXPECT_TRUE(json["hash"].is_null());
+  EXPECT_NE(json["no_hash_because"].get<std::string>().find("wall clock"), std::string::npos);
+  EXPECT_GE(json["wall_s"], 1.8) << "it must have taken its time";
+  for (std::size_t r = 0; r < 5; ++r) {
+    EXPECT_GT(json["robots"][r]["final_pose"]["stamp_s"], 1.5) << "poses kept coming";
+  }
+}
+
 TEST_F(Sightings, TheRunLeavesEverythingInOneFolder) {
   const auto outcome = run(load("mixed-reality"), true);
   for (const char* file : {"result.json", "summary.txt", "events.log", "scenario.yaml",

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace rave::record {
+
+static_assert(std::endian::native == std::endian::little, "CDR is written little-endian");
+
+template <class T>
+concept CdrPrimitive = std::is_arithmetic_v<T>;
+
+/// Writes the classic CDR encoding (OMG CORBA 3.0, 15.3; plain CDR of DDS-XTypes 1.3, 7.4.1),
+/// little-endian with its four-byte encapsulation header, as ROS 2 messages have it: a primitive
+/// stands at a multiple of its size, counted from behind the header; a string is its length with
+/// the closing zero, then the bytes; a sequence is its count, then the elements.
+class CdrWriter {
+ public:
+  CdrWriter() { clear(); }
+
+  /// Begins a new message; keeps the memory.
+  void clear() {
+    bytes_.clear();
+    bytes_.insert(bytes_.end(), {std::byte{0}, std::byte{1}, std::byte{0}, std::byte{0}});
+  }
+  template <CdrPrimitive T>
+  void put(T value) {
+    align(sizeof value);
+    append(&value, sizeof value);
+  }
+  void put_string(std::string_view text) {
+    put(static_cast<std::uint32_t>(text.size() + 1));
+    append(text.data(), text.size());
+    bytes_.push_back(std::byte{0});
+  }
+  void put_count(std::size_t count) { put(static_cast<std::uint32_t>(count)); }
+  /// A sequence of primitives, its count included.
+  template <CdrPrimitive T>
+  void put_sequence(std::span<const T> values) {
+    put_count(values.size());
+    if (values.empty()) return;
+    align(sizeof(T));
+    append(values.data(), values.size_bytes());
+  }
+  /// Elements that lie in memory as CDR wants them: all members at multiples of their size, the
+  /// size of T a multiple of 8, and this place a multiple of 8 (the caller's layout sees to that).
+  template <class T>
+    requires(std::is_trivially_copyable_v<T> && sizeof(T) % 8 == 0)
+  void put_packed(std::span<const T> values) {
+    append(values.data(), values.size_bytes());
+  }
+  /// Bytes from behind the encapsulation header: what alignment is counted from.
+  [[nodiscard]] std::size_t position() const noexcept { return bytes_.size() - 4; }
+  [[nodiscard]] std::span<const std::byte> bytes() const noexcept { return bytes_; }
+
+ private:
+  void align(std::size_t size) {
+    const std::size_t over = position() % size;
+    if (over != 0) bytes_.insert(bytes_.end(), size - over, std::byte{0});
+  }
+  void append(const void* from, std::size_t size) {
+    const auto* first = static_cast<const std::byte*>(from);
+    bytes_.insert(bytes_.end(), first, first + size);
+  }
+
+  std::vector<std::byte> bytes_;
+};
+
+/// Reads the same. After the first read beyond the end, or a header that is not little-endian plain
+/// CDR, ok() is false and everything is zero or empty: read all, then ask once. Spans and views
+/// point into the message.
+class CdrReader {
+ public:
+  explicit CdrReader(std::span<const std::byte> message) noexcept {
+    ok_ = message.size() >= 4 && message[0] == std::byte{0} && message[1] == std::byte{1};
+    if (ok_) body_ = message.subspan(4);
+  }
+  template <CdrPrimitive T>
+  [[nodiscard]] T get() noexcept {
+    T value{};
+    align(sizeof value);
+    const std::span<const std::byte> from = raw(sizeof value);
+    if (!from.empty()) std::memcpy(&value, from.data(), sizeof value);
+    return value;
+  }
+  [[nodiscard]] std::string get_string() {
+    const auto size = get<std::uint32_t>();
+    const std::span<const std::byte> text = raw(size);
+    if (text.empty()) return {};
+    return {reinterpret_cast<const char*>(text.data()), text.size() - 1};
+  }
+  template <CdrPrimitive T>
+  [[nodiscard]] std::vector<T> get_sequence() {
+    const std::uint64_t count = get<std::uint32_t>();
+    if (count == 0) return {};
+    align(sizeof(T));
+    const std::span<const std::byte> from = raw(count * sizeof(T));
+    std::vector<T> values(from.size() / sizeof(T));
+    if (!from.empty()) std::memcpy(values.data(), from.data(), from.size());
+    return values;
+  }
+  [[nodiscard]] std::span<const std::byte> get_bytes() noexcept {
+    return raw(get<std::uint32_t>());
+  }
+  /// The counterpart of CdrWriter::put_packed().
+  template <class T>
+    requires(std::is_trivially_copyable_v<T> && sizeof(T) % 8 == 0)
+  [[nodiscard]] std::vector<T> get_packed(std::uint64_t count) {
+    const std::span<const std::byte> from = raw(count * sizeof(T));
+    std::vector<T> values(from.size() / sizeof(T));
+    if (!from.empty()) std::memcpy(values.data(), from.data(), from.size());
+    return values;
+  }
+  /// A count of elements of which each takes at least `least_bytes`; 0 and not ok if they cannot
+  /// all be there.
+  [[nodiscard]] std::uint32_t get_count(std::uint64_t least_bytes) noexcept {
+    const auto count = get<std::uint32_t>();
+    if (ok_ && count * least_bytes > body_.size() - position_) ok_ = false;
+    return ok_ ? count : 0;
+  }
+  [[nodiscard]] bool ok() const noexcept { return ok_; }
+
+ private:
+  void align(std::size_t size) noexcept {
+    const std::size_t over = position_ % size;
+    if (over != 0) static_cast<void>(raw(size - over));
+  }
+  [[nodiscard]] std::span<const std::byte> raw(std::uint64_t size) noexcept {
+    if (!ok_ || size > body_.size() - position_) {
+      ok_ = false;
+      return {};
+    }
+    const auto found = body_.subspan(position_, size);
+    position_ += size;
+    return found;
+  }
+
+  std::span<const std::byte> body_;
+  std::size_t position_ = 0;
+  bool ok_ = true;
+};
+
+}  // namespace rave::record

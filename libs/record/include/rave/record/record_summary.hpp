@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rave/base/result.hpp"
+#include "rave/record/run_messages.hpp"
+
+namespace rave::record {
+
+/// One stream of a record.
+struct ChannelSummary {
+  std::string topic;
+  std::string schema;
+  std::string encoding;
+  std::uint64_t messages = 0;
+  double rate_hz = 0;  ///< Messages per second of the record's duration; 0 if it has none.
+};
+
+/// What `rave info` says about a record.
+struct RecordSummary {
+  std::uint64_t file_bytes = 0;
+  bool whole = false;                ///< Ends as it should.
+  std::vector<std::string> damages;  ///< What cannot be read; empty for a file in order.
+  std::string profile;
+  std::string library;
+  double start_s = 0;  ///< Of the first and of the last message.
+  double end_s = 0;
+  std::uint64_t messages = 0;
+  std::uint32_t chunks = 0;
+  std::vector<ChannelSummary> channels;  ///< Those with messages, by topic.
+  std::vector<AttachmentInfo> attachments;
+  std::optional<RunInfo> run;  ///< None: not written by RAVE.
+  std::optional<RunEnd> end;   ///< None: the run did not come to its end.
+};
+
+/// Reads index, beginning and end of a record. Errors: kNotFound, kIo, kParse (no MCAP file).
+[[nodiscard]] Result<RecordSummary> describe_record(const std::filesystem::path& path);
+
+}  // namespace rave::record

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "rave/base/ids.hpp"
+#include "rave/base/log.hpp"
+#include "rave/base/result.hpp"
+#include "rave/base/time.hpp"
+#include "rave/math/pose.hpp"
+#include "rave/record/run_info.hpp"
+
+// What is in the messages of a record, and how to read them back. docs/design/record.md has the
+// table of topics. Everything comes back with the bits that went in.
+namespace rave::record {
+
+/// Topics of the exact streams.
+namespace topic {
+inline constexpr const char* kRun = "/rave/run";
+inline constexpr const char* kEnd = "/rave/end";
+inline constexpr const char* kPoses = "/rave/poses";
+inline constexpr const char* kPercepts = "/rave/percepts";
+inline constexpr const char* kCommands = "/rave/commands";
+inline constexpr const char* kRadio = "/rave/radio";
+inline constexpr const char* kEvents = "/rave/events";
+inline constexpr const char* kConsole = "/rosout";
+}  // namespace topic
+
+/// Where a robot is in one step, in W.
+struct RobotPose {
+  RobotId robot;
+  std::optional<Pose2> true_pose;      ///< Of simulated robots.
+  std::optional<Pose2> reported_pose;  ///< Missing as long as a real robot has none.
+  Twist2 velocity_W;                   ///< Of the origin over ground, axes of W.
+
+  friend bool operator==(const RobotPose&, const RobotPose&) = default;
+};
+
+/// Which part of a reading: what the program was given, or one half of a hybrid before fusion.
+enum class PerceptPart : std::uint8_t { kResult = 0, kReal = 1, kVirtual = 2 };
+
+/// The bits of rave::SampleHeader.
+struct ReadingHeader {
+  std::int64_t stamp_ns = 0;
+  std::uint32_t sequence = 0;
+  std::uint32_t count = 0;
+  std::uint32_t fresh = 0;
+  std::uint32_t dropped = 0;
+
+  friend bool operator==(const ReadingHeader&, const ReadingHeader&) = default;
+};
+
+/// One reading of one sensor. `records` are the bytes behind the header, as the program got them.
+struct Percept {
+  RobotId robot;
+  DeviceId sensor;  ///< At most 65535.
+  std::uint8_t kind = 0;
+  PerceptPart part = PerceptPart::kResult;
+  ReadingHeader header;
+  std::span<const std::byte> records;
+};
+
+/// One command that a controller accepted; the bytes of rave::Command.
+struct CommandRecord {
+  RobotId robot;
+  DeviceId controller;
+  std::span<const std::byte> command;
+};
+
+/// One packet between two robots.
+struct RadioPacket {
+  RobotId from;
+  RobotId to;
+  std::uint16_t transmitter = 0;
+  bool delivered = true;
+  std::int64_t sent_ns = 0;
+  std::int64_t received_ns = 0;
+  std::span<const std::byte> payload;
+};
+
+/// Something that happened: a contact, a guard that stopped a robot, an edit of the world.
+struct RunEvent {
+  RobotId robot;     ///< None: it concerns the run.
+  std::string kind;  ///< `contact`, `guard_stop`, `device_lost`, ...
+  std::string text;
+  std::vector<double> values;  ///< Meaning by kind.
+};
+
+/// A line of the console.
+struct ConsoleLine {
+  SimTime time;
+  LogLevel level = LogLevel::kInfo;
+  std::string source;
+  std::string text;
+};
+
+/// The content of one step; spans point into the message.
+template <class Item>
+struct StepOf {
+  SimTime time;
+  std::uint64_t step = 0;
+  std::vector<Item> items;
+};
+
+/// How a run ended.
+struct RunEnd {
+  SimTime time;
+  std::uint64_t steps = 0;
+  std::optional<std::uint64_t> hash;  ///< None for a run with a live driver.
+};
+
+// Errors: kParse with the topic's name if a message is not as RAVE writes it.
+[[nodiscard]] Result<RunInfo> decode_run(std::span<const std::byte> message);
+[[nodiscard]] Result<RunEnd> decode_end(std::span<const std::byte> message);
+[[nodiscard]] Result<StepOf<RobotPose>> decode_poses(std::span<const std::byte> message);
+[[nodiscard]] Result<StepOf<Percept>> decode_percepts(std::span<const std::byte> message);
+[[nodiscard]] Result<StepOf<CommandRecord>> decode_commands(std::span<const std::byte> message);
+[[nodiscard]] Result<StepOf<RadioPacket>> decode_radio(std::span<const std::byte> message);
+[[nodiscard]] Result<StepOf<RunEvent>> decode_event(std::span<const std::byte> message);
+[[nodiscard]] Result<ConsoleLine> decode_console(std::span<const std::byte> message);
+
+}  // namespace rave::record

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "rave/record/mcap_writer.hpp"
+#include "rave/record/run_messages.hpp"
+
+namespace rave::record {
+
+/// What a record holds beside the exact streams: standard ROS 2 messages for viewers.
+struct ViewOptions {
+  /// Of `/tf` (all robots), and of scans and velocities of single robots; simulation time. 0: none.
+  double rate_hz = 10;
+  /// Robots (the first of the scenario) that get `/<robot>/<sensor>` and `/<robot>/cmd_vel`.
+  std::uint32_t robots = 16;
+};
+
+struct RunRecorderOptions {
+  McapWriterOptions file;
+  ViewOptions views;
+};
+
+/// Writes what a run does into an MCAP file. Knows nothing of the engine: its owner calls
+///
+///     open, (begin_step, percept..., command..., radio..., event..., poses, end_step)..., end
+///
+/// from one thread; only console() may be called from any thread. Collects a step in memory and
+/// writes one message per stream, so that a step costs a copy of its bytes. Times are simulation
+/// times; log time is the time of the step. Errors are those of McapWriter: the first call after a
+/// failed write, and each one after it, returns it; the run may go on.
+class RunRecorder {
+ public:
+  /// Begins the file. `sink` may be null, else it must outlive the recorder; it must not lead back
+  /// to console(). Errors: as McapWriter::open().
+  [[nodiscard]] static Result<RunRecorder> open(const std::filesystem::path& path,
+                                                const RunInfo& info,
+                                                const RunRecorderOptions& options = {},
+                                                LogSink* sink = nullptr);
+  RunRecorder(RunRecorder&&) noexcept;
+  RunRecorder& operator=(RunRecorder&&) noexcept;
+  /// Closes the file; without end() the record then has no `/rave/end`.
+  ~RunRecorder();
+
+  void begin_step(std::uint64_t step, SimTime time);
+  /// The bytes are copied.
+  void percept(const Percept& percept);
+  void command(const CommandRecord& command);
+  void radio(const RadioPacket& packet);
+  Status event(const RunEvent& event);
+  /// All robots of the step, in one message.
+  Status poses(std::span<const RobotPose> robots);
+  /// Writes what was collected since begin_step().
+  Status end_step();
+
+  /// Any thread. Written at the end of the present step, with its time.
+  void console(LogLevel level, std::string_view source, std::string_view text);
+
+  /// Returns when all steps so far are in the file.
+  Status flush();
+  /// Writes the end and closes the file. `hash`: none for a run that has no hash.
+  Status end(std::optional<std::uint64_t> hash);
+
+  [[nodiscard]] const McapWriter& file() const noexcept;
+
+ private:
+  class Impl;
+  explicit RunRecorder(std::unique_ptr<Impl> impl) noexcept;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace rave::record

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <map>
+
+#include "cdr_time.hpp"
+#include "packed.hpp"
+#include "rave/record/run_messages.hpp"
+
+namespace rave::record {
+namespace {
+
+using Message = std::span<const std::byte>;
+
+tl::unexpected<Error> malformed(const char* topic) {
+  return fail(ErrorCode::kParse, "a message of `{}` is not as RAVE writes it", topic);
+}
+
+/// Reads the part that all messages with packed arrays begin with, and the first array.
+template <class Packed, class Item>
+[[nodiscard]] std::vector<Packed> get_step(CdrReader& reader, StepOf<Item>& step, bool& known) {
+  step.time = get_time(reader);
+  step.step = reader.get<std::uint64_t>();
+  known = reader.get<std::uint32_t>() == 1;
+  return reader.get_packed<Packed>(reader.get<std::uint32_t>());
+}
+
+/// Gives each element its bytes of the common field; false if one reaches beyond it.
+template <class Packed, class Item, class Make>
+[[nodiscard]] bool add_items(const std::vector<Packed>& packed, Message records, Make make,
+                             std::vector<Item>& items) {
+  items.reserve(packed.size());
+  for (const Packed& element : packed) {
+    if (element.offset > records.size() || element.size > records.size() - element.offset) {
+      return false;
+    }
+    items.push_back(make(element, records.subspan(element.offset, element.size)));
+  }
+  return true;
+}
+
+template <class Packed, class Item, class Make>
+[[nodiscard]] Result<StepOf<Item>> decode_step(Message message, const char* topic, Make make) {
+  CdrReader reader(message);
+  StepOf<Item> step;
+  bool known = false;
+  const auto packed = get_step<Packed>(reader, step, known);
+  const Message records = reader.get_bytes();
+  if (!reader.ok() || !known || !add_items(packed, records, make, step.items)) {
+    return malformed(topic);
+  }
+  return step;
+}
+
+}  // namespace
+
+Result<StepOf<Percept>> decode_percepts(Message message) {
+  return decode_step<PackedPercept, Percept>(
+      message, topic::kPercepts, [](const PackedPercept& p, Message records) {
+        return Percept{RobotId(p.robot),
+                       DeviceId(p.sensor),
+                       p.kind,
+                       static_cast<PerceptPart>(p.part),
+                       {p.stamp_ns, p.sequence, p.count, p.fresh, p.dropped},
+                       records};
+      });
+}
+
+Result<StepOf<CommandRecord>> decode_commands(Message message) {
+  return decode_step<PackedCommand, CommandRecord>(
+      message, topic::kCommands, [](const PackedCommand& c, Message records) {
+        return CommandRecord{RobotId(c.robot), DeviceId(c.controller), records};
+      });
+}
+
+Result<StepOf<RadioPacket>> decode_radio(Message message) {
+  return decode_step<PackedPacket, RadioPacket>(
+      message, topic::kRadio, [](const PackedPacket& p, Message records) {
+        return RadioPacket{RobotId(p.from), RobotId(p.to), p.transmitter, p.delivered != 0,
+                           p.sent_ns,       p.received_ns, records};
+      });
+}
+
+Result<StepOf<RobotPose>> decode_poses(Message message) {
+  CdrReader reader(message);
+  StepOf<RobotPose> step;
+  bool known = false;
+  const auto packed = get_step<PackedPose>(reader, step, known);
+  static_cast<void>(reader.get<std::uint32_t>());
+  const auto truths = reader.get_packed<PackedTruePose>(reader.get<std::uint32_t>());
+  if (!reader.ok() || !known) return malformed(topic::kPoses);
+  auto truth = truths.begin();
+  step.items.reserve(packed.size());
+  for (const PackedPose& p : packed) {
+    RobotPose pose;
+    pose.robot = RobotId(p.robot);
+    pose.velocity_W = {p.vx, p.vy, p.wz};
+    if ((p.flags & kHasReported) != 0) pose.reported_pose = Pose2{p.x, p.y, p.yaw};
+    if ((p.flags & kTrueIsReported) != 0) {
+      pose.true_pose = Pose2{p.x, p.y, p.yaw};
+    } else if ((p.flags & kHasTrue) != 0) {
+      if (truth == truths.end() || truth->robot != p.robot) return malformed(topic::kPoses);
+      pose.true_pose = Pose2{truth->x, truth->y, truth->yaw};
+      ++truth;
+    }
+    step.items.push_back(pose);
+  }
+  return step;
+}
+
+Result<StepOf<RunEvent>> decode_event(Message message) {
+  CdrReader reader(message);
+  StepOf<RunEvent> step;
+  step.time = get_time(reader);
+  step.step = reader.get<std::uint64_t>();
+  RunEvent event;
+  event.robot = RobotId(reader.get<std::uint32_t>());
+  event.kind = reader.get_string();
+  event.text = reader.get_string();
+  event.values = reader.get_sequence<double>();
+  if (!reader.ok()) return malformed(topic::kEvents);
+  step.items.push_back(std::move(event));
+  return step;
+}
+
+Result<ConsoleLine> decode_console(Message message) {
+  CdrReader reader(message);
+  ConsoleLine line;
+  line.time = get_time(reader);
+  const auto level = reader.get<std::uint8_t>();
+  line.source = reader.get_string();
+  line.text = reader.get_string();
+  if (!reader.ok() || level < 10 || level > 50) return malformed(topic::kConsole);
+  line.level = level >= 40   ? LogLevel::kError
+               : level >= 30 ? LogLevel::kWarning
+               : level >= 20 ? LogLevel::kInfo
+                             : LogLevel::kDebug;
+  return line;
+}
+
+Result<RunEnd> decode_end(Message message) {
+  CdrReader reader(message);
+  RunEnd end;
+  end.time = get_time(reader);
+  end.steps = reader.get<std::uint64_t>();
+  const bool has_hash = reader.get<std::uint8_t>() != 0;
+  const auto hash = reader.get<std::uint64_t>();
+  if (has_hash) end.hash = hash;
+  if (!reader.ok()) return malformed(topic::kEnd);
+  return end;
+}
+
+Result<RunInfo> decode_run(Message message) {
+  CdrReader reader(message);
+  RunInfo info;
+  info.scenario = reader.get_string();
+  info.started = reader.get_string();
+  info.seed = reader.get<std::uint64_t>();
+  info.step_s = reader.get<double>();
+  for (auto count = reader.get_count(10); count > 0 && reader.ok(); --count) {
+    std::string name = reader.get_string();
+    info.versions[std::move(name)] = reader.get_string();
+  }
+  for (auto count = reader.get_count(19); count > 0 && reader.ok(); --count) {
+    RecordedRobot& robot = info.robots.emplace_back();
+    robot.id = RobotId(reader.get<std::uint32_t>());
+    robot.name = reader.get_string();
+    robot.kind = reader.get_string();
+    robot.team = reader.get_string();
+  }
+  for (auto count = reader.get_count(85); count > 0 && reader.ok(); --count) {
+    RecordedSensor& sensor = info.sensors.emplace_back();
+    sensor.robot = RobotId(reader.get<std::uint32_t>());
+    sensor.sensor = DeviceId(reader.get<std::uint32_t>());
+    sensor.name = reader.get_string();
+    sensor.kind = reader.get<std::uint32_t>();
+    for (double* value :
+         {&sensor.X_RS.x, &sensor.X_RS.y, &sensor.X_RS.yaw, &sensor.z_m, &sensor.period_s,
+          &sensor.range_min_m, &sensor.range_max_m, &sensor.cone_rad}) {
+      *value = reader.get<double>();
+    }
+    sensor.bearings_rad = reader.get_sequence<double>();
+  }
+  if (!reader.ok()) return malformed(topic::kRun);
+  return info;
+}
+
+}  // namespace rave::record

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encode.hpp"
+
+#include <cstring>
+
+#include "cdr_time.hpp"
+#include "packed.hpp"
+
+namespace rave::record {
+namespace {
+
+constexpr std::uint32_t kVersion = 1;
+
+/// Bits, not values: -0 is not 0, and a number that is none equals itself.
+[[nodiscard]] bool same_bits(const Pose2& a, const Pose2& b) noexcept {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+}  // namespace
+
+void encode_step_head(CdrWriter& writer, SimTime time, std::uint64_t step, std::size_t count) {
+  writer.clear();
+  put_time(writer, time);
+  writer.put(step);
+  writer.put(kVersion);
+  writer.put_count(count);
+}
+
+void encode_poses(CdrWriter& writer, SimTime time, std::uint64_t step,
+                  std::span<const RobotPose> robots) {
+  encode_step_head(writer, time, step, robots.size());
+  std::uint32_t truths = 0;
+  for (const RobotPose& robot : robots) {
+    PackedPose packed{};
+    packed.robot = robot.robot.value();
+    if (robot.reported_pose) {
+      packed.flags |= kHasReported;
+      packed.x = robot.reported_pose->x;
+      packed.y = robot.reported_pose->y;
+      packed.yaw = robot.reported_pose->yaw;
+    }
+    if (robot.true_pose) {
+      packed.flags |= kHasTrue;
+      if (robot.reported_pose && same_bits(*robot.true_pose, *robot.reported_pose)) {
+        packed.flags |= kTrueIsReported;
+      } else {
+        ++truths;
+      }
+    }
+    packed.vx = robot.velocity_W.vx;
+    packed.vy = robot.velocity_W.vy;
+    packed.wz = robot.velocity_W.wz;
+    writer.put_packed(std::span<const PackedPose>(&packed, 1));
+  }
+  writer.put(std::uint32_t{0});
+  writer.put_count(truths);
+  if (truths == 0) return;
+  for (const RobotPose& robot : robots) {
+    const auto& truth = robot.true_pose;
+    if (!truth || (robot.reported_pose && same_bits(*truth, *robot.reported_pose))) continue;
+    const PackedTruePose packed{robot.robot.value(), 0, truth->x, truth->y, truth->yaw};
+    writer.put_packed(std::span<const PackedTruePose>(&packed, 1));
+  }
+}
+
+void encode_event(CdrWriter& writer, SimTime time, std::uint64_t step, const RunEvent& event) {
+  writer.clear();
+  put_time(writer, time);
+  writer.put(step);
+  writer.put(event.robot.value());
+  writer.put_string(event.kind);
+  writer.put_string(event.text);
+  writer.put_sequence(std::span<const double>(event.values));
+}
+
+void encode_console(CdrWriter& writer, const ConsoleLine& line) {
+  writer.clear();
+  put_time(writer, line.time);
+  writer.put(static_cast<std::uint8_t>(10 + 10 * static_cast<int>(line.level)));
+  writer.put_string(line.source);
+  writer.put_string(line.text);
+  writer.put_string("");
+  writer.put_string("");
+  writer.put(std::uint32_t{0});
+}
+
+void encode_end(CdrWriter& writer, const RunEnd& end) {
+  writer.clear();
+  put_time(writer, end.time);
+  writer.put(end.steps);
+  writer.put(static_cast<std::uint8_t>(end.hash ? 1 : 0));
+  writer.put(end.hash.value_or(0));
+}
+
+void encode_run(CdrWriter& writer, const RunInfo& info) {
+  writer.clear();
+  writer.put_string(info.scenario);
+  writer.put_string(info.started);
+  writer.put(info.seed);
+  writer.put(info.step_s);
+  writer.put_count(info.versions.size());
+  for (const auto& [name, version] : info.versions) {
+    writer.put_string(name);
+    writer.put_string(version);
+  }
+  writer.put_count(info.robots.size());
+  for (const RecordedRobot& robot : info.robots) {
+    writer.put(robot.id.value());
+    writer.put_string(robot.name);
+    writer.put_string(robot.kind);
+    writer.put_string(robot.team);
+  }
+  writer.put_count(info.sensors.size());
+  for (const RecordedSensor& sensor : info.sensors) {
+    writer.put(sensor.robot.value());
+    writer.put(sensor.sensor.value());
+    writer.put_string(sensor.name);
+    writer.put(sensor.kind);
+    for (const double value :
+         {sensor.X_RS.x, sensor.X_RS.y, sensor.X_RS.yaw, sensor.z_m, sensor.period_s,
+          sensor.range_min_m, sensor.range_max_m, sensor.cone_rad}) {
+      writer.put(value);
+    }
+    writer.put_sequence(std::span<const double>(sensor.bearings_rad));
+  }
+}
+
+}  // namespace rave::record

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "rave/record/cdr.hpp"
+#include "rave/record/run_messages.hpp"
+
+// The counterparts of decode.cpp. Each begins a new message in the writer.
+namespace rave::record {
+
+void encode_run(CdrWriter& writer, const RunInfo& info);
+void encode_end(CdrWriter& writer, const RunEnd& end);
+void encode_event(CdrWriter& writer, SimTime time, std::uint64_t step, const RunEvent& event);
+void encode_console(CdrWriter& writer, const ConsoleLine& line);
+void encode_poses(CdrWriter& writer, SimTime time, std::uint64_t step,
+                  std::span<const RobotPose> robots);
+/// Time, step, version and the count of the array that follows.
+void encode_step_head(CdrWriter& writer, SimTime time, std::uint64_t step, std::size_t count);
+
+}  // namespace rave::record

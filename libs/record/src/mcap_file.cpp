@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mcap_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+#include <zstd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "crc32.hpp"
+#include "mcap_format.hpp"
+
+namespace rave::record {
+
+McapFile::McapFile(std::filesystem::path path, int fd, int zstd_level)
+    : path_(std::move(path)), fd_(fd), zstd_level_(zstd_level), compressor_(ZSTD_createCCtx()) {}
+
+McapFile::~McapFile() {
+  ZSTD_freeCCtx(compressor_);
+  if (fd_ >= 0) ::close(fd_);
+}
+
+Result<std::unique_ptr<McapFile>> McapFile::create(const std::filesystem::path& path,
+                                                   std::string_view profile,
+                                                   std::string_view library, int zstd_level) {
+  const int fd = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (fd < 0) {
+    const int code = errno;
+    return fail(code == ENOENT ? ErrorCode::kNotFound : ErrorCode::kIo, "cannot create `{}`: {}",
+                path.string(), std::strerror(code));
+  }
+  std::unique_ptr<McapFile> file(new McapFile(path, fd, zstd_level));
+  if (file->compressor_ == nullptr) return fail(ErrorCode::kIo, "no memory for a compressor");
+  ByteWriter writer(file->out_);
+  writer.raw(as_bytes(kMagic));
+  const std::size_t record = writer.begin_record(opcode::kHeader);
+  writer.string(profile);
+  writer.string(library);
+  writer.end_record(record);
+  RAVE_TRY(file->append(file->out_));
+  return file;
+}
+
+Status McapFile::append(ByteSpan bytes) {
+  ByteSpan rest = bytes;
+  while (!rest.empty()) {
+    const ssize_t count = ::write(fd_, rest.data(), rest.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) {
+      const int code = errno;
+      // Cut off the half piece, so that what follows, if only the index, stands behind a whole one.
+      const auto good = static_cast<off_t>(offset_);
+      const bool cut = ::ftruncate(fd_, good) == 0 && ::lseek(fd_, good, SEEK_SET) == good;
+      return fail(ErrorCode::kIo, "cannot write `{}` at offset {}: {}{}", path_.string(), offset_,
+                  std::strerror(code), cut ? "" : " (and the half piece could not be cut off)");
+    }
+    rest = rest.subspan(static_cast<std::size_t>(count));
+  }
+  offset_ += bytes.size();
+  data_crc_ = crc32(bytes, data_crc_);
+  return {};
+}
+
+void McapFile::put_chunk_record(const Chunk& chunk, ChunkInfo& info) {
+  info.uncompressed_size = chunk.records.size();
+  compressed_.resize(ZSTD_compressBound(chunk.records.size()));
+  const std::size_t size =
+      ZSTD_compressCCtx(compressor_, compressed_.data(), compressed_.size(), chunk.records.data(),
+                        chunk.records.size(), zstd_level_);
+  ByteSpan data = chunk.records;
+  if (ZSTD_isError(size) == 0 && size < chunk.records.size()) {
+    info.compression = "zstd";
+    data = ByteSpan(compressed_).first(size);
+  }
+  info.compressed_size = data.size();
+  ByteWriter writer(out_);
+  const std::size_t record = writer.begin_record(opcode::kChunk);
+  writer.put(info.start_ns);
+  writer.put(info.end_ns);
+  writer.put(info.uncompressed_size);
+  writer.put(crc32(chunk.records));
+  writer.string(info.compression);
+  writer.put(info.compressed_size);
+  writer.raw(data);
+  writer.end_record(record);
+  info.length = out_.size();
+}
+
+void McapFile::put_message_indexes(const Chunk& chunk, ChunkInfo& info) {
+  sorted_ = chunk.entries;
+  std::stable_sort(sorted_.begin(), sorted_.end(), [](const auto& a, const auto& b) {
+    return a.channel != b.channel ? a.channel < b.channel : a.log_time_ns < b.log_time_ns;
+  });
+  ByteWriter writer(out_);
+  for (auto first = sorted_.begin(); first != sorted_.end();) {
+    const auto last = std::find_if(first, sorted_.end(), [channel = first->channel](const auto& e) {
+      return e.channel != channel;
+    });
+    info.channels.emplace_back(first->channel, info.offset + out_.size());
+    const std::size_t record = writer.begin_record(opcode::kMessageIndex);
+    writer.put(first->channel);
+    const std::size_t array = writer.begin_size32();
+    for (auto entry = first; entry != last; ++entry) {
+      writer.put(entry->log_time_ns);
+      writer.put(entry->offset);
+    }
+    writer.end_size32(array);
+    writer.end_record(record);
+    first = last;
+  }
+  info.message_index_length = out_.size() - info.length;
+}
+
+void McapFile::count(const Chunk& chunk, const ChunkInfo& info) {
+  if (!chunk.entries.empty()) {
+    const bool first = statistics_.message_count == 0;
+    statistics_.start_ns = first ? info.start_ns : std::min(statistics_.start_ns, info.start_ns);
+    statistics_.end_ns = std::max(statistics_.end_ns, info.end_ns);
+  }
+  statistics_.message_count += chunk.entries.size();
+  for (const auto& entry : chunk.entries) ++statistics_.channel_message_counts[entry.channel];
+}
+
+Status McapFile::write_chunk(const Chunk& chunk) {
+  ChunkInfo info;
+  info.offset = offset_;
+  if (!chunk.entries.empty()) {
+    const auto by_time = [](const auto& a, const auto& b) { return a.log_time_ns < b.log_time_ns; };
+    const auto [low, high] =
+        std::minmax_element(chunk.entries.begin(), chunk.entries.end(), by_time);
+    info.start_ns = low->log_time_ns;
+    info.end_ns = high->log_time_ns;
+  }
+  out_.clear();
+  put_chunk_record(chunk, info);
+  put_message_indexes(chunk, info);
+  RAVE_TRY(append(out_));
+  count(chunk, info);
+  chunks_.push_back(std::move(info));
+  return {};
+}
+
+Status McapFile::write_attachment(const AttachmentInfo& info, ByteSpan data) {
+  out_.clear();
+  ByteWriter writer(out_);
+  const std::size_t record = writer.begin_record(opcode::kAttachment);
+  writer.put(info.log_time_ns);
+  writer.put(info.create_time_ns);
+  writer.string(info.name);
+  writer.string(info.media_type);
+  writer.put(static_cast<std::uint64_t>(data.size()));
+  writer.raw(data);
+  writer.put(crc32(ByteSpan(out_).subspan(record)));
+  writer.end_record(record);
+  AttachmentInfo placed = info;
+  placed.offset = offset_;
+  placed.length = out_.size();
+  placed.data_size = data.size();
+  RAVE_TRY(append(out_));
+  attachments_.push_back(std::move(placed));
+  return {};
+}
+
+Status McapFile::write_metadata(std::string_view name, const StringMap& entries) {
+  out_.clear();
+  ByteWriter writer(out_);
+  const std::size_t record = writer.begin_record(opcode::kMetadata);
+  writer.string(name);
+  writer.map(entries);
+  writer.end_record(record);
+  const MetadataInfo placed{offset_, out_.size(), std::string(name)};
+  RAVE_TRY(append(out_));
+  metadata_.push_back(placed);
+  return {};
+}
+
+void McapFile::put_summary(const std::vector<SchemaInfo>& schemas,
+                           const std::vector<ChannelInfo>& channels) {
+  struct Group {
+    std::uint8_t code;
+    std::uint64_t start;
+    std::uint64_t length;
+  };
+  std::vector<Group> groups;
+  const auto group = [&](std::uint8_t code, const auto& items, auto put) {
+    const std::size_t start = out_.size();
+    for (const auto& item : items) put(out_, item);
+    if (out_.size() > start) groups.push_back({code, offset_ + start, out_.size() - start});
+  };
+  statistics_.chunk_count = static_cast<std::uint32_t>(chunks_.size());
+  statistics_.attachment_count = static_cast<std::uint32_t>(attachments_.size());
+  statistics_.metadata_count = static_cast<std::uint32_t>(metadata_.size());
+  group(opcode::kSchema, schemas, put_schema);
+  group(opcode::kChannel, channels, put_channel);
+  group(opcode::kStatistics, std::span(&statistics_, 1), [&](Bytes& out, const Statistics& s) {
+    put_statistics(out, s, schemas.size(), channels.size());
+  });
+  group(opcode::kChunkIndex, chunks_, put_chunk_index);
+  group(opcode::kAttachmentIndex, attachments_, put_attachment_index);
+  group(opcode::kMetadataIndex, metadata_, put_metadata_index);
+  const std::uint64_t offsets_start = offset_ + out_.size();
+  ByteWriter writer(out_);
+  for (const Group& item : groups) {
+    const std::size_t record = writer.begin_record(opcode::kSummaryOffset);
+    writer.put(item.code);
+    writer.put(item.start);
+    writer.put(item.length);
+    writer.end_record(record);
+  }
+  const std::size_t record = writer.begin_record(opcode::kFooter);
+  writer.put(offset_);
+  writer.put(offsets_start);
+  writer.put(std::uint32_t{0});
+  writer.end_record(record);
+  const ByteSpan summed = ByteSpan(out_).first(out_.size() - sizeof(std::uint32_t));
+  const std::uint32_t crc = crc32(summed);
+  std::memcpy(out_.data() + summed.size(), &crc, sizeof crc);
+  writer.raw(as_bytes(kMagic));
+}
+
+Status McapFile::finish(const std::vector<SchemaInfo>& schemas,
+                        const std::vector<ChannelInfo>& channels) {
+  out_.clear();
+  ByteWriter writer(out_);
+  const std::size_t record = writer.begin_record(opcode::kDataEnd);
+  writer.put(data_crc_);
+  writer.end_record(record);
+  RAVE_TRY(append(out_));
+  out_.clear();
+  put_summary(schemas, channels);
+  RAVE_TRY(append(out_));
+  const int fd = std::exchange(fd_, -1);
+  if (::close(fd) != 0) {
+    return fail(ErrorCode::kIo, "cannot close `{}`: {}", path_.string(), std::strerror(errno));
+  }
+  return {};
+}
+
+}  // namespace rave::record

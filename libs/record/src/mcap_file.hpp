@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "bytes.hpp"
+#include "chunk.hpp"
+#include "rave/base/result.hpp"
+#include "rave/record/mcap_types.hpp"
+
+struct ZSTD_CCtx_s;
+
+namespace rave::record {
+
+/// The file under an McapWriter and all that its index will say. Used by one thread at a time.
+/// Every function writes one piece that can be read on its own, or, on failure, nothing.
+class McapFile {
+ public:
+  [[nodiscard]] static Result<std::unique_ptr<McapFile>> create(const std::filesystem::path& path,
+                                                                std::string_view profile,
+                                                                std::string_view library,
+                                                                int zstd_level);
+  McapFile(const McapFile&) = delete;
+  McapFile& operator=(const McapFile&) = delete;
+  ~McapFile();
+
+  [[nodiscard]] Status write_chunk(const Chunk& chunk);
+  [[nodiscard]] Status write_attachment(const AttachmentInfo& info, ByteSpan data);
+  [[nodiscard]] Status write_metadata(std::string_view name, const StringMap& entries);
+  /// Data end, summary, summary offsets, footer; closes the file.
+  [[nodiscard]] Status finish(const std::vector<SchemaInfo>& schemas,
+                              const std::vector<ChannelInfo>& channels);
+
+ private:
+  McapFile(std::filesystem::path path, int fd, int zstd_level);
+  [[nodiscard]] Status append(ByteSpan bytes);
+  void put_chunk_record(const Chunk& chunk, ChunkInfo& info);
+  void put_message_indexes(const Chunk& chunk, ChunkInfo& info);
+  void count(const Chunk& chunk, const ChunkInfo& info);
+  void put_summary(const std::vector<SchemaInfo>& schemas,
+                   const std::vector<ChannelInfo>& channels);
+
+  std::filesystem::path path_;
+  int fd_;
+  int zstd_level_;
+  ZSTD_CCtx_s* compressor_;
+  std::uint64_t offset_ = 0;
+  std::uint32_t data_crc_ = 0;
+  Bytes out_;
+  Bytes compressed_;
+  std::vector<Chunk::Entry> sorted_;
+  std::vector<ChunkInfo> chunks_;
+  std::vector<AttachmentInfo> attachments_;
+  std::vector<MetadataInfo> metadata_;
+  Statistics statistics_;
+};
+
+}  // namespace rave::record

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/record/mcap_reader.hpp"
+
+#include <algorithm>
+
+#include "crc32.hpp"
+#include "message_cursor.hpp"
+#include "record_file.hpp"
+
+namespace rave::record {
+namespace {
+
+[[nodiscard]] Status read_header(RecordFile& file) {
+  const ByteSource& source = *file.source;
+  Bytes bytes;
+  if (source.size() < kMagic.size() + kRecordHead) {
+    return fail(ErrorCode::kParse, "`{}` is no MCAP file: it has only {} bytes", source.name(),
+                source.size());
+  }
+  RAVE_TRY(source.read(0, kMagic.size() + kRecordHead, bytes));
+  ByteReader reader(bytes);
+  if (!std::ranges::equal(reader.raw(kMagic.size()), as_bytes(kMagic))) {
+    return fail(ErrorCode::kParse, "`{}` is no MCAP file: it does not begin with its mark",
+                source.name());
+  }
+  const auto code = reader.get<std::uint8_t>();
+  const auto size = reader.get<std::uint64_t>();
+  if (code != opcode::kHeader || size > source.size() - bytes.size()) {
+    return fail(ErrorCode::kParse, "`{}`: there is no whole header at offset {}", source.name(),
+                kMagic.size());
+  }
+  const std::uint64_t at = bytes.size();
+  RAVE_TRY(source.read(at, size, bytes));
+  ByteReader header(bytes);
+  file.profile = header.string();
+  file.library = header.string();
+  if (!header.ok()) {
+    return fail(ErrorCode::kParse, "`{}`: there is no whole header at offset {}", source.name(),
+                kMagic.size());
+  }
+  file.data_begin = at + size;
+  return {};
+}
+
+}  // namespace
+
+McapReader::McapReader(std::shared_ptr<const RecordFile> file) noexcept : file_(std::move(file)) {}
+
+Result<McapReader> McapReader::open_source(std::unique_ptr<ByteSource> source,
+                                           McapReaderOptions options) {
+  auto file = std::make_shared<RecordFile>();
+  file->source = std::move(source);
+  file->options = options;
+  RAVE_TRY(read_header(*file));
+  if (const Status summary = read_summary(*file); !summary) {
+    if (!summary.error().message.empty()) file->damages.push_back(summary.error().message);
+    scan_data(*file);
+  }
+  return McapReader(std::move(file));
+}
+
+Result<McapReader> McapReader::open(const std::filesystem::path& path, McapReaderOptions options) {
+  RAVE_TRY_ASSIGN(auto source, ByteSource::open(path));
+  return open_source(std::move(source), options);
+}
+
+Result<McapReader> McapReader::open_memory(std::span<const std::byte> bytes, std::string name,
+                                           McapReaderOptions options) {
+  return open_source(std::make_unique<ByteSource>(std::move(name), bytes), options);
+}
+
+const std::string& McapReader::profile() const noexcept { return file_->profile; }
+const std::string& McapReader::library() const noexcept { return file_->library; }
+bool McapReader::whole() const noexcept { return file_->whole; }
+const std::vector<std::string>& McapReader::damages() const noexcept { return file_->damages; }
+std::uint64_t McapReader::file_size() const noexcept { return file_->source->size(); }
+const std::vector<SchemaInfo>& McapReader::schemas() const noexcept { return file_->schemas; }
+const std::vector<ChannelInfo>& McapReader::channels() const noexcept { return file_->channels; }
+const Statistics& McapReader::statistics() const noexcept { return file_->statistics; }
+const std::vector<ChunkInfo>& McapReader::chunks() const noexcept { return file_->chunks; }
+const std::vector<AttachmentInfo>& McapReader::attachments() const noexcept {
+  return file_->attachments;
+}
+const std::vector<MetadataInfo>& McapReader::metadata() const noexcept { return file_->metadata; }
+
+const ChannelInfo* McapReader::channel(std::string_view topic) const noexcept {
+  const auto found = std::ranges::find(file_->channels, topic, &ChannelInfo::topic);
+  return found == file_->channels.end() ? nullptr : &*found;
+}
+
+const SchemaInfo* McapReader::schema(std::uint16_t id) const noexcept {
+  const auto found = std::ranges::find(file_->schemas, id, &SchemaInfo::id);
+  return found == file_->schemas.end() ? nullptr : &*found;
+}
+
+MessageCursor McapReader::messages(MessageFilter filter) const {
+  return MessageCursor(std::make_unique<MessageCursor::Impl>(file_, std::move(filter)));
+}
+
+Result<std::string> McapReader::read_attachment(const AttachmentInfo& attachment) const {
+  const ByteSource& source = *file_->source;
+  Bytes bytes;
+  RAVE_TRY(source.read(attachment.offset, attachment.length, bytes));
+  ByteReader reader(bytes);
+  const bool right = reader.get<std::uint8_t>() == opcode::kAttachment &&
+                     reader.get<std::uint64_t>() == bytes.size() - kRecordHead;
+  static_cast<void>(reader.get<std::uint64_t>());
+  static_cast<void>(reader.get<std::uint64_t>());
+  static_cast<void>(reader.string());
+  static_cast<void>(reader.string());
+  const ByteSpan data = reader.raw(reader.get<std::uint64_t>());
+  const std::size_t end = reader.position();
+  const auto crc = reader.get<std::uint32_t>();
+  if (!right || !reader.ok()) {
+    return fail(ErrorCode::kParse, "`{}`: there is no whole attachment at offset {}", source.name(),
+                attachment.offset);
+  }
+  if (crc != 0 && crc32(ByteSpan(bytes).first(end).subspan(kRecordHead)) != crc) {
+    return fail(ErrorCode::kParse, "`{}`: the attachment at offset {} does not match its checksum",
+                source.name(), attachment.offset);
+  }
+  return std::string(reinterpret_cast<const char*>(data.data()), data.size());
+}
+
+Result<StringMap> McapReader::read_metadata(const MetadataInfo& metadata) const {
+  const ByteSource& source = *file_->source;
+  Bytes bytes;
+  RAVE_TRY(source.read(metadata.offset, metadata.length, bytes));
+  ByteReader reader(bytes);
+  const bool right = reader.get<std::uint8_t>() == opcode::kMetadata &&
+                     reader.get<std::uint64_t>() == bytes.size() - kRecordHead;
+  static_cast<void>(reader.string());
+  StringMap entries = reader.map();
+  if (!right || !reader.ok()) {
+    return fail(ErrorCode::kParse, "`{}`: there is no whole metadata at offset {}", source.name(),
+                metadata.offset);
+  }
+  return entries;
+}
+
+Status McapReader::verify() const {
+  if (!file_->damages.empty()) return fail(ErrorCode::kParse, "{}", file_->damages.front());
+  const ByteSource& source = *file_->source;
+  if (file_->data_end != 0 && source.size() - file_->data_end >= kRecordHead + 4) {
+    Bytes bytes;
+    std::uint32_t sum = 0;
+    for (std::uint64_t at = 0; at < file_->data_end; at += bytes.size()) {
+      RAVE_TRY(source.read(at, std::min<std::uint64_t>(1U << 20, file_->data_end - at), bytes));
+      sum = crc32(bytes, sum);
+    }
+    RAVE_TRY(source.read(file_->data_end, kRecordHead + 4, bytes));
+    ByteReader reader(bytes);
+    const bool right =
+        reader.get<std::uint8_t>() == opcode::kDataEnd && reader.get<std::uint64_t>() == 4;
+    const auto crc = reader.get<std::uint32_t>();
+    if (!right) {
+      return fail(ErrorCode::kParse, "`{}`: the data do not end at offset {} as they should",
+                  source.name(), file_->data_end);
+    }
+    if (crc != 0 && crc != sum) {
+      return fail(ErrorCode::kParse, "`{}`: the data before offset {} do not match their checksum",
+                  source.name(), file_->data_end);
+    }
+  }
+  for (const AttachmentInfo& attachment : file_->attachments) {
+    RAVE_TRY(read_attachment(attachment));
+  }
+  for (const MetadataInfo& metadata : file_->metadata) RAVE_TRY(read_metadata(metadata));
+  MessageCursor cursor = messages();
+  std::uint64_t count = 0;
+  while (true) {
+    RAVE_TRY_ASSIGN(const auto message, cursor.next());
+    if (!message) break;
+    ++count;
+  }
+  if (count != file_->statistics.message_count) {
+    return fail(ErrorCode::kParse, "`{}` says it has {} messages; there are {}", source.name(),
+                file_->statistics.message_count, count);
+  }
+  return {};
+}
+
+}  // namespace rave::record

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+// Elements of the exact streams as they lie in memory and, by CDR, in the message. All arrays of
+// them begin at a multiple of 8, which the members before them in the messages see to.
+namespace rave::record {
+
+/// rave_msgs/msg/RobotPose
+struct PackedPose {
+  std::uint32_t robot;
+  std::uint32_t flags;
+  double x, y, yaw;
+  double vx, vy, wz;
+};
+static_assert(sizeof(PackedPose) == 56);
+
+/// rave_msgs/msg/TruePose
+struct PackedTruePose {
+  std::uint32_t robot;
+  std::uint32_t reserved;
+  double x, y, yaw;
+};
+static_assert(sizeof(PackedTruePose) == 32);
+
+inline constexpr std::uint32_t kHasReported = 1;
+inline constexpr std::uint32_t kHasTrue = 2;
+/// The true pose has the same bits as the reported one and is not written a second time.
+inline constexpr std::uint32_t kTrueIsReported = 4;
+
+/// rave_msgs/msg/Percept
+struct PackedPercept {
+  std::uint32_t robot;
+  std::uint16_t sensor;
+  std::uint8_t kind;
+  std::uint8_t part;
+  std::int64_t stamp_ns;
+  std::uint32_t sequence;
+  std::uint32_t count;
+  std::uint32_t fresh;
+  std::uint32_t dropped;
+  std::uint32_t offset;
+  std::uint32_t size;
+};
+static_assert(sizeof(PackedPercept) == 40);
+
+/// rave_msgs/msg/Command
+struct PackedCommand {
+  std::uint32_t robot;
+  std::uint32_t controller;
+  std::uint32_t offset;
+  std::uint32_t size;
+};
+static_assert(sizeof(PackedCommand) == 16);
+
+/// rave_msgs/msg/Packet
+struct PackedPacket {
+  std::int64_t sent_ns;
+  std::int64_t received_ns;
+  std::uint32_t from;
+  std::uint32_t to;
+  std::uint16_t transmitter;
+  std::uint16_t delivered;
+  std::uint32_t offset;
+  std::uint32_t size;
+  std::uint32_t reserved;
+};
+static_assert(sizeof(PackedPacket) == 40);
+
+}  // namespace rave::record

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "record_file.hpp"
+
+#include <zstd.h>
+
+#include <algorithm>
+
+#include "crc32.hpp"
+
+namespace rave::record {
+
+void note_schema(RecordFile& file, SchemaInfo schema) {
+  const auto at = std::lower_bound(file.schemas.begin(), file.schemas.end(), schema.id,
+                                   [](const auto& known, auto id) { return known.id < id; });
+  if (schema.id == 0 || (at != file.schemas.end() && at->id == schema.id)) return;
+  file.schemas.insert(at, std::move(schema));
+}
+
+void note_channel(RecordFile& file, ChannelInfo channel) {
+  const auto at = std::lower_bound(file.channels.begin(), file.channels.end(), channel.id,
+                                   [](const auto& known, auto id) { return known.id < id; });
+  if (at != file.channels.end() && at->id == channel.id) return;
+  file.channels.insert(at, std::move(channel));
+}
+
+bool for_each_record(ByteSpan records,
+                     const std::function<bool(std::uint8_t, ByteSpan, std::size_t)>& take) {
+  ByteReader reader(records);
+  while (reader.rest() > 0) {
+    const auto code = reader.get<std::uint8_t>();
+    const auto size = reader.get<std::uint64_t>();
+    const std::size_t at = reader.position();
+    const ByteSpan content = reader.raw(size);
+    if (!reader.ok()) return false;
+    if (!take(code, content, at)) return true;
+  }
+  return true;
+}
+
+namespace {
+
+[[nodiscard]] bool get_summary_record(RecordFile& file, std::uint8_t code, ByteSpan content,
+                                      bool& counted) {
+  bool ok = true;
+  const auto add = [&ok](auto& list, auto get, ByteSpan bytes) {
+    ok = get(bytes, list.emplace_back());
+  };
+  switch (code) {
+    case opcode::kSchema: {
+      SchemaInfo schema;
+      ok = get_schema(content, schema);
+      note_schema(file, std::move(schema));
+      break;
+    }
+    case opcode::kChannel: {
+      ChannelInfo channel;
+      ok = get_channel(content, channel);
+      note_channel(file, std::move(channel));
+      break;
+    }
+    case opcode::kChunkIndex:
+      add(file.chunks, get_chunk_index, content);
+      break;
+    case opcode::kAttachmentIndex:
+      add(file.attachments, get_attachment_index, content);
+      break;
+    case opcode::kMetadataIndex:
+      add(file.metadata, get_metadata_index, content);
+      break;
+    case opcode::kStatistics:
+      ok = get_statistics(content, file.statistics);
+      counted = true;
+      break;
+    default:
+      break;
+  }
+  return ok;
+}
+
+[[nodiscard]] Status unpack(const RecordFile& file, const ChunkInfo& chunk, ByteSpan packed,
+                            std::string_view compression, std::uint64_t size, Bytes& records) {
+  const std::string& name = file.source->name();
+  if (size > file.options.max_chunk_bytes) {
+    return fail(ErrorCode::kParse, "`{}`: the chunk at offset {} says it holds {} bytes", name,
+                chunk.offset, size);
+  }
+  if (compression.empty() && packed.size() == size) {
+    records.assign(packed.begin(), packed.end());
+    return {};
+  }
+  if (compression != "zstd") {
+    return fail(ErrorCode::kParse, "`{}`: the chunk at offset {} is packed as `{}`; known: zstd",
+                name, chunk.offset, compression);
+  }
+  // Believe the size only as far as the frame agrees, before memory is taken for it.
+  const auto frame = ZSTD_getFrameContentSize(packed.data(), packed.size());
+  std::size_t got = 0;
+  if (frame == size || frame == ZSTD_CONTENTSIZE_UNKNOWN) {
+    records.resize(size);
+    got = ZSTD_decompress(records.data(), records.size(), packed.data(), packed.size());
+  }
+  if ((frame != size && frame != ZSTD_CONTENTSIZE_UNKNOWN) || ZSTD_isError(got) != 0 ||
+      got != size) {
+    return fail(ErrorCode::kParse, "`{}`: the chunk at offset {} cannot be unpacked", name,
+                chunk.offset);
+  }
+  return {};
+}
+
+}  // namespace
+
+Status read_summary(RecordFile& file) {
+  const ByteSource& source = *file.source;
+  constexpr std::uint64_t kTail = kRecordHead + kFooterSize + 8;
+  Bytes tail;
+  if (source.size() < file.data_begin + kTail) {
+    return fail(ErrorCode::kParse, "`{}` ends at offset {} without a footer", source.name(),
+                source.size());
+  }
+  const std::uint64_t footer_at = source.size() - kTail;
+  RAVE_TRY(source.read(footer_at, kTail, tail));
+  ByteReader footer(tail);
+  const bool is_footer =
+      footer.get<std::uint8_t>() == opcode::kFooter && footer.get<std::uint64_t>() == kFooterSize;
+  const auto start = footer.get<std::uint64_t>();
+  static_cast<void>(footer.get<std::uint64_t>());
+  const auto crc = footer.get<std::uint32_t>();
+  const ByteSpan magic = footer.raw(kMagic.size());
+  if (!is_footer || !std::ranges::equal(magic, as_bytes(kMagic))) {
+    return fail(ErrorCode::kParse, "`{}` ends at offset {} without a footer", source.name(),
+                source.size());
+  }
+  file.whole = true;
+  if (start == 0) return fail(ErrorCode::kNotFound, "");  // allowed: a file without a summary
+  if (start < file.data_begin || start > footer_at) {
+    return fail(ErrorCode::kParse, "`{}`: the footer at offset {} puts the summary at {}",
+                source.name(), footer_at, start);
+  }
+  Bytes summary;
+  RAVE_TRY(source.read(start, footer_at - start + kRecordHead + kFooterSize - 4, summary));
+  if (crc != 0 && crc32(summary) != crc) {
+    return fail(ErrorCode::kParse, "`{}`: the summary at offset {} does not match its checksum",
+                source.name(), start);
+  }
+  bool ok = true;
+  bool counted = false;
+  const bool complete = for_each_record(ByteSpan(summary).first(footer_at - start),
+                                        [&](auto code, ByteSpan content, std::size_t) {
+                                          ok = get_summary_record(file, code, content, counted);
+                                          return ok;
+                                        });
+  if (!ok || !complete) {
+    return fail(ErrorCode::kParse, "`{}`: the summary at offset {} has a record that is not whole",
+                source.name(), start);
+  }
+  // Without counts, or with messages that no chunk index tells of, the data must be looked at.
+  if (!counted || (file.chunks.empty() && file.statistics.message_count > 0)) {
+    return fail(ErrorCode::kNotFound, "");
+  }
+  file.data_end = start < kRecordHead + 4 ? 0 : start - kRecordHead - 4;
+  return {};
+}
+
+Status load_chunk(const RecordFile& file, const ChunkInfo& chunk, Bytes& records) {
+  if (chunk.bare) return file.source->read(chunk.offset, chunk.length, records);
+  Bytes bytes;
+  RAVE_TRY(file.source->read(chunk.offset, chunk.length, bytes));
+  ByteReader reader(bytes);
+  const auto code = reader.get<std::uint8_t>();
+  const auto length = reader.get<std::uint64_t>();
+  static_cast<void>(reader.get<std::uint64_t>());
+  static_cast<void>(reader.get<std::uint64_t>());
+  const auto size = reader.get<std::uint64_t>();
+  const auto crc = reader.get<std::uint32_t>();
+  const std::string compression = reader.string();
+  const ByteSpan packed = reader.raw(reader.get<std::uint64_t>());
+  if (!reader.ok() || code != opcode::kChunk || length != bytes.size() - kRecordHead) {
+    return fail(ErrorCode::kParse, "`{}`: there is no whole chunk at offset {}",
+                file.source->name(), chunk.offset);
+  }
+  RAVE_TRY(unpack(file, chunk, packed, compression, size, records));
+  if (crc != 0 && crc32(records) != crc) {
+    return fail(ErrorCode::kParse, "`{}`: the chunk at offset {} does not match its checksum",
+                file.source->name(), chunk.offset);
+  }
+  return {};
+}
+
+}  // namespace rave::record

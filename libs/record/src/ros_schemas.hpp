@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+// Definitions of message types in the text form that MCAP calls `ros2msg`: the type, then each type
+// it uses behind a line of 80 equals signs. Fields of the ROS 2 types after the interfaces of ROS 2
+// Humble (common_interfaces, geometry2, rcl_interfaces).
+namespace rave::record {
+
+struct RosSchema {
+  std::string_view name;
+  std::string_view text;
+};
+
+extern const RosSchema kRunSchema;
+extern const RosSchema kEndSchema;
+extern const RosSchema kPosesSchema;
+extern const RosSchema kPerceptsSchema;
+extern const RosSchema kCommandsSchema;
+extern const RosSchema kRadioSchema;
+extern const RosSchema kEventSchema;
+extern const RosSchema kLogSchema;
+extern const RosSchema kTfSchema;
+extern const RosSchema kLaserScanSchema;
+extern const RosSchema kTwistSchema;
+
+}  // namespace rave::record

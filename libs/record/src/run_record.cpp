@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/record/run_record.hpp"
+
+#include <mutex>
+#include <vector>
+
+#include "encode.hpp"
+#include "packed.hpp"
+#include "standard_views.hpp"
+
+namespace rave::record {
+namespace {
+
+/// What one stream collects in a step: packed elements and the bytes they point into.
+template <class Packed>
+struct Batch {
+  Stream stream;
+  std::vector<Packed> elements;
+  std::vector<std::byte> records;
+
+  void add(Packed element, std::span<const std::byte> bytes) {
+    element.offset = static_cast<std::uint32_t>(records.size());
+    element.size = static_cast<std::uint32_t>(bytes.size());
+    elements.push_back(element);
+    records.insert(records.end(), bytes.begin(), bytes.end());
+  }
+  /// One message, put together in the file's own buffer; nothing if nothing was added.
+  Status write(McapWriter& file, CdrWriter& cdr, SimTime time, std::uint64_t step) {
+    if (elements.empty()) return {};
+    encode_step_head(cdr, time, step, elements.size());
+    const auto size = static_cast<std::uint32_t>(records.size());
+    const std::span<const std::byte> parts[] = {cdr.bytes(), std::as_bytes(std::span(elements)),
+                                                std::as_bytes(std::span(&size, 1)), records};
+    const Status status = stream.write(file, time, parts);
+    elements.clear();
+    records.clear();
+    return status;
+  }
+};
+
+}  // namespace
+
+class RunRecorder::Impl {
+ public:
+  explicit Impl(McapWriter file) : file_(std::move(file)) {}
+
+  [[nodiscard]] Status begin(const RunInfo& info, const ViewOptions& views);
+  [[nodiscard]] Status write_console();
+
+  McapWriter file_;
+  StandardViews views_;
+  Stream run_, end_, poses_, events_, console_;
+  Batch<PackedPercept> percepts_;
+  Batch<PackedCommand> commands_;
+  Batch<PackedPacket> radio_;
+  CdrWriter cdr_;
+  SimTime time_;
+  std::uint64_t step_ = 0;
+  std::uint64_t steps_ = 0;
+  std::mutex console_mutex_;
+  std::vector<ConsoleLine> console_lines_;  ///< Guarded by console_mutex_.
+};
+
+Status RunRecorder::Impl::begin(const RunInfo& info, const ViewOptions& views) {
+  const auto add = [this](Stream& stream, const char* topic, const RosSchema& schema) -> Status {
+    RAVE_TRY_ASSIGN(const auto id, add_schema(file_, schema));
+    RAVE_TRY_ASSIGN(stream, add_stream(file_, topic, id));
+    return {};
+  };
+  RAVE_TRY(add(run_, topic::kRun, kRunSchema));
+  RAVE_TRY(add(end_, topic::kEnd, kEndSchema));
+  RAVE_TRY(add(poses_, topic::kPoses, kPosesSchema));
+  RAVE_TRY(add(percepts_.stream, topic::kPercepts, kPerceptsSchema));
+  RAVE_TRY(add(commands_.stream, topic::kCommands, kCommandsSchema));
+  RAVE_TRY(add(radio_.stream, topic::kRadio, kRadioSchema));
+  RAVE_TRY(add(events_, topic::kEvents, kEventSchema));
+  RAVE_TRY(add(console_, topic::kConsole, kLogSchema));
+  RAVE_TRY(views_.open(file_, info, views));
+  const std::string_view yaml = info.expanded_scenario;
+  RAVE_TRY(file_.add_attachment("scenario.yaml", "application/yaml",
+                                std::as_bytes(std::span(yaml.data(), yaml.size()))));
+  StringMap about = {{"scenario", info.scenario},
+                     {"started", info.started},
+                     {"seed", std::to_string(info.seed)},
+                     {"step_s", fmt::format("{}", info.step_s)},
+                     {"robots", std::to_string(info.robots.size())}};
+  for (const auto& [name, version] : info.versions) about["version " + name] = version;
+  RAVE_TRY(file_.add_metadata("rave.run", about));
+  encode_run(cdr_, info);
+  return run_.write(file_, SimTime{}, cdr_.bytes());
+}
+
+Status RunRecorder::Impl::write_console() {
+  std::vector<ConsoleLine> lines;
+  {
+    const std::lock_guard lock(console_mutex_);
+    if (console_lines_.empty()) return {};
+    lines.swap(console_lines_);
+  }
+  Status status;
+  for (ConsoleLine& line : lines) {
+    line.time = time_;
+    encode_console(cdr_, line);
+    if (auto written = console_.write(file_, time_, cdr_.bytes()); !written) status = written;
+  }
+  return status;
+}
+
+RunRecorder::RunRecorder(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
+RunRecorder::RunRecorder(RunRecorder&&) noexcept = default;
+RunRecorder& RunRecorder::operator=(RunRecorder&&) noexcept = default;
+RunRecorder::~RunRecorder() = default;
+
+Result<RunRecorder> RunRecorder::open(const std::filesystem::path& path, const RunInfo& info,
+                                      const RunRecorderOptions& options, LogSink* sink) {
+  RAVE_TRY_ASSIGN(auto file, McapWriter::open(path, options.file, sink));
+  auto impl = std::make_unique<Impl>(std::move(file));
+  RAVE_TRY(impl->begin(info, options.views));
+  return RunRecorder(std::move(impl));
+}
+
+void RunRecorder::begin_step(std::uint64_t step, SimTime time) {
+  impl_->step_ = step;
+  impl_->time_ = time;
+  ++impl_->steps_;
+}
+
+void RunRecorder::percept(const Percept& percept) {
+  const ReadingHeader& header = percept.header;
+  impl_->percepts_.add({percept.robot.value(), static_cast<std::uint16_t>(percept.sensor.value()),
+                        percept.kind, static_cast<std::uint8_t>(percept.part), header.stamp_ns,
+                        header.sequence, header.count, header.fresh, header.dropped, 0, 0},
+                       percept.records);
+  if (percept.kind == kRangesKind && percept.part == PerceptPart::kResult &&
+      impl_->views_.sees(percept.robot)) {
+    // A failed write is told by end_step().
+    static_cast<void>(impl_->views_.percept(impl_->file_, impl_->time_, percept));
+  }
+}
+
+void RunRecorder::command(const CommandRecord& command) {
+  impl_->commands_.add({command.robot.value(), command.controller.value(), 0, 0}, command.command);
+  if (impl_->views_.sees(command.robot)) {
+    static_cast<void>(impl_->views_.command(impl_->file_, impl_->time_, command));
+  }
+}
+
+void RunRecorder::radio(const RadioPacket& packet) {
+  impl_->radio_.add(
+      {packet.sent_ns, packet.received_ns, packet.from.value(), packet.to.value(),
+       packet.transmitter, static_cast<std::uint16_t>(packet.delivered ? 1 : 0), 0, 0, 0},
+      packet.payload);
+}
+
+Status RunRecorder::event(const RunEvent& event) {
+  encode_event(impl_->cdr_, impl_->time_, impl_->step_, event);
+  return impl_->events_.write(impl_->file_, impl_->time_, impl_->cdr_.bytes());
+}
+
+Status RunRecorder::poses(std::span<const RobotPose> robots) {
+  encode_poses(impl_->cdr_, impl_->time_, impl_->step_, robots);
+  RAVE_TRY(impl_->poses_.write(impl_->file_, impl_->time_, impl_->cdr_.bytes()));
+  return impl_->views_.poses(impl_->file_, impl_->time_, robots);
+}
+
+Status RunRecorder::end_step() {
+  Impl& impl = *impl_;
+  // All batches are emptied whatever happens to one of them.
+  const Status results[] = {impl.percepts_.write(impl.file_, impl.cdr_, impl.time_, impl.step_),
+                            impl.commands_.write(impl.file_, impl.cdr_, impl.time_, impl.step_),
+                            impl.radio_.write(impl.file_, impl.cdr_, impl.time_, impl.step_),
+                            impl.write_console()};
+  for (const Status& result : results) RAVE_TRY(result);
+  return {};
+}
+
+void RunRecorder::console(LogLevel level, std::string_view source, std::string_view text) {
+  const std::lock_guard lock(impl_->console_mutex_);
+  impl_->console_lines_.push_back({SimTime{}, level, std::string(source), std::string(text)});
+}
+
+Status RunRecorder::flush() { return impl_->file_.flush(); }
+
+Status RunRecorder::end(std::optional<std::uint64_t> hash) {
+  Impl& impl = *impl_;
+  Status written = end_step();
+  encode_end(impl.cdr_, {impl.time_, impl.steps_, hash});
+  if (written) written = impl.end_.write(impl.file_, impl.time_, impl.cdr_.bytes());
+  StringMap about = {{"steps", std::to_string(impl.steps_)}};
+  if (hash) about["hash"] = fmt::format("{:016x}", *hash);
+  if (written) written = impl.file_.add_metadata("rave.end", about);
+  Status closed = impl.file_.close();
+  RAVE_TRY(written);
+  return closed;
+}
+
+const McapWriter& RunRecorder::file() const noexcept { return impl_->file_; }
+
+}  // namespace rave::record

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "standard_views.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "cdr_time.hpp"
+#include "rave/math/scalar.hpp"
+
+namespace rave::record {
+namespace {
+
+constexpr std::string_view kWorldFrame = "world";
+constexpr double kEvenSpacing_rad = 1e-6;
+
+/// A scan message has one angle between all rays; a sensor without one has no standard message.
+[[nodiscard]] bool evenly_spaced(const std::vector<double>& bearings_rad) {
+  if (bearings_rad.size() < 2) return bearings_rad.size() == 1;
+  const double step = bearings_rad[1] - bearings_rad[0];
+  for (std::size_t i = 0; i < bearings_rad.size(); ++i) {
+    const double expected = bearings_rad[0] + static_cast<double>(i) * step;
+    if (!(std::abs(bearings_rad[i] - expected) < kEvenSpacing_rad)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Status StandardViews::open(McapWriter& file, const RunInfo& info, const ViewOptions& options) {
+  if (!(options.rate_hz > 0)) return {};
+  period_ns_ = std::max<std::int64_t>(1, from_seconds(1.0 / options.rate_hz).ns);
+  robots_ = options.robots;
+  for (const RecordedRobot& robot : info.robots) frames_[robot.id] = robot.name;
+  RAVE_TRY_ASSIGN(const auto schema, add_schema(file, kTfSchema));
+  RAVE_TRY_ASSIGN(tf_.stream, add_stream(file, "/tf", schema));
+  RAVE_TRY(open_scans(file, info));
+  RAVE_TRY(open_velocities(file, info));
+  if (scans_.empty()) return {};
+  RAVE_TRY_ASSIGN(Stream fixed, add_stream(file, "/tf_static", schema));
+  RAVE_TRY(write_mountings(file, info));
+  return fixed.write(file, SimTime{}, cdr_.bytes());
+}
+
+Status StandardViews::open_scans(McapWriter& file, const RunInfo& info) {
+  std::uint16_t schema = 0;
+  for (const RecordedSensor& sensor : info.sensors) {
+    const auto robot = frames_.find(sensor.robot);
+    if (sensor.kind != kRangesKind || !sees(sensor.robot) || robot == frames_.end() ||
+        !evenly_spaced(sensor.bearings_rad)) {
+      continue;
+    }
+    if (schema == 0) {
+      RAVE_TRY_ASSIGN(schema, add_schema(file, kLaserScanSchema));
+    }
+    Scan scan;
+    scan.frame = robot->second + "/" + sensor.name;
+    const auto& bearings = sensor.bearings_rad;
+    scan.angle_min = static_cast<float>(bearings.front());
+    scan.angle_max = static_cast<float>(bearings.back());
+    scan.increment = bearings.size() > 1 ? static_cast<float>(bearings[1] - bearings[0]) : 0;
+    scan.period = static_cast<float>(sensor.period_s);
+    scan.range_min = static_cast<float>(sensor.range_min_m);
+    scan.range_max = static_cast<float>(sensor.range_max_m);
+    RAVE_TRY_ASSIGN(scan.paced.stream, add_stream(file, "/" + scan.frame, schema));
+    scans_[{sensor.robot, sensor.sensor}] = std::move(scan);
+  }
+  return {};
+}
+
+Status StandardViews::open_velocities(McapWriter& file, const RunInfo& info) {
+  std::uint16_t schema = 0;
+  for (const RecordedRobot& robot : info.robots) {
+    if (!sees(robot.id)) continue;
+    if (schema == 0) {
+      RAVE_TRY_ASSIGN(schema, add_schema(file, kTwistSchema));
+    }
+    RAVE_TRY_ASSIGN(velocities_[robot.id].stream,
+                    add_stream(file, "/" + robot.name + "/cmd_vel", schema));
+  }
+  return {};
+}
+
+bool StandardViews::due(Paced& paced, SimTime time) const noexcept {
+  if (time.ns < paced.next_ns) return false;
+  paced.next_ns = std::max(paced.next_ns, time.ns - period_ns_) + period_ns_;
+  if (paced.next_ns <= time.ns) paced.next_ns = time.ns + period_ns_;
+  return true;
+}
+
+void StandardViews::put_transform(SimTime time, std::string_view parent, std::string_view child,
+                                  const Pose2& X, double z_m) {
+  put_time(cdr_, time);
+  cdr_.put_string(parent);
+  cdr_.put_string(child);
+  for (const double value : {X.x, X.y, z_m, 0.0, 0.0, sin(X.yaw / 2), cos(X.yaw / 2)}) {
+    cdr_.put(value);
+  }
+}
+
+Status StandardViews::write_mountings(McapWriter&, const RunInfo& info) {
+  cdr_.clear();
+  cdr_.put_count(scans_.size());
+  for (const RecordedSensor& sensor : info.sensors) {
+    const auto scan = scans_.find({sensor.robot, sensor.sensor});
+    if (scan == scans_.end()) continue;
+    put_transform(SimTime{}, frames_[sensor.robot], scan->second.frame, sensor.X_RS, sensor.z_m);
+  }
+  return {};
+}
+
+Status StandardViews::poses(McapWriter& file, SimTime time, std::span<const RobotPose> robots) {
+  if (period_ns_ == 0 || !due(tf_, time)) return {};
+  const auto placed = [](const RobotPose& pose) { return pose.reported_pose || pose.true_pose; };
+  cdr_.clear();
+  cdr_.put_count(static_cast<std::size_t>(std::ranges::count_if(robots, placed)));
+  for (const RobotPose& pose : robots) {
+    if (!placed(pose)) continue;
+    const auto frame = frames_.find(pose.robot);
+    put_transform(time, kWorldFrame, frame == frames_.end() ? "?" : frame->second,
+                  pose.reported_pose ? *pose.reported_pose : *pose.true_pose, 0);
+  }
+  return tf_.stream.write(file, time, cdr_.bytes());
+}
+
+Status StandardViews::percept(McapWriter& file, SimTime time, const Percept& percept) {
+  const auto found = scans_.find({percept.robot, percept.sensor});
+  if (found == scans_.end() || !due(found->second.paced, time)) return {};
+  Scan& scan = found->second;
+  cdr_.clear();
+  put_time(cdr_, SimTime{percept.header.stamp_ns});
+  cdr_.put_string(scan.frame);
+  for (const float value : {scan.angle_min, scan.angle_max, scan.increment, 0.0F, scan.period,
+                            scan.range_min, scan.range_max}) {
+    cdr_.put(value);
+  }
+  std::vector<float> ranges(percept.records.size() / sizeof(float));
+  if (!ranges.empty()) {
+    std::memcpy(ranges.data(), percept.records.data(), ranges.size() * sizeof(float));
+  }
+  cdr_.put_sequence(std::span<const float>(ranges));
+  cdr_.put_count(0);
+  return scan.paced.stream.write(file, time, cdr_.bytes());
+}
+
+Status StandardViews::command(McapWriter& file, SimTime time, const CommandRecord& command) {
+  std::uint32_t kind = 0;
+  double velocity[2] = {};
+  if (command.command.size() < 8 + sizeof velocity) return {};
+  std::memcpy(&kind, command.command.data(), sizeof kind);
+  const auto found = velocities_.find(command.robot);
+  if (kind != kVelocityKind || found == velocities_.end() || !due(found->second, time)) return {};
+  std::memcpy(velocity, command.command.data() + 8, sizeof velocity);
+  cdr_.clear();
+  for (const double value : {velocity[0], 0.0, 0.0, 0.0, 0.0, velocity[1]}) cdr_.put(value);
+  return found->second.stream.write(file, time, cdr_.bytes());
+}
+
+}  // namespace rave::record

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <thread>
+#include <variant>
+
+#include "mcap_file.hpp"
+#include "mcap_format.hpp"
+#include "rave/record/mcap_writer.hpp"
+
+namespace rave::record {
+
+struct AttachmentJob {
+  AttachmentInfo info;
+  Bytes data;
+};
+struct MetadataJob {
+  std::string name;
+  StringMap entries;
+};
+using WriteJob = std::variant<std::unique_ptr<Chunk>, AttachmentJob, MetadataJob>;
+
+/// Between the producer, who fills the open chunk, and the thread that writes.
+///
+/// The open chunk is guarded by `gate_`, a flag that the producer finds free except in the moment
+/// in which the thread takes a chunk that has been open for the flush interval; the thread never
+/// waits for it. Everything else is guarded by `mutex_`, which the producer meets once per chunk.
+/// Order: gate before mutex.
+class WriteQueue {
+ public:
+  WriteQueue(std::unique_ptr<McapFile> file, const McapWriterOptions& options, LogSink* sink);
+  WriteQueue(const WriteQueue&) = delete;
+  WriteQueue& operator=(const WriteQueue&) = delete;
+  ~WriteQueue();
+
+  /// Lets `fill` append to the open chunk, and hands it over when it is full. Producer.
+  template <class Fill>
+  void append(Fill&& fill) {
+    enter();
+    fill(*open_);
+    if (open_->records.size() >= options_.chunk_bytes) hand_over_waiting();
+    leave();
+  }
+  /// Puts a job behind all chunks that were handed over. Producer.
+  void push(WriteJob job);
+  /// Hands over what is open and waits until the queue is empty. Producer.
+  void drain();
+  /// drain(), then the index; ends the thread. Producer, once.
+  [[nodiscard]] Status finish(const std::vector<SchemaInfo>& schemas,
+                              const std::vector<ChannelInfo>& channels);
+
+  /// The first write that failed.
+  [[nodiscard]] Status failure();
+  void count_dropped() noexcept { dropped_.fetch_add(1, std::memory_order_relaxed); }
+  [[nodiscard]] std::uint64_t dropped() const noexcept { return dropped_.load(); }
+  [[nodiscard]] std::uint64_t waits() const noexcept { return waits_.load(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void enter() noexcept {
+    while (gate_.test_and_set(std::memory_order_acquire)) std::this_thread::yield();
+  }
+  void leave() noexcept { gate_.clear(std::memory_order_release); }
+  void hand_over_waiting();
+  void hand_over(std::unique_lock<std::mutex>& lock);
+  void take_open();
+  void work();
+  [[nodiscard]] Status perform(WriteJob& job);
+  void note_failure(const Error& error);
+  void stop();
+
+  McapWriterOptions options_;
+  LogSink* sink_;
+  std::unique_ptr<McapFile> file_;  ///< The thread's until it has ended.
+  std::atomic_flag gate_;
+  std::unique_ptr<Chunk> open_;
+  std::atomic<bool> failed_ = false;
+  std::atomic<std::uint64_t> dropped_ = 0;
+  std::atomic<std::uint64_t> waits_ = 0;
+  std::mutex mutex_;
+  std::condition_variable work_;  ///< For the thread: a job, or stop.
+  std::condition_variable done_;  ///< For the producer: a job is done.
+  std::deque<WriteJob> jobs_;
+  std::vector<std::unique_ptr<Chunk>> spare_;
+  std::size_t backlog_bytes_ = 0;
+  bool busy_ = false;
+  bool stop_ = false;
+  Clock::time_point next_flush_;
+  Error error_;
+  std::thread thread_;
+};
+
+}  // namespace rave::record

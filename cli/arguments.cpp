@@ -23,6 +23,7 @@ struct Everything {
   DescribeCommand describe;
   NewCommand make;
   SchemaCommand schema;
+  InfoCommand info;
 };
 
 void add_plugins(CLI::App& app, std::vector<std::string>& folders) {
@@ -50,6 +51,7 @@ void add_run(CLI::App& root, RunCommand& c) {
       ->check(CLI::Range(1e-4, 1e9));
   app.add_option("--pace", c.pace, "max, realtime, or a factor such as 10x")->type_name("PACE");
   app.add_flag("--no-picture", c.no_picture, "Do not draw picture.svg and picture.png");
+  app.add_flag("--no-record", c.no_record, "Do not write run.mcap");
   app.add_flag("--quiet", c.quiet, "Print errors and problems only");
   add_plugins(app, c.plugins);
   app.footer(
@@ -118,6 +120,14 @@ void add_schema(CLI::App& root, SchemaCommand& c) {
   app.footer("Example:\n  rave schema robot > robot.schema.json");
 }
 
+void add_info(CLI::App& root, InfoCommand& c) {
+  CLI::App& app = *root.add_subcommand("info", "Say what is in the record of a run");
+  app.add_option("file", c.file, "A run.mcap, or the folder of a run")
+      ->required()
+      ->type_name("FILE");
+  app.footer("Example:\n  rave info runs/20260101-120000-mixed-reality");
+}
+
 std::vector<std::string_view> subcommands_of(const CLI::App& root,
                                              std::vector<std::string>& names) {
   for (const CLI::App* app : root.get_subcommands(nullptr)) names.push_back(app->get_name());
@@ -168,6 +178,7 @@ Command chosen_command(const CLI::App& root, const Everything& all) {
   if (name == "describe") return all.describe;
   if (name == "new") return all.make;
   if (name == "schema") return all.schema;
+  if (name == "info") return all.info;
   return VersionCommand{};
 }
 
@@ -185,6 +196,7 @@ Command parse_arguments(int argc, const char* const* argv) {
   add_describe(root, all.describe);
   add_new(root, all.make);
   add_schema(root, all.schema);
+  add_info(root, all.info);
   root.add_subcommand("version", "What this build is, and which plug-ins fit it");
   root.footer(
       "Examples:\n"

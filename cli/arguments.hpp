@@ -6,6 +6,7 @@
 #include "commands/check.hpp"
 #include "commands/describe.hpp"
 #include "commands/drivers.hpp"
+#include "commands/info.hpp"
 #include "commands/new.hpp"
 #include "commands/run.hpp"
 #include "commands/schema.hpp"
@@ -20,7 +21,7 @@ struct Finished {
 };
 
 using Command = std::variant<Finished, RunCommand, CheckCommand, DriversCommand, DescribeCommand,
-                             NewCommand, SchemaCommand, VersionCommand>;
+                             NewCommand, SchemaCommand, InfoCommand, VersionCommand>;
 
 /// Reads the command line. Prints help and complaints itself.
 [[nodiscard]] Command parse_arguments(int argc, const char* const* argv);

@@ -17,6 +17,7 @@ struct Dispatch {
   int operator()(const DescribeCommand& options) const { return describe(options); }
   int operator()(const NewCommand& options) const { return new_project(options); }
   int operator()(const SchemaCommand& options) const { return schema(options); }
+  int operator()(const InfoCommand& options) const { return info(options); }
   int operator()(const VersionCommand& /*options*/) const { return version(); }
 };
 

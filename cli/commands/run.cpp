@@ -50,9 +50,9 @@ Status override_settings(const RunCommand& options, config::ScenarioFile& scenar
 
 /// The files that a run leaves and that people look at, in that order.
 std::string files_of(const std::filesystem::path& folder) {
-  constexpr std::array<std::string_view, 7> kFiles = {"summary.txt", "result.json", "picture.svg",
+  constexpr std::array<std::string_view, 8> kFiles = {"summary.txt", "result.json", "picture.svg",
                                                       "picture.png", "events.log",  "scenario.yaml",
-                                                      "console.log"};
+                                                      "console.log", "run.mcap"};
   std::string text;
   std::error_code error;
   for (const std::string_view file : kFiles) {
@@ -111,6 +111,7 @@ int run(const RunCommand& options) {
   run_options.output = folder->path();
   run_options.program_runner = program_runner();
   run_options.picture = !options.no_picture;
+  run_options.record = !options.no_record;
   run_options.log = &console;
   bool started = false;
   run_options.on_progress = [&](const report::Progress& progress) {

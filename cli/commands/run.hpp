@@ -17,6 +17,7 @@ struct RunCommand {
   std::optional<double> duration_s;
   std::optional<std::string> pace;
   bool no_picture = false;
+  bool no_record = false;
   bool quiet = false;
   std::vector<std::string> plugins;
 };

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "rave/record/record_summary.hpp"
 #include "scenario_fixture.hpp"
 
 namespace rave::tests {
@@ -104,7 +105,7 @@ TEST_F(Sightings, ARecordingCanPlayInRealTime) {
 TEST_F(Sightings, TheRunLeavesEverythingInOneFolder) {
   const auto outcome = run(load("mixed-reality"), true);
   for (const char* file : {"result.json", "summary.txt", "events.log", "scenario.yaml",
-                           "picture.svg", "picture.png"}) {
+                           "picture.svg", "picture.png", "run.mcap"}) {
     EXPECT_TRUE(std::filesystem::exists(folder_ / file)) << file;
   }
   const auto json = result();
@@ -125,6 +126,12 @@ TEST_F(Sightings, TheRunLeavesEverythingInOneFolder) {
   EXPECT_GT(json["hits"]["real"]["simulated"], 0) << "recorded robots sense simulated ones";
   EXPECT_GT(json["hits"]["simulated"]["real"], 0) << "and the other way round";
   EXPECT_GT(json["hits"]["real"]["virtual_obstacle"], 0);
+  const auto record = record::describe_record(folder_ / "run.mcap");
+  ASSERT_TRUE(record) << record.error().text();
+  EXPECT_TRUE(record->whole);
+  ASSERT_TRUE(record->end && record->end->hash);
+  EXPECT_EQ(fmt::format("{:016x}", *record->end->hash), outcome.hash);
+  EXPECT_EQ(record->end->steps, 12000U);
   // What was run can be run again from what it left.
   const auto again = config::expand_scenario(folder_ / "scenario.yaml");
   ASSERT_TRUE(again) << again.error().text();

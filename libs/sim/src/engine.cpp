@@ -226,6 +226,11 @@ Command Engine::command(RobotId robot, std::uint32_t controller) const noexcept 
   return impl_->group_of(robot).controllers[controller].last[impl_->member_index[robot.value()]];
 }
 
+std::int64_t Engine::command_step(RobotId robot, std::uint32_t controller) const noexcept {
+  const ControllerSlots& slots = impl_->group_of(robot).controllers[controller];
+  return slots.last_step[impl_->member_index[robot.value()]];
+}
+
 std::uint64_t Engine::commands_given(RobotId robot) const noexcept {
   return impl_->group_of(robot).program.given[impl_->member_index[robot.value()]];
 }

@@ -169,6 +169,7 @@ void add_hit_rows(const Findings& findings, report::Table& table) {
 RunOutcome judge(const Findings& findings) {
   RunOutcome outcome;
   if (findings.ended_early) outcome.problems.emplace_back("the run was ended early");
+  if (!findings.record_problem.empty()) outcome.problems.push_back(findings.record_problem);
   const sim::EngineSpec& spec = findings.engine.spec();
   for (const sim::Event& event : findings.events) {
     if (!is_loss(event.kind)) continue;

@@ -30,6 +30,7 @@ struct Findings {
   const std::vector<sim::Event>& events;
   double wall_s = 0;
   bool ended_early = false;
+  std::string record_problem;  ///< Why run.mcap is not whole; empty if it is.
 };
 
 /// What the run amounts to: whole or not, checks, hash.

@@ -4,8 +4,10 @@
 #include <chrono>
 #include <thread>
 
+#include "console_tee.hpp"
 #include "outcome.hpp"
 #include "rave/base/file.hpp"
+#include "record_keeper.hpp"
 #include "stall_watch.hpp"
 #include "wall_pace.hpp"
 
@@ -24,6 +26,7 @@ struct Observers {
   HitCounter hits;
   std::optional<SightingCheck> sightings;
   std::optional<InstantKeeper> instant;
+  std::unique_ptr<RecordKeeper> record;
 
   Observers(const config::ScenarioFile& scenario, const BuiltScenario& built,
             const sim::EngineSpec& spec)
@@ -46,6 +49,7 @@ struct Observers {
     hits.after_step(engine);
     if (sightings) sightings->after_step(engine);
     if (instant) instant->after_step(engine);
+    if (record) record->after_step(engine);
   }
 };
 
@@ -93,6 +97,83 @@ Status write_results(const Findings& findings, const RunOptions& options, RunOut
   return write_file_atomically(options.output / "result.json", result_json(findings, outcome));
 }
 
+/// Lets the console speak to the record as long as both exist.
+class RecordedConsole {
+ public:
+  RecordedConsole(ConsoleTee& console, RecordKeeper* record) : console_(console) {
+    if (record != nullptr) console_.attach(&record->recorder());
+  }
+  RecordedConsole(const RecordedConsole&) = delete;
+  RecordedConsole& operator=(const RecordedConsole&) = delete;
+  ~RecordedConsole() { console_.attach(nullptr); }
+
+ private:
+  ConsoleTee& console_;
+};
+
+/// A run on its way: what the loop needs, and what it leaves.
+struct Journey {
+  sim::Engine& engine;
+  Observers& observers;
+  WallPace& pace;
+  bool live = false;
+  const config::ScenarioFile& file;
+  const RunOptions& options;
+  ConsoleTee& console;
+  std::vector<sim::Event> events;
+  double wall_s = 0;
+  bool stopped = false;
+};
+
+/// Waits until the next step may be done; false: the run is to end.
+bool wait_for_turn(Journey& journey) {
+  RunControl* const control = journey.options.control;
+  if (control != nullptr) {
+    const auto asked = Clock::now();
+    // The world outside a live run goes on, so that is not held.
+    const bool held = !journey.live && control->paused();
+    if (held ? !control->wait_for_turn() : control->stopping()) return false;
+    if (held) journey.pace.shift(Clock::now() - asked);
+  }
+  const auto steps = static_cast<std::int64_t>(journey.engine.steps_done());
+  journey.pace.wait_for(SimTime{steps * journey.engine.spec().step.ns}, control);
+  return true;
+}
+
+void tell_progress(const Journey& journey) {
+  const double sim_s = static_cast<double>(journey.engine.steps_done()) * journey.file.step_s.value;
+  journey.options.on_progress({sim_s / journey.file.duration_s, sim_s, journey.file.duration_s,
+                               journey.wall_s > 0 ? sim_s / journey.wall_s : 0,
+                               journey.engine.spec().robots.size(),
+                               journey.observers.encounters.headline()});
+}
+
+Status go_through(Journey& journey) {
+  const auto steps =
+      static_cast<std::uint64_t>(std::llround(journey.file.duration_s / journey.file.step_s.value));
+  StallWatch watch(&journey.console);
+  const auto begin = Clock::now();
+  auto next_progress = begin;
+  while (journey.engine.steps_done() < steps && !journey.stopped) {
+    if (!wait_for_turn(journey)) {
+      journey.stopped = true;
+      break;
+    }
+    watch.step_begins(journey.engine.steps_done());
+    RAVE_TRY(journey.engine.step());
+    watch.step_ends();
+    journey.observers.after_step(journey.engine);
+    tell_events(journey.engine, &journey.console, journey.events);
+    const auto now = Clock::now();
+    journey.wall_s = std::chrono::duration<double>(now - begin).count();
+    if (journey.options.on_progress && now >= next_progress) {
+      next_progress = now + kProgressInterval;
+      tell_progress(journey);
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalogue& catalogue,
@@ -103,68 +184,47 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
     return fail(ErrorCode::kIo, "cannot create the folder `{}`: {}", options.output.string(),
                 error.message());
   }
-  RAVE_TRY(
-      write_file_atomically(options.output / "scenario.yaml", config::write_expanded(scenario)));
+  const std::string expanded = config::write_expanded(scenario);
+  RAVE_TRY(write_file_atomically(options.output / "scenario.yaml", expanded));
 
   config::ExpandedScenario adjusted = scenario;
   config::ScenarioFile& file = adjusted.scenario;
   // The check and the frozen instant look back; a second is enough for both.
   if (file.checks.sightings || file.picture) file.history_s = std::max(file.history_s, 1.0);
 
+  // Outlives the engine, whose drivers and programs speak to it.
+  ConsoleTee console(options.log);
   WallPace pace(file.pace.factor);
   RAVE_TRY_ASSIGN(BuiltScenario built,
-                  build(adjusted, catalogue, {options.program_runner, options.log, &pace}));
+                  build(adjusted, catalogue, {options.program_runner, &console, &pace}));
   const bool live = !built.live_reason.empty();
   if (live && (file.pace.is_max() || file.pace.factor > 1)) {
-    if (options.log != nullptr) {
-      options.log->warn("run", "the run goes at real time, because {}", built.live_reason);
-    }
+    console.warn("run", "the run goes at real time, because {}", built.live_reason);
     pace.set_factor(1);
   }
   if (!live) built.spec.live_clock = nullptr;
   for (const std::string& note : built.notes) {
-    if (options.log != nullptr) options.log->warn("scenario", "{}", note);
+    console.warn("scenario", "{}", note);
   }
   RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(built.spec)));
 
   Observers observers(file, built, engine->spec());
-  std::vector<sim::Event> events;
-  const auto steps = static_cast<std::uint64_t>(std::llround(file.duration_s / file.step_s.value));
-  StallWatch watch(options.log);
-  // Live drivers count from when they were opened; their clock must not jump.
-  if (!live) pace.start();
-  const auto begin = Clock::now();
-  auto next_progress = begin;
-  bool stopped = false;
-  while (engine->steps_done() < steps) {
-    const auto asked = Clock::now();
-    // The world outside a live run goes on, so that is not held.
-    const bool held = !live && options.control != nullptr && options.control->paused();
-    const bool turn = options.control == nullptr ||
-                      (held ? options.control->wait_for_turn() : !options.control->stopping());
-    if (!turn) {
-      stopped = true;
-      break;
-    }
-    if (held) pace.shift(Clock::now() - asked);
-    pace.wait_for(SimTime{static_cast<std::int64_t>(engine->steps_done()) * engine->spec().step.ns},
-                  options.control);
-    watch.step_begins(engine->steps_done());
-    RAVE_TRY(engine->step());
-    watch.step_ends();
-    observers.after_step(*engine);
-    tell_events(*engine, options.log, events);
-    const auto now = Clock::now();
-    if (options.on_progress && now >= next_progress) {
-      next_progress = now + kProgressInterval;
-      const double wall_s = std::chrono::duration<double>(now - begin).count();
-      const double sim_s = static_cast<double>(engine->steps_done()) * file.step_s.value;
-      options.on_progress({sim_s / file.duration_s, sim_s, file.duration_s,
-                           wall_s > 0 ? sim_s / wall_s : 0, engine->spec().robots.size(),
-                           observers.encounters.headline()});
-    }
+  if (options.record) {
+    RAVE_TRY_ASSIGN(observers.record,
+                    RecordKeeper::begin(options.output / "run.mcap", *engine, observers.kinds,
+                                        file.name.value, expanded, options.log));
   }
-  const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
+  const RecordedConsole recorded(console, observers.record.get());
+  Journey journey{*engine, observers, pace, live, file, options, console, {}, 0, false};
+  if (!live) pace.start();  // live drivers count from when they were opened
+  RAVE_TRY(go_through(journey));
+  console.attach(nullptr);
+  std::string record_problem;
+  if (observers.record) {
+    const auto hash = live ? std::nullopt : std::optional(engine->hash().value());
+    const Status written = observers.record->end(hash);
+    if (!written) record_problem = "the record is not whole: " + written.error().text();
+  }
   const Findings findings{adjusted,
                           built,
                           observers.kinds,
@@ -174,9 +234,10 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
                           observers.hits,
                           observers.sightings ? &*observers.sightings : nullptr,
                           observers.instant ? &*observers.instant : nullptr,
-                          events,
-                          wall_s,
-                          stopped};
+                          journey.events,
+                          journey.wall_s,
+                          journey.stopped,
+                          record_problem};
   RunOutcome outcome;
   RAVE_TRY(write_results(findings, options, outcome));
   return outcome;

@@ -80,6 +80,8 @@ class Engine {
   [[nodiscard]] SensorSample sensor(RobotId robot, std::uint32_t index) const noexcept;
   /// The last command that the program gave to a controller.
   [[nodiscard]] Command command(RobotId robot, std::uint32_t controller) const noexcept;
+  /// The step in which it was given; -1 before the first.
+  [[nodiscard]] std::int64_t command_step(RobotId robot, std::uint32_t controller) const noexcept;
   /// How many commands the program gave in all, and whether the actuator behind obeys.
   [[nodiscard]] std::uint64_t commands_given(RobotId robot) const noexcept;
   [[nodiscard]] bool obeys(RobotId robot) const noexcept;

@@ -22,6 +22,7 @@ struct RunOptions {
   std::filesystem::path output;
   std::filesystem::path program_runner;  ///< The executable for isolated programs.
   bool picture = true;                   ///< Draw picture.svg and picture.png.
+  bool record = true;                    ///< Write run.mcap.
   LogSink* log = nullptr;                ///< Not owned; outlives the call.
   /// Called in the calling thread about ten times a second of wall time; may be empty.
   std::function<void(const report::Progress&)> on_progress;
@@ -30,7 +31,7 @@ struct RunOptions {
 };
 
 /// How a run ended. What it found lies in `output`: result.json, summary.txt, picture.svg,
-/// picture.png, events.log, scenario.yaml (with all defaults).
+/// picture.png, events.log, run.mcap (everything that happened), scenario.yaml (with all defaults).
 struct RunOutcome {
   bool whole = false;                 ///< Ran to its end without losing a driver or a program.
   bool checks_hold = true;            ///< All checks of the scenario hold.

@@ -81,12 +81,11 @@ void read_signed(const ReadContext& context, const RawNode& node, std::int64_t l
                  std::int64_t high, std::int64_t& value) {
   const auto found = node.as_int();
   const std::string expected = number_expectation("a whole number", context.options);
-  if (!found && !node.is_whole_number()) {
-    context.wrong(node, expected);
-  } else if (!found || *found < low || *found > high) {
+  const bool whole = found || node.is_whole_number();
+  if (whole && (!found || *found < low || *found > high)) {
     const bool limited = context.options.min && context.options.max;
     context.wrong(node, limited ? expected : whole_between(low, high));
-  } else if (!in_range(static_cast<double>(*found), context.options)) {
+  } else if (!whole || !in_range(static_cast<double>(*found), context.options)) {
     context.wrong(node, expected);
   } else {
     value = *found;
@@ -99,11 +98,10 @@ void read_unsigned(const ReadContext& context, const RawNode& node, std::uint64_
   if (!options.min) options.min = 0;
   const auto found = node.as_uint();
   const std::string expected = number_expectation("a whole number", options);
-  if (!found && (!node.is_whole_number() || node.scalar()[0] == '-')) {
-    context.wrong(node, expected);
-  } else if (!found || *found > high) {
+  const bool whole = found || (node.is_whole_number() && node.scalar()[0] != '-');
+  if (whole && (!found || *found > high)) {
     context.wrong(node, options.max ? expected : whole_between(std::uint64_t{0}, high));
-  } else if (!in_range(static_cast<double>(*found), options)) {
+  } else if (!whole || !in_range(static_cast<double>(*found), options)) {
     context.wrong(node, expected);
   } else {
     value = *found;

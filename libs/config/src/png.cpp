@@ -15,8 +15,10 @@ namespace {
 /// object: whatever lives across a jump is a member, and each guarded function has no locals.
 class PngDecoder {
  public:
-  PngDecoder(std::string_view bytes, std::string_view name) : bytes_(bytes), name_(name) {
-    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, on_error, on_warning);
+  PngDecoder(std::string_view bytes, std::string_view name)
+      : bytes_(bytes),
+        name_(name),
+        png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, this, on_error, on_warning)) {
     if (png_) info_ = png_create_info_struct(png_);
   }
   PngDecoder(const PngDecoder&) = delete;

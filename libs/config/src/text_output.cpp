@@ -123,7 +123,7 @@ class YamlText {
         if (line.size() + 4 + comment.size() <= kLineWidth) {
           line += "  # " + comment;
         } else {
-          out_ += spaces + "# " + comment + "\n";
+          out_.append(spaces).append("# ").append(comment).append("\n");
         }
       }
       out_ += line + "\n";

@@ -98,7 +98,7 @@ std::string Writer::comment_of(const FieldOptions& options) {
   return field_comment(options.doc, options.unit);
 }
 
-void SchemaWriter::add(std::string_view name, RawNode schema, const FieldOptions& options,
+void SchemaWriter::add(std::string_view name, const RawNode& schema, const FieldOptions& options,
                        const RawNode* initial) {
   properties_.append(std::string(name),
                      annotated_schema(schema, options.doc, options.unit, initial));

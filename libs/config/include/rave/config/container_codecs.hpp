@@ -68,21 +68,21 @@ struct Codec<std::vector<T>> {
   }
 };
 
-template <class T, std::size_t N>
-struct Codec<std::array<T, N>> {
-  static void read(const ReadContext& context, const RawNode& node, std::array<T, N>& value) {
+template <class T, std::size_t kCount>
+struct Codec<std::array<T, kCount>> {
+  static void read(const ReadContext& context, const RawNode& node, std::array<T, kCount>& value) {
     const FieldOptions fixed = with_length(context.options);
     if (!detail::check_list({context.diagnostics, fixed, context.label}, node,
                             expectation(context.options))) {
       return;
     }
     const FieldOptions options = detail::element_options(fixed);
-    for (std::size_t i = 0; i < N; ++i) {
+    for (std::size_t i = 0; i < kCount; ++i) {
       Codec<T>::read({context.diagnostics, options, detail::item_label(context, i)}, node.child(i),
                      value[i]);
     }
   }
-  static RawNode write(const std::array<T, N>& value) {
+  static RawNode write(const std::array<T, kCount>& value) {
     RawNode node = RawNode::sequence();
     for (const T& item : value) node.push_back(Codec<T>::write(item));
     return node;
@@ -97,8 +97,8 @@ struct Codec<std::array<T, N>> {
  private:
   static FieldOptions with_length(const FieldOptions& o) {
     FieldOptions options = o;
-    options.min_items = N;
-    options.max_items = N;
+    options.min_items = kCount;
+    options.max_items = kCount;
     return options;
   }
 };

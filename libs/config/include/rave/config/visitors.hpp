@@ -97,7 +97,7 @@ class SchemaWriter {
   [[nodiscard]] RawNode take() &&;
 
  private:
-  void add(std::string_view name, RawNode schema, const FieldOptions& options,
+  void add(std::string_view name, const RawNode& schema, const FieldOptions& options,
            const RawNode* initial);
 
   RawNode properties_ = RawNode::mapping();

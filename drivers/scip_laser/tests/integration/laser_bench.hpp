@@ -36,8 +36,8 @@ class LaserBench {
                  ::testing::UnitTest::GetInstance()->current_test_info()->name())) {
     std::filesystem::create_directories(folder_);
     options.insert(options.end(), {"--rpm", "2400", "--log", log_path()});
-    options.insert(options.end(), tcp ? std::vector<std::string>{"--port", "0"}
-                                      : std::vector<std::string>{"--link", link()});
+    options.push_back(tcp ? "--port" : "--link");
+    options.push_back(tcp ? "0" : link());
     peer = std::make_unique<testing::PeerProcess>("peer_scip", options);
     if (tcp) {
       given["address"] = "127.0.0.1:" + peer->where();

@@ -39,9 +39,11 @@ TEST(ScipLaserUnplug, AbsenceIsReportedAndEnds) {
 
 TEST(ScipLaserUnplug, SilenceIsNoticed) {
   LaserBench bench;
-  bench.given["lost_after_s"] = 100.0;
+  bench.given["lost_after_s"] = 0.2;
   ASSERT_NO_FATAL_FAILURE(bench.start());
   bench.peer->tell("mute");
+  const std::string why = bench.sink->await_failure();
+  EXPECT_NE(why.find(": no good scan for 0.5 s"), std::string::npos) << why;
   bench.peer->tell("speak");
   bench.sink->await_more(3);
 }

@@ -12,6 +12,7 @@ struct Case {
   const char* error;
 };
 
+// The name that GoogleTest looks for. NOLINTNEXTLINE(readability-identifier-naming)
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
 class BadInput : public testing::TestWithParam<Case> {};

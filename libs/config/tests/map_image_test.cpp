@@ -24,7 +24,7 @@ class MapFolder : public testing::Test {
                             testing::UnitTest::GetInstance()->current_test_info()->name())) {
     std::filesystem::create_directories(folder_);
   }
-  ~MapFolder() override { std::filesystem::remove_all(folder_); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
 
   [[nodiscard]] std::filesystem::path path(const std::string& name) const { return folder_ / name; }
   void write(const std::string& name, std::string_view content) const {
@@ -213,7 +213,8 @@ TEST(Rectangles, CoverExactlyAndDoNotOverlap) {
     for (const CellRectangle& r : cell_rectangles_of(map)) {
       for (int y = r.row; y < r.row + r.height; ++y) {
         for (int x = r.column; x < r.column + r.width; ++x) {
-          ++covered.at(static_cast<std::size_t>(y * map.width + x));
+          ++covered.at(static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
+                       static_cast<std::size_t>(x));
         }
       }
     }

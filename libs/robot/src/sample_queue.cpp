@@ -108,6 +108,10 @@ void SampleQueue::fail(const char* text, std::uint64_t size) noexcept {
   to_consumer_.notify_one();
 }
 
+SimTime SampleQueue::now() const noexcept {
+  return live_ == nullptr ? SimTime{INT64_MIN} : live_->now();
+}
+
 SampleQueue::Wait SampleQueue::wait_complete(SimTime t, std::chrono::milliseconds limit) {
   Lock lock(mutex_);
   if (live_ != nullptr) return failed_ || closed_ ? Wait::kFailed : Wait::kComplete;

@@ -51,6 +51,13 @@ class TestClock final : public RunClock {
   mutable std::atomic<bool> asked = false;
 };
 
+TEST(SampleQueue, TellsTheTimeOfALiveRunOnly) {
+  TestClock clock;
+  clock.now_ns = 1234;
+  EXPECT_EQ(values(1, &clock).now(), SimTime{1234});
+  EXPECT_EQ(values(1).now(), SimTime{INT64_MIN});
+}
+
 TEST(SampleQueue, HandsOverManySamplesInOrder) {
   constexpr std::int64_t kSamples = 100'000;
   constexpr std::int64_t kStep_ns = 7;

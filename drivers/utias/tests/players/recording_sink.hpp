@@ -73,6 +73,11 @@ class RecordingSink final : public SampleSink {
     fault_.assign(text, size);
   }
 
+  [[nodiscard]] SimTime now() const noexcept override {
+    const std::lock_guard lock(mutex_);
+    return {now_ns_};
+  }
+
   /// Waits for the end of the recording.
   void await_end() { await_complete(kForever_ns); }
   void await_complete(std::int64_t t_ns) {

@@ -24,6 +24,9 @@ class SampleSink {
   virtual void complete_up_to(SimTime t) noexcept = 0;
   /// Reports that the device is gone; `text` is copied.
   virtual void fail(const char* text, std::uint64_t size) noexcept = 0;
+  /// The present moment of a live run, which a driver needs to turn its own clock into stamps. In a
+  /// stepped run it says nothing (the smallest SimTime): stamps come from the data there.
+  [[nodiscard]] virtual SimTime now() const noexcept = 0;
 
  protected:
   ~SampleSink() = default;

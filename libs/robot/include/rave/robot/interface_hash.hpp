@@ -15,7 +15,7 @@
 namespace rave {
 
 /// Raised by hand when the meaning of the interface changes while its layout stays.
-inline constexpr std::uint64_t kRobotInterfaceVersion = 1;
+inline constexpr std::uint64_t kRobotInterfaceVersion = 2;
 
 namespace detail {
 constexpr std::uint64_t hash_layout(std::uint64_t version,

@@ -48,6 +48,7 @@ class SampleQueue final : public SampleSink {
   bool publish(SimTime stamp, const void* records, std::uint32_t count) noexcept override;
   void complete_up_to(SimTime t) noexcept override;
   void fail(const char* text, std::uint64_t size) noexcept override;
+  [[nodiscard]] SimTime now() const noexcept override;
 
   // Consumer side.
   enum class Wait {

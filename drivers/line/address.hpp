@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "rave/base/result.hpp"
+
+namespace rave::line {
+
+/// Where a byte stream is: a serial device, or a TCP server.
+struct Address {
+  std::string device;  ///< Path; empty for TCP.
+  std::int64_t baud = 0;
+  std::string host;
+  std::string port;  ///< Decimal.
+
+  [[nodiscard]] bool is_serial() const noexcept { return !device.empty(); }
+  /// For people: the path, or `host:port`.
+  [[nodiscard]] std::string text() const;
+};
+
+/// From the parameters `device`, `baud` and `address` (`host:port`, an IPv6 host in brackets).
+/// Errors (kInvalidArgument): both or none of device and address, a baud rate that no serial line
+/// has, an address that is none.
+[[nodiscard]] Result<Address> parse_address(std::string_view device, std::int64_t baud,
+                                            std::string_view address);
+
+/// The constant of termios for a bit rate; 0 if there is none.
+[[nodiscard]] unsigned speed_of(std::int64_t baud) noexcept;
+
+/// A port number in decimal, 0 to 65535. Error: kInvalidArgument.
+[[nodiscard]] Result<std::uint16_t> parse_port(std::string_view text);
+
+}  // namespace rave::line

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "line/address.hpp"
+#include "line/host_clock.hpp"
+#include "line/wake.hpp"
+
+namespace rave::line {
+
+/// What came of waiting for bytes.
+enum class ReadEnd {
+  kBytes,    ///< `size` bytes are there.
+  kTimeout,  ///< Nothing came within the limit.
+  kWoken,    ///< The bell rang.
+  kLost,     ///< The line is gone; lost() says why.
+};
+
+struct ReadResult {
+  ReadEnd end = ReadEnd::kTimeout;
+  std::size_t size = 0;
+};
+
+/// An open stream of bytes to a device: a serial line (raw, 8 data bits, no parity, one stop bit,
+/// no flow control) or a TCP connection. Owns its descriptor. For one thread at a time.
+class ByteLine {
+ public:
+  /// Opens the line; what lay in a serial line's buffers is thrown away. Waits at most `limit` for
+  /// a TCP server, and no longer than until `wake` rings (null: nobody rings).
+  /// Errors: kNotFound (no such device or host), kIo, kTimeout, kState (woken).
+  [[nodiscard]] static Result<ByteLine> open(const Address& address, Wait limit, const Wake* wake);
+
+  ByteLine(ByteLine&& other) noexcept;
+  ByteLine& operator=(ByteLine&& other) noexcept;
+  ByteLine(const ByteLine&) = delete;
+  ByteLine& operator=(const ByteLine&) = delete;
+  ~ByteLine();
+
+  /// Takes what has come, waiting at most `limit` for the first byte.
+  [[nodiscard]] ReadResult read(std::span<char> room, Wait limit, const Wake* wake) noexcept;
+  /// Sends all bytes. Errors: kIo (lost), kTimeout (the device does not take them), kState (woken).
+  [[nodiscard]] Status write(std::string_view bytes, Wait limit, const Wake* wake);
+  /// Why the line is gone; empty while it is not.
+  [[nodiscard]] const std::string& lost() const noexcept { return lost_; }
+
+ private:
+  explicit ByteLine(int fd) : fd_(fd) {}
+  ReadResult lose(std::string why) noexcept;
+
+  int fd_ = -1;
+  std::string lost_;
+};
+
+namespace detail {
+/// Waits until `fd` can do one of `events`: 1, or 0 after the limit, or -1 when woken.
+[[nodiscard]] int wait_ready(int fd, short events, HostTime end, const Wake* wake) noexcept;
+[[nodiscard]] Result<int> open_serial(const Address& address);
+[[nodiscard]] Result<int> open_tcp(const Address& address, Wait limit, const Wake* wake);
+}  // namespace detail
+
+}  // namespace rave::line

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "line/wake.hpp"
+
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "line/host_clock.hpp"
+
+namespace rave::line {
+
+Wake::~Wake() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
+Status Wake::open() {
+  if (fd_ >= 0) return {};
+  fd_ = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+  if (fd_ < 0) return fail(ErrorCode::kIo, "cannot make an event: {}", std::strerror(errno));
+  return {};
+}
+
+void Wake::ring() noexcept {
+  const std::uint64_t one = 1;
+  [[maybe_unused]] const auto written = ::write(fd_, &one, sizeof one);
+}
+
+void Wake::clear() noexcept {
+  std::uint64_t count = 0;
+  [[maybe_unused]] const auto got = ::read(fd_, &count, sizeof count);
+}
+
+bool Wake::rung() const noexcept { return wait(std::chrono::milliseconds(0)); }
+
+bool Wake::wait(std::chrono::milliseconds limit) const noexcept {
+  const HostTime end = host_now() + limit;
+  while (true) {
+    pollfd wanted{fd_, POLLIN, 0};
+    const int ready = ::poll(&wanted, 1, static_cast<int>(until(end).count()));
+    if (ready > 0) return true;
+    if (ready == 0 || errno != EINTR) return false;
+  }
+}
+
+}  // namespace rave::line

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+extern char** environ;
+
+namespace rave::testing {
+
+// Far beyond what any test needs: a wait that ends by it has failed.
+inline constexpr std::chrono::seconds kLong{100};
+
+/// A peer (tests/peers) as a process: commands to its input, lines from its output. It ends when
+/// this object does.
+class PeerProcess {
+ public:
+  PeerProcess(const std::string& program, std::vector<std::string> options) {
+    int input[2];
+    int output[2];
+    EXPECT_EQ(::pipe2(input, O_CLOEXEC), 0);
+    EXPECT_EQ(::pipe2(output, O_CLOEXEC), 0);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, input[0], 0);
+    posix_spawn_file_actions_adddup2(&actions, output[1], 1);
+    std::string path = RAVE_BINARY_DIR "/tests/peers/" + program;
+    std::vector<char*> arguments{path.data()};
+    for (std::string& option : options) arguments.push_back(option.data());
+    arguments.push_back(nullptr);
+    EXPECT_EQ(::posix_spawn(&pid_, path.c_str(), &actions, nullptr, arguments.data(), environ), 0)
+        << path;
+    posix_spawn_file_actions_destroy(&actions);
+    ::close(input[0]);
+    ::close(output[1]);
+    to_ = input[1];
+    from_ = output[0];
+    ready_ = wait_for("ready");
+  }
+  PeerProcess(const PeerProcess&) = delete;
+  PeerProcess& operator=(const PeerProcess&) = delete;
+  ~PeerProcess() {
+    ::close(to_);
+    ::close(from_);
+    if (pid_ > 0) ::waitpid(pid_, nullptr, 0);
+  }
+
+  /// What the peer said after `ready `.
+  [[nodiscard]] const std::string& where() const { return ready_; }
+  /// Gives a command and waits until the peer has obeyed.
+  void tell(const std::string& command) {
+    const std::string line = command + "\n";
+    EXPECT_EQ(::write(to_, line.data(), line.size()), static_cast<ssize_t>(line.size()));
+    (void)wait_for("ok " + command.substr(0, command.find(' ')));
+  }
+  /// Waits for a line that begins so, and gives what follows it.
+  std::string wait_for(const std::string& beginning) {
+    while (true) {
+      for (auto end = text_.find('\n'); end != std::string::npos; end = text_.find('\n')) {
+        const std::string line = text_.substr(0, end);
+        text_.erase(0, end + 1);
+        if (line.rfind(beginning, 0) != 0) continue;
+        return line.size() > beginning.size() ? line.substr(beginning.size() + 1) : "";
+      }
+      pollfd wanted{from_, POLLIN, 0};
+      char room[256];
+      const int ready =
+          ::poll(&wanted, 1, static_cast<int>(std::chrono::milliseconds(kLong).count()));
+      const ssize_t size = ready > 0 ? ::read(from_, room, sizeof room) : 0;
+      if (size <= 0) {
+        ADD_FAILURE() << "the peer does not say `" << beginning << "`";
+        return "";
+      }
+      text_.append(room, static_cast<std::size_t>(size));
+    }
+  }
+
+ private:
+  pid_t pid_ = -1;
+  int to_ = -1;
+  int from_ = -1;
+  std::string text_;
+  std::string ready_;
+};
+
+}  // namespace rave::testing

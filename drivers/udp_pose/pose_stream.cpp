@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "udp_pose/pose_stream.hpp"
+
+#include <algorithm>
+
+namespace rave::udp_pose {
+namespace {
+
+/// So many old samples in a row, each newer than the one before, come from a sender that began
+/// anew: a network does not hold back that many and then give them in order.
+constexpr std::int32_t kRestartAfter = 10;
+/// A gap of more is no loss but a sender that was silent or counts in another way.
+constexpr std::int64_t kLargestLoss = 1'000'000;
+
+}  // namespace
+
+void PoseStream::restart() {
+  ++state_.restarts;
+  clock_.reset();
+  any_ = false;
+  newest_seq_ = -1;
+  since_restart_ = 0;
+  old_in_a_row_ = 0;
+}
+
+PoseStream::Verdict PoseStream::order(const PoseDatagram& datagram) {
+  if (any_ && datagram.t_s <= newest_t_s_) {
+    if (datagram.t_s == newest_t_s_) return Verdict::kDuplicate;
+    const bool rising = old_in_a_row_ == 0 || datagram.t_s > previous_old_t_s_;
+    old_in_a_row_ = rising ? old_in_a_row_ + 1 : 0;
+    previous_old_t_s_ = datagram.t_s;
+    if (old_in_a_row_ < kRestartAfter) return Verdict::kOutOfOrder;
+    restart();
+  }
+  old_in_a_row_ = 0;
+  if (datagram.seq && newest_seq_ >= 0) {
+    const std::int64_t missing = *datagram.seq - newest_seq_ - 1;
+    if (missing > 0 && missing < kLargestLoss) state_.lost += static_cast<std::uint64_t>(missing);
+  }
+  if (datagram.seq) newest_seq_ = *datagram.seq;
+  if (!any_) first_t_s_ = datagram.t_s;
+  any_ = true;
+  newest_t_s_ = datagram.t_s;
+  return Verdict::kAccepted;
+}
+
+PoseStream::Taken PoseStream::take(std::string_view bytes, double host_s, PoseDatagram& datagram) {
+  auto parsed = parse_datagram(bytes);
+  if (!parsed) {
+    ++state_.refused;
+    state_.trouble = parsed.error().message;
+    return {Verdict::kRefused, 0};
+  }
+  if (parsed->body != body_) {
+    ++state_.other_bodies;
+    return {Verdict::kOtherBody, 0};
+  }
+  const Verdict verdict = order(*parsed);
+  if (verdict != Verdict::kAccepted) {
+    ++(verdict == Verdict::kDuplicate ? state_.duplicates : state_.out_of_order);
+    return {verdict, 0};
+  }
+  datagram = std::move(*parsed);
+  clock_.add(datagram.t_s, host_s);
+  const double true_s = datagram.t_s + clock_.offset_s(datagram.t_s);
+  const double delay_s = host_s - true_s;
+  sum_delay_s_ += delay_s;
+  state_.mean_delay_s = sum_delay_s_ / static_cast<double>(++ordered_);
+  state_.max_delay_s = std::max(state_.max_delay_s, delay_s);
+  state_.clock_offset_s = clock_.offset_s();
+  state_.clock_drift_ppm = clock_.drift_ppm();
+  if (delay_s > max_delay_s_) {
+    ++state_.late;
+    return {Verdict::kLate, true_s};
+  }
+  ++state_.samples;
+  if (++since_restart_ > 1 && newest_t_s_ > first_t_s_) {
+    state_.rate_hz = static_cast<double>(since_restart_ - 1) / (newest_t_s_ - first_t_s_);
+  }
+  return {Verdict::kAccepted, true_s};
+}
+
+}  // namespace rave::udp_pose

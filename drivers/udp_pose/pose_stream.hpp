@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "line/clock_offset.hpp"
+#include "udp_pose/pose_datagram.hpp"
+
+namespace rave::udp_pose {
+
+/// What the stream was like, for the report. A plain value.
+struct StreamState {
+  std::uint64_t samples = 0;       ///< Accepted.
+  std::uint64_t refused = 0;       ///< Datagrams that are none of ours.
+  std::uint64_t other_bodies = 0;  ///< Datagrams of other bodies.
+  std::uint64_t duplicates = 0;
+  std::uint64_t out_of_order = 0;
+  std::uint64_t late = 0;
+  std::uint64_t lost = 0;       ///< Numbers of the sequence that never came (or came too late).
+  std::uint64_t restarts = 0;   ///< Times that the sender began anew.
+  std::uint64_t held_back = 0;  ///< Dropped: a better clock estimate put them too early.
+  double rate_hz = 0;           ///< Of accepted samples by the sender's clock.
+  double clock_offset_s = 0;    ///< Host (its steady clock) minus sender, smallest delay included.
+  double clock_drift_ppm = 0;
+  double mean_delay_s = 0;  ///< Beyond the smallest, of all samples that were in order.
+  double max_delay_s = 0;
+  std::string trouble;  ///< Why the last datagram was refused; empty if none was.
+};
+
+/// Orders the samples of one body and estimates the sender's clock. Pure: no clock is read, no
+/// socket opened. Not for several threads at once.
+class PoseStream {
+ public:
+  /// A sample that takes longer than `max_delay_s` beyond the smallest delay is late.
+  PoseStream(std::string body, double max_delay_s)
+      : body_(std::move(body)), max_delay_s_(max_delay_s) {}
+
+  enum class Verdict { kAccepted, kRefused, kOtherBody, kDuplicate, kOutOfOrder, kLate };
+  struct Taken {
+    Verdict verdict = Verdict::kRefused;
+    double host_s = 0;  ///< When the pose was true, by the host's clock, smallest delay included.
+  };
+  /// One datagram that arrived at `host_s`. Of an accepted one `datagram` is filled.
+  Taken take(std::string_view bytes, double host_s, PoseDatagram& datagram);
+
+  [[nodiscard]] const StreamState& state() const noexcept { return state_; }
+
+ private:
+  [[nodiscard]] Verdict order(const PoseDatagram& datagram);
+  void restart();
+
+  std::string body_;
+  double max_delay_s_;
+  line::ClockOffset clock_;
+  StreamState state_;
+  bool any_ = false;
+  double first_t_s_ = 0;
+  double newest_t_s_ = 0;
+  std::int64_t newest_seq_ = -1;
+  std::uint64_t since_restart_ = 0;
+  std::int32_t old_in_a_row_ = 0;
+  double previous_old_t_s_ = 0;
+  std::uint64_t ordered_ = 0;
+  double sum_delay_s_ = 0;
+};
+
+}  // namespace rave::udp_pose

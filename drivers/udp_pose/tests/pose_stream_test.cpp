@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "udp_pose/pose_stream.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace rave::udp_pose {
+namespace {
+
+using Verdict = PoseStream::Verdict;
+
+std::string text(double t_s, int seq, const char* body = "cart") {
+  return fmt::format(R"({{"body":"{}","t":{},"x":0,"y":0,"yaw":0,"seq":{}}})", body, t_s, seq);
+}
+
+TEST(PoseStream, OrdersCountsAndDrops) {
+  PoseStream stream("cart", 0.2);
+  PoseDatagram pose;
+  const auto take = [&](const std::string& bytes, double host_s) {
+    return stream.take(bytes, host_s, pose).verdict;
+  };
+  EXPECT_EQ(take(text(10.00, 1), 3.00), Verdict::kAccepted);
+  EXPECT_EQ(take(text(10.01, 2), 3.01), Verdict::kAccepted);
+  EXPECT_EQ(take(text(10.01, 2), 3.01), Verdict::kDuplicate);
+  EXPECT_EQ(take(text(10.04, 5), 3.04), Verdict::kAccepted);
+  EXPECT_EQ(take(text(10.03, 4), 3.05), Verdict::kOutOfOrder);
+  EXPECT_EQ(take(text(10.05, 6, "dog"), 3.05), Verdict::kOtherBody);
+  EXPECT_EQ(take("{", 3.05), Verdict::kRefused);
+  EXPECT_EQ(take(text(10.06, 7), 3.36), Verdict::kLate);
+  EXPECT_EQ(take(text(10.40, 8), 3.40), Verdict::kAccepted);
+  const StreamState& state = stream.state();
+  EXPECT_EQ(state.samples, 4U);
+  EXPECT_EQ(state.duplicates, 1U);
+  EXPECT_EQ(state.out_of_order, 1U);
+  EXPECT_EQ(state.late, 1U);
+  EXPECT_EQ(state.other_bodies, 1U);
+  EXPECT_EQ(state.refused, 1U);
+  EXPECT_EQ(state.trouble, "not JSON");
+  EXPECT_EQ(state.lost, 3U);  // 3 and 4 before 5, and 6, which was another's
+  EXPECT_NEAR(state.clock_offset_s, -7, 1e-9);
+  EXPECT_NEAR(state.rate_hz, 7.5, 1e-6);
+  EXPECT_NEAR(state.max_delay_s, 0.3, 1e-9);
+}
+
+TEST(PoseStream, ASenderThatBeginsAnewIsFollowed) {
+  PoseStream stream("cart", 0.2);
+  PoseDatagram pose;
+  for (int i = 0; i < 100; ++i) (void)stream.take(text(50 + 0.01 * i, i), 0.01 * i, pose);
+  int accepted = 0;
+  for (int i = 0; i < 100; ++i) {
+    const auto taken = stream.take(text(0.01 * i, i), 2 + 0.01 * i, pose);
+    accepted += taken.verdict == Verdict::kAccepted ? 1 : 0;
+    if (taken.verdict == Verdict::kAccepted) {
+      EXPECT_NEAR(taken.host_s, 2 + 0.01 * i, 1e-6);
+    }
+  }
+  EXPECT_EQ(accepted, 91);
+  EXPECT_EQ(stream.state().restarts, 1U);
+}
+
+}  // namespace
+}  // namespace rave::udp_pose

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stop_token>
+#include <system_error>
+#include <thread>
+
+#include "rave/math/scalar.hpp"
+#include "rave/robot/plugin_entry.hpp"
+#include "udp_pose/pose_stream.hpp"
+#include "udp_pose/udp_socket.hpp"
+
+namespace rave::udp_pose {
+namespace {
+
+constexpr std::array<ParamSpec, 8> kParams{
+    required(text_param("body", "", "Name of the body in the datagrams; others are passed over.")),
+    required(integer_param("port", 0, 0, 65535, "UDP port to listen on; 0: a free one.")),
+    text_param("listen", "127.0.0.1",
+               "Numeric address to listen on; 0.0.0.0 takes datagrams of other machines."),
+    number_param("position_sigma_m", "m", 0.001, 0, 10,
+                 "Standard deviation of x and y where a datagram has no `cov`."),
+    number_param("heading_sigma_deg", "deg", 0.5, 0, 180,
+                 "Standard deviation of the heading where a datagram has no `cov`."),
+    number_param("max_delay_s", "s", 0.2, 0.001, 60,
+                 "A sample that took longer, beyond the smallest delay, is dropped."),
+    number_param("latency_s", "s", 0, 0, 10, "Known smallest time from a pose to its arrival."),
+    number_param("lost_after_s", "s", 2, 0.1, 600,
+                 "A stream that is silent for longer is reported as gone."),
+};
+
+/// Poses that somebody else measures and sends. configure(), open(), close() and report() belong
+/// to the host's thread, run() to the driver's own. They share `state_`, under its mutex.
+class UdpPose final : public HardwareSensor {
+ public:
+  static constexpr ReadingKind kReading = ReadingKind::kPose;
+
+  Status configure(const HardwareSetup& setup, HardwareDeclaration& declaration) override;
+  Status open(SampleSink& sink) override;
+  void close() override;
+  [[nodiscard]] std::string report() const override;
+
+ private:
+  void run(SampleSink& sink, const std::stop_token& stop);
+  /// False: dropped, because the stamp would step back.
+  [[nodiscard]] bool publish(const PoseDatagram& datagram, double host_s, SampleSink& sink);
+  void report_silence(SampleSink& sink) const;
+
+  std::string body_;
+  std::string listen_;
+  double variance_xy_m2_ = 0;
+  double variance_yaw_rad2_ = 0;
+  double max_delay_s_ = 0;
+  double latency_s_ = 0;
+  double lost_after_s_ = 0;
+  std::optional<UdpSocket> socket_;
+  line::Wake wake_;
+  std::int64_t last_stamp_ns_ = 0;  // of the driver's thread
+
+  mutable std::mutex mutex_;  // guards state_
+  StreamState state_;
+  std::jthread thread_;  // last: it ends before what it uses is gone
+};
+
+Status UdpPose::configure(const HardwareSetup& setup, HardwareDeclaration& declaration) {
+  const Params params = setup.parameters();
+  body_ = params.text("body");
+  if (body_.empty()) return fail(ErrorCode::kInvalidArgument, "`body` is empty");
+  listen_ = params.text("listen");
+  const double sigma_m = params.number("position_sigma_m");
+  const double sigma_rad = deg_to_rad(params.number("heading_sigma_deg"));
+  variance_xy_m2_ = sigma_m * sigma_m;
+  variance_yaw_rad2_ = sigma_rad * sigma_rad;
+  max_delay_s_ = params.number("max_delay_s");
+  latency_s_ = params.number("latency_s");
+  lost_after_s_ = params.number("lost_after_s");
+  RAVE_TRY(wake_.open());
+  // Here and not in open(), so that a port in use is an error of the start and keeps its number.
+  RAVE_TRY_ASSIGN(socket_,
+                  UdpSocket::listen(listen_, static_cast<std::uint16_t>(params.integer("port"))));
+  declaration.capacity = 1;
+  declaration.clock = DriverClock::kLive;
+  return {};
+}
+
+Status UdpPose::open(SampleSink& sink) {
+  if (!socket_) return fail(ErrorCode::kState, "opened before it was configured");
+  if (thread_.joinable()) return fail(ErrorCode::kState, "opened twice; close it first");
+  wake_.clear();
+  last_stamp_ns_ = std::numeric_limits<std::int64_t>::min();
+  {
+    const std::lock_guard lock(mutex_);
+    state_ = {};
+  }
+  try {
+    thread_ = std::jthread([this, &sink](const std::stop_token& stop) { run(sink, stop); });
+  } catch (const std::system_error& e) {
+    return fail(ErrorCode::kIo, "cannot start the thread of the pose stream: {}", e.what());
+  }
+  return {};
+}
+
+void UdpPose::close() {
+  if (!thread_.joinable()) return;
+  thread_.request_stop();
+  wake_.ring();
+  thread_.join();
+}
+
+void UdpPose::run(SampleSink& sink, const std::stop_token& stop) {
+  PoseStream stream(body_, max_delay_s_);
+  PoseDatagram datagram;
+  std::array<char, kMaxDatagram + 1> room{};  // one more: a longer one must not look whole
+  std::uint64_t held_back = 0;
+  bool silence_reported = false;
+  line::HostTime silent_at = line::after_seconds(line::host_now(), lost_after_s_);
+  // What waited in the socket since configure() is old, and its arrival says nothing of the clock.
+  while (socket_->receive(room, line::Wait(0), wake_).end == line::ReadEnd::kBytes) {
+  }
+  while (!stop.stop_requested()) {
+    const auto wait = silence_reported ? line::Wait(60'000) : line::until(silent_at);
+    const auto got = socket_->receive(room, wait, wake_);
+    if (got.end == line::ReadEnd::kWoken) return;
+    if (got.end == line::ReadEnd::kBytes) {
+      const double now_s = line::host_seconds(line::host_now());
+      const auto taken = stream.take({room.data(), got.size}, now_s, datagram);
+      if (taken.verdict == PoseStream::Verdict::kAccepted) {
+        if (!publish(datagram, taken.host_s, sink)) ++held_back;
+        silent_at = line::after_seconds(line::host_now(), lost_after_s_);
+        silence_reported = false;
+      }
+      const std::lock_guard lock(mutex_);
+      state_ = stream.state();
+      state_.held_back = held_back;
+    }
+    if (!silence_reported && line::host_now() >= silent_at) {
+      silence_reported = true;
+      report_silence(sink);
+    }
+  }
+}
+
+bool UdpPose::publish(const PoseDatagram& datagram, double host_s, SampleSink& sink) {
+  const SimTime stamp = line::run_stamp(sink, host_s - latency_s_);
+  if (stamp.ns <= last_stamp_ns_) return false;
+  last_stamp_ns_ = stamp.ns;
+  PoseReading pose{datagram.x_m, datagram.y_m, datagram.yaw_rad, variance_xy_m2_,
+                   variance_yaw_rad2_};
+  if (datagram.variance) {
+    // One number stands for both axes: the larger, which promises no more than the sender does.
+    pose.variance_xy_m2 = std::max(datagram.variance->x_m2, datagram.variance->y_m2);
+    pose.variance_yaw_rad2 = datagram.variance->yaw_rad2;
+  }
+  (void)sink.publish(stamp, &pose, 1);
+  return true;
+}
+
+void UdpPose::report_silence(SampleSink& sink) const {
+  const std::string text = fmt::format("no pose of `{}` has come on UDP port {} for {} s", body_,
+                                       socket_->port(), lost_after_s_);
+  sink.fail(text.data(), text.size());
+}
+
+std::string UdpPose::report() const {
+  if (!socket_) return "{}";
+  const std::lock_guard lock(mutex_);
+  nlohmann::ordered_json json;
+  json["listen"] = listen_;
+  json["port"] = socket_->port();
+  json["body"] = body_;
+  json["samples"] = state_.samples;
+  json["rate_hz"] = state_.rate_hz;
+  json["lost"] = state_.lost;
+  json["duplicates"] = state_.duplicates;
+  json["out_of_order"] = state_.out_of_order;
+  json["late"] = state_.late;
+  json["held_back"] = state_.held_back;
+  json["refused"] = state_.refused;
+  json["other_bodies"] = state_.other_bodies;
+  json["restarts"] = state_.restarts;
+  json["mean_delay_s"] = state_.mean_delay_s;
+  json["max_delay_s"] = state_.max_delay_s;
+  json["clock_offset_s"] = state_.clock_offset_s;
+  json["clock_drift_ppm"] = state_.clock_drift_ppm;
+  json["trouble"] = state_.trouble;
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+}  // namespace
+}  // namespace rave::udp_pose
+
+RAVE_PLUGIN("udp_pose") {
+  rave::add_sensor<rave::udp_pose::UdpPose>(
+      registry, {.name = "udp_pose",
+                 .summary = "Takes poses from UDP datagrams, such as those of a motion capture.",
+                 .params = rave::udp_pose::kParams,
+                 .clock = rave::DriverClock::kLive});
+}

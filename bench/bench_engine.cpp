@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <benchmark/benchmark.h>
 
-#include "../libs/sim/tests/engine_drivers.hpp"
+#include "engine_drivers.hpp"
 #include "rave/sim/engine.hpp"
 
 namespace {

@@ -35,7 +35,9 @@ def compile_alone(tree, folders, scratch, name):
 
 
 def check(tree):
-    headers = [f for f in tree.sources if f.endswith(".hpp") and "/include/" in f]
+    # Helpers of tests are nobody's interface; they may need definitions of their target.
+    headers = [f for f in tree.sources
+               if f.endswith(".hpp") and "/include/" in f and "/testing/include/" not in f]
     folders = [f"-I{tree.root.resolve() / folder}"
                for folder in sorted({h.split("/include/")[0] + "/include" for h in headers})]
     with tempfile.TemporaryDirectory() as scratch, \

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <ranges>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -82,7 +83,7 @@ struct Catalogue::Impl {
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
   ~Impl() {
-    for (auto file = load_order.rbegin(); file != load_order.rend(); ++file) (*file)->unload();
+    for (PluginFile* file : std::ranges::reverse_view(load_order)) file->unload();
   }
 
   std::pair<PluginFile*, bool> note(const fs::path& path);

@@ -66,8 +66,8 @@ std::vector<Vec2> simplified(const std::vector<Vec2>& points, double tolerance) 
     }
     if (split == first) continue;
     keep[split] = true;
-    open.push_back({first, split});
-    open.push_back({split, last});
+    open.emplace_back(first, split);
+    open.emplace_back(split, last);
   }
   std::vector<Vec2> kept;
   for (std::size_t i = 0; i < points.size(); ++i) {

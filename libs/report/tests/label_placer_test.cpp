@@ -19,7 +19,8 @@ TEST(LabelPlacer, NeverOverlapsNorLeavesTheArea) {
   LabelPlacer placer(kArea);
   std::vector<PageBox> placed;
   for (int i = 0; i < 100; ++i) {
-    const auto box = placer.place({5.0 + 9 * (i % 10), 5.0 + 9 * (i / 10)}, 16, 7, 2);
+    const int row = i / 10;
+    const auto box = placer.place({5.0 + 9 * (i % 10), 5.0 + 9 * row}, 16, 7, 2);
     if (!box) continue;
     EXPECT_TRUE(box->x0 >= 0 && box->y0 >= 0 && box->x1 <= 100 && box->y1 <= 100);
     for (const PageBox& other : placed) EXPECT_FALSE(box->overlaps(other));

@@ -182,7 +182,8 @@ TEST_F(PictureTest, AThousandRobotsLoseTheirLabelsAndNotTheirBodies) {
   Picture picture;
   picture.instant.emplace();
   for (int i = 0; i < 1000; ++i) {
-    const Vec2 p_W = {static_cast<double>(i % 40), static_cast<double>(i / 40)};
+    const auto row = i / 40;
+    const Vec2 p_W = {static_cast<double>(i % 40), static_cast<double>(row)};
     picture.instant->robots.push_back(
         {square_W(p_W, 0.15), {p_W.x, p_W.y, 0}, Kind::kSimulatedRobot, "long label", ""});
     picture.tracks.push_back({"", Kind::kSimulatedRobot, "", {}, {}, false, {}});

@@ -258,6 +258,7 @@ TEST(Noise, OneTermDoesNotChangeTheNumbersOfAnother) {
   ASSERT_GT(thin.size(), 0U);
   ASSERT_LT(thin.size(), 3U);
   for (const NeighbourReading& left : thin) {
+    // Bit for bit is the point. NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
     EXPECT_EQ(std::memcmp(&left, &all[left.robot], sizeof left), 0);
   }
   // The same drop-outs without any other noise.
@@ -278,6 +279,7 @@ TEST(Noise, ReachesTheNewestOfTheRing) {
     ASSERT_TRUE(chain.deliver({i}, state.data(), &header, ringed));
     SampleHeader own = header_of(i, 8);
     chain.apply_noise(own, direct, stream(i));
+    // Bit for bit is the point. NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
     ASSERT_EQ(std::memcmp(direct, ringed, sizeof direct), 0);
   }
 }

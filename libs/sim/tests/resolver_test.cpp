@@ -138,7 +138,8 @@ TEST(Resolver, ACrowdDrivenIntoACornerNeverOverlaps) {
   RandomStream random(3, 1, 4, 1);
   for (int i = 0; i < 150; ++i) {
     arena.model.robots.push_back(i % 3 == 0 ? box_robot(0.3, 0.2) : disc_robot(0.15));
-    arena.movers.push_back({{-4.0 + 0.6 * (i % 15), -4.0 + 0.6 * (i / 15), 0}, true, true});
+    const int row = i / 15;
+    arena.movers.push_back({{-4.0 + 0.6 * (i % 15), -4.0 + 0.6 * row, 0}, true, true});
   }
   arena.begin();
   ASSERT_GT(arena.least_separation(), 0);

@@ -68,7 +68,7 @@ EngineSpec busy_world(unsigned threads, std::uint64_t seed = 7, bool hermit = fa
   roamer.program = program<Roam>({}, 2, 1);
   add_robot(spec, std::move(roamer), {0, 0, 0});
   for (std::uint32_t i = 1; i < kRoamers; ++i) {
-    const int row = i / 12;
+    const std::uint32_t row = i / 12;
     add_twin(spec, {0.45 * (i % 12), 0.45 * row, 0.7 * (i % 9)});
   }
   RobotType guided = simulated_type();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The sighting check on the shipped recordings: that it holds, and that it notices the two
 // classical mistakes with such data.
+#include <chrono>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -90,13 +91,15 @@ TEST_F(Sightings, ARecordingCanPlayInRealTime) {
   scenario.scenario.duration_s = 2;
   scenario.scenario.picture.reset();
   scenario.scenario.checks.sightings.reset();
+  const auto begin = std::chrono::steady_clock::now();
   const auto outcome = run(scenario);
+  // The last step is due at 1.99 s, however busy the machine is.
+  EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(1990));
   EXPECT_TRUE(outcome.whole) << (outcome.problems.empty() ? "" : outcome.problems.front());
   EXPECT_TRUE(outcome.hash.empty());
   const auto json = result();
   EXPECT_TRUE(json["hash"].is_null());
   EXPECT_NE(json["no_hash_because"].get<std::string>().find("wall clock"), std::string::npos);
-  EXPECT_GE(json["wall_s"], 1.8) << "it must have taken its time";
   for (std::size_t r = 0; r < 5; ++r) {
     EXPECT_GT(json["robots"][r]["final_pose"]["stamp_s"], 1.5) << "poses kept coming";
   }

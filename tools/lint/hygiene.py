@@ -18,7 +18,7 @@ TEXT_ENDS = (*common.SOURCE_ENDS, *SCRIPT_ENDS, ".md", ".yaml", ".yml", ".json",
              ".idl", ".html", ".css", ".svg")
 # Put together here, so that this file does not find itself.
 LEFT_TO_DO = re.compile(r"\b(?:" + "|".join(("TO" "DO", "FIX" "ME", "X" "XX", "HA" "CK")) + r")\b")
-MACHINE_PATH = re.compile(r"(?<![\w.}>/])/(?:home|work|root|Users|mnt)/|(?<![\w.}>/])/tmp/wt\b")
+MACHINE_PATH = re.compile(r"(?<![\w.}>/])/(?:home|work|root|Users|mnt)/")
 TEMPORARY_PATH = re.compile(r"(?<![\w.}>/])/tmp/")
 FILE_NAME = re.compile(r"^[a-z0-9_@][a-z0-9_.@-]*$", re.IGNORECASE)
 SNAKE_CASE = re.compile(r"^(?:[a-z0-9]+|@NAME@)(?:_(?:[a-z0-9]+|@NAME@))*$")

@@ -7,7 +7,7 @@
 namespace rave::sim {
 
 void Engine::Impl::decide() {
-  pool.for_each_block(blocks.size(),
+  pool.for_each_block(blocks.size(), decide_effort,
                       [this](std::size_t b, unsigned w) { decide_block(blocks[b], workers[w]); });
   decide_isolated();
 }

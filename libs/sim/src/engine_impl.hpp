@@ -106,6 +106,7 @@ struct Engine::Impl {
   std::vector<std::uint32_t> member_index;  ///< By robot.
   std::vector<Block> blocks;
   ThreadPool pool;
+  ThreadPool::Effort sense_effort, decide_effort, act_effort;
   std::vector<Worker> workers;
   Resolver resolver;
 

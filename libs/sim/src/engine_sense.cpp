@@ -7,7 +7,7 @@
 namespace rave::sim {
 
 void Engine::Impl::sense() {
-  pool.for_each_block(blocks.size(),
+  pool.for_each_block(blocks.size(), sense_effort,
                       [this](std::size_t b, unsigned w) { sense_block(blocks[b], workers[w]); });
 }
 

@@ -2,8 +2,18 @@
 #include "rave/sim/thread_pool.hpp"
 
 #include <algorithm>
+#include <chrono>
 
 namespace rave::sim {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+std::int64_t nanoseconds_since(Clock::time_point begin) {
+  return std::chrono::nanoseconds(Clock::now() - begin).count();
+}
+
+}  // namespace
 
 ThreadPool::ThreadPool(unsigned threads) {
   for (unsigned worker = 1; worker < std::max(threads, 1U); ++worker) {
@@ -20,18 +30,29 @@ ThreadPool::~ThreadPool() {
   for (std::thread& worker : workers_) worker.join();
 }
 
-void ThreadPool::for_each_block(std::size_t blocks,
+void ThreadPool::for_each_block(std::size_t blocks, Effort& effort,
                                 const std::function<void(std::size_t, unsigned)>& work) {
-  // One block is not worth waking anybody for.
-  if (workers_.empty() || blocks < 2) {
+  if (workers_.empty()) {
     for (std::size_t block = 0; block < blocks; ++block) work(block, 0);
     return;
   }
+  if (blocks < 2 || !effort.is_worth_waking()) {
+    const auto begin = Clock::now();
+    for (std::size_t block = 0; block < blocks; ++block) work(block, 0);
+    effort.work_ns_ = nanoseconds_since(begin);
+    return;
+  }
+  share(blocks, work);
+  effort.work_ns_ = work_ns_.load(std::memory_order_relaxed);
+}
+
+void ThreadPool::share(std::size_t blocks, const std::function<void(std::size_t, unsigned)>& work) {
   {
     const std::lock_guard lock(mutex_);
     work_ = &work;
     blocks_ = blocks;
     next_.store(0, std::memory_order_relaxed);
+    work_ns_.store(0, std::memory_order_relaxed);
     busy_ = static_cast<unsigned>(workers_.size());
     ++round_;
   }
@@ -42,11 +63,13 @@ void ThreadPool::for_each_block(std::size_t blocks,
 }
 
 void ThreadPool::take_blocks(unsigned worker) {
+  const auto begin = Clock::now();
   while (true) {
     const std::size_t block = next_.fetch_add(1, std::memory_order_relaxed);
-    if (block >= blocks_) return;
+    if (block >= blocks_) break;
     (*work_)(block, worker);
   }
+  work_ns_.fetch_add(nanoseconds_since(begin), std::memory_order_relaxed);
 }
 
 void ThreadPool::serve(unsigned worker) {

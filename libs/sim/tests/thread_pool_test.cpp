@@ -3,8 +3,19 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <set>
+
 namespace rave::sim {
 namespace {
+
+using namespace std::chrono_literals;
+
+void wait(std::chrono::nanoseconds time) {
+  const auto end = std::chrono::steady_clock::now() + time;
+  while (std::chrono::steady_clock::now() < end) {
+  }
+}
 
 TEST(ThreadPool, RunsEveryBlockOnceInManyRounds) {
   for (const unsigned threads : {1U, 2U, 5U}) {
@@ -14,11 +25,13 @@ TEST(ThreadPool, RunsEveryBlockOnceInManyRounds) {
     std::vector<int> runs(97);
     std::vector<std::size_t> by_worker(threads);
     std::size_t expected = 0;
+    ThreadPool::Effort effort;
     for (std::size_t round = 0; round < 500; ++round) {
       const std::size_t blocks = round % (runs.size() + 1);
       expected += blocks;
       std::vector<int> before = runs;
-      pool.for_each_block(blocks, [&](std::size_t block, unsigned worker) {
+      pool.for_each_block(blocks, effort, [&](std::size_t block, unsigned worker) {
+        if (round % 3 == 0) wait(20us);
         ++runs[block];
         ++by_worker[worker];
       });
@@ -36,11 +49,31 @@ TEST(ThreadPool, ZeroThreadsStillWorkInTheCallersOwn) {
   ThreadPool pool(0);
   EXPECT_EQ(pool.threads(), 1U);
   int runs = 0;
-  pool.for_each_block(3, [&](std::size_t, unsigned worker) {
+  ThreadPool::Effort effort;
+  pool.for_each_block(3, effort, [&](std::size_t, unsigned worker) {
     EXPECT_EQ(worker, 0U);
     ++runs;
   });
   EXPECT_EQ(runs, 3);
+}
+
+TEST(ThreadPool, SharesALoopOnlyWhenItIsLong) {
+  ThreadPool pool(2);
+  ThreadPool::Effort effort;
+  const auto run = [&](std::chrono::nanoseconds each) {
+    std::set<unsigned> who[4];
+    pool.for_each_block(4, effort, [&](std::size_t block, unsigned worker) {
+      wait(each);
+      who[block].insert(worker);
+    });
+    std::set<unsigned> all;
+    for (const auto& one : who) all.insert(one.begin(), one.end());
+    return all;
+  };
+  // Nothing is known of the first round; it tells that the next ones are worth sharing.
+  EXPECT_EQ(run(5ms), std::set<unsigned>{0});
+  EXPECT_TRUE(effort.is_worth_waking());
+  EXPECT_EQ(run(50ms), (std::set<unsigned>{0, 1}));
 }
 
 TEST(ThreadPool, EndsWithoutHavingWorked) {

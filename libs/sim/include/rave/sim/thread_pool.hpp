@@ -4,6 +4,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <mutex>
 #include <thread>
@@ -22,10 +23,25 @@ class ThreadPool {
   ThreadPool& operator=(const ThreadPool&) = delete;
   ~ThreadPool();
 
+  /// What one loop cost when it ran last, kept by the caller from round to round. A loop that takes
+  /// less than waking a thread does stays with the caller; which threads run it changes nothing.
+  class Effort {
+   public:
+    [[nodiscard]] bool is_worth_waking() const noexcept { return work_ns_ > kWakeWorthNs; }
+
+   private:
+    friend class ThreadPool;
+    /// Waking a sleeping thread and waiting for its end costs 10 to 100 us, so a loop has to hold
+    /// several times that before sharing it pays.
+    static constexpr std::int64_t kWakeWorthNs = 200'000;
+    std::int64_t work_ns_ = 0;
+  };
+
   /// Calls `work(block, worker)` once for each block in [0, blocks) and returns when all are done.
   /// `worker` is in [0, threads): an index into what each thread has of its own. `work` must not
-  /// throw.
-  void for_each_block(std::size_t blocks, const std::function<void(std::size_t, unsigned)>& work);
+  /// throw. The time that all threads took together is noted in `effort`.
+  void for_each_block(std::size_t blocks, Effort& effort,
+                      const std::function<void(std::size_t, unsigned)>& work);
 
   [[nodiscard]] unsigned threads() const noexcept {
     return static_cast<unsigned>(workers_.size()) + 1;
@@ -33,6 +49,7 @@ class ThreadPool {
 
  private:
   void serve(unsigned worker);
+  void share(std::size_t blocks, const std::function<void(std::size_t, unsigned)>& work);
   void take_blocks(unsigned worker);
 
   std::mutex mutex_;
@@ -44,6 +61,7 @@ class ThreadPool {
   const std::function<void(std::size_t, unsigned)>* work_ = nullptr;
   std::size_t blocks_ = 0;
   std::atomic<std::size_t> next_{0};
+  std::atomic<std::int64_t> work_ns_{0};
   std::vector<std::thread> workers_;
 };
 

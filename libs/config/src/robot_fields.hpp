@@ -86,17 +86,48 @@ void describe(V& v, FilterFile& c) {
 
 void validate(const FilterFile& c, CheckContext& check);
 
+constexpr FieldOptions device_name() {
+  return {.doc = "The entry of `devices` that it is a part of; null: none."};
+}
+
+template <class V>
+void describe(V& v, DeviceFile& c) {
+  v.required("name", c.name, {.doc = "By which sensors and actuators refer to it."});
+  v.required("driver", c.driver, driver_name());
+  v.field("params", c.params, driver_params());
+}
+
+void validate(const DeviceFile& c, CheckContext& check);
+
+template <class V>
+void describe(V& v, SensorHalfFile& c) {
+  v.required("driver", c.driver, driver_name());
+  v.field("device", c.device, device_name());
+  v.field("senses", c.senses,
+          {.doc = "Layers that a virtual half senses; null: what the real half cannot see "
+                  "(virtual_obstacles, simulated_robots).",
+           .min_items = 1});
+  v.field("params", c.params, driver_params());
+  v.field("noise", c.noise, {.doc = "Errors put on the readings of this half, before fusion."});
+}
+
+void validate(const SensorHalfFile& c, CheckContext& check);
+
 template <class V>
 void describe(V& v, SensorFile& c) {
   v.required("name", c.name, {.doc = "By which the program asks for it."});
-  v.required("driver", c.driver, driver_name());
+  v.required("driver", c.driver,
+             {.doc = "The driver that serves it, of a hybrid sensor the one that fuses its halves; "
+                     "`rave drivers` lists them.",
+              .min_items = 1});
+  v.field("device", c.device, device_name());
+  v.field("real", c.real, {.doc = "The real half of a hybrid sensor; null: not hybrid."});
+  v.field("virtual", c.imagined, {.doc = "The virtual half of a hybrid sensor; null: not hybrid."});
   v.field("mount", c.mount, {.doc = "Pose in the body frame."});
   v.field("period_s", c.period_s, period_s());
   v.field("phase_s", c.phase_s, phase_s());
   v.field("senses", c.senses,
-          {.doc = "Layers of the world that it senses; null: all, or for the virtual half of a "
-                  "hybrid sensor what its real half cannot see.",
-           .min_items = 1});
+          {.doc = "Layers of the world that a virtual sensor senses; null: all.", .min_items = 1});
   v.field("params", c.params, driver_params());
   v.field("noise", c.noise, {.doc = "Errors put on every reading."});
   v.field("latency_s", c.latency_s,
@@ -110,6 +141,7 @@ template <class V>
 void describe(V& v, ActuatorFile& c) {
   v.required("name", c.name, {.doc = "By which controllers refer to it."});
   v.required("driver", c.driver, driver_name());
+  v.field("device", c.device, device_name());
   v.field("params", c.params, driver_params());
 }
 
@@ -124,6 +156,62 @@ void describe(V& v, ControllerFile& c) {
 }
 
 void validate(const ControllerFile& c, CheckContext& check);
+
+template <class V>
+void describe(V& v, TransmitterFile& c) {
+  v.required("name", c.name, {.doc = "By which communicators refer to it."});
+  v.required("driver", c.driver, driver_name());
+  v.field("device", c.device, device_name());
+  v.field("params", c.params, driver_params());
+}
+
+void validate(const TransmitterFile& c, CheckContext& check);
+
+template <class V>
+void describe(V& v, CommunicatorFile& c) {
+  v.required("name", c.name,
+             {.doc = "By which the program asks for it; those of the same name hear each other."});
+  v.required("driver", c.driver, driver_name());
+  v.required("transmitter", c.transmitter, {.doc = "The transmitter that carries its messages."});
+  v.field("params", c.params, driver_params());
+}
+
+void validate(const CommunicatorFile& c, CheckContext& check);
+
+constexpr auto enum_names(EnumTag<WorldLost> /*tag*/) {
+  return std::array{EnumName{WorldLost::kStop, "stop"}, EnumName{WorldLost::kSlow, "slow"},
+                    EnumName{WorldLost::kIgnore, "ignore"}};
+}
+
+template <class V>
+void describe(V& v, GuardFile& c) {
+  v.field("arm", c.arm, {.doc = "Whether a real robot stands until somebody arms it."});
+  v.field("max_speed_mps", c.max_speed_mps,
+          {.doc = "Largest speed, either way; null: not limited.", .min = 0, .unit = "m/s"});
+  v.field(
+      "max_turn_dps", c.max_turn_dps,
+      {.doc = "Largest turning rate, either way; null: not limited.", .min = 0, .unit = "deg/s"});
+  v.field("fence_m", c.fence_m,
+          {.doc = "Corners of the region of the world that its body may not leave; null: none.",
+           .unit = "m",
+           .min_items = 3,
+           .max_items = 1000});
+  v.field("separation_m", c.separation_m,
+          {.doc = "Least distance to the bodies of other robots; null: not kept.",
+           .min = 0,
+           .unit = "m"});
+  v.field("world_lost", c.world_lost, {.doc = "What it does when the virtual world stops coming."});
+  v.field("world_timeout_s", c.world_timeout_s,
+          {.doc = "Age of the virtual world after which it counts as lost.",
+           .min = 0,
+           .exclusive_min = true,
+           .max = kLongest_s,
+           .unit = "s"});
+  v.field("slow_speed_mps", c.slow_speed_mps,
+          {.doc = "Largest speed while the world is lost, if `world_lost` is slow.",
+           .min = 0,
+           .unit = "m/s"});
+}
 
 template <class V>
 void describe(V& v, ProgramFile& c) {
@@ -163,9 +251,15 @@ void describe(V& v, RobotFile& c) {
            .min = 0,
            .max = kLongest_s,
            .unit = "s"});
+  v.field("devices", c.devices,
+          {.doc = "Hardware that several sensors and actuators share.", .max_items = 1000});
   v.field("sensors", c.sensors, {.doc = "Each with its processing chain.", .max_items = 1000});
   v.field("actuators", c.actuators, {.doc = "What moves it.", .max_items = 1000});
   v.field("controllers", c.controllers, {.doc = "What takes commands.", .max_items = 1000});
+  v.field("transmitters", c.transmitters, {.doc = "What carries messages.", .max_items = 100});
+  v.field("communicators", c.communicators,
+          {.doc = "Through which the program talks.", .max_items = 100});
+  v.field("guard", c.guard, {.doc = "Limits that no program can pass; null: none."});
   v.field("program", c.program, {.doc = "The decision process; null: none."});
 }
 

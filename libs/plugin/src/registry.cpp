@@ -23,6 +23,8 @@ std::string_view to_string(DriverKind kind) noexcept {
       return "transmitter";
     case DriverKind::kProgram:
       return "program";
+    case DriverKind::kDevice:
+      return "device";
   }
   return "unknown";
 }

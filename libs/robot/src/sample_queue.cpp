@@ -108,6 +108,15 @@ void SampleQueue::fail(const char* text, std::uint64_t size) noexcept {
   to_consumer_.notify_one();
 }
 
+void SampleQueue::recover() noexcept {
+  const Lock lock(mutex_);
+  // A stepped driver runs ahead of the run, so its loss is final: when it came back would be
+  // chance.
+  if (live_ == nullptr) return;
+  failed_ = false;
+  failure_.clear();
+}
+
 SimTime SampleQueue::now() const noexcept {
   return live_ == nullptr ? SimTime{INT64_MIN} : live_->now();
 }

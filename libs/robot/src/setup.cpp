@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "rave/robot/setup.hpp"
+
 #include "rave/base/names.hpp"
-#include "rave/robot/program.hpp"
 
 namespace rave {
 namespace {
@@ -35,6 +36,27 @@ Result<ControllerHandle> Setup::controller(CommandKind kind, std::string_view na
               "the program wants a controller that takes `{}`{}, which robot "
               "`{}` does not have; controllers that do: {}",
               to_string(kind), wanted(name), raw_->robot.name, join_names(fitting));
+}
+
+Result<CommunicatorHandle> Setup::communicator(std::string_view name) const {
+  std::vector<std::string_view> all;
+  for (std::uint32_t i = 0; i < raw_->communicator_count; ++i) {
+    const CommunicatorInfo& info = raw_->communicators[i];
+    if (name.empty() || name == info.name) return CommunicatorHandle(i, &info);
+    all.emplace_back(info.name);
+  }
+  return fail(ErrorCode::kNotFound,
+              "the program wants a communicator{}, which robot `{}` does not have; it has: {}",
+              wanted(name), raw_->robot.name, join_names(all));
+}
+
+Result<std::uint32_t> Setup::robot_id(std::string_view name) const {
+  const std::span<const char* const> names(raw_->robot_names, raw_->robot_count);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (name == names[i]) return static_cast<std::uint32_t>(i);
+  }
+  const std::vector<std::string_view> all(names.begin(), names.end());
+  return fail(ErrorCode::kNotFound, "there is no robot `{}`{}", name, suggestion(name, all));
 }
 
 }  // namespace rave

@@ -68,6 +68,7 @@ class RecordingSink final : public SampleSink {
     changed_.notify_all();
   }
 
+  void recover() noexcept override {}
   void fail(const char* text, std::uint64_t size) noexcept override {
     const std::lock_guard lock(mutex_);
     fault_.assign(text, size);

@@ -66,6 +66,7 @@ class LiveSink final : public SampleSink {
     const std::lock_guard lock(mutex_);
     changed_.notify_all();
   }
+  void recover() noexcept override { queue_.recover(); }
   [[nodiscard]] SimTime now() const noexcept override { return queue_.now(); }
 
   /// Waits until there are `count` more samples than now.

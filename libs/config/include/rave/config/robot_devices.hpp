@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -53,9 +54,32 @@ struct FilterFile {
   bool operator==(const FilterFile&) const = default;
 };
 
+/// Hardware that sensors and actuators of the robot share.
+struct DeviceFile {
+  Located<std::string> name;
+  Located<std::string> driver;
+  RawNode params;  ///< A mapping or null.
+  bool operator==(const DeviceFile&) const = default;
+};
+
+/// The real or the virtual half of a hybrid sensor; it sits where the sensor does.
+struct SensorHalfFile {
+  Located<std::string> driver;
+  std::optional<Located<std::string>> device;  ///< Real half: names one of the robot's devices.
+  /// Virtual half; unset: what the real half cannot see (virtual obstacles, simulated robots).
+  std::optional<Located<std::vector<SensedLayer>>> senses;
+  RawNode params;   ///< A mapping or null.
+  NoiseFile noise;  ///< Of this half alone, before fusion.
+  bool operator==(const SensorHalfFile&) const = default;
+};
+
 struct SensorFile {
   Located<std::string> name;
   Located<std::string> driver;
+  std::optional<Located<std::string>> device;  ///< Names one of the robot's devices.
+  /// Both set: a hybrid sensor, whose driver fuses them.
+  std::optional<SensorHalfFile> real;
+  std::optional<SensorHalfFile> imagined;  ///< Key `virtual`.
   Located<MountFile> mount;
   /// Unset: the scenario's step. expand_scenario checks that it is a multiple of that.
   std::optional<Located<double>> period_s;
@@ -72,7 +96,8 @@ struct SensorFile {
 struct ActuatorFile {
   Located<std::string> name;
   Located<std::string> driver;
-  RawNode params;  ///< A mapping or null.
+  std::optional<Located<std::string>> device;  ///< Names one of the robot's devices.
+  RawNode params;                              ///< A mapping or null.
   bool operator==(const ActuatorFile&) const = default;
 };
 
@@ -82,6 +107,41 @@ struct ControllerFile {
   Located<std::string> actuator;  ///< Names one of the robot's actuators.
   RawNode params;                 ///< A mapping or null.
   bool operator==(const ControllerFile&) const = default;
+};
+
+/// What carries messages out of the robot.
+struct TransmitterFile {
+  Located<std::string> name;
+  Located<std::string> driver;
+  std::optional<Located<std::string>> device;  ///< Names one of the robot's devices.
+  RawNode params;                              ///< A mapping or null.
+  bool operator==(const TransmitterFile&) const = default;
+};
+
+/// Through which the program talks; robots whose communicators have the same name hear each other.
+struct CommunicatorFile {
+  Located<std::string> name;
+  Located<std::string> driver;
+  Located<std::string> transmitter;  ///< Names one of the robot's transmitters.
+  RawNode params;                    ///< A mapping or null.
+  bool operator==(const CommunicatorFile&) const = default;
+};
+
+/// What a robot does when the virtual world stops coming: a frozen wall must not read as free.
+enum class WorldLost { kStop, kSlow, kIgnore };
+
+/// Limits that no program can pass; null: not limited.
+struct GuardFile {
+  bool arm = true;  ///< A real robot stands until somebody arms it.
+  std::optional<double> max_speed_mps;
+  std::optional<double> max_turn_dps;
+  /// Corners in the world, at least 3; the robot's body stays inside.
+  std::optional<Located<std::vector<std::array<double, 2>>>> fence_m;
+  std::optional<double> separation_m;  ///< Least distance to the bodies of other robots.
+  WorldLost world_lost = WorldLost::kStop;
+  double world_timeout_s = 0.5;
+  double slow_speed_mps = 0.05;  ///< For kSlow.
+  bool operator==(const GuardFile&) const = default;
 };
 
 /// The decision process.

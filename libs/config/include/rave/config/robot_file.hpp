@@ -26,8 +26,8 @@ struct BodyFile {
 };
 
 /// A robot file after its variables were put in; also what may stand inline in a scenario.
-/// Sensors, controllers and actuators have names of their own kind that are unique; `pose_from` and
-/// each controller's actuator name existing ones.
+/// Devices, sensors, actuators, controllers, transmitters and communicators have names of their own
+/// kind that are unique; whatever names another of them names an existing one.
 struct RobotFile {
   std::string description;
   Variables variables;  ///< The values in force.
@@ -35,9 +35,13 @@ struct RobotFile {
   std::optional<Located<std::string>> pose_from;  ///< A sensor; unset: the truth.
   PoseFile source_frame;  ///< X_WM: pose in the world of the frame that pose_from reports in.
   double staleness_s = 0.5;
+  std::vector<DeviceFile> devices;
   std::vector<SensorFile> sensors;
   std::vector<ActuatorFile> actuators;
   std::vector<ControllerFile> controllers;
+  std::vector<TransmitterFile> transmitters;
+  std::vector<CommunicatorFile> communicators;
+  std::optional<GuardFile> guard;
   std::optional<ProgramFile> program;
   bool operator==(const RobotFile&) const = default;
 };

@@ -13,15 +13,16 @@ namespace rave {
 enum class DriverKind : std::uint32_t {
   kSensor,           ///< Hardware or a recording: rave/robot/hardware_sensor.hpp
   kVirtualSensor,    ///< Reads the virtual world: rave/sim/virtual_sensor.hpp
-  kHybridSensor,     ///< Fuses a real and a virtual part.
+  kHybridSensor,     ///< Fuses a real and a virtual half: rave/robot/hybrid_sensor.hpp
   kActuator,         ///< Hardware, or a recording that cannot obey: rave/robot/actuator.hpp
   kVirtualActuator,  ///< Dynamics of a simulated robot: rave/robot/actuator.hpp
   kController,       ///< rave/robot/controller.hpp
-  kCommunicator,
-  kTransmitter,
+  kCommunicator,     ///< A message model: rave/robot/communicator.hpp
+  kTransmitter,      ///< Carries messages: rave/robot/transmitter.hpp
   kProgram,  ///< A decision process: rave/robot/program.hpp
+  kDevice,   ///< Hardware that sensors and actuators share: rave/robot/device.hpp
 };
-inline constexpr std::uint32_t kDriverKindCount = 9;
+inline constexpr std::uint32_t kDriverKindCount = 10;
 
 [[nodiscard]] std::string_view to_string(DriverKind kind) noexcept;
 
@@ -43,6 +44,8 @@ struct DriverInfo {
   /// A rave::ReadingKind (sensors) or rave::CommandKind (controllers, actuators); 0 for others.
   std::uint32_t data_kind = 0;
   std::uint32_t reserved = 0;
+  /// The driver of kind kDevice, of the same plug-in, that it must be given; empty: none.
+  const char* device = "";
 
   [[nodiscard]] std::span<const ParamSpec> param_specs() const noexcept {
     return {params, param_count};

@@ -28,6 +28,11 @@ class VirtualActuator {
   virtual Status start(const DeviceSetup& setup) = 0;
   /// The body velocity of this step, body frame; held over the step along the exact arc.
   virtual Twist2 propose(const MotionInput& input) = 0;
+  /// Somebody changed parameters while the robot runs; comes between two steps, with all of them.
+  /// An error refuses the change: it goes on with the old ones.
+  virtual Status parameters_changed(const Params& /*params*/) {
+    return fail(ErrorCode::kInvalidArgument, "it takes no new parameters while it runs");
+  }
 };
 
 struct VirtualActuatorOps {
@@ -35,6 +40,7 @@ struct VirtualActuatorOps {
   int (*start)(void* instance, const DeviceSetup* setup, ErrorText* error) = nullptr;
   void (*propose)(void* first, std::uint64_t stride, const MotionInput* inputs, Twist2* outputs,
                   std::uint64_t count, std::uint8_t* failed, ErrorText* error) = nullptr;
+  UpdateFunction update = nullptr;
 };
 
 /// Hands commands to hardware. One object per robot. write() is called in the act phase and must
@@ -68,6 +74,7 @@ constexpr VirtualActuatorOps virtual_actuator_ops() noexcept {
   ops.start = [](void* instance, const DeviceSetup* setup, ErrorText* error) {
     return guarded(error, [&] { return static_cast<T*>(instance)->start(*setup); });
   };
+  ops.update = update_function<T>();
   ops.propose = [](void* first, std::uint64_t stride, const MotionInput* inputs, Twist2* outputs,
                    std::uint64_t count, std::uint8_t* failed, ErrorText* error) {
     for (std::size_t i = 0; i < count; ++i) {
@@ -95,13 +102,7 @@ constexpr HardwareActuatorOps hardware_actuator_ops() noexcept {
   ops.write = [](void* instance, const Command* command, std::int64_t now_ns, ErrorText* error) {
     return guarded(error, [&] { return static_cast<T*>(instance)->write(*command, {now_ns}); });
   };
-  ops.close = [](void* instance) {
-    ErrorText ignored;
-    guarded(&ignored, [&]() -> Status {
-      static_cast<T*>(instance)->close();
-      return {};
-    });
-  };
+  ops.close = [](void* instance) { close_quietly<T>(instance); };
   ops.obeys = [](void* instance) { return static_cast<T*>(instance)->obeys() ? 1 : 0; };
   return ops;
 }

@@ -7,6 +7,8 @@
 
 namespace rave {
 
+class HardwareDevice;
+
 /// What a controller or actuator is given when it starts.
 struct DeviceSetup {
   RobotInfo robot;
@@ -14,6 +16,9 @@ struct DeviceSetup {
   const ParamValue* params = nullptr;
   std::uint64_t param_count = 0;
   double step_s = 0;  ///< Base period: control() and propose() come once a step.
+  /// Actuators: what `device:` in the robot file names; null if it names nothing. Lives longer
+  /// than the instance.
+  HardwareDevice* device = nullptr;
 
   [[nodiscard]] Params parameters() const noexcept {
     return Params(std::span(params, param_count));
@@ -37,6 +42,11 @@ class Controller {
   virtual Status start(const DeviceSetup& setup) = 0;
   /// Must return a stop (not nothing) once the command is older than its watchdog allows.
   virtual Command control(const ControlInput& input) = 0;
+  /// Somebody changed parameters while the robot runs; comes between two steps, with all of them.
+  /// An error refuses the change: it goes on with the old ones.
+  virtual Status parameters_changed(const Params& /*params*/) {
+    return fail(ErrorCode::kInvalidArgument, "it takes no new parameters while it runs");
+  }
 };
 
 struct ControllerOps {
@@ -46,6 +56,7 @@ struct ControllerOps {
                   std::uint64_t count, std::uint8_t* failed, ErrorText* error) = nullptr;
   CommandKind gives = CommandKind::kVelocity;  ///< What the actuator must accept.
   std::uint32_t reserved = 0;
+  UpdateFunction update = nullptr;
 };
 
 namespace detail {
@@ -57,6 +68,7 @@ constexpr ControllerOps controller_ops() noexcept {
   ops.start = [](void* instance, const DeviceSetup* setup, ErrorText* error) {
     return guarded(error, [&] { return static_cast<T*>(instance)->start(*setup); });
   };
+  ops.update = update_function<T>();
   ops.control = [](void* first, std::uint64_t stride, const ControlInput* inputs, Command* outputs,
                    std::uint64_t count, std::uint8_t* failed, ErrorText* error) {
     for (std::size_t i = 0; i < count; ++i) {

@@ -6,6 +6,7 @@
 #include "rave/base/time.hpp"
 #include "rave/plugin/registry.hpp"
 #include "rave/robot/controller.hpp"
+#include "rave/robot/device.hpp"
 
 namespace rave {
 
@@ -24,6 +25,9 @@ class SampleSink {
   virtual void complete_up_to(SimTime t) noexcept = 0;
   /// Reports that the device is gone; `text` is copied.
   virtual void fail(const char* text, std::uint64_t size) noexcept = 0;
+  /// Takes fail() back: the device is there again and samples will come. Live runs only: a stepped
+  /// driver runs ahead, so what it says of a loss is final.
+  virtual void recover() noexcept = 0;
   /// The present moment of a live run, which a driver needs to turn its own clock into stamps. In a
   /// stepped run it says nothing (the smallest SimTime): stamps come from the data there.
   [[nodiscard]] virtual SimTime now() const noexcept = 0;
@@ -32,7 +36,7 @@ class SampleSink {
   ~SampleSink() = default;
 };
 
-/// What a hardware sensor is given when it starts.
+/// What a hardware sensor is given when it is configured.
 struct HardwareSetup {
   RobotInfo robot;
   HostServices host;
@@ -40,7 +44,9 @@ struct HardwareSetup {
   std::uint64_t param_count = 0;
   /// Folder of the robot file: relative paths in parameters start there.
   const char* folder = "";
-  std::uint64_t reserved = 0;
+  /// What `device:` in the robot file names; null if it names nothing. Lives longer than the
+  /// instance.
+  HardwareDevice* device = nullptr;
 
   [[nodiscard]] Params parameters() const noexcept {
     return Params(std::span(params, param_count));
@@ -99,21 +105,10 @@ constexpr HardwareSensorOps hardware_sensor_ops() noexcept {
   ops.open = [](void* instance, SampleSink* sink, ErrorText* error) {
     return guarded(error, [&] { return static_cast<T*>(instance)->open(*sink); });
   };
-  ops.close = [](void* instance) {
-    ErrorText ignored;
-    guarded(&ignored, [&]() -> Status {
-      static_cast<T*>(instance)->close();
-      return {};
-    });
-  };
+  ops.close = [](void* instance) { close_quietly<T>(instance); };
   ops.report = [](void* instance, void* context,
                   void (*take)(void* context, const char* text, std::uint64_t size)) {
-    ErrorText ignored;
-    guarded(&ignored, [&]() -> Status {
-      const std::string text = static_cast<T*>(instance)->report();
-      take(context, text.data(), text.size());
-      return {};
-    });
+    hand_over_report<T>(instance, context, take);
   };
   return ops;
 }

@@ -9,6 +9,7 @@
 #include <exception>
 #include <new>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -57,6 +58,11 @@ struct RobotInfo {
   std::uint64_t seed = 0;  ///< Of the run.
 };
 
+/// Gives an instance new values of all its parameters while it runs; 1 with `error` set: refused,
+/// the old ones stay.
+using UpdateFunction = int (*)(void* instance, const ParamValue* params, std::uint64_t count,
+                               ErrorText* error);
+
 /// How to make instances in memory of the host, so that those of many robots lie side by side.
 struct InstanceOps {
   std::uint64_t size = 0;
@@ -83,6 +89,28 @@ int guarded(ErrorText* error, Body&& body) noexcept {
   return 1;
 }
 
+/// close() of an instance that must not fail.
+template <class T>
+void close_quietly(void* instance) noexcept {
+  ErrorText ignored;
+  guarded(&ignored, [&]() -> Status {
+    static_cast<T*>(instance)->close();
+    return {};
+  });
+}
+
+/// Calls `take` with the text of an instance's report().
+template <class T>
+void hand_over_report(void* instance, void* context,
+                      void (*take)(void* context, const char* text, std::uint64_t size)) noexcept {
+  ErrorText ignored;
+  guarded(&ignored, [&]() -> Status {
+    const std::string text = static_cast<T*>(instance)->report();
+    take(context, text.data(), text.size());
+    return {};
+  });
+}
+
 template <class T>
 constexpr InstanceOps instance_ops() noexcept {
   InstanceOps ops;
@@ -96,6 +124,15 @@ constexpr InstanceOps instance_ops() noexcept {
   };
   ops.destroy = [](void* instance) { static_cast<T*>(instance)->~T(); };
   return ops;
+}
+
+template <class T>
+constexpr UpdateFunction update_function() noexcept {
+  return [](void* instance, const ParamValue* params, std::uint64_t count, ErrorText* error) {
+    return guarded(error, [&] {
+      return static_cast<T*>(instance)->parameters_changed(Params(std::span(params, count)));
+    });
+  };
 }
 
 /// The i-th of the instances of one class that lie side by side.

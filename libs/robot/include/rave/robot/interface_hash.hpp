@@ -8,14 +8,18 @@
 #include "rave/base/hash.hpp"
 #include "rave/plugin/registry.hpp"
 #include "rave/robot/actuator.hpp"
+#include "rave/robot/communicator.hpp"
 #include "rave/robot/controller.hpp"
+#include "rave/robot/device.hpp"
 #include "rave/robot/hardware_sensor.hpp"
+#include "rave/robot/hybrid_sensor.hpp"
 #include "rave/robot/program.hpp"
+#include "rave/robot/transmitter.hpp"
 
 namespace rave {
 
 /// Raised by hand when the meaning of the interface changes while its layout stays.
-inline constexpr std::uint64_t kRobotInterfaceVersion = 2;
+inline constexpr std::uint64_t kRobotInterfaceVersion = 3;
 
 namespace detail {
 constexpr std::uint64_t hash_layout(std::uint64_t version,
@@ -28,26 +32,58 @@ constexpr std::uint64_t hash_layout(std::uint64_t version,
 
 /// A number that changes with the layout of anything that crosses the plug-in interface.
 constexpr std::uint64_t robot_interface_hash() noexcept {
-  return detail::hash_layout(kRobotInterfaceVersion,
-                             {sizeof(DriverInfo),         offsetof(DriverInfo, param_count),
-                              sizeof(ParamSpec),          offsetof(ParamSpec, choices),
-                              sizeof(ParamValue),         sizeof(ErrorText),
-                              sizeof(HostServices),       sizeof(RobotInfo),
-                              offsetof(RobotInfo, seed),  sizeof(InstanceOps),
-                              sizeof(SensorInfo),         offsetof(SensorInfo, bearings_rad),
-                              sizeof(SampleHeader),       sizeof(Sighting),
-                              sizeof(PoseReading),        sizeof(OdometryReading),
-                              sizeof(NeighbourReading),   sizeof(ContactReading),
-                              sizeof(VelocityReading),    sizeof(Command),
-                              sizeof(ControllerInfo),     sizeof(SensorView),
-                              sizeof(ProgramSetup),       offsetof(ProgramSetup, period_s),
-                              sizeof(DecideItem),         offsetof(DecideItem, pose),
-                              sizeof(ProgramOps),         sizeof(DeviceSetup),
-                              sizeof(ControlInput),       offsetof(ControlInput, velocity),
-                              sizeof(ControllerOps),      sizeof(MotionInput),
-                              sizeof(VirtualActuatorOps), sizeof(HardwareActuatorOps),
-                              sizeof(HardwareSetup),      sizeof(HardwareDeclaration),
-                              sizeof(HardwareSensorOps)});
+  return detail::hash_layout(kRobotInterfaceVersion, {sizeof(DriverInfo),
+                                                      offsetof(DriverInfo, param_count),
+                                                      sizeof(ParamSpec),
+                                                      offsetof(ParamSpec, choices),
+                                                      sizeof(ParamValue),
+                                                      sizeof(ErrorText),
+                                                      sizeof(HostServices),
+                                                      sizeof(RobotInfo),
+                                                      offsetof(RobotInfo, seed),
+                                                      sizeof(InstanceOps),
+                                                      sizeof(SensorInfo),
+                                                      offsetof(SensorInfo, bearings_rad),
+                                                      sizeof(SampleHeader),
+                                                      sizeof(Sighting),
+                                                      sizeof(PoseReading),
+                                                      sizeof(OdometryReading),
+                                                      sizeof(NeighbourReading),
+                                                      sizeof(ContactReading),
+                                                      sizeof(VelocityReading),
+                                                      sizeof(Command),
+                                                      sizeof(ControllerInfo),
+                                                      sizeof(SensorView),
+                                                      sizeof(ProgramSetup),
+                                                      offsetof(ProgramSetup, period_s),
+                                                      sizeof(DecideItem),
+                                                      offsetof(DecideItem, pose),
+                                                      sizeof(ProgramOps),
+                                                      sizeof(DeviceSetup),
+                                                      sizeof(ControlInput),
+                                                      offsetof(ControlInput, velocity),
+                                                      sizeof(ControllerOps),
+                                                      sizeof(MotionInput),
+                                                      sizeof(VirtualActuatorOps),
+                                                      sizeof(HardwareActuatorOps),
+                                                      sizeof(HardwareSetup),
+                                                      sizeof(HardwareDeclaration),
+                                                      sizeof(HardwareSensorOps),
+                                                      sizeof(HardwareDeviceSetup),
+                                                      sizeof(HardwareDeviceOps),
+                                                      sizeof(HybridSetup),
+                                                      sizeof(FuseItem),
+                                                      sizeof(HybridSensorOps),
+                                                      sizeof(MessageHead),
+                                                      sizeof(Mailbox),
+                                                      sizeof(CommunicatorView),
+                                                      sizeof(CommunicatorInfo),
+                                                      sizeof(RadioDeclaration),
+                                                      sizeof(LinkQuery),
+                                                      sizeof(LinkAnswer),
+                                                      sizeof(CommunicatorOps),
+                                                      sizeof(TransmitterDeclaration),
+                                                      sizeof(TransmitterOps)});
 }
 
 }  // namespace rave

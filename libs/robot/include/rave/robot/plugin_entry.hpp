@@ -6,10 +6,14 @@
 #include "rave/plugin/registry.hpp"
 #include "rave/plugin/stamp.hpp"
 #include "rave/robot/actuator.hpp"
+#include "rave/robot/communicator.hpp"
 #include "rave/robot/controller.hpp"
+#include "rave/robot/device.hpp"
 #include "rave/robot/hardware_sensor.hpp"
+#include "rave/robot/hybrid_sensor.hpp"
 #include "rave/robot/interface_hash.hpp"
 #include "rave/robot/program.hpp"
+#include "rave/robot/transmitter.hpp"
 
 namespace rave {
 
@@ -21,6 +25,8 @@ struct Description {
   const char* summary = "";
   std::span<const ParamSpec> params = {};
   DriverClock clock = DriverClock::kStepped;
+  /// Sensors and actuators: the device driver of this plug-in that `device:` must name.
+  const char* device = "";
 
   [[nodiscard]] DriverInfo info(DriverKind kind, std::uint32_t data_kind) const noexcept {
     DriverInfo info;
@@ -32,6 +38,7 @@ struct Description {
     info.params = params.data();
     info.param_count = params.size();
     info.data_kind = data_kind;
+    info.device = device;
     return info;
   }
 };
@@ -74,6 +81,36 @@ void add_sensor(RegistrySink& registry, const Description& description) {
   static constexpr HardwareSensorOps kOps = detail::hardware_sensor_ops<T>();
   registry.add(description.info(DriverKind::kSensor, static_cast<std::uint32_t>(T::kReading)),
                &kOps);
+}
+
+/// Registers hardware that sensors and actuators of this plug-in share.
+template <class T>
+void add_device(RegistrySink& registry, const Description& description) {
+  static constexpr HardwareDeviceOps kOps = detail::hardware_device_ops<T>();
+  registry.add(description.info(DriverKind::kDevice, 0), &kOps);
+}
+
+/// Registers the rule that makes one reading of a real and a virtual one: T::kReading says of what
+/// kind.
+template <class T>
+void add_hybrid_sensor(RegistrySink& registry, const Description& description) {
+  static constexpr HybridSensorOps kOps = detail::hybrid_sensor_ops<T>();
+  registry.add(description.info(DriverKind::kHybridSensor, static_cast<std::uint32_t>(T::kReading)),
+               &kOps);
+}
+
+/// Registers a message model.
+template <class T>
+void add_communicator(RegistrySink& registry, const Description& description) {
+  static constexpr CommunicatorOps kOps = detail::communicator_ops<T>();
+  registry.add(description.info(DriverKind::kCommunicator, 0), &kOps);
+}
+
+/// Registers a device that carries messages.
+template <class T>
+void add_transmitter(RegistrySink& registry, const Description& description) {
+  static constexpr TransmitterOps kOps = detail::transmitter_ops<T>();
+  registry.add(description.info(DriverKind::kTransmitter, 0), &kOps);
 }
 
 }  // namespace rave

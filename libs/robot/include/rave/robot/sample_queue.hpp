@@ -48,6 +48,7 @@ class SampleQueue final : public SampleSink {
   bool publish(SimTime stamp, const void* records, std::uint32_t count) noexcept override;
   void complete_up_to(SimTime t) noexcept override;
   void fail(const char* text, std::uint64_t size) noexcept override;
+  void recover() noexcept override;
   [[nodiscard]] SimTime now() const noexcept override;
 
   // Consumer side.
@@ -74,7 +75,7 @@ class SampleQueue final : public SampleSink {
   /// To be called when the run clock was paused, continued or changed its pace. Any thread.
   void clock_changed();
 
-  /// What the driver said in fail(); empty if it did not. Any thread.
+  /// What the driver said in fail(); empty if it did not or has recovered. Any thread.
   [[nodiscard]] std::string failure() const;
   /// The first breach of the contract; empty if there was none. Any thread.
   [[nodiscard]] std::string complaint() const;

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "rave/base/hash.hpp"
+#include "rave/base/random.hpp"
+#include "rave/robot/controller.hpp"
+#include "rave/robot/message.hpp"
+
+namespace rave {
+
+/// What a communicator says of itself once it knows its parameters: the part of its message model
+/// that the host works out for all robots at once.
+struct RadioDeclaration {
+  double range_m = 0;               ///< Between reported poses; 0: unlimited.
+  std::uint32_t line_of_sight = 0;  ///< 1: bodies in between stop it or weaken it, see LinkQuery.
+  std::uint32_t max_message_bytes = 1024;
+  std::uint32_t max_messages = 32;    ///< Per decision, each direction.
+  std::uint32_t max_queue_bytes = 0;  ///< Waiting to be sent; 0: unlimited. Newer ones are lost.
+  double byte_rate = 0;               ///< Bytes a second; 0: unlimited.
+  std::uint32_t overhead_bytes = 0;   ///< Counted for each message besides its own.
+  std::uint32_t reserved = 0;
+  double antenna_z_m = 0.1;  ///< Height for the line of sight.
+};
+
+/// One message about to go from one robot to another that is in range.
+struct LinkQuery {
+  double distance_m = 0;         ///< Between reported poses.
+  std::uint32_t obstructed = 0;  ///< 1: a body stands in between (if line_of_sight is asked).
+  std::uint32_t bytes = 0;
+  std::uint32_t from = 0;
+  std::uint32_t to = 0;
+  std::uint32_t sequence = 0;  ///< Of the message.
+  std::uint32_t device = 0;
+  std::uint64_t seed = 0;
+
+  /// Random numbers of this delivery.
+  [[nodiscard]] RandomStream random() const noexcept {
+    const std::uint64_t message = mix64((std::uint64_t{from} << 32U) | sequence);
+    return {seed, to, device, static_cast<std::uint32_t>(message)};
+  }
+};
+
+struct LinkAnswer {
+  std::uint32_t arrives = 1;
+  std::uint32_t reserved = 0;
+  double delay_s = 0;  ///< From the end of sending to arrival, at least 0; rounded up to steps.
+};
+
+/// A message model: who hears what, and when. One object serves all robots that use the driver
+/// with the same parameters; link() may run in several threads at once, so it is const.
+class Communicator {
+ public:
+  virtual ~Communicator() = default;
+  virtual Status start(const DeviceSetup& setup, RadioDeclaration& declaration) = 0;
+  [[nodiscard]] virtual LinkAnswer link(const LinkQuery& query) const = 0;
+};
+
+struct CommunicatorOps {
+  InstanceOps instance;
+  int (*start)(void* instance, const DeviceSetup* setup, RadioDeclaration* declaration,
+               ErrorText* error) = nullptr;
+  int (*link)(const void* instance, const LinkQuery* queries, LinkAnswer* answers,
+              std::uint64_t count, ErrorText* error) = nullptr;
+};
+
+namespace detail {
+template <class T>
+constexpr CommunicatorOps communicator_ops() noexcept {
+  CommunicatorOps ops;
+  ops.instance = instance_ops<T>();
+  ops.start = [](void* instance, const DeviceSetup* setup, RadioDeclaration* declaration,
+                 ErrorText* error) {
+    return guarded(error, [&] { return static_cast<T*>(instance)->start(*setup, *declaration); });
+  };
+  ops.link = [](const void* instance, const LinkQuery* queries, LinkAnswer* answers,
+                std::uint64_t count, ErrorText* error) {
+    return guarded(error, [&]() -> Status {
+      for (std::size_t i = 0; i < count; ++i) {
+        answers[i] = static_cast<const T*>(instance)->T::link(queries[i]);
+      }
+      return {};
+    });
+  };
+  return ops;
+}
+}  // namespace detail
+}  // namespace rave

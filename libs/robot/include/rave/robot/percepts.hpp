@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstring>
+#include <optional>
+#include <span>
+#include <type_traits>
+
+#include "rave/base/random.hpp"
+#include "rave/base/time.hpp"
+#include "rave/robot/handles.hpp"
+
+namespace rave {
+
+/// One sensor of one robot: the latest sample in memory of the host.
+struct SensorView {
+  const SampleHeader* header = nullptr;
+  const void* records = nullptr;
+};
+
+/// One decision of one robot, as it crosses the interface. Programs use Percepts and Commands.
+struct DecideItem {
+  const SensorView* sensors = nullptr;              ///< In the order of ProgramSetup::sensors.
+  Command* commands = nullptr;                      ///< In the order of ProgramSetup::controllers.
+  const CommunicatorView* communicators = nullptr;  ///< As in ProgramSetup::communicators.
+  std::int64_t now_ns = 0;
+  PoseReading pose;            ///< Reported pose in the world frame.
+  std::uint32_t decision = 0;  ///< Counts from 0.
+  std::uint32_t robot = 0;
+  std::uint64_t seed = 0;
+};
+
+/// One message as its receiver sees it. A view: valid during decide().
+struct Message {
+  std::uint32_t from = 0;  ///< RobotId of the sender.
+  SimTime stamp;           ///< When it was sent.
+  Recipient to;
+  std::span<const std::byte> bytes;
+
+  /// The message as a plain struct; nothing if its size is another.
+  template <class T>
+  [[nodiscard]] std::optional<T> as() const noexcept {
+    static_assert(std::is_trivially_copyable_v<T>);
+    if (bytes.size() != sizeof(T)) return std::nullopt;
+    T value;
+    std::memcpy(&value, bytes.data(), sizeof value);
+    return value;
+  }
+};
+
+/// Goes through the messages of a mailbox.
+class MessageIterator {
+ public:
+  MessageIterator(const Mailbox& box, std::uint32_t i) noexcept : box_(&box), i_(i) {}
+  [[nodiscard]] Message operator*() const noexcept {
+    const MessageHead& head = box_->heads[i_];
+    return {head.from, {head.stamp_ns}, head.to, box_->bytes_of(head)};
+  }
+  MessageIterator& operator++() noexcept {
+    ++i_;
+    return *this;
+  }
+  [[nodiscard]] bool operator!=(const MessageIterator& other) const noexcept {
+    return i_ != other.i_;
+  }
+
+ private:
+  const Mailbox* box_;
+  std::uint32_t i_;
+};
+
+/// The messages in a mailbox: `for (const Message message : percepts.messages(radio))`.
+class Messages {
+ public:
+  explicit Messages(const Mailbox& box) noexcept : box_(&box) {}
+  [[nodiscard]] std::size_t size() const noexcept { return box_->count; }
+  [[nodiscard]] bool empty() const noexcept { return box_->count == 0; }
+  /// Lost since the last decision because the mailbox was full.
+  [[nodiscard]] std::uint32_t dropped() const noexcept { return box_->dropped; }
+  [[nodiscard]] MessageIterator begin() const noexcept { return {*box_, 0}; }
+  [[nodiscard]] MessageIterator end() const noexcept { return {*box_, box_->count}; }
+
+ private:
+  const Mailbox* box_;
+};
+
+/// What a robot knows when it decides. A view: valid during decide().
+class Percepts {
+ public:
+  explicit Percepts(const DecideItem& item) noexcept : item_(&item) {}
+
+  [[nodiscard]] SimTime now() const noexcept { return {item_->now_ns}; }
+  /// Where the robot is told to be, world frame, with its covariance.
+  [[nodiscard]] const PoseReading& pose() const noexcept { return item_->pose; }
+
+  /// The records of the latest sample; empty if none has come yet.
+  template <class Record>
+  [[nodiscard]] std::span<const Record> operator[](SensorHandle<Record> sensor) const noexcept {
+    const SensorView& view = item_->sensors[sensor.index()];
+    return {static_cast<const Record*>(view.records), view.header->count};
+  }
+  /// Stamp, sequence number and freshness of the latest sample.
+  template <class Record>
+  [[nodiscard]] const SampleHeader& header(SensorHandle<Record> sensor) const noexcept {
+    return *item_->sensors[sensor.index()].header;
+  }
+  /// What has arrived since the last decision, in the order of arrival.
+  [[nodiscard]] Messages messages(CommunicatorHandle communicator) const noexcept {
+    return Messages(*item_->communicators[communicator.index()].in);
+  }
+  /// Random numbers of this decision: the same in every repetition of the run.
+  [[nodiscard]] RandomStream random() const noexcept {
+    return {item_->seed, item_->robot, kProgramDevice, item_->decision};
+  }
+
+  /// The device number under which programs draw random numbers.
+  static constexpr std::uint32_t kProgramDevice = 0xffff0000U;
+
+ private:
+  const DecideItem* item_;
+};
+
+/// Where a program puts its decision. A controller that is given nothing keeps its last command
+/// until its watchdog stops it.
+class Commands {
+ public:
+  explicit Commands(const DecideItem& item) noexcept : item_(&item) {}
+
+  void set(ControllerHandle controller, const Command& command) noexcept {
+    item_->commands[controller.index()] = command;
+  }
+  /// Forward speed and turning rate (counter-clockwise positive).
+  void velocity(ControllerHandle controller, double v_mps, double w_radps) noexcept {
+    set(controller, velocity_command(v_mps, w_radps));
+  }
+  /// A point in the world frame to drive to; speed 0 leaves it to the controller.
+  void goal(ControllerHandle controller, Vec2 p_WG, double speed_mps = 0) noexcept {
+    set(controller, goal_command(p_WG.x, p_WG.y, speed_mps));
+  }
+  /// Sends a message. False if it is longer than the communicator takes or there is no room left
+  /// in this step; then nothing is sent.
+  bool send(CommunicatorHandle communicator, std::span<const std::byte> bytes,
+            Recipient to = Recipient::everyone()) noexcept {
+    if (bytes.size() > communicator.info().max_message_bytes) return false;
+    MessageHead head;
+    head.stamp_ns = item_->now_ns;
+    head.to = to;
+    return item_->communicators[communicator.index()].out->put(head, bytes);
+  }
+  /// Sends one plain struct as its bytes. It must have no padding, whose bits would be chance.
+  template <class T>
+  bool send(CommunicatorHandle communicator, const T& message,
+            Recipient to = Recipient::everyone()) noexcept {
+    static_assert(std::is_trivially_copyable_v<T>);
+    return send(communicator, std::as_bytes(std::span<const T, 1>(&message, 1)), to);
+  }
+
+ private:
+  const DecideItem* item_;
+};
+
+}  // namespace rave

@@ -17,6 +17,11 @@ constexpr ParamSpec kParams[] = {
     number_param("front_deg", "deg", 70, 1, 180, "What counts as ahead, to each side."),
     integer_param("turn_decisions_min", 3, 1, 10'000, "A turn lasts at least so many decisions."),
     integer_param("turn_decisions_max", 15, 1, 10'000, "A turn lasts at most so many decisions."),
+    number_param("back_off_s", "s", 0, 0, 100,
+                 "How long it reverses before it turns away; 0: it never does."),
+    number_param("rear_stop_m", "m", 0.25, 0, 100,
+                 "It stops reversing when its back comes nearer than this to what it sees there."),
+    number_param("rear_deg", "deg", 45, 1, 180, "What counts as behind, to each side."),
     number_param("centre_x_m", "m", 0, -1e6, 1e6, "Middle of the area to stay in, world frame."),
     number_param("centre_y_m", "m", 0, -1e6, 1e6, "Middle of the area to stay in, world frame."),
     number_param("stay_within_m", "m", 0, 0, 1e6, "Radius of that area; 0: it may go anywhere."),
@@ -37,6 +42,10 @@ class Wander final : public DecisionProcess {
     front_rad_ = deg_to_rad(params.number("front_deg"));
     shortest_turn_ = params.integer("turn_decisions_min");
     longest_turn_ = std::max(shortest_turn_, params.integer("turn_decisions_max"));
+    rear_stop_m_ = params.number("rear_stop_m");
+    rear_rad_ = deg_to_rad(params.number("rear_deg"));
+    longest_back_off_ =
+        static_cast<std::int64_t>(params.number("back_off_s") / setup.period_s() + 0.5);
     centre_W_ = {params.number("centre_x_m"), params.number("centre_y_m")};
     stay_within_m_ = params.number("stay_within_m");
     if (stop_m_ >= avoid_m_) {
@@ -56,6 +65,11 @@ class Wander final : public DecisionProcess {
       // Still blocked after a turn: go on the same way round, or a corner would trap it.
       if (!turning_) side_ = home != 0 ? home : freer_side(percepts);
       turns_left_ = turn_length(percepts);
+      if (!turning_ && clearance_m < avoid_m_) back_off_left_ = longest_back_off_;
+    }
+    if (backs_off()) {
+      commands.velocity(drive_, -0.5 * cruise_mps_, 0);
+      return;
     }
     turning_ = turns_left_ > 0;
     if (turning_) --turns_left_;
@@ -67,6 +81,17 @@ class Wander final : public DecisionProcess {
   }
 
  private:
+  /// Whether it reverses now: for a while before it turns, as long as nothing that it can see is
+  /// behind. What it cannot see there, it runs into.
+  bool backs_off() {
+    if (back_off_left_ == 0) return false;
+    --back_off_left_;
+    const double behind_m =
+        std::min(scan_.nearest_m(kPi - rear_rad_, kPi), scan_.nearest_m(-kPi, rear_rad_ - kPi));
+    if (behind_m - radius_m_ < rear_stop_m_) back_off_left_ = 0;
+    return back_off_left_ > 0;
+  }
+
   /// 1: left, -1: right; by chance when both are the same.
   int freer_side(const Percepts& percepts) const {
     const double left_m = scan_.nearest_m(0, front_rad_ + 0.5);
@@ -102,6 +127,10 @@ class Wander final : public DecisionProcess {
   double front_rad_ = 0;
   std::int64_t shortest_turn_ = 0;
   std::int64_t longest_turn_ = 0;
+  double rear_stop_m_ = 0;
+  double rear_rad_ = 0;
+  std::int64_t longest_back_off_ = 0;
+  std::int64_t back_off_left_ = 0;
   Vec2 centre_W_;
   double stay_within_m_ = 0;
   std::int64_t turns_left_ = 0;

@@ -22,6 +22,8 @@ class Checks {
     unique_robots();
     for (const RobotGroup& group : expanded_.groups) timing(group.robot);
     sightings();
+    for (const TouchesCheckFile& check : scenario_.checks.touches) touches(check);
+    for (const ArrivalCheckFile& check : scenario_.checks.arrivals) (void)groups_of(check.robot);
     odometry();
   }
 
@@ -103,6 +105,34 @@ class Checks {
     if (together) return;
     report(check.twin.where, "no robot has both the sensors `{}` and `{}`", *check.real,
            *check.twin);
+  }
+
+  /// The groups that a name of a robot or of an entry stands for; reports if there are none.
+  std::set<std::size_t> groups_of(const Located<std::string>& name) {
+    std::set<std::size_t> found;
+    std::set<std::string_view> all;
+    for (const ExpandedRobot& robot : expanded_.robots) {
+      const std::string& entry = *expanded_.group_of(robot).name;
+      if (robot.name == *name || entry == *name) found.insert(robot.group);
+      all.insert(entry);
+      all.insert(robot.name);
+    }
+    if (found.empty()) {
+      const std::vector<std::string_view> names(all.begin(), all.end());
+      report(name.where, "there is no robot `{}`{}", *name, suggestion(*name, names));
+    }
+    return found;
+  }
+
+  void touches(const TouchesCheckFile& check) {
+    for (const Located<std::string>& name : check.robots) {
+      const std::set<std::size_t> groups = groups_of(name);
+      if (!check.sensor || !sensor_exists("sensor", *check.sensor)) continue;
+      for (const std::size_t group : groups) {
+        if (has_sensor(expanded_.groups[group], **check.sensor)) continue;
+        report(check.sensor->where, "robot `{}` has no sensor `{}`", *name, **check.sensor);
+      }
+    }
   }
 
   void odometry() {

@@ -80,4 +80,9 @@ void substitute_inline_robots(RawNode& scenario, Diagnostics& diagnostics) {
   }
 }
 
+void validate(const TouchesCheckFile& c, CheckContext& check) {
+  if (c.least <= c.most) return;
+  check.error("least", "`least`: found {}, expected at most `most` ({})", c.least, c.most);
+}
+
 }  // namespace rave::config

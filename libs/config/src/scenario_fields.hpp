@@ -67,8 +67,40 @@ void describe(V& v, SightingsCheckFile& c) {
 }
 
 template <class V>
+void describe(V& v, TouchesCheckFile& c) {
+  v.required("robots", c.robots,
+             {.doc = "Robots, or entries that stand for several, whose touches are added up.",
+              .min_items = 1});
+  v.field("sensor", c.sensor,
+          {.doc = "The contact sensor whose readings count; null: contacts in the run's world."});
+  v.field("most", c.most, {.doc = "More touches than this fail.", .min = 0});
+  v.field("least", c.least, {.doc = "Fewer touches than this fail.", .min = 0});
+}
+
+void validate(const TouchesCheckFile& c, CheckContext& check);
+
+template <class V>
+void describe(V& v, ArrivalCheckFile& c) {
+  v.required("robot", c.robot, {.doc = "A robot, or an entry whose robots must all arrive."});
+  v.required("x_m", c.x_m, length_m("Where, in the world."));
+  v.required("y_m", c.y_m, length_m("Where, in the world."));
+  v.field("within_m", c.within_m,
+          {.doc = "How near it has to come by its reported pose.",
+           .min = 0,
+           .exclusive_min = true,
+           .max = kFarthest_m,
+           .unit = "m"});
+  v.field(
+      "before_s", c.before_s,
+      {.doc = "Until when; null: the end of the run.", .min = 0, .max = kLongest_s, .unit = "s"});
+}
+
+template <class V>
 void describe(V& v, ChecksFile& c) {
   v.field("sightings", c.sightings, {.doc = "Compares real sightings with a virtual camera's."});
+  v.field("touches", c.touches,
+          {.doc = "How often robots may touch something.", .max_items = 1000});
+  v.field("arrivals", c.arrivals, {.doc = "Where robots have to come to.", .max_items = 1000});
 }
 
 template <class V>

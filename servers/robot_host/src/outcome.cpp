@@ -192,6 +192,11 @@ RunOutcome judge(const Findings& findings) {
         tally.within, tally.total, tally.within_pct(), findings.sightings->limits().range_m,
         findings.sightings->limits().bearing_deg, findings.sightings->limits().min_within_pct));
   }
+  for (const CheckResult& check : findings.goals) {
+    if (check.holds) continue;
+    outcome.checks_hold = false;
+    outcome.problems.push_back(fmt::format("a check fails: {}: {}", check.name, check.text));
+  }
   if (findings.built.live_reason.empty()) {
     outcome.hash = fmt::format("{:016x}", findings.engine.hash().value());
   }
@@ -214,6 +219,10 @@ std::string result_json(const Findings& findings, const RunOutcome& outcome) {
   json["hash"] = outcome.hash.empty() ? Json(nullptr) : Json(outcome.hash);
   if (!findings.built.live_reason.empty()) json["no_hash_because"] = findings.built.live_reason;
   if (findings.sightings != nullptr) json["sightings"] = sightings_json(*findings.sightings);
+  json["checks"] = Json::array();
+  for (const CheckResult& check : findings.goals) {
+    json["checks"].push_back({{"check", check.name}, {"holds", check.holds}, {"text", check.text}});
+  }
   json["hits"] = findings.hits.counts();
   json["closest"] = encounters_json(findings);
   json["events"] = events_json(findings);
@@ -242,6 +251,10 @@ std::string summary_text(const Findings& findings, const RunOutcome& outcome) {
                      "unknown codes)",
                      findings.sightings->holds() ? "holds" : "FAILS", tally.within_pct(),
                      tally.total, tally.unknown)});
+  }
+  for (const CheckResult& check : findings.goals) {
+    table.rows.push_back(
+        {check.name, fmt::format("{}: {}", check.holds ? "holds" : "FAILS", check.text)});
   }
   table.rules_before.push_back(table.rows.size());
   add_encounter_rows(findings, table);

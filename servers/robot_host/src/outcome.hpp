@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "encounters.hpp"
+#include "goal_checks.hpp"
 #include "hit_counter.hpp"
 #include "instant.hpp"
 #include "rave/robot_host/build.hpp"
@@ -25,6 +26,7 @@ struct Findings {
   const TrackRecorder& tracks;
   const Encounters& encounters;
   const HitCounter& hits;
+  std::vector<CheckResult> goals;
   const SightingCheck* sightings = nullptr;
   const InstantKeeper* instant = nullptr;
   const std::vector<sim::Event>& events;

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "console_tee.hpp"
+#include "goal_checks.hpp"
 #include "outcome.hpp"
 #include "rave/base/file.hpp"
 #include "record_keeper.hpp"
@@ -24,19 +25,25 @@ struct Observers {
   TrackRecorder tracks;
   Encounters encounters;
   HitCounter hits;
+  GoalChecks goals;
   std::optional<SightingCheck> sightings;
   std::optional<InstantKeeper> instant;
   std::unique_ptr<RecordKeeper> record;
 
-  Observers(const config::ScenarioFile& scenario, const BuiltScenario& built,
+  Observers(const config::ExpandedScenario& expanded, const BuiltScenario& built,
             const sim::EngineSpec& spec)
+      : Observers(expanded, expanded.scenario, built, spec) {}
+
+  Observers(const config::ExpandedScenario& expanded, const config::ScenarioFile& scenario,
+            const BuiltScenario& built, const sim::EngineSpec& spec)
       : kinds(spec, built.robot_kinds),
         tracks(kinds, spec, scenario.duration_s,
                scenario.picture && scenario.picture->odometry_sensor
                    ? scenario.picture->odometry_sensor->value
                    : std::string()),
         encounters(kinds, spec),
-        hits(kinds) {
+        hits(kinds),
+        goals(expanded, spec) {
     if (scenario.checks.sightings) sightings.emplace(*scenario.checks.sightings, spec);
     if (scenario.picture) {
       instant.emplace(kinds, scenario.picture->instant_s.value_or(scenario.duration_s / 2));
@@ -47,6 +54,7 @@ struct Observers {
     tracks.after_step(engine);
     encounters.after_step(engine);
     hits.after_step(engine);
+    goals.after_step(engine);
     if (sightings) sightings->after_step(engine);
     if (instant) instant->after_step(engine);
     if (record) record->after_step(engine);
@@ -208,7 +216,7 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
   }
   RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(built.spec)));
 
-  Observers observers(file, built, engine->spec());
+  Observers observers(adjusted, built, engine->spec());
   if (options.record) {
     RAVE_TRY_ASSIGN(observers.record,
                     RecordKeeper::begin(options.output / "run.mcap", *engine, observers.kinds,
@@ -232,6 +240,7 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
                           observers.tracks,
                           observers.encounters,
                           observers.hits,
+                          observers.goals.results(),
                           observers.sightings ? &*observers.sightings : nullptr,
                           observers.instant ? &*observers.instant : nullptr,
                           journey.events,

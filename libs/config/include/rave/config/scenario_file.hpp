@@ -52,8 +52,30 @@ struct SightingsCheckFile {
   bool operator==(const SightingsCheckFile&) const = default;
 };
 
+/// Counts how often robots begin to touch something.
+struct TouchesCheckFile {
+  std::vector<Located<std::string>> robots;  ///< Of a robot, or of an entry that stands for several.
+  /// A contact sensor whose readings count; unset: contacts in the world of the run.
+  std::optional<Located<std::string>> sensor;
+  int most = 0;
+  int least = 0;
+  bool operator==(const TouchesCheckFile&) const = default;
+};
+
+/// Wants a robot to come to a place.
+struct ArrivalCheckFile {
+  Located<std::string> robot;  ///< Of a robot, or of an entry: each of its robots must arrive.
+  double x_m = 0;
+  double y_m = 0;
+  double within_m = 0.25;
+  std::optional<double> before_s;  ///< Unset: by the end of the run.
+  bool operator==(const ArrivalCheckFile&) const = default;
+};
+
 struct ChecksFile {
   std::optional<SightingsCheckFile> sightings;
+  std::vector<TouchesCheckFile> touches;
+  std::vector<ArrivalCheckFile> arrivals;
   bool operator==(const ChecksFile&) const = default;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "utias/unpack.hpp"
+#include "recording/unpack.hpp"
 
 #include <sodium.h>
 #include <zlib.h>
@@ -8,7 +8,7 @@
 #include <array>
 #include <limits>
 
-namespace rave::utias {
+namespace rave::recording {
 namespace {
 
 /// Owns zlib's state while one file is unpacked.
@@ -94,4 +94,4 @@ std::string sha256_hex(std::string_view bytes) {
   return text;
 }
 
-}  // namespace rave::utias
+}  // namespace rave::recording

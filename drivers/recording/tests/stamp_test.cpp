@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "utias/stamp.hpp"
+#include "recording/stamp.hpp"
 
 #include <gtest/gtest.h>
 
-namespace rave::utias {
+namespace rave::recording {
 namespace {
 
 TEST(Stamp, IsExactToTheNanosecond) {
@@ -22,4 +22,4 @@ TEST(Stamp, RefusesAllElse) {
 }
 
 }  // namespace
-}  // namespace rave::utias
+}  // namespace rave::recording

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "utias/stamp.hpp"
+#include "recording/stamp.hpp"
 
-namespace rave::utias {
+namespace rave::recording {
 
 std::optional<std::int64_t> parse_stamp_ns(std::string_view text) noexcept {
   constexpr int kDecimals = 9;
@@ -28,4 +28,4 @@ std::optional<std::int64_t> parse_stamp_ns(std::string_view text) noexcept {
   return value;
 }
 
-}  // namespace rave::utias
+}  // namespace rave::recording

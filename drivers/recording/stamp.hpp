@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-namespace rave::utias {
+namespace rave::recording {
 
 /// Stamps later than this (the year 2096) are refused; sums of stamps and offsets cannot overflow.
 inline constexpr std::int64_t kLatestStamp_ns = 4'000'000'000'000'000'000;
@@ -15,4 +15,4 @@ inline constexpr std::int64_t kLatestStamp_ns = 4'000'000'000'000'000'000;
 /// arithmetic only: a double keeps these times to 0.2 us, a 32-bit float to 128 s.
 [[nodiscard]] std::optional<std::int64_t> parse_stamp_ns(std::string_view text) noexcept;
 
-}  // namespace rave::utias
+}  // namespace rave::recording

@@ -10,17 +10,24 @@
 #include <utility>
 
 #include "rave/robot/hardware_sensor.hpp"
-#include "utias/plugins/playback.hpp"
-#include "utias/plugins/report_json.hpp"
-#include "utias/plugins/timeline.hpp"
+#include "recording/timeline.hpp"
 
-namespace rave::utias {
+namespace rave::recording {
+
+/// What a stream hands to its player.
+template <class Record>
+struct Played {
+  Timeline<Record> timeline;
+  std::string report = "{}";  ///< JSON.
+  bool live = false;
+};
 
 /// Plays one stream of a recording as its hardware delivered it: from a thread of its own, with
 /// the original stamps. Opened again it starts over and gives the same samples.
 ///
-/// `Stream` says what is special: types and constants `Record`, `kReading`, `kKind`, `kCapacity`,
-/// `kCollect`; `code_meaning(params)`; and `timeline(params, playback)`, a Timeline<Record>.
+/// `Stream` says what is special: types and constants `Record`, `kReading`, `kCapacity` (at least
+/// so many records are made room for), `kCollect`; `load(setup)`, a Result<Played<Record>>; and
+/// `declare(declaration)`, which may add to what is declared and what points into the stream.
 ///
 /// Belongs to the thread of the host; only play() runs on the player's own, and reads what
 /// configure() left.
@@ -30,16 +37,12 @@ class Player final : public HardwareSensor {
   static constexpr ReadingKind kReading = Stream::kReading;
 
   Status configure(const HardwareSetup& setup, HardwareDeclaration& declaration) override {
-    const Params params = setup.parameters();
-    RAVE_TRY_ASSIGN(Playback playback,
-                    load_playback(setup, Stream::kKind, Stream::code_meaning(params)));
-    timeline_ = Stream::timeline(params, playback);
-    report_ = report_json(playback);
-    live_ = playback.live;
+    RAVE_TRY_ASSIGN(played_, stream_.load(setup));
     configured_ = true;
-    declaration.capacity = std::max(Stream::kCapacity, timeline_.largest_group());
+    declaration.capacity = std::max(Stream::kCapacity, played_.timeline.largest_group());
     declaration.collect = Stream::kCollect;
-    declaration.clock = live_ ? DriverClock::kLive : DriverClock::kStepped;
+    declaration.clock = played_.live ? DriverClock::kLive : DriverClock::kStepped;
+    stream_.declare(declaration);
     return {};
   }
 
@@ -60,29 +63,29 @@ class Player final : public HardwareSensor {
     thread_.join();
   }
 
-  [[nodiscard]] std::string report() const override { return report_; }
+  [[nodiscard]] std::string report() const override { return played_.report; }
 
  private:
   void play(SampleSink& sink, const std::stop_token& stop) const noexcept {
-    for (const auto& group : timeline_.groups) {
+    for (const auto& group : played_.timeline.groups) {
       if (stop.stop_requested()) return;
-      if (live_) {
+      if (played_.live) {
         if (!sink.wait_until(group.stamp)) return;
       } else {
         // All of the time before the next stamp, not only up to the last one: publish() may have
         // to wait for room, and the host could be waiting for a moment in between.
         sink.complete_up_to({group.stamp.ns - 1});
       }
-      if (!sink.publish(group.stamp, &timeline_.records[group.first], group.count)) return;
+      const auto* records = &played_.timeline.records[group.first];
+      if (!sink.publish(group.stamp, records, group.count)) return;
     }
     sink.complete_up_to({std::numeric_limits<std::int64_t>::max()});
   }
 
-  Timeline<typename Stream::Record> timeline_;
-  std::string report_ = "{}";
-  bool live_ = false;
+  Stream stream_;
+  Played<typename Stream::Record> played_;
   bool configured_ = false;
   std::jthread thread_;  // last: it ends before what it reads is gone
 };
 
-}  // namespace rave::utias
+}  // namespace rave::recording

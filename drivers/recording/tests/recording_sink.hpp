@@ -10,7 +10,7 @@
 
 #include "rave/robot/hardware_sensor.hpp"
 
-namespace rave::utias {
+namespace rave::recording {
 
 inline constexpr std::int64_t kForever_ns = std::numeric_limits<std::int64_t>::max();
 
@@ -135,4 +135,4 @@ class RecordingSink final : public SampleSink {
   std::string fault_;
 };
 
-}  // namespace rave::utias
+}  // namespace rave::recording

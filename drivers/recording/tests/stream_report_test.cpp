@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "utias/stream_report.hpp"
+#include "recording/stream_report.hpp"
 
 #include <gtest/gtest.h>
 
-namespace rave::utias {
+namespace rave::recording {
 namespace {
 
 StreamReport described(std::vector<std::int64_t> stamps, std::int64_t start, std::int64_t end) {
@@ -55,4 +55,4 @@ TEST(StreamReport, AnEmptyStreamIsOneGap) {
 }
 
 }  // namespace
-}  // namespace rave::utias
+}  // namespace rave::recording

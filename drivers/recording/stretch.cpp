@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "utias/stretch.hpp"
+#include "recording/stretch.hpp"
 
 #include <algorithm>
 #include <optional>
 
-#include "utias/stamp.hpp"
+#include "recording/stamp.hpp"
 
-namespace rave::utias {
+namespace rave::recording {
 namespace {
 
 struct Draft {
@@ -79,4 +79,4 @@ Result<Stretch> parse_stretch(std::string_view text, const std::string& file) {
   return Stretch{*draft.origin_ns, *draft.start_ns, *draft.end_ns, std::move(draft.sha256)};
 }
 
-}  // namespace rave::utias
+}  // namespace rave::recording

@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "rave/base/time.hpp"
-#include "utias/plugins/playback.hpp"
 
-namespace rave::utias {
+namespace rave::recording {
 
 /// All that a player will publish, in the order of the stamps, which differ from group to group.
 template <class Record>
@@ -37,15 +36,17 @@ struct Timeline {
   }
 };
 
-/// The timeline of a state, of which the newest value holds. Of the samples up to the start only
-/// the last is kept and stamped 0, so that there is a value from the first step on.
+/// The timeline of a state, of which the newest value holds, for a run that starts at `start_ns` of
+/// the recording and goes on to `end_ns`. Of the samples up to the start only the last is kept and
+/// stamped 0, so that there is a value from the first step on. `samples`: ascending in `t_ns`.
 template <class Record, class Sample, class Convert>
-[[nodiscard]] Timeline<Record> state_timeline(const Playback& playback,
-                                              std::span<const Sample> samples, Convert convert) {
+[[nodiscard]] Timeline<Record> state_timeline(std::span<const Sample> samples,
+                                              std::int64_t start_ns, std::int64_t end_ns,
+                                              Convert convert) {
   Timeline<Record> timeline;
   for (const Sample& sample : samples) {
-    if (sample.t_ns > playback.data.end_ns) break;
-    const SimTime stamp = std::max(SimTime{}, playback.run_time(sample.t_ns));
+    if (sample.t_ns > end_ns) break;
+    const SimTime stamp = std::max(SimTime{}, SimTime{sample.t_ns - start_ns});
     if (!timeline.groups.empty() && timeline.groups.back().stamp == stamp) {
       timeline.records.back() = convert(sample);
     } else {
@@ -56,4 +57,4 @@ template <class Record, class Sample, class Convert>
   return timeline;
 }
 
-}  // namespace rave::utias
+}  // namespace rave::recording

@@ -8,7 +8,7 @@
 
 #include "rave/math/pose.hpp"
 
-namespace rave::utias {
+namespace rave::recording {
 
 /// A captured pose X_WR of robot R in the motion capture's frame W. Nanoseconds from the origin.
 struct PoseSample {
@@ -63,4 +63,4 @@ class PoseTrack {
   std::vector<PoseSample> samples_;
 };
 
-}  // namespace rave::utias
+}  // namespace rave::recording

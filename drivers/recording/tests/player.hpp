@@ -11,11 +11,13 @@
 #include <utility>
 #include <variant>
 
-#include "../recorded.hpp"
 #include "rave/plugin/param_set.hpp"
 #include "rave/robot/hardware_sensor.hpp"
 
-namespace rave::utias {
+namespace rave::recording {
+
+inline constexpr std::int64_t kMillisecond_ns = 1'000'000;
+inline constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 /// Takes down what a plug-in registers.
 class Registered final : public RegistrySink {
@@ -116,6 +118,4 @@ class Player {
   ErrorText error_;
 };
 
-inline std::string data_folder() { return RAVE_SOURCE_DIR "/data/utias-mrclam6"; }
-
-}  // namespace rave::utias
+}  // namespace rave::recording

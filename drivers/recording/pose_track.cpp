@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "utias/pose_track.hpp"
+#include "recording/pose_track.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "rave/base/check.hpp"
 
-namespace rave::utias {
+namespace rave::recording {
 namespace {
 
 /// The slope of a straight line fitted to points of which the sums are fed.
@@ -121,4 +121,4 @@ std::optional<WorldVelocity> PoseTrack::velocity(std::int64_t t_ns,
   return fit.slope();
 }
 
-}  // namespace rave::utias
+}  // namespace rave::recording

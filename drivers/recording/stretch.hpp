@@ -8,7 +8,7 @@
 
 #include "rave/base/result.hpp"
 
-namespace rave::utias {
+namespace rave::recording {
 
 /// What `stretch.txt` says of a stretch cut by tools/cut_utias.py.
 struct Stretch {
@@ -26,4 +26,4 @@ struct Stretch {
 /// or missing, a time that is no number of seconds, start not before end.
 [[nodiscard]] Result<Stretch> parse_stretch(std::string_view text, const std::string& file);
 
-}  // namespace rave::utias
+}  // namespace rave::recording

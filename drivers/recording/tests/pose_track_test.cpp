@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "utias/pose_track.hpp"
+#include "recording/pose_track.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-namespace rave::utias {
+namespace rave::recording {
 namespace {
 
 constexpr std::int64_t kMs = 1'000'000;
@@ -85,4 +85,4 @@ TEST(PoseTrack, WrapsAngles) {
 }
 
 }  // namespace
-}  // namespace rave::utias
+}  // namespace rave::recording

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "utias/unpack.hpp"
+#include "recording/unpack.hpp"
 
-#include "temporary_dataset.hpp"
+#include <gtest/gtest.h>
 
-namespace rave::utias {
+#include "pack.hpp"
+
+namespace rave::recording {
 namespace {
 
 constexpr std::size_t kPlenty = 1 << 20;
@@ -58,4 +60,4 @@ TEST(Unpack, DigestIsSha256) {
 }
 
 }  // namespace
-}  // namespace rave::utias
+}  // namespace rave::recording

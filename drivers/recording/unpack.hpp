@@ -8,7 +8,7 @@
 
 #include "rave/base/result.hpp"
 
-namespace rave::utias {
+namespace rave::recording {
 
 /// The text of a log file, and whether its gzip stream ended before its time.
 struct UnpackedText {
@@ -26,4 +26,4 @@ struct UnpackedText {
 /// SHA-256 of the bytes as 64 lower-case hexadecimal digits.
 [[nodiscard]] std::string sha256_hex(std::string_view bytes);
 
-}  // namespace rave::utias
+}  // namespace rave::recording

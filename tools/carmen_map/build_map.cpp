@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "build_map.hpp"
+#include "carmen_map/build_map.hpp"
 
 #include <fmt/format.h>
 

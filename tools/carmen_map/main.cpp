@@ -8,7 +8,7 @@
 
 #include <cstdio>
 
-#include "build_map.hpp"
+#include "carmen_map/build_map.hpp"
 #include "rave/base/file.hpp"
 #include "recording/tokens.hpp"
 

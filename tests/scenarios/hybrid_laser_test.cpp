@@ -47,11 +47,34 @@ struct Errors {
 
 class HybridLaser : public ScenarioTest {
  protected:
+  /// Gives the recorded robot a virtual laser that sees the map and nothing else.
+  static void add_twin(config::ExpandedScenario& scenario) {
+    for (config::RobotGroup& group : scenario.groups) {
+      for (const config::SensorFile& laser : group.robot.sensors) {
+        if (laser.name.value != "laser" || !laser.imagined) continue;
+        config::SensorFile twin;
+        twin.name = std::string("laser_twin");
+        twin.driver = std::string("virtual_laser");
+        twin.mount = laser.mount;
+        twin.period_s = config::Located<double>(0.2);
+        twin.senses = std::vector{config::SensedLayer::kMappedReal};
+        twin.params = laser.imagined->params;
+        twin.params.set("rays", config::RawNode::number(360));
+        twin.params.set("fov_deg", config::RawNode::number(179.5));
+        group.robot.sensors.push_back(twin);
+        return;
+      }
+    }
+    ADD_FAILURE() << "no robot has a hybrid laser";
+  }
+
   /// The scans of the log against the virtual laser in the map, at the stamps and poses of the log.
   /// `late_ns`: how much later than the scan the prediction is made, to show that it matters.
   void predict(Errors& errors, std::int64_t late_ns = 0) {
     const carmen::Log log = shipped_log();
-    auto world = make_world(load("hybrid-laser"));
+    auto scenario = load("hybrid-laser");
+    add_twin(scenario);
+    auto world = make_world(scenario);
     ASSERT_TRUE(world.engine);
     sim::Engine& engine = *world.engine;
     const std::uint32_t robot = robot_named(engine, "freiburg");

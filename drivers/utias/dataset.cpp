@@ -16,6 +16,8 @@
 namespace rave::utias {
 namespace {
 
+using recording::check_seconds;
+
 /// The three logs of one robot, as read.
 struct RobotFiles {
   LogFile poses;
@@ -23,17 +25,8 @@ struct RobotFiles {
   LogFile sightings;
 };
 
-Status check_seconds(std::string_view name, double value, double least, double most) {
-  if (value >= least && value <= most) return {};
-  return fail(ErrorCode::kInvalidArgument, "{} is {}: expected seconds from {} to {}", name, value,
-              least, most);
-}
-
 Status check_options(const LoadOptions& options) {
   constexpr double kLongest_s = 1e9;
-  RAVE_TRY(check_seconds("start_s", options.start_s.value_or(0), 0, kLongest_s));
-  RAVE_TRY(check_seconds("end_s", options.end_s.value_or(0), 0, kLongest_s));
-  RAVE_TRY(check_seconds("margin_s", options.margin_s, 0, 1000));
   RAVE_TRY(check_seconds("clock_offset_s", options.clock_offset_s, -1000, 1000));
   RAVE_TRY(check_seconds("state_clock_offset_s", options.state_clock_offset_s, -1000, 1000));
   RAVE_TRY(check_seconds("pose_gap_limit_s", options.pose_gap_limit_s, 0, kLongest_s));
@@ -90,36 +83,6 @@ std::pair<std::int64_t, std::int64_t> stamp_range(const std::map<int, RobotFiles
     }
   }
   return {first, last};
-}
-
-Result<StreamWindow> choose_window(const Folder& folder, const std::map<int, RobotFiles>& robots,
-                                   const LoadOptions& options) {
-  StreamWindow window;
-  if (folder.stretch()) {
-    window.origin_ns = folder.stretch()->origin_ns;
-    window.start_ns = folder.stretch()->start_ns;
-    window.end_ns = folder.stretch()->end_ns;
-  } else {
-    const auto [first, last] = stamp_range(robots);
-    if (first > last) {
-      return fail(ErrorCode::kParse, "no log in `{}` has a row", folder.path().string());
-    }
-    window.origin_ns = first;
-    window.end_ns = last - first;
-  }
-  const StreamWindow held = window;
-  if (options.start_s) window.start_ns = from_seconds(*options.start_s).ns;
-  if (options.end_s) window.end_ns = from_seconds(*options.end_s).ns;
-  window.margin_ns = from_seconds(options.margin_s).ns;
-  if (window.start_ns >= held.start_ns && window.end_ns <= held.end_ns &&
-      window.start_ns < window.end_ns) {
-    return window;
-  }
-  return fail(ErrorCode::kInvalidArgument,
-              "the window from {} to {} s is empty or not within the {} to {} s that `{}` holds",
-              Duration{window.start_ns}.seconds(), Duration{window.end_ns}.seconds(),
-              Duration{held.start_ns}.seconds(), Duration{held.end_ns}.seconds(),
-              folder.path().string());
 }
 
 Status add_poses(RobotLog& robot, LogFile file, const StreamWindow& window,
@@ -191,7 +154,11 @@ Result<Dataset> load(const std::filesystem::path& path, const LoadOptions& optio
   for (const int robot : folder.stretch() ? options.robots : folder.robots()) {
     RAVE_TRY_ASSIGN(files[robot], read_robot(folder, robot, streams, options));
   }
-  RAVE_TRY_ASSIGN(const StreamWindow window, choose_window(folder, files, options));
+  const auto [first_ns, last_ns] = stamp_range(files);
+  RAVE_TRY_ASSIGN(
+      const StreamWindow window,
+      recording::choose_window(folder.stretch(), first_ns, last_ns,
+                               {options.start_s, options.end_s, options.margin_s}, path.string()));
   data.origin_ns = window.origin_ns;
   data.start_ns = window.start_ns;
   data.end_ns = window.end_ns;

@@ -8,7 +8,7 @@
 #include "rave/base/result.hpp"
 #include "utias/load_options.hpp"
 #include "utias/odometry_track.hpp"
-#include "utias/pose_track.hpp"
+#include "utias/recording_names.hpp"
 #include "utias/sightings.hpp"
 #include "utias/stream_report.hpp"
 #include "utias/subjects.hpp"

@@ -6,7 +6,7 @@
 #include <system_error>
 
 #include "rave/base/file.hpp"
-#include "utias/unpack.hpp"
+#include "utias/recording_names.hpp"
 
 namespace rave::utias {
 namespace {

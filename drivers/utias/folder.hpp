@@ -10,7 +10,7 @@
 
 #include "rave/base/result.hpp"
 #include "utias/load_options.hpp"
-#include "utias/stretch.hpp"
+#include "utias/recording_names.hpp"
 #include "utias/text_log.hpp"
 
 namespace rave::utias {

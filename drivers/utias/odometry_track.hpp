@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "utias/pose_track.hpp"
+#include "utias/recording_names.hpp"
 
 namespace rave::utias {
 

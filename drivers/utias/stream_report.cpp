@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "utias/stream_report.hpp"
 
-#include <algorithm>
-
 namespace rave::utias {
 
 std::string_view to_string(StreamKind kind) noexcept {
@@ -15,101 +13,6 @@ std::string_view to_string(StreamKind kind) noexcept {
       return "sightings";
   }
   return "unknown";
-}
-
-std::string_view to_string(RepairKind kind) noexcept {
-  switch (kind) {
-    case RepairKind::kDuplicateStamp:
-      return "duplicate_stamp";
-    case RepairKind::kStepBack:
-      return "step_back";
-    case RepairKind::kSkippedRow:
-      return "skipped_row";
-    case RepairKind::kSkippedNonFinite:
-      return "skipped_non_finite";
-    case RepairKind::kHeadingWrapped:
-      return "heading_wrapped";
-    case RepairKind::kCutLine:
-      return "cut_line";
-  }
-  return "unknown";
-}
-
-std::string_view to_string(GapKind kind) noexcept {
-  switch (kind) {
-    case GapKind::kInside:
-      return "inside";
-    case GapKind::kLateStart:
-      return "late_start";
-    case GapKind::kEarlyEnd:
-      return "early_end";
-  }
-  return "unknown";
-}
-
-void StreamReport::add_repair(RepairKind repair, std::int64_t count, int line) {
-  for (Repair& known : repairs) {
-    if (known.kind != repair) continue;
-    known.count += count;
-    return;
-  }
-  repairs.push_back({repair, count, line});
-}
-
-std::int64_t StreamReport::repaired(RepairKind repair) const noexcept {
-  for (const Repair& known : repairs) {
-    if (known.kind == repair) return known.count;
-  }
-  return 0;
-}
-
-namespace {
-
-void count_rows(StreamReport& report, std::span<const std::int64_t> inside) {
-  report.rows = static_cast<std::int64_t>(inside.size());
-  if (inside.empty()) return;
-  report.stamps = 1;
-  for (std::size_t i = 1; i < inside.size(); ++i) {
-    if (inside[i] != inside[i - 1]) ++report.stamps;
-  }
-  report.first_ns = inside.front();
-  report.last_ns = inside.back();
-  if (inside.back() > inside.front()) {
-    const auto span_ns = static_cast<double>(inside.back() - inside.front());
-    report.mean_rate_hz = static_cast<double>(report.rows - 1) / (span_ns * 1e-9);
-  }
-}
-
-}  // namespace
-
-void describe_timing(StreamReport& report, std::span<const std::int64_t> stamps_ns,
-                     std::int64_t start_ns, std::int64_t end_ns) {
-  const auto first = std::lower_bound(stamps_ns.begin(), stamps_ns.end(), start_ns);
-  const auto last = std::upper_bound(first, stamps_ns.end(), end_ns);
-  count_rows(report, std::span(first, last));
-  const auto add_gap = [&report](GapKind kind, std::int64_t from, std::int64_t length) {
-    if (length > report.gap_limit_ns) report.gaps.push_back({kind, from, length});
-  };
-  if (first == stamps_ns.begin()) {
-    const std::int64_t begin = first == stamps_ns.end() ? end_ns : std::min(*first, end_ns);
-    add_gap(GapKind::kLateStart, start_ns, begin - start_ns);
-  }
-  // The row before the window and the one after it bound the gaps that reach across its edges.
-  auto row = first == stamps_ns.begin() ? first : first - 1;
-  for (; row != stamps_ns.end() && *row < end_ns; ++row) {
-    if (row + 1 == stamps_ns.end()) {
-      add_gap(GapKind::kEarlyEnd, *row, end_ns - *row);
-      report.largest_age_ns = std::max(report.largest_age_ns, end_ns - *row);
-      return;
-    }
-    const std::int64_t length = row[1] - row[0];
-    add_gap(GapKind::kInside, *row, length);
-    if (length > report.largest_gap_ns) {
-      report.largest_gap_ns = length;
-      report.largest_gap_start_ns = *row;
-    }
-    report.largest_age_ns = std::max(report.largest_age_ns, std::min(row[1], end_ns) - *row);
-  }
 }
 
 }  // namespace rave::utias

@@ -9,6 +9,12 @@
 namespace rave::utias {
 namespace {
 
+using recording::describe;
+using recording::drop_duplicates;
+using recording::sort_rows;
+using recording::trim;
+using recording::wrap_heading;
+
 constexpr std::array<Column, 4> kPoseColumns{{{"time [s]", ColumnKind::kStamp},
                                               {"x [m]", ColumnKind::kReal},
                                               {"y [m]", ColumnKind::kReal},
@@ -38,61 +44,6 @@ StreamReport begin_report(LogFile& file, int robot, StreamKind kind, std::int64_
   report.repairs = std::move(file.log.repairs);
   report.gap_limit_ns = gap_limit_ns;
   return report;
-}
-
-/// Orders rows by stamp, rows of one stamp as in the file, and reports each step back.
-void sort_rows(std::vector<LogRow>& rows, StreamReport& report) {
-  bool sorted = true;
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    if (rows[i].stamp_ns >= rows[i - 1].stamp_ns) continue;
-    report.add_repair(RepairKind::kStepBack, 1, rows[i].line);
-    sorted = false;
-  }
-  if (sorted) return;
-  std::stable_sort(rows.begin(), rows.end(),
-                   [](const LogRow& a, const LogRow& b) { return a.stamp_ns < b.stamp_ns; });
-}
-
-/// Keeps the last row of each stamp: the value that held from then on.
-void drop_duplicates(std::vector<LogRow>& rows, StreamReport& report) {
-  std::vector<LogRow> kept;
-  kept.reserve(rows.size());
-  for (const LogRow& row : rows) {
-    if (!kept.empty() && kept.back().stamp_ns == row.stamp_ns) {
-      report.add_repair(RepairKind::kDuplicateStamp, 1, row.line);
-      kept.back() = row;
-    } else {
-      kept.push_back(row);
-    }
-  }
-  rows = std::move(kept);
-}
-
-void wrap_heading(Pose2& pose, int line, StreamReport& report) {
-  const double wrapped = wrap_angle(pose.yaw);
-  if (wrapped == pose.yaw) return;
-  report.add_repair(RepairKind::kHeadingWrapped, 1, line);
-  pose.yaw = wrapped;
-}
-
-template <class Sample>
-void describe(StreamReport& report, const std::vector<Sample>& samples,
-              const StreamWindow& window) {
-  std::vector<std::int64_t> stamps;
-  stamps.reserve(samples.size());
-  for (const Sample& sample : samples) stamps.push_back(sample.t_ns);
-  describe_timing(report, stamps, window.start_ns, window.end_ns);
-}
-
-/// Cuts to the window and its margin, keeping one row before it.
-template <class Sample>
-void trim(std::vector<Sample>& samples, const StreamWindow& window) {
-  const std::int64_t first_ns = window.start_ns - window.margin_ns;
-  const std::int64_t last_ns = window.end_ns + window.margin_ns;
-  const auto later = [](std::int64_t t, const Sample& sample) { return t < sample.t_ns; };
-  samples.erase(std::upper_bound(samples.begin(), samples.end(), last_ns, later), samples.end());
-  const auto first = std::upper_bound(samples.begin(), samples.end(), first_ns, later);
-  if (first != samples.begin()) samples.erase(samples.begin(), first - 1);
 }
 
 void count_unknown(StreamReport& report, const std::vector<Sighting>& sightings) {

@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "recording/samples.hpp"
 #include "utias/folder.hpp"
 #include "utias/odometry_track.hpp"
-#include "utias/pose_track.hpp"
+#include "utias/recording_names.hpp"
 #include "utias/sightings.hpp"
 #include "utias/stream_report.hpp"
 #include "utias/subjects.hpp"
@@ -22,13 +23,7 @@ namespace rave::utias {
 [[nodiscard]] std::span<const Column> barcode_columns() noexcept;
 [[nodiscard]] std::span<const Column> landmark_columns() noexcept;
 
-/// What turns the rows of a file into samples. Nanoseconds; the window counts from the origin.
-struct StreamWindow {
-  std::int64_t origin_ns = 0;  ///< Absolute.
-  std::int64_t start_ns = 0;
-  std::int64_t end_ns = 0;
-  std::int64_t margin_ns = 0;
-};
+using recording::StreamWindow;
 
 template <class Samples>
 struct Stream {

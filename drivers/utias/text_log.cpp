@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "utias/text_log.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <optional>
 
-#include "utias/stamp.hpp"
+#include "recording/tokens.hpp"
+#include "utias/recording_names.hpp"
 
 namespace rave::utias {
 namespace {
 
+using recording::parse_number;
+using recording::shown;
+using recording::split;
+using recording::Token;
+
 constexpr double kLargestReal = 1e6;
 constexpr int kLargestCode = 1'000'000;
-
-struct Token {
-  std::string_view text;
-  int column = 0;
-};
 
 /// Why a row was refused.
 struct Fault {
@@ -25,41 +25,9 @@ struct Fault {
   std::string message;
 };
 
-bool is_blank(char c) noexcept { return c == ' ' || c == '\t' || c == '\r'; }
-
-std::vector<Token> split(std::string_view line) {
-  std::vector<Token> tokens;
-  std::size_t at = 0;
-  while (true) {
-    while (at < line.size() && is_blank(line[at])) ++at;
-    if (at == line.size()) return tokens;
-    const std::size_t begin = at;
-    while (at < line.size() && !is_blank(line[at])) ++at;
-    tokens.push_back({line.substr(begin, at - begin), static_cast<int>(begin) + 1});
-  }
-}
-
-/// The token, shortened and with unprintable bytes replaced, for a message.
-std::string shown(std::string_view token) {
-  std::string text(token.substr(0, 24));
-  for (char& c : text) {
-    if (c < 0x20 || c > 0x7e) c = '?';
-  }
-  return token.size() > 24 ? text + "..." : text;
-}
-
 std::size_t decimals(std::string_view number) noexcept {
   const std::size_t point = number.find('.');
   return point == std::string_view::npos ? 0 : number.size() - point - 1;
-}
-
-template <class T>
-std::optional<T> parse_number(std::string_view text) noexcept {
-  T value{};
-  const char* end = text.data() + text.size();
-  const auto [stop, status] = std::from_chars(text.data(), end, value);
-  if (status != std::errc() || stop != end) return std::nullopt;
-  return value;
 }
 
 bool is_non_finite(std::string_view text) noexcept {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "rave/base/result.hpp"
+#include "utias/recording_names.hpp"
 #include "utias/stream_report.hpp"
-#include "utias/unpack.hpp"
 
 namespace rave::utias {
 

@@ -12,6 +12,9 @@ constexpr ParamSpec kParams[] = {
     integer_param("rays", 180, 1, 100000, "Number of rays, spread evenly over the field."),
     number_param("fov_deg", "deg", 180, 0, 360,
                  "Field of view, symmetric about the sensor's x axis; 360 is a closed ring."),
+    bool_param("rays_of_real_half", false,
+               "In a hybrid sensor: the rays are those of the real half, and `rays` and `fov_deg` "
+               "are not looked at. Elsewhere without effect."),
     number_param("range_min_m", "m", 0.02, 0, 1000, "Anything nearer is read as this range."),
     number_param("range_max_m", "m", 8, 0, 1000, "Anything farther is no return."),
 };
@@ -24,16 +27,15 @@ class VirtualLaser final : public VirtualSensor {
   Status configure(const VirtualSensorSetup& setup, VirtualDeclaration& declaration) override {
     const Params params = setup.parameters();
     RAVE_TRY(check_ascending(params, "range_min_m", "range_max_m"));
-    const auto rays = static_cast<std::size_t>(params.integer("rays"));
-    const double fov_deg = params.number("fov_deg");
-    if (rays > 1 && !(fov_deg > 0)) {
-      return fail(ErrorCode::kInvalidArgument, "`fov_deg` is {}, so all {} `rays` coincide",
-                  fov_deg, rays);
+    const SensorInfo* const real = setup.real_half;
+    if (params.flag("rays_of_real_half") && real != nullptr && real->bearings_rad != nullptr) {
+      bearings_rad_.assign(real->bearings_rad, real->bearings_rad + real->capacity);
+    } else {
+      RAVE_TRY(spread(static_cast<std::size_t>(params.integer("rays")), params.number("fov_deg")));
     }
-    spread(rays, fov_deg);
     declaration.uses_fan = 1;
     declaration.fan.bearings_rad = bearings_rad_.data();
-    declaration.fan.ray_count = static_cast<std::uint32_t>(rays);
+    declaration.fan.ray_count = static_cast<std::uint32_t>(bearings_rad_.size());
     declaration.fan.range_min_m = params.number("range_min_m");
     declaration.fan.range_max_m = params.number("range_max_m");
     return {};
@@ -42,14 +44,19 @@ class VirtualLaser final : public VirtualSensor {
   void sample(const WorldView& /*world*/, const SampleItem& /*item*/) const override {}
 
  private:
-  void spread(std::size_t rays, double fov_deg) {
+  Status spread(std::size_t rays, double fov_deg) {
+    if (rays > 1 && !(fov_deg > 0)) {
+      return fail(ErrorCode::kInvalidArgument, "`fov_deg` is {}, so all {} `rays` coincide",
+                  fov_deg, rays);
+    }
     bearings_rad_.assign(rays, 0.0);
-    if (rays == 1) return;
+    if (rays == 1) return {};
     // A full ring has as many gaps as rays: its last ray would otherwise lie on its first.
     const auto gaps = static_cast<double>(fov_deg < 360 ? rays - 1 : rays);
     for (std::size_t i = 0; i < rays; ++i) {
       bearings_rad_[i] = deg_to_rad(fov_deg * (static_cast<double>(i) / gaps - 0.5));
     }
+    return {};
   }
 
   std::vector<double> bearings_rad_;

@@ -33,6 +33,14 @@ TEST_F(Determinism, TheNumberOfThreadsDoesNotMatter) {
   }
 }
 
+TEST_F(Determinism, NorForAHybridOfARecordedLaser) {
+  auto scenario = load("hybrid-laser");
+  const std::uint64_t hash = hash_of(scenario);
+  EXPECT_NE(hash, 0U);
+  scenario.scenario.threads = 3;
+  EXPECT_EQ(hash_of(scenario), hash);
+}
+
 TEST_F(Determinism, ProgramsInProcessesOfTheirOwnDecideTheSame) {
   auto scenario = load("mixed-reality");
   for (config::RobotGroup& group : scenario.groups) {

@@ -3,8 +3,8 @@
 // geometry that shares nothing with the range engine.
 #include <cmath>
 
-#include "rave/math/polygon.hpp"
 #include "rave/math/transform.hpp"
+#include "ray_geometry.hpp"
 #include "scenario_fixture.hpp"
 
 namespace rave::tests {
@@ -19,23 +19,7 @@ class MutualSensing : public ScenarioTest {
     const Pose2 X_WB = robot ? engine.snapshot().pose(RobotId(
                                    body - static_cast<std::uint32_t>(world.obstacles.size())))
                              : world.obstacles[body].X_WB;
-    const Vec2 origin = transform_back(X_WB, p_W);
-    const SinCos turn = sincos(yaw_rad - X_WB.yaw);
-    const Vec2 direction{turn.cos, turn.sin};
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const world::Shape& shape : world.body(body).shapes) {
-      double range = 0;
-      if (shape.polygon) {
-        range = cast_ray(origin, direction, *shape.polygon);
-      } else {
-        const Vec2 m = shape.centre - origin;
-        const double along = dot(m, direction);
-        const double root = shape.radius_m * shape.radius_m - squared_norm(m) + along * along;
-        range = root < 0 ? nearest : along - std::sqrt(root);
-      }
-      nearest = std::min(nearest, range);
-    }
-    return nearest;
+    return ray_to_body(world, body, X_WB, p_W, yaw_rad);
   }
 
   /// Rays of one fresh scan that met `wanted`, each compared with geometry to a millimetre.

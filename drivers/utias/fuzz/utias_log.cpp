@@ -7,10 +7,8 @@
 #include <string_view>
 
 #include "rave/base/check.hpp"
-#include "utias/stamp.hpp"
+#include "utias/recording_names.hpp"
 #include "utias/streams.hpp"
-#include "utias/stretch.hpp"
-#include "utias/unpack.hpp"
 
 namespace {
 

@@ -2,20 +2,9 @@
 #include "utias/plugins/playback.hpp"
 
 #include <filesystem>
-#include <optional>
 #include <utility>
 
 namespace rave::utias {
-namespace {
-
-/// Negative stands for "not given": a parameter without a value does not exist.
-std::optional<double> given(double seconds) noexcept {
-  if (seconds < 0) return std::nullopt;
-  return seconds;
-}
-
-}  // namespace
-
 const StreamReport& Playback::report() const noexcept {
   if (kind == StreamKind::kPoses) return robot().pose_report;
   if (kind == StreamKind::kOdometry) return robot().odometry_report;
@@ -27,20 +16,21 @@ Result<Playback> load_playback(const HardwareSetup& setup, StreamKind kind,
   const Params params = setup.parameters();
   Playback playback;
   playback.folder = params.text("folder");
-  playback.clock_offset_s = params.number("clock_offset_s");
-  playback.live = params.text("clock") == "live";
+  const recording::PlayOptions play = recording::play_options(params);
+  playback.clock_offset_s = play.clock_offset_s;
+  playback.live = play.live;
   playback.kind = kind;
 
   LoadOptions options;
   options.robots = {static_cast<int>(params.integer("robot"))};
   options.streams = {kind == StreamKind::kPoses, kind == StreamKind::kOdometry,
                      kind == StreamKind::kSightings};
-  options.start_s = given(params.number("start_s"));
-  options.end_s = given(params.number("end_s"));
+  options.start_s = play.start_s;
+  options.end_s = play.end_s;
   options.clock_offset_s = playback.clock_offset_s;
   options.state_clock_offset_s = playback.clock_offset_s;
   options.code_meaning = code_meaning;
-  options.parse.accept_cut = params.flag("accept_cut");
+  options.parse.accept_cut = play.accept_cut;
   // An absolute folder replaces the one in front of it.
   RAVE_TRY_ASSIGN(playback.data,
                   load(std::filesystem::path(setup.folder) / playback.folder, options));

@@ -2,45 +2,26 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <string>
 
 #include "rave/base/result.hpp"
 #include "rave/base/time.hpp"
 #include "rave/robot/hardware_sensor.hpp"
+#include "recording/play_params.hpp"
 #include "utias/dataset.hpp"
 #include "utias/stream_report.hpp"
 
 namespace rave::utias {
 
-inline constexpr std::array<const char*, 2> kClocks{"stepped", "live"};
-
 /// The parameters that all three players have.
-inline constexpr std::array<ParamSpec, 7> kPlaybackParams{
-    required(text_param("folder", "", "Folder of the logs, relative to that of the robot file.")),
-    required(integer_param("robot", 1, 1, 5, "Which of the recorded robots to play.")),
-    choice_param("clock", "stepped", kClocks,
-                 "Whether samples come by simulation time or by the clock on the wall."),
-    number_param("start_s", "s", -1, -1, 1e6,
-                 "Time of the recording that is run time 0; -1: where the logs start."),
-    number_param("end_s", "s", -1, -1, 1e6,
-                 "Time of the recording after which nothing comes; -1: where the logs end."),
-    number_param("clock_offset_s", "s", 0, -1000, 1000,
-                 "Added to all stamps: a clock that is off."),
-    bool_param("accept_cut", false, "Use the whole lines of a log that ends in the middle of one."),
-};
-
-/// The common parameters and those of one player.
-template <std::size_t kCount>
-constexpr std::array<ParamSpec, kPlaybackParams.size() + kCount> with_playback_params(
-    const std::array<ParamSpec, kCount>& own) noexcept {
-  std::array<ParamSpec, kPlaybackParams.size() + kCount> all{};
-  std::size_t count = 0;
-  for (const ParamSpec& spec : kPlaybackParams) all[count++] = spec;
-  for (const ParamSpec& spec : own) all[count++] = spec;
-  return all;
-}
+inline constexpr auto kPlaybackParams = recording::join_params(
+    std::array<ParamSpec, 2>{
+        required(
+            text_param("folder", "", "Folder of the logs, relative to that of the robot file.")),
+        required(integer_param("robot", 1, 1, 5, "Which of the recorded robots to play.")),
+    },
+    recording::kPlayParams);
 
 /// One stream of one robot, read and ready to be played. A plain value.
 struct Playback {

@@ -2,17 +2,19 @@
 #include <array>
 
 #include "rave/robot/plugin_entry.hpp"
-#include "utias/plugins/player.hpp"
+#include "utias/plugins/stream.hpp"
 
 namespace rave::utias {
 namespace {
 
 constexpr std::array<const char*, 2> kCodes{"barcode", "subject"};
-constexpr auto kParams = with_playback_params(std::array<ParamSpec, 1>{
-    choice_param("codes", "barcode", kCodes,
-                 "How the number in the log is read; `subject` is the classical mistake, for "
-                 "checks that must notice it."),
-});
+constexpr auto kParams = recording::join_params(
+    kPlaybackParams,
+    std::array<ParamSpec, 1>{
+        choice_param("codes", "barcode", kCodes,
+                     "How the number in the log is read; `subject` is the classical mistake, for "
+                     "checks that must notice it."),
+    });
 
 /// What the camera is said to have read on a landmark. A number that is no subject must not turn
 /// into somebody's barcode by chance: it becomes a negative one, which nobody carries.
@@ -34,8 +36,8 @@ struct Camera {
     return params.text("codes") == "subject" ? CodeMeaning::kSubject : CodeMeaning::kBarcode;
   }
 
-  static Timeline<Record> timeline(const Params& params, const Playback& playback) {
-    Timeline<Record> timeline;
+  static recording::Timeline<Record> timeline(const Params& params, const Playback& playback) {
+    recording::Timeline<Record> timeline;
     const SightingLog& log = playback.robot().sightings;
     for (std::size_t i = 0; i < log.group_count(); ++i) {
       const SimTime stamp = playback.run_time(log.group(i).front().t_ns);

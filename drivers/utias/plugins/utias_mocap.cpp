@@ -3,17 +3,18 @@
 #include <numbers>
 
 #include "rave/robot/plugin_entry.hpp"
-#include "utias/plugins/player.hpp"
+#include "utias/plugins/stream.hpp"
 
 namespace rave::utias {
 namespace {
 
-constexpr auto kParams = with_playback_params(std::array<ParamSpec, 2>{
-    number_param("position_sigma_m", "m", 0.001, 0, 10,
-                 "Standard deviation that each of x and y is said to have."),
-    number_param("heading_sigma_deg", "deg", 0.5, 0, 180,
-                 "Standard deviation that the heading is said to have."),
-});
+constexpr auto kParams = recording::join_params(
+    kPlaybackParams, std::array<ParamSpec, 2>{
+                         number_param("position_sigma_m", "m", 0.001, 0, 10,
+                                      "Standard deviation that each of x and y is said to have."),
+                         number_param("heading_sigma_deg", "deg", 0.5, 0, 180,
+                                      "Standard deviation that the heading is said to have."),
+                     });
 
 /// The poses of the motion capture, in its frame.
 struct Mocap {
@@ -25,11 +26,12 @@ struct Mocap {
 
   static CodeMeaning code_meaning(const Params&) { return CodeMeaning::kBarcode; }
 
-  static Timeline<PoseReading> timeline(const Params& params, const Playback& playback) {
+  static recording::Timeline<PoseReading> timeline(const Params& params, const Playback& playback) {
     const double sigma_m = params.number("position_sigma_m");
     const double sigma_rad = params.number("heading_sigma_deg") * (std::numbers::pi / 180);
-    return state_timeline<PoseReading>(
-        playback, playback.robot().poses.samples(), [=](const PoseSample& sample) {
+    return recording::state_timeline<PoseReading>(
+        playback.robot().poses.samples(), playback.data.start_ns, playback.data.end_ns,
+        [=](const PoseSample& sample) {
           return PoseReading{sample.pose.x, sample.pose.y, sample.pose.yaw, sigma_m * sigma_m,
                              sigma_rad * sigma_rad};
         });

@@ -2,7 +2,7 @@
 #include <span>
 
 #include "rave/robot/plugin_entry.hpp"
-#include "utias/plugins/player.hpp"
+#include "utias/plugins/stream.hpp"
 
 namespace rave::utias {
 namespace {
@@ -17,11 +17,12 @@ struct Commands {
 
   static CodeMeaning code_meaning(const Params&) { return CodeMeaning::kBarcode; }
 
-  static Timeline<VelocityReading> timeline(const Params&, const Playback& playback) {
-    return state_timeline<VelocityReading>(playback, std::span(playback.robot().odometry),
-                                           [](const OdometrySample& sample) {
-                                             return VelocityReading{sample.v_mps, sample.w_radps};
-                                           });
+  static recording::Timeline<VelocityReading> timeline(const Params&, const Playback& playback) {
+    return recording::state_timeline<VelocityReading>(
+        std::span(playback.robot().odometry), playback.data.start_ns, playback.data.end_ns,
+        [](const OdometrySample& sample) {
+          return VelocityReading{sample.v_mps, sample.w_radps};
+        });
   }
 };
 

@@ -2,7 +2,7 @@
 #include <limits>
 
 #include "temporary_dataset.hpp"
-#include "utias/unpack.hpp"
+#include "utias/recording_names.hpp"
 
 namespace rave::utias {
 namespace {

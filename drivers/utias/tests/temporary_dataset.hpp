@@ -3,31 +3,17 @@
 
 #include <gtest/gtest.h>
 #include <unistd.h>
-#include <zlib.h>
 
 #include <filesystem>
 #include <string>
 
 #include "rave/base/file.hpp"
+#include "recording/tests/pack.hpp"
 #include "utias/dataset.hpp"
 
 namespace rave::utias {
 
-/// gzip as the logs have it.
-inline std::string pack(const std::string& text) {
-  z_stream stream{};
-  deflateInit2(&stream, 9, Z_DEFLATED, 16 + MAX_WBITS, 8, Z_DEFAULT_STRATEGY);
-  std::string input = text;
-  std::string output(deflateBound(&stream, static_cast<uLong>(text.size())) + 64, '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(input.data());
-  stream.avail_in = static_cast<uInt>(input.size());
-  stream.next_out = reinterpret_cast<Bytef*>(output.data());
-  stream.avail_out = static_cast<uInt>(output.size());
-  deflate(&stream, Z_FINISH);
-  output.resize(stream.total_out);
-  deflateEnd(&stream);
-  return output;
-}
+using recording::pack;
 
 /// A folder with a small, whole data set of two robots and one landmark, to be broken by a test.
 class TemporaryDataset : public testing::Test {

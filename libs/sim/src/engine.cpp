@@ -12,6 +12,8 @@ namespace {
 
 /// Robots that one thread takes at a time. Part of no result; the buffers in the phases rely on it.
 constexpr std::uint32_t kBlockSize = 64;
+/// How old a real sample may be when it is fused.
+constexpr Duration kHybridHistory{1'000'000'000};
 
 Status check_pose_source(const RobotType& type, const std::string& robot) {
   if (!type.pose_from) return {};
@@ -23,12 +25,19 @@ Status check_pose_source(const RobotType& type, const std::string& robot) {
                 sensor.name, to_string(sensor.kind));
   }
   // A virtual sensor would have to know the pose that it is asked for.
-  if (!type.simulated && sensor.virtual_ops != nullptr) {
+  if (!type.simulated && (sensor.virtual_ops != nullptr || sensor.hybrid)) {
     return fail(ErrorCode::kInvalidArgument,
-                "robot `{}` is real, so `pose_from` needs a real sensor, but `{}` is virtual",
-                robot, sensor.name);
+                "robot `{}` is real, so `pose_from` needs a real sensor, but `{}` is {}", robot,
+                sensor.name, sensor.hybrid ? "half virtual" : "virtual");
   }
   return {};
+}
+
+bool has_hybrid(const EngineSpec& spec) {
+  const auto is_hybrid = [](const SensorSpec& sensor) { return sensor.hybrid.has_value(); };
+  return std::any_of(spec.types.begin(), spec.types.end(), [&](const RobotType& type) {
+    return std::any_of(type.sensors.begin(), type.sensors.end(), is_hybrid);
+  });
 }
 
 Status check(const EngineSpec& spec) {
@@ -44,6 +53,7 @@ Status check(const EngineSpec& spec) {
     RAVE_TRY(check_pose_source(type, robot.name));
     for (const SensorSpec& sensor : type.sensors) {
       RAVE_CHECK((sensor.virtual_ops == nullptr) != (sensor.hardware_ops == nullptr));
+      RAVE_CHECK(!sensor.hybrid || sensor.hardware_ops != nullptr);
       RAVE_CHECK(sensor.period_steps > 0);
     }
     RAVE_CHECK(!type.program || type.program->period_steps > 0);
@@ -79,6 +89,9 @@ Engine::Impl::Impl(EngineSpec s)
       snapshot(spec.world),
       past(spec.world) {
   for (const world::Body& body : spec.world.robots) radius_m.push_back(body.radius_m());
+  if (!has_hybrid(spec)) return;
+  spec.history = std::max(spec.history, kHybridHistory);
+  fusion_world = std::make_unique<FusionWorld>(spec.world);
 }
 
 Engine::Impl::~Impl() {
@@ -96,9 +109,22 @@ void Engine::Impl::tell_complaints() const {
         spec.log->warn(
             logs[group.members[m].value()].source,
             "sensor `{}` (driver `{}`) broke its contract; samples dropped: {}; first: {}",
-            slots.spec->name, slots.spec->driver, slots.queues[m]->dropped(), complaint);
+            slots.spec->name, slots.spec->hardware_driver(), slots.queues[m]->dropped(), complaint);
       }
+      tell_withheld(group, slots);
     }
+  }
+}
+
+void Engine::Impl::tell_withheld(const RobotGroup& group, const SensorSlots& slots) const {
+  if (!slots.fusion) return;
+  for (std::size_t m = 0; m < group.members.size(); ++m) {
+    const std::uint64_t count = slots.fusion->too_late[m];
+    if (count == 0) continue;
+    spec.log->warn(logs[group.members[m].value()].source,
+                   "sensor `{}`: {} readings were withheld, because the robot's pose or the world "
+                   "at their stamps was not known any more (history {} s)",
+                   slots.spec->name, count, spec.history.seconds());
   }
 }
 
@@ -147,6 +173,7 @@ void Engine::Impl::set_initial_state() {
   notes.clear();
   history.clear();
   past_valid = false;
+  if (fusion_world) fusion_world->valid = false;
   movers.resize(count);
   velocity.assign(count, Twist2{});
   proposal.assign(count, Twist2{});
@@ -186,6 +213,7 @@ Status Engine::step() {
   engine.now = engine.step_time(engine.step);
   engine.events.clear();
   engine.past_valid = false;  // samples of this step may change what the past looked like
+  if (engine.fusion_world) engine.fusion_world->valid = false;
   RAVE_TRY(engine.ingest());
   engine.sense();
   engine.decide();
@@ -220,6 +248,12 @@ SensorSample Engine::sensor(RobotId robot, std::uint32_t index) const noexcept {
         std::span(slots.bodies).subspan(std::size_t{slots.capacity} * m, slots.capacity);
   }
   return sample;
+}
+
+SensorParts Engine::sensor_parts(RobotId robot, std::uint32_t index) const noexcept {
+  const SensorSlots& slots = impl_->group_of(robot).sensors[index];
+  if (!slots.fusion) return {};
+  return slots.fusion->parts_of(impl_->member_index[robot.value()]);
 }
 
 Command Engine::command(RobotId robot, std::uint32_t controller) const noexcept {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <deque>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +37,16 @@ struct HistoryFrame {
   std::vector<TouchState> touch;
 };
 
+/// The world at the stamp of a real sample, for the virtual halves of hybrid sensors.
+struct FusionWorld {
+  explicit FusionWorld(const world::WorldModel& model) : world(model) {}
+  world::Snapshot world;
+  bool valid = false;         ///< Still shows what is known of its time.
+  std::vector<Mover> movers;  ///< The poses in `world`.
+  std::vector<ContactNote> notes;
+  FanScratch scratch;
+};
+
 /// The state of an engine. The phases are its functions, each in a file of its own.
 struct Engine::Impl {
   explicit Impl(EngineSpec s);
@@ -46,9 +58,11 @@ struct Engine::Impl {
   /// What drivers did wrong with their samples. Told at the end, since when their threads did it is
   /// chance.
   void tell_complaints() const;
+  void tell_withheld(const RobotGroup& group, const SensorSlots& slots) const;
 
   // engine_ingest.cpp: samples of hardware, reported poses, the snapshot of this step
   Status ingest();
+  Status ingest_sensors(bool hybrid);
   Status ingest_sensor(RobotGroup& group, SensorSlots& slots, std::size_t member);
   void accept_hardware_sample(RobotGroup& group, SensorSlots& slots, std::size_t member,
                               const SampleHeader& sample);
@@ -61,6 +75,17 @@ struct Engine::Impl {
   void place_robots();
   void remember();
   void look_back(SimTime stamp);
+
+  // engine_fuse.cpp: hybrid sensors
+  bool fuse(RobotGroup& group, SensorSlots& slots, std::size_t member, SampleHeader& sample);
+  bool withhold(FusionSlots& fusion, std::size_t member, const SampleHeader& sample);
+  [[nodiscard]] std::optional<Pose2> own_pose_at(RobotId robot, SimTime stamp,
+                                                 Duration staleness) const;
+  void show_past(SimTime stamp);
+  void sample_virtual_half(const SensorSlots& slots, RobotId robot, const Pose2& X_WR,
+                           std::size_t member, ErrorText& error, bool& failed);
+  void fail_fusion(const SensorSlots& slots, RobotId robot, std::size_t member,
+                   std::string_view driver, const ErrorText& error);
 
   // engine_sense.cpp: virtual sensors
   void sense();
@@ -131,6 +156,7 @@ struct Engine::Impl {
   std::vector<Event> events;
   RunHash hash;
   FanScratch past_scratch;
+  std::unique_ptr<FusionWorld> fusion_world;  ///< Null without hybrid sensors.
 };
 
 }  // namespace rave::sim

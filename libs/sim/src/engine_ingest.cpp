@@ -33,18 +33,25 @@ RandomStream processing_stream(const EngineSpec& spec, RobotId robot, std::uint3
 }  // namespace
 
 Status Engine::Impl::ingest() {
+  RAVE_TRY(ingest_sensors(false));
+  refresh_reported();
+  make_way_for_real_robots();
+  place_robots();
+  remember();
+  // The virtual half of a hybrid needs the poses and the world up to this step.
+  if (fusion_world) RAVE_TRY(ingest_sensors(true));
+  return {};
+}
+
+Status Engine::Impl::ingest_sensors(bool hybrid) {
   for (RobotGroup& group : groups) {
     for (SensorSlots& slots : group.sensors) {
-      if (slots.is_virtual()) continue;
+      if (slots.is_virtual() || (slots.fusion != nullptr) != hybrid) continue;
       for (std::size_t m = 0; m < group.members.size(); ++m) {
         RAVE_TRY(ingest_sensor(group, slots, m));
       }
     }
   }
-  refresh_reported();
-  make_way_for_real_robots();
-  place_robots();
-  remember();
   return {};
 }
 
@@ -61,6 +68,7 @@ Status Engine::Impl::ingest_sensor(RobotGroup& group, SensorSlots& slots, std::s
     SampleHeader sample;
     while (queue.next(now, &sample, slots.scratch.data())) {
       sample.sequence = ++slots.sequence[member];
+      if (slots.fusion && !fuse(group, slots, member, sample)) continue;
       accept_hardware_sample(group, slots, member, sample);
     }
     if (wait == SampleQueue::Wait::kFull) continue;
@@ -68,7 +76,7 @@ Status Engine::Impl::ingest_sensor(RobotGroup& group, SensorSlots& slots, std::s
       return fail(ErrorCode::kTimeout,
                   "robot `{}`, sensor `{}` (driver `{}`) has not said for {} ms what it has up to "
                   "{:.3f} s; the run cannot go on",
-                  spec.robots[robot.value()].name, slots.spec->name, slots.spec->driver,
+                  spec.robots[robot.value()].name, slots.spec->name, slots.spec->hardware_driver(),
                   spec.host_timeout.count(), now.seconds());
     }
     // A stepped driver runs ahead: what it says of its device counts when its samples have been

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -36,6 +37,20 @@ class PoseTrack {
     const double s =
         static_cast<double>((t - a.stamp).ns) / static_cast<double>((b.stamp - a.stamp).ns);
     return interpolate(a.X_WR, b.X_WR, s);
+  }
+
+  /// As at(), but after the newest sample moved on from it with velocity() for the time since, at
+  /// most `longest`. Nothing before the oldest.
+  [[nodiscard]] std::optional<Pose2> carried_to(SimTime t, Duration longest) const {
+    if (samples_.empty() || t <= samples_.back().stamp) return at(t);
+    const Duration since = std::min(t - samples_.back().stamp, longest);
+    return integrate(samples_.back().X_WR, velocity(), since.seconds());
+  }
+
+  /// Stamp of the newest sample; nothing if there is none.
+  [[nodiscard]] std::optional<SimTime> newest() const {
+    if (samples_.empty()) return std::nullopt;
+    return samples_.back().stamp;
   }
 
   /// The mean body velocity over the last quarter of a second: long enough that the noise of

@@ -153,7 +153,7 @@ double Resolver::make_way(std::uint32_t id, const world::Snapshot& snapshot, dou
 
 void Resolver::probe(std::uint32_t id, const world::Snapshot& snapshot, double slack_m,
                      double within_m, std::span<const Mover> movers,
-                     std::vector<ContactNote>& notes) {
+                     std::vector<ContactNote>& notes, LayerMask layers) {
   const auto obstacles = static_cast<std::uint32_t>(model_->obstacles.size());
   find_near(id, movers[id].X_WR.position(), radius_m_[obstacles + id] + slack_m + within_m,
             snapshot);
@@ -161,6 +161,7 @@ void Resolver::probe(std::uint32_t id, const world::Snapshot& snapshot, double s
   least.distance_m = within_m;
   std::uint32_t nearest = BodyId::kNone;
   for (const std::uint32_t body : near_) {
+    if (!contains(layers, model_->body(body).layer)) continue;
     const Separation gap = world::separation(model_->robots[id], movers[id].X_WR,
                                              model_->body(body), pose_of(body, movers));
     if (gap.distance_m < least.distance_m) {

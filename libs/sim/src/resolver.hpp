@@ -44,9 +44,11 @@ class Resolver {
   double make_way(std::uint32_t id, const world::Snapshot& snapshot, double slack_m,
                   std::span<Mover> movers, std::vector<ContactNote>& notes);
 
-  /// What robot `id` touches or overlaps (nearer than `within_m`); the nearest one is noted.
+  /// What robot `id` touches or overlaps (nearer than `within_m`) of `layers`; the nearest one is
+  /// noted.
   void probe(std::uint32_t id, const world::Snapshot& snapshot, double slack_m, double within_m,
-             std::span<const Mover> movers, std::vector<ContactNote>& notes);
+             std::span<const Mover> movers, std::vector<ContactNote>& notes,
+             LayerMask layers = kAllLayers);
 
  private:
   void find_near(std::uint32_t id, Vec2 p_W, double reach_m, const world::Snapshot& snapshot);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "declared_fan.hpp"
+
 namespace rave::sim {
 namespace {
 
@@ -74,6 +76,7 @@ void clear_samples(SensorSlots& slots) {
   std::fill(slots.sequence.begin(), slots.sequence.end(), 0U);
   std::fill(slots.failed.begin(), slots.failed.end(), std::uint8_t{0});
   std::fill(slots.flip.begin(), slots.flip.end(), std::uint8_t{0});
+  if (slots.fusion) slots.fusion->clear();
   if (!slots.processing) return;
   for (std::size_t m = 0; m < slots.headers.size(); ++m) {
     slots.processing->reset(slots.processing_state_of(m));
@@ -107,21 +110,10 @@ Status configure_virtual(const GroupContext& context, RobotGroup& group, SensorS
   slots.capacity = declaration.capacity;
   slots.uses_fan = declaration.uses_fan != 0;
   if (slots.uses_fan) {
-    if (spec.kind != ReadingKind::kRanges || declaration.fan.rays_per_reading == 0 ||
-        declaration.fan.ray_count == 0 ||
-        declaration.fan.ray_count % declaration.fan.rays_per_reading != 0) {
-      return fail(ErrorCode::kPlugin, "declared a fan of {} rays, {} a reading, for {}",
-                  declaration.fan.ray_count, declaration.fan.rays_per_reading,
-                  to_string(spec.kind));
-    }
+    RAVE_TRY(check_fan(declaration, spec.kind));
     slots.fan = FanTable::make(declaration.fan, spec.layers);
     slots.capacity = slots.fan.readings();
-    slots.info.range_min_m = declaration.fan.range_min_m;
-    slots.info.range_max_m = declaration.fan.range_max_m;
-    slots.info.bearings_rad = declaration.reading_bearings_rad != nullptr
-                                  ? declaration.reading_bearings_rad
-                                  : declaration.fan.bearings_rad;
-    slots.info.cone_rad = declaration.cone_rad;
+    describe_fan(declaration, slots.info);
   }
   return {};
 }
@@ -160,8 +152,15 @@ Status configure_hardware(const GroupContext& context, RobotGroup& group, Sensor
 }
 
 Status make_sensor(const GroupContext& context, RobotGroup& group, SensorSlots& slots) {
-  RAVE_TRY(slots.is_virtual() ? configure_virtual(context, group, slots)
-                              : configure_hardware(context, group, slots));
+  Status configured = slots.is_virtual() ? configure_virtual(context, group, slots)
+                                         : configure_hardware(context, group, slots);
+  if (!configured && slots.spec->hybrid) {
+    return tl::unexpected(
+        std::move(configured)
+            .error()
+            .with_context(fmt::format("real half (driver `{}`)", slots.spec->hardware_driver())));
+  }
+  RAVE_TRY(configured);
   const double step_s = context.spec.step.seconds();
   if (!slots.spec->processing.empty()) {
     const double period_s = slots.is_virtual() ? slots.spec->period_steps * step_s : 0;
@@ -169,8 +168,13 @@ Status make_sensor(const GroupContext& context, RobotGroup& group, SensorSlots& 
                                                        slots.capacity, period_s));
   }
   allocate(slots, group.members.size());
-  clear_samples(slots);
   describe(slots, step_s);
+  if (slots.spec->hybrid) {
+    const auto count = static_cast<std::uint32_t>(group.members.size());
+    const HostServices host = services_of(context.logs[group.members.front().value()]);
+    RAVE_TRY_ASSIGN(slots.fusion, FusionSlots::make(*slots.spec, slots.info, count, host));
+  }
+  clear_samples(slots);
   return {};
 }
 
@@ -183,7 +187,7 @@ Status open_hardware(const GroupContext& context, RobotGroup& group) {
       });
       if (!status) {
         return tl::unexpected(named(context, group.members[m], "sensor", slots.spec->name,
-                                    slots.spec->driver, status.error()));
+                                    slots.spec->hardware_driver(), status.error()));
       }
       slots.open[m] = 1;
     }

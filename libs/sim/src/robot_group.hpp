@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fusion.hpp"
 #include "instances.hpp"
 #include "rave/sim/engine_spec.hpp"
 #include "rave/sim/range_engine.hpp"
@@ -38,8 +39,9 @@ struct SensorSlots {
   std::vector<std::uint8_t> failed;
   std::vector<std::uint8_t> flip;  ///< Test hook: change a bit of the next delivery.
   std::vector<std::unique_ptr<SampleQueue>> queues;
-  std::vector<std::uint8_t> open;  ///< Hardware: has to be closed.
-  std::vector<std::byte> scratch;  ///< Hardware: one sample on its way.
+  std::vector<std::uint8_t> open;       ///< Hardware: has to be closed.
+  std::vector<std::byte> scratch;       ///< Hardware: one sample on its way.
+  std::unique_ptr<FusionSlots> fusion;  ///< Hybrids: what their halves give.
 
   [[nodiscard]] bool is_virtual() const noexcept { return spec->virtual_ops != nullptr; }
   [[nodiscard]] std::byte* records_of(std::size_t member) noexcept {

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "device_tools.hpp"
+#include "hybrid_device.hpp"
 #include "rave/base/names.hpp"
 #include "rave/isolation/isolated_program.hpp"
 #include "rave/math/scalar.hpp"
@@ -64,6 +66,8 @@ struct AddValue {
   void operator()(const std::vector<double>& value) const { set.add_list(name, value); }
 };
 
+}  // namespace
+
 Result<plugin::ParamSet> read_params(const Driver& driver, const config::RawNode& params) {
   const auto specs = field_specs(driver.info);
   RAVE_TRY_ASSIGN(const auto values,
@@ -82,13 +86,6 @@ Result<const Driver*> find_driver(const DeviceContext& context, std::span<const 
   Error error = std::move(driver).error();
   if (error.where.file.empty()) error.where = name.where;
   return tl::unexpected(std::move(error));
-}
-
-std::uint32_t in_steps(const DeviceContext& context,
-                       const std::optional<config::Located<double>>& time_s) {
-  if (!time_s) return 1;
-  return static_cast<std::uint32_t>(
-      std::lround(time_s->value / context.scenario.scenario.step_s.value));
 }
 
 LayerMask layer_mask(const std::vector<config::SensedLayer>& layers) {
@@ -112,13 +109,38 @@ LayerMask layer_mask(const std::vector<config::SensedLayer>& layers) {
   return mask;
 }
 
+NoiseSpec noise_of(const config::NoiseFile& noise) {
+  return {noise.length_sigma_m,     deg_to_rad(noise.angle_sigma_deg),   noise.velocity_sigma_mps,
+          noise.length_quantum_m,   deg_to_rad(noise.angle_quantum_deg), noise.velocity_quantum_mps,
+          noise.dropout_probability};
+}
+
+void note_clock(const DeviceContext& context, const config::RobotGroup& group,
+                const std::string& device, const DriverInfo& info, const plugin::ParamSet& params) {
+  bool live = info.clock == DriverClock::kLive;
+  if (info.clock == DriverClock::kEither) {
+    live = Params(params.values()).text("clock") == "live";
+  }
+  if (live && context.built.live_reason.empty()) {
+    context.built.live_reason = fmt::format(
+        "`{}` of robot `{}` uses the driver `{}` by the wall "
+        "clock",
+        device, group.name.value, info.name);
+  }
+}
+
+namespace {
+
+std::uint32_t in_steps(const DeviceContext& context,
+                       const std::optional<config::Located<double>>& time_s) {
+  if (!time_s) return 1;
+  return static_cast<std::uint32_t>(
+      std::lround(time_s->value / context.scenario.scenario.step_s.value));
+}
+
 ProcessingSpec processing_of(const config::SensorFile& sensor) {
   ProcessingSpec spec;
-  const config::NoiseFile& noise = sensor.noise;
-  spec.noise = {
-      noise.length_sigma_m,     deg_to_rad(noise.angle_sigma_deg),   noise.velocity_sigma_mps,
-      noise.length_quantum_m,   deg_to_rad(noise.angle_quantum_deg), noise.velocity_quantum_mps,
-      noise.dropout_probability};
+  spec.noise = noise_of(sensor.noise);
   spec.latency_s = sensor.latency_s;
   for (const config::FilterFile& filter : sensor.filters) {
     FilterSpec stage;
@@ -134,27 +156,10 @@ ProcessingSpec processing_of(const config::SensorFile& sensor) {
   return spec;
 }
 
-/// Notes the first driver that runs by the clock on the wall.
-void note_clock(const DeviceContext& context, const config::RobotGroup& group,
-                const std::string& device, const DriverInfo& info, const plugin::ParamSet& params) {
-  bool live = info.clock == DriverClock::kLive;
-  if (info.clock == DriverClock::kEither) {
-    live = Params(params.values()).text("clock") == "live";
-  }
-  if (live && context.built.live_reason.empty()) {
-    context.built.live_reason = fmt::format(
-        "`{}` of robot `{}` uses the driver `{}` by the wall "
-        "clock",
-        device, group.name.value, info.name);
-  }
-}
-
-Result<sim::SensorSpec> make_sensor(const DeviceContext& context, const config::RobotGroup& group,
-                                    const config::SensorFile& file) {
+Status set_plain(const DeviceContext& context, const config::RobotGroup& group,
+                 const config::SensorFile& file, sim::SensorSpec& sensor) {
   constexpr std::array kKinds = {DriverKind::kSensor, DriverKind::kVirtualSensor};
   RAVE_TRY_ASSIGN(const Driver* const driver, find_driver(context, kKinds, file.driver));
-  sim::SensorSpec sensor;
-  sensor.name = file.name.value;
   sensor.driver = driver->info.name;
   sensor.kind = static_cast<ReadingKind>(driver->info.data_kind);
   if (driver->info.kind == DriverKind::kVirtualSensor) {
@@ -169,12 +174,21 @@ Result<sim::SensorSpec> make_sensor(const DeviceContext& context, const config::
   }
   RAVE_TRY_ASSIGN(sensor.params, read_params(*driver, file.params));
   note_clock(context, group, sensor.name, driver->info, sensor.params);
+  if (file.senses) sensor.layers = layer_mask(file.senses->value);
+  return {};
+}
+
+Result<sim::SensorSpec> make_sensor(const DeviceContext& context, const config::RobotGroup& group,
+                                    const config::SensorFile& file) {
+  sim::SensorSpec sensor;
+  sensor.name = file.name.value;
+  RAVE_TRY(file.real ? set_hybrid(context, group, file, sensor)
+                     : set_plain(context, group, file, sensor));
   const config::MountFile& mount = file.mount.value;
   sensor.X_RS = {mount.x_m, mount.y_m, wrap_angle(deg_to_rad(mount.yaw_deg))};
   sensor.z_m = mount.z_m;
   sensor.period_steps = in_steps(context, file.period_s);
   sensor.phase_steps = file.phase_s.value == 0 ? 0 : in_steps(context, file.phase_s);
-  if (file.senses) sensor.layers = layer_mask(file.senses->value);
   sensor.processing = processing_of(file);
   return sensor;
 }
@@ -299,6 +313,13 @@ Status set_pose_source(const config::RobotGroup& group, sim::RobotType& type) {
       return fail_at(name.where, ErrorCode::kInvalidArgument,
                      "`pose_from` needs a sensor that gives a pose or odometry, but `{}` gives {}",
                      name.value, to_string(kind));
+    }
+    if (!type.simulated && type.sensors[s].hybrid) {
+      return fail_at(name.where, ErrorCode::kInvalidArgument,
+                     "robot `{}` is real, so `pose_from` needs a real sensor, but `{}` (driver "
+                     "`{}`) is a hybrid: its virtual half would be asked for the pose that it "
+                     "depends on; name the real half as a sensor of its own",
+                     group.name.value, name.value, type.sensors[s].driver);
     }
     if (!type.simulated && type.sensors[s].virtual_ops != nullptr) {
       return fail_at(name.where, ErrorCode::kInvalidArgument,

@@ -105,10 +105,13 @@ void InstantKeeper::add_robot(const sim::Engine& engine, RobotId robot) {
 
 void InstantKeeper::add_hits(const sim::Engine& engine, RobotId robot, std::uint32_t sensor) {
   const sim::SensorSample sample = engine.sensor(robot, sensor);
-  if (sample.bodies.empty() || sample.info->bearings_rad == nullptr ||
-      sample.header->sequence == 0) {
+  const sim::SensorParts parts = engine.sensor_parts(robot, sensor);
+  const auto bodies = parts.real != nullptr ? parts.bodies : sample.bodies;
+  if (bodies.empty() || sample.info->bearings_rad == nullptr || sample.header->sequence == 0) {
     return;
   }
+  // What a real ray met nobody knows: it shapes the fan of a hybrid and gets no dot.
+  const auto* const virtual_m = static_cast<const float*>(parts.imagined_records);
   // The newest scan may be some steps old: it belongs to where the robot was then.
   const Pose2 X_WR = engine.pose_at(robot, SimTime{sample.header->stamp_ns})
                          .value_or(engine.snapshot().pose(robot));
@@ -121,7 +124,8 @@ void InstantKeeper::add_hits(const sim::Engine& engine, RobotId robot, std::uint
     report::PictureHit hit;
     hit.from_W = X_WS.position();
     hit.to_W = transform(X_WS, range_m * Vec2{bearing.cos, bearing.sin});
-    if (met && sample.bodies[i] != BodyId::kNone) hit.kind = kinds_->kind(sample.bodies[i]);
+    const bool is_virtual = virtual_m == nullptr || ranges[i] == virtual_m[i];
+    if (met && is_virtual && bodies[i] != BodyId::kNone) hit.kind = kinds_->kind(bodies[i]);
     instant_->hits.push_back(hit);
   }
 }

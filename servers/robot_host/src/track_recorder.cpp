@@ -11,8 +11,9 @@ namespace {
 
 constexpr double kLeastInterval_s = 0.1;
 constexpr double kMostPoints = 4000;
-/// A pose source that is silent for longer has a gap worth showing.
-constexpr double kGap_s = 0.15;
+/// A pose source that is silent for longer than this share of what its robot allows has a gap worth
+/// showing: sources differ in their rates.
+constexpr double kGapShare = 0.3;
 
 }  // namespace
 
@@ -67,7 +68,9 @@ void TrackRecorder::follow_pose(const sim::Engine& engine, std::uint32_t robot, 
   const std::int64_t stamp_ns = reported.stamp.ns;
   if (stamp_ns != last_stamp_ns_[robot]) {
     const double silent_s = static_cast<double>(stamp_ns - last_stamp_ns_[robot]) * 1e-9;
-    if (silent_s > kGap_s && !track.points.empty()) {
+    const sim::EngineSpec& spec = engine.spec();
+    const double limit_s = kGapShare * spec.types[spec.robots[robot].type].staleness.seconds();
+    if (silent_s > limit_s && !track.points.empty()) {
       track.gaps.push_back({now_s - silent_s, now_s});
     }
     last_stamp_ns_[robot] = stamp_ns;

@@ -4,31 +4,23 @@
 #include <string>
 #include <vector>
 
-#include "player.hpp"
-#include "recording_sink.hpp"
+#include "../recorded.hpp"
+#include "recording/tests/played.hpp"
 
 namespace rave::utias {
 
-/// Opens, waits for the end of the recording and closes.
-template <class Record>
-std::vector<Published<Record>> play_once(Player& player) {
-  RecordingSink<Record> sink;
-  EXPECT_EQ(player.open(sink), "");
-  sink.await_end();
-  sink.close();
-  player.close();
-  EXPECT_EQ(sink.fault(), "");
-  return sink.published();
-}
+using recording::Given;
+using recording::kForever_ns;
+using recording::Player;
+using recording::Published;
+using recording::RecordingSink;
+
+inline std::string data_folder() { return RAVE_SOURCE_DIR "/data/utias-mrclam6"; }
 
 /// All that a player gives in a stepped run from a folder below data/utias-mrclam6.
 template <class Record>
 std::vector<Published<Record>> play_all(const std::string& driver, const Given& given) {
-  Player player(driver);
-  const std::string error = player.configure(given, data_folder());
-  EXPECT_EQ(error, "");
-  if (!error.empty()) return {};
-  return play_once<Record>(player);
+  return recording::play_all<Record>(driver, given, data_folder());
 }
 
 }  // namespace rave::utias

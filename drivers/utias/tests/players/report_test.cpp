@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <nlohmann/json.hpp>
 
-#include "player.hpp"
+#include "played.hpp"
 
 namespace rave::utias {
 namespace {

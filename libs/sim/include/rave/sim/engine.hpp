@@ -49,6 +49,18 @@ struct SensorSample {
   std::span<const std::uint32_t> bodies;  ///< Fans: the body each ray met, BodyId::kNone for none.
 };
 
+/// What the two halves of a hybrid sensor gave for its newest reading, each with the noise of that
+/// half; for observers and records, never for programs. Views into the engine; null if the sensor
+/// is not hybrid. Stamp and sequence of both are those of the reading that was made of them, which
+/// latency may keep from the program for a while.
+struct SensorParts {
+  const SampleHeader* real = nullptr;
+  const void* real_records = nullptr;
+  const SampleHeader* imagined = nullptr;  ///< The virtual half.
+  const void* imagined_records = nullptr;
+  std::span<const std::uint32_t> bodies;  ///< Ranges: the body each virtual reading met.
+};
+
 /// Runs the world: sense (const world), decide (const percepts), act (drivers propose motions),
 /// resolve (the world limits them), publish. Belongs to one thread; uses others inside step().
 /// Between steps everything may be read. Same spec, same run, whatever the number of threads.
@@ -78,6 +90,8 @@ class Engine {
   [[nodiscard]] Pose2 true_pose(RobotId robot) const noexcept;
   /// Sensors in the order of the robot's type.
   [[nodiscard]] SensorSample sensor(RobotId robot, std::uint32_t index) const noexcept;
+  /// The halves of a hybrid sensor's newest reading; nothing for other sensors.
+  [[nodiscard]] SensorParts sensor_parts(RobotId robot, std::uint32_t index) const noexcept;
   /// The last command that the program gave to a controller.
   [[nodiscard]] Command command(RobotId robot, std::uint32_t controller) const noexcept;
   /// The step in which it was given; -1 before the first.

@@ -13,6 +13,7 @@
 #include "rave/robot/actuator.hpp"
 #include "rave/robot/controller.hpp"
 #include "rave/robot/hardware_sensor.hpp"
+#include "rave/robot/hybrid_sensor.hpp"
 #include "rave/robot/processing.hpp"
 #include "rave/robot/program.hpp"
 #include "rave/robot/sample_queue.hpp"
@@ -32,7 +33,22 @@ class ProgramProcess {
 using ProgramProcessFactory =
     std::function<Result<std::unique_ptr<ProgramProcess>>(const ProgramSetup&)>;
 
-/// One sensor of a type of robot. Exactly one of the two ops is set.
+/// What makes a hybrid of a real sensor: the virtual half, and the driver that makes one reading of
+/// both.
+struct HybridSpec {
+  const HybridSensorOps* ops = nullptr;
+  plugin::ParamSet params;  ///< Of the driver that fuses.
+  std::string real_driver;
+  NoiseSpec real_noise;  ///< Put on the real half alone, before fusion.
+  std::string virtual_driver;
+  const VirtualSensorOps* virtual_ops = nullptr;
+  plugin::ParamSet virtual_params;
+  NoiseSpec virtual_noise;  ///< Put on the virtual half alone, before fusion.
+};
+
+/// One sensor of a type of robot. Exactly one of the two ops is set. With `hybrid` set it is that
+/// of the hardware, which with `params` is the real half; `layers` are those of the virtual half,
+/// and `driver` names the one that fuses.
 struct SensorSpec {
   std::string name;
   std::string driver;
@@ -46,6 +62,12 @@ struct SensorSpec {
   std::uint32_t phase_steps = 0;
   LayerMask layers = kAllLayers;
   ProcessingSpec processing;
+  std::optional<HybridSpec> hybrid;
+
+  /// The driver that `hardware_ops` belong to.
+  [[nodiscard]] const std::string& hardware_driver() const noexcept {
+    return hybrid ? hybrid->real_driver : driver;
+  }
 };
 
 struct ControllerSpec {
@@ -106,7 +128,8 @@ struct EngineSpec {
   Duration step = from_seconds(0.01);
   std::uint64_t seed = 1;
   unsigned threads = 1;
-  /// How far sample_at() can look back; zero if it is not needed.
+  /// How far sample_at() and hybrid sensors can look back; zero if it is not needed. At least 1 s
+  /// if a robot has a hybrid sensor.
   Duration history = {};
   /// Wall clock of a live run; null for a stepped one. Not owned.
   const RunClock* live_clock = nullptr;

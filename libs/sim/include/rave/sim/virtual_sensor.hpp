@@ -42,6 +42,9 @@ struct VirtualSensorSetup {
   std::uint32_t reserved = 0;
   double period_s = 0;
   double z_m = 0;  ///< Mounting height.
+  /// The real half whose virtual half this is; null if the sensor is not hybrid. Valid during
+  /// configure().
+  const SensorInfo* real_half = nullptr;
 
   [[nodiscard]] Params parameters() const noexcept {
     return Params(std::span(params, param_count));

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "carmen/log.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "carmen/log_text.hpp"
+#include "rave/base/file.hpp"
+#include "rave/base/time.hpp"
+#include "rave/math/scalar.hpp"
+#include "recording/samples.hpp"
+
+namespace rave::carmen {
+namespace {
+
+using recording::StreamReport;
+using recording::StreamWindow;
+using recording::Stretch;
+
+constexpr std::string_view kStretchFile = "stretch.txt";
+constexpr std::size_t kLargestStretchFile = std::size_t{1} << 20;
+
+/// First and last absolute stamp of a log.
+std::pair<std::int64_t, std::int64_t> stamp_range(const ParsedLog& log) {
+  std::int64_t first = std::numeric_limits<std::int64_t>::max();
+  std::int64_t last = 0;
+  const auto take = [&](const auto& rows) {
+    for (const auto& row : rows) {
+      first = std::min(first, row.stamp_ns);
+      last = std::max(last, row.stamp_ns);
+    }
+  };
+  take(log.scans);
+  take(log.odometry);
+  return {first, last};
+}
+
+void take_scans(Log& log, ParsedLog& parsed, const StreamWindow& window, double range_max_m) {
+  StreamReport& report = log.scan_report;
+  report.repairs = std::move(parsed.scan_repairs);
+  recording::sort_rows(parsed.scans, report);
+  recording::drop_duplicates(parsed.scans, report);
+  for (const ScanRow& row : parsed.scans) {
+    Scan scan{row.stamp_ns - window.origin_ns, row.X_WL, row.first};
+    recording::wrap_heading(scan.X_WL, row.line, report);
+    log.scans.push_back(scan);
+  }
+  recording::describe(report, log.scans, window);
+  recording::trim(log.scans, window);
+  log.beams = parsed.beams;
+  // Only the ranges of what is left, in the order of time.
+  for (Scan& scan : log.scans) {
+    const std::size_t first = log.ranges_m.size();
+    const bool inside = scan.t_ns >= window.start_ns && scan.t_ns <= window.end_ns;
+    for (std::size_t i = 0; i < parsed.beams; ++i) {
+      const float range_m = parsed.ranges_m[scan.first + i];
+      const bool returned = static_cast<double>(range_m) < range_max_m;
+      log.no_returns += inside && !returned ? 1 : 0;
+      log.ranges_m.push_back(returned ? range_m : std::numeric_limits<float>::infinity());
+    }
+    scan.first = first;
+  }
+}
+
+void take_odometry(Log& log, ParsedLog& parsed, const StreamWindow& window) {
+  StreamReport& report = log.odometry_report;
+  report.repairs = std::move(parsed.odometry_repairs);
+  recording::sort_rows(parsed.odometry, report);
+  recording::drop_duplicates(parsed.odometry, report);
+  for (const OdometryRow& row : parsed.odometry) {
+    OdometrySample sample{row.stamp_ns - window.origin_ns, row.X_WR, row.v_mps, row.w_radps};
+    recording::wrap_heading(sample.X_WR, row.line, report);
+    log.odometry.push_back(sample);
+  }
+  recording::describe(report, log.odometry, window);
+  recording::trim(log.odometry, window);
+}
+
+Status check_options(const LoadOptions& options) {
+  RAVE_TRY(recording::check_seconds("clock_offset_s", options.clock_offset_s, -1000, 1000));
+  RAVE_TRY(recording::check_seconds("gap_limit_s", options.gap_limit_s, 0, 1e9));
+  if (options.range_max_m > 0 && options.range_max_m <= 1000) return {};
+  return fail(ErrorCode::kInvalidArgument, "range_max_m is {}: expected more than 0, at most 1000",
+              options.range_max_m);
+}
+
+Result<std::optional<Stretch>> read_stretch(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / kStretchFile;
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return std::optional<Stretch>();
+  RAVE_TRY_ASSIGN(const std::string text, read_file(path, kLargestStretchFile));
+  RAVE_TRY_ASSIGN(Stretch stretch, recording::parse_stretch(text, path.string()));
+  return std::optional<Stretch>(std::move(stretch));
+}
+
+}  // namespace
+
+recording::PoseTrack Log::track() const {
+  std::vector<recording::PoseSample> samples;
+  samples.reserve(scans.size());
+  for (const Scan& scan : scans) samples.push_back({scan.t_ns, scan.X_WL});
+  return recording::PoseTrack(std::move(samples));
+}
+
+Result<Log> load_text(const recording::UnpackedText& text, const std::string& file,
+                      const std::optional<Stretch>& stretch, const LoadOptions& options) {
+  RAVE_TRY(check_options(options));
+  RAVE_TRY_ASSIGN(ParsedLog parsed, parse_log(text, file, options.accept_cut));
+  if (parsed.scans.empty()) {
+    return fail_at({file, 0, 0}, ErrorCode::kParse,
+                   "the log has no FLASER row; scans of other messages are not read");
+  }
+  const auto [first_ns, last_ns] = stamp_range(parsed);
+  RAVE_TRY_ASSIGN(StreamWindow window,
+                  recording::choose_window(stretch, first_ns, last_ns, options.window, file));
+  Log log;
+  log.origin_ns = window.origin_ns;
+  log.start_ns = window.start_ns;
+  log.end_ns = window.end_ns;
+  log.passed_over = parsed.passed_over;
+  log.scan_report.gap_limit_ns = log.odometry_report.gap_limit_ns =
+      from_seconds(options.gap_limit_s).ns;
+  // An earlier origin is the same as later stamps.
+  window.origin_ns -= from_seconds(options.clock_offset_s).ns;
+  take_scans(log, parsed, window, options.range_max_m);
+  take_odometry(log, parsed, window);
+  if (log.scans.empty()) {
+    return fail_at({file, 0, 0}, ErrorCode::kParse,
+                   "the log has no scan up to the end of the window at {} s",
+                   Duration{window.end_ns}.seconds());
+  }
+  return log;
+}
+
+Result<Log> load(const std::filesystem::path& path, const LoadOptions& options) {
+  RAVE_TRY_ASSIGN(const std::string bytes, read_file(path, options.max_unpacked_bytes));
+  RAVE_TRY_ASSIGN(const auto stretch, read_stretch(path.parent_path()));
+  RAVE_TRY_ASSIGN(const recording::UnpackedText text,
+                  recording::unpack_text(bytes, path.string(), options.max_unpacked_bytes));
+  RAVE_TRY_ASSIGN(Log log, load_text(text, path.string(), stretch, options));
+  StreamReport file;
+  file.file = path.filename().string();
+  file.sha256 = recording::sha256_hex(bytes);
+  if (stretch) {
+    const auto listed = stretch->sha256.find(file.file);
+    if (listed != stretch->sha256.end()) file.unchanged = listed->second == file.sha256;
+    const bool cut = log.scan_report.repaired(recording::RepairKind::kCutLine) > 0;
+    // Last, so that a log with a fault is refused with the place of the fault.
+    if (file.unchanged == false && options.require_unchanged && !cut) {
+      return fail_at({path.string(), 0, 0}, ErrorCode::kParse,
+                     "the file is not the one that {} lists (SHA-256 {}, listed {}); restore it",
+                     kStretchFile, file.sha256, listed->second);
+    }
+  }
+  for (StreamReport* report : {&log.scan_report, &log.odometry_report}) {
+    report->file = file.file;
+    report->sha256 = file.sha256;
+    report->unchanged = file.unchanged;
+  }
+  return log;
+}
+
+std::vector<double> bearings_rad(std::uint32_t beams, double fov_deg) {
+  std::vector<double> bearings(beams, 0.0);
+  if (beams < 2) return bearings;
+  const auto gaps = static_cast<double>(fov_deg < 360 ? beams - 1 : beams);
+  for (std::uint32_t i = 0; i < beams; ++i) {
+    bearings[i] = deg_to_rad(fov_deg * (static_cast<double>(i) / gaps - 0.5));
+  }
+  return bearings;
+}
+
+}  // namespace rave::carmen

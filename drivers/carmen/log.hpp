@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "rave/base/result.hpp"
+#include "rave/math/pose.hpp"
+#include "recording/pose_track.hpp"
+#include "recording/stream_report.hpp"
+#include "recording/unpack.hpp"
+#include "recording/window.hpp"
+
+namespace rave::carmen {
+
+/// One scan. Nanoseconds from the origin of the log.
+struct Scan {
+  std::int64_t t_ns = 0;
+  Pose2 X_WL;             ///< Of the laser in the frame of the log.
+  std::size_t first = 0;  ///< Of Log::ranges_m.
+};
+
+/// What the wheels reported. Nanoseconds from the origin of the log.
+struct OdometrySample {
+  std::int64_t t_ns = 0;
+  Pose2 X_WR;
+  double v_mps = 0;
+  double w_radps = 0;
+};
+
+struct LoadOptions {
+  recording::WindowWish window;
+  double clock_offset_s = 0;  ///< Added to all stamps, within +-1000.
+  bool accept_cut = false;
+  /// Refuse a file whose SHA-256 differs from the one in `stretch.txt`.
+  bool require_unchanged = true;
+  /// A range this long or longer is "no return", metres.
+  double range_max_m = 80;
+  std::size_t max_unpacked_bytes = std::size_t{256} << 20;
+  /// Longer stretches without rows are listed in the reports, seconds.
+  double gap_limit_s = 0.5;
+};
+
+/// Some stretch of a CARMEN log, in memory. A plain value. Scans and odometry are ascending in
+/// time, reach up to the margin beyond the window, and each has one sample before that.
+struct Log {
+  std::int64_t origin_ns = 0;  ///< Absolute stamp of the moment 0.
+  std::int64_t start_ns = 0;
+  std::int64_t end_ns = 0;
+  std::uint32_t beams = 0;
+  std::vector<Scan> scans;
+  /// As logged, metres; what is at least `range_max_m` is +infinity (REP-117).
+  std::vector<float> ranges_m;
+  std::vector<OdometrySample> odometry;
+  recording::StreamReport scan_report;
+  recording::StreamReport odometry_report;
+  /// Ranges of the scans of the window that are no return.
+  std::int64_t no_returns = 0;
+  /// Rows of messages that are not used.
+  std::int64_t passed_over = 0;
+
+  [[nodiscard]] std::span<const float> ranges(const Scan& scan) const {
+    return std::span(ranges_m).subspan(scan.first, beams);
+  }
+  /// The poses of the laser.
+  [[nodiscard]] recording::PoseTrack track() const;
+};
+
+/// Reads a log, plain or gzipped. A `stretch.txt` beside it (tools/cut_carmen.py) says origin and
+/// window; without it the origin is the earliest stamp.
+/// Errors: kNotFound, kIo, kInvalidArgument (options), kParse (with file:line:column; a file that
+/// is not the one of `stretch.txt`; a log without scans).
+[[nodiscard]] Result<Log> load(const std::filesystem::path& path, const LoadOptions& options = {});
+
+/// What load() does with the text of a log. `file` is for messages.
+[[nodiscard]] Result<Log> load_text(const recording::UnpackedText& text, const std::string& file,
+                                    const std::optional<recording::Stretch>& stretch,
+                                    const LoadOptions& options);
+
+/// Direction of each ray of a scan in the frame of the laser, radians, counter-clockwise: spread
+/// evenly over the field and symmetric about the x axis, as those of `virtual_laser`.
+[[nodiscard]] std::vector<double> bearings_rad(std::uint32_t beams, double fov_deg);
+
+}  // namespace rave::carmen

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "carmen/plugins/play.hpp"
+#include "rave/plugin/param_checks.hpp"
+#include "rave/robot/plugin_entry.hpp"
+#include "recording/player.hpp"
+
+namespace rave::carmen {
+namespace {
+
+constexpr auto kParams = recording::join_params(
+    kLogParams,
+    std::array<ParamSpec, 3>{
+        required(number_param("fov_deg", "deg", 180, 0, 360,
+                              "Angle from the first ray to the last, symmetric about the sensor's "
+                              "x axis.")),
+        number_param("range_min_m", "m", 0.02, 0, 1000, "Anything nearer is read as this range."),
+        number_param("range_max_m", "m", 80, 0.1, 1000,
+                     "A range this long or longer is no return."),
+    });
+
+/// The scans of the front laser.
+class Laser {
+ public:
+  using Record = float;
+  static constexpr ReadingKind kReading = ReadingKind::kRanges;
+  static constexpr std::uint32_t kCapacity = 1;
+  static constexpr std::uint32_t kCollect = 0;
+
+  Result<recording::Played<float>> load(const HardwareSetup& setup) {
+    const Params params = setup.parameters();
+    RAVE_TRY(check_ascending(params, "range_min_m", "range_max_m"));
+    range_min_m_ = params.number("range_min_m");
+    range_max_m_ = params.number("range_max_m");
+    RAVE_TRY_ASSIGN(const LogPlay play, load_play(setup, range_max_m_));
+    const double fov_deg = params.number("fov_deg");
+    if (play.log.beams > 1 && !(fov_deg > 0)) {
+      return fail(ErrorCode::kInvalidArgument, "`fov_deg` is {}, so all {} rays coincide", fov_deg,
+                  play.log.beams);
+    }
+    bearings_rad_ = bearings_rad(play.log.beams, fov_deg);
+    return recording::Played<float>{
+        timeline(play.log), report_json(play, "scans", play.log.scan_report), play.options.live};
+  }
+
+  void declare(HardwareDeclaration& declaration) const noexcept {
+    declaration.bearings_rad = bearings_rad_.data();
+    declaration.capacity = static_cast<std::uint32_t>(bearings_rad_.size());
+    declaration.range_min_m = range_min_m_;
+    declaration.range_max_m = range_max_m_;
+  }
+
+ private:
+  /// Of the scans before the start the last one is held, as any state.
+  [[nodiscard]] recording::Timeline<float> timeline(const Log& log) const {
+    recording::Timeline<float> timeline;
+    const auto least = static_cast<float>(range_min_m_);
+    for (std::size_t i = 0; i < log.scans.size() && log.scans[i].t_ns <= log.end_ns; ++i) {
+      const bool before = log.scans[i].t_ns < log.start_ns;
+      const bool held = i + 1 < log.scans.size() && log.scans[i + 1].t_ns <= log.start_ns;
+      if (before && held) continue;
+      timeline.begin(std::max(SimTime{}, SimTime{log.scans[i].t_ns - log.start_ns}));
+      for (const float range_m : log.ranges(log.scans[i])) timeline.add(std::max(least, range_m));
+    }
+    return timeline;
+  }
+
+  std::vector<double> bearings_rad_;
+  double range_min_m_ = 0;
+  double range_max_m_ = 0;
+};
+
+}  // namespace
+}  // namespace rave::carmen
+
+RAVE_PLUGIN("carmen_laser") {
+  rave::add_sensor<rave::recording::Player<rave::carmen::Laser>>(
+      registry, {.name = "carmen_laser",
+                 .summary = "Plays the front laser of a robot recorded as a CARMEN log.",
+                 .params = rave::carmen::kParams,
+                 .clock = rave::DriverClock::kEither});
+}

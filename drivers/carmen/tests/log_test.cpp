@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "carmen/log.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <utility>
+
+#include "small_log.hpp"
+
+namespace rave::carmen {
+namespace {
+
+using recording::RepairKind;
+
+constexpr std::int64_t kMillisecond_ns = 1'000'000;
+
+std::filesystem::path shipped() {
+  return std::filesystem::path(RAVE_SOURCE_DIR) / "data/freiburg-079/104-224/freiburg-079.log.gz";
+}
+
+Result<Log> load_small(const LoadOptions& options = {}) {
+  return load_text({small_log(), false}, "f", std::nullopt, options);
+}
+
+TEST(Log, MendsAndReportsIt) {
+  const auto log = load_small();
+  ASSERT_TRUE(log) << log.error().text();
+  EXPECT_EQ(log->origin_ns, 10'500'000'000);
+  ASSERT_EQ(log->odometry.size(), 2U);
+  EXPECT_EQ(log->odometry[0].t_ns, 50 * kMillisecond_ns);
+  EXPECT_EQ(log->odometry_report.repaired(RepairKind::kJunkStamp), 1);
+  EXPECT_EQ(log->odometry_report.repaired(RepairKind::kStepBack), 0)
+      << "of the odometry alone nothing steps back";
+  EXPECT_EQ(log->scan_report.repaired(RepairKind::kHeadingWrapped), 1);
+  EXPECT_NEAR(log->scans[0].X_WL.yaw, 3.3 - 2 * std::numbers::pi, 1e-12);
+  EXPECT_TRUE(std::isinf(log->ranges(log->scans[0])[2]));
+  EXPECT_EQ(log->no_returns, 1);
+  EXPECT_EQ(log->scan_report.rows, 3);
+}
+
+TEST(Log, SortsScansTogetherWithTheirRanges) {
+  std::string text = altered("10.75 host 10.75\nODOM", "10.25 host 10.25\nODOM");
+  const auto log = load_text({text, false}, "f", std::nullopt, {});
+  ASSERT_TRUE(log) << log.error().text();
+  EXPECT_EQ(log->scan_report.repaired(RepairKind::kStepBack), 1);
+  EXPECT_EQ(log->scans[0].t_ns, 0);
+  EXPECT_EQ(log->ranges(log->scans[0])[0], 1.4F);
+  EXPECT_EQ(log->ranges(log->scans[1])[0], 1.5F);
+}
+
+TEST(Log, KeepsTheLaterOfTwoScansOfOneStamp) {
+  const auto log = load_text({altered("10.75 host 10.75\nODOM", "10.5 host 10.5\nODOM"), false},
+                             "f", std::nullopt, {});
+  ASSERT_TRUE(log) << log.error().text();
+  EXPECT_EQ(log->scan_report.repaired(RepairKind::kDuplicateStamp), 1);
+  ASSERT_EQ(log->scans.size(), 2U);
+  EXPECT_EQ(log->ranges(log->scans[0])[0], 1.4F);
+}
+
+TEST(Log, RefusesWhatItCannotUse) {
+  const auto none = load_text({"ODOM 0 0 0 0 0 0 1 h 1\n", false}, "f", std::nullopt, {});
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().text(),
+            "f: the log has no FLASER row; scans of other messages are not read");
+  LoadOptions options;
+  options.window.end_s = 5;
+  EXPECT_EQ(load_small(options).error().text(),
+            "the window from 0 to 5 s is empty or not within the 0 to 0.5 s that `f` holds");
+  options = {};
+  options.range_max_m = 0;
+  EXPECT_FALSE(load_small(options));
+  options = {};
+  options.clock_offset_s = std::nan("");
+  EXPECT_FALSE(load_small(options));
+}
+
+TEST(Log, AnOffsetOfTheClockShiftsTheStamps) {
+  LoadOptions options;
+  options.clock_offset_s = -0.1;
+  const auto log = load_small(options);
+  ASSERT_TRUE(log);
+  EXPECT_EQ(log->scans[1].t_ns, 150 * kMillisecond_ns);
+}
+
+TEST(Log, TheShippedStretchIsWhatItsReadmeSays) {
+  const auto log = load(shipped());
+  ASSERT_TRUE(log) << log.error().text();
+  EXPECT_EQ(log->origin_ns, 0);
+  EXPECT_EQ(log->start_ns, 104'000'000'000);
+  EXPECT_EQ(log->end_ns, 224'000'000'000);
+  EXPECT_EQ(log->beams, 360U);
+  EXPECT_EQ(log->scan_report.rows, 551);
+  EXPECT_EQ(log->scan_report.unchanged, true);
+  EXPECT_NEAR(log->scan_report.mean_rate_hz, 4.6, 0.05);
+  EXPECT_EQ(log->odometry_report.repaired(RepairKind::kJunkStamp), 560);
+  EXPECT_LT(log->scan_report.largest_gap_ns, 1'200'000'000);
+  for (const OdometrySample& sample : log->odometry) {
+    EXPECT_EQ(sample.v_mps, 0) << "a corrected log has no velocities";
+  }
+}
+
+/// The same points twice: a wrong direction of the beams smears a wall over more cells.
+TEST(Log, TheBeamsPointWhereTheMapIsSharpest) {
+  const auto log = load(shipped());
+  ASSERT_TRUE(log);
+  const auto cells_hit = [&](double fov_deg, double yaw_deg) {
+    const auto bearings = bearings_rad(log->beams, fov_deg);
+    std::set<std::pair<int, int>> cells;
+    for (std::size_t k = 0; k < log->scans.size(); k += 4) {
+      const Scan& scan = log->scans[k];
+      const auto ranges_m = log->ranges(scan);
+      for (std::size_t i = 0; i < bearings.size(); ++i) {
+        if (!(ranges_m[i] < 8)) continue;
+        const double angle = scan.X_WL.yaw + bearings[i] + yaw_deg * std::numbers::pi / 180;
+        const auto range_m = static_cast<double>(ranges_m[i]);
+        cells.emplace(
+            static_cast<int>(std::floor((scan.X_WL.x + range_m * std::cos(angle)) / 0.05)),
+            static_cast<int>(std::floor((scan.X_WL.y + range_m * std::sin(angle)) / 0.05)));
+      }
+    }
+    return cells.size();
+  };
+  const std::size_t best = cells_hit(179.5, -0.25);
+  EXPECT_LT(best, cells_hit(179.5, -1.25));
+  EXPECT_LT(best, cells_hit(179.5, 0.75));
+  EXPECT_LT(best, cells_hit(182, -0.25));
+  EXPECT_LT(best, cells_hit(177, -0.25));
+}
+
+TEST(Bearings, AreSpreadAsThoseOfTheVirtualLaser) {
+  const auto bearings = bearings_rad(5, 180);
+  EXPECT_NEAR(bearings[0], -std::numbers::pi / 2, 1e-12);
+  EXPECT_EQ(bearings[2], 0);
+  EXPECT_NEAR(bearings[4], std::numbers::pi / 2, 1e-12);
+  EXPECT_NEAR(bearings_rad(4, 360)[1], -std::numbers::pi / 2, 1e-12);
+  EXPECT_EQ(bearings_rad(1, 90)[0], 0);
+}
+
+}  // namespace
+}  // namespace rave::carmen

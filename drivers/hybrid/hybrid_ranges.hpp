@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "rave/robot/hybrid_sensor.hpp"
+
+namespace rave {
+
+/// Fuses the ranges of two lasers or sonars with the same rays; README.md has the rules. Immutable
+/// after start(); any thread.
+class HybridRanges final : public HybridSensor {
+ public:
+  static constexpr ReadingKind kReading = ReadingKind::kRanges;
+  static constexpr const char* kRules[] = {"nearest", "occlusion"};
+  static constexpr const char* kTooNear[] = {"range_min", "no_return", "invalid"};
+  static constexpr ParamSpec kParams[] = {
+      choice_param("rule", "nearest", kRules,
+                   "nearest: the smaller of both; occlusion: a virtual body counts where the real "
+                   "sensor would have seen it before what it saw."),
+      choice_param("too_near", "range_min", kTooNear,
+                   "Occlusion: what the real sensor reads of a body nearer than its range_min: "
+                   "range_min, no_return (+infinity) or invalid (NaN)."),
+  };
+
+  /// Error: kInvalidArgument if the halves do not have the same number of rays, or if the rule
+  /// needs the range limits of the real half and it states none.
+  Status start(const HybridSetup& setup) override;
+  void fuse(const FuseItem& item) const override;
+
+ private:
+  [[nodiscard]] float nearest(float real_m, float virtual_m) const noexcept;
+  [[nodiscard]] float occluded(float real_m, float virtual_m) const noexcept;
+
+  bool occlusion_ = false;
+  float too_near_m_ = 0;   ///< Reading of a body that is nearer than range_min_m_.
+  float range_min_m_ = 0;  ///< Of the real half.
+  float range_max_m_ = 0;
+};
+
+}  // namespace rave

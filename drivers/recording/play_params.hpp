@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include "rave/robot/hardware_sensor.hpp"
+
+namespace rave::recording {
+
+inline constexpr std::array<const char*, 2> kClocks{"stepped", "live"};
+
+/// The parameters that all players of recordings have.
+inline constexpr std::array<ParamSpec, 5> kPlayParams{
+    choice_param("clock", "stepped", kClocks,
+                 "Whether samples come by simulation time or by the clock on the wall."),
+    number_param("start_s", "s", -1, -1, 1e6,
+                 "Time of the recording that is run time 0; -1: where the logs start."),
+    number_param("end_s", "s", -1, -1, 1e6,
+                 "Time of the recording after which nothing comes; -1: where the logs end."),
+    number_param("clock_offset_s", "s", 0, -1000, 1000,
+                 "Added to all stamps: a clock that is off."),
+    bool_param("accept_cut", false, "Use the whole lines of a log that ends in the middle of one."),
+};
+
+/// One list of parameters behind the other.
+template <std::size_t kFirst, std::size_t kSecond>
+constexpr std::array<ParamSpec, kFirst + kSecond> join_params(
+    const std::array<ParamSpec, kFirst>& first,
+    const std::array<ParamSpec, kSecond>& second) noexcept {
+  std::array<ParamSpec, kFirst + kSecond> all{};
+  std::size_t count = 0;
+  for (const ParamSpec& spec : first) all[count++] = spec;
+  for (const ParamSpec& spec : second) all[count++] = spec;
+  return all;
+}
+
+/// The values of kPlayParams.
+struct PlayOptions {
+  bool live = false;
+  std::optional<double> start_s;
+  std::optional<double> end_s;
+  double clock_offset_s = 0;
+  bool accept_cut = false;
+};
+
+[[nodiscard]] inline PlayOptions play_options(const Params& params) {
+  // Negative stands for "not given": a parameter without a value does not exist.
+  const auto given = [](double seconds) {
+    return seconds < 0 ? std::nullopt : std::optional<double>(seconds);
+  };
+  return {params.text("clock") == "live", given(params.number("start_s")),
+          given(params.number("end_s")), params.number("clock_offset_s"),
+          params.flag("accept_cut")};
+}
+
+}  // namespace rave::recording

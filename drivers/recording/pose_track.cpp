@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "recording/pose_track.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "rave/base/check.hpp"
+
+namespace rave::recording {
+namespace {
+
+/// The slope of a straight line fitted to points of which the sums are fed.
+class LineFit {
+ public:
+  void add(double t_s, double x, double y, double yaw) noexcept {
+    ++count_;
+    t_ += t_s;
+    tt_ += t_s * t_s;
+    add(x_, t_s, x);
+    add(y_, t_s, y);
+    add(yaw_, t_s, yaw);
+  }
+  [[nodiscard]] WorldVelocity slope() const noexcept {
+    return {{slope_of(x_), slope_of(y_)}, slope_of(yaw_)};
+  }
+
+ private:
+  struct Sums {
+    double value = 0;
+    double product = 0;
+  };
+  static void add(Sums& sums, double t_s, double value) noexcept {
+    sums.value += value;
+    sums.product += t_s * value;
+  }
+  [[nodiscard]] double slope_of(const Sums& sums) const noexcept {
+    const double spread = count_ * tt_ - t_ * t_;
+    return spread > 0 ? (count_ * sums.product - t_ * sums.value) / spread : 0;
+  }
+
+  double count_ = 0;
+  double t_ = 0;
+  double tt_ = 0;
+  Sums x_;
+  Sums y_;
+  Sums yaw_;
+};
+
+}  // namespace
+
+double wrap_angle(double angle_rad) noexcept {
+  const double wrapped = std::remainder(angle_rad, 2 * std::numbers::pi);
+  return wrapped <= -std::numbers::pi ? wrapped + 2 * std::numbers::pi : wrapped;
+}
+
+PoseTrack::PoseTrack(std::vector<PoseSample> samples) : samples_(std::move(samples)) {
+  for (std::size_t i = 1; i < samples_.size(); ++i) {
+    RAVE_CHECK(samples_[i - 1].t_ns < samples_[i].t_ns);
+  }
+}
+
+std::size_t PoseTrack::after(std::int64_t t_ns) const noexcept {
+  const auto found =
+      std::upper_bound(samples_.begin(), samples_.end(), t_ns,
+                       [](std::int64_t t, const PoseSample& sample) { return t < sample.t_ns; });
+  return static_cast<std::size_t>(found - samples_.begin());
+}
+
+std::optional<Pose2> PoseTrack::interpolate(std::int64_t t_ns) const noexcept {
+  const std::size_t next = after(t_ns);
+  if (next == 0) return std::nullopt;
+  const PoseSample& a = samples_[next - 1];
+  if (next == samples_.size() || a.t_ns == t_ns) return a.pose;
+  const PoseSample& b = samples_[next];
+  const double part = static_cast<double>(t_ns - a.t_ns) / static_cast<double>(b.t_ns - a.t_ns);
+  const double turn = wrap_angle(b.pose.yaw - a.pose.yaw);
+  return Pose2{a.pose.x + part * (b.pose.x - a.pose.x), a.pose.y + part * (b.pose.y - a.pose.y),
+               wrap_angle(a.pose.yaw + part * turn)};
+}
+
+std::optional<std::int64_t> PoseTrack::last_stamp_ns(std::int64_t t_ns) const noexcept {
+  const std::size_t next = after(t_ns);
+  if (next == 0) return std::nullopt;
+  return samples_[next - 1].t_ns;
+}
+
+std::optional<std::int64_t> PoseTrack::age_ns(std::int64_t t_ns) const noexcept {
+  const auto stamp = last_stamp_ns(t_ns);
+  if (!stamp) return std::nullopt;
+  return t_ns - *stamp;
+}
+
+bool PoseTrack::in_gap(std::int64_t t_ns, std::int64_t limit_ns) const noexcept {
+  const std::size_t next = after(t_ns);
+  if (next == 0) return true;
+  const std::int64_t last = samples_[next - 1].t_ns;
+  if (last == t_ns) return false;
+  if (next == samples_.size()) return t_ns - last > limit_ns;
+  return samples_[next].t_ns - last > limit_ns;
+}
+
+std::optional<WorldVelocity> PoseTrack::velocity(std::int64_t t_ns,
+                                                 std::int64_t half_window_ns) const noexcept {
+  const std::size_t end = after(t_ns + half_window_ns);
+  std::size_t begin = after(t_ns - half_window_ns);
+  if (begin > 0 && samples_[begin - 1].t_ns == t_ns - half_window_ns) --begin;
+  if (end < begin + 3 || samples_.back().t_ns < t_ns) return std::nullopt;
+  if (samples_[end - 1].t_ns - samples_[begin].t_ns < half_window_ns) return std::nullopt;
+  // Times and positions relative to the first sample: small numbers keep the sums exact enough.
+  const PoseSample& base = samples_[begin];
+  LineFit fit;
+  double yaw = 0;
+  for (std::size_t i = begin; i < end; ++i) {
+    const PoseSample& sample = samples_[i];
+    if (i > begin) yaw += wrap_angle(sample.pose.yaw - samples_[i - 1].pose.yaw);
+    fit.add(static_cast<double>(sample.t_ns - base.t_ns) * 1e-9, sample.pose.x - base.pose.x,
+            sample.pose.y - base.pose.y, yaw);
+  }
+  return fit.slope();
+}
+
+}  // namespace rave::recording

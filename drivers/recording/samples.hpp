@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "rave/math/pose.hpp"
+#include "recording/stream_report.hpp"
+#include "recording/window.hpp"
+
+// From the rows of a log to samples of a window. A row has `stamp_ns` (absolute) and `line`, a
+// sample `t_ns`, from the origin.
+namespace rave::recording {
+
+/// Orders rows by stamp, rows of one stamp as in the file, and reports each step back.
+template <class Row>
+void sort_rows(std::vector<Row>& rows, StreamReport& report) {
+  bool sorted = true;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    if (rows[i].stamp_ns >= rows[i - 1].stamp_ns) continue;
+    report.add_repair(RepairKind::kStepBack, 1, rows[i].line);
+    sorted = false;
+  }
+  if (sorted) return;
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const Row& a, const Row& b) { return a.stamp_ns < b.stamp_ns; });
+}
+
+/// Keeps the last row of each stamp: the value that held from then on. `rows`: sorted.
+template <class Row>
+void drop_duplicates(std::vector<Row>& rows, StreamReport& report) {
+  std::vector<Row> kept;
+  kept.reserve(rows.size());
+  for (const Row& row : rows) {
+    if (!kept.empty() && kept.back().stamp_ns == row.stamp_ns) {
+      report.add_repair(RepairKind::kDuplicateStamp, 1, row.line);
+      kept.back() = row;
+    } else {
+      kept.push_back(row);
+    }
+  }
+  rows = std::move(kept);
+}
+
+/// Brings the heading into (-pi, pi] and reports it.
+void wrap_heading(Pose2& pose, int line, StreamReport& report);
+
+/// Fills the timing of the report from all samples, also those outside of the window.
+template <class Sample>
+void describe(StreamReport& report, const std::vector<Sample>& samples,
+              const StreamWindow& window) {
+  std::vector<std::int64_t> stamps;
+  stamps.reserve(samples.size());
+  for (const Sample& sample : samples) stamps.push_back(sample.t_ns);
+  describe_timing(report, stamps, window.start_ns, window.end_ns);
+}
+
+/// Cuts to the window and its margin, keeping one sample before it.
+template <class Sample>
+void trim(std::vector<Sample>& samples, const StreamWindow& window) {
+  const std::int64_t first_ns = window.start_ns - window.margin_ns;
+  const std::int64_t last_ns = window.end_ns + window.margin_ns;
+  const auto later = [](std::int64_t t, const Sample& sample) { return t < sample.t_ns; };
+  samples.erase(std::upper_bound(samples.begin(), samples.end(), last_ns, later), samples.end());
+  const auto first = std::upper_bound(samples.begin(), samples.end(), first_ns, later);
+  if (first != samples.begin()) samples.erase(samples.begin(), first - 1);
+}
+
+}  // namespace rave::recording

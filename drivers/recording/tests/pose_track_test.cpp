@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "recording/pose_track.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace rave::recording {
+namespace {
+
+constexpr std::int64_t kMs = 1'000'000;
+constexpr double kPi = std::numbers::pi;
+
+PoseTrack three() {
+  return PoseTrack({{100 * kMs, {0, 0, kPi - 0.1}},
+                    {200 * kMs, {1, 2, -kPi + 0.1}},
+                    {600 * kMs, {2, 2, -kPi + 0.2}}});
+}
+
+TEST(PoseTrack, InterpolatesByTheShorterTurn) {
+  const PoseTrack track = three();
+  const auto pose = track.interpolate(150 * kMs);
+  ASSERT_TRUE(pose);
+  EXPECT_DOUBLE_EQ(pose->x, 0.5);
+  EXPECT_DOUBLE_EQ(pose->y, 1.0);
+  EXPECT_NEAR(pose->yaw, kPi, 1e-12);
+  EXPECT_NEAR(track.interpolate(175 * kMs)->yaw, -kPi + 0.05, 1e-12);
+  EXPECT_EQ(*track.interpolate(200 * kMs), (Pose2{1, 2, -kPi + 0.1}));
+}
+
+TEST(PoseTrack, HoldsTheLastPoseAndHasNoneBeforeTheFirst) {
+  const PoseTrack track = three();
+  EXPECT_EQ(track.interpolate(9'000 * kMs), (Pose2{2, 2, -kPi + 0.2}));
+  EXPECT_EQ(track.age_ns(9'000 * kMs), 8'400 * kMs);
+  EXPECT_FALSE(track.interpolate(99 * kMs));
+  EXPECT_FALSE(track.last_stamp_ns(99 * kMs));
+  EXPECT_FALSE(track.age_ns(99 * kMs));
+  EXPECT_EQ(track.last_stamp_ns(199 * kMs), 100 * kMs);
+  EXPECT_FALSE(PoseTrack().interpolate(0));
+}
+
+TEST(PoseTrack, KnowsItsGaps) {
+  const PoseTrack track = three();
+  EXPECT_FALSE(track.in_gap(150 * kMs, 100 * kMs));
+  EXPECT_FALSE(track.in_gap(200 * kMs, 100 * kMs)) << "a sample is there";
+  EXPECT_TRUE(track.in_gap(201 * kMs, 100 * kMs));
+  EXPECT_FALSE(track.in_gap(201 * kMs, 400 * kMs));
+  EXPECT_TRUE(track.in_gap(99 * kMs, 400 * kMs));
+  EXPECT_FALSE(track.in_gap(700 * kMs, 100 * kMs));
+  EXPECT_TRUE(track.in_gap(701 * kMs, 100 * kMs));
+}
+
+TEST(PoseTrack, FitsTheVelocityThroughJitter) {
+  std::vector<PoseSample> samples;
+  for (int i = 0; i < 100; ++i) {
+    // Pairs of stamps 2 ms apart, positions wrong by a millimetre in turn: the difference of such
+    // a pair is off by a metre per second.
+    const std::int64_t t = (i / 2) * 32 * kMs + (i % 2) * 2 * kMs;
+    const double t_s = static_cast<double>(t) * 1e-9;
+    const double error = i % 2 == 0 ? 0.0005 : -0.0005;
+    samples.push_back({t, {0.1 * t_s + error, -0.05 * t_s, wrap_angle(3 + 0.4 * t_s)}});
+  }
+  const PoseTrack track(std::move(samples));
+  const auto velocity = track.velocity(800 * kMs);
+  ASSERT_TRUE(velocity);
+  EXPECT_NEAR(velocity->v_WR_W.x, 0.1, 0.005);
+  EXPECT_NEAR(velocity->v_WR_W.y, -0.05, 1e-9);
+  EXPECT_NEAR(velocity->wz, 0.4, 1e-9) << "across the seam of the heading at 354 ms and elsewhere";
+  EXPECT_NEAR(track.velocity(354 * kMs)->wz, 0.4, 1e-9);
+}
+
+TEST(PoseTrack, HasNoVelocityWithoutSamples) {
+  const PoseTrack track = three();
+  EXPECT_FALSE(track.velocity(150 * kMs));
+  EXPECT_TRUE(track.velocity(300 * kMs, 500 * kMs));
+  EXPECT_FALSE(track.velocity(601 * kMs, 900 * kMs)) << "after the last sample";
+  EXPECT_FALSE(PoseTrack().velocity(0));
+}
+
+TEST(PoseTrack, WrapsAngles) {
+  EXPECT_EQ(wrap_angle(kPi), kPi);
+  EXPECT_EQ(wrap_angle(-kPi), kPi);
+  EXPECT_NEAR(wrap_angle(3 * kPi / 2), -kPi / 2, 1e-15);
+  EXPECT_EQ(wrap_angle(0.25), 0.25);
+}
+
+}  // namespace
+}  // namespace rave::recording

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "recording/window.hpp"
+
+#include "rave/base/time.hpp"
+
+namespace rave::recording {
+
+Status check_seconds(std::string_view name, double value, double least, double most) {
+  if (value >= least && value <= most) return {};
+  return fail(ErrorCode::kInvalidArgument, "{} is {}: expected seconds from {} to {}", name, value,
+              least, most);
+}
+
+Result<StreamWindow> choose_window(const std::optional<Stretch>& stretch, std::int64_t first_ns,
+                                   std::int64_t last_ns, const WindowWish& wish,
+                                   const std::string& path) {
+  constexpr double kLongest_s = 1e9;
+  RAVE_TRY(check_seconds("start_s", wish.start_s.value_or(0), 0, kLongest_s));
+  RAVE_TRY(check_seconds("end_s", wish.end_s.value_or(0), 0, kLongest_s));
+  RAVE_TRY(check_seconds("margin_s", wish.margin_s, 0, 1000));
+  StreamWindow window;
+  if (stretch) {
+    window = {stretch->origin_ns, stretch->start_ns, stretch->end_ns, 0};
+  } else if (first_ns > last_ns) {
+    return fail(ErrorCode::kParse, "no log in `{}` has a row", path);
+  } else {
+    window = {first_ns, 0, last_ns - first_ns, 0};
+  }
+  const StreamWindow held = window;
+  if (wish.start_s) window.start_ns = from_seconds(*wish.start_s).ns;
+  if (wish.end_s) window.end_ns = from_seconds(*wish.end_s).ns;
+  window.margin_ns = from_seconds(wish.margin_s).ns;
+  if (window.start_ns >= held.start_ns && window.end_ns <= held.end_ns &&
+      window.start_ns < window.end_ns) {
+    return window;
+  }
+  return fail(ErrorCode::kInvalidArgument,
+              "the window from {} to {} s is empty or not within the {} to {} s that `{}` holds",
+              Duration{window.start_ns}.seconds(), Duration{window.end_ns}.seconds(),
+              Duration{held.start_ns}.seconds(), Duration{held.end_ns}.seconds(), path);
+}
+
+}  // namespace rave::recording

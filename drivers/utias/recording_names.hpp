@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "recording/pose_track.hpp"
+#include "recording/stamp.hpp"
+#include "recording/stream_report.hpp"
+#include "recording/stretch.hpp"
+#include "recording/unpack.hpp"
+
+// What all readers of recordings share, under the names of this one.
+namespace rave::utias {
+
+using recording::describe_timing;
+using recording::Gap;
+using recording::GapKind;
+using recording::kLatestStamp_ns;
+using recording::parse_stamp_ns;
+using recording::parse_stretch;
+using recording::PoseSample;
+using recording::PoseTrack;
+using recording::Repair;
+using recording::RepairKind;
+using recording::sha256_hex;
+using recording::Stretch;
+using recording::unpack_text;
+using recording::UnpackedText;
+using recording::WorldVelocity;
+using recording::wrap_angle;
+
+}  // namespace rave::utias

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "rave/estimate/occupancy_grid.hpp"
+
+namespace rave::estimate {
+
+/// From which probability on a cell is occupied or free; unknown between the two. The defaults are
+/// those of ROS `map_server`, http://wiki.ros.org/map_server.
+struct MapThresholds {
+  double occupied = 0.65;
+  double free = 0.196;
+};
+
+/// The grid as a PGM image (P5) as `map_server` reads it: 0 occupied, 254 free, 205 unknown; the
+/// first row is the one with the largest y.
+[[nodiscard]] std::string map_image(const OccupancyGrid& grid, const MapThresholds& thresholds);
+
+/// The YAML that goes with it. `image` is the file name of the image, `comment` lines begin with
+/// `#` and may be empty.
+[[nodiscard]] std::string map_yaml(const GridFrame& frame, const MapThresholds& thresholds,
+                                   std::string_view image, std::string_view comment);
+
+}  // namespace rave::estimate

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rave/base/result.hpp"
+#include "rave/math/pose.hpp"
+
+namespace rave::estimate {
+
+/// The cells of a grid in the world frame: cell (0, 0) has its lower left corner at the origin,
+/// columns go along x, rows along y.
+struct GridFrame {
+  double resolution_m = 0.05;
+  Vec2 origin_W;
+  int columns = 0;
+  int rows = 0;
+
+  [[nodiscard]] std::size_t cell_count() const noexcept {
+    return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+  }
+};
+
+/// How one beam changes what is believed of a cell: odds in favour of "occupied", as natural
+/// logarithms.
+struct BeamModel {
+  double log_odds_hit = 0.85;   ///< Added where a beam ends.
+  double log_odds_pass = -0.4;  ///< Added where it passed.
+  double log_odds_limit = 4.0;  ///< The belief never leaves +- this, so that it can change.
+  double range_max_m = 30;      ///< Of a longer beam only this much is used, and no end.
+  double no_return_free_m = 0;  ///< How far a beam without return proves free space.
+};
+
+/// Rays of one scan in the frame of the sensor.
+struct ScanView {
+  Pose2 X_WS;
+  std::span<const double> bearings_rad;
+  std::span<const float> ranges_m;  ///< One per bearing; +infinity is no return.
+};
+
+/// An occupancy grid by the log-odds form of Bayes' rule, cells independent of one another:
+/// H. Moravec, A. Elfes: "High resolution maps from wide angle sonar", ICRA 1985; S. Thrun, W.
+/// Burgard, D. Fox: "Probabilistic Robotics", MIT Press 2005, chapter 9. Beams are traced cell by
+/// cell: J. Amanatides, A. Woo: "A fast voxel traversal algorithm for ray tracing", Eurographics
+/// 1987. Within one scan a cell counts once, and an end outweighs the beams that pass: near the
+/// sensor many beams share a cell, and beams that graze a wall would wear it away.
+///
+/// A value type; one thread at a time. Same input, same bits.
+class OccupancyGrid {
+ public:
+  /// Errors (kInvalidArgument): no cells, more than 100 million, a resolution that is not positive.
+  [[nodiscard]] static Result<OccupancyGrid> create(const GridFrame& frame, const BeamModel& model);
+
+  [[nodiscard]] const GridFrame& frame() const noexcept { return frame_; }
+  /// Takes one scan in; what lies outside of the grid is left out. A view whose two spans differ in
+  /// size is a programmer's mistake.
+  void add(const ScanView& scan);
+
+  /// 0 where nothing is known.
+  [[nodiscard]] double log_odds(int column, int row) const noexcept {
+    return log_odds_[index(column, row)];
+  }
+  /// Whether any beam has touched the cell.
+  [[nodiscard]] bool seen(int column, int row) const noexcept {
+    return last_scan_[index(column, row)] != 0;
+  }
+  /// Probability of "occupied", 0 to 1.
+  [[nodiscard]] double probability(int column, int row) const noexcept;
+
+ private:
+  OccupancyGrid(const GridFrame& frame, const BeamModel& model);
+
+  [[nodiscard]] std::size_t index(int column, int row) const noexcept {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(frame_.columns) +
+           static_cast<std::size_t>(column);
+  }
+  void mark_end(Vec2 p_W);
+  void trace(Vec2 from_W, Vec2 direction, double length_m);
+  void pass(int column, int row);
+
+  GridFrame frame_;
+  BeamModel model_;
+  std::vector<double> log_odds_;
+  /// The number of the last scan that touched a cell, from 1; negative: that ended in it.
+  std::vector<std::int32_t> last_scan_;
+  std::int32_t scan_ = 0;
+};
+
+}  // namespace rave::estimate

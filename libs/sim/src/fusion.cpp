@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fusion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "declared_fan.hpp"
+#include "rave/math/scalar.hpp"
+
+namespace rave::sim {
+namespace {
+
+/// Rays of the two halves that differ by more do not point the same way.
+constexpr double kSameBearing_rad = 1e-6;
+
+Error in_half(std::string_view half, const std::string& driver, Error error) {
+  return std::move(error).with_context(fmt::format("{} half (driver `{}`)", half, driver));
+}
+
+std::string limits_of(const SensorInfo& info) {
+  if (info.bearings_rad == nullptr) return fmt::format("{} rays", info.capacity);
+  return fmt::format("{} rays from {:.4f} to {:.4f} deg", info.capacity,
+                     rad_to_deg(info.bearings_rad[0]),
+                     rad_to_deg(info.bearings_rad[info.capacity - 1]));
+}
+
+/// Ranges are fused ray by ray, so the rays of both halves must be the same.
+Status check_rays(const HybridSpec& spec, const SensorInfo& real, const SensorInfo& imagined) {
+  if (real.bearings_rad == nullptr || imagined.bearings_rad == nullptr) {
+    return fail(ErrorCode::kInvalidArgument,
+                "the {} half (driver `{}`) does not say where its rays "
+                "point",
+                real.bearings_rad == nullptr ? "real" : "virtual",
+                real.bearings_rad == nullptr ? spec.real_driver : spec.virtual_driver);
+  }
+  std::string difference;
+  if (real.capacity == imagined.capacity) {
+    for (std::uint32_t i = 0; i < real.capacity && difference.empty(); ++i) {
+      const double off_rad = wrap_angle(real.bearings_rad[i] - imagined.bearings_rad[i]);
+      if (std::abs(off_rad) <= kSameBearing_rad) continue;
+      difference =
+          fmt::format("; ray {} points to {:.6f} and {:.6f} deg", i + 1,
+                      rad_to_deg(real.bearings_rad[i]), rad_to_deg(imagined.bearings_rad[i]));
+    }
+    if (difference.empty()) return {};
+  }
+  return fail(ErrorCode::kInvalidArgument,
+              "the halves must have the same rays, but the real one (driver `{}`) has {}, the "
+              "virtual one (driver `{}`) {}{}",
+              spec.real_driver, limits_of(real), spec.virtual_driver, limits_of(imagined),
+              difference);
+}
+
+Status configure_imagined(const SensorSpec& sensor, const SensorInfo& real, HostServices host,
+                          FusionSlots& slots, SensorInfo& imagined) {
+  const HybridSpec& spec = *sensor.hybrid;
+  RAVE_TRY(slots.imagined.make(spec.virtual_ops->instance, 1));
+  VirtualSensorSetup setup;
+  setup.host = host;
+  setup.params = spec.virtual_params.values().data();
+  setup.param_count = spec.virtual_params.values().size();
+  setup.layers = sensor.layers;
+  setup.period_s = real.period_s;
+  setup.z_m = sensor.z_m;
+  setup.real_half = &real;
+  VirtualDeclaration declaration;
+  ErrorText error;
+  if (spec.virtual_ops->configure(slots.imagined.at(0), &setup, &declaration, &error) != 0) {
+    return fail(ErrorCode::kPlugin, "{}", error.text);
+  }
+  slots.capacity = declaration.capacity;
+  slots.uses_fan = declaration.uses_fan != 0;
+  imagined = real;
+  imagined.bearings_rad = nullptr;
+  if (slots.uses_fan) {
+    RAVE_TRY(check_fan(declaration, sensor.kind));
+    slots.fan = FanTable::make(declaration.fan, sensor.layers);
+    slots.capacity = slots.fan.readings();
+    describe_fan(declaration, imagined);
+  }
+  imagined.capacity = slots.capacity;
+  if (slots.capacity == 0) return fail(ErrorCode::kPlugin, "declared room for 0 records");
+  return {};
+}
+
+Result<std::optional<Processing>> noise_of(const NoiseSpec& noise, const SensorSpec& sensor,
+                                           std::uint32_t capacity) {
+  std::optional<Processing> made;
+  if (!noise.any()) return made;
+  ProcessingSpec spec;
+  spec.noise = noise;
+  RAVE_TRY_ASSIGN(made, Processing::make(spec, sensor.kind, capacity, 0));
+  return made;
+}
+
+/// Whole words, so that records of every member are aligned.
+std::uint32_t stride_of(std::uint32_t capacity, ReadingKind kind) {
+  return (capacity * record_size(kind) + 7U) / 8U * 8U;
+}
+
+Status start_driver(const HybridSpec& spec, const SensorInfo& real, const SensorInfo& imagined,
+                    HostServices host, FusionSlots& slots) {
+  RAVE_TRY(slots.driver.make(spec.ops->instance, 1));
+  HybridSetup setup;
+  setup.host = host;
+  setup.params = spec.params.values().data();
+  setup.param_count = spec.params.values().size();
+  setup.real = &real;
+  setup.imagined = &imagined;
+  ErrorText error;
+  if (spec.ops->start(slots.driver.at(0), &setup, &error) == 0) return {};
+  return fail(ErrorCode::kPlugin, "{}", error.text);
+}
+
+void allocate(const SensorSpec& sensor, const SensorInfo& real, std::uint32_t members,
+              FusionSlots& slots) {
+  slots.real_stride = stride_of(real.capacity, sensor.kind);
+  slots.imagined_stride = stride_of(slots.capacity, sensor.kind);
+  slots.real_headers.resize(members);
+  slots.real_records.resize(std::size_t{slots.real_stride} * members);
+  slots.imagined_headers.resize(members);
+  slots.imagined_records.resize(std::size_t{slots.imagined_stride} * members);
+  if (slots.uses_fan) slots.bodies.resize(std::size_t{slots.capacity} * members);
+  slots.state.resize(sensor.hybrid->virtual_ops->state_size * members);
+  slots.failed.resize(members);
+  slots.withheld.resize(members);
+  slots.too_late.resize(members);
+  slots.last_stamp.resize(members);
+  slots.clear();
+}
+
+}  // namespace
+
+Result<std::unique_ptr<FusionSlots>> FusionSlots::make(const SensorSpec& spec,
+                                                       const SensorInfo& real,
+                                                       std::uint32_t members, HostServices host) {
+  const HybridSpec& hybrid = *spec.hybrid;
+  auto slots = std::make_unique<FusionSlots>();
+  SensorInfo imagined;
+  if (auto made = configure_imagined(spec, real, host, *slots, imagined); !made) {
+    return tl::unexpected(in_half("virtual", hybrid.virtual_driver, std::move(made).error()));
+  }
+  if (spec.kind == ReadingKind::kRanges) RAVE_TRY(check_rays(hybrid, real, imagined));
+  auto real_noise = noise_of(hybrid.real_noise, spec, real.capacity);
+  if (!real_noise) {
+    return tl::unexpected(in_half("real", hybrid.real_driver, std::move(real_noise).error()));
+  }
+  slots->real_noise = *std::move(real_noise);
+  auto imagined_noise = noise_of(hybrid.virtual_noise, spec, slots->capacity);
+  if (!imagined_noise) {
+    return tl::unexpected(
+        in_half("virtual", hybrid.virtual_driver, std::move(imagined_noise).error()));
+  }
+  slots->imagined_noise = *std::move(imagined_noise);
+  RAVE_TRY(start_driver(hybrid, real, imagined, host, *slots));
+  allocate(spec, real, members, *slots);
+  return slots;
+}
+
+void FusionSlots::clear() {
+  std::fill(real_headers.begin(), real_headers.end(), SampleHeader{});
+  std::fill(real_records.begin(), real_records.end(), std::byte{});
+  std::fill(imagined_headers.begin(), imagined_headers.end(), SampleHeader{});
+  std::fill(imagined_records.begin(), imagined_records.end(), std::byte{});
+  std::fill(bodies.begin(), bodies.end(), BodyId::kNone);
+  std::fill(state.begin(), state.end(), std::byte{});
+  std::fill(failed.begin(), failed.end(), std::uint8_t{0});
+  std::fill(withheld.begin(), withheld.end(), 0U);
+  std::fill(too_late.begin(), too_late.end(), std::uint64_t{0});
+  std::fill(last_stamp.begin(), last_stamp.end(), std::int64_t{-1});
+}
+
+SensorParts FusionSlots::parts_of(std::size_t member) const noexcept {
+  SensorParts parts;
+  parts.real = &real_headers[member];
+  parts.real_records = real_records.data() + std::size_t{real_stride} * member;
+  parts.imagined = &imagined_headers[member];
+  parts.imagined_records = imagined_records.data() + std::size_t{imagined_stride} * member;
+  if (uses_fan) {
+    parts.bodies = std::span(bodies).subspan(std::size_t{capacity} * member, capacity);
+  }
+  return parts;
+}
+
+}  // namespace rave::sim

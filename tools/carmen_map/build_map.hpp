@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "carmen/log.hpp"
+#include "rave/base/result.hpp"
+#include "rave/estimate/map_files.hpp"
+
+namespace rave::tools {
+
+struct MapOptions {
+  std::filesystem::path log;
+  double fov_deg = 0;  ///< From the first beam to the last.
+  double yaw_deg = 0;  ///< Of the middle of the field, from the x axis of the logged pose.
+  double resolution_m = 0.05;
+  estimate::BeamModel beams;
+  estimate::MapThresholds thresholds;
+};
+
+/// The two files of a map.
+struct MapFiles {
+  std::string image;
+  std::string yaml;
+  std::string summary;  ///< One line for the terminal.
+};
+
+/// Takes every scan of the window of a log into a grid that holds all of them.
+/// Errors: those of carmen::load() and OccupancyGrid::create().
+[[nodiscard]] Result<MapFiles> build_map(const MapOptions& options, const std::string& image_name);
+
+}  // namespace rave::tools

@@ -1,87 +1,65 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/sim/range_engine.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <limits>
 
+#include "fan_kernel.hpp"
 #include "rave/math/scalar.hpp"
-#include "rave/math/transform.hpp"
 
 namespace rave::sim {
 namespace {
 
-constexpr double kInside = std::numeric_limits<double>::infinity();
-
-/// Keeps the nearest hit of each ray, as the largest inverse range.
-void keep(FanScratch& scratch, std::size_t ray, double inverse, std::uint32_t body) noexcept {
-  if (inverse > scratch.inverse[ray]) {
-    scratch.inverse[ray] = inverse;
-    scratch.body[ray] = body;
-  }
+std::size_t padded(std::size_t count) noexcept {
+  return (count + kRayPadding - 1) / kRayPadding * kRayPadding;
 }
 
-void keep_all_inside(FanScratch& scratch, std::uint32_t body) noexcept {
-  for (std::size_t ray = 0; ray < scratch.inverse.size(); ++ray) {
-    keep(scratch, ray, kInside, body);
-  }
-}
-
-void cast_disc_shape(const FanTable& fan, Vec2 centre_S, double radius_m, std::uint32_t body,
-                     FanScratch& scratch) noexcept {
-  const double radius2 = radius_m * radius_m;
-  if (squared_norm(centre_S) <= radius2) {
-    keep_all_inside(scratch, body);
-    return;
-  }
-  for (std::size_t ray = 0; ray < fan.cos.size(); ++ray) {
-    const Vec2 direction{fan.cos[ray], fan.sin[ray]};
-    const double along = dot(centre_S, direction);
-    const double aside = cross(centre_S, direction);
-    const double root = radius2 - aside * aside;
-    if (along > 0 && root >= 0) keep(scratch, ray, 1.0 / (along - std::sqrt(root)), body);
-  }
-}
-
-/// An edge that faces the sensor: 1/range = (nx cos + ny sin), already divided by its distance.
-struct FacingEdge {
-  double nx = 0;
-  double ny = 0;
-};
-
-void cast_polygon_shape(const FanTable& fan, std::span<const Vec2> vertices_S, std::uint32_t body,
-                        FanScratch& scratch) noexcept {
-  FacingEdge edges[ConvexPolygon::kMaxVertices];
-  std::size_t edge_count = 0;
-  // Facing edges of a convex polygon follow one another; the first vertex of the first and the
-  // last of the last are the silhouette.
-  Vec2 right;
-  Vec2 left;
-  const std::size_t n = vertices_S.size();
-  bool before = false;
-  for (std::size_t i = 0; i <= n; ++i) {
-    const Vec2 a = vertices_S[i % n];
-    const Vec2 b = vertices_S[(i + 1) % n];
-    const double c = a.x * b.y - a.y * b.x;  // outward normal . a, the normal being (dy, -dx)
-    const bool facing = c < 0;
-    if (facing && i < n) edges[edge_count++] = {(b.y - a.y) / c, -(b.x - a.x) / c};
-    // Counter-clockwise around the polygon is clockwise as seen from outside: left comes first.
-    if (facing && !before && i > 0) left = a;
-    if (!facing && before) right = a;
-    before = facing;
-  }
-  if (edge_count == 0) {
-    keep_all_inside(scratch, body);
-    return;
-  }
-  for (std::size_t ray = 0; ray < fan.cos.size(); ++ray) {
-    const Vec2 direction{fan.cos[ray], fan.sin[ray]};
-    if (cross(right, direction) < 0 || cross(direction, left) < 0) continue;
-    double inverse = std::numeric_limits<double>::infinity();
-    for (std::size_t e = 0; e < edge_count; ++e) {
-      const double w = edges[e].nx * direction.x + edges[e].ny * direction.y;
-      inverse = w < inverse ? w : inverse;
+/// For each bucket of the bearing the first ray that does not lie before it; empty if the rays are
+/// in no order.
+std::vector<std::uint16_t> index_of(const FanTable& fan) {
+  std::vector<std::uint16_t> first_ray(kBearingBuckets + 1, static_cast<std::uint16_t>(fan.rays));
+  std::size_t next = 0;
+  float before = -1;
+  for (std::uint32_t ray = 0; ray < fan.rays; ++ray) {
+    const float scale = bearing_scale(fan.cos[ray], fan.sin[ray]);
+    if (scale < before) return {};
+    before = scale;
+    for (const std::size_t bucket = bearing_bucket(scale); next <= bucket; ++next) {
+      first_ray[next] = static_cast<std::uint16_t>(ray);
     }
-    keep(scratch, ray, inverse, body);
+  }
+  return first_ray;
+}
+
+/// The pieces that the fan could meet, each shape once.
+void collect(const world::Snapshot& world, const FanTable& fan, const Pose2& X_WS, float z_m,
+             BodyId owner, std::vector<const world::ShapePiece*>& pieces) {
+  pieces.clear();
+  world.for_each_near(
+      X_WS.position(), static_cast<double>(fan.range_max_m), [&](const world::ShapePiece& piece) {
+        if (piece.body == owner.value() || !piece.in_layers(fan.layers) || !piece.at_height(z_m)) {
+          return;
+        }
+        if (piece.pieces > 1) {
+          const bool known = std::any_of(pieces.rbegin(), pieces.rend(), [&](const auto* other) {
+            return other->shape == piece.shape;
+          });
+          if (known) return;
+        }
+        pieces.push_back(&piece);
+      });
+}
+
+/// Of the rays of each cone the nearest.
+void join_cones(const FanTable& fan, FanScratch& scratch) {
+  for (std::size_t reading = 0; reading < fan.readings(); ++reading) {
+    const std::size_t first = reading * fan.rays_per_reading;
+    std::size_t nearest = first;
+    for (std::size_t ray = first; ray < first + fan.rays_per_reading; ++ray) {
+      if (scratch.inverse[ray] > scratch.inverse[nearest]) nearest = ray;
+    }
+    scratch.inverse[reading] = scratch.inverse[nearest];
+    scratch.body[reading] = scratch.body[nearest];
   }
 }
 
@@ -89,61 +67,43 @@ void cast_polygon_shape(const FanTable& fan, std::span<const Vec2> vertices_S, s
 
 FanTable FanTable::make(const FanQuery& query, LayerMask layers) {
   FanTable fan;
+  fan.rays = query.ray_count;
   fan.rays_per_reading = query.rays_per_reading;
-  fan.range_min_m = query.range_min_m;
-  fan.range_max_m = query.range_max_m;
+  fan.range_min_m = static_cast<float>(query.range_min_m);
+  fan.range_max_m = static_cast<float>(query.range_max_m);
   fan.layers = layers;
+  fan.cos.resize(padded(query.ray_count));
+  fan.sin.resize(padded(query.ray_count));
   for (std::uint32_t i = 0; i < query.ray_count; ++i) {
     const SinCos bearing = sincos(query.bearings_rad[i]);
-    fan.cos.push_back(bearing.cos);
-    fan.sin.push_back(bearing.sin);
+    fan.cos[i] = static_cast<float>(bearing.cos);
+    fan.sin[i] = static_cast<float>(bearing.sin);
   }
+  constexpr std::uint32_t kMostIndexed = 0xffff;
+  if (fan.rays > kFewRays && fan.rays <= kMostIndexed) fan.first_ray = index_of(fan);
   return fan;
 }
 
 void cast_fan(const world::Snapshot& world, const FanTable& fan, const Pose2& X_WS, double z_m,
               BodyId owner, FanScratch& scratch, std::span<float> ranges,
               std::span<std::uint32_t> bodies) {
-  scratch.inverse.assign(fan.cos.size(), 0.0);
+  collect(world, fan, X_WS, static_cast<float>(z_m), owner, scratch.pieces);
+  scratch.inverse.assign(fan.cos.size(), 0.0F);
   scratch.body.assign(fan.cos.size(), BodyId::kNone);
-  world.gather(X_WS.position(), fan.range_max_m, scratch.found);
+  scratch.ranges_m.resize(fan.cos.size());
   const SinCos turn = sincos(X_WS.yaw);
-  for (const std::uint32_t index : scratch.found) {
-    const world::PlacedShape& shape = world.shape(index);
-    if (shape.body == owner.value() || !contains(fan.layers, shape.layer) ||
-        !shape.at_height(z_m)) {
-      continue;
-    }
-    if (shape.kind == world::ShapeKind::kDisc) {
-      cast_disc_shape(fan, rotate_back(turn, shape.centre_W - X_WS.position()), shape.radius_m,
-                      shape.body, scratch);
-      continue;
-    }
-    scratch.vertices_S.clear();
-    for (const Vec2 v : world.vertices_W(shape)) {
-      scratch.vertices_S.push_back(rotate_back(turn, v - X_WS.position()));
-    }
-    cast_polygon_shape(fan, scratch.vertices_S, shape.body, scratch);
+  FanView view{fan.cos.data(),         fan.sin.data(),
+               fan.cos.size(),         fan.first_ray.empty() ? nullptr : fan.first_ray.data(),
+               scratch.inverse.data(), scratch.body.data()};
+  cast_pieces(scratch.pieces.data(), scratch.pieces.size(), world.vertices_W(), world.normals_W(),
+              {X_WS.x, X_WS.y, static_cast<float>(turn.cos), static_cast<float>(turn.sin)}, view);
+  if (fan.rays_per_reading > 1) {
+    join_cones(fan, scratch);
+    view.padded = padded(ranges.size());
   }
-  for (std::size_t reading = 0; reading < ranges.size(); ++reading) {
-    double inverse = 0;
-    std::uint32_t body = BodyId::kNone;
-    for (std::size_t k = 0; k < fan.rays_per_reading; ++k) {
-      const std::size_t ray = reading * fan.rays_per_reading + k;
-      if (scratch.inverse[ray] > inverse) {
-        inverse = scratch.inverse[ray];
-        body = scratch.body[ray];
-      }
-    }
-    const double range = 1.0 / inverse;  // 0 gives +infinity, +infinity gives 0
-    if (range > fan.range_max_m) {
-      ranges[reading] = std::numeric_limits<float>::infinity();
-      bodies[reading] = BodyId::kNone;
-    } else {
-      ranges[reading] = static_cast<float>(range < fan.range_min_m ? fan.range_min_m : range);
-      bodies[reading] = body;
-    }
-  }
+  finish_ranges(view, fan.range_min_m, fan.range_max_m, scratch.ranges_m.data());
+  std::copy_n(scratch.ranges_m.begin(), ranges.size(), ranges.begin());
+  std::copy_n(scratch.body.begin(), bodies.size(), bodies.begin());
 }
 
 }  // namespace rave::sim

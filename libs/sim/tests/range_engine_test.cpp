@@ -2,9 +2,11 @@
 #include "rave/sim/range_engine.hpp"
 
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
 #include <array>
 #include <cmath>
+#include <cstring>
 
 #include "rave/base/random.hpp"
 #include "rave/math/scalar.hpp"
@@ -197,15 +199,18 @@ double brute_force(const world::Snapshot& world, Vec2 p, Vec2 direction, double 
 
 /// Near the origin and a kilometre away, from inside and outside of bodies.
 TEST(CastFan, AgreesWithBruteForceInRandomWorlds) {
-  int checked = 0;
-  for (std::uint32_t seed = 0; seed < 600; ++seed) {
+  std::size_t checked = 0;
+  for (std::uint32_t seed = 0; seed < 3000; ++seed) {
     const Vec2 centre = seed % 2 == 0 ? Vec2{0, 0} : Vec2{700, -750};
     const world::WorldModel model = random_world(seed, centre);
     const world::Snapshot world(model);
     RandomStream random(seed, 9, 9, 9);
     const Pose2 X_WS{centre.x + random.uniform(-5, 5), centre.y + random.uniform(-5, 5),
                      random.uniform(-kPi, kPi)};
-    const auto fan = fan_of(61, 2 * kPi * 60 / 61, 8);
+    // Few rays are all tried, many are found by bearing; 100 rays over half a circle leave a gap.
+    const auto fan = seed % 3 == 0   ? fan_of(16, 2 * kPi * 15 / 16, 8)
+                     : seed % 3 == 1 ? fan_of(61, 2 * kPi * 60 / 61, 8)
+                                     : fan_of(100, kPi, 8);
     const auto reading = cast(world, fan.table, X_WS);
     for (std::size_t ray = 0; ray < reading.ranges.size(); ++ray) {
       const SinCos turn = sincos(X_WS.yaw + fan.bearings[ray]);
@@ -224,7 +229,37 @@ TEST(CastFan, AgreesWithBruteForceInRandomWorlds) {
       ++checked;
     }
   }
-  EXPECT_EQ(checked, 600 * 61);
+  EXPECT_EQ(checked, 1000U * (16 + 61 + 100));
+}
+
+TEST(CastFan, WidestAndNarrowestInstructionsGiveTheSameBits) {
+  const std::int64_t all = hwy::SupportedTargets();
+  std::vector<std::vector<Reading>> by_target;
+  for (std::int64_t rest = all; rest != 0; rest &= rest - 1) {
+    hwy::SetSupportedTargetsForTest(rest & -rest);
+    hwy::GetChosenTarget().DeInit();
+    std::vector<Reading> readings;
+    for (std::uint32_t seed = 0; seed < 300; ++seed) {
+      const world::WorldModel model = random_world(seed, {40, -30});
+      const world::Snapshot world(model);
+      RandomStream random(seed, 9, 9, 9);
+      const Pose2 X_WS{random.uniform(35, 45), random.uniform(-35, -25), random.uniform(-kPi, kPi)};
+      readings.push_back(cast(world, fan_of(seed % 2 == 0 ? 16 : 181, 3.5, 8).table, X_WS));
+    }
+    by_target.push_back(std::move(readings));
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().DeInit();
+  ASSERT_GE(by_target.size(), 2U) << "a processor with one set of instructions shows nothing";
+  for (std::size_t target = 1; target < by_target.size(); ++target) {
+    for (std::size_t i = 0; i < by_target[0].size(); ++i) {
+      const Reading& a = by_target[0][i];
+      const Reading& b = by_target[target][i];
+      ASSERT_EQ(std::memcmp(a.ranges.data(), b.ranges.data(), a.ranges.size() * sizeof(float)), 0)
+          << "world " << i << ", set " << target;
+      ASSERT_EQ(a.bodies, b.bodies) << "world " << i << ", set " << target;
+    }
+  }
 }
 
 }  // namespace

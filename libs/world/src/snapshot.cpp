@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "rave/math/scalar.hpp"
 #include "rave/math/transform.hpp"
@@ -11,6 +12,8 @@ namespace rave::world {
 namespace {
 
 constexpr double kCellSize_m = 2.0;
+/// Shapes of a larger bounding disc are cut into pieces for the index.
+constexpr double kLargestPiece_m = 1.0;
 /// Robots that are not in the world are parked where no query reaches.
 constexpr Vec2 kNowhere{1e12, 1e12};
 
@@ -18,26 +21,6 @@ constexpr Vec2 kNowhere{1e12, 1e12};
 std::vector<std::uint32_t>& scratch() {
   thread_local std::vector<std::uint32_t> found;
   return found;
-}
-
-struct BoundingDisc {
-  Vec2 centre;
-  double radius_m = 0;
-};
-
-BoundingDisc bound(const Shape& shape) noexcept {
-  if (shape.kind == ShapeKind::kDisc) return {shape.centre, shape.radius_m};
-  Vec2 low = shape.vertices().front();
-  Vec2 high = low;
-  for (const Vec2 v : shape.vertices()) {
-    low = {std::min(low.x, v.x), std::min(low.y, v.y)};
-    high = {std::max(high.x, v.x), std::max(high.y, v.y)};
-  }
-  BoundingDisc disc{0.5 * (low + high), 0};
-  for (const Vec2 v : shape.vertices()) {
-    disc.radius_m = std::max(disc.radius_m, std::sqrt(squared_norm(v - disc.centre)));
-  }
-  return disc;
 }
 
 }  // namespace
@@ -48,20 +31,18 @@ Snapshot::Snapshot(const WorldModel& model)
     add_shapes(body, model.body(body));
   }
   first_shape_.push_back(static_cast<std::uint32_t>(shapes_.size()));
-  std::vector<GridItem> fixed;
+  first_disc_.push_back(static_cast<std::uint32_t>(cover_.size()));
+  std::vector<ShapePiece> fixed;
   for (std::uint32_t body = 0; body < model.obstacles.size(); ++body) {
     const Obstacle& obstacle = model.obstacles[body];
-    place(body, obstacle.body, obstacle.X_WB, true);
-    for (std::uint32_t i = first_shape_[body]; i < first_shape_[body + 1]; ++i) {
-      fixed.push_back({shapes_[i].centre_W, shapes_[i].radius_m, i});
-    }
+    place(body, obstacle.body, obstacle.X_WB, true, fixed);
     if (obstacle.body.code) {
       fixed_landmarks_.push_back({BodyId(body), *obstacle.body.code, obstacle.X_WB.position(),
                                   obstacle.body.code_z0_m, obstacle.body.code_z1_m, RobotId(),
                                   obstacle.body.radius_m()});
     }
   }
-  fixed_grid_.build(fixed, kCellSize_m);
+  fixed_.build(fixed, kCellSize_m);
   for (const Body& body : model.robots) {
     largest_robot_m_ = std::max(largest_robot_m_, body.radius_m());
   }
@@ -77,24 +58,55 @@ void Snapshot::add_shapes(std::uint32_t body, const Body& description) {
     placed.layer = description.layer;
     placed.first_vertex = static_cast<std::uint32_t>(vertices_.size());
     placed.vertex_count = static_cast<std::uint32_t>(shape.vertices().size());
-    placed.radius_m = bound(shape).radius_m;
+    first_disc_.push_back(static_cast<std::uint32_t>(cover_.size()));
+    const CoverDisc whole = cover(shape, std::numeric_limits<double>::infinity()).front();
+    placed.radius_m = whole.radius_m;
+    whole_.push_back(whole.centre_B);
+    const std::vector<CoverDisc> discs = cover(shape, kLargestPiece_m);
+    cover_.insert(cover_.end(), discs.begin(), discs.end());
     placed.z0_m = shape.z0_m;
     placed.z1_m = shape.z1_m;
     shapes_.push_back(placed);
     vertices_.insert(vertices_.end(), shape.vertices().begin(), shape.vertices().end());
+    normals_.resize(vertices_.size());
   }
 }
 
-void Snapshot::place(std::uint32_t body, const Body& description, const Pose2& X_WB, bool present) {
+void Snapshot::place(std::uint32_t body, const Body& description, const Pose2& X_WB, bool present,
+                     std::vector<ShapePiece>& pieces) {
   const SinCos turn = sincos(X_WB.yaw);
   const Vec2 p_WB = X_WB.position();
   for (std::size_t i = 0; i < description.shapes.size(); ++i) {
     const Shape& shape = description.shapes[i];
-    PlacedShape& placed = shapes_[first_shape_[body] + i];
-    placed.centre_W = present ? p_WB + rotate(turn, bound(shape).centre) : kNowhere;
-    for (std::size_t k = 0; k < shape.vertices().size(); ++k) {
-      vertices_[placed.first_vertex + k] =
-          present ? p_WB + rotate(turn, shape.vertices()[k]) : kNowhere;
+    const std::uint32_t index = first_shape_[body] + static_cast<std::uint32_t>(i);
+    PlacedShape& placed = shapes_[index];
+    if (!present) {
+      placed.centre_W = kNowhere;
+      std::fill_n(vertices_.begin() + placed.first_vertex, placed.vertex_count, kNowhere);
+      continue;
+    }
+    placed.centre_W = p_WB + rotate(turn, whole_[index]);
+    const std::span<const Vec2> vertices_B = shape.vertices();
+    for (std::size_t k = 0; k < vertices_B.size(); ++k) {
+      vertices_[placed.first_vertex + k] = p_WB + rotate(turn, vertices_B[k]);
+      normals_[placed.first_vertex + k] = rotate(turn, shape.polygon->normals()[k]);
+    }
+    ShapePiece piece;
+    piece.z0_m = static_cast<float>(placed.z0_m);
+    piece.z1_m = static_cast<float>(placed.z1_m);
+    piece.body = body;
+    piece.shape = index;
+    piece.first_vertex = placed.first_vertex;
+    piece.vertex_count = static_cast<std::uint8_t>(placed.vertex_count);
+    piece.layer = static_cast<std::uint8_t>(placed.layer);
+    piece.pieces = static_cast<std::uint16_t>(first_disc_[index + 1] - first_disc_[index]);
+    for (std::uint32_t d = first_disc_[index]; d < first_disc_[index + 1]; ++d) {
+      piece.centre_W = p_WB + rotate(turn, cover_[d].centre_B);
+      // A radius rounded down would leave something out.
+      piece.radius_m = shape.kind == ShapeKind::kDisc
+                           ? static_cast<float>(cover_[d].radius_m)
+                           : static_cast<float>(cover_[d].radius_m * (1 + 1e-6));
+      pieces.push_back(piece);
     }
   }
 }
@@ -108,18 +120,12 @@ void Snapshot::set_touch(RobotId robot, const TouchState& touch) noexcept {
 }
 
 void Snapshot::rebuild() {
-  thread_local std::vector<GridItem> moving;
-  moving.clear();
+  pieces_.clear();
   const auto obstacle_count = static_cast<std::uint32_t>(model_->obstacles.size());
   for (std::uint32_t r = 0; r < robots_.size(); ++r) {
-    const std::uint32_t body = obstacle_count + r;
-    place(body, model_->robots[r], robots_[r].X_WR, robots_[r].present);
-    if (!robots_[r].present) continue;
-    for (std::uint32_t i = first_shape_[body]; i < first_shape_[body + 1]; ++i) {
-      moving.push_back({shapes_[i].centre_W, shapes_[i].radius_m, i});
-    }
+    place(obstacle_count + r, model_->robots[r], robots_[r].X_WR, robots_[r].present, pieces_);
   }
-  moving_grid_.build(moving, kCellSize_m);
+  moving_.build(pieces_, kCellSize_m);
   rebuild_landmarks();
 }
 
@@ -135,8 +141,7 @@ void Snapshot::rebuild_landmarks() {
 
 void Snapshot::gather(Vec2 p_W, double radius_m, std::vector<std::uint32_t>& found) const {
   found.clear();
-  fixed_grid_.gather(p_W, radius_m, found);
-  moving_grid_.gather(p_W, radius_m, found);
+  for_each_near(p_W, radius_m, [&](const ShapePiece& piece) { found.push_back(piece.shape); });
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
 }
@@ -195,7 +200,8 @@ std::uint32_t Snapshot::robots_within(Vec2 p_W, double radius_m,
                                       std::span<RobotId> found) const noexcept {
   std::vector<std::uint32_t>& shapes = scratch();
   shapes.clear();
-  moving_grid_.gather(p_W, radius_m + largest_robot_m_, shapes);
+  moving_.for_each_near(p_W, radius_m + largest_robot_m_,
+                        [&](const ShapePiece& piece) { shapes.push_back(piece.shape); });
   std::sort(shapes.begin(), shapes.end());
   const auto obstacle_count = static_cast<std::uint32_t>(model_->obstacles.size());
   std::uint32_t count = 0;

@@ -105,28 +105,50 @@ TEST(Snapshot, ARayMeetsTheNearestBody) {
   EXPECT_NEAR(hit.range_m, 2 - std::sqrt(0.165 * 0.165 - 0.01), 1e-12);
 }
 
-TEST(Grid, FindsWhatALinearSearchFinds) {
+TEST(ShapeGrid, FindsWhatALinearSearchFinds) {
   RandomStream random(2, 7, 1, 8);
   for (int world = 0; world < 50; ++world) {
-    std::vector<GridItem> items;
+    std::vector<ShapePiece> pieces;
     for (std::uint32_t i = 0; i < 200; ++i) {
-      items.push_back({{random.uniform(-20, 20), random.uniform(-3, 3)}, random.uniform(0, 2), i});
+      ShapePiece piece;
+      piece.centre_W = {random.uniform(-20, 20), random.uniform(-3, 3)};
+      piece.radius_m = static_cast<float>(random.uniform(0, 2));
+      piece.shape = i;
+      pieces.push_back(piece);
     }
-    Grid grid;
-    grid.build(items, 1.5);
+    ShapeGrid grid;
+    grid.build(pieces, 1.5);
     for (int query = 0; query < 20; ++query) {
       const Vec2 p{random.uniform(-25, 25), random.uniform(-5, 5)};
       const double radius = random.uniform(0, 6);
       std::vector<std::uint32_t> expected;
-      for (const GridItem& item : items) {
-        const double reach = radius + item.radius_m;
-        if (squared_norm(item.centre - p) <= reach * reach) expected.push_back(item.index);
+      for (const ShapePiece& piece : pieces) {
+        const double reach = radius + static_cast<double>(piece.radius_m);
+        if (squared_norm(piece.centre_W - p) <= reach * reach) expected.push_back(piece.shape);
       }
       std::vector<std::uint32_t> found;
-      grid.gather(p, radius, found);
+      grid.for_each_near(p, radius, [&](const ShapePiece& piece) { found.push_back(piece.shape); });
       std::sort(found.begin(), found.end());
-      found.erase(std::unique(found.begin(), found.end()), found.end());
       ASSERT_EQ(found, expected);
+    }
+  }
+}
+
+TEST(Cover, HoldsTheShapeInSmallDiscs) {
+  RandomStream random(3, 7, 1, 8);
+  for (int i = 0; i < 50; ++i) {
+    const double x = random.uniform(0.05, 40);
+    const double y = random.uniform(0.05, 8);
+    const std::vector<Vec2> outline = {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
+    const Shape shape = make_prisms(outline, 0, 1).value().front();
+    const auto discs = cover(shape, 1.0);
+    for (const CoverDisc& disc : discs) ASSERT_LE(disc.radius_m, 1.0);
+    for (int k = 0; k < 200; ++k) {
+      const Vec2 p{random.uniform(-x, x), random.uniform(-y, y)};
+      const bool held = std::any_of(discs.begin(), discs.end(), [&](const CoverDisc& disc) {
+        return squared_norm(p - disc.centre_B) <= disc.radius_m * disc.radius_m * (1 + 1e-9);
+      });
+      ASSERT_TRUE(held) << x << " " << y << ": " << p.x << ", " << p.y;
     }
   }
 }

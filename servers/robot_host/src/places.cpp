@@ -8,7 +8,8 @@
 
 #include "rave/base/random.hpp"
 #include "rave/math/scalar.hpp"
-#include "rave/world/grid.hpp"
+#include "rave/math/transform.hpp"
+#include "rave/world/shape_grid.hpp"
 #include "rave/world/touching.hpp"
 
 namespace rave::robot_host {
@@ -28,12 +29,20 @@ class Standing {
       widest_m = std::max(widest_m, radius_m_.back());
     }
     widest_m_ = widest_m;
-    std::vector<world::GridItem> items;
+    std::vector<world::ShapePiece> pieces;
     for (std::uint32_t i = 0; i < spec.world.obstacles.size(); ++i) {
       const world::Obstacle& obstacle = spec.world.obstacles[i];
-      items.push_back({obstacle.X_WB.position(), obstacle.body.radius_m(), i});
+      for (const world::Shape& shape : obstacle.body.shapes) {
+        for (const world::CoverDisc& disc : world::cover(shape, 1.0)) {
+          world::ShapePiece piece;
+          piece.centre_W = transform(obstacle.X_WB, disc.centre_B);
+          piece.radius_m = static_cast<float>(disc.radius_m * (1 + 1e-6));
+          piece.body = i;
+          pieces.push_back(piece);
+        }
+      }
     }
-    obstacles_.build(items, 2.0);
+    obstacles_.build(pieces, 2.0);
   }
 
   void add(std::uint32_t robot) {
@@ -49,7 +58,10 @@ class Standing {
                                                  double clearance_m) const {
     const world::Body& body = spec_->world.robots[id];
     std::vector<std::uint32_t> near;
-    obstacles_.gather(X_WR.position(), radius_m_[id] + clearance_m, near);
+    obstacles_.for_each_near(X_WR.position(), radius_m_[id] + clearance_m,
+                             [&](const world::ShapePiece& piece) { near.push_back(piece.body); });
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
     for (const std::uint32_t i : near) {
       const world::Obstacle& obstacle = spec_->world.obstacles[i];
       const double gap = world::separation(body, X_WR, obstacle.body, obstacle.X_WB).distance_m;
@@ -90,7 +102,7 @@ class Standing {
   const sim::EngineSpec* spec_;
   std::vector<double> radius_m_;
   double widest_m_ = 0;
-  world::Grid obstacles_;
+  world::ShapeGrid obstacles_;
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
 };
 

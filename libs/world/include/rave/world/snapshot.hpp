@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "rave/math/pose.hpp"
-#include "rave/world/grid.hpp"
 #include "rave/world/placed_shape.hpp"
+#include "rave/world/shape_grid.hpp"
 #include "rave/world/world_view.hpp"
 
 namespace rave::world {
@@ -36,6 +36,18 @@ class Snapshot final : public WorldView {
   /// Shapes whose bounding disc comes within `radius_m` of a point, ascending and without
   /// repetition, put into `found` (its former content is dropped).
   void gather(Vec2 p_W, double radius_m, std::vector<std::uint32_t>& found) const;
+
+  /// Calls `visit(piece)` for each piece of a shape that comes within `radius_m` of a point; a
+  /// shape of several pieces may come several times. The order is the same in every run.
+  template <class Visit>
+  void for_each_near(Vec2 p_W, double radius_m, Visit&& visit) const {
+    fixed_.for_each_near(p_W, radius_m, visit);
+    moving_.for_each_near(p_W, radius_m, visit);
+  }
+  /// All vertices, and the outward unit normal of the edge from each to the next of its shape;
+  /// pieces say where theirs begin.
+  [[nodiscard]] const Vec2* vertices_W() const noexcept { return vertices_.data(); }
+  [[nodiscard]] const Vec2* normals_W() const noexcept { return normals_.data(); }
 
   [[nodiscard]] const PlacedShape& shape(std::uint32_t index) const noexcept {
     return shapes_[index];
@@ -66,7 +78,9 @@ class Snapshot final : public WorldView {
   [[nodiscard]] TouchState touch(RobotId robot) const noexcept override;
 
  private:
-  void place(std::uint32_t body, const Body& description, const Pose2& X_WB, bool present);
+  /// Moves the shapes of a body and adds its pieces.
+  void place(std::uint32_t body, const Body& description, const Pose2& X_WB, bool present,
+             std::vector<ShapePiece>& pieces);
   void add_shapes(std::uint32_t body, const Body& description);
   void rebuild_landmarks();
   [[nodiscard]] RayHit nearest(Vec2 p_W, Vec2 direction, double z_m, double range_max_m,
@@ -81,9 +95,14 @@ class Snapshot final : public WorldView {
   std::vector<TouchState> touch_;
   std::vector<Landmark> landmarks_;
   std::vector<Landmark> fixed_landmarks_;
+  std::vector<Vec2> normals_;  ///< Of the edges that begin at vertices_.
+  std::vector<Vec2> whole_;    ///< Per shape: middle of its bounding disc, body frame.
+  std::vector<CoverDisc> cover_;
+  std::vector<std::uint32_t> first_disc_;  ///< Per shape, in cover_; one more at the end.
+  std::vector<ShapePiece> pieces_;         ///< Of robots, while they are sorted.
   double largest_robot_m_ = 0;
-  Grid fixed_grid_;
-  Grid moving_grid_;
+  ShapeGrid fixed_;
+  ShapeGrid moving_;
 };
 
 }  // namespace rave::world

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "rave/world/shape_grid.hpp"
+
+namespace rave::sim {
+
+/// Rays are handled in groups; tables and results are padded to a multiple of the largest.
+inline constexpr std::size_t kRayPadding = 16;
+/// Buckets of FanView::first_ray.
+inline constexpr std::size_t kBearingBuckets = 512;
+/// Up to so many rays all of them are tried against every candidate; above, an index finds those
+/// between the edges of the candidate.
+inline constexpr std::size_t kFewRays = 32;
+
+/// The rays of a fan, and where what they met is kept.
+struct FanView {
+  const float* cos = nullptr;  ///< Directions in the sensor frame; 0 in the padding.
+  const float* sin = nullptr;
+  std::size_t padded = 0;  ///< A multiple of kRayPadding.
+  /// For each bucket of the bearing the first ray that does not lie before it; kBearingBuckets + 1
+  /// of them. Null: all rays are tried.
+  const std::uint16_t* first_ray = nullptr;
+  float* inverse = nullptr;  ///< Largest 1/range so far; 0: nothing.
+  std::uint32_t* body = nullptr;
+};
+
+/// Where a sensor stands.
+struct FanPlace {
+  double x_m = 0;
+  double y_m = 0;
+  float cos = 1;
+  float sin = 0;
+};
+
+/// Puts what the rays meet of the pieces' shapes into `fan.inverse` and `fan.body`. Picks the
+/// widest instructions that the processor has; the bits are the same with all of them.
+void cast_pieces(const world::ShapePiece* const* pieces, std::size_t count, const Vec2* vertices_W,
+                 const Vec2* normals_W, const FanPlace& place, const FanView& fan);
+
+/// 1/inverse for each ray: beyond `range_max` it is no return (+infinity, no body), nearer than
+/// `range_min` is range_min. `ranges` is padded as the fan is.
+void finish_ranges(const FanView& fan, float range_min_m, float range_max_m, float* ranges_m);
+
+/// The bearing as a number that grows with it from 0 at -pi to 4 at pi, without arc tangent.
+inline float bearing_scale(float x, float y) noexcept {
+  const float sum = (x < 0 ? -x : x) + (y < 0 ? -y : y);
+  const float part = sum > 0 ? x / sum : 1.0F;
+  return y < 0 ? 1 + part : 3 - part;
+}
+
+/// The bucket of a bearing.
+inline std::size_t bearing_bucket(float scale) noexcept {
+  const auto bucket =
+      static_cast<std::size_t>(scale * (static_cast<float>(kBearingBuckets) / 4.0F));
+  return bucket < kBearingBuckets ? bucket : kBearingBuckets - 1;
+}
+
+}  // namespace rave::sim

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rave/math/pose.hpp"
+#include "rave/world/body.hpp"
+#include "rave/world/layer.hpp"
+
+namespace rave::world {
+
+/// A piece of a shape at its place in the world: what a query has to know before it looks at the
+/// shape itself. Small, so that the pieces of a neighbourhood fill few cache lines.
+struct ShapePiece {
+  Vec2 centre_W;       ///< Of a disc that holds the piece; of the disc itself for kDisc.
+  float radius_m = 0;  ///< Of that disc.
+  float z0_m = 0;
+  float z1_m = 0;
+  std::uint32_t body = 0;
+  std::uint32_t shape = 0;
+  std::uint32_t first_vertex = 0;
+  std::uint8_t vertex_count = 0;  ///< 0: a disc.
+  std::uint8_t layer = 0;         ///< The bit of rave::Layer.
+  std::uint16_t pieces = 1;       ///< Of the same shape; more than 1: a query may meet it again.
+
+  [[nodiscard]] bool in_layers(LayerMask layers) const noexcept { return (layers & layer) != 0; }
+  [[nodiscard]] bool at_height(float z_m) const noexcept { return z_m >= z0_m && z_m <= z1_m; }
+};
+static_assert(sizeof(ShapePiece) == 48);
+
+/// A uniform grid over pieces, sorted into cells by their centres (counting sort), each in one
+/// cell. Build once, then query from many threads. No allocation when rebuilt with no more pieces
+/// over no larger an area than before.
+class ShapeGrid {
+ public:
+  /// Cells are `cell_m` wide, or wider where the extent would need more than about 2^20 cells.
+  void build(std::span<const ShapePiece> pieces, double cell_m);
+
+  /// Calls `visit(piece)` for each piece whose disc comes within `radius_m` of `p`, row by row.
+  template <class Visit>
+  void for_each_near(Vec2 p, double radius_m, Visit&& visit) const {
+    if (width_ == 0) return;
+    const double reach_m = radius_m + largest_m_;
+    const int x0 = cell_of(p.x - reach_m - origin_.x, width_);
+    const int x1 = cell_of(p.x + reach_m - origin_.x, width_);
+    const int y0 = cell_of(p.y - reach_m - origin_.y, height_);
+    const int y1 = cell_of(p.y + reach_m - origin_.y, height_);
+    for (int y = y0; y <= y1; ++y) {
+      const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_);
+      const std::uint32_t last = begin_[row + static_cast<std::size_t>(x1) + 1];
+      for (std::uint32_t i = begin_[row + static_cast<std::size_t>(x0)]; i < last; ++i) {
+        const ShapePiece& piece = sorted_[i];
+        const double dx = piece.centre_W.x - p.x;
+        const double dy = piece.centre_W.y - p.y;
+        const double reach = radius_m + static_cast<double>(piece.radius_m);
+        if (dx * dx + dy * dy <= reach * reach) visit(piece);
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] int cell_of(double offset_m, int count) const noexcept {
+    const double cell = offset_m * cells_per_m_;
+    if (!(cell > 0)) return 0;
+    return cell >= count ? count - 1 : static_cast<int>(cell);
+  }
+
+  Vec2 origin_;
+  double cells_per_m_ = 1;
+  double largest_m_ = 0;
+  int width_ = 0;
+  int height_ = 0;
+  std::vector<std::uint32_t> begin_;  ///< Per cell; one more at the end.
+  std::vector<std::uint32_t> cell_;   ///< Per piece, while it is built.
+  std::vector<ShapePiece> sorted_;
+};
+
+/// A disc of a cover, in the frame of the shape's body.
+struct CoverDisc {
+  Vec2 centre_B;
+  double radius_m = 0;
+};
+
+/// Discs of at most about `largest_m` that together hold the shape: a long wall is cut into pieces,
+/// so that a query near one end does not meet what is at the other. At most 4096; beyond that they
+/// are larger. A disc is its own cover.
+[[nodiscard]] std::vector<CoverDisc> cover(const Shape& shape, double largest_m);
+
+}  // namespace rave::world

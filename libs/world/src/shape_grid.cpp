@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/world/shape_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rave::world {
+namespace {
+
+constexpr double kMaxCells = 1 << 20;
+constexpr std::size_t kMaxPieces = 4096;
+
+struct Box {
+  Vec2 low;
+  Vec2 high;
+};
+
+Box box_of(std::span<const Vec2> points) {
+  Box box{points.front(), points.front()};
+  for (const Vec2 p : points) {
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+  }
+  return box;
+}
+
+CoverDisc disc_of(std::span<const Vec2> points) {
+  const Box box = box_of(points);
+  CoverDisc disc{0.5 * (box.low + box.high), 0};
+  for (const Vec2 p : points) {
+    disc.radius_m = std::max(disc.radius_m, std::sqrt(squared_norm(p - disc.centre_B)));
+  }
+  return disc;
+}
+
+/// The part of a convex polygon with n.p <= c (Sutherland and Hodgman, 1974, for one line).
+std::vector<Vec2> clip(std::span<const Vec2> polygon, Vec2 n, double c) {
+  std::vector<Vec2> kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 a = polygon[i];
+    const Vec2 b = polygon[(i + 1) % polygon.size()];
+    const double da = dot(n, a) - c;
+    const double db = dot(n, b) - c;
+    if (da <= 0) kept.push_back(a);
+    if ((da < 0 && db > 0) || (da > 0 && db < 0)) kept.push_back(a + (da / (da - db)) * (b - a));
+  }
+  return kept;
+}
+
+/// Halves a polygon across its longer side until every piece is small enough.
+void split(std::vector<Vec2> polygon, double largest_m, std::vector<CoverDisc>& pieces) {
+  std::vector<std::vector<Vec2>> waiting;
+  waiting.push_back(std::move(polygon));
+  while (!waiting.empty()) {
+    const std::vector<Vec2> piece = std::move(waiting.back());
+    waiting.pop_back();
+    const CoverDisc disc = disc_of(piece);
+    if (disc.radius_m <= largest_m || pieces.size() + waiting.size() >= kMaxPieces) {
+      pieces.push_back(disc);
+      continue;
+    }
+    const Box box = box_of(piece);
+    const bool along_x = box.high.x - box.low.x >= box.high.y - box.low.y;
+    const Vec2 n = along_x ? Vec2{1, 0} : Vec2{0, 1};
+    const double c = dot(n, disc.centre_B);
+    for (const double side : {1.0, -1.0}) {
+      std::vector<Vec2> half = clip(piece, side * n, side * c);
+      if (half.size() >= 3) waiting.push_back(std::move(half));
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<CoverDisc> cover(const Shape& shape, double largest_m) {
+  if (shape.kind == ShapeKind::kDisc) return {{shape.centre, shape.radius_m}};
+  std::vector<CoverDisc> pieces;
+  const std::span<const Vec2> vertices = shape.vertices();
+  split({vertices.begin(), vertices.end()}, largest_m, pieces);
+  return pieces;
+}
+
+void ShapeGrid::build(std::span<const ShapePiece> pieces, double cell_m) {
+  width_ = 0;
+  height_ = 0;
+  largest_m_ = 0;
+  sorted_.resize(pieces.size());
+  if (pieces.empty()) return;
+  Vec2 low = pieces.front().centre_W;
+  Vec2 high = low;
+  float largest_m = 0;
+  for (const ShapePiece& piece : pieces) {
+    low = {std::min(low.x, piece.centre_W.x), std::min(low.y, piece.centre_W.y)};
+    high = {std::max(high.x, piece.centre_W.x), std::max(high.y, piece.centre_W.y)};
+    largest_m = std::max(largest_m, piece.radius_m);
+  }
+  largest_m_ = static_cast<double>(largest_m);
+  const double cell =
+      std::max(cell_m, std::sqrt((high.x - low.x) * (high.y - low.y) / kMaxCells) + 1e-9);
+  origin_ = low;
+  cells_per_m_ = 1.0 / cell;
+  width_ = static_cast<int>(std::min((high.x - low.x) * cells_per_m_, kMaxCells)) + 1;
+  height_ = static_cast<int>(std::min((high.y - low.y) * cells_per_m_, kMaxCells)) + 1;
+
+  begin_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) + 1, 0);
+  cell_.resize(pieces.size());
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const int x = cell_of(pieces[i].centre_W.x - origin_.x, width_);
+    const int y = cell_of(pieces[i].centre_W.y - origin_.y, height_);
+    cell_[i] = static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(width_) +
+               static_cast<std::uint32_t>(x);
+    ++begin_[cell_[i]];
+  }
+  std::uint32_t sum = 0;
+  for (std::uint32_t& count : begin_) {
+    sum += count;
+    count = sum;
+  }
+  // Backwards, so that pieces of one cell end up in their order.
+  for (std::size_t i = pieces.size(); i-- > 0;) sorted_[--begin_[cell_[i]]] = pieces[i];
+}
+
+}  // namespace rave::world

@@ -36,6 +36,10 @@ void keep_what_can_be_drawn(const InputFile& input, robot_host::BuiltScenario& b
   spec.robots = std::move(robots);
   spec.world.robots = std::move(bodies);
   for (sim::RobotType& type : spec.types) {
+    // Of hybrid sensors the virtual half is drawn: it needs no device.
+    for (sim::SensorSpec& sensor : type.sensors) {
+      sensor = sim::virtual_half_of(std::move(sensor));
+    }
     std::erase_if(type.sensors, [](const auto& sensor) { return sensor.virtual_ops == nullptr; });
     for (sim::SensorSpec& sensor : type.sensors) {
       sensor.phase_steps = 0;

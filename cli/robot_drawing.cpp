@@ -55,7 +55,7 @@ std::vector<Look> looks_of(const sim::EngineSpec& spec) {
     Look& look = looks.emplace_back();
     look.name = sensor.name;
     look.driver = sensor.driver;
-    look.is_virtual = sensor.virtual_ops != nullptr;
+    look.is_virtual = sensor.virtual_ops != nullptr || sensor.hybrid;
     look.X_RS = sensor.X_RS;
     look.z_m = sensor.z_m;
     look.period_s = sensor.period_steps > 1 ? sensor.period_steps * spec.step.seconds() : 0;
@@ -67,6 +67,7 @@ std::vector<Look> looks_of(const sim::EngineSpec& spec) {
 /// What virtual range sensors say of themselves once they are made.
 Status add_rays(sim::EngineSpec spec, std::vector<Look>& looks) {
   sim::RobotType& type = spec.types[0];
+  for (sim::SensorSpec& sensor : type.sensors) sensor = sim::virtual_half_of(std::move(sensor));
   std::erase_if(type.sensors, [](const auto& sensor) { return sensor.virtual_ops == nullptr; });
   type.actuators.clear();
   type.controllers.clear();

@@ -47,6 +47,9 @@ int info(const InfoCommand& options) {
       fmt::format("{} messages from {:.2f} to {:.2f} s, {} in {} chunks, {}\n", summary->messages,
                   summary->start_s, summary->end_s, size_text(summary->file_bytes), summary->chunks,
                   summary->whole ? "whole" : "cut: what is there can be read");
+  for (const auto& [sensor, made_of] : summary->hybrids) {
+    text += fmt::format("hybrid {}: {}; both parts and the result are recorded\n", sensor, made_of);
+  }
   for (const std::string& damage : summary->damages) text += fmt::format("damaged: {}\n", damage);
   report::Table table;
   table.columns = {{"topic", report::Align::kLeft, false},

@@ -38,6 +38,10 @@ Result<RecordSummary> describe_record(const std::filesystem::path& path) {
   summary.messages = statistics.message_count;
   summary.chunks = statistics.chunk_count;
   summary.attachments = reader.attachments();
+  for (const MetadataInfo& metadata : reader.metadata()) {
+    if (metadata.name != kHybridMetadata) continue;
+    if (auto entries = reader.read_metadata(metadata)) summary.hybrids = *std::move(entries);
+  }
   const double duration_s = summary.end_s - summary.start_s;
   for (const ChannelInfo& channel : reader.channels()) {
     const auto count = statistics.channel_message_counts.find(channel.id);

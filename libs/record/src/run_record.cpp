@@ -119,6 +119,10 @@ Result<RunRecorder> RunRecorder::open(const std::filesystem::path& path, const R
   return RunRecorder(std::move(impl));
 }
 
+Status RunRecorder::describe(std::string_view name, const StringMap& entries) {
+  return impl_->file_.add_metadata(name, entries);
+}
+
 void RunRecorder::begin_step(std::uint64_t step, SimTime time) {
   impl_->step_ = step;
   impl_->time_ = time;

@@ -301,8 +301,8 @@ void Engine::flip_percept_bit(RobotId robot, std::uint32_t sensor) noexcept {
 /// Adds to the poses of `past` what is not interpolated, from the last frame up to `stamp`.
 void Engine::Impl::look_back(SimTime stamp) {
   const HistoryFrame* frame = nullptr;
-  for (auto it = history.rbegin(); it != history.rend() && frame == nullptr; ++it) {
-    if (it->time <= stamp) frame = &*it;
+  for (std::size_t i = history.size(); i > 0 && frame == nullptr; --i) {
+    if (history[i - 1].time <= stamp) frame = &history[i - 1];
   }
   for (std::uint32_t r = 0; frame != nullptr && r < movers.size(); ++r) {
     world::RobotState state = past.robot(RobotId(r));

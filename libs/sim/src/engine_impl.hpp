@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "history_ring.hpp"
 #include "pose_track.hpp"
 #include "rave/sim/engine.hpp"
 #include "rave/sim/thread_pool.hpp"
@@ -28,13 +29,6 @@ struct Worker {
   FanScratch fan;
   RunHash hash;
   std::vector<Event> events;
-};
-
-/// The world at the end of one past step, for looking back.
-struct HistoryFrame {
-  SimTime time;
-  std::vector<world::RobotState> robots;
-  std::vector<TouchState> touch;
 };
 
 /// The world at the stamp of a real sample, for the virtual halves of hybrid sensors.
@@ -140,7 +134,7 @@ struct Engine::Impl {
   world::Snapshot snapshot;
   world::Snapshot past;     ///< For sample_at().
   bool past_valid = false;  ///< Still shows what is known of its time.
-  std::deque<HistoryFrame> history;
+  HistoryRing history;
   std::vector<Mover> movers;     ///< True poses of simulated, reported poses of real robots.
   std::vector<Twist2> velocity;  ///< Body frame, of the last step.
   std::vector<Twist2> proposal;

@@ -259,16 +259,12 @@ void Engine::Impl::place_robots() {
 
 void Engine::Impl::remember() {
   if (spec.history.ns <= 0) return;
-  HistoryFrame frame;
-  if (!history.empty() && now - history.front().time > spec.history) {
-    frame = std::move(history.front());
-    history.pop_front();
-  }
+  if (!history.empty() && now - history.front().time > spec.history) history.drop_oldest();
+  HistoryFrame& frame = history.add();
   frame.time = now;
   frame.robots.resize(movers.size());
   for (std::uint32_t r = 0; r < movers.size(); ++r) frame.robots[r] = snapshot.robot(RobotId(r));
   frame.touch = touch;
-  history.push_back(std::move(frame));
 }
 
 }  // namespace rave::sim

@@ -131,6 +131,15 @@ void allocate(const SensorSpec& sensor, const SensorInfo& real, std::uint32_t me
 
 }  // namespace
 
+SensorSpec virtual_half_of(SensorSpec sensor) {
+  if (!sensor.hybrid) return sensor;
+  sensor.hardware_ops = nullptr;
+  sensor.virtual_ops = sensor.hybrid->virtual_ops;
+  sensor.params = std::move(sensor.hybrid->virtual_params);
+  sensor.hybrid.reset();
+  return sensor;
+}
+
 Result<std::unique_ptr<FusionSlots>> FusionSlots::make(const SensorSpec& spec,
                                                        const SensorInfo& real,
                                                        std::uint32_t members, HostServices host) {

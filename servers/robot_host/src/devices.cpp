@@ -158,9 +158,16 @@ ProcessingSpec processing_of(const config::SensorFile& sensor) {
 
 Status set_plain(const DeviceContext& context, const config::RobotGroup& group,
                  const config::SensorFile& file, sim::SensorSpec& sensor) {
-  constexpr std::array kKinds = {DriverKind::kSensor, DriverKind::kVirtualSensor};
+  constexpr std::array kKinds = {DriverKind::kSensor, DriverKind::kVirtualSensor,
+                                 DriverKind::kHybridSensor};
   RAVE_TRY_ASSIGN(const Driver* const driver, find_driver(context, kKinds, file.driver));
   sensor.driver = driver->info.name;
+  if (driver->info.kind == DriverKind::kHybridSensor) {
+    return fail_at(file.driver.where, ErrorCode::kInvalidArgument,
+                   "the driver `{}` of sensor `{}` fuses two halves: expected `real:` and "
+                   "`virtual:`, each with a `driver`",
+                   driver->info.name, sensor.name);
+  }
   sensor.kind = static_cast<ReadingKind>(driver->info.data_kind);
   if (driver->info.kind == DriverKind::kVirtualSensor) {
     sensor.virtual_ops = static_cast<const VirtualSensorOps*>(driver->ops);

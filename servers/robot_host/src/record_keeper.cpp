@@ -44,7 +44,7 @@ void describe_sensors(const sim::Engine& engine, std::uint32_t robot, record::Ru
 
 RecordKeeper::RecordKeeper(record::RunRecorder recorder, const sim::EngineSpec& spec,
                            const BodyKinds& kinds)
-    : recorder_(std::move(recorder)), kinds_(&kinds) {
+    : recorder_(std::move(recorder)), parts_(spec), kinds_(&kinds) {
   for (const sim::RobotSpec& robot : spec.robots) {
     seen_.emplace_back(spec.types[robot.type].sensors.size());
   }
@@ -67,12 +67,14 @@ Result<std::unique_ptr<RecordKeeper>> RecordKeeper::begin(
     describe_sensors(engine, r, info);
   }
   RAVE_TRY_ASSIGN(auto recorder, record::RunRecorder::open(path, info, {}, log));
+  RAVE_TRY(PartKeeper::describe(spec, recorder));
   return std::unique_ptr<RecordKeeper>(new RecordKeeper(std::move(recorder), spec, kinds));
 }
 
 void RecordKeeper::after_step(sim::Engine& engine) {
   recorder_.begin_step(engine.steps_done() - 1, engine.time());
   poses_.clear();
+  parts_.keep(engine, recorder_);
   for (std::uint32_t r = 0; r < seen_.size(); ++r) keep_robot(engine, r);
   keep_events(engine);
   // A failure was told to the log when it happened, and end() returns it: the run goes on.

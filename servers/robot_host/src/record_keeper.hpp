@@ -7,6 +7,7 @@
 
 #include "kinds.hpp"
 #include "observer.hpp"
+#include "part_keeper.hpp"
 #include "rave/record/run_record.hpp"
 
 namespace rave::robot_host {
@@ -32,6 +33,7 @@ class RecordKeeper final : public Observer {
   void keep_events(const sim::Engine& engine);
 
   record::RunRecorder recorder_;
+  PartKeeper parts_;
   const BodyKinds* kinds_;
   std::vector<std::vector<std::uint32_t>> seen_;  ///< Sequence of each sensor of each robot.
   std::vector<record::RobotPose> poses_;

@@ -34,6 +34,7 @@ struct RecordSummary {
   std::uint32_t chunks = 0;
   std::vector<ChannelSummary> channels;  ///< Those with messages, by topic.
   std::vector<AttachmentInfo> attachments;
+  StringMap hybrids;           ///< `robot/sensor` to what it is made of; their parts are recorded.
   std::optional<RunInfo> run;  ///< None: not written by RAVE.
   std::optional<RunEnd> end;   ///< None: the run did not come to its end.
 };

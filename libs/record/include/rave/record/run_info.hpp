@@ -38,6 +38,9 @@ struct RecordedSensor {
   friend bool operator==(const RecordedSensor&, const RecordedSensor&) = default;
 };
 
+/// Metadata that names the hybrid sensors of a run, `robot/sensor`, and says what each is made of.
+inline constexpr const char* kHybridMetadata = "rave.hybrid";
+
 /// What stands at the beginning of a record.
 struct RunInfo {
   std::string scenario;

@@ -47,6 +47,9 @@ class RunRecorder {
   /// Closes the file; without end() the record then has no `/rave/end`.
   ~RunRecorder();
 
+  /// Adds entries that describe the run, under a name of their own.
+  Status describe(std::string_view name, const StringMap& entries);
+
   void begin_step(std::uint64_t step, SimTime time);
   /// The bytes are copied.
   void percept(const Percept& percept);

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "part_keeper.hpp"
+
+namespace rave::robot_host {
+namespace {
+
+/// Calls `take(robot, sensor index, spec)` for each hybrid sensor of each robot.
+template <class Take>
+void each_hybrid(const sim::EngineSpec& spec, Take take) {
+  for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
+    const auto& sensors = spec.types[spec.robots[r].type].sensors;
+    for (std::uint32_t s = 0; s < sensors.size(); ++s) {
+      if (sensors[s].hybrid) take(r, s, sensors[s]);
+    }
+  }
+}
+
+}  // namespace
+
+PartKeeper::PartKeeper(const sim::EngineSpec& spec) {
+  each_hybrid(spec, [this](std::uint32_t robot, std::uint32_t s, const sim::SensorSpec& sensor) {
+    hybrids_.push_back({RobotId(robot), s, sensor.kind, 0});
+  });
+}
+
+Status PartKeeper::describe(const sim::EngineSpec& spec, record::RunRecorder& recorder) {
+  record::StringMap about;
+  each_hybrid(spec, [&](std::uint32_t robot, std::uint32_t, const sim::SensorSpec& sensor) {
+    about[spec.robots[robot].name + "/" + sensor.name] =
+        fmt::format("{} of {} (real) and {} (virtual)", sensor.driver, sensor.hybrid->real_driver,
+                    sensor.hybrid->virtual_driver);
+  });
+  return about.empty() ? Status{} : recorder.describe(record::kHybridMetadata, about);
+}
+
+void PartKeeper::keep(const sim::Engine& engine, record::RunRecorder& recorder) {
+  for (Hybrid& hybrid : hybrids_) {
+    const sim::SensorParts parts = engine.sensor_parts(hybrid.robot, hybrid.sensor);
+    // Made together, so the later of the two tells that both are there.
+    if (parts.imagined->sequence == hybrid.seen) continue;
+    hybrid.seen = parts.imagined->sequence;
+    const auto put = [&](record::PerceptPart part, const SampleHeader& header,
+                         const void* records) {
+      const std::size_t bytes = std::size_t{header.count} * record_size(hybrid.kind);
+      recorder.percept({hybrid.robot,
+                        DeviceId(hybrid.sensor),
+                        static_cast<std::uint8_t>(hybrid.kind),
+                        part,
+                        {header.stamp_ns, header.sequence, header.count, 1, header.dropped},
+                        {static_cast<const std::byte*>(records), bytes}});
+    };
+    put(record::PerceptPart::kReal, *parts.real, parts.real_records);
+    put(record::PerceptPart::kVirtual, *parts.imagined, parts.imagined_records);
+  }
+}
+
+}  // namespace rave::robot_host

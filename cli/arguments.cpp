@@ -24,6 +24,7 @@ struct Everything {
   NewCommand make;
   SchemaCommand schema;
   InfoCommand info;
+  VerifyCommand verify;
 };
 
 void add_plugins(CLI::App& app, std::vector<std::string>& folders) {
@@ -128,6 +129,25 @@ void add_info(CLI::App& root, InfoCommand& c) {
   app.footer("Example:\n  rave info runs/20260101-120000-mixed-reality");
 }
 
+void add_verify(CLI::App& root, VerifyCommand& c) {
+  CLI::App& app = *root.add_subcommand(
+      "verify", "Run what a record holds again and compare it to the bit");
+  app.add_option("file", c.file, "A run.mcap, or the folder of a run")
+      ->required()
+      ->type_name("FILE");
+  app.add_option("--threads", c.threads, "Threads; they do not change the result")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+  app.add_flag("--quiet", c.quiet, "Print errors and differences only");
+  add_plugins(app, c.plugins);
+  app.footer(
+      "Exit code: 0 if every step is the same, 1 if not (the first step, robot and channel that\n"
+      "differ are named), 2 if it cannot be run again: a live run, or input files that are "
+      "missing.\n\n"
+      "Example:\n"
+      "  rave verify runs/20260101-120000-mixed-reality");
+}
+
 std::vector<std::string_view> subcommands_of(const CLI::App& root,
                                              std::vector<std::string>& names) {
   for (const CLI::App* app : root.get_subcommands(nullptr)) names.push_back(app->get_name());
@@ -179,6 +199,7 @@ Command chosen_command(const CLI::App& root, const Everything& all) {
   if (name == "new") return all.make;
   if (name == "schema") return all.schema;
   if (name == "info") return all.info;
+  if (name == "verify") return all.verify;
   return VersionCommand{};
 }
 
@@ -197,6 +218,7 @@ Command parse_arguments(int argc, const char* const* argv) {
   add_new(root, all.make);
   add_schema(root, all.schema);
   add_info(root, all.info);
+  add_verify(root, all.verify);
   root.add_subcommand("version", "What this build is, and which plug-ins fit it");
   root.footer(
       "Examples:\n"

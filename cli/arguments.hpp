@@ -10,6 +10,7 @@
 #include "commands/new.hpp"
 #include "commands/run.hpp"
 #include "commands/schema.hpp"
+#include "commands/verify.hpp"
 
 namespace rave::cli {
 
@@ -21,7 +22,7 @@ struct Finished {
 };
 
 using Command = std::variant<Finished, RunCommand, CheckCommand, DriversCommand, DescribeCommand,
-                             NewCommand, SchemaCommand, InfoCommand, VersionCommand>;
+                             NewCommand, SchemaCommand, InfoCommand, VerifyCommand, VersionCommand>;
 
 /// Reads the command line. Prints help and complaints itself.
 [[nodiscard]] Command parse_arguments(int argc, const char* const* argv);

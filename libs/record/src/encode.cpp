@@ -84,6 +84,13 @@ void encode_console(CdrWriter& writer, const ConsoleLine& line) {
   writer.put(std::uint32_t{0});
 }
 
+void encode_hash(CdrWriter& writer, const StepHash& hash) {
+  writer.clear();
+  put_time(writer, hash.time);
+  writer.put(hash.step);
+  writer.put(hash.hash);
+}
+
 void encode_end(CdrWriter& writer, const RunEnd& end) {
   writer.clear();
   put_time(writer, end.time);

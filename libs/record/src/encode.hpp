@@ -10,6 +10,7 @@ namespace rave::record {
 void encode_run(CdrWriter& writer, const RunInfo& info);
 void encode_end(CdrWriter& writer, const RunEnd& end);
 void encode_event(CdrWriter& writer, SimTime time, std::uint64_t step, const RunEvent& event);
+void encode_hash(CdrWriter& writer, const StepHash& hash);
 void encode_console(CdrWriter& writer, const ConsoleLine& line);
 void encode_poses(CdrWriter& writer, SimTime time, std::uint64_t step,
                   std::span<const RobotPose> robots);

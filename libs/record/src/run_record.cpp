@@ -49,9 +49,10 @@ class RunRecorder::Impl {
 
   McapWriter file_;
   StandardViews views_;
-  Stream run_, end_, poses_, events_, console_;
+  Stream run_, end_, poses_, events_, console_, hash_;
   Batch<PackedPercept> percepts_;
   Batch<PackedCommand> commands_;
+  Batch<PackedActuator> actuators_;
   Batch<PackedPacket> radio_;
   CdrWriter cdr_;
   SimTime time_;
@@ -72,6 +73,8 @@ Status RunRecorder::Impl::begin(const RunInfo& info, const ViewOptions& views) {
   RAVE_TRY(add(poses_, topic::kPoses, kPosesSchema));
   RAVE_TRY(add(percepts_.stream, topic::kPercepts, kPerceptsSchema));
   RAVE_TRY(add(commands_.stream, topic::kCommands, kCommandsSchema));
+  RAVE_TRY(add(actuators_.stream, topic::kActuators, kActuatorsSchema));
+  RAVE_TRY(add(hash_, topic::kHash, kHashSchema));
   RAVE_TRY(add(radio_.stream, topic::kRadio, kRadioSchema));
   RAVE_TRY(add(events_, topic::kEvents, kEventSchema));
   RAVE_TRY(add(console_, topic::kConsole, kLogSchema));
@@ -86,6 +89,7 @@ Status RunRecorder::Impl::begin(const RunInfo& info, const ViewOptions& views) {
                      {"robots", std::to_string(info.robots.size())}};
   for (const auto& [name, version] : info.versions) about["version " + name] = version;
   RAVE_TRY(file_.add_metadata("rave.run", about));
+  if (!info.inputs.empty()) RAVE_TRY(file_.add_metadata("rave.inputs", info.inputs));
   encode_run(cdr_, info);
   return run_.write(file_, SimTime{}, cdr_.bytes());
 }
@@ -145,6 +149,15 @@ void RunRecorder::command(const CommandRecord& command) {
   }
 }
 
+void RunRecorder::actuator(const ActuatorRecord& command) {
+  impl_->actuators_.add({command.robot.value(), command.actuator.value(), 0, 0}, command.command);
+}
+
+Status RunRecorder::hash(std::uint64_t value) {
+  encode_hash(impl_->cdr_, {impl_->time_, impl_->step_, value});
+  return impl_->hash_.write(impl_->file_, impl_->time_, impl_->cdr_.bytes());
+}
+
 void RunRecorder::radio(const RadioPacket& packet) {
   impl_->radio_.add(
       {packet.sent_ns, packet.received_ns, packet.from.value(), packet.to.value(),
@@ -168,6 +181,7 @@ Status RunRecorder::end_step() {
   // All batches are emptied whatever happens to one of them.
   const Status results[] = {impl.percepts_.write(impl.file_, impl.cdr_, impl.time_, impl.step_),
                             impl.commands_.write(impl.file_, impl.cdr_, impl.time_, impl.step_),
+                            impl.actuators_.write(impl.file_, impl.cdr_, impl.time_, impl.step_),
                             impl.radio_.write(impl.file_, impl.cdr_, impl.time_, impl.step_),
                             impl.write_console()};
   for (const Status& result : results) RAVE_TRY(result);

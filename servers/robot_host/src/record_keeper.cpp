@@ -2,6 +2,7 @@
 #include "record_keeper.hpp"
 
 #include <chrono>
+#include <cstring>
 #include <ctime>
 
 namespace rave::robot_host {
@@ -43,23 +44,26 @@ void describe_sensors(const sim::Engine& engine, std::uint32_t robot, record::Ru
 }  // namespace
 
 RecordKeeper::RecordKeeper(record::RunRecorder recorder, const sim::EngineSpec& spec,
-                           const BodyKinds& kinds)
-    : recorder_(std::move(recorder)), kinds_(&kinds) {
+                           const BodyKinds& kinds, bool hashed)
+    : recorder_(std::move(recorder)), kinds_(&kinds), hashed_(hashed) {
   for (const sim::RobotSpec& robot : spec.robots) {
     seen_.emplace_back(spec.types[robot.type].sensors.size());
+    told_.emplace_back(spec.types[robot.type].actuators.size());
   }
 }
 
 Result<std::unique_ptr<RecordKeeper>> RecordKeeper::begin(
     const std::filesystem::path& path, const sim::Engine& engine, const BodyKinds& kinds,
-    const std::string& scenario_name, const std::string& expanded_scenario, LogSink* log) {
+    const About& about, LogSink* log) {
   const sim::EngineSpec& spec = engine.spec();
   record::RunInfo info;
-  info.scenario = scenario_name;
+  info.scenario = about.scenario;
   info.started = utc_now();
   info.seed = spec.seed;
   info.step_s = spec.step.seconds();
-  info.expanded_scenario = expanded_scenario;
+  info.expanded_scenario = about.expanded;
+  info.versions = about.versions;
+  info.inputs = about.inputs;
   for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
     info.robots.push_back({RobotId(r), spec.robots[r].name,
                            std::string(kinds.word(kinds.body_of(RobotId(r)))),
@@ -67,7 +71,7 @@ Result<std::unique_ptr<RecordKeeper>> RecordKeeper::begin(
     describe_sensors(engine, r, info);
   }
   RAVE_TRY_ASSIGN(auto recorder, record::RunRecorder::open(path, info, {}, log));
-  return std::unique_ptr<RecordKeeper>(new RecordKeeper(std::move(recorder), spec, kinds));
+  return std::unique_ptr<RecordKeeper>(new RecordKeeper(std::move(recorder), spec, kinds, about.hashed));
 }
 
 void RecordKeeper::after_step(sim::Engine& engine) {
@@ -77,6 +81,7 @@ void RecordKeeper::after_step(sim::Engine& engine) {
   keep_events(engine);
   // A failure was told to the log when it happened, and end() returns it: the run goes on.
   static_cast<void>(recorder_.poses(poses_));
+  if (hashed_) static_cast<void>(recorder_.hash(engine.hash().value()));
   static_cast<void>(recorder_.end_step());
 }
 
@@ -102,6 +107,7 @@ void RecordKeeper::keep_robot(const sim::Engine& engine, std::uint32_t robot) {
     const Command command = engine.command(id, c);
     recorder_.command({id, DeviceId(c), std::as_bytes(std::span(&command, 1))});
   }
+  keep_actuators(engine, robot);
   record::RobotPose pose;
   pose.robot = id;
   pose.velocity_W = engine.snapshot().velocity_W(id);
@@ -111,6 +117,17 @@ void RecordKeeper::keep_robot(const sim::Engine& engine, std::uint32_t robot) {
     pose.reported_pose = Pose2{reported.pose.x_m, reported.pose.y_m, reported.pose.yaw_rad};
   }
   poses_.push_back(pose);
+}
+
+void RecordKeeper::keep_actuators(const sim::Engine& engine, std::uint32_t robot) {
+  std::vector<Command>& told = told_[robot];
+  for (std::uint32_t a = 0; a < told.size(); ++a) {
+    const Command command = engine.actuator_command(RobotId(robot), a);
+    // By bits: -0 is another command than 0.
+    if (std::memcmp(&command, &told[a], sizeof command) == 0) continue;
+    told[a] = command;
+    recorder_.actuator({RobotId(robot), DeviceId(a), std::as_bytes(std::span(&command, 1))});
+  }
 }
 
 void RecordKeeper::keep_events(const sim::Engine& engine) {

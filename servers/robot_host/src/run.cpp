@@ -7,6 +7,7 @@
 #include "console_tee.hpp"
 #include "outcome.hpp"
 #include "rave/base/file.hpp"
+#include "rave/robot_host/provenance.hpp"
 #include "record_keeper.hpp"
 #include "stall_watch.hpp"
 #include "wall_pace.hpp"
@@ -212,7 +213,10 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
   if (options.record) {
     RAVE_TRY_ASSIGN(observers.record,
                     RecordKeeper::begin(options.output / "run.mcap", *engine, observers.kinds,
-                                        file.name.value, expanded, options.log));
+                                        {file.name.value, expanded,
+                                         versions_of(engine->spec(), catalogue),
+                                         input_files(scenario, *engine), !live},
+                                        options.log));
   }
   const RecordedConsole recorded(console, observers.record.get());
   Journey journey{*engine, observers, pace, live, file, options, console, {}, 0, false};

@@ -28,7 +28,8 @@ struct RunRecorderOptions {
 
 /// Writes what a run does into an MCAP file. Knows nothing of the engine: its owner calls
 ///
-///     open, (begin_step, percept..., command..., radio..., event..., poses, end_step)..., end
+///     open, (begin_step, percept..., command..., actuator..., radio..., event..., poses, hash,
+///            end_step)..., end
 ///
 /// from one thread; only console() may be called from any thread. Collects a step in memory and
 /// writes one message per stream, so that a step costs a copy of its bytes. Times are simulation
@@ -51,7 +52,10 @@ class RunRecorder {
   /// The bytes are copied.
   void percept(const Percept& percept);
   void command(const CommandRecord& command);
+  void actuator(const ActuatorRecord& command);
   void radio(const RadioPacket& packet);
+  /// The run hash after this step; for lock-step runs.
+  Status hash(std::uint64_t value);
   Status event(const RunEvent& event);
   /// All robots of the step, in one message.
   Status poses(std::span<const RobotPose> robots);

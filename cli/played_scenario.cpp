@@ -129,8 +129,13 @@ class Playing {
         continue;
       }
       const auto kind = static_cast<ReadingKind>(found->kind);
+      const bool was_virtual = is_virtual(sensor);
       sensor.driver = config::Located<std::string>(fmt::format("playback_{}", to_string(kind)));
       sensor.params = player_params(recorded.name, sensor.name.value);
+      // Of a virtual camera the newest picture counts; a real one hands over sighting by sighting.
+      if (kind == ReadingKind::kSightings && was_virtual) {
+        sensor.params.append("collect", RawNode::boolean(false));
+      }
       // Both are in the readings already. What delayed them is not: it acts after the stamp.
       sensor.noise = {};
       sensor.filters.clear();
@@ -139,10 +144,13 @@ class Playing {
     return {};
   }
 
-  Status keep_virtual(const config::SensorFile& sensor) {
+  bool is_virtual(const config::SensorFile& sensor) {
     constexpr std::array kVirtual = {DriverKind::kVirtualSensor};
-    const auto driver = catalogue_.find(kVirtual, sensor.driver.value);
-    if (!driver) {
+    return catalogue_.find(kVirtual, sensor.driver.value).has_value();
+  }
+
+  Status keep_virtual(const config::SensorFile& sensor) {
+    if (!is_virtual(sensor)) {
       return fail(ErrorCode::kInvalidArgument,
                   "`{}` cannot sense anew: its driver `{}` is no virtual sensor", sensor.name.value,
                   sensor.driver.value);

@@ -30,6 +30,14 @@ constexpr std::array<ParamSpec, 6> params_with(ParamSpec sensor) noexcept {
   };
 }
 constexpr auto kParams = params_with(required(text_param("sensor", "", kSensorDoc)));
+constexpr auto kSightingParams = [] {
+  std::array<ParamSpec, kParams.size() + 1> all{};
+  std::copy(kParams.begin(), kParams.end(), all.begin());
+  all.back() = bool_param("collect", true,
+                          "Sightings of several steps stay together until the program decides, as "
+                          "with a real camera; false: the newest reading counts.");
+  return all;
+}();
 constexpr auto kPoseParams = params_with(text_param(
     "sensor", "",
     "The sensor of that robot whose readings are played; empty: the pose that was reported of the "
@@ -46,7 +54,7 @@ class Player final : public HardwareSensor {
   static constexpr ReadingKind kReading = kKind;
 
   Status configure(const HardwareSetup& setup, HardwareDeclaration& declaration) override {
-    const Wish wish = wish_of(setup.parameters());
+    const Wish wish = wish_of(setup.parameters(), kKind);
     RAVE_TRY_ASSIGN(timeline_, load_timeline(wish, setup.folder, kKind));
     report_ = report_json(wish, timeline_);
     live_ = wish.live;
@@ -59,8 +67,7 @@ class Player final : public HardwareSensor {
       declaration.range_max_m = timeline_.info.range_max_m;
       declaration.cone_rad = timeline_.info.cone_rad;
     }
-    if (kKind == ReadingKind::kSightings) {
-      // Those of several steps come together in one percept when the program decides less often.
+    if (wish.collect) {
       declaration.collect = 1;
       declaration.capacity = std::max(64U, timeline_.largest);
     }
@@ -131,7 +138,7 @@ RAVE_PLUGIN(
                                    "Plays the ranges of a sensor in the record of a run.", kParams);
   add_player<ReadingKind::kSightings>(
       registry, "playback_sightings",
-      "Plays the barcode sightings of a sensor in the record of a run.", kParams);
+      "Plays the barcode sightings of a sensor in the record of a run.", kSightingParams);
   add_player<ReadingKind::kPose>(
       registry, "playback_pose",
       "Plays the poses of a sensor, or those reported of a robot, in the record of a run.",

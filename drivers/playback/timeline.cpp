@@ -115,8 +115,8 @@ Result<Timeline> sensor_readings(const record::McapReader& reader, const record:
   ByteSpan before;
   for (const auto& sample : all.samples) {
     const ByteSpan now = all.records_of(sample);
-    const bool events = kind == ReadingKind::kSightings;
-    builder.add({sample.header.stamp_ns}, sample.delivered, events ? new_events(before, now) : now);
+    builder.add({sample.header.stamp_ns}, sample.delivered,
+                wish.collect ? new_events(before, now) : now);
     before = now;
   }
   Timeline timeline = std::move(builder).finish();
@@ -127,7 +127,7 @@ Result<Timeline> sensor_readings(const record::McapReader& reader, const record:
 
 }  // namespace
 
-Wish wish_of(const Params& params) {
+Wish wish_of(const Params& params, ReadingKind kind) {
   Wish wish;
   wish.file = params.text("file");
   wish.robot = params.text("robot");
@@ -137,6 +137,7 @@ Wish wish_of(const Params& params) {
   if (part == "virtual") wish.part = record::PerceptPart::kVirtual;
   wish.start_s = params.number("start_s");
   wish.live = params.text("clock") == "live";
+  wish.collect = kind == ReadingKind::kSightings && params.flag("collect");
   return wish;
 }
 

@@ -22,8 +22,10 @@ struct Wish {
   record::PerceptPart part = record::PerceptPart::kResult;
   double start_s = 0;  ///< Time of the record that is run time 0.
   bool live = false;
+  /// Sightings only: those of several steps belong together until the program decides.
+  bool collect = false;
 };
-[[nodiscard]] Wish wish_of(const Params& params);
+[[nodiscard]] Wish wish_of(const Params& params, ReadingKind kind);
 
 /// One recorded reading on its way into a run. Times are of that run.
 struct Sample {

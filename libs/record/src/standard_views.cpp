@@ -110,7 +110,6 @@ Status StandardViews::write_mountings(McapWriter&, const RunInfo& info) {
 }
 
 Status StandardViews::poses(McapWriter& file, SimTime time, std::span<const RobotPose> robots) {
-  if (period_ns_ == 0 || !due(tf_, time)) return {};
   const auto placed = [](const RobotPose& pose) { return pose.reported_pose || pose.true_pose; };
   cdr_.clear();
   cdr_.put_count(static_cast<std::size_t>(std::ranges::count_if(robots, placed)));

@@ -21,6 +21,10 @@ class StandardViews {
   [[nodiscard]] Status open(McapWriter& file, const RunInfo& info, const ViewOptions& options);
   [[nodiscard]] bool sees(RobotId robot) const noexcept { return robot.value() < robots_; }
 
+  /// Whether poses() is to be called in this step; counts as if it were.
+  [[nodiscard]] bool poses_due(SimTime time) noexcept {
+    return period_ns_ != 0 && due(tf_, time);
+  }
   Status poses(McapWriter& file, SimTime time, std::span<const RobotPose> robots);
   Status percept(McapWriter& file, SimTime time, const Percept& percept);
   Status command(McapWriter& file, SimTime time, const CommandRecord& command);

@@ -81,7 +81,7 @@ inline void record_sample(RunRecorder& recorder, std::uint64_t steps) {
           recorder.event({RobotId(1), "contact", "bert touches a wall", {0.5, -0.0}}));
     }
     if (step % 5 == 0) recorder.console(LogLevel::kWarning, "robot anna", "low battery");
-    static_cast<void>(recorder.poses(sample.poses));
+    recorder.poses(sample.poses);
     static_cast<void>(recorder.end_step());
   }
 }

@@ -231,7 +231,7 @@ std::int64_t Engine::command_step(RobotId robot, std::uint32_t controller) const
   return slots.last_step[impl_->member_index[robot.value()]];
 }
 
-Command Engine::actuator_command(RobotId robot, std::uint32_t actuator) const noexcept {
+const Command& Engine::actuator_command(RobotId robot, std::uint32_t actuator) const noexcept {
   return impl_->group_of(robot).actuators[actuator].commands[impl_->member_index[robot.value()]];
 }
 

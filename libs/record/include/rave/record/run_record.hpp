@@ -28,7 +28,7 @@ struct RunRecorderOptions {
 
 /// Writes what a run does into an MCAP file. Knows nothing of the engine: its owner calls
 ///
-///     open, (begin_step, percept..., command..., actuator..., radio..., event..., poses, hash,
+///     open, (begin_step, percept..., command..., actuator..., radio..., event..., pose..., hash,
 ///            end_step)..., end
 ///
 /// from one thread; only console() may be called from any thread. Collects a step in memory and
@@ -57,8 +57,11 @@ class RunRecorder {
   /// The run hash after this step; for lock-step runs.
   Status hash(std::uint64_t value);
   Status event(const RunEvent& event);
-  /// All robots of the step, in one message.
-  Status poses(std::span<const RobotPose> robots);
+  /// Where a robot is; all of the step go into one message.
+  void pose(const RobotPose& robot);
+  void poses(std::span<const RobotPose> robots) {
+    for (const RobotPose& robot : robots) pose(robot);
+  }
   /// Writes what was collected since begin_step().
   Status end_step();
 

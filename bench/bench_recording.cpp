@@ -44,6 +44,7 @@ robots:
 struct Spent {
   double wall_us = 0;
   double thread_us = 0;
+  double keeper_us = 0;  ///< Of thread_us: what the recorder itself takes.
 };
 
 double thread_now_us() {
@@ -61,19 +62,23 @@ class Side {
     kinds_ = std::make_unique<BodyKinds>(built.spec, built.robot_kinds);
     engine_ = sim::Engine::create(std::move(built.spec)).value();
     if (record.empty()) return;
-    keeper_ =
-        RecordKeeper::begin(record, *engine_, *kinds_, {"crowd", "", {}, {}, true}, nullptr).value();
+    keeper_ = RecordKeeper::begin(record, *engine_, *kinds_, {"crowd", "", {}, {}, true}, nullptr)
+                  .value();
   }
   /// Per step.
   Spent run(int steps) {
     const auto wall = std::chrono::steady_clock::now();
     const double thread_us = thread_now_us();
+    double keeper_us = 0;
     for (int i = 0; i < steps; ++i) {
       if (!engine_->step()) std::abort();
-      if (keeper_) keeper_->after_step(*engine_);
+      if (!keeper_) continue;
+      const double begin_us = thread_now_us();
+      keeper_->after_step(*engine_);
+      keeper_us += thread_now_us() - begin_us;
     }
     const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - wall;
-    return {took.count() / steps, (thread_now_us() - thread_us) / steps};
+    return {took.count() / steps, (thread_now_us() - thread_us) / steps, keeper_us / steps};
   }
   [[nodiscard]] std::uint64_t hash() const { return engine_->hash().value(); }
   [[nodiscard]] std::uint64_t waits() const { return keeper_->recorder().file().waits(); }
@@ -106,7 +111,7 @@ std::string measure(plugin::Catalogue& catalogue, const std::string& period_s) {
   Side recorded(scenario, catalogue, file);
   plain.run(kWarmUpSteps);
   recorded.run(kWarmUpSteps);
-  std::vector<double> plain_us, recorded_us, wall_ratio, thread_ratio;
+  std::vector<double> plain_us, recorded_us, keeper_us, wall_ratio, thread_ratio;
   for (int block = 0; block < kBlocks; ++block) {
     // Whoever comes second finds a warmer machine, so they take turns in that as well.
     Spent a, b;
@@ -115,6 +120,7 @@ std::string measure(plugin::Catalogue& catalogue, const std::string& period_s) {
     if (block % 2 != 0) a = plain.run(kBlockSteps);
     plain_us.push_back(a.wall_us);
     recorded_us.push_back(b.wall_us);
+    keeper_us.push_back(b.keeper_us);
     wall_ratio.push_back(b.wall_us / a.wall_us);
     thread_ratio.push_back(b.thread_us / a.thread_us);
   }
@@ -125,11 +131,11 @@ std::string measure(plugin::Catalogue& catalogue, const std::string& period_s) {
   fs::remove(file);
   const double robot_steps = 1000.0 * (kWarmUpSteps + kBlocks * kBlockSteps);
   return fmt::format(
-      "{{\"robots\": 1000, \"period_s\": {}, {},\n  {},\n  {},\n  {},\n"
+      "{{\"robots\": 1000, \"period_s\": {}, {},\n  {},\n  {},\n  {},\n  {},\n"
       "  \"waits\": {}, \"file_B_per_robot_step\": {:.1f}}}",
       period_s, spread("plain_us", plain_us), spread("recorded_us", recorded_us),
-      spread("wall_ratio", wall_ratio), spread("thread_ratio", thread_ratio), waits,
-      bytes / robot_steps);
+      spread("keeper_thread_us", keeper_us), spread("wall_ratio", wall_ratio),
+      spread("thread_ratio", thread_ratio), waits, bytes / robot_steps);
 }
 
 }  // namespace

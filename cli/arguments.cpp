@@ -137,8 +137,8 @@ void add_info(CLI::App& root, InfoCommand& c) {
 }
 
 void add_verify(CLI::App& root, VerifyCommand& c) {
-  CLI::App& app = *root.add_subcommand(
-      "verify", "Run what a record holds again and compare it to the bit");
+  CLI::App& app =
+      *root.add_subcommand("verify", "Run what a record holds again and compare it to the bit");
   app.add_option("file", c.file, "A run.mcap, or the folder of a run")
       ->required()
       ->type_name("FILE");
@@ -178,11 +178,11 @@ void add_play(CLI::App& root, PlayCommand& c) {
   app.add_option("--start", c.start_s, "Time of the record to start at, in seconds [0]")
       ->type_name("S")
       ->check(CLI::Range(0.0, 1e9));
-  app.add_option("--write", c.write, "Only write the scenario, into this folder")
-      ->type_name("DIR");
+  app.add_option("--write", c.write, "Only write the scenario, into this folder")->type_name("DIR");
   add_run_options(app, c.run);
   app.footer(
-      "The scenario is left in the folder `played` of the run; simulated robots can be added to it\n"
+      "The scenario is left in the folder `played` of the run; simulated robots can be added to "
+      "it\n"
       "by hand. Exit code: as of `rave run`.\n\n"
       "Examples:\n"
       "  rave play runs/20260101-120000-mixed-reality --robot walker-3 --anew laser\n"

@@ -204,7 +204,8 @@ class Playing {
 
   void add_reported_pose(const record::RecordedRobot& recorded, config::RobotFile& robot) const {
     std::string name = "reported_pose";
-    while (std::ranges::any_of(robot.sensors, [&](const auto& s) { return s.name.value == name; })) {
+    while (
+        std::ranges::any_of(robot.sensors, [&](const auto& s) { return s.name.value == name; })) {
       name += "_";
     }
     config::SensorFile sensor;
@@ -219,8 +220,8 @@ class Playing {
     constexpr std::array kKinds = {DriverKind::kActuator, DriverKind::kVirtualActuator};
     std::erase_if(robot.actuators, [&](config::ActuatorFile& actuator) {
       const auto driver = catalogue_.find(kKinds, actuator.driver.value);
-      const bool velocity = driver && static_cast<CommandKind>((*driver)->info.data_kind) ==
-                                          CommandKind::kVelocity;
+      const bool velocity =
+          driver && static_cast<CommandKind>((*driver)->info.data_kind) == CommandKind::kVelocity;
       if (velocity) {
         actuator.driver = config::Located<std::string>("replay_ignored");
         actuator.params = RawNode();
@@ -267,9 +268,8 @@ class Playing {
     }
     RawNode root = RawNode::mapping();
     root.append("name", RawNode::text(played_.name));
-    root.append("description",
-                RawNode::text(fmt::format("Robots of the run {} of {}, played", run_.scenario,
-                                          run_.started)));
+    root.append("description", RawNode::text(fmt::format("Robots of the run {} of {}, played",
+                                                         run_.scenario, run_.started)));
     std::error_code error;
     const std::string world = wish_.world
                                   ? fs::absolute(*wish_.world, error).lexically_normal().string()
@@ -313,8 +313,8 @@ Result<PlayedScenario> played_scenario(const PlayWish& wish, plugin::Catalogue& 
 Status write_played(const PlayedScenario& played, const fs::path& folder) {
   std::error_code error;
   if (fs::exists(folder / "scenario.yaml", error)) {
-    return fail(ErrorCode::kInvalidArgument,
-                "`{}` holds a scenario already; give another folder", folder.string());
+    return fail(ErrorCode::kInvalidArgument, "`{}` holds a scenario already; give another folder",
+                folder.string());
   }
   for (const PlayedScenario::File& file : played.files) {
     const fs::path path = folder / file.path;

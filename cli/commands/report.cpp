@@ -72,11 +72,11 @@ int report_gap(const GapCommand& options) {
     return kGood;
   }
   put(stdout, table_of(*gap));
-  put(stdout, fmt::format("twin: {}\ncommands: {}\npose: {}, {:.2f} s from {:.2f} s, {:.2f} m\n",
-                          gap->twin, gap->commands, gap->pose, gap->duration_s, gap->start_s,
-                          gap->driven_m));
-  put(stdout, fmt::format("{}: {}.svg, {}.png, {}.json\n",
-                          folder.empty() ? "." : folder.string(), stem, stem, stem));
+  put(stdout,
+      fmt::format("twin: {}\ncommands: {}\npose: {}, {:.2f} s from {:.2f} s, {:.2f} m\n", gap->twin,
+                  gap->commands, gap->pose, gap->duration_s, gap->start_s, gap->driven_m));
+  put(stdout, fmt::format("{}: {}.svg, {}.png, {}.json\n", folder.empty() ? "." : folder.string(),
+                          stem, stem, stem));
   return kGood;
 }
 

@@ -16,9 +16,9 @@ namespace {
 void tell_difference(const robot_host::RunDifference& difference, const Terminal& terminal) {
   const std::string robot =
       difference.robot.empty() ? "" : fmt::format("robot {}, ", difference.robot);
-  put(stderr, fmt::format("{} first in step {} ({:.3f} s): {}{}\n  {}\n",
-                          terminal.red("differs:"), difference.step, difference.time_s, robot,
-                          difference.channel, difference.text));
+  put(stderr,
+      fmt::format("{} first in step {} ({:.3f} s): {}{}\n  {}\n", terminal.red("differs:"),
+                  difference.step, difference.time_s, robot, difference.channel, difference.text));
 }
 
 int tell(const VerifyCommand& options, const robot_host::VerifyOutcome& outcome) {

@@ -120,10 +120,9 @@ class Player final : public HardwareSensor {
 template <ReadingKind kKind>
 void add_player(RegistrySink& registry, const char* name, const char* summary,
                 std::span<const ParamSpec> params) {
-  add_sensor<Player<kKind>>(registry, {.name = name,
-                                       .summary = summary,
-                                       .params = params,
-                                       .clock = DriverClock::kEither});
+  add_sensor<Player<kKind>>(
+      registry,
+      {.name = name, .summary = summary, .params = params, .clock = DriverClock::kEither});
 }
 
 }  // namespace

@@ -106,8 +106,7 @@ Result<Timeline> sensor_readings(const record::McapReader& reader, const record:
     return fail(ErrorCode::kInvalidArgument,
                 "sensor `{}` of robot `{}` gives {}, so its driver is `playback_{}`, not "
                 "`playback_{}`",
-                wish.sensor, wish.robot, to_string(recorded), to_string(recorded),
-                to_string(kind));
+                wish.sensor, wish.robot, to_string(recorded), to_string(recorded), to_string(kind));
   }
   RAVE_TRY_ASSIGN(const auto all,
                   record::read_samples(reader, robot.id, sensor->sensor, wish.part));

@@ -30,7 +30,7 @@ struct Wish {
 /// One recorded reading on its way into a run. Times are of that run.
 struct Sample {
   SimTime stamp;
-  SimTime delivered;  ///< When the recorded run got it; not before `stamp`.
+  SimTime delivered;       ///< When the recorded run got it; not before `stamp`.
   std::size_t offset = 0;  ///< Bytes, into Timeline::records.
   std::uint32_t count = 0;
 };

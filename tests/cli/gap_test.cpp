@@ -80,8 +80,9 @@ TEST_F(Gap, ARobotIsItsOwnTwin) {
 
 TEST_F(Gap, WheelsThatSlipByTwoPercentFallBehindByTwoPercent) {
   record(robot_file("robot", dynamic("")));
-  const auto twin = robot_file(
-      "slipping", dynamic(", slip_probability_per_s: 1000, slip_duration_s: 60, slip_factor: 0.98"));
+  const auto twin =
+      robot_file("slipping",
+                 dynamic(", slip_probability_per_s: 1000, slip_duration_s: 60, slip_factor: 0.98"));
   const json report = gap({"--twin", twin});
   ASSERT_TRUE(report.is_object());
   // Nothing is in its way, so it drives a straight line at 0.3 m/s or, where it turns, an arc whose

@@ -35,8 +35,8 @@ TEST(Play, EveryReadingOfVirtualSensorsComesBackBitForBit) {
   const std::string original = folder.path() / "original";
   record_run("played.yaml", original);
   const std::string first = folder.path() / "first";
-  const Ended played = run_rave({"play", original, "--program", "wander", "--output", first,
-                                 "--no-picture", "--quiet"});
+  const Ended played = run_rave(
+      {"play", original, "--program", "wander", "--output", first, "--no-picture", "--quiet"});
   ASSERT_EQ(played.exit_code, 0) << played.err;
   const Readings recorded = readings_of(original + "/run.mcap");
   ASSERT_EQ(recorded.size(), 11U);
@@ -77,10 +77,10 @@ TEST(Play, StandsWhereItStoodFromTheStartThatIsAskedFor) {
   const std::string original = folder.path() / "original";
   record_run("played.yaml", original);
   const std::string later = folder.path() / "later";
-  ASSERT_EQ(run_rave({"play", original, "--start", "1.5", "--output", later, "--no-picture",
-                      "--quiet"})
-                .exit_code,
-            0);
+  ASSERT_EQ(
+      run_rave({"play", original, "--start", "1.5", "--output", later, "--no-picture", "--quiet"})
+          .exit_code,
+      0);
   const auto before = record::McapReader::open(original + "/run.mcap");
   const auto after = record::McapReader::open(later + "/run.mcap");
   ASSERT_TRUE(before && after);
@@ -105,10 +105,10 @@ TEST(Play, WhatIsWrittenTakesSimulatedRobotsByHand) {
   const std::string original = folder.path() / "original";
   record_run("played.yaml", original);
   const std::string written = folder.path() / "mine";
-  ASSERT_EQ(run_rave({"play", original, "--robot", "bert", "--anew", "front_laser", "--write",
-                      written})
-                .exit_code,
-            0);
+  ASSERT_EQ(
+      run_rave({"play", original, "--robot", "bert", "--anew", "front_laser", "--write", written})
+          .exit_code,
+      0);
   std::string text = content_of(written + "/scenario.yaml");
   const std::size_t robots = text.find("\nrobots:\n");
   ASSERT_NE(robots, std::string::npos);

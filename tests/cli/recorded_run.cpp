@@ -19,8 +19,8 @@ Readings readings_of(const std::filesystem::path& path) {
   if (!run) return readings;
   for (const record::RecordedSensor& sensor : run->sensors) {
     const std::string robot = run->robots[sensor.robot.value()].name;
-    const auto all = record::read_samples(*reader, sensor.robot, sensor.sensor,
-                                          record::PerceptPart::kResult);
+    const auto all =
+        record::read_samples(*reader, sensor.robot, sensor.sensor, record::PerceptPart::kResult);
     EXPECT_TRUE(all) << (all ? "" : all.error().text());
     if (!all) continue;
     auto& list = readings[robot + "/" + sensor.name];
@@ -51,8 +51,8 @@ void copy_record(const std::filesystem::path& from, const std::filesystem::path&
     ASSERT_TRUE(writer->add_schema(schema.name, schema.encoding, schema.data));
   }
   for (const auto& channel : reader->channels()) {
-    const auto id = writer->add_channel(channel.topic, channel.message_encoding,
-                                        channel.schema_id, channel.metadata);
+    const auto id = writer->add_channel(channel.topic, channel.message_encoding, channel.schema_id,
+                                        channel.metadata);
     ASSERT_TRUE(id);
     ASSERT_EQ(*id, channel.id);
   }

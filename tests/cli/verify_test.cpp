@@ -23,7 +23,8 @@ class Verify : public testing::Test {
   /// Changes the given bit of the message of that step and topic, from the end of the message.
   Changes flipped(const std::string& topic, int step, std::size_t from_end) {
     Changes changes;
-    changes.message = [=, seen = 0](const std::string& name, std::vector<std::byte>& bytes) mutable {
+    changes.message = [=, seen = 0](const std::string& name,
+                                    std::vector<std::byte>& bytes) mutable {
       if (name != topic || seen++ != step) return;
       bytes[bytes.size() - from_end] ^= std::byte{1};
     };
@@ -47,9 +48,7 @@ TEST_F(Verify, TheSameRunIsTheSame) {
   EXPECT_EQ(run_rave({"verify", record_, "--threads", "2", "--quiet"}).exit_code, 0);
 }
 
-TEST_F(Verify, ACopyWithoutChangesIsTheSame) {
-  EXPECT_EQ(verify_changed({}).exit_code, 0);
-}
+TEST_F(Verify, ACopyWithoutChangesIsTheSame) { EXPECT_EQ(verify_changed({}).exit_code, 0); }
 
 TEST_F(Verify, OneBitOfAReadingIsFound) {
   // The last bytes of the records of a step are those of bert's odometry.
@@ -123,8 +122,7 @@ TEST_F(Verify, InputFilesThatAreMissingOrDifferAreNamed) {
 
   // Another file in its place, of the same readings: named, and the run is still the same.
   copy_record(record_, changed_, changes);
-  std::filesystem::copy_file(changed_, record_,
-                             std::filesystem::copy_options::overwrite_existing);
+  std::filesystem::copy_file(changed_, record_, std::filesystem::copy_options::overwrite_existing);
   const Ended other = run_rave({"verify", played});
   EXPECT_EQ(other.exit_code, 0) << other.err;
   EXPECT_NE(other.err.find("the input file `" + record_.string() + "` is another one"),

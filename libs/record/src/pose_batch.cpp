@@ -15,7 +15,7 @@ namespace {
 
 void PoseBatch::add(const RobotPose& robot) {
   PackedPose& packed = poses_.emplace_back();
-  packed = {robot.robot.value(),   0, 0, 0, 0, robot.velocity_W.vx, robot.velocity_W.vy,
+  packed = {robot.robot.value(), 0, 0, 0, 0, robot.velocity_W.vx, robot.velocity_W.vy,
             robot.velocity_W.wz};
   if (robot.reported_pose) {
     packed.flags |= kHasReported;

@@ -34,8 +34,9 @@ tl::unexpected<Error> unknown(std::string_view what, std::string_view name, std:
 Result<RunInfo> read_run_info(const McapReader& reader) {
   auto run = first_of(reader, topic::kRun, decode_run);
   if (!run) {
-    return fail(ErrorCode::kParse, "the record does not say what ran: it was not written by RAVE, "
-                                   "or its beginning is damaged");
+    return fail(ErrorCode::kParse,
+                "the record does not say what ran: it was not written by RAVE, "
+                "or its beginning is damaged");
   }
   const auto& attachments = reader.attachments();
   const auto yaml = std::ranges::find(attachments, "scenario.yaml", &AttachmentInfo::name);

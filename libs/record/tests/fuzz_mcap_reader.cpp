@@ -42,8 +42,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static_cast<void>(reader->verify());
   if (const auto run = read_run_info(*reader)) {
     for (const RecordedSensor& sensor : run->sensors) {
-      static_cast<void>(
-          read_samples(*reader, sensor.robot, sensor.sensor, PerceptPart::kResult));
+      static_cast<void>(read_samples(*reader, sensor.robot, sensor.sensor, PerceptPart::kResult));
     }
   }
   return 0;

@@ -143,8 +143,8 @@ Result<const record::RecordedRobot*> chosen_robot(const record::RunInfo& run,
     }
     names += (names.empty() ? "" : ", ") + robot.name;
   }
-  return fail(ErrorCode::kInvalidArgument,
-              "the record has {} robots; choose one with --robot: {}", run.robots.size(), names);
+  return fail(ErrorCode::kInvalidArgument, "the record has {} robots; choose one with --robot: {}",
+              run.robots.size(), names);
 }
 
 Result<GapTwin> make_twin(const GapSource& source, const GapOptions& options,
@@ -166,8 +166,8 @@ Result<GapReport> measure_gap(const std::filesystem::path& record, plugin::Catal
   RAVE_TRY_ASSIGN(const auto reader, record::McapReader::open(record));
   RAVE_TRY_ASSIGN(const record::RunInfo run, record::read_run_info(reader));
   RAVE_TRY_ASSIGN(const auto* const robot, chosen_robot(run, options.robot));
-  auto scenario = config::expand_scenario_text(run.expanded_scenario,
-                                               record.parent_path() / "scenario.yaml");
+  auto scenario =
+      config::expand_scenario_text(run.expanded_scenario, record.parent_path() / "scenario.yaml");
   if (!scenario) {
     return tl::unexpected(std::move(scenario).error().with_context(
         fmt::format("the scenario inside `{}`", record.string())));
@@ -186,8 +186,7 @@ Result<GapReport> measure_gap(const std::filesystem::path& record, plugin::Catal
   RAVE_TRY_ASSIGN(const GapCommands commands,
                   read_commands(source, options.commands, twin.accepts()));
   report.commands = commands.source;
-  RAVE_TRY_ASSIGN(const Drive driven,
-                  drive(twin, commands, track, from_seconds(run.step_s).ns));
+  RAVE_TRY_ASSIGN(const Drive driven, drive(twin, commands, track, from_seconds(run.step_s).ns));
   report.start_s = driven.time(0).seconds();
   if (!track.at(driven.time(0))) {
     return fail(ErrorCode::kInvalidArgument,

@@ -29,8 +29,9 @@ std::optional<Reading> reading_of(std::span<const std::byte> records) {
 /// From the sensor that the robot file names: its samples bear stamps of their own.
 Result<GapTrack> track_of_sensor(const GapSource& source, const record::RecordedSensor& sensor,
                                  const Pose2& X_WM) {
-  RAVE_TRY_ASSIGN(const auto all, record::read_samples(source.reader, source.robot.id,
-                                                       sensor.sensor, record::PerceptPart::kResult));
+  RAVE_TRY_ASSIGN(const auto all,
+                  record::read_samples(source.reader, source.robot.id, sensor.sensor,
+                                       record::PerceptPart::kResult));
   GapTrack track;
   for (const auto& sample : all.samples) {
     const auto records = all.records_of(sample);
@@ -77,8 +78,9 @@ Result<GapCommands> commands_of_sensor(const GapSource& source, const std::strin
                 to_string(static_cast<ReadingKind>(sensor->kind)),
                 join_names(velocity_sensors(source)));
   }
-  RAVE_TRY_ASSIGN(const auto all, record::read_samples(source.reader, source.robot.id,
-                                                       sensor->sensor, record::PerceptPart::kResult));
+  RAVE_TRY_ASSIGN(const auto all,
+                  record::read_samples(source.reader, source.robot.id, sensor->sensor,
+                                       record::PerceptPart::kResult));
   GapCommands commands;
   commands.source = fmt::format("sensor `{}`", name);
   for (const auto& sample : all.samples) {
@@ -92,8 +94,9 @@ Result<GapCommands> commands_of_sensor(const GapSource& source, const std::strin
 
 std::string hint(const GapSource& source) {
   const auto names = velocity_sensors(source);
-  return names.empty() ? "" : fmt::format("; --commands takes one of its sensors: {}",
-                                          join_names(names));
+  return names.empty()
+             ? ""
+             : fmt::format("; --commands takes one of its sensors: {}", join_names(names));
 }
 
 Result<GapCommands> commands_of_actuator(const GapSource& source, CommandKind kind) {
@@ -148,9 +151,9 @@ std::optional<Pose2> GapTrack::at(SimTime time) const {
   const Point& before = *(after - 1);
   const Duration between = after->time - before.time;
   if (between > kLongestGap) return std::nullopt;
-  return interpolate(before.X_WR, after->X_WR,
-                     static_cast<double>((time - before.time).ns) /
-                         static_cast<double>(between.ns));
+  return interpolate(
+      before.X_WR, after->X_WR,
+      static_cast<double>((time - before.time).ns) / static_cast<double>(between.ns));
 }
 
 Command GapCommands::at(SimTime time) const {

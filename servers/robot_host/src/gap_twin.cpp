@@ -10,7 +10,8 @@
 namespace rave::robot_host {
 namespace {
 
-/// The bit that tells the random numbers of actuators from those of other devices, as in the engine.
+/// The bit that tells the random numbers of actuators from those of other devices, as in the
+/// engine.
 constexpr std::uint32_t kActuatorDevice = 0x4000'0000U;
 
 /// An instance of a driver in memory of ours.
@@ -128,9 +129,14 @@ Result<GapTwin> GapTwin::make(config::RobotFile robot, const std::filesystem::pa
 
 Result<Twist2> GapTwin::propose(const Command& command, std::uint64_t step) {
   Impl& twin = *impl_;
-  const MotionInput input{command,         twin.velocity, twin.step_s,
-                          twin.seed,       twin.id.value(), twin.device,
-                          static_cast<std::uint32_t>(step), 0};
+  const MotionInput input{command,
+                          twin.velocity,
+                          twin.step_s,
+                          twin.seed,
+                          twin.id.value(),
+                          twin.device,
+                          static_cast<std::uint32_t>(step),
+                          0};
   std::uint8_t failed = 0;
   ErrorText error;
   Twist2 output;

@@ -64,9 +64,10 @@ RecordKeeper::RecordKeeper(record::RunRecorder recorder, const sim::Engine& engi
   }
 }
 
-Result<std::unique_ptr<RecordKeeper>> RecordKeeper::begin(
-    const std::filesystem::path& path, const sim::Engine& engine, const BodyKinds& kinds,
-    const About& about, LogSink* log) {
+Result<std::unique_ptr<RecordKeeper>> RecordKeeper::begin(const std::filesystem::path& path,
+                                                          const sim::Engine& engine,
+                                                          const BodyKinds& kinds,
+                                                          const About& about, LogSink* log) {
   const sim::EngineSpec& spec = engine.spec();
   record::RunInfo info;
   info.scenario = about.scenario;
@@ -83,7 +84,8 @@ Result<std::unique_ptr<RecordKeeper>> RecordKeeper::begin(
     describe_sensors(engine, r, info);
   }
   RAVE_TRY_ASSIGN(auto recorder, record::RunRecorder::open(path, info, {}, log));
-  return std::unique_ptr<RecordKeeper>(new RecordKeeper(std::move(recorder), engine, kinds, about.hashed));
+  return std::unique_ptr<RecordKeeper>(
+      new RecordKeeper(std::move(recorder), engine, kinds, about.hashed));
 }
 
 void RecordKeeper::after_step(sim::Engine& engine) {
@@ -137,8 +139,7 @@ void RecordKeeper::keep_actuators(RobotId robot, std::uint32_t begin, std::uint3
     // By bits: -0 is another command than 0.
     if (std::memcmp(actuator.command, &actuator.told, sizeof(Command)) == 0) continue;
     actuator.told = *actuator.command;
-    recorder_.actuator(
-        {robot, DeviceId(i - begin), std::as_bytes(std::span(&actuator.told, 1))});
+    recorder_.actuator({robot, DeviceId(i - begin), std::as_bytes(std::span(&actuator.told, 1))});
   }
 }
 

@@ -18,8 +18,8 @@ using Bytes = std::vector<std::byte>;
 using ByteSpan = std::span<const std::byte>;
 
 /// In the order in which one follows from the other within a step.
-constexpr std::array kTopics = {record::topic::kPoses,    record::topic::kPercepts,
-                                record::topic::kRadio,    record::topic::kCommands,
+constexpr std::array kTopics = {record::topic::kPoses,     record::topic::kPercepts,
+                                record::topic::kRadio,     record::topic::kCommands,
                                 record::topic::kActuators, record::topic::kEvents,
                                 record::topic::kHash};
 
@@ -149,8 +149,8 @@ std::vector<Item> items_of(std::string_view topic, ByteSpan message, const recor
         append(item.bits, p.transmitter);
         append(item.bits, p.delivered);
         item.bits.insert(item.bits.end(), p.payload.begin(), p.payload.end());
-        item.text = fmt::format("{} bytes, {}", p.payload.size(),
-                                p.delivered ? "delivered" : "lost");
+        item.text =
+            fmt::format("{} bytes, {}", p.payload.size(), p.delivered ? "delivered" : "lost");
         items.push_back(std::move(item));
       }
     }
@@ -185,9 +185,9 @@ RunDifference describe(const Item* recorded, const Item* again, const record::Ru
     if (robot.id.value() == item.robot) difference.robot = robot.name;
   }
   difference.channel = item.channel;
-  difference.text = fmt::format("recorded: {}; now: {}",
-                                recorded != nullptr ? recorded->text : "nothing",
-                                again != nullptr ? again->text : "nothing");
+  difference.text =
+      fmt::format("recorded: {}; now: {}", recorded != nullptr ? recorded->text : "nothing",
+                  again != nullptr ? again->text : "nothing");
   return difference;
 }
 
@@ -301,11 +301,10 @@ Result<RecordMatch> match_records(const record::McapReader& recorded,
       match.difference = difference_of(topic, recorded_messages, new_messages, run);
       const std::uint64_t time_ns = std::min(a.time_ns(), b.time_ns());
       match.difference->time_s = SimTime{static_cast<std::int64_t>(time_ns)}.seconds();
-      match.difference->step =
-          run.step_s > 0
-              ? time_ns / static_cast<std::uint64_t>(std::max<std::int64_t>(
-                              1, from_seconds(run.step_s).ns))
-              : 0;
+      match.difference->step = run.step_s > 0
+                                   ? time_ns / static_cast<std::uint64_t>(std::max<std::int64_t>(
+                                                   1, from_seconds(run.step_s).ns))
+                                   : 0;
       return match;
     }
   }

@@ -211,12 +211,12 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
 
   Observers observers(file, built, engine->spec());
   if (options.record) {
-    RAVE_TRY_ASSIGN(observers.record,
-                    RecordKeeper::begin(options.output / "run.mcap", *engine, observers.kinds,
-                                        {file.name.value, expanded,
-                                         versions_of(engine->spec(), catalogue),
-                                         input_files(scenario, *engine), !live},
-                                        options.log));
+    RAVE_TRY_ASSIGN(
+        observers.record,
+        RecordKeeper::begin(options.output / "run.mcap", *engine, observers.kinds,
+                            {file.name.value, expanded, versions_of(engine->spec(), catalogue),
+                             input_files(scenario, *engine), !live},
+                            options.log));
   }
   const RecordedConsole recorded(console, observers.record.get());
   Journey journey{*engine, observers, pace, live, file, options, console, {}, 0, false};

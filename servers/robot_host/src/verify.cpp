@@ -109,8 +109,8 @@ Result<config::ExpandedScenario> scenario_of(const record::RunInfo& run, const f
     return fail(ErrorCode::kParse, "`{}` holds no scenario that could be run again",
                 record.string());
   }
-  auto scenario = config::expand_scenario_text(run.expanded_scenario,
-                                               record.parent_path() / "scenario.yaml");
+  auto scenario =
+      config::expand_scenario_text(run.expanded_scenario, record.parent_path() / "scenario.yaml");
   if (!scenario) {
     return tl::unexpected(std::move(scenario).error().with_context(
         fmt::format("the scenario inside `{}` cannot be run here", record.string())));
@@ -193,10 +193,9 @@ Result<VerifyOutcome> verify(const fs::path& record, plugin::Catalogue& catalogu
   compare_versions(run, versions_of(engine->spec(), catalogue), outcome);
   RAVE_TRY_ASSIGN(const auto hashes, read_hashes(reader));
   RAVE_TRY_ASSIGN(const Scratch scratch, Scratch::create());
-  RAVE_TRY_ASSIGN(
-      const auto keeper,
-      RecordKeeper::begin(scratch.file(), *engine, kinds, {run.scenario, "", {}, {}, true},
-                          options.log));
+  RAVE_TRY_ASSIGN(const auto keeper,
+                  RecordKeeper::begin(scratch.file(), *engine, kinds,
+                                      {run.scenario, "", {}, {}, true}, options.log));
   RAVE_TRY(run_again(*engine, *keeper, hashes, options, outcome));
   RAVE_TRY(keeper->end(engine->hash().value()));
   RAVE_TRY_ASSIGN(const auto again, record::McapReader::open(scratch.file()));

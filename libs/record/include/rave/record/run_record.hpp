@@ -15,7 +15,8 @@ namespace rave::record {
 
 /// What a record holds beside the exact streams: standard ROS 2 messages for viewers.
 struct ViewOptions {
-  /// Of `/tf` (all robots), and of scans and velocities of single robots; simulation time. 0: none.
+  /// Of `/tf` (all robots; of n > 100 robots the hundredth part of n times slower), and of scans
+  /// and velocities of single robots; simulation time. 0: none.
   double rate_hz = 10;
   /// Robots (the first of the scenario) that get `/<robot>/<sensor>` and `/<robot>/cmd_vel`.
   std::uint32_t robots = 16;

@@ -15,12 +15,12 @@ namespace rave::robot_host {
 
 /// What a recorded robot is compared with.
 struct GapOptions {
-  std::string robot;             ///< Its name in the record; empty: the only one.
-  std::filesystem::path twin;    ///< Robot file with a simulated actuator; empty: the robot's own.
-  std::string commands;          ///< A velocity sensor that tells the commands; empty: those that
-                                 ///< reached the actuator.
-  bool truth = false;            ///< Compare with the true pose of a simulated robot.
-  double window_s = 10;          ///< Of the windows that start anew; above 0.
+  std::string robot;           ///< Its name in the record; empty: the only one.
+  std::filesystem::path twin;  ///< Robot file with a simulated actuator; empty: the robot's own.
+  std::string commands;        ///< A velocity sensor that tells the commands; empty: those that
+                               ///< reached the actuator.
+  bool truth = false;          ///< Compare with the true pose of a simulated robot.
+  double window_s = 10;        ///< Of the windows that start anew; above 0.
 };
 
 /// How far robot and twin are from each other.
@@ -47,10 +47,10 @@ struct GapReport {
   std::string pose;      ///< Where the robot's pose came from.
   double start_s = 0;    ///< Of the record: the first pose.
   double duration_s = 0;
-  double driven_m = 0;         ///< By the twin.
-  std::vector<GapAt> after;    ///< 10, 30 and 60 s, as far as they fit, and the end.
-  GapAt largest;               ///< Greatest distance, with when; `degrees` is that moment's.
-  double largest_deg = 0;      ///< Greatest difference of heading, whenever.
+  double driven_m = 0;       ///< By the twin.
+  std::vector<GapAt> after;  ///< 10, 30 and 60 s, as far as they fit, and the end.
+  GapAt largest;             ///< Greatest distance, with when; `degrees` is that moment's.
+  double largest_deg = 0;    ///< Greatest difference of heading, whenever.
   double rms_m = 0;
   double rms_deg = 0;
   GapWindows windows;

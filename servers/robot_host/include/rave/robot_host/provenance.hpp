@@ -17,8 +17,8 @@ namespace rave::robot_host {
 /// SHA-256 of a file's content as 64 hexadecimal digits. Errors: kNotFound, kIo.
 [[nodiscard]] Result<std::string> sha256_of_file(const std::filesystem::path& path);
 
-/// Files that a run reads beside those that its expanded scenario holds: maps with their images, and
-/// the recordings that sensors name in their reports (`folder` and `file`). Absolute path to
+/// Files that a run reads beside those that its expanded scenario holds: maps with their images,
+/// and the recordings that sensors name in their reports (`folder` and `file`). Absolute path to
 /// SHA-256. What cannot be read is left out: it did not keep the run from starting.
 [[nodiscard]] std::map<std::string, std::string> input_files(
     const config::ExpandedScenario& scenario, const sim::Engine& engine);

@@ -38,8 +38,8 @@ struct VerifyOutcome {
   /// Why the record cannot be verified: it is of a live run. Empty if it can.
   std::string live_reason;
   std::vector<std::string> missing;  ///< Input files that are not there; nothing was run then.
-  std::vector<std::string> notes;    ///< Input files and versions that differ, a record that is cut.
-  std::uint64_t steps = 0;           ///< Done again.
+  std::vector<std::string> notes;  ///< Input files and versions that differ, a record that is cut.
+  std::uint64_t steps = 0;         ///< Done again.
   std::uint64_t recorded_steps = 0;
   std::uint64_t messages = 0;  ///< Compared.
   std::optional<std::uint64_t> recorded_hash;

@@ -115,57 +115,75 @@ std::vector<Item> percepts_of(const record::StepOf<record::Percept>& step,
   return items;
 }
 
+Bytes bytes_of(ByteSpan span) { return {span.begin(), span.end()}; }
+
+std::vector<Item> commands_of(const record::StepOf<record::CommandRecord>& step) {
+  std::vector<Item> items;
+  for (const record::CommandRecord& c : step.items) {
+    items.push_back({c.robot.value(), fmt::format("command to controller {}", c.controller.value()),
+                     bytes_of(c.command), command_text(c.command)});
+  }
+  return items;
+}
+
+std::vector<Item> actuators_of(const record::StepOf<record::ActuatorRecord>& step) {
+  std::vector<Item> items;
+  for (const record::ActuatorRecord& c : step.items) {
+    items.push_back({c.robot.value(), fmt::format("command to actuator {}", c.actuator.value()),
+                     bytes_of(c.command), command_text(c.command)});
+  }
+  return items;
+}
+
+std::vector<Item> packets_of(const record::StepOf<record::RadioPacket>& step) {
+  std::vector<Item> items;
+  for (const record::RadioPacket& p : step.items) {
+    Item item{p.from.value(), fmt::format("radio to robot {}", p.to.value()), bytes_of(p.payload),
+              fmt::format("{} bytes, {}", p.payload.size(), p.delivered ? "delivered" : "lost")};
+    append(item.bits, p.sent_ns);
+    append(item.bits, p.received_ns);
+    append(item.bits, p.transmitter);
+    append(item.bits, p.delivered);
+    items.push_back(std::move(item));
+  }
+  return items;
+}
+
+std::vector<Item> events_of(const record::StepOf<record::RunEvent>& step) {
+  std::vector<Item> items;
+  for (const record::RunEvent& e : step.items) {
+    std::string text = e.kind + " " + e.text;
+    Bytes bits = bytes_of(std::as_bytes(std::span(text)));
+    for (const double value : e.values) append(bits, value);
+    items.push_back({e.robot.value(), "event", std::move(bits), std::move(text)});
+  }
+  return items;
+}
+
+std::vector<Item> hash_of(const record::StepHash& hash) {
+  Item item{RobotId::kNone, "run hash", {}, fmt::format("{:016x}", hash.hash)};
+  append(item.bits, hash.hash);
+  return {std::move(item)};
+}
+
 /// What a message holds, item by item. Nothing for one that cannot be decoded.
 std::vector<Item> items_of(std::string_view topic, ByteSpan message, const record::RunInfo& run) {
-  std::vector<Item> items;
   if (topic == record::topic::kPoses) {
     if (const auto step = record::decode_poses(message)) return poses_of(*step);
   } else if (topic == record::topic::kPercepts) {
     if (const auto step = record::decode_percepts(message)) return percepts_of(*step, run);
   } else if (topic == record::topic::kCommands) {
-    if (const auto step = record::decode_commands(message)) {
-      for (const auto& c : step->items) {
-        items.push_back({c.robot.value(),
-                         fmt::format("command to controller {}", c.controller.value()),
-                         {c.command.begin(), c.command.end()},
-                         command_text(c.command)});
-      }
-    }
+    if (const auto step = record::decode_commands(message)) return commands_of(*step);
   } else if (topic == record::topic::kActuators) {
-    if (const auto step = record::decode_actuators(message)) {
-      for (const auto& c : step->items) {
-        items.push_back({c.robot.value(),
-                         fmt::format("command to actuator {}", c.actuator.value()),
-                         {c.command.begin(), c.command.end()},
-                         command_text(c.command)});
-      }
-    }
+    if (const auto step = record::decode_actuators(message)) return actuators_of(*step);
   } else if (topic == record::topic::kRadio) {
-    if (const auto step = record::decode_radio(message)) {
-      for (const auto& p : step->items) {
-        Item item{p.from.value(), fmt::format("radio to robot {}", p.to.value()), {}, {}};
-        append(item.bits, p.sent_ns);
-        append(item.bits, p.received_ns);
-        append(item.bits, p.transmitter);
-        append(item.bits, p.delivered);
-        item.bits.insert(item.bits.end(), p.payload.begin(), p.payload.end());
-        item.text =
-            fmt::format("{} bytes, {}", p.payload.size(), p.delivered ? "delivered" : "lost");
-        items.push_back(std::move(item));
-      }
-    }
+    if (const auto step = record::decode_radio(message)) return packets_of(*step);
   } else if (topic == record::topic::kEvents) {
-    if (const auto step = record::decode_event(message)) {
-      for (const auto& e : step->items) {
-        items.push_back({e.robot.value(), "event", {}, e.kind + " " + e.text});
-        append(items.back().bits, std::hash<std::string>()(items.back().text));
-      }
-    }
+    if (const auto step = record::decode_event(message)) return events_of(*step);
   } else if (const auto step = record::decode_hash(message)) {
-    items.push_back({RobotId::kNone, "run hash", {}, fmt::format("{:016x}", step->hash)});
-    append(items.back().bits, step->hash);
+    return hash_of(*step);
   }
-  return items;
+  return {};
 }
 
 /// The items of all messages of one topic and step.
@@ -291,9 +309,9 @@ Result<RecordMatch> match_records(const record::McapReader& recorded,
     for (const std::string_view topic : topics) {
       const auto first = a.step().find(topic);
       const auto second = b.step().find(topic);
-      static const std::vector<Bytes> kNone;
-      const auto& recorded_messages = first == a.step().end() ? kNone : first->second;
-      const auto& new_messages = second == b.step().end() ? kNone : second->second;
+      static const std::vector<Bytes> kNoMessages;
+      const auto& recorded_messages = first == a.step().end() ? kNoMessages : first->second;
+      const auto& new_messages = second == b.step().end() ? kNoMessages : second->second;
       // The last step of a record that broke off need not be whole.
       if (broken_off && recorded_messages.size() < new_messages.size()) continue;
       match.messages += recorded_messages.size();

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pose_batch.hpp"
 
-#include <cstring>
+#include <bit>
+#include <cstdint>
 
 namespace rave::record {
 namespace {
 
 /// Bits, not values: -0 is not 0, and a number that is none equals itself.
 [[nodiscard]] bool same_bits(const Pose2& a, const Pose2& b) noexcept {
-  return std::memcmp(&a, &b, sizeof a) == 0;
+  using Words = std::array<std::uint64_t, 3>;
+  return std::bit_cast<Words>(a) == std::bit_cast<Words>(b);
 }
 
 }  // namespace
@@ -41,7 +43,7 @@ Status PoseBatch::write(McapWriter& file, CdrWriter& cdr, SimTime time, std::uin
   const std::array<std::span<const std::byte>, 4> parts{
       cdr.bytes(), std::as_bytes(std::span(poses_)), std::as_bytes(std::span(between)),
       std::as_bytes(std::span(truths_))};
-  const Status status = stream.write(file, time, parts);
+  Status status = stream.write(file, time, parts);
   poses_.clear();
   truths_.clear();
   return status;

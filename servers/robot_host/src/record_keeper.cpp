@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record_keeper.hpp"
 
+#include <array>
+#include <bit>
 #include <chrono>
-#include <cstring>
 #include <ctime>
 
 namespace rave::robot_host {
@@ -137,7 +138,8 @@ void RecordKeeper::keep_actuators(RobotId robot, std::uint32_t begin, std::uint3
   for (std::uint32_t i = begin; i < end; ++i) {
     Actuator& actuator = actuators_[i];
     // By bits: -0 is another command than 0.
-    if (std::memcmp(actuator.command, &actuator.told, sizeof(Command)) == 0) continue;
+    using Words = std::array<std::uint64_t, 5>;
+    if (std::bit_cast<Words>(*actuator.command) == std::bit_cast<Words>(actuator.told)) continue;
     actuator.told = *actuator.command;
     recorder_.actuator({robot, DeviceId(i - begin), std::as_bytes(std::span(&actuator.told, 1))});
   }

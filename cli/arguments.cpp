@@ -24,6 +24,9 @@ struct Everything {
   NewCommand make;
   SchemaCommand schema;
   InfoCommand info;
+  VerifyCommand verify;
+  PlayCommand play;
+  GapCommand gap;
 };
 
 void add_plugins(CLI::App& app, std::vector<std::string>& folders) {
@@ -35,11 +38,8 @@ void add_plugins(CLI::App& app, std::vector<std::string>& folders) {
       ->allow_extra_args(false);
 }
 
-void add_run(CLI::App& root, RunCommand& c) {
-  CLI::App& app = *root.add_subcommand("run", "Run a scenario");
-  app.add_option("scenario", c.scenario, "A file, a folder with scenario.yaml, or a name")
-      ->required()
-      ->type_name("SCENARIO");
+/// What `rave run` and `rave play` have in common.
+void add_run_options(CLI::App& app, RunCommand& c) {
   app.add_option("--output", c.output, "Folder for what the run leaves [runs/<time>-<scenario>]")
       ->type_name("DIR");
   app.add_option("--seed", c.seed, "Another seed of all chance")->type_name("N");
@@ -54,6 +54,14 @@ void add_run(CLI::App& root, RunCommand& c) {
   app.add_flag("--no-record", c.no_record, "Do not write run.mcap");
   app.add_flag("--quiet", c.quiet, "Print errors and problems only");
   add_plugins(app, c.plugins);
+}
+
+void add_run(CLI::App& root, RunCommand& c) {
+  CLI::App& app = *root.add_subcommand("run", "Run a scenario");
+  app.add_option("scenario", c.scenario, "A file, a folder with scenario.yaml, or a name")
+      ->required()
+      ->type_name("SCENARIO");
+  add_run_options(app, c);
   app.footer(
       "Exit code: 0 if the run was whole and its checks hold, 1 if not, 2 for bad input.\n"
       "Ctrl-C ends a run early and still writes its results; a second one kills it.\n\n"
@@ -128,6 +136,89 @@ void add_info(CLI::App& root, InfoCommand& c) {
   app.footer("Example:\n  rave info runs/20260101-120000-mixed-reality");
 }
 
+void add_verify(CLI::App& root, VerifyCommand& c) {
+  CLI::App& app =
+      *root.add_subcommand("verify", "Run what a record holds again and compare it to the bit");
+  app.add_option("file", c.file, "A run.mcap, or the folder of a run")
+      ->required()
+      ->type_name("FILE");
+  app.add_option("--threads", c.threads, "Threads; they do not change the result")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+  app.add_flag("--quiet", c.quiet, "Print errors and differences only");
+  add_plugins(app, c.plugins);
+  app.footer(
+      "Exit code: 0 if every step is the same, 1 if not (the first step, robot and channel that\n"
+      "differ are named), 2 if it cannot be run again: a live run, or input files that are "
+      "missing.\n\n"
+      "Example:\n"
+      "  rave verify runs/20260101-120000-mixed-reality");
+}
+
+void add_play(CLI::App& root, PlayCommand& c) {
+  CLI::App& app = *root.add_subcommand(
+      "play", "Play robots of a record as recorded real robots in a new scenario");
+  app.add_option("file", c.file, "A run.mcap, or the folder of a run")
+      ->required()
+      ->type_name("FILE");
+  app.add_option("--robot", c.robots, "One of the recorded robots; may be repeated [all]")
+      ->type_name("NAME")
+      ->take_all()
+      ->allow_extra_args(false);
+  app.add_option("--anew", c.anew,
+                 "A virtual sensor that senses the new world instead of being played; may be "
+                 "repeated")
+      ->type_name("SENSOR")
+      ->take_all()
+      ->allow_extra_args(false);
+  app.add_option("--world", c.world, "A world file [the world of the record]")->type_name("FILE");
+  app.add_option("--program", c.program,
+                 "Program that gets the readings; its commands are ignored [none]")
+      ->type_name("NAME");
+  app.add_option("--start", c.start_s, "Time of the record to start at, in seconds [0]")
+      ->type_name("S")
+      ->check(CLI::Range(0.0, 1e9));
+  app.add_option("--write", c.write, "Only write the scenario, into this folder")->type_name("DIR");
+  add_run_options(app, c.run);
+  app.footer(
+      "The scenario is left in the folder `played` of the run; simulated robots can be added to "
+      "it\n"
+      "by hand. Exit code: as of `rave run`.\n\n"
+      "Examples:\n"
+      "  rave play runs/20260101-120000-mixed-reality --robot walker-3 --anew laser\n"
+      "  rave play run.mcap --robot hunter --program wander --write my/scenario");
+}
+
+void add_report(CLI::App& root, GapCommand& c) {
+  CLI::App& parent = *root.add_subcommand("report", "Draw conclusions from the record of a run");
+  parent.require_subcommand(1);
+  parent.footer("Example:\n  rave report gap run.mcap --robot walker-3");
+  CLI::App& app = *parent.add_subcommand(
+      "gap", "Compare a recorded robot with its simulated twin under the same commands");
+  app.add_option("file", c.file, "A run.mcap, or the folder of a run")
+      ->required()
+      ->type_name("FILE");
+  app.add_option("--robot", c.robot, "The recorded robot [the only one]")->type_name("NAME");
+  app.add_option("--twin", c.twin, "Robot file whose simulated actuator drives the twin [its own]")
+      ->type_name("FILE");
+  app.add_option("--commands", c.commands,
+                 "Velocity sensor that tells the commands [what reached the actuator]")
+      ->type_name("SENSOR");
+  app.add_flag("--truth", c.truth, "Compare with the true pose, not with the reported one");
+  app.add_option("--window", c.window_s, "Length of the windows that start anew, in seconds [10]")
+      ->type_name("S")
+      ->check(CLI::Range(1e-3, 1e6));
+  app.add_option("--output", c.output, "Folder for picture and numbers [that of the record]")
+      ->type_name("DIR");
+  app.add_flag("--json", c.json, "Print the numbers as JSON");
+  add_plugins(app, c.plugins);
+  app.footer(
+      "The twin starts where the robot was first known to be and drives in an empty world.\n\n"
+      "Examples:\n"
+      "  rave report gap runs/20260101-120000-corridor --robot create --twin robots/twin.yaml\n"
+      "  rave report gap run.mcap --robot real-3 --commands commanded --twin robots/wanderer.yaml");
+}
+
 std::vector<std::string_view> subcommands_of(const CLI::App& root,
                                              std::vector<std::string>& names) {
   for (const CLI::App* app : root.get_subcommands(nullptr)) names.push_back(app->get_name());
@@ -146,10 +237,26 @@ std::optional<Finished> unknown_subcommand(const CLI::App& root, const std::stri
   return Finished{complain(error.value())};
 }
 
+/// The subcommand that was named, as far down as names went.
+const CLI::App& chosen_app(const CLI::App& root) {
+  const CLI::App* app = &root;
+  while (!app->get_subcommands().empty()) app = app->get_subcommands().front();
+  return *app;
+}
+
+/// `rave report gap`
+std::string full_name(const CLI::App& root) {
+  std::string name = "rave";
+  for (const CLI::App* app = &root; !app->get_subcommands().empty();) {
+    app = app->get_subcommands().front();
+    name += " " + app->get_name();
+  }
+  return name;
+}
+
 /// Says what is wrong with an option, and of an unknown one which is nearest.
 Finished usage_error(const CLI::App& root, const CLI::ParseError& e) {
-  const auto chosen = root.get_subcommands();
-  const CLI::App& app = chosen.empty() ? root : *chosen.front();
+  const CLI::App& app = chosen_app(root);
   std::string message = e.what();
   const std::vector<std::string> extras = app.remaining();
   if (dynamic_cast<const CLI::ExtrasError*>(&e) != nullptr && !extras.empty()) {
@@ -164,7 +271,7 @@ Finished usage_error(const CLI::App& root, const CLI::ParseError& e) {
                   : fmt::format("`{}` is one word too many", word);
   }
   while (!message.empty() && message.back() == '\n') message.pop_back();
-  const std::string name = chosen.empty() ? "rave" : "rave " + app.get_name();
+  const std::string name = full_name(root);
   complain({ErrorCode::kInvalidArgument, message, {}});
   put(stderr, fmt::format("`{} --help` says how it is used\n", name));
   return {kBadInput};
@@ -179,6 +286,9 @@ Command chosen_command(const CLI::App& root, const Everything& all) {
   if (name == "new") return all.make;
   if (name == "schema") return all.schema;
   if (name == "info") return all.info;
+  if (name == "verify") return all.verify;
+  if (name == "play") return all.play;
+  if (name == "report") return all.gap;
   return VersionCommand{};
 }
 
@@ -197,6 +307,9 @@ Command parse_arguments(int argc, const char* const* argv) {
   add_new(root, all.make);
   add_schema(root, all.schema);
   add_info(root, all.info);
+  add_verify(root, all.verify);
+  add_play(root, all.play);
+  add_report(root, all.gap);
   root.add_subcommand("version", "What this build is, and which plug-ins fit it");
   root.footer(
       "Examples:\n"
@@ -210,8 +323,7 @@ Command parse_arguments(int argc, const char* const* argv) {
   try {
     root.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    const auto chosen = root.get_subcommands();
-    put(stdout, chosen.empty() ? root.help() : chosen.front()->help());
+    put(stdout, chosen_app(root).help());
     return Finished{kGood};
   } catch (const CLI::ParseError& e) {
     return usage_error(root, e);

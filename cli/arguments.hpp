@@ -8,8 +8,11 @@
 #include "commands/drivers.hpp"
 #include "commands/info.hpp"
 #include "commands/new.hpp"
+#include "commands/play.hpp"
+#include "commands/report.hpp"
 #include "commands/run.hpp"
 #include "commands/schema.hpp"
+#include "commands/verify.hpp"
 
 namespace rave::cli {
 
@@ -21,7 +24,8 @@ struct Finished {
 };
 
 using Command = std::variant<Finished, RunCommand, CheckCommand, DriversCommand, DescribeCommand,
-                             NewCommand, SchemaCommand, InfoCommand, VersionCommand>;
+                             NewCommand, SchemaCommand, InfoCommand, VerifyCommand, PlayCommand,
+                             GapCommand, VersionCommand>;
 
 /// Reads the command line. Prints help and complaints itself.
 [[nodiscard]] Command parse_arguments(int argc, const char* const* argv);

@@ -18,6 +18,9 @@ struct Dispatch {
   int operator()(const NewCommand& options) const { return new_project(options); }
   int operator()(const SchemaCommand& options) const { return schema(options); }
   int operator()(const InfoCommand& options) const { return info(options); }
+  int operator()(const VerifyCommand& options) const { return verify(options); }
+  int operator()(const PlayCommand& options) const { return play(options); }
+  int operator()(const GapCommand& options) const { return report_gap(options); }
   int operator()(const VersionCommand& /*options*/) const { return version(); }
 };
 

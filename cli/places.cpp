@@ -97,6 +97,13 @@ Status add_plugin_folders(const std::vector<std::string>& given, plugin::Catalog
   return catalogue.add_folder(own);
 }
 
+fs::path record_file(std::string_view word) {
+  std::error_code error;
+  fs::path path(word);
+  if (fs::is_directory(path, error)) path /= "run.mcap";
+  return path;
+}
+
 Result<fs::path> find_scenario(std::string_view word) {
   const fs::path path(word);
   std::error_code error;

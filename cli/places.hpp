@@ -30,4 +30,8 @@ Status add_plugin_folders(const std::vector<std::string>& given, plugin::Catalog
 /// folder. Errors: kNotFound with the nearest name or the list.
 [[nodiscard]] Result<std::filesystem::path> find_scenario(std::string_view word);
 
+/// The record that a word on the command line stands for: the file itself, or `run.mcap` in a
+/// folder. Does not say whether it is there.
+[[nodiscard]] std::filesystem::path record_file(std::string_view word);
+
 }  // namespace rave::cli

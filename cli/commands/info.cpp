@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "error_text.hpp"
+#include "places.hpp"
 #include "rave/record/record_summary.hpp"
 #include "rave/report/table.hpp"
 
@@ -38,9 +38,7 @@ std::string run_text(const record::RecordSummary& summary) {
 }  // namespace
 
 int info(const InfoCommand& options) {
-  std::filesystem::path path(options.file);
-  if (std::filesystem::is_directory(path)) path /= "run.mcap";
-  const auto summary = record::describe_record(path);
+  const auto summary = record::describe_record(record_file(options.file));
   if (!summary) return complain(summary.error());
   std::string text = run_text(*summary);
   text +=

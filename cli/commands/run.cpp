@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <csignal>
 
 #include "console.hpp"
 #include "error_text.hpp"
+#include "interrupt.hpp"
 #include "places.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/robot_host/build.hpp"
@@ -16,20 +16,6 @@
 
 namespace rave::cli {
 namespace {
-
-/// A signal handler can reach nothing else.
-robot_host::RunControl run_control;
-
-extern "C" void request_stop(int /*signal*/) { run_control.stop(); }
-
-/// The first signal ends the run early with its results written; a second one kills.
-void listen_to_signals() {
-  struct sigaction action {};
-  action.sa_handler = request_stop;
-  action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
-  ::sigaction(SIGINT, &action, nullptr);
-  ::sigaction(SIGTERM, &action, nullptr);
-}
 
 Status override_settings(const RunCommand& options, config::ScenarioFile& scenario) {
   if (options.seed) scenario.seed = *options.seed;
@@ -106,7 +92,6 @@ int run(const RunCommand& options) {
   if (auto opened = console.open_file(folder->path() / "console.log"); !opened) {
     return complain(opened.error());
   }
-  listen_to_signals();
   robot_host::RunOptions run_options;
   run_options.output = folder->path();
   run_options.program_runner = program_runner();
@@ -118,7 +103,7 @@ int run(const RunCommand& options) {
     started = true;
     console.show(progress);
   };
-  run_options.control = &run_control;
+  run_options.control = &ended_by_signals();
   const auto outcome = robot_host::run(*scenario, catalogue, run_options);
   console.clear();
   if (outcome) return report_outcome(options, *outcome, folder->path());

@@ -8,12 +8,22 @@ namespace {
 
 TEST(Usage, HelpOfEverySubcommandHasAnExample) {
   EXPECT_NE(run_rave({"--help"}).out.find("Examples:"), std::string::npos);
-  for (const char* const name : {"run", "check", "drivers", "describe", "new", "schema"}) {
+  for (const char* const name : {"run", "check", "drivers", "describe", "new", "schema", "info",
+                                 "verify", "play", "report"}) {
     const Ended ended = run_rave({name, "--help"});
     EXPECT_EQ(ended.exit_code, 0) << name;
     EXPECT_NE(ended.out.find("Example"), std::string::npos) << name;
     EXPECT_EQ(ended.err, "") << name;
   }
+}
+
+TEST(Usage, HelpGoesDownToTheLastName) {
+  const Ended ended = run_rave({"report", "gap", "--help"});
+  EXPECT_EQ(ended.exit_code, 0);
+  EXPECT_NE(ended.out.find("--twin"), std::string::npos);
+  EXPECT_EQ(run_rave({"report", "gap", "run.mcap", "--robt=x"}).err,
+            "rave: there is no option `--robt`; did you mean `--robot`?\n"
+            "`rave report gap --help` says how it is used\n");
 }
 
 TEST(Usage, UnknownSubcommandNamesTheNearest) {

@@ -58,7 +58,7 @@ async function check_index(bytes) {
   assert.ok(reader.chunkIndexes.length > 2);
   assert.equal(counts.get("/rave/poses"), STEPS);
   assert.equal(counts.get("/rave/percepts"), STEPS);
-  for (const topic of ["/rave/run", "/rave/end", "/rave/commands", "/rave/radio", "/rave/events",
+  for (const topic of ["/rave/run", "/rave/end", "/rave/commands", "/rave/actuators", "/rave/hash", "/rave/radio", "/rave/events",
     "/rosout", "/tf", "/tf_static", "/anna/laser", "/bert/cmd_vel"]) {
     assert.ok(counts.get(topic) > 0, topic);
   }
@@ -68,7 +68,7 @@ async function check_index(bytes) {
   }
   const names = [];
   for await (const metadata of reader.readMetadata()) names.push(metadata.name);
-  assert.deepEqual(names.sort(), ["rave.end", "rave.run"]);
+  assert.deepEqual(names.sort(), ["rave.end", "rave.inputs", "rave.run"]);
   return counts;
 }
 

@@ -7,7 +7,7 @@ rave_tools_of_group() {
   case "$1" in
     build) echo "g++ cmake ninja ccache pkg-config git python3" ;;
     check) echo "clang-format-16 readelf nm" ;;
-    full) echo "clang++-16 clang-tidy-16" ;;
+    full) echo "clang++-16 clang-tidy-16 node npm" ;;
   esac
 }
 
@@ -32,6 +32,15 @@ rave_check_other_system() {
   fi
 }
 
+# The command for whose sake alone a package is asked for: one from another source serves as well,
+# and the package could not be installed beside it.
+rave_command_of_package() {
+  case "$1" in
+    nodejs) echo node ;;
+    npm) echo npm ;;
+  esac
+}
+
 # rave_missing_packages GROUP...: their names, one per line.
 rave_missing_packages() {
   local wanted installed
@@ -41,7 +50,11 @@ rave_missing_packages() {
   # shellcheck disable=SC2086
   installed="$(dpkg-query -W -f='${binary:Package} ${db:Status-Status}\n' $wanted 2>/dev/null |
     awk '$2 == "installed" { sub(/:.*/, "", $1); print $1 }')" || true
-  comm -23 <(sort -u <<<"$wanted") <(sort -u <<<"$installed")
+  local name command
+  for name in $(comm -23 <(sort -u <<<"$wanted") <(sort -u <<<"$installed")); do
+    command="$(rave_command_of_package "$name")"
+    [ -n "$command" ] && command -v "$command" >/dev/null || echo "$name"
+  done
 }
 
 # rave_install_packages GROUP...: names what is missing and why, then installs it. Touches neither

@@ -68,6 +68,27 @@ step_tsan_ctest() {
   fi
 }
 
+# The reference reader of records. What is installed stays in tests/record, so that it is fetched
+# once; after that nothing here touches the network.
+step_record_reader() {
+  local begin=$SECONDS result=passed folder="$root/tests/record"
+  if ! cmp -s "$folder/package-lock.json" "$folder/node_modules/.rave-lock"; then
+    echo "These npm packages will be installed into tests/record/node_modules:"
+    node -e 'for (const [name, what] of Object.entries(require(process.argv[1]).packages))
+      if (name) console.log("  " + name.replace(/^.*node_modules\//, "") + " " + what.version);' \
+      "$folder/package-lock.json"
+    (cd "$folder" && npm ci --no-audit --no-fund --ignore-scripts) &&
+      cp "$folder/package-lock.json" "$folder/node_modules/.rave-lock" || result=failed
+  fi
+  step_note record-reader npm "$result" $((SECONDS - begin))
+  [ "$result" = passed ] || return 0
+  step_build release rave-write-sample-record || return 0
+  begin=$SECONDS
+  node "$folder/check_mcap.mjs" "$root/build/release/bin/rave-write-sample-record" \
+    "$root/build/release" || result=failed
+  step_note record-reader check "$result" $((SECONDS - begin))
+}
+
 step_tidy() {
   local begin=$SECONDS
   if ! rave_configure tidy; then

@@ -76,7 +76,7 @@ void record_step(benchmark::State& state) {
                          std::as_bytes(std::span(ranges).subspan(std::size_t{i} * 16, 16))});
       recorder->command({RobotId(i), DeviceId(0), std::span(commands).subspan(i * 40UL, 40)});
     }
-    static_cast<void>(recorder->poses(poses));
+    recorder->poses(poses);
     static_cast<void>(recorder->end_step());
     ++step;
   }

@@ -2,10 +2,13 @@
 #include "crc32.hpp"
 
 #include <array>
+#include <bit>
 #include <cstring>
 
 namespace rave::record {
 namespace {
+
+static_assert(std::endian::native == std::endian::little, "words are taken as they lie");
 
 constexpr std::uint32_t kPolynomial = 0xEDB88320U;  // bits reversed
 constexpr std::size_t kSlices = 16;
@@ -39,13 +42,15 @@ std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t before) noex
   const std::byte* at = bytes.data();
   std::size_t rest = bytes.size();
   for (; rest >= kSlices; rest -= kSlices, at += kSlices) {
-    std::array<std::uint8_t, kSlices> block{};
-    std::memcpy(block.data(), at, kSlices);
-    for (std::size_t i = 0; i < 4; ++i) {
-      block[i] = static_cast<std::uint8_t>(block[i] ^ ((sum >> (8 * i)) & 0xFFU));
-    }
+    std::array<std::uint32_t, kSlices / 4> words{};
+    std::memcpy(words.data(), at, kSlices);
+    words[0] ^= sum;
     sum = 0;
-    for (std::size_t i = 0; i < kSlices; ++i) sum ^= kTables[kSlices - 1 - i][block[i]];
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      const std::size_t slice = kSlices - 1 - 4 * i;
+      sum ^= kTables[slice][words[i] & 0xFFU] ^ kTables[slice - 1][(words[i] >> 8) & 0xFFU] ^
+             kTables[slice - 2][(words[i] >> 16) & 0xFFU] ^ kTables[slice - 3][words[i] >> 24];
+    }
   }
   for (; rest > 0; --rest, ++at) {
     sum = (sum >> 8) ^ kTables[0][(sum ^ std::to_integer<std::uint32_t>(*at)) & 0xFFU];

@@ -71,6 +71,13 @@ Result<StepOf<CommandRecord>> decode_commands(Message message) {
       });
 }
 
+Result<StepOf<ActuatorRecord>> decode_actuators(Message message) {
+  return decode_step<PackedActuator, ActuatorRecord>(
+      message, topic::kActuators, [](const PackedActuator& c, Message records) {
+        return ActuatorRecord{RobotId(c.robot), DeviceId(c.actuator), records};
+      });
+}
+
 Result<StepOf<RadioPacket>> decode_radio(Message message) {
   return decode_step<PackedPacket, RadioPacket>(
       message, topic::kRadio, [](const PackedPacket& p, Message records) {
@@ -134,6 +141,16 @@ Result<ConsoleLine> decode_console(Message message) {
                : level >= 20 ? LogLevel::kInfo
                              : LogLevel::kDebug;
   return line;
+}
+
+Result<StepHash> decode_hash(Message message) {
+  CdrReader reader(message);
+  StepHash hash;
+  hash.time = get_time(reader);
+  hash.step = reader.get<std::uint64_t>();
+  hash.hash = reader.get<std::uint64_t>();
+  if (!reader.ok()) return malformed(topic::kHash);
+  return hash;
 }
 
 Result<RunEnd> decode_end(Message message) {

@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "encode.hpp"
 
-#include <cstring>
-
 #include "cdr_time.hpp"
-#include "packed.hpp"
 
 namespace rave::record {
 namespace {
 
 constexpr std::uint32_t kVersion = 1;
-
-/// Bits, not values: -0 is not 0, and a number that is none equals itself.
-[[nodiscard]] bool same_bits(const Pose2& a, const Pose2& b) noexcept {
-  return std::memcmp(&a, &b, sizeof a) == 0;
-}
 
 }  // namespace
 
@@ -24,43 +16,6 @@ void encode_step_head(CdrWriter& writer, SimTime time, std::uint64_t step, std::
   writer.put(step);
   writer.put(kVersion);
   writer.put_count(count);
-}
-
-void encode_poses(CdrWriter& writer, SimTime time, std::uint64_t step,
-                  std::span<const RobotPose> robots) {
-  encode_step_head(writer, time, step, robots.size());
-  std::uint32_t truths = 0;
-  for (const RobotPose& robot : robots) {
-    PackedPose packed{};
-    packed.robot = robot.robot.value();
-    if (robot.reported_pose) {
-      packed.flags |= kHasReported;
-      packed.x = robot.reported_pose->x;
-      packed.y = robot.reported_pose->y;
-      packed.yaw = robot.reported_pose->yaw;
-    }
-    if (robot.true_pose) {
-      packed.flags |= kHasTrue;
-      if (robot.reported_pose && same_bits(*robot.true_pose, *robot.reported_pose)) {
-        packed.flags |= kTrueIsReported;
-      } else {
-        ++truths;
-      }
-    }
-    packed.vx = robot.velocity_W.vx;
-    packed.vy = robot.velocity_W.vy;
-    packed.wz = robot.velocity_W.wz;
-    writer.put_packed(std::span<const PackedPose>(&packed, 1));
-  }
-  writer.put(std::uint32_t{0});
-  writer.put_count(truths);
-  if (truths == 0) return;
-  for (const RobotPose& robot : robots) {
-    const auto& truth = robot.true_pose;
-    if (!truth || (robot.reported_pose && same_bits(*truth, *robot.reported_pose))) continue;
-    const PackedTruePose packed{robot.robot.value(), 0, truth->x, truth->y, truth->yaw};
-    writer.put_packed(std::span<const PackedTruePose>(&packed, 1));
-  }
 }
 
 void encode_event(CdrWriter& writer, SimTime time, std::uint64_t step, const RunEvent& event) {
@@ -82,6 +37,13 @@ void encode_console(CdrWriter& writer, const ConsoleLine& line) {
   writer.put_string("");
   writer.put_string("");
   writer.put(std::uint32_t{0});
+}
+
+void encode_hash(CdrWriter& writer, const StepHash& hash) {
+  writer.clear();
+  put_time(writer, hash.time);
+  writer.put(hash.step);
+  writer.put(hash.hash);
 }
 
 void encode_end(CdrWriter& writer, const RunEnd& end) {

@@ -10,9 +10,8 @@ namespace rave::record {
 void encode_run(CdrWriter& writer, const RunInfo& info);
 void encode_end(CdrWriter& writer, const RunEnd& end);
 void encode_event(CdrWriter& writer, SimTime time, std::uint64_t step, const RunEvent& event);
+void encode_hash(CdrWriter& writer, const StepHash& hash);
 void encode_console(CdrWriter& writer, const ConsoleLine& line);
-void encode_poses(CdrWriter& writer, SimTime time, std::uint64_t step,
-                  std::span<const RobotPose> robots);
 /// Time, step, version and the count of the array that follows.
 void encode_step_head(CdrWriter& writer, SimTime time, std::uint64_t step, std::size_t count);
 

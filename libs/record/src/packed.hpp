@@ -54,6 +54,15 @@ struct PackedCommand {
 };
 static_assert(sizeof(PackedCommand) == 16);
 
+/// rave_msgs/msg/ActuatorCommand
+struct PackedActuator {
+  std::uint32_t robot;
+  std::uint32_t actuator;
+  std::uint32_t offset;
+  std::uint32_t size;
+};
+static_assert(sizeof(PackedActuator) == 16);
+
 /// rave_msgs/msg/Packet
 struct PackedPacket {
   std::int64_t sent_ns;

@@ -4,26 +4,9 @@
 #include <algorithm>
 
 #include "rave/record/mcap_reader.hpp"
+#include "rave/record/run_reader.hpp"
 
 namespace rave::record {
-namespace {
-
-/// Decodes the first message of a topic; what is missing or damaged is none.
-template <class Decode>
-auto first_of(const McapReader& reader, const char* topic, Decode decode) -> std::optional<
-    typename std::invoke_result_t<Decode, std::span<const std::byte>>::value_type> {
-  const ChannelInfo* channel = reader.channel(topic);
-  if (channel == nullptr) return std::nullopt;
-  MessageCursor cursor = reader.messages({{channel->id}});
-  const auto message = cursor.next();
-  if (!message || !*message) return std::nullopt;
-  auto decoded = decode((*message)->bytes);
-  if (!decoded) return std::nullopt;
-  return *std::move(decoded);
-}
-
-}  // namespace
-
 Result<RecordSummary> describe_record(const std::filesystem::path& path) {
   RAVE_TRY_ASSIGN(const auto reader, McapReader::open(path));
   const Statistics& statistics = reader.statistics();
@@ -53,17 +36,8 @@ Result<RecordSummary> describe_record(const std::filesystem::path& path) {
                                 duration_s > 0 ? messages / duration_s : 0});
   }
   std::ranges::sort(summary.channels, {}, &ChannelSummary::topic);
-  summary.run = first_of(reader, topic::kRun, decode_run);
-  summary.end = first_of(reader, topic::kEnd, decode_end);
-  if (summary.run) {
-    const auto yaml =
-        std::ranges::find(summary.attachments, "scenario.yaml", &AttachmentInfo::name);
-    if (yaml != summary.attachments.end()) {
-      if (auto text = reader.read_attachment(*yaml)) {
-        summary.run->expanded_scenario = *std::move(text);
-      }
-    }
-  }
+  if (auto run = read_run_info(reader)) summary.run = *std::move(run);
+  summary.end = read_run_end(reader);
   return summary;
 }
 

@@ -52,6 +52,14 @@ const RosSchema kCommandsSchema{
     RAVE_STEP "rave_msgs/Command[] commands\nuint8[] records\n" RAVE_TIME RAVE_DEPENDENCY(
         "rave_msgs/Command") "uint32 robot\nuint32 controller\nuint32 offset\nuint32 size\n"};
 
+const RosSchema kActuatorsSchema{
+    "rave_msgs/msg/Actuators",
+    RAVE_STEP "rave_msgs/ActuatorCommand[] commands\nuint8[] records\n" RAVE_TIME RAVE_DEPENDENCY(
+        "rave_msgs/ActuatorCommand") "uint32 robot\nuint32 actuator\nuint32 offset\nuint32 size\n"};
+
+const RosSchema kHashSchema{"rave_msgs/msg/StepHash",
+                            "builtin_interfaces/Time stamp\nuint64 step\nuint64 hash\n" RAVE_TIME};
+
 const RosSchema kRadioSchema{
     "rave_msgs/msg/Radio",
     RAVE_STEP "rave_msgs/Packet[] packets\nuint8[] records\n" RAVE_TIME

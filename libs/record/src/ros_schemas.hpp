@@ -18,6 +18,8 @@ extern const RosSchema kEndSchema;
 extern const RosSchema kPosesSchema;
 extern const RosSchema kPerceptsSchema;
 extern const RosSchema kCommandsSchema;
+extern const RosSchema kActuatorsSchema;
+extern const RosSchema kHashSchema;
 extern const RosSchema kRadioSchema;
 extern const RosSchema kEventSchema;
 extern const RosSchema kLogSchema;

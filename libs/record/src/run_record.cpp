@@ -6,6 +6,7 @@
 
 #include "encode.hpp"
 #include "packed.hpp"
+#include "pose_batch.hpp"
 #include "standard_views.hpp"
 
 namespace rave::record {
@@ -46,12 +47,22 @@ class RunRecorder::Impl {
 
   [[nodiscard]] Status begin(const RunInfo& info, const ViewOptions& views);
   [[nodiscard]] Status write_console();
+  [[nodiscard]] Status write_pose_view() {
+    if (seen_.empty()) return {};
+    Status status = views_.poses(file_, time_, seen_);
+    seen_.clear();
+    return status;
+  }
 
   McapWriter file_;
   StandardViews views_;
-  Stream run_, end_, poses_, events_, console_;
+  Stream run_, end_, events_, console_, hash_;
+  PoseBatch poses_;
+  std::vector<RobotPose> seen_;  ///< For the view, in steps in which it is due.
+  bool view_due_ = false;
   Batch<PackedPercept> percepts_;
   Batch<PackedCommand> commands_;
+  Batch<PackedActuator> actuators_;
   Batch<PackedPacket> radio_;
   CdrWriter cdr_;
   SimTime time_;
@@ -69,9 +80,11 @@ Status RunRecorder::Impl::begin(const RunInfo& info, const ViewOptions& views) {
   };
   RAVE_TRY(add(run_, topic::kRun, kRunSchema));
   RAVE_TRY(add(end_, topic::kEnd, kEndSchema));
-  RAVE_TRY(add(poses_, topic::kPoses, kPosesSchema));
+  RAVE_TRY(add(poses_.stream, topic::kPoses, kPosesSchema));
   RAVE_TRY(add(percepts_.stream, topic::kPercepts, kPerceptsSchema));
   RAVE_TRY(add(commands_.stream, topic::kCommands, kCommandsSchema));
+  RAVE_TRY(add(actuators_.stream, topic::kActuators, kActuatorsSchema));
+  RAVE_TRY(add(hash_, topic::kHash, kHashSchema));
   RAVE_TRY(add(radio_.stream, topic::kRadio, kRadioSchema));
   RAVE_TRY(add(events_, topic::kEvents, kEventSchema));
   RAVE_TRY(add(console_, topic::kConsole, kLogSchema));
@@ -86,6 +99,7 @@ Status RunRecorder::Impl::begin(const RunInfo& info, const ViewOptions& views) {
                      {"robots", std::to_string(info.robots.size())}};
   for (const auto& [name, version] : info.versions) about["version " + name] = version;
   RAVE_TRY(file_.add_metadata("rave.run", about));
+  if (!info.inputs.empty()) RAVE_TRY(file_.add_metadata("rave.inputs", info.inputs));
   encode_run(cdr_, info);
   return run_.write(file_, SimTime{}, cdr_.bytes());
 }
@@ -127,6 +141,7 @@ void RunRecorder::begin_step(std::uint64_t step, SimTime time) {
   impl_->step_ = step;
   impl_->time_ = time;
   ++impl_->steps_;
+  impl_->view_due_ = impl_->views_.poses_due(time);
 }
 
 void RunRecorder::percept(const Percept& percept) {
@@ -149,6 +164,15 @@ void RunRecorder::command(const CommandRecord& command) {
   }
 }
 
+void RunRecorder::actuator(const ActuatorRecord& command) {
+  impl_->actuators_.add({command.robot.value(), command.actuator.value(), 0, 0}, command.command);
+}
+
+Status RunRecorder::hash(std::uint64_t value) {
+  encode_hash(impl_->cdr_, {impl_->time_, impl_->step_, value});
+  return impl_->hash_.write(impl_->file_, impl_->time_, impl_->cdr_.bytes());
+}
+
 void RunRecorder::radio(const RadioPacket& packet) {
   impl_->radio_.add(
       {packet.sent_ns, packet.received_ns, packet.from.value(), packet.to.value(),
@@ -161,17 +185,19 @@ Status RunRecorder::event(const RunEvent& event) {
   return impl_->events_.write(impl_->file_, impl_->time_, impl_->cdr_.bytes());
 }
 
-Status RunRecorder::poses(std::span<const RobotPose> robots) {
-  encode_poses(impl_->cdr_, impl_->time_, impl_->step_, robots);
-  RAVE_TRY(impl_->poses_.write(impl_->file_, impl_->time_, impl_->cdr_.bytes()));
-  return impl_->views_.poses(impl_->file_, impl_->time_, robots);
+void RunRecorder::pose(const RobotPose& robot) {
+  impl_->poses_.add(robot);
+  if (impl_->view_due_) impl_->seen_.push_back(robot);
 }
 
 Status RunRecorder::end_step() {
   Impl& impl = *impl_;
   // All batches are emptied whatever happens to one of them.
-  const Status results[] = {impl.percepts_.write(impl.file_, impl.cdr_, impl.time_, impl.step_),
+  const Status results[] = {impl.poses_.write(impl.file_, impl.cdr_, impl.time_, impl.step_),
+                            impl.write_pose_view(),
+                            impl.percepts_.write(impl.file_, impl.cdr_, impl.time_, impl.step_),
                             impl.commands_.write(impl.file_, impl.cdr_, impl.time_, impl.step_),
+                            impl.actuators_.write(impl.file_, impl.cdr_, impl.time_, impl.step_),
                             impl.radio_.write(impl.file_, impl.cdr_, impl.time_, impl.step_),
                             impl.write_console()};
   for (const Status& result : results) RAVE_TRY(result);

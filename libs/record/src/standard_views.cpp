@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::string_view kWorldFrame = "world";
 constexpr double kEvenSpacing_rad = 1e-6;
+/// Up to here `/tf` has the rate that was asked for; beyond it the rate falls.
+constexpr std::size_t kFullRateRobots = 100;
 
 /// A scan message has one angle between all rays; a sensor without one has no standard message.
 [[nodiscard]] bool evenly_spaced(const std::vector<double>& bearings_rad) {
@@ -31,7 +33,14 @@ Status StandardViews::open(McapWriter& file, const RunInfo& info, const ViewOpti
   if (!(options.rate_hz > 0)) return {};
   period_ns_ = std::max<std::int64_t>(1, from_seconds(1.0 / options.rate_hz).ns);
   robots_ = options.robots;
-  for (const RecordedRobot& robot : info.robots) frames_[robot.id] = robot.name;
+  // A crowd gets fewer transforms, so that their number does not grow with it.
+  const auto crowd =
+      static_cast<std::int64_t>((info.robots.size() + kFullRateRobots - 1) / kFullRateRobots);
+  tf_period_ns_ = period_ns_ * std::max<std::int64_t>(1, crowd);
+  for (const RecordedRobot& robot : info.robots) {
+    if (frames_.size() <= robot.id.value()) frames_.resize(robot.id.value() + std::size_t{1}, "?");
+    frames_[robot.id.value()] = robot.name;
+  }
   RAVE_TRY_ASSIGN(const auto schema, add_schema(file, kTfSchema));
   RAVE_TRY_ASSIGN(tf_.stream, add_stream(file, "/tf", schema));
   RAVE_TRY(open_scans(file, info));
@@ -45,16 +54,15 @@ Status StandardViews::open(McapWriter& file, const RunInfo& info, const ViewOpti
 Status StandardViews::open_scans(McapWriter& file, const RunInfo& info) {
   std::uint16_t schema = 0;
   for (const RecordedSensor& sensor : info.sensors) {
-    const auto robot = frames_.find(sensor.robot);
-    if (sensor.kind != kRangesKind || !sees(sensor.robot) || robot == frames_.end() ||
-        !evenly_spaced(sensor.bearings_rad)) {
+    if (sensor.kind != kRangesKind || !sees(sensor.robot) ||
+        sensor.robot.value() >= frames_.size() || !evenly_spaced(sensor.bearings_rad)) {
       continue;
     }
     if (schema == 0) {
       RAVE_TRY_ASSIGN(schema, add_schema(file, kLaserScanSchema));
     }
     Scan scan;
-    scan.frame = robot->second + "/" + sensor.name;
+    scan.frame = frames_[sensor.robot.value()] + "/" + sensor.name;
     const auto& bearings = sensor.bearings_rad;
     scan.angle_min = static_cast<float>(bearings.front());
     scan.angle_max = static_cast<float>(bearings.back());
@@ -81,10 +89,10 @@ Status StandardViews::open_velocities(McapWriter& file, const RunInfo& info) {
   return {};
 }
 
-bool StandardViews::due(Paced& paced, SimTime time) const noexcept {
+bool StandardViews::due(Paced& paced, SimTime time, std::int64_t period_ns) noexcept {
   if (time.ns < paced.next_ns) return false;
-  paced.next_ns = std::max(paced.next_ns, time.ns - period_ns_) + period_ns_;
-  if (paced.next_ns <= time.ns) paced.next_ns = time.ns + period_ns_;
+  paced.next_ns = std::max(paced.next_ns, time.ns - period_ns) + period_ns;
+  if (paced.next_ns <= time.ns) paced.next_ns = time.ns + period_ns;
   return true;
 }
 
@@ -104,20 +112,20 @@ Status StandardViews::write_mountings(McapWriter&, const RunInfo& info) {
   for (const RecordedSensor& sensor : info.sensors) {
     const auto scan = scans_.find({sensor.robot, sensor.sensor});
     if (scan == scans_.end()) continue;
-    put_transform(SimTime{}, frames_[sensor.robot], scan->second.frame, sensor.X_RS, sensor.z_m);
+    put_transform(SimTime{}, frames_[sensor.robot.value()], scan->second.frame, sensor.X_RS,
+                  sensor.z_m);
   }
   return {};
 }
 
 Status StandardViews::poses(McapWriter& file, SimTime time, std::span<const RobotPose> robots) {
-  if (period_ns_ == 0 || !due(tf_, time)) return {};
   const auto placed = [](const RobotPose& pose) { return pose.reported_pose || pose.true_pose; };
   cdr_.clear();
   cdr_.put_count(static_cast<std::size_t>(std::ranges::count_if(robots, placed)));
   for (const RobotPose& pose : robots) {
     if (!placed(pose)) continue;
-    const auto frame = frames_.find(pose.robot);
-    put_transform(time, kWorldFrame, frame == frames_.end() ? "?" : frame->second,
+    const std::uint32_t robot = pose.robot.value();
+    put_transform(time, kWorldFrame, robot < frames_.size() ? frames_[robot] : "?",
                   pose.reported_pose ? *pose.reported_pose : *pose.true_pose, 0);
   }
   return tf_.stream.write(file, time, cdr_.bytes());
@@ -125,7 +133,7 @@ Status StandardViews::poses(McapWriter& file, SimTime time, std::span<const Robo
 
 Status StandardViews::percept(McapWriter& file, SimTime time, const Percept& percept) {
   const auto found = scans_.find({percept.robot, percept.sensor});
-  if (found == scans_.end() || !due(found->second.paced, time)) return {};
+  if (found == scans_.end() || !due(found->second.paced, time, period_ns_)) return {};
   Scan& scan = found->second;
   cdr_.clear();
   put_time(cdr_, SimTime{percept.header.stamp_ns});
@@ -149,7 +157,8 @@ Status StandardViews::command(McapWriter& file, SimTime time, const CommandRecor
   if (command.command.size() < 8 + sizeof velocity) return {};
   std::memcpy(&kind, command.command.data(), sizeof kind);
   const auto found = velocities_.find(command.robot);
-  if (kind != kVelocityKind || found == velocities_.end() || !due(found->second, time)) return {};
+  if (kind != kVelocityKind || found == velocities_.end() || !due(found->second, time, period_ns_))
+    return {};
   std::memcpy(velocity, command.command.data() + 8, sizeof velocity);
   cdr_.clear();
   for (const double value : {velocity[0], 0.0, 0.0, 0.0, 0.0, velocity[1]}) cdr_.put(value);

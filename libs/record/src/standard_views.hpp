@@ -21,6 +21,10 @@ class StandardViews {
   [[nodiscard]] Status open(McapWriter& file, const RunInfo& info, const ViewOptions& options);
   [[nodiscard]] bool sees(RobotId robot) const noexcept { return robot.value() < robots_; }
 
+  /// Whether poses() is to be called in this step; counts as if it were.
+  [[nodiscard]] bool poses_due(SimTime time) noexcept {
+    return period_ns_ != 0 && due(tf_, time, tf_period_ns_);
+  }
   Status poses(McapWriter& file, SimTime time, std::span<const RobotPose> robots);
   Status percept(McapWriter& file, SimTime time, const Percept& percept);
   Status command(McapWriter& file, SimTime time, const CommandRecord& command);
@@ -36,7 +40,7 @@ class StandardViews {
     float angle_min = 0, angle_max = 0, increment = 0, period = 0, range_min = 0, range_max = 0;
   };
 
-  [[nodiscard]] bool due(Paced& paced, SimTime time) const noexcept;
+  [[nodiscard]] static bool due(Paced& paced, SimTime time, std::int64_t period_ns) noexcept;
   [[nodiscard]] Status open_scans(McapWriter& file, const RunInfo& info);
   [[nodiscard]] Status open_velocities(McapWriter& file, const RunInfo& info);
   [[nodiscard]] Status write_mountings(McapWriter& file, const RunInfo& info);
@@ -44,8 +48,9 @@ class StandardViews {
                      double z_m);
 
   std::int64_t period_ns_ = 0;
+  std::int64_t tf_period_ns_ = 0;
   std::uint32_t robots_ = 0;
-  std::map<RobotId, std::string> frames_;
+  std::vector<std::string> frames_;  ///< By robot.
   Paced tf_;
   std::map<std::pair<RobotId, DeviceId>, Scan> scans_;
   std::map<RobotId, Paced> velocities_;

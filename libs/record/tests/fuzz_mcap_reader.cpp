@@ -6,6 +6,7 @@
 
 #include "rave/record/mcap_reader.hpp"
 #include "rave/record/run_messages.hpp"
+#include "rave/record/run_reader.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace rave::record;
@@ -27,6 +28,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static_cast<void>(decode_poses(bytes));
     static_cast<void>(decode_percepts(bytes));
     static_cast<void>(decode_commands(bytes));
+    static_cast<void>(decode_actuators(bytes));
+    static_cast<void>(decode_hash(bytes));
     static_cast<void>(decode_radio(bytes));
     static_cast<void>(decode_event(bytes));
     static_cast<void>(decode_console(bytes));
@@ -37,5 +40,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const auto& metadata : reader->metadata())
     static_cast<void>(reader->read_metadata(metadata));
   static_cast<void>(reader->verify());
+  if (const auto run = read_run_info(*reader)) {
+    for (const RecordedSensor& sensor : run->sensors) {
+      static_cast<void>(read_samples(*reader, sensor.robot, sensor.sensor, PerceptPart::kResult));
+    }
+  }
   return 0;
 }

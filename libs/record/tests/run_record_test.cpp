@@ -8,6 +8,7 @@
 
 #include "rave/record/mcap_reader.hpp"
 #include "rave/record/record_summary.hpp"
+#include "rave/record/run_reader.hpp"
 #include "rave/robot/command.hpp"
 #include "rave/robot/reading.hpp"
 #include "sample_run.hpp"
@@ -100,6 +101,55 @@ TEST_F(RunRecord, PerceptsComeBackWithTheirParts) {
     EXPECT_EQ(std::memcmp(result.records.data(), sample.ranges.data(), 12), 0);
   });
   EXPECT_EQ(count, kSteps);
+}
+
+TEST_F(RunRecord, ActuatorCommandsAndHashesComeBack) {
+  EXPECT_EQ(each(topic::kActuators,
+                 [](const MessageView& message, std::uint64_t step) {
+                   const auto read = decode_actuators(message.bytes);
+                   ASSERT_TRUE(read && read->items.size() == 1);
+                   EXPECT_EQ(read->items[0].robot, RobotId(1));
+                   EXPECT_EQ(text_of(read->items[0].command), text_of(sample_step(step).command));
+                 }),
+            kSteps);
+  EXPECT_EQ(each(topic::kHash,
+                 [](const MessageView& message, std::uint64_t step) {
+                   const auto read = decode_hash(message.bytes);
+                   ASSERT_TRUE(read);
+                   EXPECT_EQ(read->step, step);
+                   EXPECT_EQ(read->hash, step * 0x9e3779b97f4a7c15ULL);
+                 }),
+            kSteps);
+}
+
+TEST_F(RunRecord, OneSensorAndOneRobotAreReadAtATime) {
+  const auto run = read_run_info(*reader_);
+  ASSERT_TRUE(run) << run.error().text();
+  EXPECT_EQ(run->inputs, sample_info().inputs);
+  EXPECT_EQ(run->expanded_scenario, sample_info().expanded_scenario);
+  const auto robot = find_robot(*run, "anna");
+  ASSERT_TRUE(robot);
+  const auto sensor = find_sensor(*run, **robot, "laser");
+  ASSERT_TRUE(sensor);
+  EXPECT_NE(find_robot(*run, "ana").error().text().find("did you mean `anna`?"), std::string::npos);
+  EXPECT_FALSE(find_sensor(*run, run->robots[1], "laser"));
+  const auto all = read_samples(*reader_, (*robot)->id, (*sensor)->sensor, PerceptPart::kResult);
+  ASSERT_TRUE(all);
+  ASSERT_EQ(all->samples.size(), kSteps);
+  for (std::size_t step = 0; step < kSteps; ++step) {
+    const auto bytes = all->records_of(all->samples[step]);
+    ASSERT_EQ(bytes.size(), 12U);
+    EXPECT_EQ(std::memcmp(bytes.data(), sample_step(step).ranges.data(), 12), 0);
+    EXPECT_EQ(all->samples[step].delivered.ns, all->samples[step].header.stamp_ns + 1);
+  }
+  const auto halves = read_samples(*reader_, (*robot)->id, (*sensor)->sensor, PerceptPart::kReal);
+  ASSERT_TRUE(halves);
+  EXPECT_EQ(halves->records.size(), kSteps * 8);
+  const auto track = read_poses(*reader_, RobotId(1));
+  ASSERT_TRUE(track && track->size() == kSteps);
+  EXPECT_FALSE((*track)[0].reported_pose);
+  EXPECT_EQ((*track)[7].reported_pose, sample_step(7).poses[1].reported_pose);
+  EXPECT_TRUE(read_run_end(*reader_)->hash.has_value());
 }
 
 TEST_F(RunRecord, CommandsRadioEventsAndConsoleComeBack) {

@@ -37,6 +37,7 @@ struct SampleStep {
   laser.range_max_m = 8;
   laser.bearings_rad = {-0.5, 0, 0.5};
   info.sensors = {laser};
+  info.inputs = {{"/maps/hall.pgm", "00ff"}};
   info.expanded_scenario = "name: sample\nrobots: [anna, bert]\n";
   return info;
 }
@@ -69,6 +70,8 @@ inline void record_sample(RunRecorder& recorder, std::uint64_t steps) {
     recorder.percept({RobotId(0), DeviceId(2), 1, PerceptPart::kReal, header, ranges.first(8)});
     recorder.percept({RobotId(0), DeviceId(2), 1, PerceptPart::kResult, header, ranges});
     recorder.command({RobotId(1), DeviceId(0), sample.command});
+    recorder.actuator({RobotId(1), DeviceId(0), sample.command});
+    static_cast<void>(recorder.hash(step * 0x9e3779b97f4a7c15ULL));
     if (step % 3 == 0) {
       recorder.radio({RobotId(0), RobotId(1), 4, step != 0, time.ns - 5, time.ns,
                       std::as_bytes(std::span(&step, 1))});
@@ -78,7 +81,7 @@ inline void record_sample(RunRecorder& recorder, std::uint64_t steps) {
           recorder.event({RobotId(1), "contact", "bert touches a wall", {0.5, -0.0}}));
     }
     if (step % 5 == 0) recorder.console(LogLevel::kWarning, "robot anna", "low battery");
-    static_cast<void>(recorder.poses(sample.poses));
+    recorder.poses(sample.poses);
     static_cast<void>(recorder.end_step());
   }
 }

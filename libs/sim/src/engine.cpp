@@ -265,6 +265,10 @@ std::int64_t Engine::command_step(RobotId robot, std::uint32_t controller) const
   return slots.last_step[impl_->member_index[robot.value()]];
 }
 
+const Command& Engine::actuator_command(RobotId robot, std::uint32_t actuator) const noexcept {
+  return impl_->group_of(robot).actuators[actuator].commands[impl_->member_index[robot.value()]];
+}
+
 std::uint64_t Engine::commands_given(RobotId robot) const noexcept {
   return impl_->group_of(robot).program.given[impl_->member_index[robot.value()]];
 }

@@ -8,6 +8,7 @@
 #include "goal_checks.hpp"
 #include "outcome.hpp"
 #include "rave/base/file.hpp"
+#include "rave/robot_host/provenance.hpp"
 #include "record_keeper.hpp"
 #include "stall_watch.hpp"
 #include "wall_pace.hpp"
@@ -218,9 +219,12 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
 
   Observers observers(adjusted, built, engine->spec());
   if (options.record) {
-    RAVE_TRY_ASSIGN(observers.record,
-                    RecordKeeper::begin(options.output / "run.mcap", *engine, observers.kinds,
-                                        file.name.value, expanded, options.log));
+    RAVE_TRY_ASSIGN(
+        observers.record,
+        RecordKeeper::begin(options.output / "run.mcap", *engine, observers.kinds,
+                            {file.name.value, expanded, versions_of(engine->spec(), catalogue),
+                             input_files(scenario, *engine), !live},
+                            options.log));
   }
   const RecordedConsole recorded(console, observers.record.get());
   Journey journey{*engine, observers, pace, live, file, options, console, {}, 0, false};

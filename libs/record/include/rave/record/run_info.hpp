@@ -51,6 +51,9 @@ struct RunInfo {
   std::vector<RecordedRobot> robots;
   std::vector<RecordedSensor> sensors;
   std::string expanded_scenario;  ///< YAML; becomes the attachment `scenario.yaml`.
+  /// Files outside of the scenario that the run depends on (maps, recordings): absolute path to
+  /// SHA-256 in hexadecimal digits. Becomes the metadata `rave.inputs`.
+  StringMap inputs;
 };
 
 }  // namespace rave::record

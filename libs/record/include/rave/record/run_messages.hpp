@@ -25,8 +25,10 @@ inline constexpr const char* kEnd = "/rave/end";
 inline constexpr const char* kPoses = "/rave/poses";
 inline constexpr const char* kPercepts = "/rave/percepts";
 inline constexpr const char* kCommands = "/rave/commands";
+inline constexpr const char* kActuators = "/rave/actuators";
 inline constexpr const char* kRadio = "/rave/radio";
 inline constexpr const char* kEvents = "/rave/events";
+inline constexpr const char* kHash = "/rave/hash";
 inline constexpr const char* kConsole = "/rosout";
 }  // namespace topic
 
@@ -71,6 +73,14 @@ struct CommandRecord {
   std::span<const std::byte> command;
 };
 
+/// What reached an actuator, behind the controllers: the bytes of rave::Command. It holds until the
+/// next one for the same actuator, so only changes are recorded.
+struct ActuatorRecord {
+  RobotId robot;
+  DeviceId actuator;
+  std::span<const std::byte> command;
+};
+
 /// One packet between two robots.
 struct RadioPacket {
   RobotId from;
@@ -106,6 +116,13 @@ struct StepOf {
   std::vector<Item> items;
 };
 
+/// The run hash as it was after a step of a lock-step run.
+struct StepHash {
+  SimTime time;
+  std::uint64_t step = 0;
+  std::uint64_t hash = 0;
+};
+
 /// How a run ended.
 struct RunEnd {
   SimTime time;
@@ -119,8 +136,10 @@ struct RunEnd {
 [[nodiscard]] Result<StepOf<RobotPose>> decode_poses(std::span<const std::byte> message);
 [[nodiscard]] Result<StepOf<Percept>> decode_percepts(std::span<const std::byte> message);
 [[nodiscard]] Result<StepOf<CommandRecord>> decode_commands(std::span<const std::byte> message);
+[[nodiscard]] Result<StepOf<ActuatorRecord>> decode_actuators(std::span<const std::byte> message);
 [[nodiscard]] Result<StepOf<RadioPacket>> decode_radio(std::span<const std::byte> message);
 [[nodiscard]] Result<StepOf<RunEvent>> decode_event(std::span<const std::byte> message);
+[[nodiscard]] Result<StepHash> decode_hash(std::span<const std::byte> message);
 [[nodiscard]] Result<ConsoleLine> decode_console(std::span<const std::byte> message);
 
 }  // namespace rave::record

@@ -15,7 +15,8 @@ namespace rave::record {
 
 /// What a record holds beside the exact streams: standard ROS 2 messages for viewers.
 struct ViewOptions {
-  /// Of `/tf` (all robots), and of scans and velocities of single robots; simulation time. 0: none.
+  /// Of `/tf` (all robots; of n > 100 robots the hundredth part of n times slower), and of scans
+  /// and velocities of single robots; simulation time. 0: none.
   double rate_hz = 10;
   /// Robots (the first of the scenario) that get `/<robot>/<sensor>` and `/<robot>/cmd_vel`.
   std::uint32_t robots = 16;
@@ -28,7 +29,8 @@ struct RunRecorderOptions {
 
 /// Writes what a run does into an MCAP file. Knows nothing of the engine: its owner calls
 ///
-///     open, (begin_step, percept..., command..., radio..., event..., poses, end_step)..., end
+///     open, (begin_step, percept..., command..., actuator..., radio..., event..., pose..., hash,
+///            end_step)..., end
 ///
 /// from one thread; only console() may be called from any thread. Collects a step in memory and
 /// writes one message per stream, so that a step costs a copy of its bytes. Times are simulation
@@ -54,10 +56,16 @@ class RunRecorder {
   /// The bytes are copied.
   void percept(const Percept& percept);
   void command(const CommandRecord& command);
+  void actuator(const ActuatorRecord& command);
   void radio(const RadioPacket& packet);
+  /// The run hash after this step; for lock-step runs.
+  Status hash(std::uint64_t value);
   Status event(const RunEvent& event);
-  /// All robots of the step, in one message.
-  Status poses(std::span<const RobotPose> robots);
+  /// Where a robot is; all of the step go into one message.
+  void pose(const RobotPose& robot);
+  void poses(std::span<const RobotPose> robots) {
+    for (const RobotPose& robot : robots) pose(robot);
+  }
   /// Writes what was collected since begin_step().
   Status end_step();
 

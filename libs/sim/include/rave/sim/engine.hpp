@@ -96,6 +96,9 @@ class Engine {
   [[nodiscard]] Command command(RobotId robot, std::uint32_t controller) const noexcept;
   /// The step in which it was given; -1 before the first.
   [[nodiscard]] std::int64_t command_step(RobotId robot, std::uint32_t controller) const noexcept;
+  /// What the last step gave to an actuator, from the controller that speaks; kNone without one.
+  [[nodiscard]] const Command& actuator_command(RobotId robot,
+                                                std::uint32_t actuator) const noexcept;
   /// How many commands the program gave in all, and whether the actuator behind obeys.
   [[nodiscard]] std::uint64_t commands_given(RobotId robot) const noexcept;
   [[nodiscard]] bool obeys(RobotId robot) const noexcept;

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/play.hpp"
+
+#include <fmt/format.h>
+
+#include "error_text.hpp"
+#include "places.hpp"
+#include "played_scenario.hpp"
+#include "rave/robot_host/build.hpp"
+#include "run_folder.hpp"
+
+namespace rave::cli {
+namespace {
+
+Result<PlayedScenario> make(const PlayCommand& options) {
+  plugin::Catalogue catalogue(robot_host::host_stamp());
+  RAVE_TRY(add_plugin_folders(options.run.plugins, catalogue));
+  PlayWish wish;
+  wish.record = record_file(options.file);
+  wish.robots = options.robots;
+  wish.anew = options.anew;
+  if (!options.world.empty()) wish.world = options.world;
+  if (!options.program.empty()) wish.program = options.program;
+  wish.start_s = options.start_s;
+  return played_scenario(wish, catalogue);
+}
+
+}  // namespace
+
+int play(const PlayCommand& options) {
+  const auto played = make(options);
+  if (!played) return complain(played.error());
+  for (const std::string& note : played->notes) {
+    put(stderr, fmt::format("{} {}\n", terminal_of(stderr).yellow("note:"), note));
+  }
+  if (!options.write.empty()) {
+    if (auto written = write_played(*played, options.write); !written) {
+      return complain(written.error());
+    }
+    put(stdout, fmt::format("written: {0}; `rave run {0}` runs it\n", options.write));
+    return kGood;
+  }
+  const auto folder = RunFolder::create(options.run.output, played->name);
+  if (!folder) return complain(folder.error());
+  const std::filesystem::path scenario = folder->path() / "played";
+  if (auto written = write_played(*played, scenario); !written) return complain(written.error());
+  RunCommand run_options = options.run;
+  run_options.scenario = scenario.string();
+  run_options.output = folder->path().string();
+  return run(run_options);
+}
+
+}  // namespace rave::cli

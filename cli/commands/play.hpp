@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "commands/run.hpp"
+
+namespace rave::cli {
+
+/// `rave play`.
+struct PlayCommand {
+  std::string file;                 ///< A record, or the folder of a run.
+  std::vector<std::string> robots;  ///< Empty: all.
+  std::vector<std::string> anew;    ///< Virtual sensors that sense the new world.
+  std::string world;                ///< Empty: that of the record.
+  std::string program;              ///< Empty: none.
+  double start_s = 0;
+  std::string write;  ///< A folder to write the scenario to, without running it.
+  RunCommand run;     ///< How it is run; its scenario is set by play().
+};
+
+/// Makes recorded robots of a record's robots and runs them. Returns what `rave run` does.
+[[nodiscard]] int play(const PlayCommand& options);
+
+}  // namespace rave::cli

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/report.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "error_text.hpp"
+#include "places.hpp"
+#include "rave/base/file.hpp"
+#include "rave/report/table.hpp"
+#include "rave/robot_host/build.hpp"
+#include "rave/robot_host/gap.hpp"
+
+namespace rave::cli {
+namespace {
+
+std::vector<std::string> row(std::string what, double metres, double degrees) {
+  return {std::move(what), fmt::format("{:.4f} m", metres), fmt::format("{:.2f} deg", degrees)};
+}
+
+std::string table_of(const robot_host::GapReport& gap) {
+  report::Table table;
+  table.title = fmt::format("{} against its simulated twin", gap.robot);
+  table.columns = {{"", report::Align::kLeft, false},
+                   {"distance", report::Align::kRight, false},
+                   {"heading", report::Align::kRight, false}};
+  for (const robot_host::GapAt& at : gap.after) {
+    table.rows.push_back(row(fmt::format("after {:g} s", at.after_s), at.metres, at.degrees));
+  }
+  table.rules_before.push_back(table.rows.size());
+  table.rows.push_back(row("largest", gap.largest.metres, gap.largest_deg));
+  table.rows.push_back(row("RMS", gap.rms_m, gap.rms_deg));
+  const robot_host::GapWindows& windows = gap.windows;
+  if (windows.count > 0) {
+    const std::string of = fmt::format("of {} windows of {:g} s", windows.count, windows.window_s);
+    table.rules_before.push_back(table.rows.size());
+    table.rows.push_back(row("median " + of, windows.median_m, windows.median_deg));
+    table.rows.push_back(row("95 % " + of, windows.p95_m, windows.p95_deg));
+  }
+  report::TableOptions options;
+  options.ansi = terminal_of(stdout).colour;
+  return report::render_table(table, options);
+}
+
+}  // namespace
+
+int report_gap(const GapCommand& options) {
+  plugin::Catalogue catalogue(robot_host::host_stamp());
+  if (auto added = add_plugin_folders(options.plugins, catalogue); !added) {
+    return complain(added.error());
+  }
+  const std::filesystem::path record = record_file(options.file);
+  const auto gap = robot_host::measure_gap(
+      record, catalogue,
+      {options.robot, options.twin, options.commands, options.truth, options.window_s});
+  if (!gap) return complain(gap.error());
+  std::filesystem::path folder = options.output;
+  if (folder.empty()) folder = record.parent_path();
+  std::error_code error;
+  if (!folder.empty()) std::filesystem::create_directories(folder, error);
+  const std::string stem = "gap-" + gap->robot;
+  const std::string json = robot_host::gap_json(*gap);
+  if (auto drawn = robot_host::draw_gap(*gap, folder, stem); !drawn) {
+    return complain(drawn.error());
+  }
+  if (auto written = write_file_atomically(folder / (stem + ".json"), json); !written) {
+    return complain(written.error());
+  }
+  if (options.json) {
+    put(stdout, json);
+    return kGood;
+  }
+  put(stdout, table_of(*gap));
+  put(stdout,
+      fmt::format("twin: {}\ncommands: {}\npose: {}, {:.2f} s from {:.2f} s, {:.2f} m\n", gap->twin,
+                  gap->commands, gap->pose, gap->duration_s, gap->start_s, gap->driven_m));
+  put(stdout, fmt::format("{}: {}.svg, {}.png, {}.json\n", folder.empty() ? "." : folder.string(),
+                          stem, stem, stem));
+  return kGood;
+}
+
+}  // namespace rave::cli

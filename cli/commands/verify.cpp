@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/verify.hpp"
+
+#include <fmt/format.h>
+
+#include "console.hpp"
+#include "error_text.hpp"
+#include "interrupt.hpp"
+#include "places.hpp"
+#include "rave/robot_host/build.hpp"
+#include "rave/robot_host/verify.hpp"
+
+namespace rave::cli {
+namespace {
+
+void tell_difference(const robot_host::RunDifference& difference, const Terminal& terminal) {
+  const std::string robot =
+      difference.robot.empty() ? "" : fmt::format("robot {}, ", difference.robot);
+  put(stderr,
+      fmt::format("{} first in step {} ({:.3f} s): {}{}\n  {}\n", terminal.red("differs:"),
+                  difference.step, difference.time_s, robot, difference.channel, difference.text));
+}
+
+int tell(const VerifyCommand& options, const robot_host::VerifyOutcome& outcome) {
+  const Terminal errors = terminal_of(stderr);
+  if (!outcome.live_reason.empty()) {
+    return complain({ErrorCode::kInvalidArgument,
+                     fmt::format("`{}` cannot be verified: {}, so no second run would be the same",
+                                 options.file, outcome.live_reason),
+                     {}});
+  }
+  for (const std::string& missing : outcome.missing) {
+    put(stderr, fmt::format("{} {}\n", errors.red("missing:"), missing));
+  }
+  if (!outcome.missing.empty()) {
+    return complain({ErrorCode::kNotFound,
+                     fmt::format("`{}` cannot be verified without its input files", options.file),
+                     {}});
+  }
+  for (const std::string& note : outcome.notes) {
+    put(stderr, fmt::format("{} {}\n", errors.yellow("note:"), note));
+  }
+  if (outcome.ended_early) {
+    put(stderr, fmt::format("{} after {} of {} steps\n", errors.red("stopped:"), outcome.steps,
+                            outcome.recorded_steps));
+    return kNotGood;
+  }
+  if (outcome.difference) {
+    tell_difference(*outcome.difference, errors);
+    return kNotGood;
+  }
+  if (options.quiet) return kGood;
+  const std::string hash =
+      outcome.recorded_hash ? fmt::format(", run hash {:016x}", *outcome.recorded_hash) : "";
+  put(stdout, fmt::format("{} {} steps, {} messages{}\n", terminal_of(stdout).green("the same:"),
+                          outcome.steps, outcome.messages, hash));
+  return kGood;
+}
+
+}  // namespace
+
+int verify(const VerifyCommand& options) {
+  plugin::Catalogue catalogue(robot_host::host_stamp());
+  if (auto added = add_plugin_folders(options.plugins, catalogue); !added) {
+    return complain(added.error());
+  }
+  Console console(options.quiet);
+  robot_host::VerifyOptions verify_options;
+  verify_options.program_runner = program_runner();
+  verify_options.threads = static_cast<unsigned>(options.threads.value_or(0));
+  verify_options.log = &console;
+  verify_options.on_progress = [&](const report::Progress& progress) { console.show(progress); };
+  verify_options.control = &ended_by_signals();
+  const auto outcome = robot_host::verify(record_file(options.file), catalogue, verify_options);
+  console.clear();
+  return outcome ? tell(options, *outcome) : complain(outcome.error());
+}
+
+}  // namespace rave::cli

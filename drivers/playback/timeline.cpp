@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "playback/timeline.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "rave/record/run_reader.hpp"
+
+namespace rave::playback {
+namespace {
+
+using ByteSpan = std::span<const std::byte>;
+
+/// The readings of a sensor of events as the device gave them: until the program decides, a percept
+/// holds those of all steps since, so what was already in the one before is taken off again. Each
+/// sighting bears its own stamp, so equal bits are the same sighting.
+ByteSpan new_events(ByteSpan before, ByteSpan now) {
+  const bool grown = now.size() > before.size() && !before.empty() &&
+                     std::memcmp(now.data(), before.data(), before.size()) == 0;
+  return grown ? now.subspan(before.size()) : now;
+}
+
+/// Moves the stamps that sightings bear themselves.
+void shift_sightings(std::span<std::byte> records, std::int64_t by_ns) {
+  for (std::size_t at = 0; at + sizeof(Sighting) <= records.size(); at += sizeof(Sighting)) {
+    Sighting sighting;
+    std::memcpy(&sighting, records.data() + at, sizeof sighting);
+    sighting.stamp_ns += by_ns;
+    std::memcpy(records.data() + at, &sighting, sizeof sighting);
+  }
+}
+
+/// Collects samples: from the start on, in order.
+class Builder {
+ public:
+  Builder(ReadingKind kind, double start_s)
+      : size_(record_size(kind)),
+        events_(kind == ReadingKind::kSightings),
+        start_(from_seconds(start_s)) {}
+
+  void add(SimTime stamp, SimTime delivered, ByteSpan records) {
+    SimTime at = stamp - start_;
+    if (at.ns < 0) {
+      if (events_) return;
+      // Of a state the last one before the start holds from the first step on.
+      at = {};
+      timeline_.samples.clear();
+      timeline_.records.clear();
+    }
+    auto& samples = timeline_.samples;
+    if (!samples.empty() && at < samples.back().stamp) {
+      ++timeline_.left_out;
+      return;
+    }
+    const std::size_t offset = timeline_.records.size();
+    timeline_.records.insert(timeline_.records.end(), records.begin(), records.end());
+    if (events_ && start_.ns != 0) {
+      shift_sightings(std::span(timeline_.records).subspan(offset), -start_.ns);
+    }
+    const auto count = static_cast<std::uint32_t>(records.size() / size_);
+    samples.push_back({at, std::max(at, delivered - start_), offset, count});
+  }
+  [[nodiscard]] Timeline finish() && {
+    for (const Sample& sample : timeline_.samples) {
+      timeline_.largest = std::max(timeline_.largest, sample.count);
+    }
+    return std::move(timeline_);
+  }
+
+ private:
+  std::size_t size_;
+  bool events_;
+  Duration start_;
+  Timeline timeline_;
+};
+
+Result<Timeline> reported_poses(const record::McapReader& reader, RobotId robot, double start_s) {
+  RAVE_TRY_ASSIGN(const auto track, record::read_poses(reader, robot));
+  Builder builder(ReadingKind::kPose, start_s);
+  for (const record::PoseTrackPoint& point : track) {
+    if (!point.reported_pose) continue;
+    const Pose2& X_WR = *point.reported_pose;
+    const PoseReading reading{X_WR.x, X_WR.y, X_WR.yaw, 0, 0};
+    builder.add(point.time, point.time, std::as_bytes(std::span(&reading, 1)));
+  }
+  return std::move(builder).finish();
+}
+
+Status check_sensor(const record::RecordedSensor& sensor, ReadingKind kind,
+                    const Timeline& timeline) {
+  if (kind == ReadingKind::kRanges && timeline.largest > sensor.bearings_rad.size()) {
+    return fail(ErrorCode::kParse, "sensor `{}` has readings of {} rays, but bearings of {}",
+                sensor.name, timeline.largest, sensor.bearings_rad.size());
+  }
+  return {};
+}
+
+Result<Timeline> sensor_readings(const record::McapReader& reader, const record::RunInfo& run,
+                                 const record::RecordedRobot& robot, const Wish& wish,
+                                 ReadingKind kind) {
+  RAVE_TRY_ASSIGN(const auto* const sensor, record::find_sensor(run, robot, wish.sensor));
+  const auto recorded = static_cast<ReadingKind>(sensor->kind);
+  if (recorded != kind) {
+    return fail(ErrorCode::kInvalidArgument,
+                "sensor `{}` of robot `{}` gives {}, so its driver is `playback_{}`, not "
+                "`playback_{}`",
+                wish.sensor, wish.robot, to_string(recorded), to_string(recorded), to_string(kind));
+  }
+  RAVE_TRY_ASSIGN(const auto all,
+                  record::read_samples(reader, robot.id, sensor->sensor, wish.part));
+  Builder builder(kind, wish.start_s);
+  ByteSpan before;
+  for (const auto& sample : all.samples) {
+    const ByteSpan now = all.records_of(sample);
+    builder.add({sample.header.stamp_ns}, sample.delivered,
+                wish.collect ? new_events(before, now) : now);
+    before = now;
+  }
+  Timeline timeline = std::move(builder).finish();
+  RAVE_TRY(check_sensor(*sensor, kind, timeline));
+  timeline.info = *sensor;
+  return timeline;
+}
+
+}  // namespace
+
+Wish wish_of(const Params& params, ReadingKind kind) {
+  Wish wish;
+  wish.file = params.text("file");
+  wish.robot = params.text("robot");
+  wish.sensor = params.text("sensor");
+  const std::string_view part = params.text("part");
+  if (part == "real") wish.part = record::PerceptPart::kReal;
+  if (part == "virtual") wish.part = record::PerceptPart::kVirtual;
+  wish.start_s = params.number("start_s");
+  wish.live = params.text("clock") == "live";
+  wish.collect = kind == ReadingKind::kSightings && params.flag("collect");
+  return wish;
+}
+
+Result<Timeline> load_timeline(const Wish& wish, const std::string& folder, ReadingKind kind) {
+  // An absolute file name replaces the folder in front of it.
+  const std::filesystem::path path = std::filesystem::path(folder) / wish.file;
+  const auto load = [&]() -> Result<Timeline> {
+    RAVE_TRY_ASSIGN(const auto reader, record::McapReader::open(path));
+    RAVE_TRY_ASSIGN(const record::RunInfo run, record::read_run_info(reader));
+    RAVE_TRY_ASSIGN(const auto* const robot, record::find_robot(run, wish.robot));
+    if (kind == ReadingKind::kPose && wish.sensor.empty()) {
+      return reported_poses(reader, robot->id, wish.start_s);
+    }
+    return sensor_readings(reader, run, *robot, wish, kind);
+  };
+  auto timeline = load();
+  if (timeline) return timeline;
+  return tl::unexpected(std::move(timeline).error().with_context(
+      fmt::format("record `{}`", path.lexically_normal().string())));
+}
+
+std::string report_json(const Wish& wish, const Timeline& timeline) {
+  // Divided, not multiplied by 1e-9: so that whole milliseconds print as such.
+  const auto seconds = [](SimTime t) { return static_cast<double>(t.ns) / 1e9; };
+  nlohmann::ordered_json json;
+  json["file"] = wish.file;
+  json["robot"] = wish.robot;
+  json["sensor"] = wish.sensor;
+  json["start_s"] = wish.start_s;
+  json["samples"] = timeline.samples.size();
+  json["left_out"] = timeline.left_out;
+  json["first_stamp_s"] = nullptr;
+  json["last_stamp_s"] = nullptr;
+  if (!timeline.samples.empty()) {
+    json["first_stamp_s"] = seconds(timeline.samples.front().stamp);
+    json["last_stamp_s"] = seconds(timeline.samples.back().stamp);
+  }
+  // A file's name may be no UTF-8, which JSON cannot hold.
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+}  // namespace rave::playback

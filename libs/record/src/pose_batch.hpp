@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "encode.hpp"
+#include "packed.hpp"
+#include "stream.hpp"
+
+namespace rave::record {
+
+/// The poses of one step, laid out as the message has them when they come in: the thread of the run
+/// touches each once more only to copy it into the file's buffer.
+class PoseBatch {
+ public:
+  Stream stream;
+
+  void add(const RobotPose& robot);
+  /// One message; nothing if nothing was added.
+  Status write(McapWriter& file, CdrWriter& cdr, SimTime time, std::uint64_t step);
+
+ private:
+  std::vector<PackedPose> poses_;
+  std::vector<PackedTruePose> truths_;
+};
+
+}  // namespace rave::record

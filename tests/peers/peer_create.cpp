@@ -208,7 +208,7 @@ class CreatePeer {
         "\"right_mps\":%.4f,\"path_m\":%.4f,\"wheel_left_m\":%.4f,\"wheel_right_m\":%.4f,"
         "\"touches\":%lld,\"touching\":%s,\"closest_m\":%.4f,\"slips\":%lld,\"mode\":\"%s\","
         "\"frames\":%lld,\"watchdog_stops\":%lld,\"watchdog_still_ms\":%.1f,"
-        "\"ignored_drives\":%lld,\"unknown_bytes\":%lld}",
+        "\"ignored_drives\":%lld,\"unknown_bytes\":%lld,\"deaf\":%d}",
         static_cast<double>(lived_ns_) * 1e-9, own_s(), plant_.x(), plant_.y(), plant_.yaw(),
         plant_.left().speed_mps, plant_.right().speed_mps, plant_.path_m(), plant_.left().travel_m,
         plant_.right().travel_m, static_cast<long long>(plant_.touches()),
@@ -216,7 +216,7 @@ class CreatePeer {
         static_cast<long long>(plant_.slips()), robot_.mode_name(),
         static_cast<long long>(robot_.frames), static_cast<long long>(robot_.watchdog_stops),
         watchdog_still_ms_, static_cast<long long>(robot_.ignored_drives),
-        static_cast<long long>(robot_.unknown_bytes));
+        static_cast<long long>(robot_.unknown_bytes), deaf_left_);
     return text;
   }
 

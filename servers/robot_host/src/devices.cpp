@@ -149,8 +149,79 @@ void note_clock(const DeviceContext& context, const config::RobotGroup& group,
   }
 }
 
+Status add_shared(const DeviceContext& context, const config::RobotGroup& group,
+                  sim::RobotType& type) {
+  constexpr std::array kKinds = {DriverKind::kDevice};
+  for (const config::DeviceFile& file : group.robot.devices) {
+    RAVE_TRY_ASSIGN(const Driver* const driver, find_driver(context, kKinds, file.driver));
+    sim::DeviceSpec device;
+    device.name = file.name.value;
+    device.driver = driver->info.name;
+    device.ops = static_cast<const HardwareDeviceOps*>(driver->ops);
+    RAVE_TRY_ASSIGN(device.params, read_params(*driver, file.params));
+    note_clock(context, group, device.name, driver->info, device.params);
+    type.devices.push_back(std::move(device));
+  }
+  return {};
+}
+
+/// Names of the robot's devices that are of a driver; all of them if it is empty.
+std::vector<std::string_view> devices_of(const sim::RobotType& type, std::string_view driver) {
+  std::vector<std::string_view> names;
+  for (const sim::DeviceSpec& device : type.devices) {
+    if (driver.empty() || device.driver == driver) names.emplace_back(device.name);
+  }
+  return names;
+}
+
+/// A sensor takes the device for an object of its own plug-in's class.
+Status check_same_plugin(const DeviceContext& context, const Driver& user,
+                         const sim::DeviceSpec& device, const SourceLocation& where) {
+  constexpr std::array kKinds = {DriverKind::kDevice};
+  RAVE_TRY_ASSIGN(const Driver* const found, context.catalogue.find(kKinds, device.driver));
+  if (found->file == user.file) return {};
+  return fail_at(where, ErrorCode::kPlugin,
+                 "the drivers `{}` and `{}` must be of one plug-in, but they come from `{}` and "
+                 "`{}`",
+                 user.info.name, device.driver, user.file.string(), found->file.string());
+}
+
+/// The device that `device:` names, checked against what the driver asks for.
+Result<std::optional<std::uint32_t>> shared_device(
+    const DeviceContext& context, const Driver& user, const config::Located<std::string>& driver,
+    const std::optional<config::Located<std::string>>& named, const sim::RobotType& type) {
+  const DriverInfo& info = user.info;
+  const std::string_view wanted = info.device;
+  if (wanted.empty()) {
+    if (!named) return std::nullopt;
+    return fail_at(named->where, ErrorCode::kInvalidArgument,
+                   "the driver `{}` is part of no device: expected no `device:`", info.name);
+  }
+  const auto fitting = devices_of(type, wanted);
+  const std::string there =
+      fitting.empty() ? "the robot has none" : "there is " + join_names(fitting);
+  if (!named) {
+    return fail_at(driver.where, ErrorCode::kInvalidArgument,
+                   "the driver `{}` is part of a device: expected `device:` with the name of an "
+                   "entry of `devices:` that has the driver `{}`; {}",
+                   info.name, wanted, there);
+  }
+  for (std::uint32_t d = 0; d < type.devices.size(); ++d) {
+    if (type.devices[d].name != named->value) continue;
+    if (type.devices[d].driver == wanted) {
+      RAVE_TRY(check_same_plugin(context, user, type.devices[d], named->where));
+      return d;
+    }
+    return fail_at(named->where, ErrorCode::kInvalidArgument,
+                   "the driver `{}` needs a device of the driver `{}`, but `{}` has `{}`; {}",
+                   info.name, wanted, named->value, type.devices[d].driver, there);
+  }
+  return fail_at(named->where, ErrorCode::kNotFound, "there is no device `{}`{}", named->value,
+                 suggestion(named->value, devices_of(type, "")));
+}
+
 Result<sim::SensorSpec> make_sensor(const DeviceContext& context, const config::RobotGroup& group,
-                                    const config::SensorFile& file) {
+                                    const config::SensorFile& file, const sim::RobotType& type) {
   constexpr std::array kKinds = {DriverKind::kSensor, DriverKind::kVirtualSensor};
   RAVE_TRY_ASSIGN(const Driver* const driver, find_driver(context, kKinds, file.driver));
   sim::SensorSpec sensor;
@@ -167,6 +238,7 @@ Result<sim::SensorSpec> make_sensor(const DeviceContext& context, const config::
                      driver->info.name, sensor.name);
     }
   }
+  RAVE_TRY_ASSIGN(sensor.device, shared_device(context, *driver, file.driver, file.device, type));
   RAVE_TRY_ASSIGN(sensor.params, read_params(*driver, file.params));
   note_clock(context, group, sensor.name, driver->info, sensor.params);
   const config::MountFile& mount = file.mount.value;
@@ -201,6 +273,8 @@ Status add_actuators(const DeviceContext& context, const config::RobotGroup& gro
       hardware = &file;
       actuator.hardware_ops = static_cast<const HardwareActuatorOps*>(driver->ops);
     }
+    RAVE_TRY_ASSIGN(actuator.device,
+                    shared_device(context, *driver, file.driver, file.device, type));
     RAVE_TRY_ASSIGN(actuator.params, read_params(*driver, file.params));
     note_clock(context, group, actuator.name, driver->info, actuator.params);
     type.actuators.push_back(std::move(actuator));
@@ -325,8 +399,9 @@ std::vector<config::FieldSpec> field_specs(const DriverInfo& info) {
 
 Status add_devices(const DeviceContext& context, const config::RobotGroup& group,
                    sim::RobotType& type) {
+  RAVE_TRY(add_shared(context, group, type));
   for (const config::SensorFile& file : group.robot.sensors) {
-    RAVE_TRY_ASSIGN(auto sensor, make_sensor(context, group, file));
+    RAVE_TRY_ASSIGN(auto sensor, make_sensor(context, group, file, type));
     type.sensors.push_back(std::move(sensor));
   }
   RAVE_TRY(add_actuators(context, group, type));

@@ -191,7 +191,7 @@ Status CreateDevice::converse(OiSession& session, const std::stop_token& stop) {
   HostTime good = began;
   bool heard = false;
   counted_ = {};
-  missing_before_ = 0;
+  note([&](const DeviceState& state) { missing_before_ = state.missing_frames; });
   told_ = {};
   order_kept_ = false;
   drive_at_ = began;
@@ -248,9 +248,8 @@ void CreateDevice::take(const Frame& frame, OiSession& session) {
     if (session.times().known_for_s() > kDriftAfter_s) {
       counts.clock_drift_ppm = (kStreamPeriod_s / period_s - 1) * 1e6;
     }
-    counts.missing_frames += session.times().missing() - missing_before_;
+    counts.missing_frames = missing_before_ + session.times().missing();
   });
-  missing_before_ = session.times().missing();
   state_changed_.notify_all();
 }
 

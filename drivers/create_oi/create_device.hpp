@@ -100,7 +100,7 @@ class CreateDevice final : public HardwareDevice {
   WheelSpeeds told_;           // what the wheels were told last
   bool order_kept_ = false;    // the order was in force at the last look
   StreamDecoder::Counts counted_;
-  std::uint64_t missing_before_ = 0;
+  std::uint64_t missing_before_ = 0;  // in former conversations
 
   std::mutex listeners_mutex_;  // guards listeners_; held while they are called
   std::vector<FrameListener*> listeners_;

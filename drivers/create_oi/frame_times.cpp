@@ -9,7 +9,7 @@ namespace rave::oi {
 void FrameTimes::reset() {
   known_ = false;
   periods_ = 0;
-  missing_ = 0;
+  frames_ = 0;
 }
 
 double FrameTimes::next(double came_s) {
@@ -20,17 +20,24 @@ double FrameTimes::next(double came_s) {
     return estimate_s_;
   }
   const double gap_s = came_s - estimate_s_;
-  const double steps = std::max(1.0, std::round(gap_s / period_s_));
+  // As many periods as surely have passed. None: this one came together with the one before, which
+  // had stood still on the line and was taken for a later one; or it is the same once more.
+  const double steps = std::max(0.0, std::floor(gap_s / period_s_ + kEarly));
   periods_ += static_cast<std::uint64_t>(steps);
-  missing_ += static_cast<std::uint64_t>(steps) - 1;
+  ++frames_;
   const double expected_s = estimate_s_ + steps * period_s_;
   const double late_s = came_s - expected_s;
-  if (late_s <= 0 || gap_s > kJump_s) {
-    // It cannot have come before it was made. A frame that stood still on the line comes together
-    // with the next one: then time does not step back either.
+  if (late_s <= 0 || steps == 0 || gap_s > kJump_s) {
+    // It cannot have come before it was made; and time does not step back.
     estimate_s_ = std::max(estimate_s_, came_s);
   } else {
     estimate_s_ = expected_s + kGain * late_s;
+  }
+  if (steps == 0 && frames_ < kSettle) {
+    // It was the first one that came late: measure from here.
+    first_s_ = estimate_s_;
+    periods_ = 0;
+    frames_ = 0;
   }
   return estimate_s_;
 }

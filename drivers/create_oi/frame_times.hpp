@@ -27,18 +27,23 @@ class FrameTimes {
   /// How long it has been known.
   [[nodiscard]] double known_for_s() const noexcept { return estimate_s_ - first_s_; }
   /// Frames that should have come and did not.
-  [[nodiscard]] std::uint64_t missing() const noexcept { return missing_; }
+  [[nodiscard]] std::uint64_t missing() const noexcept {
+    return periods_ > frames_ ? periods_ - frames_ : 0;
+  }
 
  private:
   static constexpr double kGain = 0.02;
+  static constexpr double kEarly = 0.2;   ///< Of a period: the estimate may be late by so much.
   static constexpr double kJump_s = 0.2;  ///< Later than this is a new beginning, not a delay.
+
+  static constexpr std::uint64_t kSettle = 20;
 
   double period_s_;
   bool known_ = false;
   double estimate_s_ = 0;
   double first_s_ = 0;
   std::uint64_t periods_ = 0;
-  std::uint64_t missing_ = 0;
+  std::uint64_t frames_ = 0;  // after the first
 };
 
 }  // namespace rave::oi

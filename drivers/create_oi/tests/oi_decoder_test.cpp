@@ -13,9 +13,9 @@ using Bytes = std::vector<std::uint8_t>;
 /// The example of the specification: cliff left signal 549, no virtual wall.
 const Bytes kExample{19, 5, 29, 2, 37, 13, 0, 151};
 
-Bytes framed(Bytes body) {
+Bytes framed(const Bytes& body) {
   Bytes frame{19, static_cast<std::uint8_t>(body.size())};
-  frame.insert(frame.end(), body.begin(), body.end());
+  for (const std::uint8_t byte : body) frame.push_back(byte);
   const unsigned sum = std::accumulate(frame.begin(), frame.end(), 0U);
   frame.push_back(static_cast<std::uint8_t>(256 - sum % 256));
   return frame;
@@ -33,7 +33,7 @@ std::vector<Bytes> decode(StreamDecoder& decoder, const Bytes& bytes) {
 }
 
 Bytes operator+(Bytes a, const Bytes& b) {
-  a.insert(a.end(), b.begin(), b.end());
+  for (const std::uint8_t byte : b) a.push_back(byte);
   return a;
 }
 
@@ -69,7 +69,7 @@ TEST(StreamDecoder, OneGarbledByteCostsOneFrame) {
 
 TEST(StreamDecoder, OneByteTooManyCostsOneFrame) {
   for (std::size_t at = 0; at <= kExample.size(); ++at) {
-    for (const std::uint8_t extra : {0, 5, 19, 255}) {
+    for (const std::uint8_t extra : Bytes{0, 5, 19, 255}) {
       StreamDecoder decoder({29, 13});
       Bytes longer = kExample;
       longer.insert(longer.begin() + static_cast<std::ptrdiff_t>(at), extra);

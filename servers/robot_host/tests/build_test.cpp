@@ -71,15 +71,15 @@ TEST(Build, PartsOfADeviceNameIt) {
 TEST(BuildErrors, APartOfADeviceNeedsOneOfItsDriver) {
   Host host;
   EXPECT_EQ(host.error_of(one("sensors: [{name: wheels, driver: create_odometry}]")),
-            "s.yaml:6:107: the driver `create_odometry` is part of a device: expected `device:` "
+            "s.yaml:6:102: the driver `create_odometry` is part of a device: expected `device:` "
             "with the name of an entry of `devices:` that has the driver `create_oi`; the robot "
             "has none");
   EXPECT_EQ(host.error_of(one(kBase + "actuators: [{name: motors, driver: create_drive}]")),
-            "s.yaml:6:181: the driver `create_drive` is part of a device: expected `device:` with "
+            "s.yaml:6:174: the driver `create_drive` is part of a device: expected `device:` with "
             "the name of an entry of `devices:` that has the driver `create_oi`; there is base");
   EXPECT_EQ(host.error_of(one(kBase + "sensors: [{name: eye, driver: virtual_laser, device: "
                                       "base}]")),
-            "s.yaml:6:203: the driver `virtual_laser` is part of no device: expected no `device:`");
+            "s.yaml:6:192: the driver `virtual_laser` is part of no device: expected no `device:`");
   const std::string unknown = host.error_of(
       one(kBase + "sensors: [{name: wheels, driver: create_odometry, device: bass}]"));
   EXPECT_EQ(unknown.find("s.yaml:6:"), 0U) << unknown;

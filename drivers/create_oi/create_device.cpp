@@ -180,7 +180,7 @@ Status CreateDevice::talk_until_lost(const std::stop_token& stop) {
   RAVE_TRY_ASSIGN(line::ByteLine opened, line::ByteLine::open(options_.address, kConnect, &wake_));
   OiSession session(std::move(opened), &wake_, packets_);
   RAVE_TRY(session.begin(options_.mode));
-  const Status ended = converse(session, stop);
+  Status ended = converse(session, stop);
   session.end();
   return ended;
 }

@@ -2,14 +2,24 @@
 #include "create_oi/oi_decoder.hpp"
 
 #include <numeric>
+#include <utility>
 
 #include "create_oi/oi_code.hpp"
 
 namespace rave::oi {
 
-StreamDecoder::StreamDecoder(std::vector<std::uint8_t> packets) : packets_(std::move(packets)) {
-  size_ = 3;
-  for (const std::uint8_t id : packets_) size_ += 1 + packet_size(id);
+namespace {
+
+std::size_t size_with(std::span<const std::uint8_t> packets) {
+  std::size_t size = 3;
+  for (const std::uint8_t id : packets) size += 1 + packet_size(id);
+  return size;
+}
+
+}  // namespace
+
+StreamDecoder::StreamDecoder(std::vector<std::uint8_t> packets)
+    : packets_(std::move(packets)), size_(size_with(packets_)) {
   bytes_.reserve(size_);
   came_s_.reserve(size_);
 }

@@ -347,7 +347,7 @@ TEST(SampleQueue, AStreamThatIsLiveCanRecoverAndAnotherCannot) {
   stepped.fail("gone", 4);
   stepped.recover();
   EXPECT_EQ(stepped.failure(), "gone");
-  class Clock final : public RunClock {
+  class StillClock final : public RunClock {
    public:
     [[nodiscard]] SimTime now() const noexcept override { return {}; }
     [[nodiscard]] std::chrono::steady_clock::time_point wall_time_of(

@@ -7,11 +7,19 @@
 
 namespace rave::testing {
 
+namespace detail {
+/// Made before the instance that comes from it.
+struct OwnPlugin {
+  explicit OwnPlugin(const std::string& name) : own_plugin(name) {}
+  LivePlugin own_plugin;
+};
+}  // namespace detail
+
 /// A sensor driver that is alone in a plug-in of its name.
-class LiveDriver : private LivePlugin, public LiveSensor {
+class LiveDriver : private detail::OwnPlugin, public LiveSensor {
  public:
-  explicit LiveDriver(const std::string& name) : LivePlugin(name), LiveSensor(*this, name) {}
-  using LiveSensor::info;
+  explicit LiveDriver(const std::string& name)
+      : detail::OwnPlugin(name), LiveSensor(own_plugin, name) {}
 };
 
 }  // namespace rave::testing

@@ -87,6 +87,9 @@ class Search {
     for (std::size_t i = 0; i < robot.controllers.size(); ++i) {
       consider(robot.controllers[i].name.where, robot.controllers[i].driver.where, 2, i);
     }
+    for (std::size_t i = 0; i < robot.devices.size(); ++i) {
+      consider(robot.devices[i].name.where, robot.devices[i].driver.where, 4, i);
+    }
     if (robot.program) consider(robot.program->driver.where, robot.program->driver.where, 3, 0);
     if (list < 0) return false;
     erase(robot, list, index);
@@ -105,6 +108,17 @@ class Search {
       robot.actuators.erase(robot.actuators.begin() + at);
     } else if (list == 2) {
       robot.controllers.erase(robot.controllers.begin() + at);
+    } else if (list == 4) {
+      const std::string name = robot.devices[index].name.value;
+      const auto uses = [&](const auto& item) { return item.device && item.device->value == name; };
+      // With a device goes what is part of it.
+      for (std::size_t i = robot.sensors.size(); i-- > 0;) {
+        if (uses(robot.sensors[i])) erase(robot, 0, i);
+      }
+      for (std::size_t i = robot.actuators.size(); i-- > 0;) {
+        if (uses(robot.actuators[i])) erase(robot, 1, i);
+      }
+      robot.devices.erase(robot.devices.begin() + at);
     } else {
       robot.program.reset();
     }

@@ -58,6 +58,7 @@ RawNode driver_json(const plugin::Driver& driver) {
   node.append("name", RawNode::text(info.name));
   node.append("version", RawNode::text(info.version));
   node.append("clock", RawNode::text(std::string(to_string(info.clock))));
+  if (*info.device != '\0') node.append("device", RawNode::text(info.device));
   node.append("summary", RawNode::text(info.summary));
   node.append("file", RawNode::text(driver.file.string()));
   RawNode params = RawNode::sequence();

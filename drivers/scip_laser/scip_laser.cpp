@@ -211,6 +211,7 @@ Status ScipLaser::stream(ScipSession& session, SampleSink& sink, HostTime& last_
     if (next.end == ReadEnd::kBytes && take(next, stretch, sink)) {
       good = line::host_now();
       last_scan = good;
+      if (loss_reported_) sink.recover();
       loss_reported_ = false;
     } else if (line::host_now() >= silent_at) {
       return fail(ErrorCode::kTimeout, "no good scan for {:.1f} s", silence_s);

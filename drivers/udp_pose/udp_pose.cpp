@@ -131,6 +131,7 @@ void UdpPose::run(SampleSink& sink, const std::stop_token& stop) {
       if (taken.verdict == PoseStream::Verdict::kAccepted) {
         if (!publish(datagram, taken.host_s, sink)) ++held_back;
         silent_at = line::after_seconds(line::host_now(), lost_after_s_);
+        if (silence_reported) sink.recover();
         silence_reported = false;
       }
       const std::lock_guard lock(mutex_);

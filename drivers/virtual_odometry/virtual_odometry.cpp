@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
-#include "pose_covariance.hpp"
 #include "rave/math/gaussian.hpp"
+#include "rave/math/pose_covariance.hpp"
 #include "rave/math/transform.hpp"
 #include "rave/sim/virtual_sensor.hpp"
 

@@ -23,6 +23,13 @@ const char* to_string(Fault fault) {
   return kNames[static_cast<int>(fault)];
 }
 
+Fault fault_named(const std::string& name) {
+  for (const Fault fault : {Fault::kGarble, Fault::kTear, Fault::kRepeat, Fault::kDelay}) {
+    if (name == to_string(fault)) return fault;
+  }
+  return Fault::kNone;
+}
+
 std::vector<Chunk> spoil(const std::string& bytes, Fault fault, std::mt19937_64& random) {
   const std::size_t at = below(bytes.size(), random);
   const std::size_t length = 1 + below(bytes.size() - at, random);

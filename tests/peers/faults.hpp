@@ -12,6 +12,8 @@ namespace peer {
 enum class Fault { kNone, kGarble, kTear, kRepeat, kDelay };
 
 [[nodiscard]] const char* to_string(Fault fault);
+/// kNone if nothing is called so.
+[[nodiscard]] Fault fault_named(const std::string& name);
 
 /// A piece of bytes and how much later than the one before it leaves.
 struct Chunk {

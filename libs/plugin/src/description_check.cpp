@@ -103,6 +103,10 @@ Status check_description(const DriverInfo& info, const void* ops) {
     return fail(ErrorCode::kPlugin, "driver `{}` has the unknown clock {}", info.name,
                 static_cast<std::uint32_t>(info.clock));
   }
+  if (info.device == nullptr) {
+    return fail(ErrorCode::kPlugin, "driver `{}` has a null instead of a device; empty means none",
+                info.name);
+  }
   if (empty(info.version)) {
     return fail(ErrorCode::kPlugin, "driver `{}` has no version", info.name);
   }

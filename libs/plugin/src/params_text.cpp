@@ -114,9 +114,11 @@ std::string describe(const Driver& driver) {
   const DriverInfo& info = driver.info;
   std::string page = fmt::format("{}\n", info.name);
   page += wrapped(info.summary, 2, kPageWidth);
-  page += fmt::format("\n  kind     {}\n  version  {}\n  clock    {}\n  file     {}\n\n",
+  page += fmt::format("\n  kind     {}\n  version  {}\n  clock    {}\n  file     {}\n",
                       rave::to_string(info.kind), info.version, rave::to_string(info.clock),
                       driver.file.string());
+  if (*info.device != '\0') page += fmt::format("  device   part of a `{}`\n", info.device);
+  page += "\n";
   if (info.param_count == 0) return page + "It has no parameters.\n";
   page += "Parameters\n";
   TextTable table(kHeadings);
@@ -126,10 +128,11 @@ std::string describe(const Driver& driver) {
 
 std::string markdown(const Driver& driver) {
   const DriverInfo& info = driver.info;
-  std::string section =
-      fmt::format("### `{}`\n\n{}\n\nKind: {}. Version: {}. Clock: {}. Plug-in: `{}`.\n\n",
-                  info.name, escaped(info.summary), rave::to_string(info.kind), info.version,
-                  rave::to_string(info.clock), driver.file.filename().string());
+  std::string section = fmt::format(
+      "### `{}`\n\n{}\n\nKind: {}. Version: {}. Clock: {}. Plug-in: `{}`.{}\n\n", info.name,
+      escaped(info.summary), rave::to_string(info.kind), info.version, rave::to_string(info.clock),
+      driver.file.filename().string(),
+      *info.device == '\0' ? std::string() : fmt::format(" Part of a device `{}`.", info.device));
   if (info.param_count == 0) return section + "It has no parameters.\n";
   section += "| name | type | unit | range | default | meaning |\n|---|---|---|---|---|---|\n";
   for (const ParamSpec& spec : info.param_specs()) {

@@ -93,6 +93,17 @@ TEST(DefaultText, IsWhatAFileWouldSay) {
   EXPECT_EQ(default_text(required(number_param("a", "", 0.1, 0, 1, ""))), "required");
 }
 
+TEST(Describe, SaysOfWhichDeviceItIsAPart) {
+  Driver driver = sample({});
+  driver.info.device = "rover";
+  EXPECT_NE(describe(driver).find("  file     /plugins/laser.so\n  device   part of a `rover`\n\n"),
+            std::string::npos)
+      << describe(driver);
+  EXPECT_NE(markdown(driver).find("Plug-in: `laser.so`. Part of a device `rover`.\n"),
+            std::string::npos)
+      << markdown(driver);
+}
+
 TEST(Markdown, IsASectionWithoutTheFolder) {
   const std::array params{number_param("range_m", "m", 8, 0.1, 30, "Longest | range."),
                           required(text_param("port", "", "Where it is."))};

@@ -342,6 +342,29 @@ TEST(SampleQueue, DropsSamplesInTimeThatWasSaidToBeComplete) {
   EXPECT_EQ(take(queue, kEnd), Stamps{1'000'000'001});
 }
 
+TEST(SampleQueue, AStreamThatIsLiveCanRecoverAndAnotherCannot) {
+  SampleQueue stepped = values(4);
+  stepped.fail("gone", 4);
+  stepped.recover();
+  EXPECT_EQ(stepped.failure(), "gone");
+  class StillClock final : public RunClock {
+   public:
+    [[nodiscard]] SimTime now() const noexcept override { return {}; }
+    [[nodiscard]] std::chrono::steady_clock::time_point wall_time_of(
+        SimTime) const noexcept override {
+      return {};
+    }
+  } clock;
+  SampleQueue live(ReadingKind::kValues, 2, 4, &clock);
+  live.fail("gone", 4);
+  EXPECT_EQ(live.wait_complete({0}, std::chrono::milliseconds(0)), SampleQueue::Wait::kFailed);
+  live.recover();
+  EXPECT_EQ(live.failure(), "");
+  EXPECT_EQ(live.wait_complete({0}, std::chrono::milliseconds(0)), SampleQueue::Wait::kComplete);
+  live.fail("gone again", 10);
+  EXPECT_EQ(live.failure(), "gone again");
+}
+
 TEST(SampleQueue, DropsSamplesThatDoNotFit) {
   SampleQueue queue = values(4);
   const double records[3] = {1, 2, 3};

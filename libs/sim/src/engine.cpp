@@ -77,6 +77,8 @@ std::string_view to_string(EventKind kind) noexcept {
       return "program failed";
     case EventKind::kDriverFailed:
       return "driver failed";
+    case EventKind::kDriverBack:
+      return "driver back";
   }
   return "unknown";
 }
@@ -152,14 +154,21 @@ Status Engine::Impl::make() {
       blocks.push_back({g, begin, std::min(begin + kBlockSize, size)});
     }
   }
-  set_initial_state();
-  return {};
+  return begin();
 }
 
 Status Engine::Impl::reset() {
   tell_complaints();
+  // All are closed first: what two robots share must be free before one of them opens it again.
+  for (RobotGroup& group : groups) close_group(group);
   for (RobotGroup& group : groups) RAVE_TRY(reset_group({spec, logs}, group));
+  return begin();
+}
+
+Status Engine::Impl::begin() {
   set_initial_state();
+  if (spec.on_ready) spec.on_ready();
+  for (RobotGroup& group : groups) RAVE_TRY(open_sensors({spec, logs}, group));
   return {};
 }
 
@@ -294,6 +303,16 @@ std::string Engine::sensor_report(RobotId robot, std::uint32_t index) const {
                                    [](void* context, const char* part, std::uint64_t size) {
                                      static_cast<std::string*>(context)->append(part, size);
                                    });
+  return text;
+}
+
+std::string Engine::device_report(RobotId robot, std::uint32_t index) const {
+  const DeviceSlots& slots = impl_->group_of(robot).devices[index];
+  std::string text;
+  slots.spec->ops->report(slots.instances.at(impl_->member_index[robot.value()]), &text,
+                          [](void* context, const char* part, std::uint64_t size) {
+                            static_cast<std::string*>(context)->append(part, size);
+                          });
   return text;
 }
 

@@ -28,19 +28,22 @@ void Engine::Impl::act() {
   for (RobotGroup& group : groups) {
     for (ActuatorSlots& slots : group.actuators) {
       if (slots.spec->hardware_ops == nullptr) continue;
-      for (std::size_t m = 0; m < group.members.size(); ++m) {
-        if (slots.failed[m] != 0 || slots.commands[m].kind == CommandKind::kNone) continue;
-        ErrorText error;
-        if (slots.spec->hardware_ops->write(slots.instances.at(m), &slots.commands[m], now.ns,
-                                            &error) == 0) {
-          continue;
-        }
-        slots.failed[m] = 1;
-        note({step, group.members[m], EventKind::kDriverFailed, BodyId(),
-              fmt::format("actuator `{}`: {}", slots.spec->name, error.text)});
-      }
+      for (std::size_t m = 0; m < group.members.size(); ++m) write_hardware(group, slots, m);
     }
   }
+}
+
+void Engine::Impl::write_hardware(RobotGroup& group, ActuatorSlots& slots, std::size_t member) {
+  if (slots.commands[member].kind == CommandKind::kNone) return;
+  ErrorText error;
+  const bool failed = slots.spec->hardware_ops->write(slots.instances.at(member),
+                                                      &slots.commands[member], now.ns, &error) != 0;
+  // A device that is gone may come back, so it is told on, and both are noted once.
+  if (failed == (slots.failed[member] != 0)) return;
+  slots.failed[member] = failed ? 1 : 0;
+  note({step, group.members[member], failed ? EventKind::kDriverFailed : EventKind::kDriverBack,
+        BodyId(),
+        fmt::format("actuator `{}`: {}", slots.spec->name, failed ? error.text : "works again")});
 }
 
 void Engine::Impl::act_block(const Block& block, Worker& worker) {

@@ -48,6 +48,8 @@ struct Engine::Impl {
 
   Status make();
   Status reset();
+  /// The last part of both: the state at the start, and the sensors opened.
+  Status begin();
   void set_initial_state();
   /// What drivers did wrong with their samples. Told at the end, since when their threads did it is
   /// chance.
@@ -58,6 +60,7 @@ struct Engine::Impl {
   Status ingest();
   Status ingest_sensors(bool hybrid);
   Status ingest_sensor(RobotGroup& group, SensorSlots& slots, std::size_t member);
+  void note_loss(SensorSlots& slots, std::size_t member, RobotId robot);
   void accept_hardware_sample(RobotGroup& group, SensorSlots& slots, std::size_t member,
                               const SampleHeader& sample);
   void push_hardware_sample(RobotGroup& group, SensorSlots& slots, std::size_t member);
@@ -102,6 +105,7 @@ struct Engine::Impl {
   // engine_act.cpp: controllers, actuators, the limits of motion
   void act();
   void act_block(const Block& block, Worker& worker);
+  void write_hardware(RobotGroup& group, ActuatorSlots& slots, std::size_t member);
   void control(RobotGroup& group, const Block& block, Worker& worker);
   void actuate(RobotGroup& group, const Block& block, Worker& worker);
   void resolve();

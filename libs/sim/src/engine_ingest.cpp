@@ -84,17 +84,23 @@ Status Engine::Impl::ingest_sensor(RobotGroup& group, SensorSlots& slots, std::s
     lost = lost || wait == SampleQueue::Wait::kFailed;
     break;
   }
-  if (lost && slots.failed[member] == 0 && !queue.failure().empty()) {
-    slots.failed[member] = 1;
-    note({step, robot, EventKind::kDriverFailed, BodyId(),
-          fmt::format("sensor `{}`: {}", slots.spec->name, queue.failure())});
-  }
+  if (lost) note_loss(slots, member, robot);
   if (slots.processing) process_hardware_samples(group, slots, member);
   if (slots.headers[member].fresh == 2) {
     slots.headers[member].fresh = 1;
     hash_delivery(group, slots, device, member, hash);
   }
   return {};
+}
+
+void Engine::Impl::note_loss(SensorSlots& slots, std::size_t member, RobotId robot) {
+  const std::string failure = slots.queues[member]->failure();
+  const bool failed = !failure.empty();
+  if (failed == (slots.failed[member] != 0)) return;
+  // What a stepped driver says of a loss is final, so only a live one can get here twice.
+  slots.failed[member] = failed ? 1 : 0;
+  note({step, robot, failed ? EventKind::kDriverFailed : EventKind::kDriverBack, BodyId(),
+        fmt::format("sensor `{}`: {}", slots.spec->name, failed ? failure : "works again")});
 }
 
 void Engine::Impl::accept_hardware_sample(RobotGroup& group, SensorSlots& slots, std::size_t member,

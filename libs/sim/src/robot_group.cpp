@@ -118,6 +118,60 @@ Status configure_virtual(const GroupContext& context, RobotGroup& group, SensorS
   return {};
 }
 
+/// The object of the device that a sensor or actuator names; null if it names none.
+HardwareDevice* device_of(const RobotGroup& group, std::optional<std::uint32_t> index,
+                          std::size_t member) {
+  return index ? group.devices[*index].bases[member] : nullptr;
+}
+
+Status configure_device(const GroupContext& context, RobotGroup& group, DeviceSlots& slots,
+                        std::size_t member) {
+  HardwareDeviceSetup setup;
+  setup.robot = info_of(context, group.members[member]);
+  setup.host = services_of(context.logs[group.members[member].value()]);
+  setup.params = slots.spec->params.values().data();
+  setup.param_count = slots.spec->params.values().size();
+  setup.folder = group.type->folder.c_str();
+  void* const instance = slots.instances.at(member);
+  slots.bases.push_back(slots.spec->ops->base(instance));
+  return called(
+      [&](ErrorText* error) { return slots.spec->ops->configure(instance, &setup, error); });
+}
+
+Status make_devices(const GroupContext& context, RobotGroup& group) {
+  group.devices.resize(group.type->devices.size());
+  for (std::size_t d = 0; d < group.devices.size(); ++d) {
+    DeviceSlots& slots = group.devices[d];
+    slots.spec = &group.type->devices[d];
+    RAVE_TRY(slots.instances.make(slots.spec->ops->instance, group.members.size()));
+    slots.open.assign(group.members.size(), 0);
+    for (std::size_t m = 0; m < group.members.size(); ++m) {
+      const Status status = configure_device(context, group, slots, m);
+      if (!status) {
+        return tl::unexpected(named(context, group.members[m], "device", slots.spec->name,
+                                    slots.spec->driver, status.error()));
+      }
+    }
+  }
+  return {};
+}
+
+Status open_devices(const GroupContext& context, RobotGroup& group) {
+  for (DeviceSlots& slots : group.devices) {
+    for (std::size_t m = 0; m < group.members.size(); ++m) {
+      // close() comes also after an error of open().
+      slots.open[m] = 1;
+      const Status status = called(
+          [&](ErrorText* error) { return slots.spec->ops->open(slots.instances.at(m), error); });
+      if (!status) {
+        return tl::unexpected(named(context, group.members[m], "device", slots.spec->name,
+                                    slots.spec->driver, status.error()));
+      }
+    }
+  }
+  return {};
+}
+
 Status configure_hardware(const GroupContext& context, RobotGroup& group, SensorSlots& slots) {
   const SensorSpec& spec = *slots.spec;
   RAVE_TRY(slots.instances.make(spec.hardware_ops->instance, group.members.size()));
@@ -128,6 +182,7 @@ Status configure_hardware(const GroupContext& context, RobotGroup& group, Sensor
     setup.params = spec.params.values().data();
     setup.param_count = spec.params.values().size();
     setup.folder = group.type->folder.c_str();
+    setup.device = device_of(group, spec.device, m);
     HardwareDeclaration declaration;
     RAVE_TRY(called([&](ErrorText* error) {
       return spec.hardware_ops->configure(slots.instances.at(m), &setup, &declaration, error);
@@ -178,23 +233,6 @@ Status make_sensor(const GroupContext& context, RobotGroup& group, SensorSlots& 
   return {};
 }
 
-Status open_hardware(const GroupContext& context, RobotGroup& group) {
-  for (SensorSlots& slots : group.sensors) {
-    slots.open.assign(slots.queues.size(), 0);
-    for (std::size_t m = 0; m < slots.queues.size(); ++m) {
-      const Status status = called([&](ErrorText* error) {
-        return slots.spec->hardware_ops->open(slots.instances.at(m), slots.queues[m].get(), error);
-      });
-      if (!status) {
-        return tl::unexpected(named(context, group.members[m], "sensor", slots.spec->name,
-                                    slots.spec->hardware_driver(), status.error()));
-      }
-      slots.open[m] = 1;
-    }
-  }
-  return {};
-}
-
 DeviceSetup device_setup(const GroupContext& context, RobotId id, const plugin::ParamSet& params) {
   DeviceSetup setup;
   setup.robot = info_of(context, id);
@@ -230,7 +268,8 @@ Status start_controllers(const GroupContext& context, RobotGroup& group) {
 
 Status start_actuator(const GroupContext& context, RobotGroup& group, ActuatorSlots& slots,
                       std::size_t m) {
-  const DeviceSetup setup = device_setup(context, group.members[m], slots.spec->params);
+  DeviceSetup setup = device_setup(context, group.members[m], slots.spec->params);
+  setup.device = device_of(group, slots.spec->device, m);
   void* instance = slots.instances.at(m);
   if (slots.spec->virtual_ops != nullptr) {
     return called(
@@ -332,15 +371,16 @@ Status start_programs(const GroupContext& context, RobotGroup& group) {
 }
 
 Status start_devices(const GroupContext& context, RobotGroup& group) {
+  RAVE_TRY(open_devices(context, group));
   RAVE_TRY(start_controllers(context, group));
   RAVE_TRY(start_actuators(context, group));
-  RAVE_TRY(start_programs(context, group));
-  return open_hardware(context, group);
+  return start_programs(context, group);
 }
 
 }  // namespace
 
 Status make_group(GroupContext context, RobotGroup& group) {
+  RAVE_TRY(make_devices(context, group));
   group.sensors.resize(group.type->sensors.size());
   for (std::size_t s = 0; s < group.sensors.size(); ++s) {
     SensorSlots& slots = group.sensors[s];
@@ -375,6 +415,23 @@ Status reset_group(GroupContext context, RobotGroup& group) {
   return start_devices(context, group);
 }
 
+Status open_sensors(GroupContext context, RobotGroup& group) {
+  for (SensorSlots& slots : group.sensors) {
+    slots.open.assign(slots.queues.size(), 0);
+    for (std::size_t m = 0; m < slots.queues.size(); ++m) {
+      const Status status = called([&](ErrorText* error) {
+        return slots.spec->hardware_ops->open(slots.instances.at(m), slots.queues[m].get(), error);
+      });
+      if (!status) {
+        return tl::unexpected(named(context, group.members[m], "sensor", slots.spec->name,
+                                    slots.spec->hardware_driver(), status.error()));
+      }
+      slots.open[m] = 1;
+    }
+  }
+  return {};
+}
+
 void close_group(RobotGroup& group) noexcept {
   for (SensorSlots& slots : group.sensors) {
     for (auto& queue : slots.queues) queue->close();
@@ -386,6 +443,12 @@ void close_group(RobotGroup& group) noexcept {
   for (ActuatorSlots& slots : group.actuators) {
     for (std::size_t m = 0; m < slots.open.size(); ++m) {
       if (slots.open[m] != 0) slots.spec->hardware_ops->close(slots.instances.at(m));
+      slots.open[m] = 0;
+    }
+  }
+  for (DeviceSlots& slots : group.devices) {
+    for (std::size_t m = 0; m < slots.open.size(); ++m) {
+      if (slots.open[m] != 0) slots.spec->ops->close(slots.instances.at(m));
       slots.open[m] = 0;
     }
   }

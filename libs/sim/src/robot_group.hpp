@@ -88,10 +88,19 @@ struct ProgramSlots {
   std::vector<std::unique_ptr<ProgramProcess>> processes;
 };
 
+/// One piece of hardware that sensors and actuators share, for all robots of a type.
+struct DeviceSlots {
+  const DeviceSpec* spec = nullptr;
+  InstanceArray instances;
+  std::vector<HardwareDevice*> bases;  ///< The instances as sensors and actuators get them.
+  std::vector<std::uint8_t> open;      ///< Has to be closed.
+};
+
 /// All robots of one type and what serves them.
 struct RobotGroup {
   const RobotType* type = nullptr;
   std::vector<RobotId> members;
+  std::vector<DeviceSlots> devices;  ///< Before what uses them: they are destroyed after it.
   std::vector<SensorSlots> sensors;
   std::vector<ControllerSlots> controllers;
   std::vector<ActuatorSlots> actuators;
@@ -112,10 +121,13 @@ struct GroupContext {
   std::vector<RobotLog>& logs;  ///< By RobotId.
 };
 
-/// Makes all instances of a group and starts them. Errors name robot and device.
+/// Makes all instances of a group and starts them, except that hardware sensors are not opened yet.
+/// Errors name robot and device.
 Status make_group(GroupContext context, RobotGroup& group);
 /// Puts everything back to how make_group left it.
 Status reset_group(GroupContext context, RobotGroup& group);
+/// Opens the hardware sensors: from now on samples come.
+Status open_sensors(GroupContext context, RobotGroup& group);
 /// Closes hardware; after that nothing of the group runs any more.
 void close_group(RobotGroup& group) noexcept;
 

@@ -9,6 +9,7 @@
 #include "rave/base/names.hpp"
 #include "rave/isolation/isolated_program.hpp"
 #include "rave/math/scalar.hpp"
+#include "shared_device.hpp"
 
 namespace rave::robot_host {
 namespace {
@@ -156,8 +157,25 @@ ProcessingSpec processing_of(const config::SensorFile& sensor) {
   return spec;
 }
 
+Status add_shared(const DeviceContext& context, const config::RobotGroup& group,
+                  sim::RobotType& type) {
+  constexpr std::array kKinds = {DriverKind::kDevice};
+  for (const config::DeviceFile& file : group.robot.devices) {
+    RAVE_TRY_ASSIGN(const Driver* const driver, find_driver(context, kKinds, file.driver));
+    sim::DeviceSpec device;
+    device.name = file.name.value;
+    device.driver = driver->info.name;
+    device.ops = static_cast<const HardwareDeviceOps*>(driver->ops);
+    RAVE_TRY_ASSIGN(device.params, read_params(*driver, file.params));
+    note_clock(context, group, device.name, driver->info, device.params);
+    type.devices.push_back(std::move(device));
+  }
+  return {};
+}
+
 Status set_plain(const DeviceContext& context, const config::RobotGroup& group,
-                 const config::SensorFile& file, sim::SensorSpec& sensor) {
+                 const config::SensorFile& file, const sim::RobotType& type,
+                 sim::SensorSpec& sensor) {
   constexpr std::array kKinds = {DriverKind::kSensor, DriverKind::kVirtualSensor,
                                  DriverKind::kHybridSensor};
   RAVE_TRY_ASSIGN(const Driver* const driver, find_driver(context, kKinds, file.driver));
@@ -179,6 +197,7 @@ Status set_plain(const DeviceContext& context, const config::RobotGroup& group,
                      driver->info.name, sensor.name);
     }
   }
+  RAVE_TRY_ASSIGN(sensor.device, shared_device(context, *driver, file.driver, file.device, type));
   RAVE_TRY_ASSIGN(sensor.params, read_params(*driver, file.params));
   note_clock(context, group, sensor.name, driver->info, sensor.params);
   if (file.senses) sensor.layers = layer_mask(file.senses->value);
@@ -186,11 +205,11 @@ Status set_plain(const DeviceContext& context, const config::RobotGroup& group,
 }
 
 Result<sim::SensorSpec> make_sensor(const DeviceContext& context, const config::RobotGroup& group,
-                                    const config::SensorFile& file) {
+                                    const config::SensorFile& file, const sim::RobotType& type) {
   sim::SensorSpec sensor;
   sensor.name = file.name.value;
-  RAVE_TRY(file.real ? set_hybrid(context, group, file, sensor)
-                     : set_plain(context, group, file, sensor));
+  RAVE_TRY(file.real ? set_hybrid(context, group, file, type, sensor)
+                     : set_plain(context, group, file, type, sensor));
   const config::MountFile& mount = file.mount.value;
   sensor.X_RS = {mount.x_m, mount.y_m, wrap_angle(deg_to_rad(mount.yaw_deg))};
   sensor.z_m = mount.z_m;
@@ -222,6 +241,8 @@ Status add_actuators(const DeviceContext& context, const config::RobotGroup& gro
       hardware = &file;
       actuator.hardware_ops = static_cast<const HardwareActuatorOps*>(driver->ops);
     }
+    RAVE_TRY_ASSIGN(actuator.device,
+                    shared_device(context, *driver, file.driver, file.device, type));
     RAVE_TRY_ASSIGN(actuator.params, read_params(*driver, file.params));
     note_clock(context, group, actuator.name, driver->info, actuator.params);
     type.actuators.push_back(std::move(actuator));
@@ -353,8 +374,9 @@ std::vector<config::FieldSpec> field_specs(const DriverInfo& info) {
 
 Status add_devices(const DeviceContext& context, const config::RobotGroup& group,
                    sim::RobotType& type) {
+  RAVE_TRY(add_shared(context, group, type));
   for (const config::SensorFile& file : group.robot.sensors) {
-    RAVE_TRY_ASSIGN(auto sensor, make_sensor(context, group, file));
+    RAVE_TRY_ASSIGN(auto sensor, make_sensor(context, group, file, type));
     type.sensors.push_back(std::move(sensor));
   }
   RAVE_TRY(add_actuators(context, group, type));

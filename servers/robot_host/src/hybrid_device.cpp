@@ -4,6 +4,7 @@
 #include <array>
 
 #include "device_tools.hpp"
+#include "shared_device.hpp"
 
 namespace rave::robot_host {
 namespace {
@@ -34,7 +35,8 @@ Result<const Driver*> find_half(const DeviceContext& context, const config::Sens
 }  // namespace
 
 Status set_hybrid(const DeviceContext& context, const config::RobotGroup& group,
-                  const config::SensorFile& file, sim::SensorSpec& sensor) {
+                  const config::SensorFile& file, const sim::RobotType& type,
+                  sim::SensorSpec& sensor) {
   constexpr std::array kKinds = {DriverKind::kHybridSensor};
   RAVE_TRY_ASSIGN(const Driver* const fusing, find_driver(context, kKinds, file.driver));
   RAVE_TRY_ASSIGN(const Driver* const real,
@@ -44,6 +46,8 @@ Status set_hybrid(const DeviceContext& context, const config::RobotGroup& group,
   sensor.driver = fusing->info.name;
   sensor.kind = kind_of(*fusing);
   sensor.hardware_ops = static_cast<const HardwareSensorOps*>(real->ops);
+  RAVE_TRY_ASSIGN(sensor.device,
+                  shared_device(context, *real, file.real->driver, file.real->device, type));
   RAVE_TRY_ASSIGN(sensor.params, read_params(*real, file.real->params));
   sim::HybridSpec hybrid;
   hybrid.ops = static_cast<const HybridSensorOps*>(fusing->ops);

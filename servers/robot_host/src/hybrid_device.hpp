@@ -10,6 +10,7 @@ namespace rave::robot_host {
 /// and processing are for the caller. Errors: kNotFound and kInvalidArgument with file, line and
 /// column: a driver that does not exist, or halves that do not give what the driver fuses.
 Status set_hybrid(const DeviceContext& context, const config::RobotGroup& group,
-                  const config::SensorFile& file, sim::SensorSpec& sensor);
+                  const config::SensorFile& file, const sim::RobotType& type,
+                  sim::SensorSpec& sensor);
 
 }  // namespace rave::robot_host

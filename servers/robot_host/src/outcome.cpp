@@ -60,6 +60,36 @@ Json encounters_json(const Findings& findings) {
   return json;
 }
 
+/// A driver's text is not ours: what is no JSON object is kept as text. What its data calls its
+/// robot need not be what the scenario calls it.
+void add_report(const std::string& text, Json& entry) {
+  const Json report = Json::parse(text, nullptr, false);
+  if (!report.is_object()) {
+    entry["report"] = text;
+    return;
+  }
+  for (const auto& [key, value] : report.items()) {
+    entry[entry.contains(key) ? "source_" + key : key] = value;
+  }
+}
+
+/// What the hardware that robots share between sensors and actuators says of itself.
+Json devices_json(const Findings& findings) {
+  Json json = Json::array();
+  const sim::EngineSpec& spec = findings.engine.spec();
+  for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
+    const sim::RobotType& type = spec.types[spec.robots[r].type];
+    for (std::uint32_t d = 0; d < type.devices.size(); ++d) {
+      Json device = {{"robot", spec.robots[r].name},
+                     {"device", type.devices[d].name},
+                     {"driver", type.devices[d].driver}};
+      add_report(findings.engine.device_report(RobotId(r), d), device);
+      json.push_back(std::move(device));
+    }
+  }
+  return json;
+}
+
 /// What the drivers of real sensors say of their streams.
 Json streams_json(const Findings& findings) {
   Json json = Json::array();
@@ -71,16 +101,7 @@ Json streams_json(const Findings& findings) {
       Json stream = {{"robot", spec.robots[r].name},
                      {"sensor", type.sensors[s].name},
                      {"driver", type.sensors[s].driver}};
-      // A driver's text is not ours: what is no JSON is kept as text.
-      const Json report = Json::parse(findings.engine.sensor_report(RobotId(r), s), nullptr, false);
-      if (report.is_object()) {
-        // What the data calls its robot need not be what the scenario calls it.
-        for (const auto& [key, value] : report.items()) {
-          stream[stream.contains(key) ? "source_" + key : key] = value;
-        }
-      } else {
-        stream["report"] = findings.engine.sensor_report(RobotId(r), s);
-      }
+      add_report(findings.engine.sensor_report(RobotId(r), s), stream);
       json.push_back(std::move(stream));
     }
   }
@@ -113,7 +134,8 @@ Json events_json(const Findings& findings) {
   Json json = Json::object();
   for (const auto kind :
        {sim::EventKind::kContact, sim::EventKind::kPinned, sim::EventKind::kPoseStale,
-        sim::EventKind::kPoseBack, sim::EventKind::kProgramFailed, sim::EventKind::kDriverFailed}) {
+        sim::EventKind::kPoseBack, sim::EventKind::kProgramFailed, sim::EventKind::kDriverFailed,
+        sim::EventKind::kDriverBack}) {
     std::string name(to_string(kind));
     std::replace(name.begin(), name.end(), ' ', '_');
     json[name] = count_events(findings, kind);
@@ -227,6 +249,7 @@ std::string result_json(const Findings& findings, const RunOutcome& outcome) {
   json["closest"] = encounters_json(findings);
   json["events"] = events_json(findings);
   json["robots"] = robots_json(findings);
+  json["devices"] = devices_json(findings);
   json["streams"] = streams_json(findings);
   return json.dump(2) + "\n";
 }

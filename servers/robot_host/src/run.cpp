@@ -212,6 +212,7 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
     pace.set_factor(1);
   }
   if (!live) built.spec.live_clock = nullptr;
+  if (live) built.spec.on_ready = [&pace] { pace.start(); };
   for (const std::string& note : built.notes) {
     console.warn("scenario", "{}", note);
   }
@@ -228,7 +229,7 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
   }
   const RecordedConsole recorded(console, observers.record.get());
   Journey journey{*engine, observers, pace, live, file, options, console, {}, 0, false};
-  if (!live) pace.start();  // live drivers count from when they were opened
+  if (!live) pace.start();  // a live run counts from when its sensors were opened
   RAVE_TRY(go_through(journey));
   console.attach(nullptr);
   std::string record_problem;

@@ -51,6 +51,52 @@ TEST(BuildErrors, AParameterThatIsWrongPointsAtItsPlace) {
   EXPECT_NE(name.find("`rays`"), std::string::npos) << name;
 }
 
+const std::string kBase = "devices: [{name: base, driver: create_oi, params: {device: /dev/x}}], ";
+
+TEST(Build, PartsOfADeviceNameIt) {
+  Host host;
+  const auto built = host.build_text(
+      one(kBase + "pose_from: wheels, sensors: [{name: wheels, driver: create_odometry, device: "
+                  "base}], actuators: [{name: motors, driver: create_drive, device: base}]"));
+  ASSERT_TRUE(built.has_value()) << built.error().text();
+  const sim::RobotType& type = built->spec.types.at(0);
+  EXPECT_FALSE(type.simulated);
+  EXPECT_EQ(type.devices.at(0).name, "base");
+  EXPECT_EQ(type.devices.at(0).driver, "create_oi");
+  EXPECT_EQ(type.sensors.at(0).device, 0U);
+  EXPECT_EQ(type.actuators.at(0).device, 0U);
+  EXPECT_NE(built->live_reason.find("`base`"), std::string::npos) << built->live_reason;
+}
+
+TEST(BuildErrors, APartOfADeviceNeedsOneOfItsDriver) {
+  Host host;
+  EXPECT_EQ(host.error_of(one("sensors: [{name: wheels, driver: create_odometry}]")),
+            "s.yaml:6:102: the driver `create_odometry` is part of a device: expected `device:` "
+            "with the name of an entry of `devices:` that has the driver `create_oi`; the robot "
+            "has none");
+  EXPECT_EQ(host.error_of(one(kBase + "actuators: [{name: motors, driver: create_drive}]")),
+            "s.yaml:6:174: the driver `create_drive` is part of a device: expected `device:` with "
+            "the name of an entry of `devices:` that has the driver `create_oi`; there is base");
+  EXPECT_EQ(host.error_of(one(kBase + "sensors: [{name: eye, driver: virtual_laser, device: "
+                                      "base}]")),
+            "s.yaml:6:192: the driver `virtual_laser` is part of no device: expected no `device:`");
+  const std::string unknown = host.error_of(
+      one(kBase + "sensors: [{name: wheels, driver: create_odometry, device: bass}]"));
+  EXPECT_EQ(unknown.find("s.yaml:6:"), 0U) << unknown;
+  EXPECT_NE(unknown.find("did you mean `base`"), std::string::npos) << unknown;
+}
+
+TEST(BuildErrors, ADeviceIsOfADriverThatIsADevice) {
+  Host host;
+  const std::string error = host.error_of(
+      one("devices: [{name: base, driver: create_of}], sensors: [{name: wheels, driver: "
+          "create_odometry, device: base}]"));
+  EXPECT_EQ(error.find("s.yaml:6:"), 0U) << error;
+  EXPECT_NE(error.find("there is no device `create_of`; did you mean `create_oi`?"),
+            std::string::npos)
+      << error;
+}
+
 TEST(BuildErrors, ARealRobotMustSayWhereItIs) {
   Host host;
   const std::string deaf =

@@ -34,6 +34,7 @@ TEST(ScipLaserUnplug, AbsenceIsReportedAndEnds) {
   EXPECT_FALSE(bench.driver.report()["connected"]);
   bench.peer->tell("return");
   bench.sink->await_more(3);
+  bench.sink->await_recovery();
   EXPECT_TRUE(bench.driver.report()["connected"]);
 }
 

@@ -145,6 +145,7 @@ TEST(UdpPose, SilenceIsReportedAndEnds) {
                      " for 0.2 s");
   bench.peer->tell("speak");
   bench.sink.await_more(3);
+  bench.sink.await_recovery();
   bench.peer->tell("restart");
   bench.sink.await_more(20);
   bench.driver.close();

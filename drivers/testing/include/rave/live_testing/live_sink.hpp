@@ -66,7 +66,11 @@ class LiveSink final : public SampleSink {
     const std::lock_guard lock(mutex_);
     changed_.notify_all();
   }
-  void recover() noexcept override { queue_.recover(); }
+  void recover() noexcept override {
+    queue_.recover();
+    const std::lock_guard lock(mutex_);
+    changed_.notify_all();
+  }
   [[nodiscard]] SimTime now() const noexcept override { return queue_.now(); }
 
   /// Waits until there are `count` more samples than now.
@@ -81,6 +85,26 @@ class LiveSink final : public SampleSink {
     std::unique_lock lock(mutex_);
     EXPECT_TRUE(changed_.wait_for(lock, kLong, [&] { return !queue_.failure().empty(); }));
     return queue_.failure();
+  }
+  /// Waits until the driver takes that back.
+  void await_recovery() {
+    std::unique_lock lock(mutex_);
+    EXPECT_TRUE(changed_.wait_for(lock, kLong, [&] { return queue_.failure().empty(); }));
+  }
+  /// Waits for a sample whose first record is as wanted; gives it.
+  template <class Wanted>
+  Record await_record(Wanted wanted) {
+    std::unique_lock lock(mutex_);
+    const std::size_t from = samples_.empty() ? 0 : samples_.size() - 1;
+    std::size_t looked = from;
+    const bool came = changed_.wait_for(lock, kLong, [&] {
+      for (; looked < samples_.size(); ++looked) {
+        if (wanted(samples_[looked].records.front())) return true;
+      }
+      return false;
+    });
+    EXPECT_TRUE(came) << "no sample is as wanted";
+    return came ? samples_[looked].records.front() : Record{};
   }
   [[nodiscard]] std::vector<Delivered<Record>> samples() const {
     const std::lock_guard lock(mutex_);

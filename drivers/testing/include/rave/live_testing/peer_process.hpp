@@ -61,6 +61,14 @@ class PeerProcess {
     EXPECT_EQ(::write(to_, line.data(), line.size()), static_cast<ssize_t>(line.size()));
     (void)wait_for("ok " + command.substr(0, command.find(' ')));
   }
+  /// Gives a command that the peer answers by a line which begins so; gives what follows it.
+  std::string ask(const std::string& command) {
+    const std::string line = command + "\n";
+    EXPECT_EQ(::write(to_, line.data(), line.size()), static_cast<ssize_t>(line.size()));
+    std::string answer = wait_for(command);
+    (void)wait_for("ok " + command);
+    return answer;
+  }
   /// Waits for a line that begins so, and gives what follows it.
   std::string wait_for(const std::string& beginning) {
     while (true) {

@@ -20,6 +20,7 @@ enum class EventKind : std::uint32_t {
   kPoseBack = 4,       ///< ... and came again.
   kProgramFailed = 5,  ///< A program threw, crashed or hung; its robot stops.
   kDriverFailed = 6,   ///< A driver threw or lost its device.
+  kDriverBack = 7,     ///< ... and its device works again.
 };
 [[nodiscard]] std::string_view to_string(EventKind kind) noexcept;
 
@@ -106,6 +107,8 @@ class Engine {
   [[nodiscard]] bool program_alive(RobotId robot) const noexcept;
   /// What a hardware sensor reports of its stream (JSON); `{}` for virtual ones.
   [[nodiscard]] std::string sensor_report(RobotId robot, std::uint32_t index) const;
+  /// What a device (RobotType::devices) reports of itself (JSON).
+  [[nodiscard]] std::string device_report(RobotId robot, std::uint32_t index) const;
   /// Events of the last step, ordered by robot.
   [[nodiscard]] std::span<const Event> events() const noexcept;
   [[nodiscard]] RunHash hash() const noexcept;

@@ -12,6 +12,7 @@
 #include "rave/plugin/param_set.hpp"
 #include "rave/robot/actuator.hpp"
 #include "rave/robot/controller.hpp"
+#include "rave/robot/device.hpp"
 #include "rave/robot/hardware_sensor.hpp"
 #include "rave/robot/hybrid_sensor.hpp"
 #include "rave/robot/processing.hpp"
@@ -32,6 +33,14 @@ class ProgramProcess {
 };
 using ProgramProcessFactory =
     std::function<Result<std::unique_ptr<ProgramProcess>>(const ProgramSetup&)>;
+
+/// Hardware that sensors and actuators of a robot share.
+struct DeviceSpec {
+  std::string name;
+  std::string driver;
+  const HardwareDeviceOps* ops = nullptr;
+  plugin::ParamSet params;
+};
 
 /// What makes a hybrid of a real sensor: the virtual half, and the driver that makes one reading of
 /// both.
@@ -55,6 +64,7 @@ struct SensorSpec {
   ReadingKind kind = ReadingKind::kNone;
   const VirtualSensorOps* virtual_ops = nullptr;
   const HardwareSensorOps* hardware_ops = nullptr;
+  std::optional<std::uint32_t> device;  ///< Hardware: index into RobotType::devices.
   plugin::ParamSet params;
   Pose2 X_RS;
   double z_m = 0;
@@ -89,6 +99,7 @@ struct ActuatorSpec {
   std::string driver;
   const VirtualActuatorOps* virtual_ops = nullptr;
   const HardwareActuatorOps* hardware_ops = nullptr;
+  std::optional<std::uint32_t> device;  ///< Hardware: index into RobotType::devices.
   plugin::ParamSet params;
 };
 
@@ -106,6 +117,7 @@ struct RobotType {
   std::string name;
   std::string folder;     ///< Of the robot file; relative paths of drivers start there.
   bool simulated = true;  ///< Has a true pose; otherwise only a reported one.
+  std::vector<DeviceSpec> devices;
   std::vector<SensorSpec> sensors;
   std::vector<ControllerSpec> controllers;
   std::vector<ActuatorSpec> actuators;
@@ -137,6 +149,9 @@ struct EngineSpec {
   Duration history = {};
   /// Wall clock of a live run; null for a stepped one. Not owned.
   const RunClock* live_clock = nullptr;
+  /// Called each time that all is open but the sensors: a live run's clock starts here, so that
+  /// what it took to find the devices is no part of the run. May be empty.
+  std::function<void()> on_ready;
   /// How long a stepped hardware driver may take, wall time, before the run is given up.
   std::chrono::milliseconds host_timeout{10'000};
   /// Not owned; outlives the engine.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "../pose_covariance.hpp"
+#include "rave/math/pose_covariance.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "create_oi/oi_code.hpp"
+#include "line/address.hpp"
+#include "rave/plugin/params.hpp"
+
+namespace rave::oi {
+
+inline constexpr std::array<const char*, 2> kDriveModes{"safe", "full"};
+
+inline constexpr std::array<ParamSpec, 12> kDeviceParams{
+    text_param("device", "", "Serial device, such as /dev/ttyUSB0; or give `address`."),
+    integer_param("baud", 115200, 1200, 115200, "Bit rate of a serial line."),
+    text_param("address", "", "TCP server, `host:port`; or give `device`."),
+    choice_param("mode", "safe", kDriveModes,
+                 "`safe`: the robot itself stops at cliffs and when it is lifted; `full`: it never "
+                 "does."),
+    number_param("wheel_base_m", "m", 0.235, 0.05, 1,
+                 "Distance between the points where the wheels meet the floor."),
+    number_param("wheel_diameter_m", "m", 0.072, 0.01, 1, "Diameter of a wheel."),
+    number_param("counts_per_turn", "", 508.8, 1, 100000, "Encoder counts of one turn of a wheel."),
+    number_param("max_wheel_mps", "m/s", 0.5, 0.01, 0.5, "Largest speed of a wheel."),
+    number_param("refresh_s", "s", 0.05, 0.015, 1,
+                 "How often the drive command is repeated: what a watchdog on the robot lives on."),
+    number_param("latency_s", "s", 0, 0, 1,
+                 "Known smallest time from a frame's values to its first byte here."),
+    number_param("start_timeout_s", "s", 5, 0.1, 600,
+                 "How long the start of a run waits for the robot."),
+    number_param("lost_after_s", "s", 1, 0.1, 600,
+                 "A robot that is away for longer is reported as gone."),
+};
+
+/// What is to be known of the body for driving and for odometry.
+struct Geometry {
+  double wheel_base_m = 0;
+  double counts_per_m = 0;
+  double max_wheel_mps = 0;
+};
+
+/// The parameters of the device, read and checked.
+struct DeviceOptions {
+  line::Address address;
+  Mode mode = Mode::kSafe;
+  Geometry geometry;
+  double refresh_s = 0;
+  double latency_s = 0;
+  double start_timeout_s = 0;
+  double lost_after_s = 0;
+};
+
+/// Errors: those of line::parse_address.
+[[nodiscard]] Result<DeviceOptions> read_options(const Params& params);
+
+}  // namespace rave::oi

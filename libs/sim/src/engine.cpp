@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "engine_impl.hpp"
+#include "radio.hpp"
 #include "rave/base/check.hpp"
 #include "rave/math/transform.hpp"
 
@@ -67,6 +68,8 @@ std::string_view to_string(EventKind kind) noexcept {
       return "program failed";
     case EventKind::kDriverFailed:
       return "driver failed";
+    case EventKind::kDriverBack:
+      return "driver back";
   }
   return "unknown";
 }
@@ -84,6 +87,7 @@ Engine::Impl::Impl(EngineSpec s)
 Engine::Impl::~Impl() {
   tell_complaints();
   for (RobotGroup& group : groups) close_group(group);
+  if (radio) radio->close();
 }
 
 void Engine::Impl::tell_complaints() const {
@@ -119,22 +123,26 @@ Status Engine::Impl::make() {
     member_index[r] = static_cast<std::uint32_t>(groups[index].members.size());
     groups[index].members.emplace_back(r);
   }
+  radio = std::make_unique<Radio>(spec, logs, pool);
+  RAVE_TRY(radio->make());
   for (std::uint32_t g = 0; g < groups.size(); ++g) {
-    RAVE_TRY(make_group({spec, logs}, groups[g]));
+    RAVE_TRY(make_group({spec, logs, radio.get()}, groups[g]));
     const auto size = static_cast<std::uint32_t>(groups[g].members.size());
     for (std::uint32_t begin = 0; begin < size; begin += kBlockSize) {
       blocks.push_back({g, begin, std::min(begin + kBlockSize, size)});
     }
   }
   set_initial_state();
-  return {};
+  return radio->open();
 }
 
 Status Engine::Impl::reset() {
   tell_complaints();
-  for (RobotGroup& group : groups) RAVE_TRY(reset_group({spec, logs}, group));
+  radio->close();
+  radio->clear();
+  for (RobotGroup& group : groups) RAVE_TRY(reset_group({spec, logs, radio.get()}, group));
   set_initial_state();
-  return {};
+  return radio->open();
 }
 
 void Engine::Impl::set_initial_state() {
@@ -188,7 +196,9 @@ Status Engine::step() {
   engine.past_valid = false;  // samples of this step may change what the past looked like
   RAVE_TRY(engine.ingest());
   engine.sense();
+  engine.deliver_messages();
   engine.decide();
+  engine.carry_messages();
   engine.act();
   engine.resolve();
   engine.publish();

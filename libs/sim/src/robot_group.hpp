@@ -13,6 +13,8 @@
 
 namespace rave::sim {
 
+class Radio;
+
 /// One sensor of a type, for all robots of it. Vectors are indexed by member; after creation none
 /// changes its size, so views into them stay valid.
 struct SensorSlots {
@@ -96,6 +98,7 @@ struct RobotGroup {
   ProgramSlots program;
   std::vector<SensorInfo> sensor_infos;
   std::vector<ControllerInfo> controller_infos;
+  std::vector<const char*> robot_names;  ///< Of all robots, for programs.
 };
 
 /// Where messages of one robot's drivers and program go.
@@ -108,7 +111,12 @@ struct RobotLog {
 struct GroupContext {
   const EngineSpec& spec;
   std::vector<RobotLog>& logs;  ///< By RobotId.
+  const Radio* radio = nullptr;
 };
+
+/// The services and the description of one robot, for its drivers.
+[[nodiscard]] HostServices services_of(RobotLog& log);
+[[nodiscard]] RobotInfo info_of(const GroupContext& context, RobotId id);
 
 /// Makes all instances of a group and starts them. Errors name robot and device.
 Status make_group(GroupContext context, RobotGroup& group);

@@ -64,6 +64,8 @@ struct AddValue {
   void operator()(const std::vector<double>& value) const { set.add_list(name, value); }
 };
 
+}  // namespace
+
 Result<plugin::ParamSet> read_params(const Driver& driver, const config::RawNode& params) {
   const auto specs = field_specs(driver.info);
   RAVE_TRY_ASSIGN(const auto values,
@@ -83,6 +85,22 @@ Result<const Driver*> find_driver(const DeviceContext& context, std::span<const 
   if (error.where.file.empty()) error.where = name.where;
   return tl::unexpected(std::move(error));
 }
+
+void note_clock(const DeviceContext& context, const config::RobotGroup& group,
+                const std::string& device, const DriverInfo& info, const plugin::ParamSet& params) {
+  bool live = info.clock == DriverClock::kLive;
+  if (info.clock == DriverClock::kEither) {
+    live = Params(params.values()).text("clock") == "live";
+  }
+  if (live && context.built.live_reason.empty()) {
+    context.built.live_reason = fmt::format(
+        "`{}` of robot `{}` uses the driver `{}` by the wall "
+        "clock",
+        device, group.name.value, info.name);
+  }
+}
+
+namespace {
 
 std::uint32_t in_steps(const DeviceContext& context,
                        const std::optional<config::Located<double>>& time_s) {
@@ -132,21 +150,6 @@ ProcessingSpec processing_of(const config::SensorFile& sensor) {
     spec.filters.push_back(stage);
   }
   return spec;
-}
-
-/// Notes the first driver that runs by the clock on the wall.
-void note_clock(const DeviceContext& context, const config::RobotGroup& group,
-                const std::string& device, const DriverInfo& info, const plugin::ParamSet& params) {
-  bool live = info.clock == DriverClock::kLive;
-  if (info.clock == DriverClock::kEither) {
-    live = Params(params.values()).text("clock") == "live";
-  }
-  if (live && context.built.live_reason.empty()) {
-    context.built.live_reason = fmt::format(
-        "`{}` of robot `{}` uses the driver `{}` by the wall "
-        "clock",
-        device, group.name.value, info.name);
-  }
 }
 
 Result<sim::SensorSpec> make_sensor(const DeviceContext& context, const config::RobotGroup& group,
@@ -331,6 +334,7 @@ Status add_devices(const DeviceContext& context, const config::RobotGroup& group
   }
   RAVE_TRY(add_actuators(context, group, type));
   RAVE_TRY(add_controllers(context, group, type));
+  RAVE_TRY(add_radio(context, group, type));
   RAVE_TRY(add_program(context, group, type));
   bool real = false;
   for (const sim::SensorSpec& sensor : type.sensors) real |= sensor.hardware_ops != nullptr;

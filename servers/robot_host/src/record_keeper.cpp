@@ -4,6 +4,8 @@
 #include <chrono>
 #include <ctime>
 
+#include "radio_report.hpp"
+
 namespace rave::robot_host {
 namespace {
 
@@ -74,6 +76,7 @@ void RecordKeeper::after_step(sim::Engine& engine) {
   recorder_.begin_step(engine.steps_done() - 1, engine.time());
   poses_.clear();
   for (std::uint32_t r = 0; r < seen_.size(); ++r) keep_robot(engine, r);
+  record_radio(engine, recorder_);
   keep_events(engine);
   // A failure was told to the log when it happened, and end() returns it: the run goes on.
   static_cast<void>(recorder_.poses(poses_));

@@ -20,6 +20,7 @@ enum class EventKind : std::uint32_t {
   kPoseBack = 4,       ///< ... and came again.
   kProgramFailed = 5,  ///< A program threw, crashed or hung; its robot stops.
   kDriverFailed = 6,   ///< A driver threw or lost its device.
+  kDriverBack = 7,     ///< ... and its device works again.
 };
 [[nodiscard]] std::string_view to_string(EventKind kind) noexcept;
 
@@ -89,6 +90,12 @@ class Engine {
   [[nodiscard]] bool program_alive(RobotId robot) const noexcept;
   /// What a hardware sensor reports of its stream (JSON); `{}` for virtual ones.
   [[nodiscard]] std::string sensor_report(RobotId robot, std::uint32_t index) const;
+  /// What a transmitter reports of itself (JSON); `{}` for in-process ones.
+  [[nodiscard]] std::string transmitter_report(RobotId robot, std::uint32_t index) const;
+  /// What became of all messages so far.
+  [[nodiscard]] const RadioCounts& radio_counts() const noexcept;
+  /// Messages that were sent or delivered in the last step, in the order in which they were.
+  [[nodiscard]] std::span<const RadioTrace> radio() const noexcept;
   /// Events of the last step, ordered by robot.
   [[nodiscard]] std::span<const Event> events() const noexcept;
   [[nodiscard]] RunHash hash() const noexcept;

@@ -171,12 +171,12 @@ TEST_F(RadioTest, RateAndQueueAreExact) {
 TEST_F(RadioTest, AConstantOverloadGoesThroughAtTheRate) {
   EngineSpec spec;
   add_robot(spec, talking_type({{"only", 0}, {"count", 2}, {"size", 20}},
-                               {{"rate", 700}, {"queue", 100}}));
+                               {{"rate", 800}, {"queue", 100}}));
   add_twin(spec, {1, 0, 0});
   const auto engine = make_engine(std::move(spec));
   run(*engine, 1000);
-  // 20 bytes each; what is complete by the end of the last step.
-  EXPECT_EQ(engine->radio_counts().sent, 350U);
+  // 25 ms each; the 400th is complete at the end of the last step.
+  EXPECT_EQ(engine->radio_counts().sent, 400U);
   EXPECT_EQ(engine->radio_counts().offered, 2000U);
 }
 
@@ -241,7 +241,7 @@ TEST_F(RadioTest, AModelThatThrowsIsReportedOnceForEachOfItsRobots) {
   const auto engine = make_engine(std::move(spec));
   const auto events = of_kind(run(*engine, 10), EventKind::kDriverFailed);
   ASSERT_EQ(events.size(), 2U);
-  EXPECT_EQ(events[0].text, "communicator `air` (driver `model`): no idea");
+  EXPECT_EQ(events[0].text, "communicator `air` (driver `model`): threw an exception: no idea");
   EXPECT_EQ(engine->radio_counts().delivered, 0U);
   expect_balance(engine->radio_counts());
 }

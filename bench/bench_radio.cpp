@@ -11,23 +11,6 @@ using namespace rave;
 using namespace rave::sim;
 using namespace rave::sim::testing;
 
-/// Says one thing to all in each decision.
-class Beaconing final : public DecisionProcess {
- public:
-  Status start(const Setup& setup) override {
-    RAVE_TRY_ASSIGN(radio_, setup.communicator());
-    return {};
-  }
-  void decide(const Percepts& percepts, Commands& commands) override {
-    const PoseReading& pose = percepts.pose();
-    const double message[] = {pose.x_m, pose.y_m, 0, 0};
-    commands.send(radio_, std::as_bytes(std::span<const double>(message)));
-  }
-
- private:
-  CommunicatorHandle radio_;
-};
-
 void radio_step(benchmark::State& state) {
   const auto count = static_cast<std::uint32_t>(state.range(0));
   EngineSpec spec;

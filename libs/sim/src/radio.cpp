@@ -99,6 +99,10 @@ void Radio::collect(const RadioMoment& moment, RobotId robot, bool accepted) {
 }
 
 void Radio::offer(const RadioMoment& moment, Endpoint& sender, const MessageHead& message) {
+  if (message.to.kind > RecipientKind::kTeam) {
+    ++counts_.refused;  // no address that there is
+    return;
+  }
   ++counts_.offered;
   const RadioDeclaration& radio = models_[sender.model].declaration;
   const std::uint32_t cost = message.size + radio.overhead_bytes;

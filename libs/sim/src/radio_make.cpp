@@ -167,6 +167,8 @@ void Radio::clear() {
     if (line.port) line.port->clear();
   }
   for (RadioModel& model : models_) model.failed = false;
+  std::erase_if(by_hash_, [&](const auto& known) { return known.second >= spec_.robots.size(); });
+  foreign_.clear();
   packets_.begin(longest_message_);
   arrivals_.clear(0);
   done_.clear();

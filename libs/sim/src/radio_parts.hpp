@@ -64,7 +64,7 @@ struct RadioLine {
   std::vector<std::uint32_t> senders;  ///< Endpoints, ascending.
   TransmitterDeclaration declaration;
   std::int64_t free_ns = 0;
-  std::vector<std::uint32_t> on_air;  ///< Packets that are being sent.
+  std::vector<std::uint32_t> on_air;  ///< Packets that are being sent, in the order of their ends.
   std::uint32_t under_way = 0;        ///< Waiting or on the air.
   // A device:
   InstanceArray instance;

@@ -40,6 +40,9 @@ void send_waiting(RadioLine& line, std::vector<Endpoint>& endpoints,
   if (line.under_way == 0) return;
   // In process the host keeps to the rate of the line; a device does by itself.
   const double line_rate = line.declaration.in_process != 0 ? line.declaration.byte_rate : 0;
+  const auto ends_earlier = [&](std::uint32_t a, std::uint32_t b) {
+    return packets[a].complete_ns < packets[b].complete_ns;
+  };
   for (;;) {
     const Start start = next_start(line, endpoints, packets);
     if (start.endpoint == kNobody || start.at_ns >= until_ns) break;
@@ -50,12 +53,9 @@ void send_waiting(RadioLine& line, std::vector<Endpoint>& endpoints,
         start.at_ns + sending_ns(packet.cost_bytes, models[sender.model].declaration.byte_rate);
     line.free_ns = start.at_ns + sending_ns(packet.cost_bytes, line_rate);
     packet.complete_ns = std::max(sender.free_ns, line.free_ns);
-    line.on_air.push_back(id);
+    const auto place = std::upper_bound(line.on_air.begin(), line.on_air.end(), id, ends_earlier);
+    line.on_air.insert(place, id);
   }
-  const auto ends_earlier = [&](std::uint32_t a, std::uint32_t b) {
-    return packets[a].complete_ns < packets[b].complete_ns;
-  };
-  std::stable_sort(line.on_air.begin(), line.on_air.end(), ends_earlier);
   std::size_t done = 0;
   for (; done < line.on_air.size(); ++done) {
     StoredPacket& packet = packets[line.on_air[done]];

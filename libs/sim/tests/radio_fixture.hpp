@@ -100,6 +100,23 @@ inline ProgramSpec chatter(Numbers values) {
   return spec;
 }
 
+/// Says one thing to all in each decision.
+class Beaconing final : public DecisionProcess {
+ public:
+  Status start(const Setup& setup) override {
+    RAVE_TRY_ASSIGN(radio_, setup.communicator());
+    return {};
+  }
+  void decide(const Percepts& percepts, Commands& commands) override {
+    const PoseReading& pose = percepts.pose();
+    const double message[] = {pose.x_m, pose.y_m, 0, 0};
+    commands.send(radio_, std::as_bytes(std::span<const double>(message)));
+  }
+
+ private:
+  CommunicatorHandle radio_;
+};
+
 /// All of a declaration by its name; draws losses and delays.
 class Model final : public Communicator {
  public:

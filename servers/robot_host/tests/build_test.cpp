@@ -67,9 +67,8 @@ TEST(Build, TakesARadio) {
 
 TEST(Build, ATransmitterOfTheRealWorldMakesTheRunLive) {
   Host host;
-  const auto built = host.build_text(
-      one("transmitters: [{name: wlan, driver: udp_transmitter, params: {port: 4711}}], " +
-          kWheels));
+  const auto built = host.build_text(one(
+      "transmitters: [{name: wlan, driver: udp_transmitter, params: {port: 4711}}], " + kWheels));
   ASSERT_TRUE(built.has_value()) << built.error().text();
   EXPECT_NE(built->live_reason.find("`wlan`"), std::string::npos) << built->live_reason;
 }

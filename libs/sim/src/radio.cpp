@@ -130,7 +130,7 @@ void Radio::offer(const RadioMoment& moment, Endpoint& sender, const MessageHead
   ++lines_[sender.line].under_way;
 }
 
-void Radio::carry(const RadioMoment& moment) {
+void Radio::send_out(const RadioMoment& moment) {
   complete_.clear();
   carried_.clear();
   const std::int64_t until_ns = moment.now.ns + spec_.step.ns;
@@ -161,6 +161,10 @@ void Radio::carry(const RadioMoment& moment) {
       place(channels_[sender.channel], moment);
     }
   }
+}
+
+void Radio::carry(const RadioMoment& moment) {
+  send_out(moment);
   const std::size_t blocks = (carried_.size() + kBlockSize - 1) / kBlockSize;
   if (reaches_.size() < blocks) reaches_.resize(blocks);
   pool_.for_each_block(blocks, effort_, [&](std::size_t b, unsigned) {

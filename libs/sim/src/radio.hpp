@@ -90,6 +90,7 @@ class Radio {
   void trace(const RadioTrace& trace, std::uint32_t packet);
   void show_payloads();
   void offer(const RadioMoment& moment, Endpoint& sender, const MessageHead& message);
+  void send_out(const RadioMoment& moment);
   void count_failure(const RadioMoment& moment, const Reach& reach);
 
   // radio_reach.cpp: who hears what is carried in this process
@@ -99,6 +100,9 @@ class Radio {
   void reach(std::uint32_t packet, const RadioMoment& moment, Reach& reach) const;
   void reach_one(std::uint32_t packet, const Endpoint& to, std::uint32_t to_index,
                  const RadioMoment& moment, Reach& reach) const;
+
+  /// What the model of a receiver says; one that fails lets nothing arrive and is noted in `reach`.
+  [[nodiscard]] LinkAnswer ask(std::uint32_t model, const LinkQuery& query, Reach& reach) const;
 
   // radio_device.cpp: packets that devices carry
   void hear(const RadioMoment& moment);

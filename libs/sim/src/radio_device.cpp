@@ -92,8 +92,7 @@ void Radio::hear_packet(const RadioMoment& moment, RadioLine& line, const RadioP
 
 bool Radio::in_reach(const RadioMoment& moment, const Endpoint& to, const RadioPacket& packet,
                      std::uint32_t from) {
-  const RadioModel& model = models_[to.model];
-  const RadioDeclaration& receiver = model.declaration;
+  const RadioDeclaration& receiver = models_[to.model].declaration;
   const ReportedPose& there = moment.reported[to.robot];
   const bool sight = packet.line_of_sight || receiver.line_of_sight != 0;
   LinkQuery query;
@@ -126,18 +125,9 @@ bool Radio::in_reach(const RadioMoment& moment, const Endpoint& to, const RadioP
   query.sequence = packet.sequence;
   query.device = LinkQuery::kRadioDevice;
   query.seed = spec_.seed;
-  LinkAnswer answer;
-  ErrorText error;
-  if (model.failed ||
-      model.spec->ops->link(model.instance.at(0), &query, &answer, 1, &error) != 0) {
-    if (!model.failed) {
-      Reach failed;
-      failed.failed_model = to.model;
-      failed.failure = error.text;
-      count_failure(moment, failed);
-    }
-    answer.arrives = 0;
-  }
+  Reach asked;
+  const LinkAnswer answer = ask(to.model, query, asked);
+  if (asked.failed_model != kNobody) count_failure(moment, asked);
   // How long it took is up to the device; what the model adds is left out.
   if (answer.arrives != 0) return true;
   ++(query.obstructed != 0 ? counts_.lost_obstacle : counts_.lost_chance);

@@ -74,13 +74,32 @@ void Radio::reach(std::uint32_t packet, const RadioMoment& moment, Reach& reach)
   }
 }
 
+LinkAnswer Radio::ask(std::uint32_t model, const LinkQuery& query, Reach& reach) const {
+  const RadioModel& asked = models_[model];
+  LinkAnswer answer;
+  answer.arrives = 0;
+  if (asked.failed) return answer;
+  ErrorText error;
+  const double max_delay_s = static_cast<double>(Arrivals::kMaxSteps - 4) * spec_.step.seconds();
+  if (asked.spec->ops->link(asked.instance.at(0), &query, &answer, 1, &error) == 0) {
+    if (answer.delay_s >= 0 && answer.delay_s <= max_delay_s) return answer;
+    *fmt::format_to_n(error.text, sizeof error.text - 1, "gave a delay of {} s", answer.delay_s)
+         .out = 0;
+  }
+  answer.arrives = 0;
+  if (reach.failed_model == kNobody) {
+    reach.failed_model = model;
+    reach.failure = error.text;
+  }
+  return answer;
+}
+
 void Radio::reach_one(std::uint32_t packet, const Endpoint& to, std::uint32_t to_index,
                       const RadioMoment& moment, Reach& reach) const {
   const StoredPacket& sent = packets_[packet];
   const Endpoint& from = endpoints_[sent.endpoint];
   const RadioDeclaration& sender = models_[from.model].declaration;
-  const RadioModel& model = models_[to.model];
-  const RadioDeclaration& receiver = model.declaration;
+  const RadioDeclaration& receiver = models_[to.model].declaration;
   const ReportedPose& here = moment.reported[from.robot];
   const ReportedPose& there = moment.reported[to.robot];
   const bool sight = sender.line_of_sight != 0 || receiver.line_of_sight != 0;
@@ -112,23 +131,7 @@ void Radio::reach_one(std::uint32_t packet, const Endpoint& to, std::uint32_t to
   query.sequence = sent.head.sequence;
   query.device = LinkQuery::kRadioDevice | from.device;
   query.seed = spec_.seed;
-  LinkAnswer answer;
-  ErrorText error;
-  const double max_delay_s = static_cast<double>(Arrivals::kMaxSteps - 4) * spec_.step.seconds();
-  bool sound =
-      !model.failed && model.spec->ops->link(model.instance.at(0), &query, &answer, 1, &error) == 0;
-  if (sound && !(answer.delay_s >= 0 && answer.delay_s <= max_delay_s)) {
-    sound = false;
-    fmt::format_to_n(error.text, sizeof error.text - 1, "gave a delay of {} s{}", answer.delay_s,
-                     '\0');
-  }
-  if (!sound) {
-    if (!model.failed && reach.failed_model == kNobody) {
-      reach.failed_model = to.model;
-      reach.failure = error.text;
-    }
-    answer.arrives = 0;
-  }
+  const LinkAnswer answer = ask(to.model, query, reach);
   if (answer.arrives == 0) {
     ++(query.obstructed != 0 ? reach.counts.lost_obstacle : reach.counts.lost_chance);
     return;

@@ -27,6 +27,33 @@ struct RigSensor {
   }
 };
 
+/// A communicator of a test robot: what came in, and what went out in the last decision.
+struct RigRadio {
+  explicit RigRadio(std::string radio_name) : name(std::move(radio_name)) {
+    info = {name.c_str(), 64, 4096, 256, 0};
+  }
+  RigRadio(const RigRadio&) = delete;
+  RigRadio& operator=(const RigRadio&) = delete;
+
+  /// Puts a struct into the inbox, as if `from` had sent it at `stamp`.
+  template <class T>
+  void hear(std::uint32_t from, SimTime stamp, const T& message) {
+    MessageHead head;
+    head.from = from;
+    head.stamp_ns = stamp.ns;
+    in.put(head, std::as_bytes(std::span<const T, 1>(&message, 1)));
+  }
+  /// What was sent, as messages.
+  [[nodiscard]] Messages sent() const { return Messages(out); }
+
+  std::string name;
+  CommunicatorInfo info;
+  std::vector<MessageHead> heads = std::vector<MessageHead>(128);
+  std::vector<std::byte> bytes = std::vector<std::byte>(8192);
+  Mailbox in{heads.data(), bytes.data(), 64, 4096, 0, 0, 0, 0};
+  Mailbox out{heads.data() + 64, bytes.data() + 4096, 64, 4096, 0, 0, 0, 0};
+};
+
 /// A test robot: what its program is told, and what it commands.
 struct Rig {
   explicit Rig(const DriverInfo& info) : params(info) {}
@@ -46,11 +73,13 @@ struct Rig {
     sensors.back().info.kind = kind;
     return sensors.back();
   }
+  RigRadio& add_radio(std::string name) { return radios.emplace_back(std::move(name)); }
   [[nodiscard]] const Command& command() const { return commands.front(); }
 
   ParamSet params;
   LogLines log;
   std::deque<RigSensor> sensors;
+  std::deque<RigRadio> radios;
   std::vector<ControllerInfo> controllers{{"velocity", CommandKind::kVelocity, 0}};
   std::vector<Command> commands;
   PoseReading pose;
@@ -60,6 +89,8 @@ struct Rig {
   // Filled by the harness; the program keeps pointers into them.
   std::vector<SensorInfo> infos;
   std::vector<SensorView> views;
+  std::vector<CommunicatorInfo> radio_infos;
+  std::vector<CommunicatorView> radio_views;
   ProgramSetup setup;
 };
 
@@ -106,6 +137,9 @@ class ProgramUnderTest {
     ErrorText error;
     ops().decide(memory_, ops().instance.size, items.data(), items.size(), failed.data(), &error);
     for (const std::uint8_t one : failed) ASSERT_EQ(one, 0) << error.text;
+    for (auto& rig : rigs) {
+      for (RigRadio& radio : rig->radios) radio.in.clear();
+    }
     ++decision_;
   }
 
@@ -122,6 +156,12 @@ class ProgramUnderTest {
       if (!sensor.bearings_rad.empty()) sensor.info.bearings_rad = sensor.bearings_rad.data();
       rig.infos.push_back(sensor.info);
     }
+    for (RigRadio& radio : rig.radios) {
+      rig.radio_infos.push_back(radio.info);
+      rig.radio_views.push_back({&radio.in, &radio.out});
+    }
+    rig.setup.communicators = rig.radio_infos.data();
+    rig.setup.communicator_count = rig.radio_infos.size();
     rig.commands.resize(rig.controllers.size());
     rig.views.resize(rig.sensors.size());
     rig.setup.robot.name = "robot";
@@ -145,6 +185,8 @@ class ProgramUnderTest {
     DecideItem item;
     item.sensors = rig.views.data();
     item.commands = rig.commands.data();
+    for (RigRadio& radio : rig.radios) radio.out.clear();
+    item.communicators = rig.radio_views.data();
     item.now_ns = now.ns;
     item.pose = rig.pose;
     item.decision = decision_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "engine_impl.hpp"
+#include "radio.hpp"
 #include "rave/base/check.hpp"
 #include "rave/math/transform.hpp"
 
@@ -99,6 +100,7 @@ Engine::Impl::Impl(EngineSpec s)
 Engine::Impl::~Impl() {
   tell_complaints();
   for (RobotGroup& group : groups) close_group(group);
+  if (radio) radio->close();
 }
 
 void Engine::Impl::tell_complaints() const {
@@ -147,8 +149,10 @@ Status Engine::Impl::make() {
     member_index[r] = static_cast<std::uint32_t>(groups[index].members.size());
     groups[index].members.emplace_back(r);
   }
+  radio = std::make_unique<Radio>(spec, logs, pool);
+  RAVE_TRY(radio->make());
   for (std::uint32_t g = 0; g < groups.size(); ++g) {
-    RAVE_TRY(make_group({spec, logs}, groups[g]));
+    RAVE_TRY(make_group({spec, logs, radio.get()}, groups[g]));
     const auto size = static_cast<std::uint32_t>(groups[g].members.size());
     for (std::uint32_t begin = 0; begin < size; begin += kBlockSize) {
       blocks.push_back({g, begin, std::min(begin + kBlockSize, size)});
@@ -159,17 +163,19 @@ Status Engine::Impl::make() {
 
 Status Engine::Impl::reset() {
   tell_complaints();
+  radio->close();
+  radio->clear();
   // All are closed first: what two robots share must be free before one of them opens it again.
   for (RobotGroup& group : groups) close_group(group);
-  for (RobotGroup& group : groups) RAVE_TRY(reset_group({spec, logs}, group));
+  for (RobotGroup& group : groups) RAVE_TRY(reset_group({spec, logs, radio.get()}, group));
   return begin();
 }
 
 Status Engine::Impl::begin() {
   set_initial_state();
   if (spec.on_ready) spec.on_ready();
-  for (RobotGroup& group : groups) RAVE_TRY(open_sensors({spec, logs}, group));
-  return {};
+  for (RobotGroup& group : groups) RAVE_TRY(open_sensors({spec, logs, radio.get()}, group));
+  return radio->open();
 }
 
 void Engine::Impl::set_initial_state() {
@@ -225,7 +231,9 @@ Status Engine::step() {
   if (engine.fusion_world) engine.fusion_world->valid = false;
   RAVE_TRY(engine.ingest());
   engine.sense();
+  engine.deliver_messages();
   engine.decide();
+  engine.carry_messages();
   engine.act();
   engine.resolve();
   engine.publish();

@@ -16,6 +16,9 @@
 
 namespace rave::sim {
 
+class Radio;
+struct RadioMoment;
+
 /// Members [begin, end) of a group: what one thread does at a time. Fixed once, so that results do
 /// not depend on how many threads there are.
 struct Block {
@@ -102,6 +105,11 @@ struct Engine::Impl {
   void fail_program(RobotGroup& group, std::size_t member, std::string_view text,
                     std::vector<Event>& events);
 
+  // engine_radio.cpp: messages
+  [[nodiscard]] RadioMoment radio_moment();
+  void deliver_messages();
+  void carry_messages();
+
   // engine_act.cpp: controllers, actuators, the limits of motion
   void act();
   void act_block(const Block& block, Worker& worker);
@@ -132,6 +140,7 @@ struct Engine::Impl {
   ThreadPool::Effort sense_effort, decide_effort, act_effort;
   std::vector<Worker> workers;
   Resolver resolver;
+  std::unique_ptr<Radio> radio;  ///< Always there after make().
 
   std::uint64_t step = 0;
   SimTime now;

@@ -5,11 +5,9 @@
 #include <utility>
 
 #include "declared_fan.hpp"
+#include "radio.hpp"
 
 namespace rave::sim {
-namespace {
-
-constexpr std::size_t kQueueDepth = 256;
 
 HostServices services_of(RobotLog& log) {
   HostServices services;
@@ -31,6 +29,10 @@ RobotInfo info_of(const GroupContext& context, RobotId id) {
   info.seed = context.spec.seed;
   return info;
 }
+
+namespace {
+
+constexpr std::size_t kQueueDepth = 256;
 
 Error named(const GroupContext& context, RobotId id, std::string_view kind, std::string_view name,
             std::string_view driver, Error error) {
@@ -311,6 +313,9 @@ void lay_out_program(const GroupContext& context, RobotGroup& group) {
   const std::size_t count = group.members.size();
   const std::size_t sensors = group.sensors.size();
   const std::size_t controllers = group.controllers.size();
+  group.robot_names.clear();
+  for (const RobotSpec& robot : context.spec.robots)
+    group.robot_names.push_back(robot.name.c_str());
   slots.commands.assign(count * controllers, Command{});
   slots.views.resize(count * sensors);
   slots.items.assign(count, DecideItem{});
@@ -326,6 +331,7 @@ void lay_out_program(const GroupContext& context, RobotGroup& group) {
     item.commands = slots.commands.data() + m * controllers;
     item.robot = group.members[m].value();
     item.seed = context.spec.seed;
+    item.communicators = context.radio->views_of(group.members[m]);
     if (slots.spec == nullptr) continue;
     ProgramSetup& setup = slots.setups[m];
     setup.robot = info_of(context, group.members[m]);
@@ -337,6 +343,12 @@ void lay_out_program(const GroupContext& context, RobotGroup& group) {
     setup.params = slots.spec->params.values().data();
     setup.param_count = slots.spec->params.values().size();
     setup.period_s = slots.spec->period_steps * context.spec.step.seconds();
+    const auto communicators =
+        context.radio->infos_of(context.spec.robots[group.members[m].value()].type);
+    setup.communicators = communicators.data();
+    setup.communicator_count = communicators.size();
+    setup.robot_names = group.robot_names.data();
+    setup.robot_count = group.robot_names.size();
   }
 }
 

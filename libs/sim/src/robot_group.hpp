@@ -14,6 +14,8 @@
 
 namespace rave::sim {
 
+class Radio;
+
 /// One sensor of a type, for all robots of it. Vectors are indexed by member; after creation none
 /// changes its size, so views into them stay valid.
 struct SensorSlots {
@@ -107,6 +109,7 @@ struct RobotGroup {
   ProgramSlots program;
   std::vector<SensorInfo> sensor_infos;
   std::vector<ControllerInfo> controller_infos;
+  std::vector<const char*> robot_names;  ///< Of all robots, for programs.
 };
 
 /// Where messages of one robot's drivers and program go.
@@ -119,7 +122,12 @@ struct RobotLog {
 struct GroupContext {
   const EngineSpec& spec;
   std::vector<RobotLog>& logs;  ///< By RobotId.
+  const Radio* radio = nullptr;
 };
+
+/// The services and the description of one robot, for its drivers.
+[[nodiscard]] HostServices services_of(RobotLog& log);
+[[nodiscard]] RobotInfo info_of(const GroupContext& context, RobotId id);
 
 /// Makes all instances of a group and starts them, except that hardware sensors are not opened yet.
 /// Errors name robot and device.

@@ -19,7 +19,7 @@ Result<std::unique_ptr<ProgramHost>> ProgramHost::create(SharedMemory memory, in
     return fail(ErrorCode::kParse, "the shared memory was not made by a host of this version");
   }
   // Where the setup lies does not depend on what comes after it.
-  const std::size_t at = make_layout(head->setup_bytes, {}, 0).setup;
+  const std::size_t at = make_layout(head->setup_bytes, {}, {}, 0).setup;
   RAVE_TRY_ASSIGN(auto setup, SetupCopy::decode({memory.at<char>(at), head->setup_bytes}));
   std::unique_ptr<ProgramHost> host(new ProgramHost(std::move(memory), std::move(setup), socket));
   if (host->layout_.total_bytes != host->memory_.size()) {
@@ -33,13 +33,32 @@ ProgramHost::ProgramHost(SharedMemory memory, std::unique_ptr<SetupCopy> setup, 
     : socket_(socket), memory_(std::move(memory)), setup_(std::move(setup)), log_(socket) {
   setup_->set_host(log_.services());
   const ProgramSetup& raw = setup_->setup();
-  layout_ = make_layout(memory_.at<SharedHead>(0)->setup_bytes,
-                        std::span(raw.sensors, raw.sensor_count), raw.controller_count);
+  layout_ =
+      make_layout(memory_.at<SharedHead>(0)->setup_bytes, std::span(raw.sensors, raw.sensor_count),
+                  std::span(raw.communicators, raw.communicator_count), raw.controller_count);
   if (layout_.total_bytes != memory_.size()) return;
   for (const Layout::Sensor& sensor : layout_.sensors) {
     views_.push_back(
         {memory_.at<SampleHeader>(sensor.header), memory_.at<std::byte>(sensor.records)});
   }
+  boxes_.resize(2 * layout_.communicators.size());
+  for (std::size_t c = 0; c < layout_.communicators.size(); ++c) {
+    boxes_[2 * c] = mailbox(layout_.communicators[c].in);
+    boxes_[2 * c + 1] = mailbox(layout_.communicators[c].out);
+    communicators_.push_back({&boxes_[2 * c], &boxes_[2 * c + 1]});
+  }
+}
+
+Mailbox ProgramHost::mailbox(const Layout::Box& box) const {
+  const auto& state = *memory_.at<SharedMailbox>(box.state);
+  return {memory_.at<rave::MessageHead>(box.heads),
+          memory_.at<std::byte>(box.data),
+          box.max_messages,
+          box.max_bytes,
+          state.count,
+          state.bytes,
+          state.dropped,
+          0};
 }
 
 ProgramHost::~ProgramHost() {
@@ -87,6 +106,11 @@ bool ProgramHost::decide(std::uint32_t decision) {
   DecideItem item;
   item.sensors = views_.data();
   item.commands = memory_.at<Command>(layout_.commands);
+  for (std::size_t c = 0; c < layout_.communicators.size(); ++c) {
+    boxes_[2 * c] = mailbox(layout_.communicators[c].in);
+    boxes_[2 * c + 1].clear();
+  }
+  item.communicators = communicators_.data();
   item.now_ns = shared.now_ns;
   item.pose = shared.pose;
   item.decision = shared.decision;
@@ -96,6 +120,11 @@ bool ProgramHost::decide(std::uint32_t decision) {
   std::uint8_t failed = 0;
   ErrorText error;
   ops.decide(instance_.get(), ops.instance.size, &item, 1, &failed, &error);
+  for (std::size_t c = 0; c < layout_.communicators.size(); ++c) {
+    const Mailbox& out = boxes_[2 * c + 1];
+    *memory_.at<SharedMailbox>(layout_.communicators[c].out.state) = {out.count, out.bytes,
+                                                                      out.dropped, 0};
+  }
   const auto kind = failed != 0 ? MessageKind::kDecideFailed : MessageKind::kDecided;
   return send_message(socket_, {kind, decision, log_.begin_next()}, failed != 0 ? error.text : "",
                       true) &&

@@ -44,6 +44,8 @@ class ProgramHost {
 
   Status load_and_start();
   bool decide(std::uint32_t decision);
+  /// One direction of a communicator as the shared memory has it now.
+  [[nodiscard]] Mailbox mailbox(const Layout::Box& box) const;
 
   int socket_;
   SharedMemory memory_;
@@ -52,6 +54,8 @@ class ProgramHost {
   LogSender log_;
   std::unique_ptr<ProgramFile> file_;
   std::vector<SensorView> views_;
+  std::vector<Mailbox> boxes_;  ///< In and out of each communicator.
+  std::vector<CommunicatorView> communicators_;
   std::unique_ptr<void, FreeAligned> instance_;
   bool constructed_ = false;
 };

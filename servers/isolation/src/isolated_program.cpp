@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <span>
@@ -28,10 +29,15 @@ struct IsolatedProgram::Impl {
         link(std::move(who), host, std::move(child), std::move(socket), options.last_word_s) {}
 
   [[nodiscard]] Status copy_in(const DecideItem& item) const;
+  [[nodiscard]] Status copy_messages_in(const DecideItem& item) const;
   void copy_out(const DecideItem& item) const {
-    std::memcpy(item.commands, memory.at<Command>(layout.commands),
-                layout.command_count * sizeof(Command));
+    if (layout.command_count > 0) {
+      std::memcpy(item.commands, memory.at<Command>(layout.commands),
+                  layout.command_count * sizeof(Command));
+    }
+    copy_messages_out(item);
   }
+  void copy_messages_out(const DecideItem& item) const;
 
   double timeout_s;
   SharedMemory memory;
@@ -57,6 +63,7 @@ Status IsolatedProgram::Impl::copy_in(const DecideItem& item) const {
       std::memcpy(memory.at<std::byte>(sensor.records), item.sensors[i].records, bytes);
     }
   }
+  RAVE_TRY(copy_messages_in(item));
   *memory.at<SharedDecide>(layout.decide) = {item.now_ns, item.pose, item.decision, item.robot,
                                              item.seed};
   if (layout.command_count > 0) {
@@ -64,6 +71,44 @@ Status IsolatedProgram::Impl::copy_in(const DecideItem& item) const {
                 layout.command_count * sizeof(Command));
   }
   return {};
+}
+
+Status IsolatedProgram::Impl::copy_messages_in(const DecideItem& item) const {
+  for (std::size_t c = 0; c < layout.communicators.size(); ++c) {
+    const Mailbox& in = *item.communicators[c].in;
+    const Layout::Box& box = layout.communicators[c].in;
+    if (in.count > box.max_messages || in.bytes > box.max_bytes) {
+      return fail(ErrorCode::kInvalidArgument,
+                  "communicator {} has {} messages of {} bytes, more than its {} of {}", c,
+                  in.count, in.bytes, box.max_messages, box.max_bytes);
+    }
+    *memory.at<SharedMailbox>(box.state) = {in.count, in.bytes, in.dropped, 0};
+    if (in.count > 0) {
+      std::memcpy(memory.at<rave::MessageHead>(box.heads), in.heads,
+                  in.count * sizeof(rave::MessageHead));
+    }
+    if (in.bytes > 0) std::memcpy(memory.at<std::byte>(box.data), in.data, in.bytes);
+    *memory.at<SharedMailbox>(layout.communicators[c].out.state) = {};
+  }
+  return {};
+}
+
+void IsolatedProgram::Impl::copy_messages_out(const DecideItem& item) const {
+  for (std::size_t c = 0; c < layout.communicators.size(); ++c) {
+    const Layout::Box& box = layout.communicators[c].out;
+    Mailbox& out = *item.communicators[c].out;
+    const SharedMailbox state = *memory.at<SharedMailbox>(box.state);
+    const auto* heads = memory.at<rave::MessageHead>(box.heads);
+    const auto* data = memory.at<std::byte>(box.data);
+    // The child can write what it likes here: a message that it could not have sent is not taken.
+    for (std::uint32_t i = 0; i < std::min(state.count, box.max_messages); ++i) {
+      const rave::MessageHead head = heads[i];
+      const bool inside = head.size <= box.max_message_bytes && head.offset <= box.max_bytes &&
+                          head.size <= box.max_bytes - head.offset;
+      if (inside) static_cast<void>(out.put(head, {data + head.offset, head.size}));
+    }
+    out.dropped += state.dropped;
+  }
 }
 
 namespace {
@@ -89,8 +134,9 @@ struct Shared {
 Result<Shared> make_shared(const IsolationOptions& options, const ProgramSetup& setup) {
   const std::string bytes =
       encode_setup({options.plugin.string(), options.program, ::getpid()}, setup);
-  Layout layout = make_layout(bytes.size(), std::span(setup.sensors, setup.sensor_count),
-                              setup.controller_count);
+  Layout layout =
+      make_layout(bytes.size(), std::span(setup.sensors, setup.sensor_count),
+                  std::span(setup.communicators, setup.communicator_count), setup.controller_count);
   RAVE_TRY_ASSIGN(SharedMemory memory, SharedMemory::create(layout.total_bytes));
   *memory.at<SharedHead>(0) = {SharedHead::kMagic, layout.total_bytes, bytes.size()};
   std::memcpy(memory.at<char>(layout.setup), bytes.data(), bytes.size());
@@ -148,7 +194,7 @@ Status IsolatedProgram::end_decide(const DecideItem& item) {
   impl.deciding = false;
   RAVE_TRY(impl.link.await(MessageKind::kDecided, impl.decision, impl.deadline,
                            fmt::format("has not decided for {}", seconds_text(impl.timeout_s))));
-  if (impl.layout.command_count > 0) impl.copy_out(item);
+  impl.copy_out(item);
   return {};
 }
 

@@ -22,7 +22,7 @@ class Allocator {
 }  // namespace
 
 Layout make_layout(std::size_t setup_bytes, std::span<const SensorInfo> sensors,
-                   std::size_t command_count) {
+                   std::span<const CommunicatorInfo> communicators, std::size_t command_count) {
   Layout layout;
   Allocator memory;
   memory.take(sizeof(SharedHead));
@@ -35,6 +35,22 @@ Layout make_layout(std::size_t setup_bytes, std::span<const SensorInfo> sensors,
     sensor.header = memory.take(sizeof(SampleHeader));
     sensor.records = memory.take(std::size_t{sensor.capacity} * sensor.record_bytes);
     layout.sensors.push_back(sensor);
+  }
+  const auto take_box = [&memory](const CommunicatorInfo& info) {
+    Layout::Box box;
+    box.max_messages = info.max_messages;
+    box.max_bytes = info.max_bytes;
+    box.max_message_bytes = info.max_message_bytes;
+    box.state = memory.take(sizeof(SharedMailbox));
+    box.heads = memory.take(std::size_t{info.max_messages} * sizeof(rave::MessageHead));
+    box.data = memory.take(info.max_bytes);
+    return box;
+  };
+  for (const CommunicatorInfo& info : communicators) {
+    Layout::Communicator communicator;
+    communicator.in = take_box(info);
+    communicator.out = take_box(info);
+    layout.communicators.push_back(communicator);
   }
   layout.command_count = command_count;
   layout.commands = memory.take(command_count * sizeof(Command));

@@ -27,6 +27,14 @@ struct SharedDecide {
   std::uint64_t seed = 0;
 };
 
+/// The part of a Mailbox that is no pointer and no limit.
+struct SharedMailbox {
+  std::uint32_t count = 0;
+  std::uint32_t bytes = 0;
+  std::uint32_t dropped = 0;
+  std::uint32_t reserved = 0;
+};
+
 /// Where things lie in the memory that host and child share. A function of the setup alone, so
 /// both sides compute it and the host never trusts a number that the child could change.
 struct Layout {
@@ -37,15 +45,31 @@ struct Layout {
     std::uint32_t record_bytes = 0;
   };
 
+  /// One direction of a communicator.
+  struct Box {
+    std::size_t state = 0;  ///< Offset of the SharedMailbox.
+    std::size_t heads = 0;  ///< Offset of the MessageHeads.
+    std::size_t data = 0;   ///< Offset of the messages' bytes.
+    std::uint32_t max_messages = 0;
+    std::uint32_t max_bytes = 0;
+    std::uint32_t max_message_bytes = 0;
+  };
+  struct Communicator {
+    Box in;
+    Box out;
+  };
+
   std::size_t setup = 0;
   std::size_t decide = 0;
   std::vector<Sensor> sensors;
+  std::vector<Communicator> communicators;
   std::size_t commands = 0;
   std::size_t command_count = 0;
   std::size_t total_bytes = 0;
 };
 
 [[nodiscard]] Layout make_layout(std::size_t setup_bytes, std::span<const SensorInfo> sensors,
+                                 std::span<const CommunicatorInfo> communicators,
                                  std::size_t command_count);
 
 }  // namespace rave::isolation

@@ -68,6 +68,16 @@ std::string encode_setup(const Order& order, const ProgramSetup& setup) {
     out.text(setup.controllers[i].name);
     out.value(setup.controllers[i].accepts);
   }
+  out.value(setup.communicator_count);
+  for (std::uint64_t i = 0; i < setup.communicator_count; ++i) {
+    const CommunicatorInfo& info = setup.communicators[i];
+    out.text(info.name);
+    out.value(info.max_messages);
+    out.value(info.max_bytes);
+    out.value(info.max_message_bytes);
+  }
+  out.value(setup.robot_count);
+  for (std::uint64_t i = 0; i < setup.robot_count; ++i) out.text(setup.robot_names[i]);
   out.value(setup.param_count);
   for (std::uint64_t i = 0; i < setup.param_count; ++i) out.param(setup.params[i]);
   return out.take();
@@ -161,6 +171,15 @@ Result<std::unique_ptr<SetupCopy>> SetupCopy::decode(std::string_view bytes) {
     info.name = in.kept_text();
     in.value(info.accepts);
   }
+  copy->communicators_.resize(in.count(sizeof(std::uint64_t)));
+  for (CommunicatorInfo& info : copy->communicators_) {
+    info.name = in.kept_text();
+    in.value(info.max_messages);
+    in.value(info.max_bytes);
+    in.value(info.max_message_bytes);
+  }
+  copy->robot_names_.resize(in.count(sizeof(std::uint64_t)));
+  for (const char*& name : copy->robot_names_) name = in.kept_text();
   copy->params_.resize(in.count(sizeof(std::uint64_t)));
   for (ParamValue& value : copy->params_) in.param(value);
   if (!in.whole()) return fail(ErrorCode::kParse, "the setup of an isolated program is damaged");
@@ -168,6 +187,10 @@ Result<std::unique_ptr<SetupCopy>> SetupCopy::decode(std::string_view bytes) {
   setup.sensor_count = copy->sensors_.size();
   setup.controllers = copy->controllers_.data();
   setup.controller_count = copy->controllers_.size();
+  setup.communicators = copy->communicators_.data();
+  setup.communicator_count = copy->communicators_.size();
+  setup.robot_names = copy->robot_names_.data();
+  setup.robot_count = copy->robot_names_.size();
   setup.params = copy->params_.data();
   setup.param_count = copy->params_.size();
   return copy;

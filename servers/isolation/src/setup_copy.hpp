@@ -43,6 +43,8 @@ class SetupCopy {
   ProgramSetup setup_;
   std::vector<SensorInfo> sensors_;
   std::vector<ControllerInfo> controllers_;
+  std::vector<CommunicatorInfo> communicators_;
+  std::vector<const char*> robot_names_;
   std::vector<ParamValue> params_;
   std::deque<std::string> texts_;
   std::deque<std::vector<double>> lists_;

@@ -56,6 +56,12 @@ bool same_bits(const std::vector<Command>& a, const std::vector<Command>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Command)) == 0;
 }
 
+bool same_messages(const Mailbox& a, const Mailbox& b) {
+  if (a.count != b.count || a.bytes != b.bytes || a.dropped != b.dropped) return false;
+  return std::memcmp(a.data, b.data, a.bytes) == 0 &&
+         std::memcmp(a.heads, b.heads, a.count * sizeof(rave::MessageHead)) == 0;
+}
+
 TEST(IsolatedProgram, DecidesBitForBitAsInTheHost) {
   TestRobot inside;
   TestRobot outside;
@@ -73,6 +79,8 @@ TEST(IsolatedProgram, DecidesBitForBitAsInTheHost) {
     const Status status = (*program)->end_decide(outside.item(k));
     ASSERT_TRUE(status) << status.error().text();
     ASSERT_TRUE(same_bits(inside.commands, outside.commands)) << "decision " << k;
+    ASSERT_TRUE(same_messages(inside.out, outside.out)) << "decision " << k;
+    ASSERT_GE(outside.out.count + outside.out.dropped, 1 + k % 4);
     ASSERT_FALSE(same_bits(before, outside.commands));
     before = outside.commands;
   }

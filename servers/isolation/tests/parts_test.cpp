@@ -20,6 +20,8 @@ TEST(SetupCopy, GivesBackWhatWasEncoded) {
   EXPECT_EQ((*copy)->setup().sensors[0].bearings_rad[3], 0.3);
   EXPECT_EQ((*copy)->setup().sensors[1].bearings_rad, nullptr);
   EXPECT_EQ((*copy)->setup().params[2].list[1], 0.5);
+  EXPECT_EQ((*copy)->setup().communicators[0].max_bytes, 40U);
+  EXPECT_STREQ((*copy)->setup().robot_names[2], "carl");
 }
 
 TEST(SetupCopy, RefusesEveryBeginningAndMore) {

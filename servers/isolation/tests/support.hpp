@@ -60,6 +60,7 @@ struct TestRobot {
     sensors[1].capacity = 3;
     controllers[0] = {"drive", CommandKind::kVelocity, 0};
     controllers[1] = {"goal", CommandKind::kGoal, 0};
+    communicators[0] = {"air", 3, 40, 16, 0};
     params[0].name = "gain";
     params[0].number = 0.75;
     params[1].name = "greeting";
@@ -86,6 +87,10 @@ struct TestRobot {
     setup.params = params.data();
     setup.param_count = params.size();
     setup.period_s = 0.1;
+    setup.communicators = communicators.data();
+    setup.communicator_count = communicators.size();
+    setup.robot_names = robot_names.data();
+    setup.robot_count = robot_names.size();
     return setup;
   }
 
@@ -101,7 +106,15 @@ struct TestRobot {
     }
     views[0] = {&headers[0], ranges.data()};
     views[1] = {&headers[1], sightings.data()};
+    in.clear();
+    out.clear();
+    for (std::uint32_t i = 0; i < k % 4; ++i) {
+      const std::uint32_t words[] = {k, i, k * i};
+      in.put({k, i, i + 1, Recipient::one(7), 0, 0},
+             std::as_bytes(std::span(words).first(1 + (k + i) % 3)));
+    }
     DecideItem item;
+    item.communicators = &communicator;
     item.sensors = views.data();
     item.commands = commands.data();
     item.now_ns = std::int64_t{k} * 100'000'000;
@@ -118,6 +131,13 @@ struct TestRobot {
   std::vector<SensorInfo> sensors = std::vector<SensorInfo>(2);
   std::vector<ControllerInfo> controllers = std::vector<ControllerInfo>(2);
   std::vector<ParamValue> params = std::vector<ParamValue>(3);
+  std::vector<CommunicatorInfo> communicators = std::vector<CommunicatorInfo>(1);
+  std::vector<const char*> robot_names{"anna", "bert", "carl"};
+  std::vector<rave::MessageHead> heads = std::vector<rave::MessageHead>(6);
+  std::vector<std::byte> message_bytes = std::vector<std::byte>(80);
+  Mailbox in{heads.data(), message_bytes.data(), 3, 40, 0, 0, 0, 0};
+  Mailbox out{heads.data() + 3, message_bytes.data() + 40, 3, 40, 0, 0, 0, 0};
+  CommunicatorView communicator{&in, &out};
   std::vector<SampleHeader> headers = std::vector<SampleHeader>(2);
   std::vector<float> ranges{0, 0, 0, 0};
   std::vector<Sighting> sightings = std::vector<Sighting>(3);

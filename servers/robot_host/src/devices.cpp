@@ -381,6 +381,7 @@ Status add_devices(const DeviceContext& context, const config::RobotGroup& group
   }
   RAVE_TRY(add_actuators(context, group, type));
   RAVE_TRY(add_controllers(context, group, type));
+  RAVE_TRY(add_radio(context, group, type));
   RAVE_TRY(add_program(context, group, type));
   bool real = false;
   for (const sim::SensorSpec& sensor : type.sensors) real |= sensor.hardware_ops != nullptr;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+
 #include "rave/config/params.hpp"
 #include "rave/robot_host/build.hpp"
 
@@ -16,6 +18,10 @@ struct DeviceContext {
 
 /// The description of a driver's parameters in the terms of the configuration library.
 [[nodiscard]] std::vector<config::FieldSpec> field_specs(const DriverInfo& info);
+
+/// Fills in transmitters and communicators of `type`. In radio_devices.cpp.
+Status add_radio(const DeviceContext& context, const config::RobotGroup& group,
+                 sim::RobotType& type);
 
 /// Fills in sensors, actuators, controllers, program and pose source of `type`.
 Status add_devices(const DeviceContext& context, const config::RobotGroup& group,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "radio_report.hpp"
 #include "rave/base/names.hpp"
 #include "rave/report/table.hpp"
 
@@ -248,6 +249,7 @@ std::string result_json(const Findings& findings, const RunOutcome& outcome) {
   json["hits"] = findings.hits.counts();
   json["closest"] = encounters_json(findings);
   json["events"] = events_json(findings);
+  if (has_radio(findings.engine.spec())) json["radio"] = radio_json(findings.engine);
   json["robots"] = robots_json(findings);
   json["devices"] = devices_json(findings);
   json["streams"] = streams_json(findings);
@@ -287,6 +289,9 @@ std::string summary_text(const Findings& findings, const RunOutcome& outcome) {
   table.rows.push_back(
       {"contacts, pins", fmt::format("{}, {}", count_events(findings, sim::EventKind::kContact),
                                      count_events(findings, sim::EventKind::kPinned))});
+  if (has_radio(findings.engine.spec())) {
+    table.rows.push_back({"messages", radio_line(findings.engine.radio_counts())});
+  }
   const std::string deaf = disobedient(findings);
   if (!deaf.empty()) {
     table.rows.push_back({"did not obey", deaf + ": a recording cannot; its commands were logged"});

@@ -6,6 +6,8 @@
 #include <chrono>
 #include <ctime>
 
+#include "radio_report.hpp"
+
 namespace rave::robot_host {
 namespace {
 
@@ -104,6 +106,7 @@ void RecordKeeper::after_step(sim::Engine& engine) {
     sensor = robot.sensors_end;
     actuator = robot.actuators_end;
   }
+  record_radio(engine, recorder_);
   keep_events(engine);
   // A failure was told to the log when it happened, and end() returns it: the run goes on.
   if (hashed_) static_cast<void>(recorder_.hash(engine.hash().value()));

@@ -97,6 +97,48 @@ TEST(BuildErrors, ADeviceIsOfADriverThatIsADevice) {
       << error;
 }
 
+TEST(Build, TakesARadio) {
+  Host host;
+  const auto built = host.build_text(
+      one("transmitters: [{name: air, driver: in_process}], communicators: [{name: chat, driver: "
+          "radio, transmitter: air, params: {range_m: 5}}], " +
+          kWheels));
+  ASSERT_TRUE(built.has_value()) << built.error().text();
+  const sim::RobotType& type = built->spec.types.at(0);
+  EXPECT_EQ(type.transmitters.at(0).driver, "in_process");
+  EXPECT_EQ(type.communicators.at(0).name, "chat");
+  EXPECT_EQ(type.communicators.at(0).transmitter, 0U);
+  EXPECT_EQ(built->live_reason, "");
+}
+
+TEST(Build, ATransmitterOfTheRealWorldMakesTheRunLive) {
+  Host host;
+  const auto built = host.build_text(one(
+      "transmitters: [{name: wlan, driver: udp_transmitter, params: {port: 4711}}], " + kWheels));
+  ASSERT_TRUE(built.has_value()) << built.error().text();
+  EXPECT_NE(built->live_reason.find("`wlan`"), std::string::npos) << built->live_reason;
+}
+
+TEST(BuildErrors, ARadioThatIsWrongPointsAtItsPlace) {
+  Host host;
+  const auto error_of = [&](const std::string& devices) {
+    return host.error_of(one(devices + ", " + kWheels));
+  };
+  const std::string air = "transmitters: [{name: air, driver: in_process}], ";
+  const std::string driver =
+      error_of(air + "communicators: [{name: chat, driver: radyo, transmitter: air}]");
+  EXPECT_EQ(driver.find("s.yaml:6:"), 0U) << driver;
+  EXPECT_NE(driver.find("`radio`"), std::string::npos) << driver;
+  const std::string transmitter =
+      error_of(air + "communicators: [{name: chat, driver: radio, transmitter: aire}]");
+  EXPECT_EQ(transmitter.find("s.yaml:6:"), 0U) << transmitter;
+  EXPECT_NE(transmitter.find("`air`"), std::string::npos) << transmitter;
+  const std::string param = error_of(
+      air + "communicators: [{name: chat, driver: radio, transmitter: air, params: {range: 5}}]");
+  EXPECT_EQ(param.find("s.yaml:6:"), 0U) << param;
+  EXPECT_NE(param.find("`range_m`"), std::string::npos) << param;
+}
+
 TEST(BuildErrors, ARealRobotMustSayWhereItIs) {
   Host host;
   const std::string deaf =

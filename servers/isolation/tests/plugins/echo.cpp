@@ -13,6 +13,8 @@ class Echo final : public rave::DecisionProcess {
     RAVE_TRY_ASSIGN(camera_, setup.sensor<rave::Sighting>());
     RAVE_TRY_ASSIGN(drive_, setup.controller(rave::CommandKind::kVelocity));
     RAVE_TRY_ASSIGN(goal_, setup.controller(rave::CommandKind::kGoal));
+    RAVE_TRY_ASSIGN(radio_, setup.communicator("air"));
+    RAVE_TRY_ASSIGN(friend_, setup.robot_id("carl"));
     gain_ = setup.params().number("gain");
     for (const double weight : setup.params().numbers("weights")) gain_ += weight;
     setup.log(setup.params().text("greeting"));
@@ -28,15 +30,25 @@ class Echo final : public rave::DecisionProcess {
       sum += static_cast<double>(sighting.bearing_rad) * sighting.code;
     }
     sum += percepts.header(laser_).sequence;
+    for (const rave::Message message : percepts.messages(radio_)) {
+      sum += message.from + static_cast<double>(message.bytes.size() + message.to.robot);
+      sum += static_cast<double>(message.stamp.ns) * 1e-3;
+      for (const std::byte byte : message.bytes) sum += std::to_integer<int>(byte);
+      commands.send(radio_, message.bytes, rave::Recipient::one(friend_));
+    }
+    sum += percepts.messages(radio_).dropped();
     rave::RandomStream random = percepts.random();
     memory_ = 0.5 * memory_ + rave::sin(sum) * gain_ + random.uniform();
     commands.velocity(drive_, memory_, sum);
+    commands.send(radio_, sum);
     if (percepts.header(laser_).sequence % 2 == 0) commands.goal(goal_, {sum, memory_}, 0.1);
   }
 
  private:
   rave::RangesHandle laser_;
   rave::SensorHandle<rave::Sighting> camera_;
+  rave::CommunicatorHandle radio_;
+  std::uint32_t friend_ = 0;
   rave::ControllerHandle drive_;
   rave::ControllerHandle goal_;
   double gain_ = 0;

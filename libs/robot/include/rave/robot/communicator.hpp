@@ -9,20 +9,25 @@
 namespace rave {
 
 /// What a communicator says of itself once it knows its parameters: the part of its message model
-/// that the host works out for all robots at once.
+/// that the host works out for all robots at once. Rate, queue, overhead and sizes are those of the
+/// sender. A message must be within the ranges of both sides; the line of sight is asked if either
+/// side asks for it, at the mean height of both antennas.
 struct RadioDeclaration {
   double range_m = 0;               ///< Between reported poses; 0: unlimited.
   std::uint32_t line_of_sight = 0;  ///< 1: bodies in between stop it or weaken it, see LinkQuery.
   std::uint32_t max_message_bytes = 1024;
-  std::uint32_t max_messages = 32;    ///< Per decision, each direction.
-  std::uint32_t max_queue_bytes = 0;  ///< Waiting to be sent; 0: unlimited. Newer ones are lost.
-  double byte_rate = 0;               ///< Bytes a second; 0: unlimited.
-  std::uint32_t overhead_bytes = 0;   ///< Counted for each message besides its own.
-  std::uint32_t reserved = 0;
+  std::uint32_t max_messages = 32;  ///< Per decision, each direction.
+  /// Waiting to be sent or being sent, overhead included; 0: unlimited. Newer ones are lost.
+  std::uint32_t max_queue_bytes = 0;
+  double byte_rate = 0;              ///< Bytes a second; 0: unlimited.
+  std::uint32_t overhead_bytes = 0;  ///< Counted for each message besides its own.
+  /// Of all messages of one decision, each direction; at least max_message_bytes.
+  std::uint32_t max_mailbox_bytes = 8192;
   double antenna_z_m = 0.1;  ///< Height for the line of sight.
 };
 
-/// One message about to go from one robot to another that is in range.
+/// One message about to go from one robot to another that is in range. The model of the receiver is
+/// asked, so that it is the same whatever carried the message.
 struct LinkQuery {
   double distance_m = 0;         ///< Between reported poses.
   std::uint32_t obstructed = 0;  ///< 1: a body stands in between (if line_of_sight is asked).
@@ -30,8 +35,11 @@ struct LinkQuery {
   std::uint32_t from = 0;
   std::uint32_t to = 0;
   std::uint32_t sequence = 0;  ///< Of the message.
-  std::uint32_t device = 0;
+  std::uint32_t device = 0;    ///< Of the sender: its communicator, from kRadioDevice on.
   std::uint64_t seed = 0;
+
+  /// Numbers that devices of other kinds do not draw under.
+  static constexpr std::uint32_t kRadioDevice = 0x2000'0000U;
 
   /// Random numbers of this delivery.
   [[nodiscard]] RandomStream random() const noexcept {

@@ -14,7 +14,7 @@ namespace rave {
 enum class RecipientKind : std::uint32_t {
   kEveryone = 0,  ///< All whose communicator of the same name is in reach.
   kRobot = 1,     ///< One robot.
-  kTeam = 2,      ///< Those of the sender's team.
+  kTeam = 2,      ///< Those of the sender's team; nobody if it has none.
 };
 
 /// The address on a message.
@@ -33,8 +33,12 @@ struct Recipient {
 /// Stands before the bytes of one message, on its way out and in. No padding: its bits are part of
 /// the run hash.
 struct MessageHead {
-  std::int64_t stamp_ns = 0;   ///< When it was sent, simulation time.
-  std::uint32_t from = 0;      ///< RobotId of the sender; filled by the host.
+  /// When the program sent it, simulation time; of a message from another host, whose clock is
+  /// another, when it was heard.
+  std::int64_t stamp_ns = 0;
+  /// RobotId of the sender; filled by the host. Senders that are no robots of the scenario are
+  /// numbered from the count of robots on, as they are first heard.
+  std::uint32_t from = 0;
   std::uint32_t sequence = 0;  ///< Counts the messages of that communicator from 1; by the host.
   Recipient to;
   std::uint32_t offset = 0;  ///< Of its bytes in the mailbox's data.
@@ -71,8 +75,8 @@ struct CommunicatorView {
 /// A communicator as the program sees it; fixed when the run starts.
 struct CommunicatorInfo {
   const char* name = "";
-  std::uint32_t max_messages = 0;       ///< In and out, per decision.
-  std::uint32_t max_bytes = 0;          ///< In and out, per decision.
+  std::uint32_t max_messages = 0;       ///< Per decision, each direction.
+  std::uint32_t max_bytes = 0;          ///< Per decision, each direction.
   std::uint32_t max_message_bytes = 0;  ///< Of one message; a larger one is refused.
   std::uint32_t reserved = 0;
 };

@@ -149,10 +149,12 @@ class Commands {
   }
   /// Sends one plain struct as its bytes. It must have no padding, whose bits would be chance.
   template <class T>
+    requires(!std::is_convertible_v<const T&, std::span<const std::byte>>)
   bool send(CommunicatorHandle communicator, const T& message,
             Recipient to = Recipient::everyone()) noexcept {
     static_assert(std::is_trivially_copyable_v<T>);
-    return send(communicator, std::as_bytes(std::span<const T, 1>(&message, 1)), to);
+    const std::span<const std::byte> bytes = std::as_bytes(std::span<const T, 1>(&message, 1));
+    return send(communicator, bytes, to);
   }
 
  private:

@@ -3,11 +3,12 @@
 
 #include "rave/robot/hardware_sensor.hpp"
 #include "rave/robot/message.hpp"
+#include "rave/robot/radio_packet.hpp"
 
 namespace rave {
 
 /// Where the thread of a transmitter puts what it hears. Belongs to the host; valid from open()
-/// until close() has returned. Any one thread of the driver.
+/// until close() has returned. Any thread of the driver, and of the host in send().
 class PacketSink {
  public:
   /// Hands over one packet; the bytes are copied. A full queue loses its oldest packet, counted.
@@ -27,7 +28,13 @@ struct TransmitterDeclaration {
   /// send() and close() are not called.
   std::uint32_t in_process = 0;
   std::uint32_t max_packet_bytes = 1400;
-  double byte_rate = 0;  ///< What the device can send, bytes a second; 0: does not limit.
+  /// In-process ones: bytes a second of all communicators together, which the host enforces; 0: no
+  /// limit. A device keeps to its own rate by itself.
+  double byte_rate = 0;
+  /// Of a device: only packets with this number are taken; radio_name_hash() of a name that those
+  /// who belong together share.
+  std::uint32_t network = 0;
+  std::uint32_t boot = 0;  ///< Of a device: another number each time the program is started.
 };
 
 /// A device that carries packets to and from other robots: a socket, a radio on a serial line. One
@@ -37,8 +44,12 @@ class Transmitter {
  public:
   virtual ~Transmitter() = default;
   virtual Status configure(const HardwareSetup& setup, TransmitterDeclaration& declaration) = 0;
+  /// Starts the driver's own thread, which writes to `sink`. An error keeps the run from starting.
   virtual Status open(PacketSink& sink) = 0;
+  /// `packet` is one of rave/robot/radio_packet.hpp, a sequence of bytes for the device. An error
+  /// is counted: that packet is lost.
   virtual Status send(std::span<const std::byte> packet) = 0;
+  /// Ends the thread and waits for it.
   virtual void close() = 0;
   /// What an experimenter should know of it, as one JSON object (`{}` if nothing).
   [[nodiscard]] virtual std::string report() const { return "{}"; }

@@ -109,6 +109,12 @@ class Engine {
   [[nodiscard]] std::string sensor_report(RobotId robot, std::uint32_t index) const;
   /// What a device (RobotType::devices) reports of itself (JSON).
   [[nodiscard]] std::string device_report(RobotId robot, std::uint32_t index) const;
+  /// What a transmitter reports of itself (JSON); `{}` for in-process ones.
+  [[nodiscard]] std::string transmitter_report(RobotId robot, std::uint32_t index) const;
+  /// What became of all messages so far.
+  [[nodiscard]] const RadioCounts& radio_counts() const noexcept;
+  /// Messages that were sent or delivered in the last step, in the order in which they were.
+  [[nodiscard]] std::span<const RadioTrace> radio() const noexcept;
   /// Events of the last step, ordered by robot.
   [[nodiscard]] std::span<const Event> events() const noexcept;
   [[nodiscard]] RunHash hash() const noexcept;

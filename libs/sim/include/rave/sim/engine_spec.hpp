@@ -18,6 +18,7 @@
 #include "rave/robot/processing.hpp"
 #include "rave/robot/program.hpp"
 #include "rave/robot/sample_queue.hpp"
+#include "rave/sim/radio.hpp"
 #include "rave/sim/virtual_sensor.hpp"
 #include "rave/world/body.hpp"
 
@@ -121,6 +122,8 @@ struct RobotType {
   std::vector<SensorSpec> sensors;
   std::vector<ControllerSpec> controllers;
   std::vector<ActuatorSpec> actuators;
+  std::vector<TransmitterSpec> transmitters;
+  std::vector<CommunicatorSpec> communicators;
   std::optional<ProgramSpec> program;
   /// The sensor that says where the robot is; none: the truth (simulated robots only).
   std::optional<std::uint32_t> pose_from;

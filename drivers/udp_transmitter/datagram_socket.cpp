@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "udp_transmitter/datagram_socket.hpp"
+
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <net/if.h>
+#include <netdb.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <utility>
+
+namespace rave::udp_transmitter {
+namespace {
+
+using Found = std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)>;
+
+Found look_up(const std::string& host, const std::string& port) {
+  addrinfo wanted{};
+  wanted.ai_socktype = SOCK_DGRAM;
+  wanted.ai_flags = AI_NUMERICHOST | AI_NUMERICSERV | AI_PASSIVE;
+  addrinfo* found = nullptr;
+  if (::getaddrinfo(host.c_str(), port.c_str(), &wanted, &found) != 0) found = nullptr;
+  return {found, &::freeaddrinfo};
+}
+
+template <class T>
+bool set(int fd, int level, int option, const T& value) {
+  return ::setsockopt(fd, level, option, &value, sizeof value) == 0;
+}
+
+template <class T>
+T as(const sockaddr_storage& storage) {
+  T address{};
+  std::memcpy(&address, &storage, sizeof address);
+  return address;
+}
+
+/// Joins the group over the interface that has `own`, sends there, and hears itself's neighbours on
+/// this machine.
+bool join(int fd, const Peer& group, const addrinfo& own) {
+  const int one = 1;
+  if (own.ai_family == AF_INET) {
+    sockaddr_in here{};
+    std::memcpy(&here, own.ai_addr, sizeof here);
+    const ip_mreq request{as<sockaddr_in>(group.address).sin_addr, here.sin_addr};
+    return set(fd, IPPROTO_IP, IP_ADD_MEMBERSHIP, request) &&
+           set(fd, IPPROTO_IP, IP_MULTICAST_IF, here.sin_addr) &&
+           set(fd, IPPROTO_IP, IP_MULTICAST_LOOP, one);
+  }
+  sockaddr_in6 here{};
+  std::memcpy(&here, own.ai_addr, sizeof here);
+  const unsigned interface = here.sin6_scope_id != 0 ? here.sin6_scope_id : ::if_nametoindex("lo");
+  const ipv6_mreq request{as<sockaddr_in6>(group.address).sin6_addr, interface};
+  return set(fd, IPPROTO_IPV6, IPV6_ADD_MEMBERSHIP, request) &&
+         set(fd, IPPROTO_IPV6, IPV6_MULTICAST_IF, interface) &&
+         set(fd, IPPROTO_IPV6, IPV6_MULTICAST_LOOP, one);
+}
+
+bool is_passing(int error) {
+  return error == EINTR || error == EAGAIN || error == ECONNREFUSED || error == ENOBUFS;
+}
+
+}  // namespace
+
+Result<Peer> parse_peer(std::string_view text) {
+  const auto parts = line::parse_address("", 0, text);
+  if (!parts) {
+    return fail(ErrorCode::kInvalidArgument,
+                "expected an address such as 127.0.0.1:4711, found `{}`", text);
+  }
+  const Found found = look_up(parts->host, parts->port);
+  if (!found) {
+    return fail(ErrorCode::kInvalidArgument,
+                "expected a numeric address such as 127.0.0.1:4711, found `{}`", text);
+  }
+  Peer peer;
+  std::memcpy(&peer.address, found->ai_addr, found->ai_addrlen);
+  peer.size = found->ai_addrlen;
+  peer.text = text;
+  return peer;
+}
+
+Result<std::vector<Peer>> parse_peers(std::string_view text) {
+  std::vector<Peer> peers;
+  constexpr std::string_view kBetween = " ,\t";
+  while (true) {
+    const auto begin = text.find_first_not_of(kBetween);
+    if (begin == std::string_view::npos) return peers;
+    text.remove_prefix(begin);
+    const auto end = std::min(text.find_first_of(kBetween), text.size());
+    RAVE_TRY_ASSIGN(auto peer, parse_peer(text.substr(0, end)));
+    peers.push_back(std::move(peer));
+    text.remove_prefix(end);
+  }
+}
+
+Result<DatagramSocket> DatagramSocket::open(const std::string& host, std::uint16_t port,
+                                            const Peer* group) {
+  const Found own = look_up(host, std::to_string(port));
+  if (!own) {
+    return fail(ErrorCode::kInvalidArgument,
+                "`listen` must be a numeric address such as 127.0.0.1, not `{}`", host);
+  }
+  if (group != nullptr && group->address.ss_family != own->ai_family) {
+    return fail(ErrorCode::kInvalidArgument,
+                "the group {} and the address {} are not of one family", group->text, host);
+  }
+  DatagramSocket opened(::socket(own->ai_family, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  const auto failed = [&](std::string_view what) {
+    return fail(ErrorCode::kIo, "cannot {} UDP port {} of {}: {}", what, port, host,
+                std::strerror(errno));
+  };
+  if (opened.fd_ < 0) return failed("open");
+  // Several listen to one group on one machine; an address of its own belongs to one alone.
+  const int one = 1;
+  const sockaddr* where =
+      group != nullptr ? reinterpret_cast<const sockaddr*>(&group->address) : own->ai_addr;
+  if (group != nullptr && !set(opened.fd_, SOL_SOCKET, SO_REUSEADDR, one)) return failed("share");
+  if (::bind(opened.fd_, where, own->ai_addrlen) != 0) return failed("listen on");
+  if (group != nullptr && !join(opened.fd_, *group, *own)) return failed("join the group on");
+  sockaddr_storage bound{};
+  socklen_t size = sizeof bound;
+  if (::getsockname(opened.fd_, reinterpret_cast<sockaddr*>(&bound), &size) == 0) {
+    // The port stands in the same place in both families.
+    opened.port_ = ntohs(as<sockaddr_in>(bound).sin_port);
+  }
+  return opened;
+}
+
+DatagramSocket::DatagramSocket(DatagramSocket&& other) noexcept
+    : fd_(std::exchange(other.fd_, -1)), port_(other.port_) {}
+
+DatagramSocket& DatagramSocket::operator=(DatagramSocket&& other) noexcept {
+  std::swap(fd_, other.fd_);
+  std::swap(port_, other.port_);
+  return *this;
+}
+
+DatagramSocket::~DatagramSocket() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
+line::ReadResult DatagramSocket::receive(std::span<std::byte> room, line::Wait limit,
+                                         const line::Wake& wake) const noexcept {
+  const line::HostTime end = line::host_now() + limit;
+  while (true) {
+    const int ready = line::detail::wait_ready(fd_, POLLIN, end, &wake);
+    if (ready < 0) return {line::ReadEnd::kWoken, 0};
+    if (ready == 0) return {line::ReadEnd::kTimeout, 0};
+    const ssize_t size = ::recv(fd_, room.data(), room.size(), 0);
+    if (size >= 0) return {line::ReadEnd::kBytes, static_cast<std::size_t>(size)};
+    if (!is_passing(errno)) return {line::ReadEnd::kLost, 0};
+  }
+}
+
+Status DatagramSocket::send(std::span<const std::byte> bytes, const Peer& to) const {
+  const ssize_t sent = ::sendto(fd_, bytes.data(), bytes.size(), MSG_NOSIGNAL,
+                                reinterpret_cast<const sockaddr*>(&to.address), to.size);
+  if (sent >= 0 || is_passing(errno)) return {};
+  return fail(ErrorCode::kIo, "cannot send to {}: {}", to.text, std::strerror(errno));
+}
+
+}  // namespace rave::udp_transmitter

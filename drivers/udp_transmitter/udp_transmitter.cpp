@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <atomic>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stop_token>
+#include <system_error>
+#include <thread>
+
+#include "rave/robot/plugin_entry.hpp"
+#include "udp_transmitter/datagram_socket.hpp"
+
+namespace rave::udp_transmitter {
+namespace {
+
+constexpr std::uint32_t kMaxPacket = 1400;  // one frame of Ethernet, whatever stands before it
+
+constexpr ParamSpec kParams[] = {
+    text_param("listen", "127.0.0.1", "Numeric address of this machine to listen on."),
+    integer_param("port", 0, 0, 65535, "UDP port to listen on; 0: a free one. Not with `group`."),
+    text_param("peers", "", "Whom to send to: `127.0.0.1:4711 10.0.0.2:4711`, numeric."),
+    text_param("group", "", "A multicast group to send to and to hear, such as 239.255.7.1:4711."),
+    text_param("network", "rave", "Only packets of the same network are taken."),
+};
+
+/// Packets as datagrams. configure(), open(), send(), close() and report() belong to the host's
+/// thread, run() to the driver's own.
+class UdpTransmitter final : public Transmitter {
+ public:
+  Status configure(const HardwareSetup& setup, TransmitterDeclaration& declaration) override {
+    const Params params = setup.parameters();
+    auto peers = parse_peers(params.text("peers"));
+    if (!peers) return tl::unexpected(std::move(peers).error().with_context("`peers`"));
+    peers_ = *std::move(peers);
+    std::optional<Peer> group;
+    auto port = static_cast<std::uint16_t>(params.integer("port"));
+    if (!params.text("group").empty()) {
+      auto parsed = parse_peer(params.text("group"));
+      if (!parsed) return tl::unexpected(std::move(parsed).error().with_context("`group`"));
+      if (port != 0) {
+        return fail(ErrorCode::kInvalidArgument, "`port` is that of `group`: give one of both");
+      }
+      group = *std::move(parsed);
+      peers_.push_back(*group);
+    }
+    if (peers_.empty() && port == 0) {
+      return fail(ErrorCode::kInvalidArgument,
+                  "expected `peers`, `group` or `port`: it would neither send nor be found");
+    }
+    RAVE_TRY(wake_.open());
+    RAVE_TRY_ASSIGN(socket_, DatagramSocket::open(std::string(params.text("listen")), port,
+                                                  group ? &*group : nullptr));
+    declaration.max_packet_bytes = kMaxPacket;
+    declaration.network = radio_name_hash(params.text("network"));
+    const auto ticks = line::host_now().time_since_epoch().count();
+    declaration.boot = static_cast<std::uint32_t>(mix64(static_cast<std::uint64_t>(ticks)));
+    return {};
+  }
+
+  Status open(PacketSink& sink) override {
+    if (!socket_) return fail(ErrorCode::kState, "opened before it was configured");
+    if (thread_.joinable()) return fail(ErrorCode::kState, "opened twice; close it first");
+    wake_.clear();
+    sink_ = &sink;
+    failed_ = false;
+    try {
+      thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+    } catch (const std::system_error& e) {
+      return fail(ErrorCode::kIo, "cannot start the thread of the socket: {}", e.what());
+    }
+    return {};
+  }
+
+  Status send(std::span<const std::byte> packet) override {
+    Status worst;
+    for (const Peer& peer : peers_) {
+      Status status = socket_->send(packet, peer);
+      if (!status) worst = std::move(status);
+    }
+    ++(worst ? sent_ : unsent_);
+    if (worst.has_value() == failed_) {
+      failed_ = !worst.has_value();
+      if (failed_) {
+        sink_->fail(worst.error().message.data(), worst.error().message.size());
+      } else {
+        sink_->recover();
+      }
+    }
+    return worst;
+  }
+
+  void close() override {
+    if (!thread_.joinable()) return;
+    thread_.request_stop();
+    wake_.ring();
+    thread_.join();
+  }
+
+  [[nodiscard]] std::string report() const override {
+    if (!socket_) return "{}";
+    nlohmann::ordered_json json;
+    json["port"] = socket_->port();
+    json["sent"] = sent_;
+    json["not_sent"] = unsent_;
+    json["received"] = received_.load();
+    return json.dump();
+  }
+
+ private:
+  void run(const std::stop_token& stop) {
+    std::array<std::byte, kMaxPacket + 1> room{};  // one more: a longer one must not look whole
+    while (!stop.stop_requested()) {
+      const auto got = socket_->receive(room, line::Wait(60'000), wake_);
+      if (got.end == line::ReadEnd::kBytes) {
+        ++received_;
+        sink_->receive(room.data(), got.size);
+      } else if (got.end == line::ReadEnd::kLost && wake_.wait(line::Wait(100))) {
+        return;  // nothing can be heard for now; what is sent says why
+      }
+    }
+  }
+
+  std::vector<Peer> peers_;
+  std::optional<DatagramSocket> socket_;
+  line::Wake wake_;
+  PacketSink* sink_ = nullptr;
+  bool failed_ = false;  // of the host's thread, as the next two
+  std::uint64_t sent_ = 0;
+  std::uint64_t unsent_ = 0;
+  std::atomic<std::uint64_t> received_{0};
+  std::jthread thread_;  // last: it ends before what it uses is gone
+};
+
+}  // namespace
+}  // namespace rave::udp_transmitter
+
+RAVE_PLUGIN("udp_transmitter") {
+  rave::add_transmitter<rave::udp_transmitter::UdpTransmitter>(
+      registry, {.name = "udp_transmitter",
+                 .summary = "Carries messages as UDP datagrams to peers or to a multicast group.",
+                 .params = rave::udp_transmitter::kParams,
+                 .clock = rave::DriverClock::kLive});
+}

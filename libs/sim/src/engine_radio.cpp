@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine_impl.hpp"
+#include "radio.hpp"
+
+namespace rave::sim {
+
+RadioMoment Engine::Impl::radio_moment() {
+  return {step, now, reported, &snapshot, &hash, &events};
+}
+
+void Engine::Impl::deliver_messages() {
+  if (!radio->empty()) radio->deliver(radio_moment());
+}
+
+void Engine::Impl::carry_messages() {
+  if (radio->empty()) return;
+  const RadioMoment moment = radio_moment();
+  for (std::uint32_t r = 0; r < movers.size(); ++r) {
+    const ProgramSlots& program = groups[group_index[r]].program;
+    if (program.spec == nullptr) {
+      // Nobody reads its mailbox.
+      radio->collect(moment, RobotId(r), false);
+    } else if (due(program.spec->period_steps, program.spec->phase_steps)) {
+      radio->collect(moment, RobotId(r), program.failed[member_index[r]] == 0);
+    }
+  }
+  radio->carry(moment);
+}
+
+const RadioCounts& Engine::radio_counts() const noexcept { return impl_->radio->counts(); }
+std::span<const RadioTrace> Engine::radio() const noexcept { return impl_->radio->traces(); }
+
+std::string Engine::transmitter_report(RobotId robot, std::uint32_t index) const {
+  return impl_->radio->report(robot, index);
+}
+
+}  // namespace rave::sim

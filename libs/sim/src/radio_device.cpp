@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "radio.hpp"
+
+namespace rave::sim {
+namespace {
+
+/// Senders beyond the robots of the scenario that get a number; anybody may send.
+constexpr std::size_t kMaxForeign = 4096;
+
+}  // namespace
+
+void Radio::hear(const RadioMoment& moment) {
+  for (RadioLine& line : lines_) {
+    if (!line.port) continue;
+    note_device(moment, line);
+    counts_.overrun += line.port->take_overruns();
+    std::span<const std::byte> bytes;
+    while (line.port->next(bytes)) {
+      const auto packet = decode_radio_packet(bytes);
+      if (packet) {
+        hear_packet(moment, line, *packet);
+      } else {
+        ++counts_.garbled;
+      }
+    }
+  }
+}
+
+void Radio::note_device(const RadioMoment& moment, RadioLine& line) {
+  const std::string failure = line.port->failure();
+  if (failure.empty() != line.failed) return;
+  line.failed = !line.failed;
+  moment.events->push_back({moment.step, RobotId(line.robot),
+                            line.failed ? EventKind::kDriverFailed : EventKind::kDriverBack,
+                            BodyId(),
+                            fmt::format("transmitter `{}`: {}", line.spec->name,
+                                        line.failed ? failure : "works again")});
+}
+
+std::uint32_t Radio::robot_of_hash(std::uint32_t hash) {
+  const auto known = by_hash_.find(hash);
+  if (known != by_hash_.end()) return known->second;
+  if (foreign_.size() >= kMaxForeign) return kNobody;
+  const auto id = static_cast<std::uint32_t>(spec_.robots.size() + foreign_.size());
+  foreign_.push_back(hash);
+  by_hash_.emplace(hash, id);
+  return id;
+}
+
+void Radio::hear_packet(const RadioMoment& moment, RadioLine& line, const RadioPacket& packet) {
+  const RobotSpec& robot = spec_.robots[line.robot];
+  const auto speaks = [&](std::uint32_t e) {
+    return channels_[endpoints_[e].channel].hash == packet.channel;
+  };
+  const auto found = std::find_if(line.senders.begin(), line.senders.end(), speaks);
+  const bool for_us =
+      packet.to == RecipientKind::kEveryone ||
+      (packet.to == RecipientKind::kRobot && packet.recipient == name_hash_[line.robot]) ||
+      (packet.to == RecipientKind::kTeam && !robot.team.empty() &&
+       packet.recipient == radio_name_hash(robot.team));
+  if (packet.network != line.declaration.network || packet.sender == name_hash_[line.robot] ||
+      found == line.senders.end() || !for_us) {
+    ++counts_.foreign;
+    return;
+  }
+  if (!line.repeats.accept(packet.sender, packet.channel, packet.boot, packet.sequence)) {
+    ++counts_.repeated;
+    return;
+  }
+  Endpoint& to = endpoints_[*found];
+  const std::uint32_t from = robot_of_hash(packet.sender);
+  ++counts_.heard;
+  ++counts_.addressed;
+  if (!in_reach(moment, to, packet, from)) return;
+  if (packet.payload.size() > longest_message_) {
+    ++counts_.lost_mailbox;
+    return;
+  }
+  StoredPacket stored;
+  stored.head.stamp_ns = moment.now.ns;
+  stored.head.from = from;
+  stored.head.sequence = packet.sequence;
+  stored.head.to = {packet.to, packet.to == RecipientKind::kRobot ? line.robot : Recipient{}.robot};
+  stored.head.size = static_cast<std::uint32_t>(packet.payload.size());
+  const std::uint32_t id = packets_.add(stored, packet.payload);
+  done_.push_back(id);
+  hand_over(moment, to, stored.head, id);
+}
+
+bool Radio::in_reach(const RadioMoment& moment, const Endpoint& to, const RadioPacket& packet,
+                     std::uint32_t from) {
+  const RadioDeclaration& receiver = models_[to.model].declaration;
+  const ReportedPose& there = moment.reported[to.robot];
+  const bool sight = packet.line_of_sight || receiver.line_of_sight != 0;
+  LinkQuery query;
+  Vec2 p_from;
+  const Vec2 p_to{there.pose.x_m, there.pose.y_m};
+  if (packet.position && there.known) {
+    p_from = {packet.position->x_m, packet.position->y_m};
+    query.distance_m = std::sqrt(squared_norm(p_to - p_from));
+  } else if (sight || packet.range_m > 0 || receiver.range_m > 0) {
+    ++counts_.lost_range;
+    return false;
+  }
+  if ((packet.range_m > 0 && query.distance_m > packet.range_m) ||
+      (receiver.range_m > 0 && query.distance_m > receiver.range_m)) {
+    ++counts_.lost_range;
+    return false;
+  }
+  if (sight) {
+    const world::Snapshot& world = *moment.snapshot;
+    const BodyId sender = from < spec_.robots.size() ? world.body_of(RobotId(from)) : BodyId();
+    query.obstructed =
+        world.visible(p_from, p_to, 0.5 * (packet.antenna_z_m + receiver.antenna_z_m), kAllLayers,
+                      sender, world.body_of(RobotId(to.robot)))
+            ? 0
+            : 1;
+  }
+  query.bytes = static_cast<std::uint32_t>(packet.payload.size());
+  query.from = from;
+  query.to = to.robot;
+  query.sequence = packet.sequence;
+  query.device = LinkQuery::kRadioDevice;
+  query.seed = spec_.seed;
+  Reach asked;
+  const LinkAnswer answer = ask(to.model, query, asked);
+  if (asked.failed_model != kNobody) count_failure(moment, asked);
+  // How long it took is up to the device; what the model adds is left out.
+  if (answer.arrives != 0) return true;
+  ++(query.obstructed != 0 ? counts_.lost_obstacle : counts_.lost_chance);
+  return false;
+}
+
+void Radio::transmit(const RadioMoment& moment, RadioLine& line, std::uint32_t packet) {
+  const StoredPacket& stored = packets_[packet];
+  const Endpoint& sender = endpoints_[stored.endpoint];
+  const RadioDeclaration& radio = models_[sender.model].declaration;
+  RadioPacket out;
+  out.network = line.declaration.network;
+  out.boot = line.declaration.boot;
+  out.sender = name_hash_[line.robot];
+  out.channel = channels_[sender.channel].hash;
+  out.to = stored.head.to.kind;
+  const std::uint32_t to = stored.head.to.robot;
+  if (out.to == RecipientKind::kRobot) {
+    const std::size_t robots = spec_.robots.size();
+    if (to < robots) {
+      out.recipient = name_hash_[to];
+    } else if (to - robots < foreign_.size()) {
+      out.recipient = foreign_[to - robots];
+    }
+  } else if (out.to == RecipientKind::kTeam && sender.team != kNobody) {
+    out.recipient = radio_name_hash(teams_[sender.team]);
+  }
+  // A message to nobody is not sent.
+  if (out.to != RecipientKind::kEveryone && out.recipient == 0) {
+    ++counts_.sent;
+    return;
+  }
+  out.sequence = stored.head.sequence;
+  out.stamp_ns = stored.head.stamp_ns;
+  const ReportedPose& pose = moment.reported[line.robot];
+  if (pose.known) out.position = {pose.pose.x_m, pose.pose.y_m};
+  out.range_m = radio.range_m;
+  out.antenna_z_m = radio.antenna_z_m;
+  out.line_of_sight = radio.line_of_sight != 0;
+  out.payload = packets_.bytes_of(packet);
+  const std::size_t size = encode(out, encoded_);
+  ErrorText error;
+  if (size == 0 || line.spec->ops->send(line.instance.at(0), encoded_.data(), size, &error) != 0) {
+    ++counts_.lost_device;
+    return;
+  }
+  ++counts_.sent;
+  trace({RobotId(stored.head.from),
+         RobotId(),
+         sender.device,
+         false,
+         stored.head.sequence,
+         stored.head.stamp_ns,
+         stored.complete_ns,
+         {}},
+        packet);
+}
+
+}  // namespace rave::sim

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "radio.hpp"
+#include "rave/base/check.hpp"
+
+namespace rave::sim {
+namespace {
+
+/// Runs a function of a plug-in that returns 0 or sets an ErrorText.
+template <class Call>
+Status called(Call&& call) {
+  ErrorText error;
+  if (call(&error) == 0) return {};
+  return fail(ErrorCode::kPlugin, "{}", error.text);
+}
+
+Status check(const RadioDeclaration& radio) {
+  const bool sound = radio.range_m >= 0 && radio.byte_rate >= 0 && radio.max_messages > 0 &&
+                     radio.max_message_bytes > 0 && radio.max_message_bytes <= 0xFFFFU &&
+                     radio.max_mailbox_bytes >= radio.max_message_bytes &&
+                     radio.max_messages <= 0xFFFFU && radio.max_mailbox_bytes <= (1U << 24U);
+  if (sound) return {};
+  return fail(ErrorCode::kPlugin,
+              "declared a radio of {} m, {} B/s, messages of {} B, mailboxes of {} messages and "
+              "{} B",
+              radio.range_m, radio.byte_rate, radio.max_message_bytes, radio.max_messages,
+              radio.max_mailbox_bytes);
+}
+
+}  // namespace
+
+Error Radio::named(std::uint32_t robot, std::string_view kind, std::string_view name,
+                   std::string_view driver, Error error) const {
+  return std::move(error).with_context(fmt::format("robot `{}`, {} `{}` (driver `{}`)",
+                                                   spec_.robots[robot].name, kind, name, driver));
+}
+
+Status Radio::make() {
+  first_endpoint_.assign(spec_.robots.size() + 1, 0);
+  first_line_.assign(spec_.robots.size() + 1, 0);
+  infos_.resize(spec_.types.size());
+  RAVE_TRY(make_models());
+  for (std::uint32_t r = 0; r < spec_.robots.size(); ++r) RAVE_TRY(make_robot(r));
+  lay_out_mailboxes();
+  clear();
+  return {};
+}
+
+Status Radio::make_models() {
+  models_of_.resize(spec_.types.size());
+  for (std::uint32_t r = 0; r < spec_.robots.size(); ++r) {
+    const std::uint32_t t = spec_.robots[r].type;
+    const RobotType& type = spec_.types[t];
+    if (!models_of_[t].empty()) continue;
+    for (const CommunicatorSpec& communicator : type.communicators) {
+      RadioModel& model = models_.emplace_back();
+      model.spec = &communicator;
+      RAVE_TRY(model.instance.make(communicator.ops->instance, 1));
+      DeviceSetup setup;
+      setup.robot = info_of({spec_, logs_, this}, RobotId(r));
+      setup.host = services_of(logs_[r]);
+      setup.params = communicator.params.values().data();
+      setup.param_count = communicator.params.values().size();
+      setup.step_s = spec_.step.seconds();
+      Status status = called([&](ErrorText* error) {
+        return communicator.ops->start(model.instance.at(0), &setup, &model.declaration, error);
+      });
+      if (status) status = check(model.declaration);
+      if (!status) {
+        return tl::unexpected(
+            named(r, "communicator", communicator.name, communicator.driver, status.error()));
+      }
+      const RadioDeclaration& radio = model.declaration;
+      longest_message_ = std::max(longest_message_, radio.max_message_bytes);
+      infos_[t].push_back({communicator.name.c_str(), radio.max_messages, radio.max_mailbox_bytes,
+                           radio.max_message_bytes, 0});
+      models_of_[t].push_back(static_cast<std::uint32_t>(models_.size() - 1));
+    }
+  }
+  return {};
+}
+
+std::uint32_t Radio::team_of(std::uint32_t robot) {
+  const std::string& team = spec_.robots[robot].team;
+  if (team.empty()) return kNobody;
+  const auto found = std::find(teams_.begin(), teams_.end(), team);
+  if (found == teams_.end()) teams_.push_back(team);
+  return static_cast<std::uint32_t>(std::find(teams_.begin(), teams_.end(), team) - teams_.begin());
+}
+
+Status Radio::make_robot(std::uint32_t robot) {
+  const std::uint32_t t = spec_.robots[robot].type;
+  const RobotType& type = spec_.types[t];
+  const auto first = static_cast<std::uint32_t>(lines_.size());
+  name_hash_.push_back(radio_name_hash(spec_.robots[robot].name));
+  by_hash_.emplace(name_hash_.back(), robot);
+  for (std::uint32_t i = 0; i < type.transmitters.size(); ++i) {
+    RadioLine& line = lines_.emplace_back();
+    line.spec = &type.transmitters[i];
+    line.robot = robot;
+    line.device = i;
+  }
+  for (std::uint32_t c = 0; c < type.communicators.size(); ++c) {
+    const CommunicatorSpec& communicator = type.communicators[c];
+    RAVE_CHECK(communicator.transmitter < type.transmitters.size());
+    Endpoint endpoint;
+    endpoint.robot = robot;
+    endpoint.device = c;
+    endpoint.model = models_of_[t][c];
+    endpoint.line = first + communicator.transmitter;
+    endpoint.team = team_of(robot);
+    const auto same = [&](const Channel& channel) { return channel.name == communicator.name; };
+    const auto known = std::find_if(channels_.begin(), channels_.end(), same);
+    endpoint.channel = static_cast<std::uint32_t>(known - channels_.begin());
+    if (known == channels_.end()) {
+      Channel& channel = channels_.emplace_back();
+      channel.name = communicator.name;
+      channel.hash = radio_name_hash(communicator.name);
+    }
+    lines_[endpoint.line].senders.push_back(static_cast<std::uint32_t>(endpoints_.size()));
+    endpoints_.push_back(std::move(endpoint));
+  }
+  first_endpoint_[robot + 1] = static_cast<std::uint32_t>(endpoints_.size());
+  first_line_[robot + 1] = static_cast<std::uint32_t>(lines_.size());
+  return {};
+}
+
+void Radio::lay_out_mailboxes() {
+  std::size_t heads = 0;
+  std::size_t bytes = 0;
+  for (const Endpoint& endpoint : endpoints_) {
+    heads += std::size_t{2} * models_[endpoint.model].declaration.max_messages;
+    bytes += std::size_t{2} * models_[endpoint.model].declaration.max_mailbox_bytes;
+  }
+  mailbox_heads_.resize(heads);
+  mailbox_bytes_.resize(bytes);
+  MessageHead* head = mailbox_heads_.data();
+  std::byte* data = mailbox_bytes_.data();
+  for (Endpoint& endpoint : endpoints_) {
+    const RadioDeclaration& radio = models_[endpoint.model].declaration;
+    for (Mailbox* box : {&endpoint.in, &endpoint.out}) {
+      *box = {head, data, radio.max_messages, radio.max_mailbox_bytes, 0, 0, 0, 0};
+      head += radio.max_messages;
+      data += radio.max_mailbox_bytes;
+    }
+    views_.push_back({&endpoint.in, &endpoint.out});
+  }
+}
+
+void Radio::clear() {
+  for (Endpoint& endpoint : endpoints_) {
+    endpoint.in.clear();
+    endpoint.out.clear();
+    endpoint.sequence = 0;
+    endpoint.waiting.clear();
+    endpoint.first_waiting = 0;
+    endpoint.queue_bytes = 0;
+    endpoint.free_ns = 0;
+  }
+  for (RadioLine& line : lines_) {
+    line.free_ns = 0;
+    line.on_air.clear();
+    line.under_way = 0;
+    line.failed = false;
+    line.repeats.clear();
+    if (line.port) line.port->clear();
+  }
+  for (RadioModel& model : models_) model.failed = false;
+  std::erase_if(by_hash_, [&](const auto& known) { return known.second >= spec_.robots.size(); });
+  foreign_.clear();
+  packets_.begin(longest_message_);
+  arrivals_.clear(0);
+  done_.clear();
+  traces_.clear();
+  trace_packets_.clear();
+  counts_ = {};
+}
+
+Status Radio::configure_line(RadioLine& line) {
+  RAVE_TRY(line.instance.make(line.spec->ops->instance, 1));
+  HardwareSetup setup;
+  setup.robot = info_of({spec_, logs_, this}, RobotId(line.robot));
+  setup.host = services_of(logs_[line.robot]);
+  setup.params = line.spec->params.values().data();
+  setup.param_count = line.spec->params.values().size();
+  setup.folder = spec_.types[spec_.robots[line.robot].type].folder.c_str();
+  RAVE_TRY(called([&](ErrorText* error) {
+    return line.spec->ops->configure(line.instance.at(0), &setup, &line.declaration, error);
+  }));
+  if (line.declaration.in_process != 0) return {};
+  RAVE_TRY(check_packet_sizes(line));
+  line.port = std::make_unique<RadioPort>(line.declaration.max_packet_bytes);
+  encoded_.resize(std::max<std::size_t>(encoded_.size(), line.declaration.max_packet_bytes));
+  return {};
+}
+
+Status Radio::check_packet_sizes(const RadioLine& line) const {
+  for (const std::uint32_t e : line.senders) {
+    const RadioModel& model = models_[endpoints_[e].model];
+    const std::size_t needed = model.declaration.max_message_bytes + kRadioPacketOverhead;
+    if (needed <= line.declaration.max_packet_bytes) continue;
+    return fail(ErrorCode::kInvalidArgument,
+                "carries packets of up to {} bytes, but communicator `{}` sends messages of up to "
+                "{} bytes, {} with their head",
+                line.declaration.max_packet_bytes, model.spec->name,
+                model.declaration.max_message_bytes, needed);
+  }
+  return {};
+}
+
+Status Radio::open_line(RadioLine& line) {
+  RAVE_TRY(called([&](ErrorText* error) {
+    return line.spec->ops->open(line.instance.at(0), line.port.get(), error);
+  }));
+  line.open = true;
+  return {};
+}
+
+Status Radio::open() {
+  for (RadioLine& line : lines_) {
+    Status status;
+    if (!configured_) status = configure_line(line);
+    if (status && line.declaration.in_process == 0) status = open_line(line);
+    if (!status) {
+      return tl::unexpected(
+          named(line.robot, "transmitter", line.spec->name, line.spec->driver, status.error()));
+    }
+  }
+  if (!configured_) name_channels();
+  configured_ = true;
+  return {};
+}
+
+void Radio::name_channels() {
+  for (Channel& channel : channels_) channel.team_sizes.assign(teams_.size(), 0);
+  for (std::uint32_t e = 0; e < endpoints_.size(); ++e) {
+    const Endpoint& endpoint = endpoints_[e];
+    if (lines_[endpoint.line].declaration.in_process == 0) continue;
+    Channel& channel = channels_[endpoint.channel];
+    channel.members.push_back(e);
+    if (endpoint.team != kNobody) ++channel.team_sizes[endpoint.team];
+    channel.largest_range_m =
+        std::max(channel.largest_range_m, models_[endpoint.model].declaration.range_m);
+  }
+}
+
+void Radio::close() noexcept {
+  for (RadioLine& line : lines_) {
+    if (line.open) line.spec->ops->close(line.instance.at(0));
+    line.open = false;
+  }
+}
+
+std::string Radio::report(RobotId robot, std::uint32_t transmitter) const {
+  const RadioLine& line = lines_[first_line_[robot.value()] + transmitter];
+  std::string text;
+  line.spec->ops->report(line.instance.at(0), &text,
+                         [](void* context, const char* part, std::uint64_t size) {
+                           static_cast<std::string*>(context)->append(part, size);
+                         });
+  return text;
+}
+
+}  // namespace rave::sim

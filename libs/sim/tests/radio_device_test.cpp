@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <optional>
+
+#include "radio_fixture.hpp"
+
+namespace rave::sim::testing {
+namespace {
+
+/// A device that hands each packet to all the others of the process at once; what is sent may be
+/// spoilt on the way, and it can be unplugged.
+class Cable final : public Transmitter {
+ public:
+  ~Cable() override { close(); }
+  Status configure(const HardwareSetup& setup, TransmitterDeclaration& declaration) override {
+    declaration.max_packet_bytes = 200;
+    declaration.network = static_cast<std::uint32_t>(setup.parameters().integer("network"));
+    declaration.boot = 1;
+    return {};
+  }
+  Status open(PacketSink& sink) override {
+    sink_ = &sink;
+    plugs().push_back(&sink);
+    return {};
+  }
+  Status send(std::span<const std::byte> packet) override {
+    if (unplugged()) return fail(ErrorCode::kIo, "no cable");
+    std::vector<std::byte> bytes(packet.begin(), packet.end());
+    if (spoil()) bytes[30] ^= std::byte{4};
+    for (PacketSink* plug : plugs()) {
+      for (int i = 0; i < copies(); ++i) plug->receive(bytes.data(), bytes.size());
+    }
+    return {};
+  }
+  void close() override { std::erase(plugs(), sink_); }
+
+  static std::vector<PacketSink*>& plugs() {
+    static std::vector<PacketSink*> all;
+    return all;
+  }
+  static bool& unplugged() {
+    static bool value = false;
+    return value;
+  }
+  static bool& spoil() {
+    static bool value = false;
+    return value;
+  }
+  static int& copies() {
+    static int value = 1;
+    return value;
+  }
+
+ private:
+  PacketSink* sink_ = nullptr;
+};
+
+RobotType cabled_type(Numbers program = {}, Numbers model = {}, double network = 7) {
+  static constexpr TransmitterOps kOps = detail::transmitter_ops<Cable>();
+  RobotType type = simulated_type();
+  TransmitterSpec spec;
+  spec.name = spec.driver = "cable";
+  spec.ops = &kOps;
+  spec.params.add_number("network", network);
+  type.transmitters.push_back(std::move(spec));
+  add_communicator(type, model);
+  type.program = chatter(program);
+  return type;
+}
+
+class RadioDevice : public RadioTest {
+ protected:
+  void SetUp() override {
+    RadioTest::SetUp();
+    Cable::unplugged() = Cable::spoil() = false;
+    Cable::copies() = 1;
+  }
+};
+
+TEST_F(RadioDevice, RangeAndSightHoldForWhatADeviceCarries) {
+  EngineSpec spec;
+  add_robot(spec, cabled_type({{"only", 0}, {"until", 1}}, {{"range_m", 5}, {"sight", 1}}));
+  add_twin(spec, {4.5, 0, 0});
+  add_twin(spec, {0, 5.5, 0});
+  add_twin(spec, {-2, 0, 0});
+  spec.world.obstacles.push_back(box({-1, 0, 0}, 0.1, 1));
+  const auto engine = make_engine(std::move(spec));
+  run(*engine, 3);
+  EXPECT_EQ(listeners(), (std::vector<std::uint32_t>{1}));
+  EXPECT_EQ(Chatter::log()[0].from, 0U);
+  EXPECT_EQ(engine->radio_counts().lost_range, 1U);
+  EXPECT_EQ(engine->radio_counts().lost_obstacle, 1U);
+  EXPECT_EQ(engine->radio_counts().foreign, 1U);  // its own echo
+  expect_balance(engine->radio_counts());
+}
+
+TEST_F(RadioDevice, OnlyTheAddresseeTakesAMessage) {
+  for (const double to : {2.0, -2.0}) {
+    Chatter::log().clear();
+    EngineSpec spec;
+    add_robot(spec, cabled_type({{"only", 0}, {"until", 1}, {"to", to}}));
+    for (const double x_m : {1.0, 2.0, 3.0}) add_twin(spec, {x_m, 0, 0});
+    for (const std::size_t r : {0U, 3U}) spec.robots[r].team = "red";
+    const auto engine = make_engine(std::move(spec));
+    run(*engine, 3);
+    EXPECT_EQ(listeners(), (std::vector<std::uint32_t>{to == 2 ? 2U : 3U}));
+  }
+}
+
+TEST_F(RadioDevice, RepeatedGarbledAndForeignPacketsAreCountedAndDropped) {
+  EngineSpec spec;
+  add_robot(spec, cabled_type({{"only", 0}}));
+  add_twin(spec, {1, 0, 0});
+  add_robot(spec, cabled_type({{"only", 0}}, {}, 8), {2, 0, 0});
+  const auto engine = make_engine(std::move(spec));
+  Cable::copies() = 3;
+  run(*engine, 10);
+  EXPECT_EQ(Chatter::log().size(), 9U);
+  EXPECT_EQ(engine->radio_counts().repeated, 18U);
+  Cable::copies() = 1;
+  Cable::spoil() = true;
+  run(*engine, 10);
+  EXPECT_EQ(Chatter::log().size(), 10U);
+  EXPECT_EQ(engine->radio_counts().garbled, 27U);
+  const std::byte noise[7] = {};
+  for (PacketSink* plug : Cable::plugs()) plug->receive(noise, sizeof noise);
+  run(*engine, 1);
+  EXPECT_EQ(Chatter::log().size(), 10U);
+}
+
+TEST_F(RadioDevice, LossAndReturnAreEvents) {
+  EngineSpec spec;
+  add_robot(spec, cabled_type({{"only", 0}}));
+  const auto engine = make_engine(std::move(spec));
+  run(*engine, 2);
+  Cable::unplugged() = true;
+  Cable::plugs()[0]->fail("pulled", 6);
+  auto events = run(*engine, 5);
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].kind, EventKind::kDriverFailed);
+  EXPECT_EQ(events[0].text, "transmitter `cable`: pulled");
+  EXPECT_EQ(engine->radio_counts().lost_device, 5U);
+  Cable::unplugged() = false;
+  Cable::plugs()[0]->recover();
+  events = run(*engine, 5);
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].kind, EventKind::kDriverBack);
+  EXPECT_EQ(engine->radio_counts().lost_device, 5U);
+}
+
+TEST_F(RadioDevice, SendersThatAreNoRobotsHereGetNumbers) {
+  EngineSpec spec;
+  add_robot(spec, cabled_type({{"only", 0}, {"until", 1}}));
+  add_twin(spec, {1, 0, 0});
+  const auto engine = make_engine(std::move(spec));
+  run(*engine, 1);
+  const std::uint32_t number = 4;
+  RadioPacket packet;
+  packet.network = 7;
+  packet.channel = radio_name_hash("air");
+  packet.payload = std::as_bytes(std::span(&number, 1));
+  std::byte room[100];
+  for (const char* name : {"stranger", "another", "r1", "stranger"}) {
+    packet.sender = radio_name_hash(name);
+    ++packet.sequence;
+    Cable::plugs()[0]->receive(room, encode(packet, room));
+  }
+  run(*engine, 1);
+  std::vector<std::uint32_t> from;
+  for (const Heard& heard : Chatter::log()) {
+    if (heard.to == 0) from.push_back(heard.from);
+  }
+  EXPECT_EQ(from, (std::vector<std::uint32_t>{2, 3, 1, 2}));
+}
+
+TEST_F(RadioDevice, ACommunicatorWhoseMessagesDoNotFitIsRefused) {
+  EngineSpec spec;
+  RobotType type = cabled_type();
+  static constexpr TransmitterOps kOps = [] {
+    TransmitterOps ops = detail::transmitter_ops<Cable>();
+    ops.configure = [](void*, const HardwareSetup*, TransmitterDeclaration* declaration,
+                       ErrorText*) {
+      declaration->max_packet_bytes = 100;
+      return 0;
+    };
+    return ops;
+  }();
+  type.transmitters[0].ops = &kOps;
+  add_robot(spec, std::move(type));
+  const auto engine = Engine::create(std::move(spec));
+  ASSERT_FALSE(engine);
+  EXPECT_EQ(engine.error().text(),
+            "robot `r0`, transmitter `cable` (driver `cable`): carries packets of up to 100 bytes, "
+            "but communicator `air` sends messages of up to 64 bytes, 120 with their head");
+}
+
+}  // namespace
+}  // namespace rave::sim::testing

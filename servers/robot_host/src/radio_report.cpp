@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "radio_report.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "rave/record/run_record.hpp"
+
+namespace rave::robot_host {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json transmitters_json(const sim::Engine& engine) {
+  Json all = Json::array();
+  const sim::EngineSpec& spec = engine.spec();
+  for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
+    const sim::RobotType& type = spec.types[spec.robots[r].type];
+    for (std::uint32_t t = 0; t < type.transmitters.size(); ++t) {
+      // A driver's text is not ours: what is no JSON is left out.
+      const Json report = Json::parse(engine.transmitter_report(RobotId(r), t), nullptr, false);
+      if (!report.is_object() || report.empty()) continue;
+      Json entry = {{"robot", spec.robots[r].name},
+                    {"transmitter", type.transmitters[t].name},
+                    {"driver", type.transmitters[t].driver}};
+      for (const auto& [key, value] : report.items()) entry[key] = value;
+      all.push_back(std::move(entry));
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+bool has_radio(const sim::EngineSpec& spec) {
+  return std::any_of(spec.robots.begin(), spec.robots.end(), [&](const sim::RobotSpec& robot) {
+    return !spec.types[robot.type].communicators.empty();
+  });
+}
+
+Json radio_json(const sim::Engine& engine) {
+  const sim::RadioCounts& c = engine.radio_counts();
+  Json json = {{"offered", c.offered},
+               {"sent", c.sent},
+               {"addressed", c.addressed},
+               {"delivered", c.delivered}};
+  json["lost"] = {{"range", c.lost_range}, {"obstacle", c.lost_obstacle}, {"chance", c.lost_chance},
+                  {"queue", c.lost_queue}, {"mailbox", c.lost_mailbox},   {"device", c.lost_device},
+                  {"refused", c.refused}};
+  json["from_devices"] = {{"heard", c.heard},
+                          {"foreign", c.foreign},
+                          {"repeated", c.repeated},
+                          {"garbled", c.garbled},
+                          {"overrun", c.overrun}};
+  json["transmitters"] = transmitters_json(engine);
+  return json;
+}
+
+std::string radio_line(const sim::RadioCounts& c) {
+  std::string text = fmt::format("{} sent, {} delivered to {} addressees; lost: {} out of range",
+                                 c.sent, c.delivered, c.addressed, c.lost_range);
+  const auto add = [&text](std::uint64_t count, const char* why) {
+    if (count > 0) text += fmt::format(", {} {}", count, why);
+  };
+  add(c.lost_obstacle, "behind obstacles");
+  add(c.lost_chance, "by chance");
+  add(c.lost_queue, "in full queues");
+  add(c.lost_mailbox, "at full mailboxes");
+  add(c.lost_device, "at transmitters");
+  add(c.refused, "refused");
+  return text;
+}
+
+void record_radio(const sim::Engine& engine, record::RunRecorder& recorder) {
+  for (const sim::RadioTrace& trace : engine.radio()) {
+    recorder.radio({trace.from, trace.to, static_cast<std::uint16_t>(trace.device), trace.delivered,
+                    trace.stamp_ns, trace.complete_ns, trace.payload});
+  }
+}
+
+}  // namespace rave::robot_host

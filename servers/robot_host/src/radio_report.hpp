@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "rave/sim/engine.hpp"
+
+namespace rave::record {
+class RunRecorder;
+}
+
+namespace rave::robot_host {
+
+/// Whether any robot of the run has a communicator.
+[[nodiscard]] bool has_radio(const sim::EngineSpec& spec);
+
+/// `radio` of result.json: what became of all messages, and what the transmitters say.
+[[nodiscard]] nlohmann::ordered_json radio_json(const sim::Engine& engine);
+
+/// One line for the summary.
+[[nodiscard]] std::string radio_line(const sim::RadioCounts& counts);
+
+/// Writes the messages that the last step sent and delivered.
+void record_radio(const sim::Engine& engine, record::RunRecorder& recorder);
+
+}  // namespace rave::robot_host

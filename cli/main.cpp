@@ -18,6 +18,11 @@ struct Dispatch {
   int operator()(const NewCommand& options) const { return new_project(options); }
   int operator()(const SchemaCommand& options) const { return schema(options); }
   int operator()(const InfoCommand& options) const { return info(options); }
+  int operator()(const PsCommand& options) const { return list_runs(options); }
+  int operator()(const StopCommand& options) const { return stop_robots(options); }
+  int operator()(const ArmCommand& options) const { return arm_robots(options); }
+  int operator()(const SetCommand& options) const { return set_parameter(options); }
+  int operator()(const HoldCommand& options) const { return hold_run(options); }
   int operator()(const VersionCommand& /*options*/) const { return version(); }
 };
 

@@ -12,15 +12,17 @@
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/robot_host/build.hpp"
 #include "rave/robot_host/run.hpp"
+#include "rave/run_control/folder.hpp"
+#include "rave/run_control/server.hpp"
 #include "run_folder.hpp"
 
 namespace rave::cli {
 namespace {
 
 /// A signal handler can reach nothing else.
-robot_host::RunControl run_control;
+robot_host::RunControl own_control;
 
-extern "C" void request_stop(int /*signal*/) { run_control.stop(); }
+extern "C" void request_stop(int /*signal*/) { own_control.stop(); }
 
 /// The first signal ends the run early with its results written; a second one kills.
 void listen_to_signals() {
@@ -118,7 +120,14 @@ int run(const RunCommand& options) {
     started = true;
     console.show(progress);
   };
-  run_options.control = &run_control;
+  run_options.control = &own_control;
+  run_options.arm = options.arm;
+  run_options.run_name = run_control::own_run_name(scenario->scenario.name.value);
+  // A run that nobody can reach goes on, but whoever relies on `rave stop` should know.
+  auto server = run_control::Server::start(run_options.run_name, own_control);
+  if (!server) {
+    console.warn("run", "no other terminal can control this run: {}", server.error().message);
+  }
   const auto outcome = robot_host::run(*scenario, catalogue, run_options);
   console.clear();
   if (outcome) return report_outcome(options, *outcome, folder->path());

@@ -48,6 +48,9 @@ class Resolver {
   void probe(std::uint32_t id, const world::Snapshot& snapshot, double slack_m, double within_m,
              std::span<const Mover> movers, std::vector<ContactNote>& notes);
 
+  /// Robot `id` has another body from now on, as the model says.
+  void body_changed(std::uint32_t id);
+
  private:
   void find_near(std::uint32_t id, Vec2 p_W, double reach_m, const world::Snapshot& snapshot);
   /// Moves until something stops it; true if something did, which is then described in `impact_`

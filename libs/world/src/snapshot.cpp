@@ -107,6 +107,16 @@ void Snapshot::set_touch(RobotId robot, const TouchState& touch) noexcept {
   touch_[robot.value()] = touch;
 }
 
+void Snapshot::body_changed(RobotId robot) {
+  const Body& body = model_->robots[robot.value()];
+  const std::uint32_t first = first_shape_[body_of(robot).value()];
+  for (std::size_t i = 0; i < body.shapes.size(); ++i) {
+    shapes_[first + i].radius_m = bound(body.shapes[i]).radius_m;
+  }
+  // Never smaller: it only says how far a query has to look.
+  largest_robot_m_ = std::max(largest_robot_m_, body.radius_m());
+}
+
 void Snapshot::rebuild() {
   thread_local std::vector<GridItem> moving;
   moving.clear();

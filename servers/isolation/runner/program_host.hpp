@@ -44,6 +44,8 @@ class ProgramHost {
 
   Status load_and_start();
   bool decide(std::uint32_t decision);
+  /// Offers new parameters to the program; false: the conversation cannot go on.
+  bool update(std::string_view bytes);
 
   int socket_;
   SharedMemory memory_;

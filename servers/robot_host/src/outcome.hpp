@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "capture_watch.hpp"
 #include "encounters.hpp"
 #include "hit_counter.hpp"
 #include "instant.hpp"
@@ -27,6 +28,7 @@ struct Findings {
   const HitCounter& hits;
   const SightingCheck* sightings = nullptr;
   const InstantKeeper* instant = nullptr;
+  const CaptureWatch* capture = nullptr;
   const std::vector<sim::Event>& events;
   double wall_s = 0;
   bool ended_early = false;

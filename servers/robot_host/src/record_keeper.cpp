@@ -74,7 +74,7 @@ void RecordKeeper::after_step(sim::Engine& engine) {
   recorder_.begin_step(engine.steps_done() - 1, engine.time());
   poses_.clear();
   for (std::uint32_t r = 0; r < seen_.size(); ++r) keep_robot(engine, r);
-  keep_events(engine);
+  keep(engine.events());
   // A failure was told to the log when it happened, and end() returns it: the run goes on.
   static_cast<void>(recorder_.poses(poses_));
   static_cast<void>(recorder_.end_step());
@@ -113,8 +113,8 @@ void RecordKeeper::keep_robot(const sim::Engine& engine, std::uint32_t robot) {
   poses_.push_back(pose);
 }
 
-void RecordKeeper::keep_events(const sim::Engine& engine) {
-  for (const sim::Event& event : engine.events()) {
+void RecordKeeper::keep(std::span<const sim::Event> events) {
+  for (const sim::Event& event : events) {
     record::RunEvent recorded;
     recorded.robot = event.robot;
     recorded.kind = to_string(event.kind);

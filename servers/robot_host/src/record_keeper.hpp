@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ class RecordKeeper final : public Observer {
 
   void after_step(sim::Engine& engine) override;
 
+  /// Events of the last step that observers found.
+  void keep(std::span<const sim::Event> events);
+
   [[nodiscard]] record::RunRecorder& recorder() noexcept { return recorder_; }
 
   /// Closes the file. `hash`: none for a live run. Errors: what kept it from being written.
@@ -29,7 +33,6 @@ class RecordKeeper final : public Observer {
  private:
   RecordKeeper(record::RunRecorder recorder, const sim::EngineSpec& spec, const BodyKinds& kinds);
   void keep_robot(const sim::Engine& engine, std::uint32_t robot);
-  void keep_events(const sim::Engine& engine);
 
   record::RunRecorder recorder_;
   const BodyKinds* kinds_;

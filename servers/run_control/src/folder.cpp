@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 
 #include "rave/base/names.hpp"
@@ -21,7 +22,8 @@ constexpr std::size_t kMaxScenarioBytes = 40;
 fs::path wanted_folder() {
   const char* const runtime = std::getenv("XDG_RUNTIME_DIR");
   if (runtime != nullptr && runtime[0] == '/') return fs::path(runtime) / "rave";
-  return fmt::format("/tmp/rave-{}", ::geteuid());
+  // Not what TMPDIR says: all terminals must agree.
+  return fmt::format("{}/rave-{}", P_tmpdir, ::geteuid());
 }
 
 /// What stands before the process id.

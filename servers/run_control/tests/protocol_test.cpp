@@ -49,7 +49,9 @@ TEST(Protocol, RefusesWhatIsNotExactlyARequest) {
                                  R"({"rave":1,"do":"stop","robot":"a\u0000b"})"}) {
     const auto read = parse_request(line);
     EXPECT_FALSE(read) << line;
-    if (!read) EXPECT_FALSE(read.error().message.empty()) << line;
+    if (!read) {
+      EXPECT_FALSE(read.error().message.empty()) << line;
+    }
   }
   EXPECT_FALSE(parse_request(std::string(kMaxLineBytes + 1, ' ')));
   EXPECT_FALSE(parse_request(std::string(kMaxLineBytes, '[')));

@@ -118,7 +118,9 @@ TEST_F(ServerTest, SilentAndRudeClientsHoldNobodyUp) {
   for (int i = 0; i < 100; ++i) {
     auto file = connect_to(folder_ / "rave/tests-3.sock");
     ASSERT_TRUE(file);
-    if (i % 2 == 0) ASSERT_EQ(::send(file->get(), "{\"rave\"", 7, MSG_NOSIGNAL), 7);
+    if (i % 2 == 0) {
+      static_cast<void>(::send(file->get(), "{\"rave\"", 7, MSG_NOSIGNAL));
+    }
     silent.push_back(*std::move(file));
   }
   const std::string long_line(3 * kMaxLineBytes, 'x');

@@ -10,8 +10,9 @@
 
 namespace rave::run_control {
 
-/// Where the sockets of running runs are: $XDG_RUNTIME_DIR/rave, else /tmp/rave-<uid>. Created with
-/// mode 0700 if missing. Errors: kIo, kState (a link, somebody else's, open to others).
+/// Where the sockets of running runs are: $XDG_RUNTIME_DIR/rave, else `rave-<uid>` in the system's
+/// folder for temporary files. Created with mode 0700 if missing. Errors: kIo, kState (a link,
+/// somebody else's, open to others).
 [[nodiscard]] Result<std::filesystem::path> socket_folder();
 
 /// Name of the run that this process does, such as `predator-prey-4711`.

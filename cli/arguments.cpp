@@ -27,6 +27,11 @@ struct Everything {
   VerifyCommand verify;
   PlayCommand play;
   GapCommand gap;
+  PsCommand ps;
+  StopCommand stop;
+  ArmCommand arm;
+  SetCommand set;
+  HoldCommand hold;
 };
 
 void add_plugins(CLI::App& app, std::vector<std::string>& folders) {
@@ -52,6 +57,7 @@ void add_run_options(CLI::App& app, RunCommand& c) {
   app.add_option("--pace", c.pace, "max, realtime, or a factor such as 10x")->type_name("PACE");
   app.add_flag("--no-picture", c.no_picture, "Do not draw picture.svg and picture.png");
   app.add_flag("--no-record", c.no_record, "Do not write run.mcap");
+  app.add_flag("--arm", c.arm, "Arm all robots at the start: real ones may drive at once");
   app.add_flag("--quiet", c.quiet, "Print errors and problems only");
   add_plugins(app, c.plugins);
 }
@@ -64,7 +70,8 @@ void add_run(CLI::App& root, RunCommand& c) {
   add_run_options(app, c);
   app.footer(
       "Exit code: 0 if the run was whole and its checks hold, 1 if not, 2 for bad input.\n"
-      "Ctrl-C ends a run early and still writes its results; a second one kills it.\n\n"
+      "Ctrl-C ends a run early and still writes its results; a second one kills it.\n"
+      "`rave stop`, `arm`, `set`, `pause` and `ps` work from another terminal.\n\n"
       "Examples:\n"
       "  rave run mixed-reality --pace 10x\n"
       "  rave run my/scenario.yaml --seed 7 --duration 30 --output results");
@@ -219,6 +226,54 @@ void add_report(CLI::App& root, GapCommand& c) {
       "  rave report gap run.mcap --robot real-3 --commands commanded --twin robots/wanderer.yaml");
 }
 
+void add_run_name(CLI::App& app, std::string& run) {
+  app.add_option("run", run, "Its name, process id or scenario; not needed for the only one")
+      ->type_name("RUN");
+}
+
+void add_robot(CLI::App& app, std::string& robot) {
+  app.add_option("--robot", robot, "Only this one [all]")->type_name("NAME");
+}
+
+void add_control(CLI::App& root, Everything& all) {
+  CLI::App& ps = *root.add_subcommand("ps", "List the runs that go on");
+  ps.add_flag("--robots", all.ps.robots, "Also each robot, and whether it may move");
+
+  CLI::App& stop = *root.add_subcommand("stop", "Make robots of a run stand until released");
+  add_run_name(stop, all.stop.run);
+  add_robot(stop, all.stop.robot);
+  stop.add_flag("--all", all.stop.all, "Every robot of every run");
+  stop.footer(
+      "No program can move a stopped robot. `rave arm --release` lets it go again.\n\n"
+      "Examples:\n"
+      "  rave stop\n"
+      "  rave stop predator-prey --robot predator");
+
+  CLI::App& arm = *root.add_subcommand("arm", "Let real robots of a run move");
+  add_run_name(arm, all.arm.run);
+  add_robot(arm, all.arm.robot);
+  arm.add_flag("--release", all.arm.release, "Also those that were stopped");
+
+  CLI::App& set = *root.add_subcommand("set", "Change a parameter of a robot while it runs");
+  set.add_option("words", all.set.words, "[RUN] ROBOT KEY VALUE")
+      ->required()
+      ->expected(3, 4)
+      ->type_name("WORD");
+  set.footer(
+      "KEY is program.PARAM, controller.NAME.PARAM, actuator.NAME.PARAM or body.scale.\n\n"
+      "Examples:\n"
+      "  rave set prey program.max_speed_mps 0.6\n"
+      "  rave set predator-prey prey body.scale 1.5");
+
+  add_run_name(*root.add_subcommand("pause", "Hold a run that is not live"), all.hold.run);
+  add_run_name(*root.add_subcommand("resume", "Let a paused run go on"), all.hold.run);
+  CLI::App& step = *root.add_subcommand("step", "Do steps of a paused run");
+  add_run_name(step, all.hold.run);
+  step.add_option("--count", all.hold.count, "How many [1]")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1'000'000'000));
+}
+
 std::vector<std::string_view> subcommands_of(const CLI::App& root,
                                              std::vector<std::string>& names) {
   for (const CLI::App* app : root.get_subcommands(nullptr)) names.push_back(app->get_name());
@@ -289,6 +344,16 @@ Command chosen_command(const CLI::App& root, const Everything& all) {
   if (name == "verify") return all.verify;
   if (name == "play") return all.play;
   if (name == "report") return all.gap;
+  if (name == "ps") return all.ps;
+  if (name == "stop") return all.stop;
+  if (name == "arm") return all.arm;
+  if (name == "set") return all.set;
+  HoldCommand hold = all.hold;
+  if (name == "pause") return hold;
+  if (name == "resume" || name == "step") {
+    hold.what = name == "step" ? HoldCommand::What::kStep : HoldCommand::What::kResume;
+    return hold;
+  }
   return VersionCommand{};
 }
 
@@ -310,6 +375,7 @@ Command parse_arguments(int argc, const char* const* argv) {
   add_verify(root, all.verify);
   add_play(root, all.play);
   add_report(root, all.gap);
+  add_control(root, all);
   root.add_subcommand("version", "What this build is, and which plug-ins fit it");
   root.footer(
       "Examples:\n"

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "commands/check.hpp"
+#include "commands/control.hpp"
 #include "commands/describe.hpp"
 #include "commands/drivers.hpp"
 #include "commands/info.hpp"
@@ -23,9 +24,10 @@ struct Finished {
   int exit_code = 0;
 };
 
-using Command = std::variant<Finished, RunCommand, CheckCommand, DriversCommand, DescribeCommand,
-                             NewCommand, SchemaCommand, InfoCommand, VerifyCommand, PlayCommand,
-                             GapCommand, VersionCommand>;
+using Command =
+    std::variant<Finished, RunCommand, CheckCommand, DriversCommand, DescribeCommand, NewCommand,
+                 SchemaCommand, InfoCommand, VerifyCommand, PlayCommand, GapCommand, PsCommand,
+                 StopCommand, ArmCommand, SetCommand, HoldCommand, VersionCommand>;
 
 /// Reads the command line. Prints help and complaints itself.
 [[nodiscard]] Command parse_arguments(int argc, const char* const* argv);

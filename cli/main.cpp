@@ -21,6 +21,11 @@ struct Dispatch {
   int operator()(const VerifyCommand& options) const { return verify(options); }
   int operator()(const PlayCommand& options) const { return play(options); }
   int operator()(const GapCommand& options) const { return report_gap(options); }
+  int operator()(const PsCommand& options) const { return list_runs(options); }
+  int operator()(const StopCommand& options) const { return stop_robots(options); }
+  int operator()(const ArmCommand& options) const { return arm_robots(options); }
+  int operator()(const SetCommand& options) const { return set_parameter(options); }
+  int operator()(const HoldCommand& options) const { return hold_run(options); }
   int operator()(const VersionCommand& /*options*/) const { return version(); }
 };
 

@@ -12,6 +12,8 @@
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/robot_host/build.hpp"
 #include "rave/robot_host/run.hpp"
+#include "rave/run_control/folder.hpp"
+#include "rave/run_control/server.hpp"
 #include "run_folder.hpp"
 
 namespace rave::cli {
@@ -103,7 +105,15 @@ int run(const RunCommand& options) {
     started = true;
     console.show(progress);
   };
-  run_options.control = &ended_by_signals();
+  robot_host::RunControl& control = ended_by_signals();
+  run_options.control = &control;
+  run_options.arm = options.arm;
+  run_options.run_name = run_control::own_run_name(scenario->scenario.name.value);
+  // A run that nobody can reach goes on, but whoever relies on `rave stop` should know.
+  auto server = run_control::Server::start(run_options.run_name, control);
+  if (!server) {
+    console.warn("run", "no other terminal can control this run: {}", server.error().message);
+  }
   const auto outcome = robot_host::run(*scenario, catalogue, run_options);
   console.clear();
   if (outcome) return report_outcome(options, *outcome, folder->path());

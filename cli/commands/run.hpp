@@ -18,6 +18,7 @@ struct RunCommand {
   std::optional<std::string> pace;
   bool no_picture = false;
   bool no_record = false;
+  bool arm = false;
   bool quiet = false;
   std::vector<std::string> plugins;
 };

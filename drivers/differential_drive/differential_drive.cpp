@@ -16,9 +16,11 @@ class DifferentialDrive final : public VirtualActuator {
  public:
   static constexpr CommandKind kAccepts = CommandKind::kVelocity;
 
-  Status start(const DeviceSetup& setup) override {
-    separation_m_ = setup.parameters().number("wheel_separation_m");
-    max_mps_ = setup.parameters().number("max_wheel_speed_mps");
+  Status start(const DeviceSetup& setup) override { return parameters_changed(setup.parameters()); }
+
+  Status parameters_changed(const Params& params) override {
+    separation_m_ = params.number("wheel_separation_m");
+    max_mps_ = params.number("max_wheel_speed_mps");
     return {};
   }
 

@@ -39,7 +39,14 @@ class DifferentialDriveDynamic final : public VirtualActuator {
   static constexpr CommandKind kAccepts = CommandKind::kVelocity;
 
   Status start(const DeviceSetup& setup) override {
-    const Params params = setup.parameters();
+    dt_s_ = setup.step_s;
+    left_ = {};
+    right_ = {};
+    return parameters_changed(setup.parameters());
+  }
+
+  /// The wheels go on as fast as they are.
+  Status parameters_changed(const Params& params) override {
     separation_m_ = params.number("wheel_separation_m");
     max_mps_ = params.number("max_wheel_speed_mps");
     natural_frequency_radps_ = params.number("natural_frequency_radps");
@@ -49,9 +56,7 @@ class DifferentialDriveDynamic final : public VirtualActuator {
     slip_rate_per_s_ = params.number("slip_probability_per_s");
     slip_factor_ = params.number("slip_factor");
     slip_duration_s_ = params.number("slip_duration_s");
-    left_ = {};
-    right_ = {};
-    prepare(setup.step_s);
+    prepare(dt_s_);
     return {};
   }
 

@@ -32,8 +32,12 @@ class GoalPointController final : public Controller {
   static constexpr CommandKind kGives = CommandKind::kVelocity;
 
   Status start(const DeviceSetup& setup) override {
-    const Params params = setup.parameters();
     host_ = setup.host;
+    complained_ = false;
+    return parameters_changed(setup.parameters());
+  }
+
+  Status parameters_changed(const Params& params) override {
     max_speed_mps_ = params.number("max_speed_mps");
     max_turn_rate_radps_ = params.number("max_turn_rate_radps");
     max_deceleration_mps2_ = params.number("max_deceleration_mps2");
@@ -42,7 +46,6 @@ class GoalPointController final : public Controller {
     heading_gain_per_s_ = params.number("heading_gain_per_s");
     turn_in_place_rad_ = params.number("turn_in_place_rad");
     watchdog_s_ = params.number("watchdog_s");
-    complained_ = false;
     return {};
   }
 

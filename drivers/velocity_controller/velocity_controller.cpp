@@ -22,10 +22,14 @@ class VelocityController final : public Controller {
 
   Status start(const DeviceSetup& setup) override {
     host_ = setup.host;
-    max_speed_mps_ = setup.parameters().number("max_speed_mps");
-    max_turn_rate_radps_ = setup.parameters().number("max_turn_rate_radps");
-    watchdog_s_ = setup.parameters().number("watchdog_s");
     complained_ = false;
+    return parameters_changed(setup.parameters());
+  }
+
+  Status parameters_changed(const Params& params) override {
+    max_speed_mps_ = params.number("max_speed_mps");
+    max_turn_rate_radps_ = params.number("max_turn_rate_radps");
+    watchdog_s_ = params.number("watchdog_s");
     return {};
   }
 

@@ -35,11 +35,22 @@ class GoToGoal final : public DecisionProcess {
     const Params params = setup.params();
     setup_ = setup;
     RAVE_TRY_ASSIGN(drive_, setup.controller(CommandKind::kVelocity));
-    RAVE_TRY(read_goals(params));
     scan_ = Scan(setup);
     points_R_.reserve(ObstacleMemory::kSide * ObstacleMemory::kSide);
+    return parameters_changed(params);
+  }
+
+  /// New goals are driven to from the first one on; with the old ones it goes on where it was.
+  Status parameters_changed(const Params& params) override {
+    RAVE_TRY_ASSIGN(std::vector<Vec2> goals_W, read_goals(params));
+    if (goals_W != goals_W_) {
+      goals_W_ = std::move(goals_W);
+      current_ = 0;
+      side_ = 0;
+      nearest_m_ = kFar_m;
+    }
     look_m_ = params.number("look_m");
-    steering_ = Steering(setup.robot_radius_m() + params.number("margin_m"), look_m_);
+    steering_ = Steering(setup_->robot_radius_m() + params.number("margin_m"), look_m_);
     tolerance_m_ = params.number("tolerance_m");
     cruise_mps_ = params.number("cruise_mps");
     turn_gain_per_s_ = params.number("turn_gain_per_s");
@@ -72,17 +83,17 @@ class GoToGoal final : public DecisionProcess {
   }
 
  private:
-  Status read_goals(const Params& params) {
+  static Result<std::vector<Vec2>> read_goals(const Params& params) {
+    std::vector<Vec2> goals_W;
     const std::span<const double> list_m = params.numbers("goals_m");
     if (list_m.size() % 2 != 0) {
       return fail(ErrorCode::kInvalidArgument,
                   "`goals_m` must hold x, y, x, y, ...; it has {} numbers", list_m.size());
     }
     for (std::size_t i = 0; i < list_m.size(); i += 2)
-      goals_W_.push_back({list_m[i], list_m[i + 1]});
-    if (goals_W_.empty())
-      goals_W_.push_back({params.number("goal_x_m"), params.number("goal_y_m")});
-    return {};
+      goals_W.push_back({list_m[i], list_m[i + 1]});
+    if (goals_W.empty()) goals_W.push_back({params.number("goal_x_m"), params.number("goal_y_m")});
+    return goals_W;
   }
 
   /// Takes the next goal when this one is reached.

@@ -34,8 +34,12 @@ class Predator final : public DecisionProcess {
     RAVE_TRY_ASSIGN(eyes_, setup.sensor<NeighbourReading>());
     scan_ = Scan(setup);
     points_R_.reserve(1024);
+    return parameters_changed(params);
+  }
+
+  Status parameters_changed(const Params& params) override {
     steering_ =
-        Steering(setup.robot_radius_m() + params.number("margin_m"), params.number("look_m"));
+        Steering(setup_->robot_radius_m() + params.number("margin_m"), params.number("look_m"));
     prey_ = params.integer("prey");
     max_speed_mps_ = params.number("max_speed_mps");
     turn_gain_per_s_ = params.number("turn_gain_per_s");

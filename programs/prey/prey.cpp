@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "rave/math/scalar.hpp"
 #include "rave/math/transform.hpp"
@@ -27,13 +28,17 @@ constexpr ParamSpec kParams[] = {
 class Prey final : public DecisionProcess {
  public:
   Status start(const Setup& setup) override {
-    const Params params = setup.params();
+    setup_ = setup;
     RAVE_TRY_ASSIGN(drive_, setup.controller(CommandKind::kVelocity));
     RAVE_TRY_ASSIGN(eyes_, setup.sensor<NeighbourReading>());
     scan_ = Scan(setup);
     points_R_.reserve(1024);
+    return parameters_changed(setup.params());
+  }
+
+  Status parameters_changed(const Params& params) override {
     steering_ =
-        Steering(setup.robot_radius_m() + params.number("margin_m"), params.number("look_m"));
+        Steering(setup_->robot_radius_m() + params.number("margin_m"), params.number("look_m"));
     max_speed_mps_ = params.number("max_speed_mps");
     calm_speed_mps_ = std::min(params.number("calm_speed_mps"), max_speed_mps_);
     fear_m_ = params.number("fear_m");
@@ -87,6 +92,7 @@ class Prey final : public DecisionProcess {
     return stroll_rate_radps_ / turn_gain_per_s_;
   }
 
+  std::optional<Setup> setup_;
   ControllerHandle drive_;
   SensorHandle<NeighbourReading> eyes_;
   Scan scan_;

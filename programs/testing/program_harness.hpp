@@ -130,6 +130,13 @@ class ProgramUnderTest {
     return {};
   }
 
+  /// Gives robot `i` what its rig's parameters say now; the reason if its program refuses.
+  std::string update(std::size_t i = 0) {
+    ErrorText error;
+    const std::vector<ParamValue>& values = rigs[i]->params.values();
+    return ops().update(slot(i), values.data(), values.size(), &error) == 0 ? "" : error.text;
+  }
+
   void decide(SimTime now) {
     std::vector<DecideItem> items(rigs.size());
     for (std::size_t i = 0; i < rigs.size(); ++i) items[i] = item(*rigs[i], now);

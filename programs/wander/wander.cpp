@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <optional>
 
 #include "rave/math/scalar.hpp"
 #include "rave/math/transform.hpp"
@@ -31,13 +32,23 @@ constexpr ParamSpec kParams[] = {
 class Wander final : public DecisionProcess {
  public:
   Status start(const Setup& setup) override {
-    const Params params = setup.params();
+    setup_ = setup;
     RAVE_TRY_ASSIGN(drive_, setup.controller(CommandKind::kVelocity));
     scan_ = Scan(setup);
-    radius_m_ = setup.robot_radius_m();
+    return parameters_changed(setup.params());
+  }
+
+  Status parameters_changed(const Params& params) override {
+    const double stop_m = params.number("stop_m");
+    const double avoid_m = params.number("avoid_m");
+    if (stop_m >= avoid_m) {
+      return fail(ErrorCode::kInvalidArgument, "`stop_m` ({}) must be less than `avoid_m` ({})",
+                  stop_m, avoid_m);
+    }
+    radius_m_ = setup_->robot_radius_m();
     cruise_mps_ = params.number("cruise_mps");
-    avoid_m_ = params.number("avoid_m");
-    stop_m_ = params.number("stop_m");
+    avoid_m_ = avoid_m;
+    stop_m_ = stop_m;
     turn_radps_ = params.number("turn_radps");
     front_rad_ = deg_to_rad(params.number("front_deg"));
     shortest_turn_ = params.integer("turn_decisions_min");
@@ -48,10 +59,6 @@ class Wander final : public DecisionProcess {
         static_cast<std::int64_t>(params.number("back_off_s") / setup.period_s() + 0.5);
     centre_W_ = {params.number("centre_x_m"), params.number("centre_y_m")};
     stay_within_m_ = params.number("stay_within_m");
-    if (stop_m_ >= avoid_m_) {
-      return fail(ErrorCode::kInvalidArgument, "`stop_m` ({}) must be less than `avoid_m` ({})",
-                  stop_m_, avoid_m_);
-    }
     return {};
   }
 
@@ -117,6 +124,7 @@ class Wander final : public DecisionProcess {
     return bearing_rad > 0 ? 1 : -1;
   }
 
+  std::optional<Setup> setup_;
   ControllerHandle drive_;
   Scan scan_;
   double radius_m_ = 0;

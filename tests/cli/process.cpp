@@ -55,8 +55,9 @@ Ended run_rave(const std::vector<std::string>& arguments,
   return ended;
 }
 
-pid_t start_rave(const std::vector<std::string>& arguments) {
-  return spawn(arguments, {}, "/dev/null", "/dev/null");
+pid_t start_rave(const std::vector<std::string>& arguments,
+                 const std::vector<std::string>& variables) {
+  return spawn(arguments, variables, "/dev/null", "/dev/null");
 }
 
 int wait_for(pid_t process) {

@@ -21,7 +21,8 @@ struct Ended {
                              const std::vector<std::string>& variables = {});
 
 /// Starts `rave` with its output dropped; for tests that send signals.
-[[nodiscard]] pid_t start_rave(const std::vector<std::string>& arguments);
+[[nodiscard]] pid_t start_rave(const std::vector<std::string>& arguments,
+                               const std::vector<std::string>& variables = {});
 /// Waits for it; -1 if a signal ended it.
 [[nodiscard]] int wait_for(pid_t process);
 

@@ -144,6 +144,15 @@ class Expansion {
 
 }  // namespace
 
+std::vector<std::size_t> robots_named(const ExpandedScenario& scenario, std::string_view name) {
+  std::vector<std::size_t> found;
+  for (std::size_t r = 0; r < scenario.robots.size(); ++r) {
+    if (scenario.robots[r].name == name) return {r};
+    if (scenario.group_of(scenario.robots[r]).name.value == name) found.push_back(r);
+  }
+  return found;
+}
+
 Result<ExpandedScenario> expand_scenario_text(std::string_view text,
                                               const std::filesystem::path& path) {
   RAVE_TRY_ASSIGN(ScenarioFile scenario, read_scenario_text(text, path.string()));

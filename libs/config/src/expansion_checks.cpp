@@ -25,6 +25,14 @@ class Checks {
     for (const TouchesCheckFile& check : scenario_.checks.touches) touches(check);
     for (const ArrivalCheckFile& check : scenario_.checks.arrivals) (void)groups_of(check.robot);
     odometry();
+    for (const ChangeFile& change : scenario_.changes) {
+      robots_exist("robot", change.robot);
+      multiple_of_step("at_s", change.at_s);
+    }
+    if (scenario_.checks.capture) {
+      robots_exist("predator", scenario_.checks.capture->predator);
+      robots_exist("prey", scenario_.checks.capture->prey);
+    }
   }
 
  private:
@@ -72,6 +80,15 @@ class Checks {
     if (ns % step_ns == 0 && (ns > 0 || *time_s == 0)) return;
     report(time_s.where, "`{}`: found {}, expected a multiple of the scenario's step ({} s)", key,
            *time_s, *scenario_.step_s);
+  }
+
+  /// A robot, or the entry that stands for several.
+  void robots_exist(std::string_view key, const Located<std::string>& name) {
+    std::vector<std::string_view> names;
+    for (const ExpandedRobot& robot : expanded_.robots) names.push_back(robot.name);
+    for (const RobotGroup& group : expanded_.groups) names.push_back(*group.name);
+    if (std::find(names.begin(), names.end(), *name) != names.end()) return;
+    report(name.where, "`{}`: there is no robot `{}`{}", key, *name, suggestion(*name, names));
   }
 
   static bool has_sensor(const RobotGroup& group, const std::string& name) {

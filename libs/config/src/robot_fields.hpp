@@ -211,6 +211,16 @@ void describe(V& v, GuardFile& c) {
           {.doc = "Largest speed while the world is lost, if `world_lost` is slow.",
            .min = 0,
            .unit = "m/s"});
+  v.field("deceleration_mps2", c.deceleration_mps2,
+          {.doc = "What the robot surely brakes with.", .min = 0.01, .max = 100, .unit = "m/s^2"});
+  v.field("reaction_s", c.reaction_s,
+          {.doc = "From a command until the robot obeys.", .min = 0, .max = 10, .unit = "s"});
+  v.field("watchdog_s", c.watchdog_s,
+          {.doc = "Age after which a command of the program is none.",
+           .min = 0,
+           .exclusive_min = true,
+           .max = kLongest_s,
+           .unit = "s"});
 }
 
 template <class V>

@@ -45,6 +45,13 @@ void validate(const RobotEntry& c, CheckContext& check) {
   }
 }
 
+void validate(const ChangeFile& c, CheckContext& check) {
+  if (!c.set.is_mapping() || c.set.size() == 0) {
+    check.error("set", "`set`: found {}, expected keys such as `program.speed_mps` with new values",
+                c.set.found_text());
+  }
+}
+
 void validate(const ScenarioFile& c, CheckContext& check) {
   check_name("name", *c.name, check);
   check_unique("obstacle", c.obstacles, check);

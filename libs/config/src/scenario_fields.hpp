@@ -96,11 +96,41 @@ void describe(V& v, ArrivalCheckFile& c) {
 }
 
 template <class V>
+void describe(V& v, CaptureCheckFile& c) {
+  v.required("predator", c.predator, {.doc = "The robot, or the entry of robots, that hunts."});
+  v.required("prey", c.prey, {.doc = "The robot, or the entry of robots, that is hunted."});
+  v.field("within_m", c.within_m,
+          {.doc = "Gap between the outlines that counts as a capture.",
+           .min = 0,
+           .max = kFarthest_m,
+           .unit = "m"});
+  v.field("before_s", c.before_s,
+          {.doc = "Without a capture by then the check fails; null: it never does.",
+           .min = 0,
+           .max = 1e9,
+           .unit = "s"});
+  v.field("end_run", c.end_run, {.doc = "Whether the run ends with the first capture."});
+}
+
+template <class V>
+void describe(V& v, ChangeFile& c) {
+  v.required("at_s", c.at_s,
+             {.doc = "When, a multiple of the step.", .min = 0, .max = 1e9, .unit = "s"});
+  v.required("robot", c.robot, {.doc = "The robot, or the entry of robots, that changes."});
+  v.required("set", c.set,
+             {.doc = "New values by key: program.PARAM, controller.NAME.PARAM, "
+                     "actuator.NAME.PARAM, body.scale."});
+}
+
+void validate(const ChangeFile& c, CheckContext& check);
+
+template <class V>
 void describe(V& v, ChecksFile& c) {
   v.field("sightings", c.sightings, {.doc = "Compares real sightings with a virtual camera's."});
   v.field("touches", c.touches,
           {.doc = "How often robots may touch something.", .max_items = 1000});
   v.field("arrivals", c.arrivals, {.doc = "Where robots have to come to.", .max_items = 1000});
+  v.field("capture", c.capture, {.doc = "Whether one robot catches another."});
 }
 
 template <class V>
@@ -136,6 +166,8 @@ void describe(V& v, ScenarioFile& c) {
   v.required(
       "robots", c.robots,
       {.doc = "At least one.", .min_items = 1, .max_items = static_cast<std::size_t>(kMaxRobots)});
+  v.field("changes", c.changes,
+          {.doc = "Parameters that change while the run goes.", .max_items = 100'000});
   v.field("checks", c.checks, {.doc = "What must hold for the run to count as good."});
   v.field("picture", c.picture, {.doc = "Settings of the picture of the run; null: the usual."});
 }

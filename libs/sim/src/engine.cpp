@@ -58,6 +58,7 @@ Status check(const EngineSpec& spec) {
       RAVE_CHECK(sensor.period_steps > 0);
     }
     RAVE_CHECK(!type.program || type.program->period_steps > 0);
+    if (type.guard) RAVE_CHECK(type.guard->deceleration_mps2 > 0);
   }
   return {};
 }
@@ -80,6 +81,22 @@ std::string_view to_string(EventKind kind) noexcept {
       return "driver failed";
     case EventKind::kDriverBack:
       return "driver back";
+    case EventKind::kGuardSlowed:
+      return "guard slowed";
+    case EventKind::kGuardStopped:
+      return "guard stopped";
+    case EventKind::kStopped:
+      return "stopped";
+    case EventKind::kReleased:
+      return "released";
+    case EventKind::kArmed:
+      return "armed";
+    case EventKind::kChanged:
+      return "changed";
+    case EventKind::kChangeRefused:
+      return "change refused";
+    case EventKind::kCaptured:
+      return "captured";
   }
   return "unknown";
 }
@@ -99,6 +116,7 @@ Engine::Impl::Impl(EngineSpec s)
 
 Engine::Impl::~Impl() {
   tell_complaints();
+  halt();
   for (RobotGroup& group : groups) close_group(group);
   if (radio) radio->close();
 }
@@ -163,6 +181,8 @@ Status Engine::Impl::make() {
 
 Status Engine::Impl::reset() {
   tell_complaints();
+  halt();
+  restore_bodies();
   radio->close();
   radio->clear();
   // All are closed first: what two robots share must be free before one of them opens it again.
@@ -185,6 +205,11 @@ void Engine::Impl::set_initial_state() {
   slack_m = 0;
   hash = RunHash();
   events.clear();
+  pending.clear();
+  by_hand = 0;
+  next_change = 0;
+  world_age = {};
+  set_up_guards();
   notes.clear();
   history.clear();
   past_valid = false;
@@ -226,7 +251,9 @@ Result<std::unique_ptr<Engine>> Engine::create(EngineSpec spec) {
 Status Engine::step() {
   Impl& engine = *impl_;
   engine.now = engine.step_time(engine.step);
-  engine.events.clear();
+  engine.make_changes();
+  engine.events = std::move(engine.pending);
+  engine.pending.clear();
   engine.past_valid = false;  // samples of this step may change what the past looked like
   if (engine.fusion_world) engine.fusion_world->valid = false;
   RAVE_TRY(engine.ingest());

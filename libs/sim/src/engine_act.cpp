@@ -100,7 +100,7 @@ void Engine::Impl::actuate(RobotGroup& group, const Block& block, Worker& worker
           active = &controller;
         }
       }
-      slots.commands[m] = active != nullptr ? active->outputs[m] : Command{};
+      slots.commands[m] = guarded(group, slots, m, active, worker);
       if (slots.spec->virtual_ops == nullptr) continue;
       const std::uint32_t r = group.members[m].value();
       slots.inputs[m] = {slots.commands[m],

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <deque>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,6 +34,16 @@ struct Worker {
   FanScratch fan;
   RunHash hash;
   std::vector<Event> events;
+  std::vector<RobotId> near;
+  std::vector<GuardNeighbour> neighbours;
+};
+
+/// What the guard of one robot remembers.
+struct GuardState {
+  static constexpr std::int64_t kNever = -1'000'000'000;
+  bool stopped = false;
+  bool armed = true;
+  std::array<std::int64_t, kGuardLimits> last_step{};  ///< When each limit acted last.
 };
 
 /// The world at the stamp of a real sample, for the virtual halves of hybrid sensors.
@@ -58,6 +70,8 @@ struct Engine::Impl {
   /// chance.
   void tell_complaints() const;
   void tell_withheld(const RobotGroup& group, const SensorSlots& slots) const;
+  /// Tells hardware to stand.
+  void halt() noexcept;
 
   // engine_ingest.cpp: samples of hardware, reported poses, the snapshot of this step
   Status ingest();
@@ -119,6 +133,22 @@ struct Engine::Impl {
   void resolve();
   void publish();
 
+  // engine_guard.cpp: the limits of commands
+  void set_up_guards();
+  [[nodiscard]] Command guarded(const RobotGroup& group, const ActuatorSlots& slots,
+                                std::uint32_t member, const ControllerSlots* controller,
+                                Worker& worker);
+  void find_neighbours(RobotId robot, double reach_m, Worker& worker) const;
+  void tell_guard(RobotId robot, const GuardSpec& limits, std::uint32_t acted, Worker& worker);
+
+  // engine_inputs.cpp: what is asked of a run between two steps
+  void note_input(RobotId robot, EventKind kind, std::string text, Author author);
+  void make_changes();
+  Status change(RobotId robot, std::span<const ParameterChange> changes, Author author);
+  Status resize(RobotId robot, double scale);
+  void put_body(RobotId robot, const world::Body& body);
+  void restore_bodies();
+
   void note(Event event) { events.push_back(std::move(event)); }
   [[nodiscard]] bool due(std::uint32_t period, std::uint32_t phase) const noexcept {
     return step >= phase && (step - phase) % period == 0;
@@ -161,6 +191,14 @@ struct Engine::Impl {
   std::vector<double> radius_m;  ///< Of each robot's body about its origin.
   double slack_m = 0;            ///< How far robots may have moved since the snapshot.
   std::vector<Event> events;
+  std::vector<Event> pending;                    ///< Of inputs, for the next step.
+  std::vector<std::optional<GuardSpec>> guards;  ///< By type.
+  std::vector<GuardState> guard_states;          ///< By robot.
+  Duration world_age;
+  std::uint64_t by_hand = 0;
+  std::size_t next_change = 0;
+  std::map<std::uint32_t, world::Body> original_bodies;  ///< Of robots that were resized.
+  std::map<std::uint32_t, double> scales;                ///< Of the same.
   RunHash hash;
   FanScratch past_scratch;
   std::unique_ptr<FusionWorld> fusion_world;  ///< Null without hybrid sensors.

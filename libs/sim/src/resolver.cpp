@@ -27,6 +27,10 @@ Resolver::Resolver(const world::WorldModel& model) : model_(&model) {
   }
 }
 
+void Resolver::body_changed(std::uint32_t id) {
+  radius_m_[model_->obstacles.size() + id] = model_->robots[id].radius_m();
+}
+
 Pose2 Resolver::pose_of(std::uint32_t body, std::span<const Mover> movers) const {
   const std::size_t obstacles = model_->obstacles.size();
   return body < obstacles ? model_->obstacles[body].X_WB : movers[body - obstacles].X_WR;

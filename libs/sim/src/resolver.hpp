@@ -50,6 +50,9 @@ class Resolver {
              std::span<const Mover> movers, std::vector<ContactNote>& notes,
              LayerMask layers = kAllLayers);
 
+  /// Robot `id` has another body from now on, as the model says.
+  void body_changed(std::uint32_t id);
+
  private:
   void find_near(std::uint32_t id, Vec2 p_W, double reach_m, const world::Snapshot& snapshot);
   /// Moves until something stops it; true if something did, which is then described in `impact_`

@@ -253,6 +253,8 @@ Status start_controllers(const GroupContext& context, RobotGroup& group) {
     slots.last_step.assign(count, -1);
     slots.inputs.assign(count, ControlInput{});
     slots.outputs.assign(count, Command{});
+    slots.changed.clear();
+    slots.changed.resize(count);
     slots.failed.assign(count, 0);
     for (std::size_t m = 0; m < count; ++m) {
       const DeviceSetup setup = device_setup(context, group.members[m], slots.spec->params);
@@ -293,6 +295,8 @@ Status start_actuators(const GroupContext& context, RobotGroup& group) {
     RAVE_TRY(slots.instances.make(ops, count));
     slots.inputs.assign(count, MotionInput{});
     slots.outputs.assign(count, Twist2{});
+    slots.changed.clear();
+    slots.changed.resize(count);
     slots.commands.assign(count, Command{});
     slots.failed.assign(count, 0);
     slots.obeys.assign(count, 1);
@@ -322,6 +326,8 @@ void lay_out_program(const GroupContext& context, RobotGroup& group) {
   slots.setups.assign(count, ProgramSetup{});
   slots.failed.assign(count, 0);
   slots.given.assign(count, 0);
+  slots.changed.clear();
+  slots.changed.resize(count);
   for (std::size_t m = 0; m < count; ++m) {
     for (std::size_t s = 0; s < sensors; ++s) {
       slots.views[m * sensors + s] = {&group.sensors[s].headers[m], group.sensors[s].records_of(m)};

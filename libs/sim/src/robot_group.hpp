@@ -63,6 +63,7 @@ struct ControllerSlots {
   std::vector<Command> last;            ///< Given by the program.
   std::vector<std::int64_t> last_step;  ///< When; -1: never.
   std::vector<ControlInput> inputs;
+  std::vector<std::unique_ptr<plugin::ParamSet>> changed;  ///< Null: as in the spec.
   std::vector<Command> outputs;
   std::vector<std::uint8_t> failed;
 };
@@ -73,6 +74,7 @@ struct ActuatorSlots {
   std::vector<MotionInput> inputs;
   std::vector<Twist2> outputs;
   std::vector<Command> commands;
+  std::vector<std::unique_ptr<plugin::ParamSet>> changed;  ///< Null: as in the spec.
   std::vector<std::uint8_t> failed;
   std::vector<std::uint8_t> obeys;
   std::vector<std::uint8_t> open;
@@ -88,6 +90,7 @@ struct ProgramSlots {
   std::vector<std::uint8_t> failed;
   std::vector<std::uint64_t> given;
   std::vector<std::unique_ptr<ProgramProcess>> processes;
+  std::vector<std::unique_ptr<plugin::ParamSet>> changed;  ///< Null: as in the spec.
 };
 
 /// One piece of hardware that sensors and actuators share, for all robots of a type.

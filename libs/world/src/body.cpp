@@ -60,4 +60,24 @@ double Body::radius_m() const noexcept {
   return radius;
 }
 
+Result<Body> scaled(const Body& body, double factor) {
+  if (!std::isfinite(factor) || factor <= 0) {
+    return fail(ErrorCode::kInvalidArgument, "a scale must be above 0, but is {}", factor);
+  }
+  Body result = body;
+  for (Shape& shape : result.shapes) {
+    shape.centre = factor * shape.centre;
+    shape.radius_m *= factor;
+    if (!shape.polygon) continue;
+    std::vector<Vec2> corners(shape.vertices().begin(), shape.vertices().end());
+    for (Vec2& corner : corners) corner = factor * corner;
+    RAVE_TRY_ASSIGN(auto polygon, ConvexPolygon::make(corners));
+    if (polygon.size() != corners.size()) {
+      return fail(ErrorCode::kInvalidArgument, "scaled by {} a shape of it loses corners", factor);
+    }
+    shape.polygon = std::move(polygon);
+  }
+  return result;
+}
+
 }  // namespace rave::world

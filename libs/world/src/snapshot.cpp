@@ -119,6 +119,25 @@ void Snapshot::set_touch(RobotId robot, const TouchState& touch) noexcept {
   touch_[robot.value()] = touch;
 }
 
+void Snapshot::body_changed(RobotId robot) {
+  const Body& body = model_->robots[robot.value()];
+  const std::uint32_t first = first_shape_[body_of(robot).value()];
+  for (std::size_t i = 0; i < body.shapes.size(); ++i) {
+    const std::size_t index = first + i;
+    const CoverDisc whole = cover(body.shapes[i], std::numeric_limits<double>::infinity()).front();
+    shapes_[index].radius_m = whole.radius_m;
+    whole_[index] = whole.centre_B;
+    const std::vector<CoverDisc> discs = cover(body.shapes[i], kLargestPiece_m);
+    const auto at = cover_.begin() + first_disc_[index];
+    const auto old_count = first_disc_[index + 1] - first_disc_[index];
+    cover_.insert(cover_.erase(at, at + old_count), discs.begin(), discs.end());
+    const auto more = static_cast<std::uint32_t>(discs.size()) - old_count;  // modulo 2^32
+    for (std::size_t next = index + 1; next < first_disc_.size(); ++next) first_disc_[next] += more;
+  }
+  // Never smaller: it only says how far a query has to look.
+  largest_robot_m_ = std::max(largest_robot_m_, body.radius_m());
+}
+
 void Snapshot::rebuild() {
   pieces_.clear();
   const auto obstacle_count = static_cast<std::uint32_t>(model_->obstacles.size());

@@ -32,6 +32,13 @@ class PreyTest : public ::testing::Test {
   Rig& rig = program.add_robot();
 };
 
+TEST_F(PreyTest, FleesAtItsNewSpeed) {
+  begin();
+  rig.params.set("max_speed_mps", 0.25);
+  EXPECT_EQ(program.update(), "");
+  EXPECT_NEAR(answer({at(2, static_cast<float>(kPi))}).value[0], 0.25, 1e-6);
+}
+
 TEST_F(PreyTest, FleesStraightAwayAtFullSpeed) {
   begin();
   const Command out = answer({at(2, static_cast<float>(kPi))});

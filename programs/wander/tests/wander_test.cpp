@@ -135,6 +135,22 @@ TEST(Wander, RefusesAStopDistanceBeyondTheAvoidDistance) {
   EXPECT_EQ(program.start(1), "`stop_m` (0.7) must be less than `avoid_m` (0.6)");
 }
 
+TEST(Wander, TakesNewParametersAndRefusesBadOnes) {
+  testing::ProgramUnderTest program(rave_register_plugin, "wander");
+  Rig& rig = program.add_robot();
+  ASSERT_EQ(program.start(1), "");
+  program.decide({});
+  EXPECT_EQ(rig.command().value[0], 0.3);
+  rig.params.set("cruise_mps", 0.7);
+  EXPECT_EQ(program.update(), "");
+  program.decide({100'000'000});
+  EXPECT_EQ(rig.command().value[0], 0.7);
+  rig.params.set("cruise_mps", 0.1).set("stop_m", 0.9);
+  EXPECT_EQ(program.update(), "`stop_m` (0.9) must be less than `avoid_m` (0.6)");
+  program.decide({200'000'000});
+  EXPECT_EQ(rig.command().value[0], 0.7);  // as before, in all
+}
+
 TEST(Wander, SaysWhatItsRobotLacks) {
   testing::ProgramUnderTest program(rave_register_plugin, "wander");
   program.add_robot().controllers = {{"arm", CommandKind::kJoint, 0}};

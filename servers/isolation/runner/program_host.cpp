@@ -4,8 +4,10 @@
 #include <sys/socket.h>
 
 #include <cerrno>
+#include <cstring>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "crash_report.hpp"
 #include "message.hpp"
@@ -92,13 +94,34 @@ Status ProgramHost::start() {
 }
 
 void ProgramHost::serve() {
+  std::vector<char> buffer(kMaxMessageBytes);
   for (;;) {
-    MessageHead head;
-    const ssize_t size = ::recv(socket_, &head, sizeof head, 0);
+    const ssize_t size = ::recv(socket_, buffer.data(), buffer.size(), 0);
     if (size < 0 && errno == EINTR) continue;
-    if (size != static_cast<ssize_t>(sizeof head) || head.kind != MessageKind::kDecide) return;
-    if (!decide(head.number)) return;
+    MessageHead head;
+    if (size < static_cast<ssize_t>(sizeof head)) return;
+    std::memcpy(&head, buffer.data(), sizeof head);
+    const std::string_view text(buffer.data() + sizeof head,
+                                static_cast<std::size_t>(size) - sizeof head);
+    if (head.kind == MessageKind::kUpdate) {
+      if (!update(text)) return;
+      continue;
+    }
+    if (head.kind != MessageKind::kDecide || !text.empty() || !decide(head.number)) return;
   }
+}
+
+bool ProgramHost::update(std::string_view bytes) {
+  if (!setup_->update(bytes)) return false;
+  const ProgramSetup& setup = setup_->setup();
+  const ProgramOps& ops = file_->ops();
+  ErrorText error;
+  error.set("it takes no new parameters while it runs");
+  const bool taken = ops.update != nullptr &&
+                     ops.update(instance_.get(), setup.params, setup.param_count, &error) == 0;
+  if (!taken) setup_->revert();
+  const auto kind = taken ? MessageKind::kUpdated : MessageKind::kUpdateRefused;
+  return send_message(socket_, {kind, 0, log_.begin_next()}, taken ? "" : error.text, true);
 }
 
 bool ProgramHost::decide(std::uint32_t decision) {

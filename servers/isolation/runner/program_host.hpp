@@ -46,6 +46,8 @@ class ProgramHost {
   bool decide(std::uint32_t decision);
   /// One direction of a communicator as the shared memory has it now.
   [[nodiscard]] Mailbox mailbox(const Layout::Box& box) const;
+  /// Offers new parameters to the program; false: the conversation cannot go on.
+  bool update(std::string_view bytes);
 
   int socket_;
   SharedMemory memory_;

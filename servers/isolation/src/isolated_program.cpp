@@ -198,6 +198,24 @@ Status IsolatedProgram::end_decide(const DecideItem& item) {
   return {};
 }
 
+Status IsolatedProgram::update(std::span<const ParamValue> params, double radius_m) {
+  Impl& impl = *impl_;
+  RAVE_TRY(impl.link.state());
+  if (impl.deciding) return fail(ErrorCode::kState, "the program is still deciding");
+  const std::string bytes = encode_update(params, radius_m);
+  if (bytes.size() > kMaxMessageBytes - sizeof(MessageHead)) {
+    return fail(ErrorCode::kInvalidArgument, "the parameters take {} bytes, more than {}",
+                bytes.size(), kMaxMessageBytes - sizeof(MessageHead));
+  }
+  RAVE_TRY(impl.link.tell(MessageKind::kUpdate, bytes));
+  RAVE_TRY(impl.link.await(
+      MessageKind::kUpdated, 0, Deadline(impl.timeout_s),
+      fmt::format("has not taken its parameters for {}", seconds_text(impl.timeout_s))));
+  const std::string refusal = impl.link.take_refusal();
+  if (!refusal.empty()) return fail(ErrorCode::kInvalidArgument, "{}", refusal);
+  return {};
+}
+
 int IsolatedProgram::process_id() const noexcept { return impl_->link.process_id(); }
 
 }  // namespace rave::isolation

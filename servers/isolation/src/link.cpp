@@ -52,6 +52,15 @@ Status Link::ask(std::uint32_t decision) {
   return {};
 }
 
+Status Link::tell(MessageKind kind, std::string_view text) {
+  RAVE_TRY(state_);
+  refusal_.clear();
+  if (!send_message(socket_.get(), {kind, 0, 0}, text, false)) {
+    return await(MessageKind::kUpdated, 0, Deadline(last_word_s_), "has not listened");
+  }
+  return {};
+}
+
 Link::Receipt Link::receive(int timeout_ms, Message& message) {
   pollfd watch{socket_.get(), POLLIN, 0};
   const int ready = ::poll(&watch, 1, timeout_ms);
@@ -108,6 +117,11 @@ std::optional<Status> Link::handle(const Message& message, MessageKind kind, std
   }
   if (head.kind == kind && (kind == MessageKind::kStarted || head.number == number)) {
     report_dropped(head.count);
+    return Status{};
+  }
+  if (head.kind == MessageKind::kUpdateRefused && kind == MessageKind::kUpdated) {
+    report_dropped(head.count);
+    refusal_ = message.text.empty() ? "it refuses" : std::string(message.text);
     return Status{};
   }
   if (head.kind == MessageKind::kStartFailed && kind == MessageKind::kStarted) {

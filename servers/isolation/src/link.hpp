@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "child_process.hpp"
@@ -34,6 +35,10 @@ class Link {
 
   /// Wakes the child to make `decision`.
   Status ask(std::uint32_t decision);
+  /// Sends a message that the child answers.
+  Status tell(MessageKind kind, std::string_view text);
+  /// Why the program refused what it was told last; empty: it did not.
+  [[nodiscard]] std::string take_refusal() { return std::exchange(refusal_, {}); }
   /// Waits for `kind` with `number`, delivering log lines on the way. `late` says what the child
   /// has not done by then: "has not decided for 1.0 s".
   Status await(MessageKind kind, std::uint32_t number, const Deadline& deadline,
@@ -55,6 +60,7 @@ class Link {
   FileDescriptor socket_;
   double last_word_s_;
   std::vector<char> buffer_;
+  std::string refusal_;
   Status state_;
 };
 

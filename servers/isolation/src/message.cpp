@@ -37,7 +37,7 @@ std::optional<Message> parse_message(std::string_view bytes) noexcept {
   std::uint32_t numbers[3];
   std::memcpy(numbers, bytes.data(), sizeof numbers);
   if (numbers[0] < static_cast<std::uint32_t>(MessageKind::kStarted) ||
-      numbers[0] > static_cast<std::uint32_t>(MessageKind::kWhere)) {
+      numbers[0] > static_cast<std::uint32_t>(MessageKind::kUpdateRefused)) {
     return {};
   }
   return Message{{static_cast<MessageKind>(numbers[0]), numbers[1], numbers[2]},

@@ -10,14 +10,17 @@ namespace rave::isolation {
 
 /// What host and child say to one another: one packet each over a SOCK_SEQPACKET pair.
 enum class MessageKind : std::uint32_t {
-  kDecide = 1,    ///< Host to child; number: the decision. All others go from child to host.
-  kStarted,       ///< count: log lines that were dropped, here and in the next three.
-  kStartFailed,   ///< number: ErrorCode, text: why.
-  kDecided,       ///< number: the decision.
-  kDecideFailed,  ///< number: the decision, text: why.
-  kLog,           ///< number: LogLevel, text: the line.
-  kCrash,         ///< number: the signal, count: 1 for a stack overflow, text: a Place.
-  kWhere,         ///< Answer to kWhereSignal; text: a Place.
+  kDecide = 1,     ///< Host to child; number: the decision. All but the last go to the host.
+  kStarted,        ///< count: log lines that were dropped, here and in the next three.
+  kStartFailed,    ///< number: ErrorCode, text: why.
+  kDecided,        ///< number: the decision.
+  kDecideFailed,   ///< number: the decision, text: why.
+  kLog,            ///< number: LogLevel, text: the line.
+  kCrash,          ///< number: the signal, count: 1 for a stack overflow, text: a Place.
+  kWhere,          ///< Answer to kWhereSignal; text: a Place.
+  kUpdated,        ///< New parameters were taken.
+  kUpdateRefused,  ///< text: why.
+  kUpdate,         ///< Host to child; text: what encode_update() gave.
 };
 
 struct MessageHead {

@@ -83,6 +83,14 @@ std::string encode_setup(const Order& order, const ProgramSetup& setup) {
   return out.take();
 }
 
+std::string encode_update(std::span<const ParamValue> params, double radius_m) {
+  Writer out;
+  out.value(radius_m);
+  out.value(std::uint64_t{params.size()});
+  for (const ParamValue& param : params) out.param(param);
+  return out.take();
+}
+
 /// Reads in the order of Writer; after the first thing that does not fit all values are empty.
 class SetupCopy::Reader {
  public:
@@ -194,6 +202,28 @@ Result<std::unique_ptr<SetupCopy>> SetupCopy::decode(std::string_view bytes) {
   setup.params = copy->params_.data();
   setup.param_count = copy->params_.size();
   return copy;
+}
+
+Status SetupCopy::update(std::string_view bytes) {
+  Reader in(bytes, *this);
+  double radius_m = 0;
+  in.value(radius_m);
+  std::vector<ParamValue> params(in.count(sizeof(std::uint64_t)));
+  for (ParamValue& value : params) in.param(value);
+  if (!in.whole()) return fail(ErrorCode::kParse, "new parameters of a program are damaged");
+  params_before_ = params_;
+  radius_before_m_ = setup_.robot.radius_m;
+  use(std::move(params), radius_m);
+  return {};
+}
+
+void SetupCopy::revert() { use(std::move(params_before_), radius_before_m_); }
+
+void SetupCopy::use(std::vector<ParamValue> params, double radius_m) {
+  params_ = std::move(params);
+  setup_.params = params_.data();
+  setup_.param_count = params_.size();
+  setup_.robot.radius_m = radius_m;
 }
 
 }  // namespace rave::isolation

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,9 @@ struct Order {
 /// Order and setup as bytes, without `setup.host`.
 [[nodiscard]] std::string encode_setup(const Order& order, const ProgramSetup& setup);
 
+/// New parameters and the radius of the body as bytes.
+[[nodiscard]] std::string encode_update(std::span<const ParamValue> params, double radius_m);
+
 /// A setup read back from bytes, with all that it points to.
 class SetupCopy {
  public:
@@ -34,6 +38,10 @@ class SetupCopy {
   [[nodiscard]] const Order& order() const noexcept { return order_; }
   /// Points into this object.
   [[nodiscard]] const ProgramSetup& setup() const noexcept { return setup_; }
+  /// Takes new parameters and radius over into the setup. Errors: kParse, and all is as it was.
+  Status update(std::string_view bytes);
+  /// Takes the last update back.
+  void revert();
   void set_host(const HostServices& host) noexcept { setup_.host = host; }
 
  private:
@@ -43,9 +51,12 @@ class SetupCopy {
   ProgramSetup setup_;
   std::vector<SensorInfo> sensors_;
   std::vector<ControllerInfo> controllers_;
+  void use(std::vector<ParamValue> params, double radius_m);
   std::vector<CommunicatorInfo> communicators_;
   std::vector<const char*> robot_names_;
   std::vector<ParamValue> params_;
+  std::vector<ParamValue> params_before_;
+  double radius_before_m_ = 0;
   std::deque<std::string> texts_;
   std::deque<std::vector<double>> lists_;
 };

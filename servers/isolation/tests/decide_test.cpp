@@ -41,6 +41,10 @@ class InProcess final : RegistrySink {
     ops_->decide(memory_.data(), ops_->instance.size, &item, 1, &failed, &error);
     EXPECT_EQ(failed, 0) << error.text;
   }
+  int update(const ProgramSetup& setup) {
+    ErrorText error;
+    return ops_->update(memory_.data(), setup.params, setup.param_count, &error);
+  }
   [[nodiscard]] bool loaded() const { return ops_ != nullptr; }
 
  private:
@@ -60,6 +64,50 @@ bool same_messages(const Mailbox& a, const Mailbox& b) {
   if (a.count != b.count || a.bytes != b.bytes || a.dropped != b.dropped) return false;
   return std::memcmp(a.data, b.data, a.bytes) == 0 &&
          std::memcmp(a.heads, b.heads, a.count * sizeof(rave::MessageHead)) == 0;
+}
+
+TEST(IsolatedProgram, TakesNewParametersAsInTheHost) {
+  TestRobot inside;
+  ProgramSetup inside_setup = inside.setup();
+  InProcess reference("echo", inside_setup);
+  ASSERT_TRUE(reference.loaded());
+  TestRobot outside;
+  const auto program = IsolatedProgram::start(options_for("echo", "echo"), outside.setup());
+  ASSERT_TRUE(program) << program.error().text();
+  const auto both_decide = [&](std::uint32_t k) {
+    const DecideItem item = outside.item(k);
+    reference.decide(inside.item(k));
+    EXPECT_TRUE((*program)->begin_decide(item));
+    EXPECT_TRUE((*program)->end_decide(item));
+    EXPECT_TRUE(same_bits(outside.commands, inside.commands)) << k;
+  };
+  both_decide(1);
+  const std::vector<Command> before = inside.commands;
+  inside.params[0].number = 2.5;
+  inside_setup.robot.radius_m = 0.7;
+  ASSERT_EQ(reference.update(inside_setup), 0);
+  ASSERT_TRUE((*program)->update(inside.params, 0.7));
+  both_decide(2);
+  EXPECT_FALSE(same_bits(inside.commands, before));
+  // Refused: all as it was, and the conversation goes on.
+  std::array<ParamValue, 3> bad;
+  std::copy(inside.params.begin(), inside.params.end(), bad.begin());
+  bad[0].number = -1;
+  const Status refused = (*program)->update(bad, 0.9);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kInvalidArgument);
+  EXPECT_EQ(refused.error().message, "a negative gain");
+  both_decide(3);
+  ASSERT_EQ(reference.update(inside_setup), 0);
+  ASSERT_TRUE((*program)->update(inside.params, 0.7));
+  both_decide(4);
+  const std::string long_text(10'000, 'x');
+  bad[0].number = 1;
+  bad[1].text = long_text.c_str();
+  EXPECT_EQ((*program)->update(bad, 0.7).error().code, ErrorCode::kInvalidArgument);
+  EXPECT_TRUE((*program)->begin_decide(outside.item(5)));
+  EXPECT_EQ((*program)->update(inside.params, 0.7).error().code, ErrorCode::kState);
+  EXPECT_TRUE((*program)->end_decide(outside.item(5)));
 }
 
 TEST(IsolatedProgram, DecidesBitForBitAsInTheHost) {

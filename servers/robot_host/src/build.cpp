@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "devices.hpp"
+#include "guards.hpp"
 #include "places.hpp"
 #include "rave/config/map_image.hpp"
 #include "rave/math/scalar.hpp"
@@ -144,6 +145,7 @@ Status add_groups(const config::ExpandedScenario& scenario, plugin::Catalogue& c
     type.folder = std::filesystem::path(group.file).parent_path().string();
     type.staleness = from_seconds(group.robot.staleness_s);
     RAVE_TRY(add_devices({scenario, catalogue, options, built}, group, type));
+    RAVE_TRY_ASSIGN(type.guard, guard_spec(group));
     RAVE_TRY_ASSIGN(auto body, make_body(group));
     body.layer = type.simulated ? Layer::kSimulatedRobots : Layer::kRealRobots;
     note_oddities(group, body, built);
@@ -185,6 +187,7 @@ Result<BuiltScenario> build(const config::ExpandedScenario& scenario, plugin::Ca
     spec.robots.push_back({robot.name, group.team, static_cast<std::uint32_t>(robot.group), {}});
   }
   RAVE_TRY(put_down_robots(scenario, spec));
+  RAVE_TRY(add_changes(scenario, spec));
   return built;
 }
 

@@ -16,46 +16,6 @@ namespace {
 
 using plugin::Driver;
 
-config::FieldSpec field_spec(const ParamSpec& spec) {
-  config::FieldSpec field;
-  field.name = spec.name;
-  field.doc = spec.doc;
-  field.unit = spec.unit;
-  const bool numeric = spec.type == ParamType::kInteger || spec.type == ParamType::kNumber ||
-                       spec.type == ParamType::kNumbers;
-  if (numeric && std::isfinite(spec.min)) field.min = spec.min;
-  if (numeric && std::isfinite(spec.max)) field.max = spec.max;
-  switch (spec.type) {
-    case ParamType::kBool:
-      field.type = config::ParamType::kBool;
-      field.default_value = spec.default_number != 0;
-      break;
-    case ParamType::kInteger:
-      field.type = config::ParamType::kInt;
-      field.default_value = static_cast<std::int64_t>(spec.default_number);
-      break;
-    case ParamType::kNumber:
-      field.type = config::ParamType::kDouble;
-      field.default_value = spec.default_number;
-      break;
-    case ParamType::kText:
-      field.type = config::ParamType::kString;
-      field.default_value = std::string(spec.default_text);
-      break;
-    case ParamType::kChoice:
-      field.type = config::ParamType::kEnum;
-      field.choices.assign(spec.choices, spec.choices + spec.choice_count);
-      field.default_value = std::string(spec.default_text);
-      break;
-    case ParamType::kNumbers:
-      field.type = config::ParamType::kDoubleList;
-      field.default_value = std::vector<double>{};
-      break;
-  }
-  if (spec.required != 0) field.default_value.reset();
-  return field;
-}
-
 struct AddValue {
   plugin::ParamSet& set;
   const std::string& name;
@@ -244,6 +204,7 @@ Status add_actuators(const DeviceContext& context, const config::RobotGroup& gro
     RAVE_TRY_ASSIGN(actuator.device,
                     shared_device(context, *driver, file.driver, file.device, type));
     RAVE_TRY_ASSIGN(actuator.params, read_params(*driver, file.params));
+    actuator.param_specs = driver->info.param_specs();
     note_clock(context, group, actuator.name, driver->info, actuator.params);
     type.actuators.push_back(std::move(actuator));
   }
@@ -280,6 +241,7 @@ Status add_controllers(const DeviceContext& context, const config::RobotGroup& g
                      actuator.driver, to_string(wanted));
     }
     RAVE_TRY_ASSIGN(controller.params, read_params(*driver, file.params));
+    controller.param_specs = driver->info.param_specs();
     type.controllers.push_back(std::move(controller));
   }
   return {};
@@ -292,6 +254,9 @@ class Isolated final : public sim::ProgramProcess {
       : program_(std::move(program)) {}
   Status begin(const DecideItem& item) override { return program_->begin_decide(item); }
   Status end(const DecideItem& item) override { return program_->end_decide(item); }
+  Status update(std::span<const ParamValue> params, double radius_m) override {
+    return program_->update(params, radius_m);
+  }
 
  private:
   std::unique_ptr<isolation::IsolatedProgram> program_;
@@ -318,6 +283,7 @@ Status add_program(const DeviceContext& context, const config::RobotGroup& group
   program.driver = driver->info.name;
   program.ops = static_cast<const ProgramOps*>(driver->ops);
   RAVE_TRY_ASSIGN(program.params, read_params(*driver, file.params));
+  program.param_specs = driver->info.param_specs();
   program.period_steps = in_steps(context, file.period_s);
   program.phase_steps = file.phase_s.value == 0 ? 0 : in_steps(context, file.phase_s);
   if (file.isolate) program.isolate = isolated_factory(context, *driver);
@@ -365,6 +331,46 @@ Status set_pose_source(const config::RobotGroup& group, sim::RobotType& type) {
 }
 
 }  // namespace
+
+config::FieldSpec field_spec(const ParamSpec& spec) {
+  config::FieldSpec field;
+  field.name = spec.name;
+  field.doc = spec.doc;
+  field.unit = spec.unit;
+  const bool numeric = spec.type == ParamType::kInteger || spec.type == ParamType::kNumber ||
+                       spec.type == ParamType::kNumbers;
+  if (numeric && std::isfinite(spec.min)) field.min = spec.min;
+  if (numeric && std::isfinite(spec.max)) field.max = spec.max;
+  switch (spec.type) {
+    case ParamType::kBool:
+      field.type = config::ParamType::kBool;
+      field.default_value = spec.default_number != 0;
+      break;
+    case ParamType::kInteger:
+      field.type = config::ParamType::kInt;
+      field.default_value = static_cast<std::int64_t>(spec.default_number);
+      break;
+    case ParamType::kNumber:
+      field.type = config::ParamType::kDouble;
+      field.default_value = spec.default_number;
+      break;
+    case ParamType::kText:
+      field.type = config::ParamType::kString;
+      field.default_value = std::string(spec.default_text);
+      break;
+    case ParamType::kChoice:
+      field.type = config::ParamType::kEnum;
+      field.choices.assign(spec.choices, spec.choices + spec.choice_count);
+      field.default_value = std::string(spec.default_text);
+      break;
+    case ParamType::kNumbers:
+      field.type = config::ParamType::kDoubleList;
+      field.default_value = std::vector<double>{};
+      break;
+  }
+  if (spec.required != 0) field.default_value.reset();
+  return field;
+}
 
 std::vector<config::FieldSpec> field_specs(const DriverInfo& info) {
   std::vector<config::FieldSpec> fields;

@@ -16,6 +16,9 @@ struct DeviceContext {
   BuiltScenario& built;
 };
 
+/// The description of one parameter in the terms of the configuration library.
+[[nodiscard]] config::FieldSpec field_spec(const ParamSpec& spec);
+
 /// The description of a driver's parameters in the terms of the configuration library.
 [[nodiscard]] std::vector<config::FieldSpec> field_specs(const DriverInfo& info);
 

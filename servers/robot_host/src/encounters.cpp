@@ -37,6 +37,7 @@ void Encounters::look_around(const sim::Engine& engine, RobotId robot) {
   const std::uint32_t self = kinds_->body_of(robot);
   const auto obstacles = static_cast<std::uint32_t>(model.obstacles.size());
   const Pose2 X_WR = world.pose(robot);
+  radius_m_[self] = engine.body_radius_m(robot);  // it may have been scaled
   world.gather(X_WR.position(), radius_m_[self] + kReach_m, found_);
   std::uint32_t last = BodyId::kNone;
   for (const std::uint32_t shape : found_) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "radio_report.hpp"
@@ -136,10 +137,88 @@ Json events_json(const Findings& findings) {
   for (const auto kind :
        {sim::EventKind::kContact, sim::EventKind::kPinned, sim::EventKind::kPoseStale,
         sim::EventKind::kPoseBack, sim::EventKind::kProgramFailed, sim::EventKind::kDriverFailed,
-        sim::EventKind::kDriverBack}) {
+        sim::EventKind::kDriverBack, sim::EventKind::kGuardSlowed, sim::EventKind::kGuardStopped,
+        sim::EventKind::kStopped, sim::EventKind::kReleased, sim::EventKind::kArmed,
+        sim::EventKind::kChanged, sim::EventKind::kChangeRefused, sim::EventKind::kCaptured}) {
     std::string name(to_string(kind));
     std::replace(name.begin(), name.end(), ' ', '_');
     json[name] = count_events(findings, kind);
+  }
+  return json;
+}
+
+/// What the guards did: `slowed 3x by fence, stopped 1x by pose lost`; by robot.
+std::map<std::string, std::map<std::string, std::size_t>> guard_counts(const Findings& findings) {
+  std::map<std::string, std::map<std::string, std::size_t>> counts;
+  for (const sim::Event& event : findings.events) {
+    const bool slowed = event.kind == sim::EventKind::kGuardSlowed;
+    if (!slowed && event.kind != sim::EventKind::kGuardStopped) continue;
+    const std::string_view limit = to_string(static_cast<sim::GuardLimit>(event.detail));
+    ++counts[findings.engine.spec().robots[event.robot.value()].name]
+            [fmt::format("{} by {}", slowed ? "slowed" : "stopped", limit)];
+  }
+  return counts;
+}
+
+void add_guard_row(const Findings& findings, report::Table& table) {
+  std::map<std::string, std::size_t> total;
+  for (const auto& [robot, counts] : guard_counts(findings)) {
+    for (const auto& [what, count] : counts) total[what] += count;
+  }
+  std::string text;
+  for (const auto& [what, count] : total) {
+    const std::size_t space = what.find(' ');
+    text += fmt::format("{}{} {}x{}", text.empty() ? "" : ", ", what.substr(0, space), count,
+                        what.substr(space));
+  }
+  if (!text.empty()) table.rows.push_back({"guard", text});
+}
+
+Json capture_json(const Findings& findings) {
+  const sim::EngineSpec& spec = findings.engine.spec();
+  Json json = {{"within_m", findings.capture->check().within_m},
+               {"holds", findings.capture->holds()},
+               {"captured_at_s", nullptr},
+               {"captures", Json::array()}};
+  if (findings.capture->closest_m() < 1e9) {
+    json["closest_m"] = rounded(findings.capture->closest_m(), 1e-4);
+  }
+  for (const Capture& capture : findings.capture->captures()) {
+    if (json["captured_at_s"].is_null()) json["captured_at_s"] = capture.time_s;
+    json["captures"].push_back({{"predator", spec.robots[capture.predator.value()].name},
+                                {"prey", spec.robots[capture.prey.value()].name},
+                                {"time_s", capture.time_s},
+                                {"gap_m", rounded(capture.gap_m, 1e-4)}});
+  }
+  return json;
+}
+
+void add_capture_rows(const Findings& findings, report::Table& table) {
+  if (findings.capture == nullptr) return;
+  const sim::EngineSpec& spec = findings.engine.spec();
+  for (const Capture& capture : findings.capture->captures()) {
+    table.rows.push_back(
+        {"captured", fmt::format("{} by {} at {:.2f} s", spec.robots[capture.prey.value()].name,
+                                 spec.robots[capture.predator.value()].name, capture.time_s)});
+  }
+  if (findings.capture->captures().empty()) {
+    table.rows.push_back(
+        {"captured", fmt::format("nobody; nearest {:.2f} m", findings.capture->closest_m())});
+  }
+}
+
+/// Changes while the run went, with their times.
+Json changes_json(const Findings& findings) {
+  Json json = Json::array();
+  const sim::EngineSpec& spec = findings.engine.spec();
+  for (const sim::Event& event : findings.events) {
+    if (event.kind != sim::EventKind::kChanged && event.kind != sim::EventKind::kChangeRefused) {
+      continue;
+    }
+    json.push_back({{"time_s", static_cast<double>(event.step) * spec.step.seconds()},
+                    {"robot", spec.robots[event.robot.value()].name},
+                    {"made", event.kind == sim::EventKind::kChanged},
+                    {"what", event.text}});
   }
   return json;
 }
@@ -205,7 +284,20 @@ RunOutcome judge(const Findings& findings) {
     outcome.problems.push_back(
         fmt::format("robot `{}` never said where it is", spec.robots[r].name));
   }
+  for (const sim::Event& event : findings.events) {
+    if (event.kind != sim::EventKind::kChangeRefused) continue;
+    outcome.problems.push_back(fmt::format("the change at {:.2f} s was refused: {}",
+                                           static_cast<double>(event.step) * spec.step.seconds(),
+                                           event.text));
+  }
   outcome.whole = outcome.problems.empty();
+  if (findings.capture != nullptr && !findings.capture->holds()) {
+    outcome.checks_hold = false;
+    outcome.problems.push_back(
+        fmt::format("the capture check fails: nobody was captured before "
+                    "{} s",
+                    *findings.capture->check().before_s));
+  }
   if (findings.sightings != nullptr && !findings.sightings->holds()) {
     outcome.checks_hold = false;
     const SightingTally& tally = findings.sightings->all();
@@ -250,6 +342,10 @@ std::string result_json(const Findings& findings, const RunOutcome& outcome) {
   json["closest"] = encounters_json(findings);
   json["events"] = events_json(findings);
   if (has_radio(findings.engine.spec())) json["radio"] = radio_json(findings.engine);
+  json["guard"] = guard_counts(findings);
+  json["changes"] = changes_json(findings);
+  json["inputs_by_hand"] = findings.engine.inputs_by_hand();
+  if (findings.capture != nullptr) json["capture"] = capture_json(findings);
   json["robots"] = robots_json(findings);
   json["devices"] = devices_json(findings);
   json["streams"] = streams_json(findings);
@@ -291,6 +387,13 @@ std::string summary_text(const Findings& findings, const RunOutcome& outcome) {
                                      count_events(findings, sim::EventKind::kPinned))});
   if (has_radio(findings.engine.spec())) {
     table.rows.push_back({"messages", radio_line(findings.engine.radio_counts())});
+  }
+  add_guard_row(findings, table);
+  add_capture_rows(findings, table);
+  if (const auto by_hand = findings.engine.inputs_by_hand(); by_hand > 0) {
+    table.rows.push_back({"changed by hand", fmt::format("{} inputs; the scenario alone gives "
+                                                         "another run",
+                                                         by_hand)});
   }
   const std::string deaf = disobedient(findings);
   if (!deaf.empty()) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "capture_watch.hpp"
 #include "encounters.hpp"
 #include "goal_checks.hpp"
 #include "hit_counter.hpp"
@@ -29,6 +30,7 @@ struct Findings {
   std::vector<CheckResult> goals;
   const SightingCheck* sightings = nullptr;
   const InstantKeeper* instant = nullptr;
+  const CaptureWatch* capture = nullptr;
   const std::vector<sim::Event>& events;
   double wall_s = 0;
   bool ended_early = false;

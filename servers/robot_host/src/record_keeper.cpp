@@ -107,7 +107,7 @@ void RecordKeeper::after_step(sim::Engine& engine) {
     actuator = robot.actuators_end;
   }
   record_radio(engine, recorder_);
-  keep_events(engine);
+  keep(engine.events());
   // A failure was told to the log when it happened, and end() returns it: the run goes on.
   if (hashed_) static_cast<void>(recorder_.hash(engine.hash().value()));
   static_cast<void>(recorder_.end_step());
@@ -162,8 +162,8 @@ void RecordKeeper::keep_pose(const sim::Engine& engine, RobotId robot, bool simu
   recorder_.pose(pose);
 }
 
-void RecordKeeper::keep_events(const sim::Engine& engine) {
-  for (const sim::Event& event : engine.events()) {
+void RecordKeeper::keep(std::span<const sim::Event> events) {
+  for (const sim::Event& event : events) {
     record::RunEvent recorded;
     recorded.robot = event.robot;
     recorded.kind = to_string(event.kind);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,9 @@ class RecordKeeper final : public Observer {
       const About& about, LogSink* log);
 
   void after_step(sim::Engine& engine) override;
+
+  /// Events of the last step that observers found.
+  void keep(std::span<const sim::Event> events);
 
   [[nodiscard]] record::RunRecorder& recorder() noexcept { return recorder_; }
 
@@ -64,7 +68,6 @@ class RecordKeeper final : public Observer {
   void keep_commands(const sim::Engine& engine, RobotId robot, std::uint32_t controllers);
   void keep_actuators(RobotId robot, std::uint32_t begin, std::uint32_t end);
   void keep_pose(const sim::Engine& engine, RobotId robot, bool simulated);
-  void keep_events(const sim::Engine& engine);
 
   record::RunRecorder recorder_;
   PartKeeper parts_;

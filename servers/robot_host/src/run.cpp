@@ -10,6 +10,7 @@
 #include "rave/base/file.hpp"
 #include "rave/robot_host/provenance.hpp"
 #include "record_keeper.hpp"
+#include "requests.hpp"
 #include "stall_watch.hpp"
 #include "wall_pace.hpp"
 
@@ -29,11 +30,8 @@ struct Observers {
   GoalChecks goals;
   std::optional<SightingCheck> sightings;
   std::optional<InstantKeeper> instant;
+  std::optional<CaptureWatch> capture;
   std::unique_ptr<RecordKeeper> record;
-
-  Observers(const config::ExpandedScenario& expanded, const BuiltScenario& built,
-            const sim::EngineSpec& spec)
-      : Observers(expanded, expanded.scenario, built, spec) {}
 
   Observers(const config::ExpandedScenario& expanded, const config::ScenarioFile& scenario,
             const BuiltScenario& built, const sim::EngineSpec& spec)
@@ -46,6 +44,7 @@ struct Observers {
         hits(kinds),
         goals(expanded, spec) {
     if (scenario.checks.sightings) sightings.emplace(*scenario.checks.sightings, spec);
+    if (scenario.checks.capture) capture.emplace(*scenario.checks.capture, expanded);
     if (scenario.picture) {
       instant.emplace(kinds, scenario.picture->instant_s.value_or(scenario.duration_s / 2));
     }
@@ -58,20 +57,37 @@ struct Observers {
     goals.after_step(engine);
     if (sightings) sightings->after_step(engine);
     if (instant) instant->after_step(engine);
-    if (record) record->after_step(engine);
+    if (capture) capture->after_step(engine);
+    if (!record) return;
+    record->after_step(engine);
+    if (capture) record->keep(capture->events());
   }
 };
 
-void tell_events(const sim::Engine& engine, LogSink* log, std::vector<sim::Event>& all) {
+LogLevel level_of(sim::EventKind kind) {
+  switch (kind) {
+    case sim::EventKind::kProgramFailed:
+    case sim::EventKind::kDriverFailed:
+    case sim::EventKind::kChangeRefused:
+      return LogLevel::kError;
+    case sim::EventKind::kReleased:
+    case sim::EventKind::kArmed:
+    case sim::EventKind::kChanged:
+    case sim::EventKind::kCaptured:
+      return LogLevel::kInfo;
+    default:
+      return LogLevel::kWarning;
+  }
+}
+
+void tell_events(const sim::Engine& engine, std::span<const sim::Event> events, LogSink* log,
+                 std::vector<sim::Event>& all) {
   const sim::EngineSpec& spec = engine.spec();
-  for (const sim::Event& event : engine.events()) {
+  for (const sim::Event& event : events) {
     all.push_back(event);
     // Contacts are daily bread in a crowd; the rest somebody should read now.
     if (log == nullptr || event.kind == sim::EventKind::kContact) continue;
-    const bool loss =
-        event.kind == sim::EventKind::kProgramFailed || event.kind == sim::EventKind::kDriverFailed;
-    log->write(loss ? LogLevel::kError : LogLevel::kWarning,
-               fmt::format("robot {}", spec.robots[event.robot.value()].name),
+    log->write(level_of(event.kind), fmt::format("robot {}", spec.robots[event.robot.value()].name),
                fmt::format("{:.2f} s: {}: {}", engine.time().seconds(), to_string(event.kind),
                            event.text));
   }
@@ -134,18 +150,29 @@ struct Journey {
   bool stopped = false;
 };
 
+/// Does what somebody has asked for since the last step.
+void serve_requests(Journey& journey) {
+  if (journey.options.control == nullptr) return;
+  sim::Engine& engine = journey.engine;
+  journey.options.control->serve(
+      [&engine](const RunRequest& request) { return serve_request(engine, request); },
+      [&engine](RunStatus& status) { refresh_status(engine, status); });
+}
+
 /// Waits until the next step may be done; false: the run is to end.
 bool wait_for_turn(Journey& journey) {
   RunControl* const control = journey.options.control;
+  const auto serve = [&journey] { serve_requests(journey); };
   if (control != nullptr) {
     const auto asked = Clock::now();
     // The world outside a live run goes on, so that is not held.
     const bool held = !journey.live && control->paused();
-    if (held ? !control->wait_for_turn() : control->stopping()) return false;
+    if (held ? !control->wait_for_turn(serve) : control->stopping()) return false;
     if (held) journey.pace.shift(Clock::now() - asked);
   }
   const auto steps = static_cast<std::int64_t>(journey.engine.steps_done());
-  journey.pace.wait_for(SimTime{steps * journey.engine.spec().step.ns}, control);
+  journey.pace.wait_for(SimTime{steps * journey.engine.spec().step.ns}, control, serve);
+  serve();
   return true;
 }
 
@@ -171,8 +198,16 @@ Status go_through(Journey& journey) {
     watch.step_begins(journey.engine.steps_done());
     RAVE_TRY(journey.engine.step());
     watch.step_ends();
+    if (journey.options.control != nullptr) {
+      journey.options.control->set_time(journey.engine.time().seconds());
+    }
     journey.observers.after_step(journey.engine);
-    tell_events(journey.engine, &journey.console, journey.events);
+    tell_events(journey.engine, journey.engine.events(), &journey.console, journey.events);
+    if (journey.observers.capture) {
+      const CaptureWatch& capture = *journey.observers.capture;
+      tell_events(journey.engine, capture.events(), &journey.console, journey.events);
+      if (capture.ends_run()) break;
+    }
     const auto now = Clock::now();
     journey.wall_s = std::chrono::duration<double>(now - begin).count();
     if (journey.options.on_progress && now >= next_progress) {
@@ -181,6 +216,43 @@ Status go_through(Journey& journey) {
     }
   }
   return {};
+}
+
+/// Lets others control a run as long as it goes.
+class Controlled {
+ public:
+  explicit Controlled(const Journey& journey) : control_(journey.options.control) {
+    if (control_ == nullptr) return;
+    RunStatus status;
+    status.scenario = journey.file.name.value;
+    status.duration_s = journey.file.duration_s;
+    status.pace = journey.live ? 1 : journey.file.pace.factor;
+    status.live = journey.live;
+    refresh_status(journey.engine, status);
+    control_->begin(std::move(status));
+  }
+  Controlled(const Controlled&) = delete;
+  Controlled& operator=(const Controlled&) = delete;
+  ~Controlled() {
+    if (control_ != nullptr) control_->end();
+  }
+
+ private:
+  RunControl* control_;
+};
+
+/// Arms robots if that was asked for, else says who waits for it.
+void tell_who_waits(Journey& journey) {
+  const std::string names = unarmed_robots(journey.engine);
+  if (names.empty()) return;
+  if (journey.options.arm) {
+    journey.engine.arm(RobotId(), sim::Author::kRun);
+    journey.console.warn("run", "armed from the start: {}", names);
+    return;
+  }
+  const std::string& run = journey.options.run_name;
+  journey.console.warn("run", "{} will stand until armed: `rave arm{}{}` in another terminal",
+                       names, run.empty() ? "" : " ", run);
 }
 
 }  // namespace
@@ -218,7 +290,7 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
   }
   RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(built.spec)));
 
-  Observers observers(adjusted, built, engine->spec());
+  Observers observers(adjusted, file, built, engine->spec());
   if (options.record) {
     RAVE_TRY_ASSIGN(
         observers.record,
@@ -230,7 +302,12 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
   const RecordedConsole recorded(console, observers.record.get());
   Journey journey{*engine, observers, pace, live, file, options, console, {}, 0, false};
   if (!live) pace.start();  // a live run counts from when its sensors were opened
+  const Controlled controlled(journey);
+  tell_who_waits(journey);
   RAVE_TRY(go_through(journey));
+  // Writing the results takes a while; nobody drives on meanwhile.
+  engine->halt();
+  if (options.control != nullptr) options.control->end();
   console.attach(nullptr);
   std::string record_problem;
   if (observers.record) {
@@ -248,6 +325,7 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
                           observers.goals.results(),
                           observers.sightings ? &*observers.sightings : nullptr,
                           observers.instant ? &*observers.instant : nullptr,
+                          observers.capture ? &*observers.capture : nullptr,
                           journey.events,
                           journey.wall_s,
                           journey.stopped,

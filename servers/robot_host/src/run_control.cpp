@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/robot_host/run_control.hpp"
 
-#include <chrono>
-
 namespace rave::robot_host {
 
 void RunControl::pause() {
@@ -32,11 +30,81 @@ bool RunControl::paused() const {
   return paused_;
 }
 
-bool RunControl::wait_for_turn() {
+Result<std::string> RunControl::ask(RunRequest request, std::chrono::milliseconds patience) {
+  std::future<Result<std::string>> answer;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!running_) return fail(ErrorCode::kState, "no run is under way");
+    Pending& pending = pending_.emplace_back();
+    pending.request = std::move(request);
+    answer = pending.answer.get_future();
+    asked_.store(true);
+  }
+  changed_.notify_all();
+  if (answer.wait_for(patience) == std::future_status::ready) return answer.get();
+  return fail(ErrorCode::kTimeout,
+              "the run has not come to it for {} ms: a step does not end; it is done before the "
+              "next one",
+              patience.count());
+}
+
+RunStatus RunControl::status() const {
+  const std::lock_guard lock(mutex_);
+  RunStatus status = status_;
+  status.sim_s = sim_s_.load();
+  status.paused = paused_;
+  return status;
+}
+
+void RunControl::begin(RunStatus status) {
+  const std::lock_guard lock(mutex_);
+  status_ = std::move(status);
+  sim_s_.store(0);
+  running_ = true;
+}
+
+void RunControl::serve(const Serve& serve, const std::function<void(RunStatus&)>& refresh) {
+  if (!asked_.load()) return;
+  std::deque<Pending> pending;
+  {
+    const std::lock_guard lock(mutex_);
+    pending.swap(pending_);
+    asked_.store(false);
+  }
+  // Told when the status says it too.
+  std::vector<Result<std::string>> answers;
+  for (const Pending& one : pending) answers.push_back(serve(one.request));
+  {
+    const std::lock_guard lock(mutex_);
+    refresh(status_);
+  }
+  for (std::size_t i = 0; i < pending.size(); ++i) {
+    pending[i].answer.set_value(std::move(answers[i]));
+  }
+}
+
+void RunControl::end() {
+  const std::lock_guard lock(mutex_);
+  running_ = false;
+  status_ = {};
+  for (Pending& one : pending_) {
+    one.answer.set_value(fail(ErrorCode::kState, "the run has ended"));
+  }
+  pending_.clear();
+  asked_.store(false);
+}
+
+bool RunControl::wait_for_turn(const std::function<void()>& serve) {
   // A signal handler cannot notify, so a held run looks up by itself now and then.
   constexpr auto kLook = std::chrono::milliseconds(50);
   std::unique_lock lock(mutex_);
   while (!stopping()) {
+    if (!pending_.empty() && serve) {
+      lock.unlock();
+      serve();
+      lock.lock();
+      continue;
+    }
     if (!paused_) return true;
     if (steps_ > 0) {
       --steps_;

@@ -36,15 +36,17 @@ class WallPace final : public RunClock {
   /// Time that a stepped run was held for does not count.
   void shift(Clock::duration held) noexcept { begin_.store(begin_.load() + held); }
 
-  /// Sleeps until `t` is due, looking now and then whether the run is to end; at once when there is
-  /// no pace.
-  void wait_for(SimTime t, const RunControl* control) const {
+  /// Sleeps until `t` is due, looking now and then whether the run is to end and calling `look`; at
+  /// once when there is no pace.
+  template <class Look>
+  void wait_for(SimTime t, const RunControl* control, Look&& look) const {
     if (factor_ == 0) return;
     constexpr auto kLook = std::chrono::milliseconds(100);
     const auto due = wall_time_of(t);
     for (auto now = Clock::now(); now < due; now = Clock::now()) {
       if (control != nullptr && control->stopping()) return;
       std::this_thread::sleep_until(std::min(due, now + kLook));
+      look();
     }
   }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A program whose commands depend on everything it is given.
 
+#include <optional>
+
 #include "rave/math/scalar.hpp"
 #include "rave/robot/plugin_entry.hpp"
 
@@ -15,11 +17,20 @@ class Echo final : public rave::DecisionProcess {
     RAVE_TRY_ASSIGN(goal_, setup.controller(rave::CommandKind::kGoal));
     RAVE_TRY_ASSIGN(radio_, setup.communicator("air"));
     RAVE_TRY_ASSIGN(friend_, setup.robot_id("carl"));
-    gain_ = setup.params().number("gain");
-    for (const double weight : setup.params().numbers("weights")) gain_ += weight;
+    setup_ = setup;
+    RAVE_TRY(parameters_changed(setup.params()));
     setup.log(setup.params().text("greeting"));
     offset_ = laser_.info().bearings_rad[1] + laser_.info().X_RS.x + setup.period_s() +
               setup.robot_radius_m() + static_cast<double>(setup.team().size());
+    return {};
+  }
+
+  rave::Status parameters_changed(const rave::Params& params) override {
+    if (params.number("gain") < 0) {
+      return rave::fail(rave::ErrorCode::kInvalidArgument, "a negative gain");
+    }
+    gain_ = params.number("gain") + setup_->robot_radius_m();
+    for (const double weight : params.numbers("weights")) gain_ += weight;
     return {};
   }
 
@@ -45,6 +56,7 @@ class Echo final : public rave::DecisionProcess {
   }
 
  private:
+  std::optional<rave::Setup> setup_;
   rave::RangesHandle laser_;
   rave::SensorHandle<rave::Sighting> camera_;
   rave::CommunicatorHandle radio_;

@@ -16,6 +16,7 @@ enum class HashChannel : std::uint32_t {
   kRadio = 3,
   kPose = 4,
   kEvent = 5,
+  kInput = 6,  ///< What somebody asked of a run.
 };
 
 /// A strong 64-bit mixing step (the finaliser of MurmurHash3, variant 13 by D. Stafford).

@@ -51,6 +51,10 @@ struct ExpandedScenario {
   bool operator==(const ExpandedScenario&) const = default;
 };
 
+/// The indices of the robots that a name stands for: one robot, or all of an entry. Empty: none.
+[[nodiscard]] std::vector<std::size_t> robots_named(const ExpandedScenario& scenario,
+                                                    std::string_view name);
+
 /// Reads a scenario and the files it names (a robot file once per entry) and checks them together:
 /// names, periods that are multiples of the step, sensors that checks and picture name, files that
 /// do not exist (error at the line that names them). Errors: kNotFound, kIo, kParse.

@@ -140,7 +140,10 @@ struct GuardFile {
   std::optional<double> separation_m;  ///< Least distance to the bodies of other robots.
   WorldLost world_lost = WorldLost::kStop;
   double world_timeout_s = 0.5;
-  double slow_speed_mps = 0.05;  ///< For kSlow.
+  double slow_speed_mps = 0.05;    ///< For kSlow.
+  double deceleration_mps2 = 0.5;  ///< What the robot surely brakes with.
+  double reaction_s = 0.1;         ///< From a command until it obeys.
+  double watchdog_s = 1;           ///< Older commands of the program are none.
   bool operator==(const GuardFile&) const = default;
 };
 

@@ -54,7 +54,8 @@ struct SightingsCheckFile {
 
 /// Counts how often robots begin to touch something.
 struct TouchesCheckFile {
-  std::vector<Located<std::string>> robots;  ///< Of a robot, or of an entry that stands for several.
+  std::vector<Located<std::string>>
+      robots;  ///< Of a robot, or of an entry that stands for several.
   /// A contact sensor whose readings count; unset: contacts in the world of the run.
   std::optional<Located<std::string>> sensor;
   int most = 0;
@@ -72,11 +73,30 @@ struct ArrivalCheckFile {
   bool operator==(const ArrivalCheckFile&) const = default;
 };
 
+/// One robot has to catch another: their outlines come that near.
+struct CaptureCheckFile {
+  Located<std::string> predator;  ///< Robots, or entries of `robots:` that stand for several.
+  Located<std::string> prey;
+  double within_m = 0.1;           ///< Between the outlines.
+  std::optional<double> before_s;  ///< Later is a failure; unset: it need not happen at all.
+  bool end_run = false;            ///< The run ends with the first capture.
+  bool operator==(const CaptureCheckFile&) const = default;
+};
+
 struct ChecksFile {
   std::optional<SightingsCheckFile> sightings;
   std::vector<TouchesCheckFile> touches;
   std::vector<ArrivalCheckFile> arrivals;
+  std::optional<CaptureCheckFile> capture;
   bool operator==(const ChecksFile&) const = default;
+};
+
+/// Parameters that change while the run goes; part of the run, as if the programs had known.
+struct ChangeFile {
+  Located<double> at_s = 0.0;  ///< A multiple of the step.
+  Located<std::string> robot;  ///< A robot, or an entry of `robots:` that stands for several.
+  RawNode set;                 ///< A mapping from keys such as `program.speed_mps` to values.
+  bool operator==(const ChangeFile&) const = default;
 };
 
 struct PictureFile {
@@ -99,6 +119,7 @@ struct ScenarioFile {
   Pace pace;
   double history_s = 0;
   std::vector<RobotEntry> robots;
+  std::vector<ChangeFile> changes;
   ChecksFile checks;
   std::optional<PictureFile> picture;
   bool operator==(const ScenarioFile&) const = default;

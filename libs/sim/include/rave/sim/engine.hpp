@@ -14,13 +14,21 @@
 namespace rave::sim {
 
 enum class EventKind : std::uint32_t {
-  kContact = 1,        ///< A robot began to touch something.
-  kPinned = 2,         ///< A simulated robot cannot get out of a real robot's way.
-  kPoseStale = 3,      ///< A reported pose is older than its limit.
-  kPoseBack = 4,       ///< ... and came again.
-  kProgramFailed = 5,  ///< A program threw, crashed or hung; its robot stops.
-  kDriverFailed = 6,   ///< A driver threw or lost its device.
-  kDriverBack = 7,     ///< ... and its device works again.
+  kContact = 1,         ///< A robot began to touch something.
+  kPinned = 2,          ///< A simulated robot cannot get out of a real robot's way.
+  kPoseStale = 3,       ///< A reported pose is older than its limit.
+  kPoseBack = 4,        ///< ... and came again.
+  kProgramFailed = 5,   ///< A program threw, crashed or hung; its robot stops.
+  kDriverFailed = 6,    ///< A driver threw or lost its device.
+  kDriverBack = 7,      ///< ... and its device works again.
+  kGuardSlowed = 20,    ///< The guard began to slow a robot down.
+  kGuardStopped = 21,   ///< The guard began to make a robot stand that was told to move.
+  kStopped = 22,        ///< Somebody stopped a robot; latched.
+  kReleased = 23,       ///< ... and let it go again.
+  kArmed = 24,          ///< Somebody armed a robot.
+  kChanged = 25,        ///< Parameters of a robot were changed.
+  kChangeRefused = 26,  ///< A change of the scenario that could not be made.
+  kCaptured = 30,       ///< The host saw that a robot caught another; no part of the hash.
 };
 [[nodiscard]] std::string_view to_string(EventKind kind) noexcept;
 
@@ -29,8 +37,15 @@ struct Event {
   std::uint64_t step = 0;
   RobotId robot;
   EventKind kind = EventKind::kContact;
-  BodyId other;      ///< Contacts and pins: with whom.
-  std::string text;  ///< For people. Not part of the run hash.
+  BodyId other;              ///< Contacts and pins: with whom.
+  std::string text;          ///< For people. Not part of the run hash.
+  std::uint32_t detail = 0;  ///< Guard: the GuardLimit.
+};
+
+/// Who asks something of a run.
+enum class Author : std::uint8_t {
+  kRun,   ///< It belongs to the run, as what its scenario says.
+  kHand,  ///< Somebody, while it goes: the run is not the scenario's any more.
 };
 
 /// Where a robot is told to be.
@@ -130,6 +145,36 @@ class Engine {
                                                void* records);
   /// The pose of a robot at an instant within the history.
   [[nodiscard]] Result<Pose2> pose_at(RobotId robot, SimTime stamp) const;
+
+  // Inputs between two steps. They count from the next step on, are events of it and part of the
+  // hash. `robot` invalid: all robots.
+
+  /// Makes robots stand, whatever their programs say, until they are released. Any robot can be
+  /// stopped, simulated ones too.
+  void stop(RobotId robot, Author author = Author::kHand);
+  /// Ends a stop. A robot that must be armed has to be armed anew.
+  void release(RobotId robot, Author author = Author::kHand);
+  /// Lets robots move that must be armed; of a stopped one the stop stays.
+  void arm(RobotId robot, Author author = Author::kHand);
+  [[nodiscard]] bool stopped(RobotId robot) const noexcept;
+  /// False: it stands until it is armed.
+  [[nodiscard]] bool armed(RobotId robot) const noexcept;
+  /// Changes parameters of one robot, all or none. Errors: kInvalidArgument and kNotFound (unknown,
+  /// out of range, refused by the driver or program, a body that would overlap something), kState
+  /// (its program has failed); then everything is as it was.
+  Status set_parameters(RobotId robot, std::span<const ParameterChange> changes,
+                        Author author = Author::kHand);
+  /// The present value of a parameter; empty if there is none of this name.
+  [[nodiscard]] std::string parameter(RobotId robot, ParameterChange::Part part,
+                                      std::uint32_t index, std::string_view name) const;
+  /// How many inputs came by hand.
+  [[nodiscard]] std::uint64_t inputs_by_hand() const noexcept;
+  /// How old the virtual world is that sensors and guards see: 0 in one process. Guards act on it.
+  void set_world_age(Duration age) noexcept;
+  /// Tells all hardware actuators to stand, now; for the end of a run.
+  void halt() noexcept;
+  /// Radius of a robot's body about its origin, as it is now.
+  [[nodiscard]] double body_radius_m(RobotId robot) const noexcept;
 
  private:
   struct Impl;

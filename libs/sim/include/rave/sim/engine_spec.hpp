@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@
 #include "rave/robot/processing.hpp"
 #include "rave/robot/program.hpp"
 #include "rave/robot/sample_queue.hpp"
+#include "rave/sim/guard.hpp"
+#include "rave/sim/parameter_change.hpp"
 #include "rave/sim/radio.hpp"
 #include "rave/sim/virtual_sensor.hpp"
 #include "rave/world/body.hpp"
@@ -31,6 +34,11 @@ class ProgramProcess {
   virtual ~ProgramProcess() = default;
   virtual Status begin(const DecideItem& item) = 0;
   virtual Status end(const DecideItem& item) = 0;
+  /// New values of all parameters and a new radius of the body, between two decisions. An error:
+  /// the program refuses and goes on with the old ones.
+  virtual Status update(std::span<const ParamValue> /*params*/, double /*radius_m*/) {
+    return fail(ErrorCode::kInvalidArgument, "it takes no new parameters while it runs");
+  }
 };
 using ProgramProcessFactory =
     std::function<Result<std::unique_ptr<ProgramProcess>>(const ProgramSetup&)>;
@@ -81,8 +89,8 @@ struct SensorSpec {
   }
 };
 
-/// The virtual half of a hybrid sensor as a sensor by itself, for pictures: no device is needed. Any
-/// other sensor stays what it is.
+/// The virtual half of a hybrid sensor as a sensor by itself, for pictures: no device is needed.
+/// Any other sensor stays what it is.
 [[nodiscard]] SensorSpec virtual_half_of(SensorSpec sensor);
 
 struct ControllerSpec {
@@ -92,6 +100,8 @@ struct ControllerSpec {
   plugin::ParamSet params;
   CommandKind accepts = CommandKind::kNone;
   std::uint32_t actuator = 0;  ///< Index into RobotType::actuators.
+  /// What may be changed while the run goes; lives as long as `ops`.
+  std::span<const ParamSpec> param_specs;
 };
 
 /// One actuator. Exactly one of the two ops is set.
@@ -102,6 +112,8 @@ struct ActuatorSpec {
   const HardwareActuatorOps* hardware_ops = nullptr;
   std::optional<std::uint32_t> device;  ///< Hardware: index into RobotType::devices.
   plugin::ParamSet params;
+  /// What may be changed while the run goes; lives as long as `ops`.
+  std::span<const ParamSpec> param_specs;
 };
 
 struct ProgramSpec {
@@ -111,6 +123,8 @@ struct ProgramSpec {
   std::uint32_t period_steps = 1;
   std::uint32_t phase_steps = 0;
   ProgramProcessFactory isolate;  ///< Set: each robot's program gets a process of its own.
+  /// What may be changed while the run goes; lives as long as `ops`.
+  std::span<const ParamSpec> param_specs;
 };
 
 /// Robots that came from one file with the same variables: they share drivers and parameters.
@@ -129,6 +143,8 @@ struct RobotType {
   std::optional<std::uint32_t> pose_from;
   std::optional<Pose2> X_WM;  ///< Frame of that sensor; none: the start pose for odometry, else W.
   Duration staleness = from_seconds(0.5);  ///< A reported pose older than this is stale.
+  /// Limits below the program. A real robot that obeys has those of GuardSpec{} at least.
+  std::optional<GuardSpec> guard;
 };
 
 struct RobotSpec {
@@ -157,6 +173,8 @@ struct EngineSpec {
   std::function<void()> on_ready;
   /// How long a stepped hardware driver may take, wall time, before the run is given up.
   std::chrono::milliseconds host_timeout{10'000};
+  /// Changes of parameters that belong to the run, by step.
+  std::vector<ScheduledChange> changes;
   /// Not owned; outlives the engine.
   LogSink* log = nullptr;
 };

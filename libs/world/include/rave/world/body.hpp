@@ -57,6 +57,10 @@ struct Body {
   [[nodiscard]] double radius_m() const noexcept;
 };
 
+/// The body with its outline scaled about its origin; heights stay. Errors: kInvalidArgument (too
+/// small or too large for shapes to keep their corners).
+[[nodiscard]] Result<Body> scaled(const Body& body, double factor);
+
 /// An obstacle stands where its pose says.
 struct Obstacle {
   Body body;

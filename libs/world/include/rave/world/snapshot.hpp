@@ -30,6 +30,9 @@ class Snapshot final : public WorldView {
   void set_time(SimTime time) noexcept { time_ = time; }
   void set_robot(RobotId robot, const RobotState& state) noexcept;
   void set_touch(RobotId robot, const TouchState& touch) noexcept;
+  /// The model has another body of this robot, with as many shapes and corners as before; it counts
+  /// from the next rebuild() on.
+  void body_changed(RobotId robot);
   /// Moves all shapes of robots to their places and sorts them into the grid.
   void rebuild();
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "rave/base/result.hpp"
@@ -50,6 +51,12 @@ class IsolatedProgram {
   /// Errors: kState (nothing was begun); kPlugin (the program threw, crashed or ended), kTimeout.
   /// After either of these the child is gone and every later call returns the same error.
   [[nodiscard]] Status end_decide(const DecideItem& item);
+
+  /// Hands new values of all parameters and the radius of the robot's body to the program, between
+  /// two decisions. Errors: kInvalidArgument (the program refuses, or the values are too long for a
+  /// message) leaves all as it was; kState (a decision is under way); kPlugin and kTimeout as in
+  /// end_decide().
+  [[nodiscard]] Status update(std::span<const ParamValue> params, double radius_m);
 
   /// The child's process id; 0 once it is gone.
   [[nodiscard]] int process_id() const noexcept;

@@ -28,6 +28,10 @@ struct RunOptions {
   std::function<void(const report::Progress&)> on_progress;
   /// Pauses, steps and ends the run from elsewhere; may be null. Not owned.
   RunControl* control = nullptr;
+  /// Arm all robots when the run starts; without it those that must be armed wait for somebody.
+  bool arm = false;
+  /// Name of the run for who controls it from elsewhere; only for messages.
+  std::string run_name;
 };
 
 /// How a run ended. What it found lies in `output`: result.json, summary.txt, picture.svg,

@@ -2,14 +2,48 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <deque>
+#include <functional>
+#include <future>
 #include <mutex>
+#include <string>
+#include <vector>
+
+#include "rave/base/result.hpp"
 
 namespace rave::robot_host {
 
-/// The handle on a run while it goes: pause, single steps, end. May be used from any thread; stop()
-/// also from a signal handler. Outlives the run.
+/// What somebody asks of a run between two of its steps.
+struct RunRequest {
+  enum class Kind : std::uint8_t { kStop, kRelease, kArm, kSet };
+  Kind kind = Kind::kStop;
+  std::string robot;  ///< Empty: all of them.
+  std::string key;    ///< kSet: such as `program.max_speed_mps`.
+  std::string value;  ///< kSet: as in a file.
+};
+
+/// What can be seen of a run from outside.
+struct RunStatus {
+  struct Robot {
+    std::string name;
+    bool simulated = true;
+    bool armed = true;
+    bool stopped = false;
+  };
+  std::string scenario;
+  double sim_s = 0;
+  double duration_s = 0;
+  double pace = 1;  ///< Simulated seconds per second; 0: as fast as it can.
+  bool live = false;
+  bool paused = false;
+  std::vector<Robot> robots;
+};
+
+/// The handle on a run while it goes: pause, single steps, end, requests. May be used from any
+/// thread; stop() also from a signal handler. Outlives the run.
 class RunControl {
  public:
   /// Ends the run before its next step; its results are written. Async-signal-safe.
@@ -24,16 +58,43 @@ class RunControl {
   [[nodiscard]] bool stopping() const noexcept { return stop_.load(); }
   [[nodiscard]] bool paused() const;
 
-  /// For the run: waits until a step may be done; false: the run is to end.
-  bool wait_for_turn();
+  /// Makes robots stand until they are released; lets them go; arms them; changes a parameter.
+  /// Waits until the run has done it, which is before its next step, also while it is paused.
+  /// Returns what was done, for people. Errors: kNotFound and kInvalidArgument (what the run says),
+  /// kState (no run is under way), kTimeout (it has not come to it in `patience`; it will).
+  Result<std::string> ask(RunRequest request,
+                          std::chrono::milliseconds patience = std::chrono::seconds(10));
+  /// What the run looks like now; without a scenario before it has begun and when it has ended.
+  [[nodiscard]] RunStatus status() const;
+
+  // For the run.
+  using Serve = std::function<Result<std::string>(const RunRequest&)>;
+  /// Requests are taken from here on.
+  void begin(RunStatus status);
+  /// Answers what was asked, in order; `robots` brings the status up to date when something was.
+  void serve(const Serve& serve, const std::function<void(RunStatus&)>& refresh);
+  void set_time(double sim_s) noexcept { sim_s_.store(sim_s); }
+  /// No more requests; those that wait get an error.
+  void end();
+  /// Waits until a step may be done, serving requests; false: the run is to end.
+  bool wait_for_turn(const std::function<void()>& serve = {});
 
  private:
+  struct Pending {
+    RunRequest request;
+    std::promise<Result<std::string>> answer;
+  };
   std::atomic<bool> stop_{false};
   static_assert(std::atomic<bool>::is_always_lock_free);
+  std::atomic<bool> asked_{false};
+  std::atomic<double> sim_s_{0};
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   bool paused_ = false;
+  bool running_ = false;
   std::uint64_t steps_ = 0;  ///< Single steps still to be done.
+  std::deque<Pending> pending_;
+  RunStatus status_;
 };
 
 }  // namespace rave::robot_host

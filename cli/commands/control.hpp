@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+// What one terminal asks of a run that goes in another.
+namespace rave::cli {
+
+/// `rave ps`.
+struct PsCommand {
+  bool robots = false;  ///< Each robot in a line of its own.
+};
+
+/// `rave stop`.
+struct StopCommand {
+  std::string run;  ///< Empty: the only one.
+  std::string robot;
+  bool all = false;  ///< All robots of all runs.
+};
+
+/// `rave arm`.
+struct ArmCommand {
+  std::string run;
+  std::string robot;
+  bool release = false;  ///< Ends a stop first.
+};
+
+/// `rave set`.
+struct SetCommand {
+  std::vector<std::string> words;  ///< [RUN] ROBOT KEY VALUE.
+};
+
+/// `rave pause`, `rave resume` and `rave step`.
+struct HoldCommand {
+  enum class What : std::uint8_t { kPause, kResume, kStep };
+  What what = What::kPause;
+  std::string run;
+  std::uint64_t count = 1;
+};
+
+// Each prints what was done. Returns 0; 1 if the run refuses; 2 if there is no such run.
+[[nodiscard]] int list_runs(const PsCommand& options);
+[[nodiscard]] int stop_robots(const StopCommand& options);
+[[nodiscard]] int arm_robots(const ArmCommand& options);
+[[nodiscard]] int set_parameter(const SetCommand& options);
+[[nodiscard]] int hold_run(const HoldCommand& options);
+
+}  // namespace rave::cli

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <limits>
+
+#include "engine_impl.hpp"
+
+namespace rave::sim {
+namespace {
+
+/// A limit that has not acted for so long begins anew when it acts again.
+constexpr double kQuiet_s = 0.5;
+
+Command standing(CommandKind kind) noexcept {
+  return kind == CommandKind::kVelocity ? velocity_command(0, 0) : Command{};
+}
+
+std::string text_of(GuardLimit limit) {
+  switch (limit) {
+    case GuardLimit::kStopped:
+      return "stop: it was told to stand until it is released";
+    case GuardLimit::kUnarmed:
+      return "not armed: it stands until somebody arms it";
+    case GuardLimit::kPoseLost:
+      return "pose lost: nobody says where it is";
+    case GuardLimit::kWorldLost:
+      return "world lost: the virtual world does not come any more";
+    case GuardLimit::kWatchdog:
+      return "watchdog: its program gives no commands any more";
+    case GuardLimit::kBadCommand:
+      return "bad command: not a number, or of a kind that cannot be guarded";
+    case GuardLimit::kSpeed:
+      return "speed: faster than it may";
+    case GuardLimit::kTurn:
+      return "turn rate: turns faster than it may";
+    case GuardLimit::kFence:
+      return "fence: it would leave its region";
+    case GuardLimit::kSeparation:
+      return "separation: it would come too near to another robot";
+  }
+  return "unknown";
+}
+
+}  // namespace
+
+void Engine::Impl::set_up_guards() {
+  guards.assign(spec.types.size(), std::nullopt);
+  guard_states.assign(spec.robots.size(), GuardState{});
+  for (std::size_t t = 0; t < spec.types.size(); ++t) {
+    const RobotType& type = spec.types[t];
+    guards[t] = type.guard;
+    // Nobody may forget the least that a real robot needs.
+    if (!type.simulated && !type.guard) guards[t] = GuardSpec{};
+  }
+  for (std::size_t r = 0; r < spec.robots.size(); ++r) {
+    GuardState& state = guard_states[r];
+    state.last_step.fill(GuardState::kNever);
+    const RobotType& type = spec.types[spec.robots[r].type];
+    state.armed = type.simulated || !guards[spec.robots[r].type]->arm;
+  }
+}
+
+void Engine::Impl::find_neighbours(RobotId robot, double reach_m, Worker& worker) const {
+  // Others drive too while this one brakes.
+  constexpr double kOthersWay_m = 2;
+  worker.neighbours.clear();
+  const std::uint32_t r = robot.value();
+  const ReportedPose& own = reported[r];
+  const double largest_m = *std::max_element(radius_m.begin(), radius_m.end());
+  const double within_m = reach_m + radius_m[r] + largest_m + kOthersWay_m;
+  const Vec2 p_W{own.pose.x_m, own.pose.y_m};
+  std::uint32_t count = snapshot.robots_within(p_W, within_m, worker.near);
+  if (count > worker.near.size()) {
+    worker.near.resize(count);
+    count = snapshot.robots_within(p_W, within_m, worker.near);
+  }
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const RobotId other = worker.near[i];
+    if (other == robot) continue;
+    worker.neighbours.push_back(
+        {&spec.world.robots[other.value()], snapshot.pose(other), snapshot.velocity_W(other)});
+  }
+}
+
+Command Engine::Impl::guarded(const RobotGroup& group, const ActuatorSlots& slots,
+                              std::uint32_t member, const ControllerSlots* controller,
+                              Worker& worker) {
+  const RobotId robot = group.members[member];
+  const std::uint32_t r = robot.value();
+  const Command command = controller != nullptr ? controller->outputs[member] : Command{};
+  const GuardState& state = guard_states[r];
+  const auto& limits = guards[spec.robots[r].type];
+  const CommandKind expected =
+      controller != nullptr ? controller->spec->ops->gives : CommandKind::kVelocity;
+  // What does not obey cannot be guarded, and a simulated robot is only if its file says so.
+  if (!limits || slots.obeys[member] == 0) return state.stopped ? standing(expected) : command;
+
+  const ReportedPose& pose = reported[r];
+  GuardInput input;
+  input.command = command;
+  input.expected = expected;
+  if (controller != nullptr && group.program.spec != nullptr) {
+    const std::int64_t given = controller->last_step[member];
+    input.command_age_s =
+        given < 0 ? std::numeric_limits<double>::infinity()
+                  : Duration{spec.step.ns * (static_cast<std::int64_t>(step) - given)}.seconds();
+  }
+  input.stopped = state.stopped;
+  input.armed = state.armed;
+  input.pose_known = pose.known && !pose.stale;
+  input.X_WR = {pose.pose.x_m, pose.pose.y_m, pose.pose.yaw_rad};
+  input.pose_age_s = std::max(0.0, (now - pose.stamp).seconds());
+  input.velocity = pose.velocity;
+  input.world_age_s = world_age.seconds();
+  input.dt_s = spec.step.seconds();
+  input.touching = limited[r] != 0;
+  input.radius_m = radius_m[r];
+  input.body = &spec.world.robots[r];
+  if (limits->separation_m >= 0 && input.pose_known) {
+    find_neighbours(robot, guard_reach_m(*limits, input), worker);
+    input.neighbours = worker.neighbours;
+  }
+  const GuardOutput output = guard(*limits, input);
+  if (output.acted != 0) tell_guard(robot, *limits, output.acted, worker);
+  return output.command;
+}
+
+void Engine::Impl::tell_guard(RobotId robot, const GuardSpec& limits, std::uint32_t acted,
+                              Worker& worker) {
+  const auto quiet_steps = static_cast<std::int64_t>(kQuiet_s / spec.step.seconds());
+  const auto present = static_cast<std::int64_t>(step);
+  for (std::uint32_t i = 0; i < kGuardLimits; ++i) {
+    if ((acted >> i & 1U) == 0) continue;
+    std::int64_t& last = guard_states[robot.value()].last_step[i];
+    const bool begins = present - last > quiet_steps;
+    last = present;
+    if (!begins) continue;
+    const auto limit = static_cast<GuardLimit>(i);
+    const bool slows = !stops(limit) || (limit == GuardLimit::kWorldLost &&
+                                         limits.world_lost == WorldLostPolicy::kSlow);
+    worker.events.push_back({step, robot,
+                             slows ? EventKind::kGuardSlowed : EventKind::kGuardStopped, BodyId(),
+                             text_of(limit), i});
+  }
+}
+
+void Engine::Impl::halt() noexcept {
+  for (RobotGroup& group : groups) {
+    for (ActuatorSlots& slots : group.actuators) {
+      if (slots.spec == nullptr || slots.spec->hardware_ops == nullptr) continue;
+      for (std::size_t m = 0; m < slots.open.size(); ++m) {
+        // Only what takes velocities can be told to stand; the rest is left to its close().
+        if (slots.open[m] == 0 || slots.commands[m].kind != CommandKind::kVelocity) continue;
+        const Command stand = velocity_command(0, 0);
+        ErrorText ignored;
+        slots.spec->hardware_ops->write(slots.instances.at(m), &stand, now.ns, &ignored);
+      }
+    }
+  }
+}
+
+}  // namespace rave::sim

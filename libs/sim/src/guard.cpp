@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/sim/guard.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "guard_fence.hpp"
+#include "rave/math/scalar.hpp"
+#include "rave/math/transform.hpp"
+#include "rave/world/touching.hpp"
+
+namespace rave::sim {
+namespace {
+
+/// No robot on wheels does more; what asks for more is brought down to this before its way is
+/// predicted.
+constexpr double kSaneTurn_radps = 50;
+constexpr double kSaneWay_m = 20;
+/// Slower than this, limited, is a stop.
+constexpr double kCrawl_mps = 1e-4;
+/// A robot that is measured to drive faster than this is not standing.
+constexpr double kMoving_mps = 0.02;
+constexpr int kHalvings = 16;
+/// Spacing at which distances to other robots are looked at.
+constexpr double kLook_m = 2e-3;
+
+constexpr std::uint32_t bit(GuardLimit limit) noexcept {
+  return 1U << static_cast<std::uint32_t>(limit);
+}
+
+struct Drive {
+  double v_mps = 0;
+  double w_radps = 0;
+  friend bool operator==(const Drive&, const Drive&) = default;
+};
+
+Drive scaled(const Drive& drive, double share) noexcept {
+  return {share * drive.v_mps, share * drive.w_radps};
+}
+
+bool all_finite(const Command& command) noexcept {
+  return std::all_of(std::begin(command.value), std::end(command.value),
+                     [](double value) { return std::isfinite(value); });
+}
+
+/// Both scaled until `value` is within `limit`: the curve stays.
+bool cap(Drive& drive, double Drive::*value, double limit) noexcept {
+  const double size = std::abs(drive.*value);
+  if (!(size > limit)) return false;
+  drive = scaled(drive, limit / size);
+  drive.*value = std::clamp(drive.*value, -limit, limit);
+  return true;
+}
+
+/// The largest speed from which a robot stands after kSaneWay_m.
+double sane_speed_mps(double delay_s, double deceleration_mps2) noexcept {
+  const double a = deceleration_mps2;
+  return std::sqrt(a * a * delay_s * delay_s + 2 * a * kSaneWay_m) - a * delay_s;
+}
+
+/// What decides about motion: fence and separation, for any velocity that might be commanded.
+class Motion {
+ public:
+  Motion(const GuardSpec& spec, const GuardInput& in) : spec_(spec), in_(in) {
+    if (!spec.fence_W.empty()) {
+      clearance_m_ = inside_distance(spec.fence_W, in.X_WR.position()) - in.radius_m;
+    }
+  }
+
+  /// The limits that forbid a drive.
+  [[nodiscard]] std::uint32_t forbidding(const Drive& drive) const noexcept {
+    const double speed = std::abs(drive.v_mps);
+    return forbidding(
+        drive, speed * (in_.dt_s + spec_.reaction_s) + blind_way_m(drive) + braking_way_m(speed));
+  }
+
+  /// The limits that the robot would breach if it were not told to brake now.
+  [[nodiscard]] std::uint32_t braking_needed() const noexcept {
+    const Drive now{in_.velocity.vx, in_.velocity.wz};
+    const double speed = std::abs(now.v_mps);
+    if (!(speed > kMoving_mps)) return 0;
+    // A little less than what was allowed, or rounding would make it brake at each limit.
+    const double way = speed * spec_.reaction_s + blind_way_m(now) + braking_way_m(speed);
+    return forbidding(now, 0.99 * way - 1e-4, false);
+  }
+
+ private:
+  [[nodiscard]] double braking_way_m(double speed_mps) const noexcept {
+    return speed_mps * speed_mps / (2 * spec_.deceleration_mps2);
+  }
+  /// What it may have gone since its pose was taken.
+  [[nodiscard]] double blind_way_m(const Drive& drive) const noexcept {
+    return in_.pose_age_s * std::max(std::abs(drive.v_mps), std::abs(in_.velocity.vx));
+  }
+
+  [[nodiscard]] std::uint32_t forbidding(const Drive& drive, double way_m,
+                                         bool commanded = true) const noexcept {
+    std::uint32_t limits = 0;
+    const GuardPath path{in_.X_WR, drive.v_mps, drive.w_radps, std::max(way_m, 0.0)};
+    if (!spec_.fence_W.empty()) {
+      const bool slides = commanded && in_.touching && clearance_m_ >= 0 &&
+                          std::abs(drive.v_mps) * in_.dt_s > clearance_m_;
+      if (slides || !stays_inside(spec_.fence_W, path, in_.radius_m)) {
+        limits |= bit(GuardLimit::kFence);
+      }
+    }
+    if (!in_.neighbours.empty() && !keeps_apart(drive, path.length_m)) {
+      limits |= bit(GuardLimit::kSeparation);
+    }
+    return limits;
+  }
+
+  /// The robot may come no nearer to anybody than the limit, or than it would by standing.
+  [[nodiscard]] bool keeps_apart(const Drive& drive, double way_m) const noexcept {
+    const double speed = std::abs(drive.v_mps);
+    const double turning = std::abs(drive.w_radps);
+    // A robot that only turns does so until it has obeyed the next command.
+    const double time_s = speed > 0 ? way_m / speed : in_.dt_s + spec_.reaction_s;
+    for (const GuardNeighbour& other : in_.neighbours) {
+      const double other_mps = std::sqrt(other.velocity_W.vx * other.velocity_W.vx +
+                                         other.velocity_W.vy * other.velocity_W.vy);
+      const double closing_mps = speed + turning * in_.radius_m + other_mps;
+      if (closing_mps <= 0) continue;
+      for (double t_s = 0; t_s < time_s;) {
+        t_s = std::min(t_s + kLook_m / closing_mps, time_s);
+        const double clear_m = worst_m(drive, other, t_s);
+        if (!(clear_m >= 0)) return false;
+        t_s += std::max(0.0, clear_m / closing_mps - kLook_m / closing_mps);
+      }
+    }
+    return true;
+  }
+
+  /// Distance above what is allowed after `t_s`, whether the other one stands or goes on for as
+  /// long as it takes to obey.
+  [[nodiscard]] double worst_m(const Drive& drive, const GuardNeighbour& other,
+                               double t_s) const noexcept {
+    const Pose2 X_later = integrate(in_.X_WR, {drive.v_mps, 0, drive.w_radps}, t_s);
+    Pose2 X_WB = other.X_WB;
+    double worst = above_limit(X_later, other, X_WB);
+    const double ahead_s = std::min(t_s, in_.dt_s + spec_.reaction_s);
+    X_WB.x += ahead_s * other.velocity_W.vx;
+    X_WB.y += ahead_s * other.velocity_W.vy;
+    return std::min(worst, above_limit(X_later, other, X_WB));
+  }
+
+  [[nodiscard]] double above_limit(const Pose2& X_later, const GuardNeighbour& other,
+                                   const Pose2& X_WB) const noexcept {
+    const auto apart_m = [&](const Pose2& X_WR) {
+      return world::separation(*in_.body, X_WR, *other.body, X_WB).distance_m;
+    };
+    const double later_m = apart_m(X_later);
+    if (later_m >= spec_.separation_m) return later_m - spec_.separation_m;
+    return later_m - std::min(apart_m(in_.X_WR), spec_.separation_m);
+  }
+
+  const GuardSpec& spec_;
+  const GuardInput& in_;
+  double clearance_m_ = 0;
+};
+
+/// The fastest drive between standing and `wanted` that is allowed: slower with the turning kept,
+/// so that the robot can turn away, or if turning is what is forbidden, slower on the same curve.
+Drive slowed(const Motion& motion, const Drive& wanted) noexcept {
+  const bool may_turn = motion.forbidding({0, wanted.w_radps}) == 0;
+  const auto at = [&](double share) {
+    return may_turn ? Drive{share * wanted.v_mps, wanted.w_radps} : scaled(wanted, share);
+  };
+  double low = 0;
+  double high = 1;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (motion.forbidding(at(middle)) == 0 ? low : high) = middle;
+  }
+  Drive drive = at(low);
+  if (std::abs(drive.v_mps) < kCrawl_mps) drive = may_turn ? at(0) : Drive{};
+  return drive;
+}
+
+std::uint32_t limit_motion(const GuardSpec& spec, const GuardInput& in, Drive& drive) noexcept {
+  const bool fenced = !spec.fence_W.empty();
+  if ((!fenced && in.neighbours.empty()) || drive == Drive{}) return 0;
+  std::uint32_t acted = 0;
+  const double delay_s = in.dt_s + spec.reaction_s + in.pose_age_s;
+  if (cap(drive, &Drive::v_mps, sane_speed_mps(delay_s, spec.deceleration_mps2))) {
+    acted |= bit(GuardLimit::kSpeed);
+  }
+  if (cap(drive, &Drive::w_radps, kSaneTurn_radps)) acted |= bit(GuardLimit::kTurn);
+  const Motion motion(spec, in);
+  const std::uint32_t braking = motion.braking_needed();
+  if (braking != 0 && drive.v_mps * in.velocity.vx > 0) {
+    drive = {};
+    return acted | braking;
+  }
+  const std::uint32_t forbidding = motion.forbidding(drive);
+  if (forbidding == 0) return acted;
+  drive = slowed(motion, drive);
+  return acted | forbidding;
+}
+
+/// Why the robot has to stand; kGuardLimits: it need not.
+std::uint32_t hold_reason(const GuardSpec& spec, const GuardInput& in) noexcept {
+  if (in.stopped) return static_cast<std::uint32_t>(GuardLimit::kStopped);
+  if (!in.armed) return static_cast<std::uint32_t>(GuardLimit::kUnarmed);
+  if (!in.pose_known) return static_cast<std::uint32_t>(GuardLimit::kPoseLost);
+  if (spec.world_lost == WorldLostPolicy::kStop && !(in.world_age_s <= spec.world_timeout_s)) {
+    return static_cast<std::uint32_t>(GuardLimit::kWorldLost);
+  }
+  if (!(in.command_age_s <= spec.watchdog_s)) {
+    return static_cast<std::uint32_t>(GuardLimit::kWatchdog);
+  }
+  if (in.command.kind != CommandKind::kNone &&
+      (in.command.kind != in.expected || in.command.kind == CommandKind::kGoal ||
+       !all_finite(in.command))) {
+    return static_cast<std::uint32_t>(GuardLimit::kBadCommand);
+  }
+  return kGuardLimits;
+}
+
+}  // namespace
+
+std::string_view to_string(GuardLimit limit) noexcept {
+  constexpr std::array<std::string_view, kGuardLimits> kNames = {
+      "stop",        "not armed", "pose lost", "world lost", "watchdog",
+      "bad command", "speed",     "turn rate", "fence",      "separation"};
+  return kNames[static_cast<std::size_t>(limit)];
+}
+
+double guard_reach_m(const GuardSpec& spec, const GuardInput& input) noexcept {
+  const double delay_s = input.dt_s + spec.reaction_s + input.pose_age_s;
+  const double sane_mps = sane_speed_mps(delay_s, spec.deceleration_mps2);
+  const double speed_mps = std::clamp(
+      std::max(std::abs(input.command.value[0]), std::abs(input.velocity.vx)), 0.0, sane_mps);
+  // NaN is clamped to itself; such a command goes nowhere.
+  const double way_m =
+      std::isfinite(speed_mps)
+          ? speed_mps * delay_s + speed_mps * speed_mps / (2 * spec.deceleration_mps2)
+          : 0;
+  return std::max(spec.separation_m, 0.0) + way_m;
+}
+
+GuardOutput guard(const GuardSpec& spec, const GuardInput& input) noexcept {
+  const bool velocity = input.expected == CommandKind::kVelocity;
+  GuardOutput output;
+  const std::uint32_t reason = hold_reason(spec, input);
+  if (reason < kGuardLimits) {
+    if (velocity) output.command = velocity_command(0, 0);
+    const auto asks = [](double value) { return value != 0; };
+    const bool moves =
+        input.command.kind != CommandKind::kNone &&
+        std::any_of(std::begin(input.command.value), std::end(input.command.value), asks);
+    if (moves) output.acted = 1U << reason;
+    return output;
+  }
+  output.command = input.command;
+  if (!velocity || input.command.kind == CommandKind::kNone) return output;
+  const Drive wanted{input.command.value[0], input.command.value[1]};
+  Drive drive = wanted;
+  if (cap(drive, &Drive::v_mps, spec.max_speed_mps)) output.acted |= bit(GuardLimit::kSpeed);
+  if (cap(drive, &Drive::w_radps, spec.max_turn_radps)) output.acted |= bit(GuardLimit::kTurn);
+  const bool slow =
+      spec.world_lost == WorldLostPolicy::kSlow && !(input.world_age_s <= spec.world_timeout_s);
+  if (slow && cap(drive, &Drive::v_mps, spec.slow_speed_mps)) {
+    output.acted |= bit(GuardLimit::kWorldLost);
+  }
+  output.acted |= limit_motion(spec, input, drive);
+  output.command = velocity_command(drive.v_mps, drive.w_radps);
+  return output;
+}
+
+}  // namespace rave::sim

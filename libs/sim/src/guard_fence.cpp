@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "guard_fence.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rave/math/scalar.hpp"
+#include "rave/math/transform.hpp"
+
+namespace rave::sim {
+namespace {
+
+/// A disc that overlaps the fence by no more than this counts as inside.
+constexpr double kSlack_m = 1e-6;
+/// Spacing at which the way back inside is checked.
+constexpr double kInward_m = 1e-3;
+/// Arcs of a larger radius are driven as chords of pieces; the error is below a nanometre.
+constexpr double kStraight_m = 1e6;
+constexpr double kMaxPieceTurn_rad = 0.5;
+constexpr double kMaxPiece_m = 0.05;
+
+double point_to_segment(Vec2 p, Vec2 a, Vec2 b) noexcept {
+  const Vec2 ab = b - a;
+  const double length2 = squared_norm(ab);
+  const double t = length2 > 0 ? std::clamp(dot(p - a, ab) / length2, 0.0, 1.0) : 0.0;
+  return std::sqrt(squared_norm(p - (a + t * ab)));
+}
+
+bool segments_cross(Vec2 a, Vec2 b, Vec2 c, Vec2 d) noexcept {
+  const double abc = cross(b - a, c - a);
+  const double abd = cross(b - a, d - a);
+  const double cda = cross(d - c, a - c);
+  const double cdb = cross(d - c, b - c);
+  return ((abc > 0) != (abd > 0)) && ((cda > 0) != (cdb > 0));
+}
+
+/// A piece of a path between two of its points, turning by less than pi/2.
+struct Piece {
+  Vec2 from;
+  Vec2 to;
+  bool straight = true;
+  Vec2 centre;          ///< Of the circle.
+  double radius_m = 0;  ///< Of the circle.
+  double sense = 1;     ///< 1: counter-clockwise about the centre.
+
+  /// Whether the arc passes the direction `u` as seen from the centre.
+  [[nodiscard]] bool passes(Vec2 u) const noexcept {
+    const Vec2 first = from - centre;
+    const Vec2 last = to - centre;
+    return sense * cross(first, u) >= 0 && sense * cross(u, last) >= 0 && dot(first, u) > 0;
+  }
+
+  [[nodiscard]] double distance_to(Vec2 p) const noexcept {
+    if (straight) return point_to_segment(p, from, to);
+    const double ends = std::sqrt(std::min(squared_norm(p - from), squared_norm(p - to)));
+    const Vec2 u = p - centre;
+    return passes(u) ? std::min(ends, std::abs(std::sqrt(squared_norm(u)) - radius_m)) : ends;
+  }
+
+  /// To the segment ab. Of an arc that crosses it without either end being near it this says
+  /// nothing; pieces are shorter than the radius of the body that drives them.
+  [[nodiscard]] double distance_to(Vec2 a, Vec2 b) const noexcept {
+    if (straight && segments_cross(from, to, a, b)) return 0;
+    double least = std::min(
+        {point_to_segment(from, a, b), point_to_segment(to, a, b), distance_to(a), distance_to(b)});
+    const double length_m = std::sqrt(squared_norm(b - a));
+    if (straight || length_m == 0) return least;
+    // Where the arc runs along the segment it may be nearest to it.
+    const Vec2 normal = (1.0 / length_m) * Vec2{a.y - b.y, b.x - a.x};
+    for (const Vec2 u : {radius_m * normal, -radius_m * normal}) {
+      if (passes(u)) least = std::min(least, point_to_segment(centre + u, a, b));
+    }
+    return least;
+  }
+};
+
+double distance_to_border(std::span<const Vec2> fence_W, const Piece& piece) noexcept {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < fence_W.size(); ++i) {
+    least = std::min(least, piece.distance_to(fence_W[i], fence_W[(i + 1) % fence_W.size()]));
+  }
+  return least;
+}
+
+Piece piece_of(const GuardPath& path, double s0_m, double s1_m) noexcept {
+  Piece piece;
+  const Pose2 X_from = path.at(s0_m);
+  piece.from = X_from.position();
+  piece.to = path.at(s1_m).position();
+  const double radius_m = path.w_radps == 0 ? kStraight_m : std::abs(path.v_mps / path.w_radps);
+  if (radius_m >= kStraight_m) return piece;
+  piece.straight = false;
+  piece.radius_m = radius_m;
+  piece.sense = path.w_radps > 0 ? 1 : -1;
+  // The centre lies abreast: to the left for v/w > 0.
+  const SinCos yaw = sincos(X_from.yaw);
+  const double left_m = path.v_mps / path.w_radps;
+  piece.centre = piece.from + left_m * Vec2{-yaw.sin, yaw.cos};
+  return piece;
+}
+
+/// The way back inside.
+bool comes_inward(std::span<const Vec2> fence_W, const GuardPath& path, double radius_m,
+                  double clearance_m) noexcept {
+  // Narrow circles are looked at more closely; a whole one says everything.
+  double length_m = path.length_m;
+  double look_m = kInward_m;
+  if (path.w_radps != 0) {
+    const double circle_m = std::abs(path.v_mps / path.w_radps);
+    length_m = std::min(length_m, 2 * kPi * circle_m);
+    look_m = std::max(std::min(look_m, 0.05 * circle_m), 1e-12);
+  }
+  double before_m = clearance_m;
+  for (double s_m = 0; s_m < length_m;) {
+    s_m = std::min(s_m + look_m, length_m);
+    const double now_m = inside_distance(fence_W, path.at(s_m).position()) - radius_m;
+    if (now_m < before_m) return false;
+    if (now_m >= -kSlack_m) {
+      GuardPath rest = path;
+      rest.X_WR = path.at(s_m);
+      rest.length_m = path.length_m - s_m;
+      return stays_inside(fence_W, rest, radius_m);
+    }
+    before_m = now_m;
+  }
+  return true;
+}
+
+}  // namespace
+
+Pose2 GuardPath::at(double s_m) const noexcept {
+  return v_mps == 0 ? X_WR : integrate(X_WR, {v_mps, 0, w_radps}, s_m / std::abs(v_mps));
+}
+
+double inside_distance(std::span<const Vec2> fence_W, Vec2 p_W) noexcept {
+  double least_m = std::numeric_limits<double>::infinity();
+  bool inside = false;
+  for (std::size_t i = 0; i < fence_W.size(); ++i) {
+    const Vec2 a = fence_W[i];
+    const Vec2 b = fence_W[(i + 1) % fence_W.size()];
+    least_m = std::min(least_m, point_to_segment(p_W, a, b));
+    // Edges that a ray along +x crosses, each corner counted with the edge below it.
+    if ((a.y > p_W.y) != (b.y > p_W.y)) {
+      const double x = a.x + (p_W.y - a.y) / (b.y - a.y) * (b.x - a.x);
+      if (x > p_W.x) inside = !inside;
+    }
+  }
+  return inside ? least_m : -least_m;
+}
+
+bool stays_inside(std::span<const Vec2> fence_W, const GuardPath& path, double radius_m) noexcept {
+  const double clearance_m = inside_distance(fence_W, path.X_WR.position()) - radius_m;
+  if (path.v_mps == 0 || !(path.length_m > 0)) return true;
+  if (clearance_m < -kSlack_m) return comes_inward(fence_W, path, radius_m, clearance_m);
+  // A whole circle says everything.
+  double length_m = path.length_m;
+  double piece_m = std::min(kMaxPiece_m, 0.5 * radius_m);
+  if (path.w_radps != 0) {
+    const double circle_m = std::abs(path.v_mps / path.w_radps);
+    length_m = std::min(length_m, 2 * kPi * circle_m);
+    piece_m = std::min(piece_m, kMaxPieceTurn_rad * circle_m);
+  }
+  piece_m = std::max(piece_m, 1e-9);
+  double free_m = clearance_m;
+  for (double s_m = 0; s_m < length_m;) {
+    // Nothing can be nearer than the clearance after as long a way.
+    if (free_m > piece_m) {
+      s_m += free_m;
+      if (s_m >= length_m) return true;
+    } else {
+      const double next_m = std::min(s_m + piece_m, length_m);
+      const double border_m = distance_to_border(fence_W, piece_of(path, s_m, next_m));
+      if (border_m < radius_m - kSlack_m) return false;
+      s_m = next_m;
+    }
+    free_m = inside_distance(fence_W, path.at(s_m).position()) - radius_m;
+    if (free_m < -kSlack_m) return false;
+  }
+  return true;
+}
+
+}  // namespace rave::sim

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "requests.hpp"
+
+#include <fmt/format.h>
+
+#include "rave/base/names.hpp"
+#include "rave/config/diagnostics.hpp"
+#include "rave/config/yaml.hpp"
+#include "rave/robot_host/parameter_key.hpp"
+
+namespace rave::robot_host {
+namespace {
+
+std::uint32_t robot_count(const sim::Engine& engine) {
+  return static_cast<std::uint32_t>(engine.spec().robots.size());
+}
+
+/// Names of those for which `holds`, of one robot or all.
+template <class Holds>
+std::string names_of(const sim::Engine& engine, RobotId robot, Holds&& holds) {
+  std::vector<std::string_view> names;
+  for (std::uint32_t r = 0; r < robot_count(engine); ++r) {
+    if (robot.valid() && robot.value() != r) continue;
+    if (holds(RobotId(r))) names.emplace_back(engine.spec().robots[r].name);
+  }
+  constexpr std::size_t kMany = 12;
+  if (names.size() > kMany) return fmt::format("{} robots", names.size());
+  return names.empty() ? std::string() : join_names(names);
+}
+
+Result<std::string> arm(sim::Engine& engine, RobotId robot) {
+  const std::string stopped = names_of(engine, robot, [&](RobotId r) { return engine.stopped(r); });
+  const std::string waiting = names_of(engine, robot, [&](RobotId r) { return !engine.armed(r); });
+  if (!stopped.empty()) {
+    return fail(ErrorCode::kState, "stopped: {}; a stop holds until it is released (`--release`)",
+                stopped);
+  }
+  if (waiting.empty()) return std::string("nothing to arm: no robot waits for it");
+  engine.arm(robot);
+  return "armed " + waiting;
+}
+
+Result<std::string> set(sim::Engine& engine, RobotId robot, const RunRequest& request) {
+  if (!robot.valid()) return fail(ErrorCode::kInvalidArgument, "a parameter needs a robot");
+  config::Diagnostics diagnostics;
+  const auto value = config::parse_yaml(request.value, "value", diagnostics);
+  if (!value || !diagnostics.ok() || (!value->is_scalar() && !value->is_sequence())) {
+    return fail(ErrorCode::kInvalidArgument, "`{}` is no value for a parameter", request.value);
+  }
+  const sim::EngineSpec& spec = engine.spec();
+  const sim::RobotSpec& its = spec.robots[robot.value()];
+  auto change = parse_change(spec.types[its.type], request.key, *value);
+  if (!change) {
+    // The place within the word on the command line tells nobody anything.
+    return fail(change.error().code, "{}", change.error().message);
+  }
+  const std::string before = engine.parameter(robot, change->part, change->index, change->name);
+  RAVE_TRY(engine.set_parameters(robot, std::span(&*change, 1)));
+  return fmt::format("{}: {}: {} -> {}", its.name, request.key, before,
+                     engine.parameter(robot, change->part, change->index, change->name));
+}
+
+}  // namespace
+
+Result<std::string> serve_request(sim::Engine& engine, const RunRequest& request) {
+  RobotId robot;
+  if (!request.robot.empty()) {
+    RAVE_TRY_ASSIGN(robot, find_robot(engine.spec(), request.robot));
+  }
+  switch (request.kind) {
+    case RunRequest::Kind::kStop:
+      engine.stop(robot);
+      return "stopped " + names_of(engine, robot, [](RobotId) { return true; });
+    case RunRequest::Kind::kRelease: {
+      const std::string names =
+          names_of(engine, robot, [&](RobotId r) { return engine.stopped(r); });
+      engine.release(robot);
+      return names.empty() ? std::string("nothing to release: no robot is stopped")
+                           : "released " + names;
+    }
+    case RunRequest::Kind::kArm:
+      return arm(engine, robot);
+    case RunRequest::Kind::kSet:
+      return set(engine, robot, request);
+  }
+  return fail(ErrorCode::kInvalidArgument, "unknown request");
+}
+
+void refresh_status(const sim::Engine& engine, RunStatus& status) {
+  const sim::EngineSpec& spec = engine.spec();
+  status.robots.resize(spec.robots.size());
+  for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
+    RunStatus::Robot& robot = status.robots[r];
+    robot.name = spec.robots[r].name;
+    robot.simulated = spec.types[spec.robots[r].type].simulated;
+    robot.armed = engine.armed(RobotId(r));
+    robot.stopped = engine.stopped(RobotId(r));
+  }
+}
+
+std::string unarmed_robots(const sim::Engine& engine) {
+  return names_of(engine, RobotId(), [&](RobotId r) { return !engine.armed(r); });
+}
+
+}  // namespace rave::robot_host

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rave/base/result.hpp"
+
+namespace rave::run_control {
+
+/// Where the sockets of running runs are: $XDG_RUNTIME_DIR/rave, else `rave-<uid>` in the system's
+/// folder for temporary files. Created with mode 0700 if missing. Errors: kIo, kState (a link,
+/// somebody else's, open to others).
+[[nodiscard]] Result<std::filesystem::path> socket_folder();
+
+/// Name of the run that this process does, such as `predator-prey-4711`.
+[[nodiscard]] std::string own_run_name(std::string_view scenario);
+
+/// Names of the runs that go on, in order. Sockets of those that have died are removed.
+[[nodiscard]] Result<std::vector<std::string>> running_runs();
+
+/// The run that a word stands for: its name, its process id, or its scenario if only one run has
+/// that; with an empty word the only run. Errors: kNotFound with the nearest name or the list.
+[[nodiscard]] Result<std::string> find_run(std::string_view word);
+
+}  // namespace rave::run_control

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/run_control/protocol.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rave::run_control {
+namespace {
+
+using What = Request::What;
+
+TEST(Protocol, RequestsComeBackAsTheyWere) {
+  for (const Request& request :
+       {Request{What::kStatus, "", "", "", 1}, Request{What::kStop, "", "", "", 1},
+        Request{What::kStop, "a \"robot\"\n", "", "", 1}, Request{What::kArm, "b", "", "", 1},
+        Request{What::kRelease, "b", "", "", 1},
+        Request{What::kSet, "prey", "body.scale", "1.5", 1}, Request{What::kPause, "", "", "", 1},
+        Request{What::kStep, "", "", "", 12}}) {
+    std::string line = write_request(request);
+    ASSERT_EQ(line.back(), '\n');
+    line.pop_back();
+    EXPECT_EQ(line.find('\n'), std::string::npos);
+    const auto read = parse_request(line);
+    ASSERT_TRUE(read) << line << ": " << read.error().message;
+    EXPECT_EQ(*read, request) << line;
+  }
+}
+
+TEST(Protocol, RefusesWhatIsNotExactlyARequest) {
+  for (const char* const line : {"",
+                                 "stop",
+                                 "[]",
+                                 "null",
+                                 "{}",
+                                 R"({"do":"stop"})",
+                                 R"({"rave":2,"do":"stop"})",
+                                 R"({"rave":1,"do":"fly"})",
+                                 R"({"rave":1,"do":7})",
+                                 R"({"rave":1})",
+                                 R"({"rave":1,"do":"stop","robot":7})",
+                                 R"({"rave":1,"do":"stop","robot":"a","robot":"b"})",
+                                 R"({"rave":1,"do":"stop","rabot":"a"})",
+                                 R"({"rave":1,"do":"pause","robot":"a"})",
+                                 R"({"rave":1,"do":"set","robot":"a","key":"b"})",
+                                 R"({"rave":1,"do":"set","robot":"a","key":"b","value":1})",
+                                 R"({"rave":1,"do":"step","count":0})",
+                                 R"({"rave":1,"do":"step","count":-1})",
+                                 R"({"rave":1,"do":"step","count":1.5})",
+                                 R"({"rave":1,"do":"stop"} x)",
+                                 R"({"rave":1,"do":"stop","robot":"a\u0000b"})"}) {
+    const auto read = parse_request(line);
+    EXPECT_FALSE(read) << line;
+    if (!read) {
+      EXPECT_FALSE(read.error().message.empty()) << line;
+    }
+  }
+  EXPECT_FALSE(parse_request(std::string(kMaxLineBytes + 1, ' ')));
+  EXPECT_FALSE(parse_request(std::string(kMaxLineBytes, '[')));
+}
+
+TEST(Protocol, AnswersComeBackAsTheyWere) {
+  Answer answer;
+  answer.good = true;
+  answer.text = "it's \u00e4ll right";
+  answer.status.scenario = "s";
+  answer.status.sim_s = 1.25;
+  answer.status.robots = {{"a", true, true, false}, {"b", false, false, true}};
+  const auto read = parse_answer(write_answer(answer));
+  ASSERT_TRUE(read);
+  EXPECT_TRUE(read->good);
+  EXPECT_EQ(read->text, answer.text);
+  EXPECT_EQ(read->status.sim_s, 1.25);
+  ASSERT_EQ(read->status.robots.size(), 2U);
+  EXPECT_EQ(read->status.robots[1].name, "b");
+  EXPECT_TRUE(read->status.robots[1].stopped);
+  EXPECT_FALSE(parse_answer(R"({"good":1,"text":""})"));
+}
+
+}  // namespace
+}  // namespace rave::run_control

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/run_control/server.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <thread>
+
+#include "../src/socket.hpp"
+#include "rave/run_control/client.hpp"
+#include "rave/run_control/folder.hpp"
+
+namespace rave::run_control {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ServerTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = "/tmp/rave-sockets-XXXXXX";
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    folder_ = name;
+    ::setenv("XDG_RUNTIME_DIR", name.c_str(), 1);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  /// Something that goes on and serves requests as a run does.
+  void run(robot_host::RunControl& control) {
+    control.begin({"tests", 0, 10, 1, false, false, {{"anna", true, true, false}}});
+    begun_ = true;
+    while (control.wait_for_turn([&] { serve(control); }) && !done_) {
+      serve(control);
+      std::this_thread::yield();
+    }
+    control.end();
+  }
+  void serve(robot_host::RunControl& control) {
+    control.serve(
+        [this](const robot_host::RunRequest& request) -> Result<std::string> {
+          ++served_;
+          if (request.robot == "nobody") return fail(ErrorCode::kNotFound, "there is nobody");
+          return "did it to " + request.robot;
+        },
+        [](robot_host::RunStatus& status) { status.robots[0].stopped = true; });
+  }
+
+  static Request stop(const std::string& robot) {
+    Request request;
+    request.what = Request::What::kStop;
+    request.robot = robot;
+    return request;
+  }
+
+  fs::path folder_;
+  std::atomic<int> served_{0};
+  std::atomic<bool> begun_{false};
+  std::atomic<bool> done_{false};
+};
+
+TEST_F(ServerTest, AsksARunAndLists) {
+  robot_host::RunControl control;
+  const auto server = Server::start("tests-1", control);
+  ASSERT_TRUE(server) << server.error().text();
+  // Nobody runs yet.
+  const auto early = ask("tests-1", stop("anna"));
+  ASSERT_TRUE(early) << early.error().text();
+  EXPECT_FALSE(early->good);
+  std::thread runner([&] { run(control); });
+  while (!begun_) std::this_thread::yield();
+  const auto answer = ask("tests-1", stop("anna"));
+  ASSERT_TRUE(answer) << answer.error().text();
+  EXPECT_TRUE(answer->good);
+  EXPECT_EQ(answer->text, "did it to anna");
+  const auto refused = ask("tests-1", stop("nobody"));
+  ASSERT_TRUE(refused);
+  EXPECT_FALSE(refused->good);
+  EXPECT_EQ(refused->text, "there is nobody");
+  const auto status = ask("tests-1", Request{});
+  ASSERT_TRUE(status);
+  EXPECT_EQ(status->status.scenario, "tests");
+  EXPECT_TRUE(status->status.robots.at(0).stopped);
+  EXPECT_EQ(running_runs().value(), std::vector<std::string>{"tests-1"});
+  EXPECT_EQ(find_run("").value(), "tests-1");
+  EXPECT_EQ(find_run("tests").value(), "tests-1");
+  EXPECT_EQ(find_run("1").value(), "tests-1");
+  EXPECT_NE(find_run("test-1").error().message.find("did you mean `tests-1`"), std::string::npos);
+  done_ = true;
+  runner.join();
+}
+
+TEST_F(ServerTest, AStopReachesAPausedRun) {
+  robot_host::RunControl control;
+  const auto server = Server::start("tests-2", control);
+  ASSERT_TRUE(server);
+  std::thread runner([&] { run(control); });
+  while (!begun_) std::this_thread::yield();
+  Request pause;
+  pause.what = Request::What::kPause;
+  EXPECT_TRUE(ask("tests-2", pause).value().good);
+  EXPECT_TRUE(ask("tests-2", stop("anna")).value().good);
+  Request resume;
+  resume.what = Request::What::kResume;
+  EXPECT_TRUE(ask("tests-2", resume).value().good);
+  done_ = true;
+  runner.join();
+}
+
+TEST_F(ServerTest, SilentAndRudeClientsHoldNobodyUp) {
+  robot_host::RunControl control;
+  const auto server = Server::start("tests-3", control);
+  ASSERT_TRUE(server);
+  std::thread runner([&] { run(control); });
+  while (!begun_) std::this_thread::yield();
+  std::vector<Descriptor> silent;
+  for (int i = 0; i < 100; ++i) {
+    auto file = connect_to(folder_ / "rave/tests-3.sock");
+    ASSERT_TRUE(file);
+    if (i % 2 == 0) {
+      static_cast<void>(::send(file->get(), "{\"rave\"", 7, MSG_NOSIGNAL));
+    }
+    silent.push_back(*std::move(file));
+  }
+  const std::string long_line(3 * kMaxLineBytes, 'x');
+  auto rude = connect_to(folder_ / "rave/tests-3.sock");
+  ASSERT_TRUE(rude);
+  static_cast<void>(::send(rude->get(), long_line.data(), long_line.size(), MSG_NOSIGNAL));
+  EXPECT_TRUE(ask("tests-3", stop("anna")).value().good);
+  done_ = true;
+  runner.join();
+}
+
+TEST_F(ServerTest, SocketsOfTheDeadAreSweptAway) {
+  const fs::path folder = socket_folder().value();
+  {
+    const Descriptor file(::socket(AF_UNIX, SOCK_STREAM, 0));
+    const sockaddr_un address = address_of(folder / "dead-7.sock").value();
+    ASSERT_EQ(::bind(file.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  }
+  ASSERT_TRUE(fs::exists(folder / "dead-7.sock"));
+  EXPECT_TRUE(running_runs().value().empty());
+  EXPECT_FALSE(fs::exists(folder / "dead-7.sock"));
+  EXPECT_EQ(find_run("").error().code, ErrorCode::kNotFound);
+}
+
+TEST_F(ServerTest, RefusesAFolderThatOthersCouldHaveMade) {
+  fs::create_directory(folder_ / "elsewhere");
+  fs::create_directory_symlink(folder_ / "elsewhere", folder_ / "rave");
+  EXPECT_EQ(socket_folder().error().code, ErrorCode::kState);
+  fs::remove(folder_ / "rave");
+  ASSERT_TRUE(socket_folder());
+  struct stat info {};
+  ASSERT_EQ(::stat((folder_ / "rave").c_str(), &info), 0);
+  EXPECT_EQ(info.st_mode & 0777U, 0700U);
+  ASSERT_EQ(::chmod((folder_ / "rave").c_str(), 0770), 0);
+  EXPECT_EQ(socket_folder().error().code, ErrorCode::kState);
+  robot_host::RunControl control;
+  EXPECT_FALSE(Server::start("tests-4", control));
+}
+
+}  // namespace
+}  // namespace rave::run_control

@@ -27,7 +27,7 @@ TEST_F(PredatorPrey, ThePreyIsCaughtOnceItHasChanged) {
   EXPECT_LT(capture.at("captured_at_s"), 120.0);
   ASSERT_EQ(json.at("changes").size(), 3U);
   for (const Json& change : json.at("changes")) EXPECT_TRUE(change.at("made")) << change;
-  EXPECT_EQ(json["changes"][1]["what"], "body.scale: 1 -> 1.5");
+  EXPECT_EQ(json["changes"][0]["what"], "body.scale: 1 -> 1.5");
   EXPECT_EQ(json.at("inputs_by_hand"), 0);
   EXPECT_EQ(json["events"]["captured"], 1);
   EXPECT_EQ(json["events"]["changed"], 3);

@@ -39,7 +39,7 @@ TEST(ParseMessage, RefusesWhatAChildDoesNotSay) {
   EXPECT_FALSE(parse_message(""));
   EXPECT_FALSE(parse_message("12345678901"));
   EXPECT_FALSE(parse_message(std::string_view("\1\0\0\0\0\0\0\0\0\0\0\0", 12)));
-  EXPECT_FALSE(parse_message(std::string_view("\11\0\0\0\0\0\0\0\0\0\0\0", 12)));
+  EXPECT_FALSE(parse_message(std::string_view("\13\0\0\0\0\0\0\0\0\0\0\0", 12)));
   const auto log = parse_message(std::string_view("\6\0\0\0\1\0\0\0\0\0\0\0hi", 14));
   ASSERT_TRUE(log);
   EXPECT_EQ(log->head.kind, MessageKind::kLog);

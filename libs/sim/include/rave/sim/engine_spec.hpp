@@ -70,8 +70,8 @@ struct SensorSpec {
   }
 };
 
-/// The virtual half of a hybrid sensor as a sensor by itself, for pictures: no device is needed. Any
-/// other sensor stays what it is.
+/// The virtual half of a hybrid sensor as a sensor by itself, for pictures: no device is needed.
+/// Any other sensor stays what it is.
 [[nodiscard]] SensorSpec virtual_half_of(SensorSpec sensor);
 
 struct ControllerSpec {

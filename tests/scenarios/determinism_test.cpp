@@ -10,6 +10,8 @@ constexpr double kSpan_s = 20;
 /// The hash of the first twenty seconds of `mixed-reality`. It changes with the scenario, its
 /// robots and their drivers; then look why, and write the new one here.
 constexpr std::uint64_t kGolden = 15177905760327407289ULL;
+/// The same of `flock`, whose robots talk.
+constexpr std::uint64_t kGoldenFlock = 0x900626d0bed42352ULL;
 
 class Determinism : public ScenarioTest {
  protected:
@@ -24,6 +26,8 @@ class Determinism : public ScenarioTest {
 TEST_F(Determinism, MixedRealityHasItsGoldenHash) {
   EXPECT_EQ(hash_of(load("mixed-reality")), kGolden);
 }
+
+TEST_F(Determinism, FlockHasItsGoldenHash) { EXPECT_EQ(hash_of(load("flock")), kGoldenFlock); }
 
 TEST_F(Determinism, TheNumberOfThreadsDoesNotMatter) {
   for (const int threads : {2, 3}) {

@@ -56,7 +56,7 @@ class Wander final : public DecisionProcess {
     rear_stop_m_ = params.number("rear_stop_m");
     rear_rad_ = deg_to_rad(params.number("rear_deg"));
     longest_back_off_ =
-        static_cast<std::int64_t>(params.number("back_off_s") / setup.period_s() + 0.5);
+        static_cast<std::int64_t>(params.number("back_off_s") / setup_->period_s() + 0.5);
     centre_W_ = {params.number("centre_x_m"), params.number("centre_y_m")};
     stay_within_m_ = params.number("stay_within_m");
     return {};

@@ -37,10 +37,10 @@ TEST(Check, GoodFilesOfEachKind) {
 
 TEST(Check, AllUnknownDriversAndParametersAtOnce) {
   const std::string text = complaint("unknown_driver.yaml", kRobot);
-  EXPECT_EQ(
-      text.substr(0, text.find("; there are")),
-      "unknown_driver.yaml:4:26: there is no sensor or virtual sensor `virtul_laser`; did you "
-      "mean `virtual_laser`?");
+  EXPECT_EQ(text.substr(0, text.find("; there are")),
+            "unknown_driver.yaml:4:26: there is no sensor or virtual sensor or hybrid sensor "
+            "`virtul_laser`; did you "
+            "mean `virtual_laser`?");
   EXPECT_NE(
       text.find("virtual_laser, virtual_odometry and virtual_sonar\n"
                 "    4 |   - {name: eyes, driver: virtul_laser}\n"

@@ -138,7 +138,7 @@ class Radio {
   std::vector<std::uint32_t> complete_;  ///< Sent in this step.
   std::vector<std::uint32_t> carried_;   ///< ... in this process.
   std::vector<Reach> reaches_;
-  std::vector<world::GridItem> items_;
+  std::vector<world::ShapePiece> items_;
   std::vector<std::byte> encoded_;
   std::vector<std::uint32_t> name_hash_;            ///< By robot.
   std::map<std::uint32_t, std::uint32_t> by_hash_;  ///< Names heard of: RobotId.

@@ -10,7 +10,7 @@
 #include "packet_store.hpp"
 #include "radio_port.hpp"
 #include "rave/sim/radio.hpp"
-#include "rave/world/grid.hpp"
+#include "rave/world/shape_grid.hpp"
 
 namespace rave::sim {
 
@@ -80,7 +80,7 @@ struct Channel {
   std::uint32_t hash = 0;
   std::vector<std::uint32_t> members;     ///< Endpoints, ascending.
   std::vector<std::uint32_t> team_sizes;  ///< By team.
-  world::Grid grid;                       ///< Of reported positions; index: endpoint.
+  world::ShapeGrid grid;                  ///< Of reported positions; shape: endpoint.
   bool placed = false;                    ///< `grid` shows this step.
   double largest_range_m = 0;             ///< Of those that have a range.
 };

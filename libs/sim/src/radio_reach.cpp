@@ -23,7 +23,9 @@ void Radio::place(Channel& channel, const RadioMoment& moment) {
     const Vec2 p_WR = position(pose);
     low = {std::min(low.x, p_WR.x), std::min(low.y, p_WR.y)};
     high = {std::max(high.x, p_WR.x), std::max(high.y, p_WR.y)};
-    items_.push_back({p_WR, 0, e});
+    world::ShapePiece& item = items_.emplace_back();
+    item.centre_W = p_WR;
+    item.shape = e;
   }
   // Cells as large as the reach of most, but not many more cells than robots.
   const double extent_m = items_.empty() ? 0 : std::max(high.x - low.x, high.y - low.y);
@@ -54,7 +56,8 @@ void Radio::find_candidates(const Endpoint& from, const Recipient& to, const Rad
   if (range_m == 0) {
     found = channel.members;
   } else if (pose.known) {
-    channel.grid.gather(position(pose), range_m, found);
+    channel.grid.for_each_near(position(pose), range_m,
+                               [&](const world::ShapePiece& item) { found.push_back(item.shape); });
     std::sort(found.begin(), found.end());
   }
   std::erase_if(found, [&](std::uint32_t e) {

@@ -11,6 +11,7 @@ ContactReading bump(const std::string& yaw) {
   CreateBench bench({"--pose", "5.5,1.5," + yaw});
   bench.start();
   if (::testing::Test::HasFatalFailure()) return {};
+  bench.touches->await_more(1);
   EXPECT_EQ(bench.touches->samples().back().records.front().touching, 0U);
   bench.keep_driving(0.2, 0);
   const ContactReading contact =
@@ -34,6 +35,7 @@ TEST(CreateSensors, TheBumperTellsTheSide) {
 TEST(CreateSensors, CliffsAndWheelDrops) {
   CreateBench bench;
   ASSERT_NO_FATAL_FAILURE(bench.start());
+  bench.cliffs->await_more(1);
   EXPECT_EQ(bench.cliffs->samples().back().records, (std::vector<double>{0, 0, 0, 0, 0, 0}));
   bench.peer->tell("cliff 8");
   bench.peer->tell("drop 2");

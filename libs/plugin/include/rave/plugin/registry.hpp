@@ -19,8 +19,8 @@ enum class DriverKind : std::uint32_t {
   kController,       ///< rave/robot/controller.hpp
   kCommunicator,     ///< A message model: rave/robot/communicator.hpp
   kTransmitter,      ///< Carries messages: rave/robot/transmitter.hpp
-  kProgram,  ///< A decision process: rave/robot/program.hpp
-  kDevice,   ///< Hardware that sensors and actuators share: rave/robot/device.hpp
+  kProgram,          ///< A decision process: rave/robot/program.hpp
+  kDevice,           ///< Hardware that sensors and actuators share: rave/robot/device.hpp
 };
 inline constexpr std::uint32_t kDriverKindCount = 10;
 

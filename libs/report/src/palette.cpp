@@ -12,7 +12,7 @@ KindStyle palette_for(Kind kind) noexcept {
     case Kind::kVirtualObstacle:
       return {"#56b4e9", "virtual obstacle", "virtual obstacles"};
     case Kind::kRecordedRobot:
-      return {"#0072b2", "recorded robot", "recorded robots"};
+      return {"#0072b2", "real robot", "real robots"};
     case Kind::kSimulatedRobot:
       return {"#8a93a3", "simulated robot", "simulated robots"};
     case Kind::kHunter:

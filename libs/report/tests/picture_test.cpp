@@ -97,7 +97,7 @@ TEST_F(PictureTest, TheSvgSaysItsWords) {
   const std::string svg = svg_of(sample_picture());
   EXPECT_NE(svg.find("<title>Robots &amp; &lt;tubes&gt;</title>"), std::string::npos);
   for (const std::string_view words :
-       {"a small world", "2 tubes", "mapped wall", "virtual obstacle", "robot 1 (recorded robot)",
+       {"a small world", "2 tubes", "mapped wall", "virtual obstacle", "robot 1 (real robot)",
         "odometry alone", "gap in the poses", "robot 1: pose lost at 60.0 s", "tick each 10 s",
         "At t = 40 s", "laser hit on simulated robot", "laser hit on tube", "real sighting",
         "Labels: 17, 18, crate", "Ωμέγα"}) {

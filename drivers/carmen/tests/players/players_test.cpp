@@ -10,11 +10,9 @@ namespace rave::carmen {
 namespace {
 
 using recording::Given;
-using recording::kForever_ns;
 using recording::kSecond_ns;
 using recording::play_all;
 using recording::Player;
-using recording::Published;
 using recording::RecordingSink;
 
 const std::string kFolder = RAVE_SOURCE_DIR "/data/freiburg-079";

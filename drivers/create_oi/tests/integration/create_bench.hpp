@@ -32,7 +32,7 @@ class CreateBench {
     std::ofstream(folder_ / "room") << "3 1.5 0 6 3\n";
     options.insert(options.end(), {"--room", (folder_ / "room").string(), "--log", log_path()});
     if (!has(options, "--pose")) options.insert(options.end(), {"--pose", "1,1.5,0"});
-    options.push_back(tcp ? "--port" : "--link");
+    options.emplace_back(tcp ? "--port" : "--link");
     options.push_back(tcp ? "0" : link());
     peer = std::make_unique<testing::PeerProcess>("peer_create", options);
     if (tcp) {

@@ -71,7 +71,7 @@ TEST(CreateDrive, ClosingStopsTheRobotAndLeavesItPassive) {
   bench.close();
   const auto now = bench.await_state(
       [](const nlohmann::json& s) { return s["left_mps"] == 0.0 && s["mode"] == "passive"; });
-  const auto frames = now["frames"];
+  const auto& frames = now["frames"];
   ASSERT_NO_FATAL_FAILURE(bench.open()) << "and it opens again";
   EXPECT_EQ(bench.poses->samples().front().records.front().x_m, 0);
   EXPECT_GT(bench.state()["frames"], frames);

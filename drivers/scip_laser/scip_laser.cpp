@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <mutex>
 #include <stop_token>
@@ -176,7 +177,7 @@ Status ScipLaser::scan_until_lost(SampleSink& sink, HostTime& last_scan) {
                 identity.parameters.model, identity_.parameters.model);
   }
   RAVE_TRY(session.begin(request_));
-  const Status ended = stream(session, sink, last_scan);
+  Status ended = stream(session, sink, last_scan);
   session.end();
   return ended;
 }
@@ -233,7 +234,7 @@ bool ScipLaser::take(const ScipSession::Next& next, Stretch& stretch, SampleSink
   if (device_s <= stretch.last_device_s) {
     // The same scan again, or an older one that was held up. The timer must not follow it.
     (void)stretch.timer.seconds(static_cast<std::uint32_t>(
-        static_cast<std::uint64_t>(stretch.last_device_s * 1e3 + 0.5) & 0xffffffU));
+        static_cast<std::uint64_t>(std::llround(stretch.last_device_s * 1e3)) & 0xffffffU));
     note([](LaserState& state) { ++state.repeated; });
     return false;
   }

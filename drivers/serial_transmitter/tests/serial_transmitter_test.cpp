@@ -3,7 +3,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <poll.h>
-#include <stdlib.h>
+#include <stdlib.h>  // NOLINT(modernize-deprecated-headers): of POSIX, not of C++
 #include <termios.h>
 #include <unistd.h>
 
@@ -72,7 +72,7 @@ class SerialTransmitter : public ::testing::Test {
                 ("rave_serial_" + std::to_string(::getpid()))) {
     std::filesystem::create_directories(folder_);
   }
-  ~SerialTransmitter() override { std::filesystem::remove_all(folder_); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
   [[nodiscard]] std::string link(const std::string& name) const {
     return (folder_ / name).string();
   }

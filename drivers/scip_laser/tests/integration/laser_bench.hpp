@@ -36,7 +36,7 @@ class LaserBench {
                  ::testing::UnitTest::GetInstance()->current_test_info()->name())) {
     std::filesystem::create_directories(folder_);
     options.insert(options.end(), {"--rpm", "2400", "--log", log_path()});
-    options.push_back(tcp ? "--port" : "--link");
+    options.emplace_back(tcp ? "--port" : "--link");
     options.push_back(tcp ? "0" : link());
     peer = std::make_unique<testing::PeerProcess>("peer_scip", options);
     if (tcp) {

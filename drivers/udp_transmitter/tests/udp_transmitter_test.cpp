@@ -49,6 +49,12 @@ TEST(UdpTransmitter, CarriesPacketsBetweenPeersBothWays) {
   ASSERT_TRUE(port_a.wait_packets(4));
 }
 
+/// Containers may have a loopback without multicast: the one thing that this test cannot make.
+bool lacks_multicast(const std::string& error) {
+  return error.find("Network is unreachable") != std::string::npos ||
+         error.find("No such device") != std::string::npos;
+}
+
 TEST(UdpTransmitter, AGroupReachesAllOfItsMembers) {
   LivePort ports[3];
   LiveTransmitter a("udp_transmitter");
@@ -60,12 +66,13 @@ TEST(UdpTransmitter, AGroupReachesAllOfItsMembers) {
   const std::string group = "239.255.7.1:" + std::to_string(free.report()["port"].get<int>());
   for (std::size_t i = 0; i < 3; ++i) {
     const std::string error = all[i]->configure({{"group", group}});
-    if (error.find("join") != std::string::npos) GTEST_SKIP() << "no multicast here: " << error;
+    if (lacks_multicast(error)) GTEST_SKIP() << "no multicast here: " << error;
     ASSERT_EQ(error, "");
     ASSERT_EQ(all[i]->open(ports[i]), "");
   }
   const std::string error = b.send("hello");
-  if (!error.empty()) GTEST_SKIP() << "no multicast here: " << error;
+  if (lacks_multicast(error)) GTEST_SKIP() << "no multicast here: " << error;
+  ASSERT_EQ(error, "");
   for (LivePort& port : ports) {
     ASSERT_TRUE(port.wait_packets(1));
     EXPECT_EQ(port.packets()[0], "hello");

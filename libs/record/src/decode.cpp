@@ -14,16 +14,36 @@ tl::unexpected<Error> malformed(const char* topic) {
   return fail(ErrorCode::kParse, "a message of `{}` is not as RAVE writes it", topic);
 }
 
+tl::unexpected<Error> other_version(const char* topic, std::uint32_t version) {
+  return fail(ErrorCode::kParse,
+              "a message of `{}` has layout {}; this RAVE reads layout {}, so the record is of "
+              "another version of RAVE",
+              topic, version, kLayoutVersion);
+}
+
 /// Reads the part that all messages with packed arrays begin with, and the first array.
 template <class Packed, class Item>
-[[nodiscard]] std::vector<Packed> get_step(CdrReader& reader, StepOf<Item>& step, bool& known) {
+[[nodiscard]] std::vector<Packed> get_step(CdrReader& reader, StepOf<Item>& step,
+                                           std::uint32_t& version) {
   step.time = get_time(reader);
   step.step = reader.get<std::uint64_t>();
-  known = reader.get<std::uint32_t>() == 1;
+  version = reader.get<std::uint32_t>();
+  if (version != kLayoutVersion) return {};
   return reader.get_packed<Packed>(reader.get<std::uint32_t>());
 }
 
-/// Gives each element its bytes of the common field; false if one reaches beyond it.
+/// How many robots an element stands for.
+template <class Packed>
+[[nodiscard]] std::uint32_t robots_of(const Packed& element) noexcept {
+  if constexpr (requires { element.robots; }) {
+    return element.robots;
+  } else {
+    return 1;
+  }
+}
+
+/// Gives each robot of each element its bytes of the common field; false if one reaches beyond it,
+/// or if a row has no equal parts.
 template <class Packed, class Item, class Make>
 [[nodiscard]] bool add_items(const std::vector<Packed>& packed, Message records, Make make,
                              std::vector<Item>& items) {
@@ -32,7 +52,14 @@ template <class Packed, class Item, class Make>
     if (element.offset > records.size() || element.size > records.size() - element.offset) {
       return false;
     }
-    items.push_back(make(element, records.subspan(element.offset, element.size)));
+    const std::uint32_t robots = robots_of(element);
+    if (robots == 0 || element.size % robots != 0) return false;
+    const std::uint32_t size = element.size / robots;
+    // Bytes bound the number of robots that a damaged message can claim.
+    if (robots > 1 && size == 0) return false;
+    for (std::uint32_t i = 0; i < robots; ++i) {
+      items.push_back(make(element, i, records.subspan(element.offset + i * size, size)));
+    }
   }
   return true;
 }
@@ -41,12 +68,11 @@ template <class Packed, class Item, class Make>
 [[nodiscard]] Result<StepOf<Item>> decode_step(Message message, const char* topic, Make make) {
   CdrReader reader(message);
   StepOf<Item> step;
-  bool known = false;
-  const auto packed = get_step<Packed>(reader, step, known);
+  std::uint32_t version = 0;
+  const auto packed = get_step<Packed>(reader, step, version);
+  if (reader.ok() && version != kLayoutVersion) return other_version(topic, version);
   const Message records = reader.get_bytes();
-  if (!reader.ok() || !known || !add_items(packed, records, make, step.items)) {
-    return malformed(topic);
-  }
+  if (!reader.ok() || !add_items(packed, records, make, step.items)) return malformed(topic);
   return step;
 }
 
@@ -54,8 +80,8 @@ template <class Packed, class Item, class Make>
 
 Result<StepOf<Percept>> decode_percepts(Message message) {
   return decode_step<PackedPercept, Percept>(
-      message, topic::kPercepts, [](const PackedPercept& p, Message records) {
-        return Percept{RobotId(p.robot),
+      message, topic::kPercepts, [](const PackedPercept& p, std::uint32_t i, Message records) {
+        return Percept{RobotId(p.robot + i),
                        DeviceId(p.sensor),
                        p.kind,
                        static_cast<PerceptPart>(p.part),
@@ -66,21 +92,21 @@ Result<StepOf<Percept>> decode_percepts(Message message) {
 
 Result<StepOf<CommandRecord>> decode_commands(Message message) {
   return decode_step<PackedCommand, CommandRecord>(
-      message, topic::kCommands, [](const PackedCommand& c, Message records) {
-        return CommandRecord{RobotId(c.robot), DeviceId(c.controller), records};
+      message, topic::kCommands, [](const PackedCommand& c, std::uint32_t i, Message records) {
+        return CommandRecord{RobotId(c.robot + i), DeviceId(c.controller), records};
       });
 }
 
 Result<StepOf<ActuatorRecord>> decode_actuators(Message message) {
   return decode_step<PackedActuator, ActuatorRecord>(
-      message, topic::kActuators, [](const PackedActuator& c, Message records) {
+      message, topic::kActuators, [](const PackedActuator& c, std::uint32_t, Message records) {
         return ActuatorRecord{RobotId(c.robot), DeviceId(c.actuator), records};
       });
 }
 
 Result<StepOf<RadioPacket>> decode_radio(Message message) {
   return decode_step<PackedPacket, RadioPacket>(
-      message, topic::kRadio, [](const PackedPacket& p, Message records) {
+      message, topic::kRadio, [](const PackedPacket& p, std::uint32_t, Message records) {
         return RadioPacket{RobotId(p.from), RobotId(p.to), p.transmitter, p.delivered != 0,
                            p.sent_ns,       p.received_ns, records};
       });
@@ -89,11 +115,12 @@ Result<StepOf<RadioPacket>> decode_radio(Message message) {
 Result<StepOf<RobotPose>> decode_poses(Message message) {
   CdrReader reader(message);
   StepOf<RobotPose> step;
-  bool known = false;
-  const auto packed = get_step<PackedPose>(reader, step, known);
+  std::uint32_t version = 0;
+  const auto packed = get_step<PackedPose>(reader, step, version);
+  if (reader.ok() && version != kLayoutVersion) return other_version(topic::kPoses, version);
   static_cast<void>(reader.get<std::uint32_t>());
   const auto truths = reader.get_packed<PackedTruePose>(reader.get<std::uint32_t>());
-  if (!reader.ok() || !known) return malformed(topic::kPoses);
+  if (!reader.ok()) return malformed(topic::kPoses);
   auto truth = truths.begin();
   step.items.reserve(packed.size());
   for (const PackedPose& p : packed) {

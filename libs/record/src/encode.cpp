@@ -2,19 +2,14 @@
 #include "encode.hpp"
 
 #include "cdr_time.hpp"
+#include "packed.hpp"
 
 namespace rave::record {
-namespace {
-
-constexpr std::uint32_t kVersion = 1;
-
-}  // namespace
-
 void encode_step_head(CdrWriter& writer, SimTime time, std::uint64_t step, std::size_t count) {
   writer.clear();
   put_time(writer, time);
   writer.put(step);
-  writer.put(kVersion);
+  writer.put(kLayoutVersion);
   writer.put_count(count);
 }
 

@@ -14,8 +14,8 @@
 
 namespace rave::record {
 
-McapFile::McapFile(std::filesystem::path path, int fd, int zstd_level)
-    : path_(std::move(path)), fd_(fd), zstd_level_(zstd_level), compressor_(ZSTD_createCCtx()) {}
+McapFile::McapFile(std::filesystem::path path, int fd)
+    : path_(std::move(path)), fd_(fd), compressor_(ZSTD_createCCtx()) {}
 
 McapFile::~McapFile() {
   ZSTD_freeCCtx(compressor_);
@@ -24,14 +24,14 @@ McapFile::~McapFile() {
 
 Result<std::unique_ptr<McapFile>> McapFile::create(const std::filesystem::path& path,
                                                    std::string_view profile,
-                                                   std::string_view library, int zstd_level) {
+                                                   std::string_view library) {
   const int fd = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (fd < 0) {
     const int code = errno;
     return fail(code == ENOENT ? ErrorCode::kNotFound : ErrorCode::kIo, "cannot create `{}`: {}",
                 path.string(), std::strerror(code));
   }
-  std::unique_ptr<McapFile> file(new McapFile(path, fd, zstd_level));
+  std::unique_ptr<McapFile> file(new McapFile(path, fd));
   if (file->compressor_ == nullptr) return fail(ErrorCode::kIo, "no memory for a compressor");
   ByteWriter writer(file->out_);
   writer.raw(as_bytes(kMagic));
@@ -63,16 +63,19 @@ Status McapFile::append(ByteSpan bytes) {
   return {};
 }
 
-void McapFile::put_chunk_record(const Chunk& chunk, ChunkInfo& info) {
+void McapFile::put_chunk_record(const Chunk& chunk, std::optional<int> zstd_level,
+                                ChunkInfo& info) {
   info.uncompressed_size = chunk.records.size();
-  compressed_.resize(ZSTD_compressBound(chunk.records.size()));
-  const std::size_t size =
-      ZSTD_compressCCtx(compressor_, compressed_.data(), compressed_.size(), chunk.records.data(),
-                        chunk.records.size(), zstd_level_);
   ByteSpan data = chunk.records;
-  if (ZSTD_isError(size) == 0 && size < chunk.records.size()) {
-    info.compression = "zstd";
-    data = ByteSpan(compressed_).first(size);
+  if (zstd_level) {
+    compressed_.resize(ZSTD_compressBound(chunk.records.size()));
+    const std::size_t size =
+        ZSTD_compressCCtx(compressor_, compressed_.data(), compressed_.size(), chunk.records.data(),
+                          chunk.records.size(), *zstd_level);
+    if (ZSTD_isError(size) == 0 && size < chunk.records.size()) {
+      info.compression = "zstd";
+      data = ByteSpan(compressed_).first(size);
+    }
   }
   info.compressed_size = data.size();
   ByteWriter writer(out_);
@@ -123,7 +126,7 @@ void McapFile::count(const Chunk& chunk, const ChunkInfo& info) {
   for (const auto& entry : chunk.entries) ++statistics_.channel_message_counts[entry.channel];
 }
 
-Status McapFile::write_chunk(const Chunk& chunk) {
+Status McapFile::write_chunk(const Chunk& chunk, std::optional<int> zstd_level) {
   ChunkInfo info;
   info.offset = offset_;
   if (!chunk.entries.empty()) {
@@ -134,7 +137,7 @@ Status McapFile::write_chunk(const Chunk& chunk) {
     info.end_ns = high->log_time_ns;
   }
   out_.clear();
-  put_chunk_record(chunk, info);
+  put_chunk_record(chunk, zstd_level, info);
   put_message_indexes(chunk, info);
   RAVE_TRY(append(out_));
   count(chunk, info);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -21,13 +22,13 @@ class McapFile {
  public:
   [[nodiscard]] static Result<std::unique_ptr<McapFile>> create(const std::filesystem::path& path,
                                                                 std::string_view profile,
-                                                                std::string_view library,
-                                                                int zstd_level);
+                                                                std::string_view library);
   McapFile(const McapFile&) = delete;
   McapFile& operator=(const McapFile&) = delete;
   ~McapFile();
 
-  [[nodiscard]] Status write_chunk(const Chunk& chunk);
+  /// `zstd_level`: none to write the chunk as it is.
+  [[nodiscard]] Status write_chunk(const Chunk& chunk, std::optional<int> zstd_level);
   [[nodiscard]] Status write_attachment(const AttachmentInfo& info, ByteSpan data);
   [[nodiscard]] Status write_metadata(std::string_view name, const StringMap& entries);
   /// Data end, summary, summary offsets, footer; closes the file.
@@ -35,9 +36,9 @@ class McapFile {
                               const std::vector<ChannelInfo>& channels);
 
  private:
-  McapFile(std::filesystem::path path, int fd, int zstd_level);
+  McapFile(std::filesystem::path path, int fd);
   [[nodiscard]] Status append(ByteSpan bytes);
-  void put_chunk_record(const Chunk& chunk, ChunkInfo& info);
+  void put_chunk_record(const Chunk& chunk, std::optional<int> zstd_level, ChunkInfo& info);
   void put_message_indexes(const Chunk& chunk, ChunkInfo& info);
   void count(const Chunk& chunk, const ChunkInfo& info);
   void put_summary(const std::vector<SchemaInfo>& schemas,
@@ -45,7 +46,6 @@ class McapFile {
 
   std::filesystem::path path_;
   int fd_;
-  int zstd_level_;
   ZSTD_CCtx_s* compressor_;
   std::uint64_t offset_ = 0;
   std::uint32_t data_crc_ = 0;

@@ -46,8 +46,7 @@ Result<McapWriter> McapWriter::open(const std::filesystem::path& path, McapWrite
                 "above 0 (given: {}, {} bytes, {} s)",
                 options.zstd_level, options.chunk_bytes, options.flush_interval_s);
   }
-  RAVE_TRY_ASSIGN(auto file,
-                  McapFile::create(path, options.profile, options.library, options.zstd_level));
+  RAVE_TRY_ASSIGN(auto file, McapFile::create(path, options.profile, options.library));
   return McapWriter(std::make_unique<Impl>(std::move(file), options, sink));
 }
 

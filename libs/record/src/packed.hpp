@@ -7,6 +7,9 @@
 // them begin at a multiple of 8, which the members before them in the messages see to.
 namespace rave::record {
 
+/// Counts changes of these layouts. 2: rows of robots.
+inline constexpr std::uint32_t kLayoutVersion = 2;
+
 /// rave_msgs/msg/RobotPose
 struct PackedPose {
   std::uint32_t robot;
@@ -29,7 +32,8 @@ inline constexpr std::uint32_t kHasTrue = 2;
 /// The true pose has the same bits as the reported one and is not written a second time.
 inline constexpr std::uint32_t kTrueIsReported = 4;
 
-/// rave_msgs/msg/Percept
+/// rave_msgs/msg/Percept. Of a row of robots (`robots` above 1) all have this header, and share
+/// the bytes in equal parts.
 struct PackedPercept {
   std::uint32_t robot;
   std::uint16_t sensor;
@@ -42,17 +46,21 @@ struct PackedPercept {
   std::uint32_t dropped;
   std::uint32_t offset;
   std::uint32_t size;
+  std::uint32_t robots;
+  std::uint32_t reserved;
 };
-static_assert(sizeof(PackedPercept) == 40);
+static_assert(sizeof(PackedPercept) == 48);
 
-/// rave_msgs/msg/Command
+/// rave_msgs/msg/Command. A row of robots shares the bytes in equal parts.
 struct PackedCommand {
   std::uint32_t robot;
   std::uint32_t controller;
   std::uint32_t offset;
   std::uint32_t size;
+  std::uint32_t robots;
+  std::uint32_t reserved;
 };
-static_assert(sizeof(PackedCommand) == 16);
+static_assert(sizeof(PackedCommand) == 24);
 
 /// rave_msgs/msg/ActuatorCommand
 struct PackedActuator {

@@ -35,6 +35,24 @@ void PoseBatch::add(const RobotPose& robot) {
   }
 }
 
+void PoseBatch::add(const PoseBlock& block) {
+  const std::size_t before = poses_.size();
+  poses_.resize(before + block.robots);
+  PackedPose* const packed = poses_.data() + before;
+  for (std::uint32_t i = 0; i < block.robots; ++i) {
+    const Pose2& X_WR = at(block.X_WR, block.stride_bytes, i);
+    const Twist2& velocity_W = at(block.velocity_W, block.stride_bytes, i);
+    packed[i] = {block.first.value() + i,
+                 kHasReported | kHasTrue | kTrueIsReported,
+                 X_WR.x,
+                 X_WR.y,
+                 X_WR.yaw,
+                 velocity_W.vx,
+                 velocity_W.vy,
+                 velocity_W.wz};
+  }
+}
+
 Status PoseBatch::write(McapWriter& file, CdrWriter& cdr, SimTime time, std::uint64_t step) {
   if (poses_.empty()) return {};
   encode_step_head(cdr, time, step, poses_.size());

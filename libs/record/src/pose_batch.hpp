@@ -17,6 +17,14 @@ class PoseBatch {
   Stream stream;
 
   void add(const RobotPose& robot);
+  void add(const PoseBlock& block);
+  /// Element `i` of a column whose elements lie `stride_bytes` apart.
+  template <class T>
+  [[nodiscard]] static const T& at(const T* first, std::size_t stride_bytes,
+                                   std::size_t i) noexcept {
+    return *reinterpret_cast<const T*>(reinterpret_cast<const std::byte*>(first) +
+                                       i * stride_bytes);
+  }
   /// One message; nothing if nothing was added.
   Status write(McapWriter& file, CdrWriter& cdr, SimTime time, std::uint64_t step);
 

@@ -45,12 +45,15 @@ const RosSchema kPerceptsSchema{
     RAVE_DEPENDENCY("rave_msgs/Percept")
     "uint8 RESULT=0\nuint8 REAL=1\nuint8 VIRTUAL=2\n"
     "uint32 robot\nuint16 sensor\nuint8 kind\nuint8 part\nint64 stamp_ns\nuint32 sequence\n"
-    "uint32 count\nuint32 fresh\nuint32 dropped\nuint32 offset\nuint32 size\n"};
+    "uint32 count\nuint32 fresh\nuint32 dropped\nuint32 offset\nuint32 size\nuint32 robots\n"
+    "uint32 reserved\n"};
 
 const RosSchema kCommandsSchema{
     "rave_msgs/msg/Commands",
-    RAVE_STEP "rave_msgs/Command[] commands\nuint8[] records\n" RAVE_TIME RAVE_DEPENDENCY(
-        "rave_msgs/Command") "uint32 robot\nuint32 controller\nuint32 offset\nuint32 size\n"};
+    RAVE_STEP "rave_msgs/Command[] commands\nuint8[] records\n" RAVE_TIME
+    RAVE_DEPENDENCY("rave_msgs/Command")
+    "uint32 robot\nuint32 controller\nuint32 offset\nuint32 size\nuint32 robots\n"
+    "uint32 reserved\n"};
 
 const RosSchema kActuatorsSchema{
     "rave_msgs/msg/Actuators",

@@ -12,12 +12,16 @@
 namespace rave::record {
 namespace {
 
-/// What one stream collects in a step: packed elements and the bytes they point into.
+/// What one stream collects in a step: packed elements and the bytes they point into. First those
+/// that were copied, then the blocks, which stay where they are until the message is written.
 template <class Packed>
 struct Batch {
   Stream stream;
   std::vector<Packed> elements;
   std::vector<std::byte> records;
+  std::vector<std::size_t> block_elements;  ///< Which elements the blocks belong to.
+  std::vector<std::span<const std::byte>> blocks;
+  std::vector<std::span<const std::byte>> parts;  ///< Of the message, while it is written.
 
   void add(Packed element, std::span<const std::byte> bytes) {
     element.offset = static_cast<std::uint32_t>(records.size());
@@ -25,16 +29,29 @@ struct Batch {
     elements.push_back(element);
     records.insert(records.end(), bytes.begin(), bytes.end());
   }
+  void add_block(Packed element, std::span<const std::byte> bytes) {
+    element.size = static_cast<std::uint32_t>(bytes.size());
+    block_elements.push_back(elements.size());
+    elements.push_back(element);
+    blocks.push_back(bytes);
+  }
   /// One message, put together in the file's own buffer; nothing if nothing was added.
   Status write(McapWriter& file, CdrWriter& cdr, SimTime time, std::uint64_t step) {
     if (elements.empty()) return {};
+    auto size = static_cast<std::uint32_t>(records.size());
+    for (const std::size_t element : block_elements) {
+      elements[element].offset = size;
+      size += elements[element].size;
+    }
     encode_step_head(cdr, time, step, elements.size());
-    const auto size = static_cast<std::uint32_t>(records.size());
-    const std::span<const std::byte> parts[] = {cdr.bytes(), std::as_bytes(std::span(elements)),
-                                                std::as_bytes(std::span(&size, 1)), records};
+    parts.assign({cdr.bytes(), std::as_bytes(std::span(elements)),
+                  std::as_bytes(std::span(&size, 1)), std::span<const std::byte>(records)});
+    parts.insert(parts.end(), blocks.begin(), blocks.end());
     const Status status = stream.write(file, time, parts);
     elements.clear();
     records.clear();
+    block_elements.clear();
+    blocks.clear();
     return status;
   }
 };
@@ -148,7 +165,7 @@ void RunRecorder::percept(const Percept& percept) {
   const ReadingHeader& header = percept.header;
   impl_->percepts_.add({percept.robot.value(), static_cast<std::uint16_t>(percept.sensor.value()),
                         percept.kind, static_cast<std::uint8_t>(percept.part), header.stamp_ns,
-                        header.sequence, header.count, header.fresh, header.dropped, 0, 0},
+                        header.sequence, header.count, header.fresh, header.dropped, 0, 0, 1, 0},
                        percept.records);
   if (percept.kind == kRangesKind && percept.part == PerceptPart::kResult &&
       impl_->views_.sees(percept.robot)) {
@@ -157,10 +174,43 @@ void RunRecorder::percept(const Percept& percept) {
   }
 }
 
+void RunRecorder::percepts(const PerceptBlock& block) {
+  const ReadingHeader& header = block.header;
+  impl_->percepts_.add_block(
+      {block.first.value(), static_cast<std::uint16_t>(block.sensor.value()), block.kind,
+       static_cast<std::uint8_t>(PerceptPart::kResult), header.stamp_ns, header.sequence,
+       header.count, header.fresh, header.dropped, 0, 0, block.robots, 0},
+      block.records);
+  if (block.kind != kRangesKind || !impl_->views_.sees(block.first)) return;
+  const std::size_t size = block.records.size() / block.robots;
+  for (std::uint32_t i = 0; i < block.robots; ++i) {
+    const RobotId robot(block.first.value() + i);
+    if (!impl_->views_.sees(robot)) return;
+    // A failed write is told by end_step().
+    static_cast<void>(impl_->views_.percept(impl_->file_, impl_->time_,
+                                            {robot, block.sensor, block.kind, PerceptPart::kResult,
+                                             header, block.records.subspan(i * size, size)}));
+  }
+}
+
 void RunRecorder::command(const CommandRecord& command) {
-  impl_->commands_.add({command.robot.value(), command.controller.value(), 0, 0}, command.command);
+  impl_->commands_.add({command.robot.value(), command.controller.value(), 0, 0, 1, 0},
+                       command.command);
   if (impl_->views_.sees(command.robot)) {
     static_cast<void>(impl_->views_.command(impl_->file_, impl_->time_, command));
+  }
+}
+
+void RunRecorder::commands(const CommandBlock& block) {
+  impl_->commands_.add_block({block.first.value(), block.controller.value(), 0, 0, block.robots, 0},
+                             block.commands);
+  const std::size_t size = block.commands.size() / block.robots;
+  for (std::uint32_t i = 0; i < block.robots; ++i) {
+    const RobotId robot(block.first.value() + i);
+    if (!impl_->views_.sees(robot)) return;
+    static_cast<void>(
+        impl_->views_.command(impl_->file_, impl_->time_,
+                              {robot, block.controller, block.commands.subspan(i * size, size)}));
   }
 }
 
@@ -188,6 +238,15 @@ Status RunRecorder::event(const RunEvent& event) {
 void RunRecorder::pose(const RobotPose& robot) {
   impl_->poses_.add(robot);
   if (impl_->view_due_) impl_->seen_.push_back(robot);
+}
+
+void RunRecorder::poses(const PoseBlock& block) {
+  impl_->poses_.add(block);
+  if (!impl_->view_due_) return;
+  for (std::uint32_t i = 0; i < block.robots; ++i) {
+    const Pose2& X_WR = PoseBatch::at(block.X_WR, block.stride_bytes, i);
+    impl_->seen_.push_back({RobotId(block.first.value() + i), X_WR, X_WR, {}});
+  }
 }
 
 Status RunRecorder::end_step() {

@@ -7,6 +7,9 @@
 namespace rave::record {
 namespace {
 
+/// What keeps about the pace of memory, for some size.
+constexpr int kLightLevel = -5;
+
 /// A chunk that once held one huge message does not keep its memory for ever.
 constexpr std::size_t kKeepFactor = 4;
 
@@ -19,6 +22,12 @@ std::size_t waiting_bytes(const WriteJob& job) {
 }
 
 }  // namespace
+
+std::optional<int> level_for(const McapWriterOptions& options, std::size_t backlog_bytes) noexcept {
+  if (backlog_bytes > options.backlog_bytes / 2) return std::nullopt;
+  if (backlog_bytes > options.backlog_bytes / 10) return std::min(options.zstd_level, kLightLevel);
+  return options.zstd_level;
+}
 
 WriteQueue::WriteQueue(std::unique_ptr<McapFile> file, const McapWriterOptions& options,
                        LogSink* sink)
@@ -81,7 +90,7 @@ void WriteQueue::drain() {
   done_.wait(lock, [this] { return jobs_.empty() && !busy_; });
 }
 
-Status WriteQueue::perform(WriteJob& job) {
+Status WriteQueue::perform(WriteJob& job, std::size_t backlog_bytes) {
   if (failed_) {
     if (const auto* chunk = std::get_if<std::unique_ptr<Chunk>>(&job)) {
       dropped_.fetch_add((*chunk)->entries.size(), std::memory_order_relaxed);
@@ -96,7 +105,7 @@ Status WriteQueue::perform(WriteJob& job) {
       return file_->write_metadata(metadata->name, metadata->entries);
     }
     const Chunk& chunk = *std::get<std::unique_ptr<Chunk>>(job);
-    Status status = file_->write_chunk(chunk);
+    Status status = file_->write_chunk(chunk, level_for(options_, backlog_bytes));
     if (!status) dropped_.fetch_add(chunk.entries.size(), std::memory_order_relaxed);
     return status;
   } catch (const std::exception& error) {
@@ -121,9 +130,10 @@ void WriteQueue::work() {
     WriteJob job = std::move(jobs_.front());
     jobs_.pop_front();
     busy_ = true;
+    const std::size_t backlog_bytes = backlog_bytes_;
     lock.unlock();
     const std::size_t bytes = waiting_bytes(job);
-    const Status status = perform(job);
+    const Status status = perform(job, backlog_bytes);
     if (!status) note_failure(status.error());
     lock.lock();
     busy_ = false;

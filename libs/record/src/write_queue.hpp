@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <deque>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <variant>
 
@@ -24,6 +25,10 @@ struct MetadataJob {
   StringMap entries;
 };
 using WriteJob = std::variant<std::unique_ptr<Chunk>, AttachmentJob, MetadataJob>;
+
+/// How a chunk is compressed while so much waits, itself included; nothing: not at all.
+[[nodiscard]] std::optional<int> level_for(const McapWriterOptions& options,
+                                           std::size_t backlog_bytes) noexcept;
 
 /// Between the producer, who fills the open chunk, and the thread that writes.
 ///
@@ -71,7 +76,7 @@ class WriteQueue {
   void hand_over(std::unique_lock<std::mutex>& lock);
   void take_open();
   void work();
-  [[nodiscard]] Status perform(WriteJob& job);
+  [[nodiscard]] Status perform(WriteJob& job, std::size_t backlog_bytes);
   void note_failure(const Error& error);
   void stop();
 

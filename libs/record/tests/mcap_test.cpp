@@ -10,6 +10,7 @@
 #include "rave/record/mcap_reader.hpp"
 #include "rave/record/mcap_writer.hpp"
 #include "temporary_file.hpp"
+#include "write_queue.hpp"
 
 namespace rave::record {
 namespace {
@@ -254,6 +255,35 @@ TEST(Mcap, WriterRefusesWhatIsNotThere) {
   McapWriterOptions odd;
   odd.zstd_level = 99;
   EXPECT_EQ(McapWriter::open(file.path(), odd).error().code, ErrorCode::kInvalidArgument);
+}
+
+TEST(Mcap, WhatCannotBeCompressedInTimeIsWrittenAsItIs) {
+  McapWriterOptions options;
+  EXPECT_EQ(level_for(options, options.backlog_bytes / 10), 1);
+  EXPECT_EQ(level_for(options, options.backlog_bytes / 10 + 1), -5);
+  EXPECT_EQ(level_for(options, options.backlog_bytes / 2), -5);
+  EXPECT_EQ(level_for(options, options.backlog_bytes / 2 + 1), std::nullopt);
+  options.zstd_level = -7;
+  EXPECT_EQ(level_for(options, options.backlog_bytes / 2), -7);
+
+  for (const std::size_t backlog_bytes : {std::size_t{1}, std::size_t{64} << 20}) {
+    const TemporaryFile file;
+    options = {};
+    options.chunk_bytes = 4096;
+    options.flush_interval_s = 1000;
+    options.backlog_bytes = backlog_bytes;  // of 1: each chunk is more than half of what may wait
+    auto writer = McapWriter::open(file.path(), options);
+    ASSERT_TRUE(writer);
+    const auto channel = writer->add_channel("/x", "cdr", 0);
+    const std::string content(5000, 'x');
+    ASSERT_TRUE(writer->write(*channel, 0, 0, 0, bytes_of(content)));
+    ASSERT_TRUE(writer->close());
+    const auto reader = McapReader::open(file.path());
+    ASSERT_TRUE(reader) << reader.error().text();
+    EXPECT_TRUE(reader->verify());
+    EXPECT_EQ(all_messages(*reader), (std::vector<std::string>{"/x#0@0:" + content}));
+    EXPECT_EQ(std::filesystem::file_size(file.path()) > 5000, backlog_bytes == 1);
+  }
 }
 
 TEST(Mcap, ADiskThatIsFullIsToldOnceAndLeavesAReadableFile) {

@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <thread>
 
+#include "encode.hpp"
+#include "packed.hpp"
 #include "rave/record/mcap_reader.hpp"
 #include "rave/record/record_summary.hpp"
 #include "rave/record/run_reader.hpp"
@@ -260,6 +263,116 @@ TEST(RunRecordThreads, ConsoleMayBeCalledFromAnywhere) {
   const auto console = std::ranges::find(summary->channels, "/rosout", &ChannelSummary::topic);
   ASSERT_NE(console, summary->channels.end());
   EXPECT_EQ(console->messages, 1020U);
+}
+
+/// Two steps: robots 1 to 3 alike in blocks, robot 0 alone.
+void record_blocks(RunRecorder& recorder, std::span<const float> ranges,
+                   std::span<const std::byte> commands, std::span<const RobotPose> poses) {
+  const auto bytes = std::as_bytes(ranges);
+  for (std::uint64_t step = 0; step < 2; ++step) {
+    recorder.begin_step(step, SimTime{static_cast<std::int64_t>(step) * 200'000'000});
+    const ReadingHeader header{7, static_cast<std::uint32_t>(step), 2, 1, 0};
+    recorder.percept({RobotId(0), DeviceId(1), 1, PerceptPart::kResult, header, bytes.first(8)});
+    recorder.percepts({RobotId(1), 3, DeviceId(1), 1, header, bytes.subspan(8)});
+    recorder.commands({RobotId(1), 3, DeviceId(0), commands.subspan(40)});
+    recorder.command({RobotId(0), DeviceId(0), commands.first(40)});
+    recorder.pose(poses[0]);
+    recorder.poses({RobotId(1), 3, &*poses[1].true_pose, &poses[1].velocity_W, sizeof(RobotPose)});
+    ASSERT_TRUE(recorder.end_step());
+  }
+}
+
+TEST(RunRecordBlocks, EachRobotOfARowComesBackBitForBit) {
+  const TemporaryFile file;
+  RunInfo info = sample_info();
+  info.robots = {{RobotId(0), "anna", "simulated", ""}, {RobotId(1), "bert", "simulated", ""}};
+  info.sensors[0].robot = RobotId(1);
+  info.sensors[0].sensor = DeviceId(1);
+  info.sensors[0].bearings_rad = {0, 0.5};
+  const std::vector<float> ranges = {0, 1, 2, 3, -0.0F, 5, 6, 7};
+  std::vector<std::byte> commands;
+  std::vector<RobotPose> poses;
+  for (std::uint32_t r = 0; r < 4; ++r) {
+    const SampleStep sample = sample_step(r + 1);
+    commands.insert(commands.end(), sample.command.begin(), sample.command.end());
+    const Pose2 X_WR{0.1 * r, -0.0, 3};
+    poses.push_back({RobotId(r), X_WR, X_WR, {1.0 * r, -0.0, 2}});
+  }
+  auto recorder = RunRecorder::open(file.path(), info);
+  ASSERT_TRUE(recorder);
+  record_blocks(*recorder, ranges, commands, poses);
+  ASSERT_TRUE(recorder->end(1));
+
+  const auto reader = McapReader::open(file.path());
+  ASSERT_TRUE(reader);
+  std::map<std::string, int> messages;
+  MessageCursor cursor = reader->messages();
+  for (auto message = cursor.next(); message && *message; message = cursor.next()) {
+    const auto channel =
+        std::ranges::find(reader->channels(), (*message)->channel, &ChannelInfo::id);
+    ++messages[channel->topic];
+    if (channel->topic == topic::kPercepts) {
+      const auto read = decode_percepts((*message)->bytes);
+      ASSERT_TRUE(read && read->items.size() == 4) << read.error().text();
+      for (std::uint32_t r = 0; r < 4; ++r) {
+        const Percept& percept = read->items[r];
+        EXPECT_EQ(percept.robot, RobotId(r));
+        EXPECT_EQ(percept.header,
+                  (ReadingHeader{7, static_cast<std::uint32_t>(read->step), 2, 1, 0}));
+        ASSERT_EQ(percept.records.size(), 8U);
+        EXPECT_EQ(std::memcmp(percept.records.data(), &ranges[2 * r], 8), 0);
+      }
+    } else if (channel->topic == topic::kCommands) {
+      const auto read = decode_commands((*message)->bytes);
+      ASSERT_TRUE(read && read->items.size() == 4);
+      for (const CommandRecord& command : read->items) {
+        ASSERT_EQ(command.command.size(), 40U);
+        EXPECT_EQ(std::memcmp(command.command.data(), &commands[40 * command.robot.value()], 40),
+                  0);
+      }
+    } else if (channel->topic == topic::kPoses) {
+      const auto read = decode_poses((*message)->bytes);
+      ASSERT_TRUE(read);
+      EXPECT_EQ(read->items, poses);
+    }
+  }
+  EXPECT_EQ(messages[topic::kPercepts], 2);
+  EXPECT_EQ(messages[topic::kCommands], 2);
+  EXPECT_EQ(messages[topic::kPoses], 2);
+  // Robots of a row are seen by viewers as any other.
+  EXPECT_EQ(messages["/bert/laser"], 2);
+  EXPECT_EQ(messages["/bert/cmd_vel"], 2);
+  EXPECT_EQ(messages["/tf"], 2);
+}
+
+/// The message of the percepts of one block, with `robots` of its element and `version` replaced.
+std::string error_of_percepts(std::uint32_t version, std::uint32_t robots, std::uint32_t size) {
+  CdrWriter writer;
+  encode_step_head(writer, SimTime{}, 0, 1);
+  PackedPercept element{};
+  element.size = size;
+  element.robots = robots;
+  writer.put_packed(std::span<const PackedPercept>(&element, 1));
+  writer.put_count(12);
+  for (int i = 0; i < 12; ++i) writer.put(std::uint8_t{1});
+  std::vector<std::byte> bytes(writer.bytes().begin(), writer.bytes().end());
+  std::memcpy(bytes.data() + 4 + 16, &version, sizeof version);
+  const auto read = decode_percepts(bytes);
+  return read ? fmt::format("{} percepts", read->items.size()) : read.error().text();
+}
+
+TEST(RunRecordDecode, RowsWithoutEqualPartsAndOtherLayoutsAreErrors) {
+  const std::string malformed = "a message of `/rave/percepts` is not as RAVE writes it";
+  EXPECT_EQ(error_of_percepts(kLayoutVersion, 3, 12), "3 percepts");
+  EXPECT_EQ(error_of_percepts(kLayoutVersion, 1, 0), "1 percepts");
+  EXPECT_EQ(error_of_percepts(kLayoutVersion, 5, 12), malformed);
+  EXPECT_EQ(error_of_percepts(kLayoutVersion, 0, 12), malformed);
+  EXPECT_EQ(error_of_percepts(kLayoutVersion, 0xffff'ffffU, 0), malformed);
+  EXPECT_EQ(error_of_percepts(kLayoutVersion, 1, 13), malformed);
+  EXPECT_EQ(
+      error_of_percepts(1, 3, 12),
+      "a message of `/rave/percepts` has layout 1; this RAVE reads layout 2, so the record is "
+      "of another version of RAVE");
 }
 
 TEST(RunRecordDecode, ACutMessageIsAnErrorWithItsTopic) {

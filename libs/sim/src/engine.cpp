@@ -313,6 +313,33 @@ const Command& Engine::actuator_command(RobotId robot, std::uint32_t actuator) c
   return impl_->group_of(robot).actuators[actuator].commands[impl_->member_index[robot.value()]];
 }
 
+std::uint32_t Engine::group_count() const noexcept {
+  return static_cast<std::uint32_t>(impl_->groups.size());
+}
+
+std::span<const RobotId> Engine::members(std::uint32_t group) const noexcept {
+  return impl_->groups[group].members;
+}
+
+const RobotType& Engine::type_of(std::uint32_t group) const noexcept {
+  return *impl_->groups[group].type;
+}
+
+SampleColumns Engine::samples(std::uint32_t group, std::uint32_t sensor) const noexcept {
+  const SensorSlots& slots = impl_->groups[group].sensors[sensor];
+  return {slots.headers, slots.records.data(), slots.stride};
+}
+
+CommandColumns Engine::commands(std::uint32_t group, std::uint32_t controller) const noexcept {
+  const ControllerSlots& slots = impl_->groups[group].controllers[controller];
+  return {slots.last, slots.last_step};
+}
+
+std::span<const Command> Engine::actuator_commands(std::uint32_t group,
+                                                   std::uint32_t actuator) const noexcept {
+  return impl_->groups[group].actuators[actuator].commands;
+}
+
 std::uint64_t Engine::commands_given(RobotId robot) const noexcept {
   return impl_->group_of(robot).program.given[impl_->member_index[robot.value()]];
 }

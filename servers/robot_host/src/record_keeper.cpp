@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record_keeper.hpp"
 
-#include <array>
-#include <bit>
 #include <chrono>
+#include <cstring>
 #include <ctime>
 
 #include "radio_report.hpp"
@@ -44,26 +43,23 @@ void describe_sensors(const sim::Engine& engine, std::uint32_t robot, record::Ru
   }
 }
 
+bool same_bits(const Pose2& a, const PoseReading& b) noexcept {
+  const double x[] = {a.x, a.y, a.yaw};
+  const double y[] = {b.x_m, b.y_m, b.yaw_rad};
+  return std::memcmp(x, y, sizeof x) == 0;
+}
+
 }  // namespace
 
 RecordKeeper::RecordKeeper(record::RunRecorder recorder, const sim::Engine& engine,
                            const BodyKinds& kinds, bool hashed)
     : recorder_(std::move(recorder)), parts_(engine.spec()), kinds_(&kinds), hashed_(hashed) {
+  for (std::uint32_t g = 0; g < engine.group_count(); ++g) groups_.emplace_back(engine, g);
   const sim::EngineSpec& spec = engine.spec();
-  for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
-    const sim::RobotType& type = spec.types[spec.robots[r].type];
-    for (std::uint32_t s = 0; s < type.sensors.size(); ++s) {
-      const sim::SensorSample sample = engine.sensor(RobotId(r), s);
-      const ReadingKind kind = type.sensors[s].kind;
-      sensors_.push_back({sample.header, static_cast<const std::byte*>(sample.records), s,
-                          record_size(kind), 0, static_cast<std::uint8_t>(kind)});
-    }
-    for (std::uint32_t a = 0; a < type.actuators.size(); ++a) {
-      actuators_.push_back({&engine.actuator_command(RobotId(r), a), {}});
-    }
-    robots_.push_back({static_cast<std::uint32_t>(sensors_.size()),
-                       static_cast<std::uint32_t>(actuators_.size()),
-                       static_cast<std::uint32_t>(type.controllers.size()), type.simulated});
+  for (const sim::RobotSpec& robot : spec.robots) {
+    const sim::RobotType& type = spec.types[robot.type];
+    told_truth_.push_back(type.simulated && !type.pose_from ? 1 : 0);
+    with_real_ = with_real_ || !type.simulated;
   }
 }
 
@@ -95,17 +91,12 @@ Result<std::unique_ptr<RecordKeeper>> RecordKeeper::begin(const std::filesystem:
 void RecordKeeper::after_step(sim::Engine& engine) {
   recorder_.begin_step(engine.steps_done() - 1, engine.time());
   parts_.keep(engine, recorder_);
-  std::uint32_t sensor = 0;
-  std::uint32_t actuator = 0;
-  for (std::uint32_t r = 0; r < robots_.size(); ++r) {
-    const Robot& robot = robots_[r];
-    keep_sensors(RobotId(r), sensor, robot.sensors_end);
-    keep_commands(engine, RobotId(r), robot.controllers);
-    keep_actuators(RobotId(r), actuator, robot.actuators_end);
-    keep_pose(engine, RobotId(r), robot.simulated);
-    sensor = robot.sensors_end;
-    actuator = robot.actuators_end;
+  for (RecordColumns& group : groups_) {
+    group.keep_percepts(engine, recorder_);
+    group.keep_commands(engine, recorder_);
+    group.keep_actuators(engine, recorder_);
   }
+  keep_poses(engine);
   record_radio(engine, recorder_);
   keep(engine.events());
   // A failure was told to the log when it happened, and end() returns it: the run goes on.
@@ -113,48 +104,37 @@ void RecordKeeper::after_step(sim::Engine& engine) {
   static_cast<void>(recorder_.end_step());
 }
 
-void RecordKeeper::keep_sensors(RobotId robot, std::uint32_t begin, std::uint32_t end) {
-  for (std::uint32_t i = begin; i < end; ++i) {
-    Sensor& sensor = sensors_[i];
-    const SampleHeader& header = *sensor.header;
-    if (header.sequence == sensor.seen) continue;
-    sensor.seen = header.sequence;
-    recorder_.percept({robot,
-                       DeviceId(sensor.device),
-                       sensor.kind,
-                       record::PerceptPart::kResult,
-                       {header.stamp_ns, header.sequence, header.count, 1, header.dropped},
-                       {sensor.records, std::size_t{header.count} * sensor.record_bytes}});
+void RecordKeeper::keep_poses(const sim::Engine& engine) {
+  const auto count = static_cast<std::uint32_t>(told_truth_.size());
+  std::uint32_t begin = 0;
+  for (std::uint32_t r = 0; r < count; ++r) {
+    // A simulated robot that made way for a real one in this step was told where it was before.
+    const bool in_row =
+        told_truth_[r] != 0 && (!with_real_ || same_bits(engine.snapshot().robots()[r].X_WR,
+                                                         engine.reported(RobotId(r)).pose));
+    if (in_row) continue;
+    keep_row(engine, begin, r);
+    keep_pose(engine, RobotId(r));
+    begin = r + 1;
   }
+  keep_row(engine, begin, count);
 }
 
-void RecordKeeper::keep_commands(const sim::Engine& engine, RobotId robot,
-                                 std::uint32_t controllers) {
-  for (std::uint32_t c = 0; c < controllers; ++c) {
-    if (engine.command_step(robot, c) + 1 != static_cast<std::int64_t>(engine.steps_done())) {
-      continue;
-    }
-    const Command command = engine.command(robot, c);
-    recorder_.command({robot, DeviceId(c), std::as_bytes(std::span(&command, 1))});
-  }
+void RecordKeeper::keep_row(const sim::Engine& engine, std::uint32_t begin, std::uint32_t end) {
+  if (begin == end) return;
+  const world::RobotState& first = engine.snapshot().robots()[begin];
+  recorder_.poses(
+      {RobotId(begin), end - begin, &first.X_WR, &first.velocity_W, sizeof(world::RobotState)});
 }
 
-void RecordKeeper::keep_actuators(RobotId robot, std::uint32_t begin, std::uint32_t end) {
-  for (std::uint32_t i = begin; i < end; ++i) {
-    Actuator& actuator = actuators_[i];
-    // By bits: -0 is another command than 0.
-    using Words = std::array<std::uint64_t, 5>;
-    if (std::bit_cast<Words>(*actuator.command) == std::bit_cast<Words>(actuator.told)) continue;
-    actuator.told = *actuator.command;
-    recorder_.actuator({robot, DeviceId(i - begin), std::as_bytes(std::span(&actuator.told, 1))});
-  }
-}
-
-void RecordKeeper::keep_pose(const sim::Engine& engine, RobotId robot, bool simulated) {
+void RecordKeeper::keep_pose(const sim::Engine& engine, RobotId robot) {
   record::RobotPose pose;
   pose.robot = robot;
   pose.velocity_W = engine.snapshot().velocity_W(robot);
-  if (simulated) pose.true_pose = engine.snapshot().pose(robot);
+  const sim::EngineSpec& spec = engine.spec();
+  if (spec.types[spec.robots[robot.value()].type].simulated) {
+    pose.true_pose = engine.snapshot().pose(robot);
+  }
   const sim::ReportedPose& reported = engine.reported(robot);
   if (reported.known) {
     pose.reported_pose = Pose2{reported.pose.x_m, reported.pose.y_m, reported.pose.yaw_rad};

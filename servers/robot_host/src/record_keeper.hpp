@@ -10,6 +10,7 @@
 #include "observer.hpp"
 #include "part_keeper.hpp"
 #include "rave/record/run_record.hpp"
+#include "record_columns.hpp"
 
 namespace rave::robot_host {
 
@@ -40,41 +41,19 @@ class RecordKeeper final : public Observer {
   Status end(std::optional<std::uint64_t> hash) { return recorder_.end(hash); }
 
  private:
-  /// One sensor of one robot. What it points to stays where it is as long as the engine lives.
-  struct Sensor {
-    const SampleHeader* header = nullptr;
-    const std::byte* records = nullptr;
-    std::uint32_t device = 0;
-    std::uint32_t record_bytes = 0;
-    std::uint32_t seen = 0;  ///< Sequence of the last sample that was kept.
-    std::uint8_t kind = 0;
-  };
-  /// One actuator of one robot, and the last command that was kept.
-  struct Actuator {
-    const Command* command = nullptr;
-    Command told;
-  };
-  /// A robot's share of the lists; the next robot's begins where it ends.
-  struct Robot {
-    std::uint32_t sensors_end = 0;
-    std::uint32_t actuators_end = 0;
-    std::uint32_t controllers = 0;
-    bool simulated = false;
-  };
-
   RecordKeeper(record::RunRecorder recorder, const sim::Engine& engine, const BodyKinds& kinds,
                bool hashed);
-  void keep_sensors(RobotId robot, std::uint32_t begin, std::uint32_t end);
-  void keep_commands(const sim::Engine& engine, RobotId robot, std::uint32_t controllers);
-  void keep_actuators(RobotId robot, std::uint32_t begin, std::uint32_t end);
-  void keep_pose(const sim::Engine& engine, RobotId robot, bool simulated);
+  void keep_poses(const sim::Engine& engine);
+  void keep_pose(const sim::Engine& engine, RobotId robot);
+  /// Robots [begin, end), which were all told their true pose.
+  void keep_row(const sim::Engine& engine, std::uint32_t begin, std::uint32_t end);
 
   record::RunRecorder recorder_;
   PartKeeper parts_;
   const BodyKinds* kinds_;
-  std::vector<Robot> robots_;
-  std::vector<Sensor> sensors_;      ///< Of all robots, one after the other.
-  std::vector<Actuator> actuators_;  ///< The same.
+  std::vector<RecordColumns> groups_;
+  std::vector<std::uint8_t> told_truth_;  ///< By robot: simulated, without a pose source.
+  bool with_real_ = false;                ///< There are real robots, which others make way for.
   bool hashed_;
 };
 

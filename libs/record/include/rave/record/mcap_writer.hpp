@@ -18,8 +18,10 @@ namespace rave::record {
 /// How an MCAP file is written.
 struct McapWriterOptions {
   std::size_t chunk_bytes = std::size_t{1} << 20;  ///< A chunk is closed when it holds this much.
-  int zstd_level = 1;                              ///< -7 to 19.
-  std::string profile = "ros2";                    ///< Of the header; `ros2` or empty.
+  /// -7 to 19, while the disk and the compressor keep up. With a tenth of `backlog_bytes` waiting
+  /// chunks are compressed more lightly, with half of them not at all.
+  int zstd_level = 1;
+  std::string profile = "ros2";  ///< Of the header; `ros2` or empty.
   std::string library = "rave";
   /// An open chunk is closed after this much wall time, also when nobody writes. With the time to
   /// compress and write one chunk it stays below the second that a killed process may lose.

@@ -66,6 +66,35 @@ struct Percept {
   std::span<const std::byte> records;
 };
 
+/// The readings that one sensor gave a row of robots at the same time: robots `first`,
+/// `first` + 1, ... with the same header and as many bytes of records each, one after the other.
+struct PerceptBlock {
+  RobotId first;
+  std::uint32_t robots = 0;
+  DeviceId sensor;  ///< At most 65535.
+  std::uint8_t kind = 0;
+  ReadingHeader header;
+  std::span<const std::byte> records;  ///< A multiple of `robots` bytes.
+};
+
+/// The commands that a row of robots gave to the same controller in one step.
+struct CommandBlock {
+  RobotId first;
+  std::uint32_t robots = 0;
+  DeviceId controller;
+  std::span<const std::byte> commands;  ///< The bytes of one rave::Command for each robot.
+};
+
+/// Where a row of simulated robots is whose reported pose is the true one. Robot `first` + i has
+/// its pose i * `stride_bytes` behind `X_WR`, its velocity the same behind `velocity_W`.
+struct PoseBlock {
+  RobotId first;
+  std::uint32_t robots = 0;
+  const Pose2* X_WR = nullptr;
+  const Twist2* velocity_W = nullptr;
+  std::size_t stride_bytes = 0;
+};
+
 /// One command that a controller accepted; the bytes of rave::Command.
 struct CommandRecord {
   RobotId robot;

@@ -55,7 +55,13 @@ class RunRecorder {
   void begin_step(std::uint64_t step, SimTime time);
   /// The bytes are copied.
   void percept(const Percept& percept);
+  /// The bytes must stay as they are until end_step(), which copies them once. In the record each
+  /// robot has its own percept. Readings without records go one by one to percept().
+  void percepts(const PerceptBlock& block);
+  /// The bytes are copied.
   void command(const CommandRecord& command);
+  /// As percepts().
+  void commands(const CommandBlock& block);
   void actuator(const ActuatorRecord& command);
   void radio(const RadioPacket& packet);
   /// The run hash after this step; for lock-step runs.
@@ -66,6 +72,7 @@ class RunRecorder {
   void poses(std::span<const RobotPose> robots) {
     for (const RobotPose& robot : robots) pose(robot);
   }
+  void poses(const PoseBlock& block);
   /// Writes what was collected since begin_step().
   Status end_step();
 

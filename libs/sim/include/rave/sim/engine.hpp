@@ -77,6 +77,21 @@ struct SensorParts {
   std::span<const std::uint32_t> bodies;  ///< Ranges: the body each virtual reading met.
 };
 
+/// The latest samples of one sensor of all robots of a type, by member: what an observer looks at
+/// that takes them all in each step. Views into the engine.
+struct SampleColumns {
+  std::span<const SampleHeader> headers;
+  const std::byte* records = nullptr;  ///< Of the first member.
+  std::uint32_t stride_bytes = 0;      ///< To those of the next one.
+};
+
+/// The last commands that the programs of a type gave to one controller, and the steps in which
+/// they did (-1: never), by member. Views into the engine.
+struct CommandColumns {
+  std::span<const Command> commands;
+  std::span<const std::int64_t> steps;
+};
+
 /// Runs the world: sense (const world), decide (const percepts), act (drivers propose motions),
 /// resolve (the world limits them), publish. Belongs to one thread; uses others inside step().
 /// Between steps everything may be read. Same spec, same run, whatever the number of threads.
@@ -115,6 +130,18 @@ class Engine {
   /// What the last step gave to an actuator, from the controller that speaks; kNone without one.
   [[nodiscard]] const Command& actuator_command(RobotId robot,
                                                 std::uint32_t actuator) const noexcept;
+  // All robots of one type at once; types in use are counted from 0, their robots are members.
+  [[nodiscard]] std::uint32_t group_count() const noexcept;
+  /// Ascending.
+  [[nodiscard]] std::span<const RobotId> members(std::uint32_t group) const noexcept;
+  [[nodiscard]] const RobotType& type_of(std::uint32_t group) const noexcept;
+  [[nodiscard]] SampleColumns samples(std::uint32_t group, std::uint32_t sensor) const noexcept;
+  [[nodiscard]] CommandColumns commands(std::uint32_t group,
+                                        std::uint32_t controller) const noexcept;
+  /// As actuator_command().
+  [[nodiscard]] std::span<const Command> actuator_commands(std::uint32_t group,
+                                                           std::uint32_t actuator) const noexcept;
+
   /// How many commands the program gave in all, and whether the actuator behind obeys.
   [[nodiscard]] std::uint64_t commands_given(RobotId robot) const noexcept;
   [[nodiscard]] bool obeys(RobotId robot) const noexcept;

@@ -62,6 +62,8 @@ class Snapshot final : public WorldView {
   [[nodiscard]] const RobotState& robot(RobotId robot) const noexcept {
     return robots_[robot.value()];
   }
+  /// By robot.
+  [[nodiscard]] std::span<const RobotState> robots() const noexcept { return robots_; }
   [[nodiscard]] const WorldModel& model() const noexcept { return *model_; }
 
   // WorldView

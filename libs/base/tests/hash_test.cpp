@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <vector>
 
 namespace rave {
 namespace {
@@ -47,16 +48,23 @@ TEST(RunHash, NoticesEveryPartOfAnItem) {
   EXPECT_NE(base, other_device.value());
 }
 
+TEST(ContentHash, IsXxh3) {
+  EXPECT_EQ(content_hash({}), 0x2d06800538d394c2ULL);  // the published value of nothing, seed 0
+}
+
 TEST(ItemHash, EveryFlippedBitOfAPayloadChangesIt) {
-  std::array<std::byte, 21> payload{};
-  ItemHash clean(1, 2, HashChannel::kPercept, 3);
-  clean.add_bytes(payload);
-  for (std::size_t bit = 0; bit < payload.size() * 8; ++bit) {
-    auto flipped = payload;
-    flipped[bit / 8] ^= static_cast<std::byte>(1U << (bit % 8));
-    ItemHash item(1, 2, HashChannel::kPercept, 3);
-    item.add_bytes(flipped);
-    EXPECT_NE(item.value(), clean.value()) << "bit " << bit;
+  // Sizes that the function treats differently.
+  for (const std::size_t size : {1U, 3U, 8U, 16U, 21U, 56U, 64U, 130U, 240U, 720U, 2000U}) {
+    std::vector<std::byte> payload(size);
+    ItemHash clean(1, 2, HashChannel::kPercept, 3);
+    clean.add_bytes(payload);
+    for (std::size_t bit = 0; bit < size * 8; ++bit) {
+      auto flipped = payload;
+      flipped[bit / 8] ^= static_cast<std::byte>(1U << (bit % 8));
+      ItemHash item(1, 2, HashChannel::kPercept, 3);
+      item.add_bytes(flipped);
+      EXPECT_NE(item.value(), clean.value()) << size << " bytes, bit " << bit;
+    }
   }
 }
 

@@ -216,6 +216,7 @@ void Engine::Impl::set_initial_state() {
   if (fusion_world) fusion_world->valid = false;
   movers.resize(count);
   velocity.assign(count, Twist2{});
+  turn.assign(count, SinCos{});
   proposal.assign(count, Twist2{});
   limited.assign(count, 0);
   touch.assign(count, TouchState{});
@@ -442,13 +443,13 @@ Result<SampleHeader> Engine::sample_at(RobotId robot, std::uint32_t sensor, SimT
     }
     engine.look_back(stamp);
   }
-  const Pose2 X_WS = compose(X_WR, slots.spec->X_RS);
   SampleHeader header;
   header.stamp_ns = stamp.ns;
   if (slots.uses_fan) {
     std::vector<std::uint32_t> bodies(slots.capacity);
-    cast_fan(engine.past, slots.fan, X_WS, slots.spec->z_m, engine.past.body_of(robot),
-             engine.past_scratch, {static_cast<float*>(records), slots.capacity}, bodies);
+    cast_fan(engine.past, slots.fan, sensor_place(X_WR, slots.spec->X_RS), slots.spec->z_m,
+             engine.past.body_of(robot), engine.past_scratch,
+             {static_cast<float*>(records), slots.capacity}, bodies);
     header.count = slots.capacity;
     return header;
   }
@@ -459,7 +460,7 @@ Result<SampleHeader> Engine::sample_at(RobotId robot, std::uint32_t sensor, SimT
   item.seed = engine.spec.seed;
   item.capacity = slots.capacity;
   item.X_WR = X_WR;
-  item.X_WS = X_WS;
+  item.X_WS = compose(X_WR, slots.spec->X_RS);
   item.z_m = slots.spec->z_m;
   item.header = &header;
   item.records = records;

@@ -189,6 +189,9 @@ void Engine::Impl::resolve() {
 }
 
 void Engine::Impl::publish() {
+  for_each_robot(publish_effort, [this](std::uint32_t begin, std::uint32_t end, Worker& worker) {
+    hash_poses(begin, end, worker.hash);
+  });
   for (Worker& worker : workers) {
     hash.merge(worker.hash);
     worker.hash = RunHash();
@@ -205,17 +208,18 @@ void Engine::Impl::publish() {
     item.add(std::uint64_t{event.other.value()});
     hash.add(item);
   }
-  for (std::uint32_t r = 0; r < movers.size(); ++r) {
+}
+
+void Engine::Impl::hash_poses(std::uint32_t begin, std::uint32_t end, RunHash& sum) const {
+  for (std::uint32_t r = begin; r < end; ++r) {
     if (!movers[r].present) continue;
+    const Pose2& X_WR = movers[r].X_WR;
+    const Twist2& twist = velocity[r];
+    const double values[] = {
+        X_WR.x, X_WR.y, X_WR.yaw, twist.vx, twist.vy, twist.wz, touch[r].touching ? 1.0 : 0.0};
     ItemHash item(step, r, HashChannel::kPose, 0);
-    item.add(movers[r].X_WR.x);
-    item.add(movers[r].X_WR.y);
-    item.add(movers[r].X_WR.yaw);
-    item.add(velocity[r].vx);
-    item.add(velocity[r].vy);
-    item.add(velocity[r].wz);
-    item.add(std::uint64_t{touch[r].touching});
-    hash.add(item);
+    item.add_bytes(std::as_bytes(std::span(values)));
+    sum.add(item);
   }
 }
 

@@ -75,11 +75,11 @@ void Engine::Impl::sample_virtual_half(const SensorSlots& slots, RobotId robot, 
   SampleHeader& header = fusion.imagined_headers[member];
   std::byte* const records = fusion.imagined_records_of(member);
   header = {real.stamp_ns, real.sequence, 0, 1, 0};
-  const Pose2 X_WS = compose(X_WR, sensor.X_RS);
   if (fusion.uses_fan) {
     cast_fan(
-        past_world.world, fusion.fan, X_WS, sensor.z_m, past_world.world.body_of(robot),
-        past_world.scratch, {reinterpret_cast<float*>(records), fusion.capacity},
+        past_world.world, fusion.fan, sensor_place(X_WR, sensor.X_RS), sensor.z_m,
+        past_world.world.body_of(robot), past_world.scratch,
+        {reinterpret_cast<float*>(records), fusion.capacity},
         std::span(fusion.bodies).subspan(std::size_t{fusion.capacity} * member, fusion.capacity));
     header.count = fusion.capacity;
     return;
@@ -100,7 +100,7 @@ void Engine::Impl::sample_virtual_half(const SensorSlots& slots, RobotId robot, 
   item.sequence = real.sequence - 1;
   item.capacity = fusion.capacity;
   item.X_WR = X_WR;
-  item.X_WS = X_WS;
+  item.X_WS = compose(X_WR, sensor.X_RS);
   item.z_m = sensor.z_m;
   const std::int64_t last_ns = fusion.last_stamp[member];
   item.elapsed_s = last_ns < 0 ? 0 : Duration{real.stamp_ns - last_ns}.seconds();

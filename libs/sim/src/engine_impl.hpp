@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <deque>
 #include <map>
@@ -28,6 +29,9 @@ struct Block {
   std::uint32_t begin = 0;
   std::uint32_t end = 0;
 };
+
+/// How many robots one thread takes at a time where their types do not matter.
+inline constexpr std::uint32_t kRobotRow = 256;
 
 /// What each thread has of its own during a phase.
 struct Worker {
@@ -85,6 +89,8 @@ struct Engine::Impl {
   void note_reported_pose(RobotGroup& group, const SensorSlots& slots, std::size_t member,
                           const SampleHeader& header, const std::byte* record);
   void refresh_reported();
+  void refresh_simulated(std::uint32_t begin, std::uint32_t end);
+  void place(std::uint32_t begin, std::uint32_t end);
   void make_way_for_real_robots();
   void place_robots();
   void remember();
@@ -132,6 +138,7 @@ struct Engine::Impl {
   void actuate(RobotGroup& group, const Block& block, Worker& worker);
   void resolve();
   void publish();
+  void hash_poses(std::uint32_t begin, std::uint32_t end, RunHash& sum) const;
 
   // engine_guard.cpp: the limits of commands
   void set_up_guards();
@@ -149,6 +156,16 @@ struct Engine::Impl {
   void put_body(RobotId robot, const world::Body& body);
   void restore_bodies();
 
+  /// Calls `work(begin, end, worker)` for rows of robots that together are all of them.
+  template <class Work>
+  void for_each_robot(ThreadPool::Effort& effort, const Work& work) {
+    const auto count = static_cast<std::uint32_t>(movers.size());
+    pool.for_each_block((count + kRobotRow - 1) / kRobotRow, effort,
+                        [&](std::size_t b, unsigned w) {
+                          const auto begin = static_cast<std::uint32_t>(b) * kRobotRow;
+                          work(begin, std::min(begin + kRobotRow, count), workers[w]);
+                        });
+  }
   void note(Event event) { events.push_back(std::move(event)); }
   [[nodiscard]] bool due(std::uint32_t period, std::uint32_t phase) const noexcept {
     return step >= phase && (step - phase) % period == 0;
@@ -167,7 +184,7 @@ struct Engine::Impl {
   std::vector<std::uint32_t> member_index;  ///< By robot.
   std::vector<Block> blocks;
   ThreadPool pool;
-  ThreadPool::Effort sense_effort, decide_effort, act_effort;
+  ThreadPool::Effort place_effort, sense_effort, decide_effort, act_effort, publish_effort;
   std::vector<Worker> workers;
   Resolver resolver;
   std::unique_ptr<Radio> radio;  ///< Always there after make().
@@ -180,6 +197,7 @@ struct Engine::Impl {
   HistoryRing history;
   std::vector<Mover> movers;     ///< True poses of simulated, reported poses of real robots.
   std::vector<Twist2> velocity;  ///< Body frame, of the last step.
+  std::vector<SinCos> turn;      ///< Of each robot's yaw in the snapshot.
   std::vector<Twist2> proposal;
   std::vector<std::uint8_t> limited;  ///< The last motion was cut short.
   std::vector<TouchState> touch;

@@ -175,16 +175,23 @@ void Engine::Impl::note_reported_pose(RobotGroup& group, const SensorSlots& slot
   pose.velocity = tracks[robot.value()].velocity();
 }
 
+void Engine::Impl::refresh_simulated(std::uint32_t begin, std::uint32_t end) {
+  for (std::uint32_t r = begin; r < end; ++r) {
+    if (groups[group_index[r]].type->pose_from) continue;
+    const Pose2& X_WR = movers[r].X_WR;
+    reported[r] = {{X_WR.x, X_WR.y, X_WR.yaw, 0, 0}, velocity[r], now, true, false};
+  }
+}
+
 void Engine::Impl::refresh_reported() {
+  for_each_robot(place_effort, [this](std::uint32_t begin, std::uint32_t end, Worker&) {
+    refresh_simulated(begin, end);
+  });
   for (const RobotGroup& group : groups) {
+    if (!group.type->pose_from) continue;
     for (const RobotId robot : group.members) {
       const std::uint32_t r = robot.value();
       ReportedPose& pose = reported[r];
-      if (!group.type->pose_from) {
-        const Pose2& X_WR = movers[r].X_WR;
-        pose = {{X_WR.x, X_WR.y, X_WR.yaw, 0, 0}, velocity[r], now, true, false};
-        continue;
-      }
       const bool stale = pose.known && now - pose.stamp > group.type->staleness;
       if (stale != pose.stale) {
         note({step, robot, stale ? EventKind::kPoseStale : EventKind::kPoseBack, BodyId(),
@@ -218,15 +225,20 @@ void Engine::Impl::make_way_for_real_robots() {
   }
 }
 
+void Engine::Impl::place(std::uint32_t begin, std::uint32_t end) {
+  for (std::uint32_t r = begin; r < end; ++r) {
+    turn[r] = sincos(movers[r].X_WR.yaw);
+    const Vec2 over_ground = rotate(turn[r], {velocity[r].vx, velocity[r].vy});
+    snapshot.set_robot(
+        RobotId(r),
+        {movers[r].X_WR, {over_ground.x, over_ground.y, velocity[r].wz}, movers[r].present});
+  }
+}
+
 void Engine::Impl::place_robots() {
   const double before_m = slack_m;
-  for (std::uint32_t r = 0; r < movers.size(); ++r) {
-    const RobotId robot(r);
-    const SinCos turn = sincos(movers[r].X_WR.yaw);
-    const Vec2 over_ground = rotate(turn, {velocity[r].vx, velocity[r].vy});
-    snapshot.set_robot(
-        robot, {movers[r].X_WR, {over_ground.x, over_ground.y, velocity[r].wz}, movers[r].present});
-  }
+  for_each_robot(place_effort,
+                 [this](std::uint32_t begin, std::uint32_t end, Worker&) { place(begin, end); });
   // Contacts: of simulated robots those of the last motion and of making way; of real robots those
   // that their place shows.
   for (const ContactNote& contact : notes) {

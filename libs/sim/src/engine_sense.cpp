@@ -30,6 +30,7 @@ void Engine::Impl::sample_members(RobotGroup& group, SensorSlots& slots, std::ui
                                   const Block& block, Worker& worker) {
   const SensorSpec& sensor = *slots.spec;
   const double period_s = sensor.period_steps * spec.step.seconds();
+  const SinCos mounting = sincos(sensor.X_RS.yaw);
   for (std::uint32_t m = block.begin; m < block.end; ++m) {
     const RobotId robot = group.members[m];
     if (slots.failed[m] != 0 || !movers[robot.value()].present) continue;
@@ -39,10 +40,11 @@ void Engine::Impl::sample_members(RobotGroup& group, SensorSlots& slots, std::ui
     const std::uint32_t sequence = slots.sequence[m]++;
     header = {now.ns, sequence + 1, 0, 1, 0};
     const Pose2& X_WR = movers[robot.value()].X_WR;
-    const Pose2 X_WS = compose(X_WR, sensor.X_RS);
     if (slots.uses_fan) {
       const std::size_t first = std::size_t{slots.capacity} * m;
-      cast_fan(snapshot, slots.fan, X_WS, sensor.z_m, snapshot.body_of(robot), worker.fan,
+      const SensorPlace place =
+          sensor_place(X_WR.position(), turn[robot.value()], sensor.X_RS.position(), mounting);
+      cast_fan(snapshot, slots.fan, place, sensor.z_m, snapshot.body_of(robot), worker.fan,
                {reinterpret_cast<float*>(records), slots.capacity},
                {slots.bodies.data() + first, slots.capacity});
       header.count = slots.capacity;
@@ -54,7 +56,7 @@ void Engine::Impl::sample_members(RobotGroup& group, SensorSlots& slots, std::ui
       item.sequence = sequence;
       item.capacity = slots.capacity;
       item.X_WR = X_WR;
-      item.X_WS = X_WS;
+      item.X_WS = compose(X_WR, sensor.X_RS);
       item.z_m = sensor.z_m;
       item.elapsed_s = sequence == 0 ? 0 : period_s;
       item.header = &header;

@@ -122,9 +122,7 @@ void Radio::offer(const RadioMoment& moment, Endpoint& sender, const MessageHead
   packet.cost_bytes = cost;
   packet.queued_ns = moment.now.ns;
   const std::span<const std::byte> bytes = sender.out.bytes_of(message);
-  ItemHash content(0, 0, HashChannel::kRadio, 0);
-  content.add_bytes(bytes);
-  packet.content_hash = content.value();
+  packet.content_hash = content_hash(bytes);
   sender.queue_bytes += cost;
   sender.waiting.push_back(packets_.add(packet, bytes));
   ++lines_[sender.line].under_way;

@@ -32,11 +32,11 @@ std::vector<std::uint16_t> index_of(const FanTable& fan) {
 }
 
 /// The pieces that the fan could meet, each shape once.
-void collect(const world::Snapshot& world, const FanTable& fan, const Pose2& X_WS, float z_m,
-             BodyId owner, std::vector<const world::ShapePiece*>& pieces) {
+void collect(const world::Snapshot& world, const FanTable& fan, Vec2 p_WS, float z_m, BodyId owner,
+             std::vector<const world::ShapePiece*>& pieces) {
   pieces.clear();
   world.for_each_near(
-      X_WS.position(), static_cast<double>(fan.range_max_m), [&](const world::ShapePiece& piece) {
+      p_WS, static_cast<double>(fan.range_max_m), [&](const world::ShapePiece& piece) {
         if (piece.body == owner.value() || !piece.in_layers(fan.layers) || !piece.at_height(z_m)) {
           return;
         }
@@ -84,19 +84,20 @@ FanTable FanTable::make(const FanQuery& query, LayerMask layers) {
   return fan;
 }
 
-void cast_fan(const world::Snapshot& world, const FanTable& fan, const Pose2& X_WS, double z_m,
-              BodyId owner, FanScratch& scratch, std::span<float> ranges,
+void cast_fan(const world::Snapshot& world, const FanTable& fan, const SensorPlace& place,
+              double z_m, BodyId owner, FanScratch& scratch, std::span<float> ranges,
               std::span<std::uint32_t> bodies) {
-  collect(world, fan, X_WS, static_cast<float>(z_m), owner, scratch.pieces);
+  collect(world, fan, place.p_WS, static_cast<float>(z_m), owner, scratch.pieces);
   scratch.inverse.assign(fan.cos.size(), 0.0F);
   scratch.body.assign(fan.cos.size(), BodyId::kNone);
   scratch.ranges_m.resize(fan.cos.size());
-  const SinCos turn = sincos(X_WS.yaw);
   FanView view{fan.cos.data(),         fan.sin.data(),
                fan.cos.size(),         fan.first_ray.empty() ? nullptr : fan.first_ray.data(),
                scratch.inverse.data(), scratch.body.data()};
   cast_pieces(scratch.pieces.data(), scratch.pieces.size(), world.vertices_W(), world.normals_W(),
-              {X_WS.x, X_WS.y, static_cast<float>(turn.cos), static_cast<float>(turn.sin)}, view);
+              {place.p_WS.x, place.p_WS.y, static_cast<float>(place.turn.cos),
+               static_cast<float>(place.turn.sin)},
+              view);
   if (fan.rays_per_reading > 1) {
     join_cones(fan, scratch);
     view.padded = padded(ranges.size());

@@ -67,7 +67,8 @@ Reading cast(const world::Snapshot& world, const FanTable& fan, const Pose2& X_W
   reading.ranges.resize(fan.readings());
   reading.bodies.resize(fan.readings());
   FanScratch scratch;
-  cast_fan(world, fan, X_WS, z_m, owner, scratch, reading.ranges, reading.bodies);
+  cast_fan(world, fan, sensor_place(X_WS, Pose2{}), z_m, owner, scratch, reading.ranges,
+           reading.bodies);
   return reading;
 }
 

@@ -4,7 +4,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <span>
 
 namespace rave {
@@ -28,34 +27,29 @@ enum class HashChannel : std::uint32_t {
   return x ^ (x >> 31);
 }
 
-/// The hash of one item of one step: its place (step, robot, channel, device) and its bits.
-/// Bytes are read in little-endian groups of eight, the last group padded with zeros, and the
-/// length is part of the hash.
+/// 64 bits of the bytes and their number: XXH3 (Y. Collet, https://xxhash.com, since 0.8.0 the same
+/// on every processor).
+[[nodiscard]] std::uint64_t content_hash(std::span<const std::byte> bytes) noexcept;
+
+/// The hash of one item of one step: its place (step, robot, channel, device) and what is added, in
+/// its order.
 class ItemHash {
  public:
   constexpr ItemHash(std::uint64_t step, std::uint32_t robot, HashChannel channel,
                      std::uint32_t device) noexcept
-      : state_(mix64(mix64(step + 0x9e3779b97f4a7c15ULL) ^
-                     mix64((std::uint64_t{robot} << 32) |
-                           (static_cast<std::uint64_t>(channel) << 24) | device))) {}
+      : state_(
+            mix64(mix64(step + kOdd) ^ ((std::uint64_t{robot} << 32U) |
+                                        (static_cast<std::uint64_t>(channel) << 24U) | device))) {}
 
-  constexpr void add(std::uint64_t word) noexcept {
-    state_ = mix64(state_ ^ word) + 0x9e3779b97f4a7c15ULL;
-  }
+  constexpr void add(std::uint64_t word) noexcept { state_ = mix64(state_ ^ word) + kOdd; }
   constexpr void add(double value) noexcept { add(std::bit_cast<std::uint64_t>(value)); }
+  /// The length counts too.
+  void add_bytes(std::span<const std::byte> bytes) noexcept { add(content_hash(bytes)); }
 
-  void add_bytes(std::span<const std::byte> bytes) noexcept {
-    add(static_cast<std::uint64_t>(bytes.size()));
-    for (std::size_t i = 0; i < bytes.size(); i += 8) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, bytes.data() + i, bytes.size() - i < 8 ? bytes.size() - i : 8);
-      add(word);
-    }
-  }
-
-  [[nodiscard]] constexpr std::uint64_t value() const noexcept { return mix64(state_); }
+  [[nodiscard]] constexpr std::uint64_t value() const noexcept { return state_; }
 
  private:
+  static constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15ULL;  ///< 2^64 / the golden ratio.
   std::uint64_t state_;
 };
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "rave/math/transform.hpp"
 #include "rave/sim/virtual_sensor.hpp"
 #include "rave/world/snapshot.hpp"
 
@@ -34,12 +35,31 @@ struct FanScratch {
   std::vector<float> ranges_m;
 };
 
-/// Casts one fan from X_WS at height `z_m`. `ranges` and `bodies` have one place per reading; a ray
-/// that meets nothing reads +infinity and no body. `owner` is not seen. A sensor inside a body
+/// Where a sensor stands in W, and which way its x axis points.
+struct SensorPlace {
+  Vec2 p_WS;
+  SinCos turn;
+};
+
+/// A sensor mounted at X_RS, whose yaw has the sine and cosine `mounting`, on a robot at p_WR,
+/// whose yaw has those of `turn`: for many robots with one sensor, without a sine each.
+[[nodiscard]] inline SensorPlace sensor_place(Vec2 p_WR, const SinCos& turn, Vec2 p_RS,
+                                              const SinCos& mounting) noexcept {
+  return {p_WR + rotate(turn, p_RS),
+          {turn.sin * mounting.cos + turn.cos * mounting.sin,
+           turn.cos * mounting.cos - turn.sin * mounting.sin}};
+}
+/// The same, with the same bits.
+[[nodiscard]] inline SensorPlace sensor_place(const Pose2& X_WR, const Pose2& X_RS) noexcept {
+  return sensor_place(X_WR.position(), sincos(X_WR.yaw), X_RS.position(), sincos(X_RS.yaw));
+}
+
+/// Casts one fan from `place` at height `z_m`. `ranges` and `bodies` have one place per reading; a
+/// ray that meets nothing reads +infinity and no body. `owner` is not seen. A sensor inside a body
 /// reads 0 in all directions (then range_min). Any thread, each with its own scratch. The algorithm
 /// stands in docs/design/engine.md.
-void cast_fan(const world::Snapshot& world, const FanTable& fan, const Pose2& X_WS, double z_m,
-              BodyId owner, FanScratch& scratch, std::span<float> ranges,
+void cast_fan(const world::Snapshot& world, const FanTable& fan, const SensorPlace& place,
+              double z_m, BodyId owner, FanScratch& scratch, std::span<float> ranges,
               std::span<std::uint32_t> bodies);
 
 }  // namespace rave::sim

@@ -110,6 +110,21 @@ TEST_F(Control, AStoppedRobotStandsFromTheNextStepOn) {
   EXPECT_NE(events().find("herd-1"), std::string::npos);
 }
 
+TEST_F(Control, WhatWasDoneByHandIsDoneAgainByVerify) {
+  start("good_scenario.yaml");
+  EXPECT_EQ(rave({"pause"}).exit_code, 0);
+  EXPECT_EQ(rave({"set", "anna", "program.cruise_mps", "0.1"}).exit_code, 0);
+  EXPECT_EQ(rave({"set", "anna", "body.scale", "1.2"}).exit_code, 0);
+  EXPECT_EQ(rave({"stop", "--robot", "herd-1"}).exit_code, 0);
+  EXPECT_EQ(rave({"step", "--count", "50"}).exit_code, 0);
+  EXPECT_EQ(rave({"arm", "--robot", "herd-1", "--release"}).exit_code, 0);
+  EXPECT_EQ(rave({"resume"}).exit_code, 0);
+  end();
+  const Ended ended = rave({"verify", output()});
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("the same: "), std::string::npos) << ended.out;
+}
+
 TEST_F(Control, AKilledRunLeavesNothingBehind) {
   start("good_scenario.yaml");
   ASSERT_EQ(::kill(process_, SIGKILL), 0);

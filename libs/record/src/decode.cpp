@@ -155,6 +155,19 @@ Result<StepOf<RunEvent>> decode_event(Message message) {
   return step;
 }
 
+Result<RunInput> decode_input(Message message) {
+  CdrReader reader(message);
+  static_cast<void>(get_time(reader));
+  RunInput input;
+  input.step = reader.get<std::uint64_t>();
+  input.kind = reader.get_string();
+  input.robot = reader.get_string();
+  input.key = reader.get_string();
+  input.value = reader.get_string();
+  if (!reader.ok()) return malformed(topic::kInputs);
+  return input;
+}
+
 Result<ConsoleLine> decode_console(Message message) {
   CdrReader reader(message);
   ConsoleLine line;

@@ -23,6 +23,16 @@ void encode_event(CdrWriter& writer, SimTime time, std::uint64_t step, const Run
   writer.put_sequence(std::span<const double>(event.values));
 }
 
+void encode_input(CdrWriter& writer, SimTime time, const RunInput& input) {
+  writer.clear();
+  put_time(writer, time);
+  writer.put(input.step);
+  writer.put_string(input.kind);
+  writer.put_string(input.robot);
+  writer.put_string(input.key);
+  writer.put_string(input.value);
+}
+
 void encode_console(CdrWriter& writer, const ConsoleLine& line) {
   writer.clear();
   put_time(writer, line.time);

@@ -75,6 +75,10 @@ const RosSchema kEventSchema{
     "builtin_interfaces/Time stamp\nuint64 step\nuint32 robot\nstring kind\nstring text\n"
     "float64[] values\n" RAVE_TIME};
 
+const RosSchema kInputSchema{"rave_msgs/msg/Input",
+                             "builtin_interfaces/Time stamp\nuint64 step\nstring kind\n"
+                             "string robot\nstring key\nstring value\n" RAVE_TIME};
+
 const RosSchema kLogSchema{
     "rcl_interfaces/msg/Log",
     "byte DEBUG=10\nbyte INFO=20\nbyte WARN=30\nbyte ERROR=40\nbyte FATAL=50\n"

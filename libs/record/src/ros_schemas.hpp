@@ -22,6 +22,7 @@ extern const RosSchema kActuatorsSchema;
 extern const RosSchema kHashSchema;
 extern const RosSchema kRadioSchema;
 extern const RosSchema kEventSchema;
+extern const RosSchema kInputSchema;
 extern const RosSchema kLogSchema;
 extern const RosSchema kTfSchema;
 extern const RosSchema kLaserScanSchema;

@@ -73,7 +73,7 @@ class RunRecorder::Impl {
 
   McapWriter file_;
   StandardViews views_;
-  Stream run_, end_, events_, console_, hash_;
+  Stream run_, end_, events_, inputs_, console_, hash_;
   PoseBatch poses_;
   std::vector<RobotPose> seen_;  ///< For the view, in steps in which it is due.
   bool view_due_ = false;
@@ -104,6 +104,7 @@ Status RunRecorder::Impl::begin(const RunInfo& info, const ViewOptions& views) {
   RAVE_TRY(add(hash_, topic::kHash, kHashSchema));
   RAVE_TRY(add(radio_.stream, topic::kRadio, kRadioSchema));
   RAVE_TRY(add(events_, topic::kEvents, kEventSchema));
+  RAVE_TRY(add(inputs_, topic::kInputs, kInputSchema));
   RAVE_TRY(add(console_, topic::kConsole, kLogSchema));
   RAVE_TRY(views_.open(file_, info, views));
   const std::string_view yaml = info.expanded_scenario;
@@ -233,6 +234,11 @@ void RunRecorder::radio(const RadioPacket& packet) {
 Status RunRecorder::event(const RunEvent& event) {
   encode_event(impl_->cdr_, impl_->time_, impl_->step_, event);
   return impl_->events_.write(impl_->file_, impl_->time_, impl_->cdr_.bytes());
+}
+
+Status RunRecorder::input(const RunInput& input) {
+  encode_input(impl_->cdr_, impl_->time_, input);
+  return impl_->inputs_.write(impl_->file_, impl_->time_, impl_->cdr_.bytes());
 }
 
 void RunRecorder::pose(const RobotPose& robot) {

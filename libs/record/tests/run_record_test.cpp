@@ -125,6 +125,29 @@ TEST_F(RunRecord, ActuatorCommandsAndHashesComeBack) {
             kSteps);
 }
 
+TEST(RunRecordInputs, ComeBackInTheirOrder) {
+  const TemporaryFile file;
+  const RunInput inputs[] = {{0, "set", "anna", "program.cruise_mps", "0.1"},
+                             {0, "stop", "", "", ""},
+                             {1, "release", "bert", "", ""}};
+  auto recorder = RunRecorder::open(file.path(), sample_info());
+  ASSERT_TRUE(recorder);
+  ASSERT_TRUE(recorder->input(inputs[0]));
+  ASSERT_TRUE(recorder->input(inputs[1]));
+  record_sample(*recorder, 1);
+  ASSERT_TRUE(recorder->input(inputs[2]));
+  ASSERT_TRUE(recorder->end(1));
+  const auto reader = McapReader::open(file.path());
+  ASSERT_TRUE(reader);
+  std::vector<RunInput> read;
+  ASSERT_TRUE(for_each_message(*reader, topic::kInputs, [&](const MessageView& message) -> Status {
+    read.push_back(decode_input(message.bytes).value());
+    return {};
+  }));
+  EXPECT_TRUE(std::ranges::equal(read, inputs));
+  EXPECT_FALSE(decode_input({}));
+}
+
 TEST_F(RunRecord, OneSensorAndOneRobotAreReadAtATime) {
   const auto run = read_run_info(*reader_);
   ASSERT_TRUE(run) << run.error().text();

@@ -10,6 +10,7 @@
 #include "observer.hpp"
 #include "part_keeper.hpp"
 #include "rave/record/run_record.hpp"
+#include "rave/robot_host/run_control.hpp"
 #include "record_columns.hpp"
 
 namespace rave::robot_host {
@@ -34,6 +35,9 @@ class RecordKeeper final : public Observer {
 
   /// Events of the last step that observers found.
   void keep(std::span<const sim::Event> events);
+
+  /// What was asked of the run before its next step, and done.
+  void keep(const RunRequest& request, const sim::Engine& engine);
 
   [[nodiscard]] record::RunRecorder& recorder() noexcept { return recorder_; }
 

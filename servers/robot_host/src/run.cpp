@@ -154,8 +154,13 @@ struct Journey {
 void serve_requests(Journey& journey) {
   if (journey.options.control == nullptr) return;
   sim::Engine& engine = journey.engine;
+  RecordKeeper* const record = journey.observers.record.get();
   journey.options.control->serve(
-      [&engine](const RunRequest& request) { return serve_request(engine, request); },
+      [&engine, record](const RunRequest& request) {
+        auto answer = serve_request(engine, request);
+        if (answer && record != nullptr) record->keep(request, engine);
+        return answer;
+      },
       [&engine](RunStatus& status) { refresh_status(engine, status); });
 }
 

@@ -1,7 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/robot_host/run_control.hpp"
 
+#include <utility>
+
 namespace rave::robot_host {
+namespace {
+
+using Kind = RunRequest::Kind;
+
+constexpr std::pair<Kind, std::string_view> kWords[] = {
+    {Kind::kStop, "stop"}, {Kind::kRelease, "release"}, {Kind::kArm, "arm"}, {Kind::kSet, "set"}};
+
+}  // namespace
+
+std::string_view to_string(RunRequest::Kind kind) noexcept {
+  for (const auto& [its, word] : kWords) {
+    if (its == kind) return word;
+  }
+  return "unknown";
+}
+
+std::optional<RunRequest::Kind> request_kind(std::string_view word) noexcept {
+  for (const auto& [kind, its] : kWords) {
+    if (its == word) return kind;
+  }
+  return std::nullopt;
+}
 
 void RunControl::pause() {
   const std::lock_guard lock(mutex_);

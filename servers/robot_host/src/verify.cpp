@@ -11,6 +11,7 @@
 #include "rave/robot_host/provenance.hpp"
 #include "record_keeper.hpp"
 #include "record_match.hpp"
+#include "requests.hpp"
 #include "stall_watch.hpp"
 #include "wall_pace.hpp"
 
@@ -59,6 +60,51 @@ Result<std::vector<std::uint64_t>> read_hashes(const record::McapReader& reader)
   RAVE_TRY(record::for_each_message(reader, record::topic::kHash, take));
   return hashes;
 }
+
+/// What was asked of the recorded run by hand, in its order.
+Result<std::vector<record::RunInput>> read_inputs(const record::McapReader& reader) {
+  std::vector<record::RunInput> inputs;
+  const auto take = [&](const record::MessageView& message) -> Status {
+    RAVE_TRY_ASSIGN(record::RunInput input, record::decode_input(message.bytes));
+    inputs.push_back(std::move(input));
+    return {};
+  };
+  RAVE_TRY(record::for_each_message(reader, record::topic::kInputs, take));
+  return inputs;
+}
+
+/// Asks for the same again, at the same steps.
+class InputReplay {
+ public:
+  explicit InputReplay(std::vector<record::RunInput> inputs) : inputs_(std::move(inputs)) {}
+
+  /// Those before the step that comes next. What is refused now was not refused then.
+  Status serve(sim::Engine& engine, RecordKeeper& keeper, VerifyOutcome& outcome) {
+    for (; next_ < inputs_.size() && inputs_[next_].step <= engine.steps_done(); ++next_) {
+      const record::RunInput& input = inputs_[next_];
+      const auto kind = request_kind(input.kind);
+      if (!kind) {
+        return fail(ErrorCode::kParse,
+                    "the record has an input `{}`, which this RAVE does not know", input.kind);
+      }
+      const RunRequest request{*kind, input.robot, input.key, input.value};
+      const auto answer = serve_request(engine, request);
+      if (answer) {
+        keeper.keep(request, engine);
+      } else {
+        outcome.notes.push_back(
+            fmt::format("step {}: `{}` was done in the record and is refused "
+                        "here: {}",
+                        input.step, input.kind, answer.error().text()));
+      }
+    }
+    return {};
+  }
+
+ private:
+  std::vector<record::RunInput> inputs_;
+  std::size_t next_ = 0;
+};
 
 void compare_inputs(const record::RunInfo& run, VerifyOutcome& outcome) {
   for (const auto& [path, recorded] : run.inputs) {
@@ -121,7 +167,7 @@ Result<config::ExpandedScenario> scenario_of(const record::RunInfo& run, const f
 
 /// Steps until the recorded run ended, or one step beyond the first whose hash differs: what a step
 /// resolves is seen in the poses of the next.
-Status run_again(sim::Engine& engine, RecordKeeper& keeper,
+Status run_again(sim::Engine& engine, RecordKeeper& keeper, InputReplay inputs,
                  const std::vector<std::uint64_t>& hashes, const VerifyOptions& options,
                  VerifyOutcome& outcome) {
   StallWatch watch(options.log);
@@ -134,6 +180,7 @@ Status run_again(sim::Engine& engine, RecordKeeper& keeper,
       outcome.ended_early = true;
       return {};
     }
+    RAVE_TRY(inputs.serve(engine, keeper, outcome));
     watch.step_begins(outcome.steps);
     RAVE_TRY(engine.step());
     watch.step_ends();
@@ -151,6 +198,7 @@ Status run_again(sim::Engine& engine, RecordKeeper& keeper,
     options.on_progress({sim_s / end_s, sim_s, end_s, wall_s > 0 ? sim_s / wall_s : 0,
                          engine.spec().robots.size(), "comparing"});
   }
+  RAVE_TRY(inputs.serve(engine, keeper, outcome));
   outcome.hash = engine.hash().value();
   return {};
 }
@@ -196,7 +244,8 @@ Result<VerifyOutcome> verify(const fs::path& record, plugin::Catalogue& catalogu
   RAVE_TRY_ASSIGN(const auto keeper,
                   RecordKeeper::begin(scratch.file(), *engine, kinds,
                                       {run.scenario, "", {}, {}, true}, options.log));
-  RAVE_TRY(run_again(*engine, *keeper, hashes, options, outcome));
+  RAVE_TRY_ASSIGN(auto inputs, read_inputs(reader));
+  RAVE_TRY(run_again(*engine, *keeper, InputReplay(std::move(inputs)), hashes, options, outcome));
   RAVE_TRY(keeper->end(engine->hash().value()));
   RAVE_TRY_ASSIGN(const auto again, record::McapReader::open(scratch.file()));
   RAVE_TRY_ASSIGN(const RecordMatch match, match_records(reader, again, run, !end));

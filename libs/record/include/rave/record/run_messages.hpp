@@ -28,6 +28,7 @@ inline constexpr const char* kCommands = "/rave/commands";
 inline constexpr const char* kActuators = "/rave/actuators";
 inline constexpr const char* kRadio = "/rave/radio";
 inline constexpr const char* kEvents = "/rave/events";
+inline constexpr const char* kInputs = "/rave/inputs";
 inline constexpr const char* kHash = "/rave/hash";
 inline constexpr const char* kConsole = "/rosout";
 }  // namespace topic
@@ -129,6 +130,17 @@ struct RunEvent {
   std::vector<double> values;  ///< Meaning by kind.
 };
 
+/// What somebody asked of the run between two steps, and was done: enough to ask for it again.
+struct RunInput {
+  std::uint64_t step = 0;  ///< The step that comes next.
+  std::string kind;        ///< `stop`, `release`, `arm` or `set`.
+  std::string robot;       ///< Empty: all of them.
+  std::string key;         ///< Of `set`: such as `program.max_speed_mps`.
+  std::string value;       ///< Of `set`: as in a file.
+
+  friend bool operator==(const RunInput&, const RunInput&) = default;
+};
+
 /// A line of the console.
 struct ConsoleLine {
   SimTime time;
@@ -168,6 +180,7 @@ struct RunEnd {
 [[nodiscard]] Result<StepOf<ActuatorRecord>> decode_actuators(std::span<const std::byte> message);
 [[nodiscard]] Result<StepOf<RadioPacket>> decode_radio(std::span<const std::byte> message);
 [[nodiscard]] Result<StepOf<RunEvent>> decode_event(std::span<const std::byte> message);
+[[nodiscard]] Result<RunInput> decode_input(std::span<const std::byte> message);
 [[nodiscard]] Result<StepHash> decode_hash(std::span<const std::byte> message);
 [[nodiscard]] Result<ConsoleLine> decode_console(std::span<const std::byte> message);
 

@@ -67,6 +67,8 @@ class RunRecorder {
   /// The run hash after this step; for lock-step runs.
   Status hash(std::uint64_t value);
   Status event(const RunEvent& event);
+  /// Between end_step() and begin_step(), or before the first step.
+  Status input(const RunInput& input);
   /// Where a robot is; all of the step go into one message.
   void pose(const RobotPose& robot);
   void poses(std::span<const RobotPose> robots) {

@@ -9,7 +9,9 @@
 #include <functional>
 #include <future>
 #include <mutex>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "rave/base/result.hpp"
@@ -24,6 +26,10 @@ struct RunRequest {
   std::string key;    ///< kSet: such as `program.max_speed_mps`.
   std::string value;  ///< kSet: as in a file.
 };
+
+/// `stop`, `release`, `arm` or `set`; and back, nothing for any other word.
+[[nodiscard]] std::string_view to_string(RunRequest::Kind kind) noexcept;
+[[nodiscard]] std::optional<RunRequest::Kind> request_kind(std::string_view word) noexcept;
 
 /// What can be seen of a run from outside.
 struct RunStatus {

@@ -2,9 +2,11 @@
 #include "rave/sim/range_engine.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "fan_kernel.hpp"
+#include "near_kernel.hpp"
 #include "rave/math/scalar.hpp"
 
 namespace rave::sim {
@@ -31,23 +33,41 @@ std::vector<std::uint16_t> index_of(const FanTable& fan) {
   return first_ray;
 }
 
-/// The pieces that the fan could meet, each shape once.
-void collect(const world::Snapshot& world, const FanTable& fan, Vec2 p_WS, float z_m, BodyId owner,
-             std::vector<const world::ShapePiece*>& pieces) {
-  pieces.clear();
-  world.for_each_near(
-      p_WS, static_cast<double>(fan.range_max_m), [&](const world::ShapePiece& piece) {
-        if (piece.body == owner.value() || !piece.in_layers(fan.layers) || !piece.at_height(z_m)) {
-          return;
-        }
-        if (piece.pieces > 1) {
-          const bool known = std::any_of(pieces.rbegin(), pieces.rend(), [&](const auto* other) {
-            return other->shape == piece.shape;
-          });
-          if (known) return;
-        }
-        pieces.push_back(&piece);
+/// Up to here from the grid's origin the floats of PieceColumns are fine enough to choose by.
+constexpr double kFloatReach_m = 2048;
+
+/// Adds the pieces of a grid that the fan could meet, each shape once.
+void collect(const world::ShapeGrid& grid, const FanTable& fan, Vec2 p_WS, float z_m, BodyId owner,
+             FanScratch& scratch) {
+  std::vector<const world::ShapePiece*>& pieces = scratch.pieces;
+  const auto consider = [&](const world::ShapePiece& piece) {
+    if (piece.body == owner.value() || !piece.in_layers(fan.layers) || !piece.at_height(z_m)) {
+      return;
+    }
+    if (piece.pieces > 1) {
+      const bool known = std::any_of(pieces.rbegin(), pieces.rend(), [&](const auto* other) {
+        return other->shape == piece.shape;
       });
+      if (known) return;
+    }
+    pieces.push_back(&piece);
+  };
+  const world::PieceColumns columns = grid.columns();
+  const Vec2 p = p_WS - columns.origin;
+  const auto range_m = static_cast<double>(fan.range_max_m);
+  if (!(std::abs(p.x) < kFloatReach_m && std::abs(p.y) < kFloatReach_m)) {
+    grid.for_each_near(p_WS, range_m, consider);
+    return;
+  }
+  scratch.rows.clear();
+  grid.add_rows_near(p_WS, range_m, scratch.rows);
+  std::size_t most = world::kPiecePadding;
+  for (const world::PieceRow& row : scratch.rows) most += row.end - row.begin;
+  if (scratch.near.size() < most) scratch.near.resize(most);
+  const std::size_t count =
+      select_near(columns, scratch.rows, static_cast<float>(p.x), static_cast<float>(p.y),
+                  fan.range_max_m, scratch.near.data());
+  for (std::size_t i = 0; i < count; ++i) consider(grid.piece(scratch.near[i]));
 }
 
 /// Of the rays of each cone the nearest.
@@ -87,7 +107,9 @@ FanTable FanTable::make(const FanQuery& query, LayerMask layers) {
 void cast_fan(const world::Snapshot& world, const FanTable& fan, const SensorPlace& place,
               double z_m, BodyId owner, FanScratch& scratch, std::span<float> ranges,
               std::span<std::uint32_t> bodies) {
-  collect(world, fan, place.p_WS, static_cast<float>(z_m), owner, scratch.pieces);
+  scratch.pieces.clear();
+  collect(world.standing(), fan, place.p_WS, static_cast<float>(z_m), owner, scratch);
+  collect(world.moving(), fan, place.p_WS, static_cast<float>(z_m), owner, scratch);
   scratch.inverse.assign(fan.cos.size(), 0.0F);
   scratch.body.assign(fan.cos.size(), BodyId::kNone);
   scratch.ranges_m.resize(fan.cos.size());

@@ -203,7 +203,9 @@ TEST(CastFan, AgreesWithBruteForceInRandomWorlds) {
   std::size_t checked = 0;
   for (std::uint32_t seed = 0; seed < 3000; ++seed) {
     const Vec2 centre = seed % 2 == 0 ? Vec2{0, 0} : Vec2{700, -750};
-    const world::WorldModel model = random_world(seed, centre);
+    world::WorldModel model = random_world(seed, centre);
+    // Far from where the index begins, candidates are found in another way.
+    if (seed % 7 == 0) model.obstacles.push_back(disc_at(centre.x - 3000, centre.y - 3000, 1));
     const world::Snapshot world(model);
     RandomStream random(seed, 9, 9, 9);
     const Pose2 X_WS{centre.x + random.uniform(-5, 5), centre.y + random.uniform(-5, 5),
@@ -231,6 +233,24 @@ TEST(CastFan, AgreesWithBruteForceInRandomWorlds) {
     }
   }
   EXPECT_EQ(checked, 1000U * (16 + 61 + 100));
+}
+
+TEST(CastFan, FindsWhatOnlyJustComesIntoRange) {
+  const auto fan = fan_of(16, 2 * kPi * 15 / 16, 3);
+  for (std::uint32_t i = 0; i < 2000; ++i) {
+    // A sensor up to 2 km from the corner of the index, and a disc that reaches to 3 m less a hair.
+    RandomStream random(i, 4, 4, 4);
+    const Vec2 p{random.uniform(0, 2000), random.uniform(0, 2000)};
+    const double bearing = 2 * kPi * (i % 16) / 16 - kPi * 15 / 16;
+    const SinCos turn = sincos(bearing);
+    const double distance = 3 + 0.15 - 1e-4 * random.uniform(0.05, 1);
+    world::WorldModel model;
+    model.obstacles.push_back(disc_at(-1, -1, 0.1));
+    model.obstacles.push_back(disc_at(p.x + distance * turn.cos, p.y + distance * turn.sin, 0.15));
+    const world::Snapshot world(model);
+    const auto reading = cast(world, fan.table, {p.x, p.y, 0});
+    EXPECT_EQ(reading.bodies[i % 16], 1U) << i << ": " << reading.ranges[i % 16];
+  }
 }
 
 TEST(CastFan, WidestAndNarrowestInstructionsGiveTheSameBits) {

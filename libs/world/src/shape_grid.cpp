@@ -118,6 +118,22 @@ void ShapeGrid::build(std::span<const ShapePiece> pieces, double cell_m) {
   }
   // Backwards, so that pieces of one cell end up in their order.
   for (std::size_t i = pieces.size(); i-- > 0;) sorted_[--begin_[cell_[i]]] = pieces[i];
+  fill_columns();
+}
+
+void ShapeGrid::fill_columns() {
+  // Up to about 2 km from the origin, floats round the place of piece and sensor together by less.
+  constexpr float kRounding_m = 1e-3F;
+  const std::size_t size = sorted_.size() + kPiecePadding;
+  x_m_.resize(size);
+  y_m_.resize(size);
+  reach_m_.resize(size);
+  for (std::size_t i = 0; i < sorted_.size(); ++i) {
+    const ShapePiece& piece = sorted_[i];
+    x_m_[i] = static_cast<float>(piece.centre_W.x - origin_.x);
+    y_m_[i] = static_cast<float>(piece.centre_W.y - origin_.y);
+    reach_m_[i] = piece.radius_m + kRounding_m;
+  }
 }
 
 }  // namespace rave::world

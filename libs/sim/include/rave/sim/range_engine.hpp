@@ -30,6 +30,8 @@ struct FanTable {
 /// What one thread needs to cast fans; kept between calls so that nothing is allocated.
 struct FanScratch {
   std::vector<const world::ShapePiece*> pieces;
+  std::vector<world::PieceRow> rows;
+  std::vector<std::uint32_t> near;  ///< Indexes of pieces.
   std::vector<float> inverse;       ///< Largest 1/range of each ray so far; 0: nothing.
   std::vector<std::uint32_t> body;  ///< Whose it is.
   std::vector<float> ranges_m;

@@ -30,6 +30,24 @@ struct ShapePiece {
 };
 static_assert(sizeof(ShapePiece) == 48);
 
+/// Columns of pieces end with so many that are nowhere, so that they can be read in groups.
+inline constexpr std::size_t kPiecePadding = 16;
+
+/// Where pieces are, one array for each number, relative to `origin`: for queries that look at
+/// several at once.
+struct PieceColumns {
+  const float* x_m = nullptr;
+  const float* y_m = nullptr;
+  const float* reach_m = nullptr;  ///< Radius of the piece's disc, enlarged by what floats round.
+  Vec2 origin;                     ///< Of x_m and y_m, in W.
+};
+
+/// Pieces [begin, end) that lie side by side.
+struct PieceRow {
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+};
+
 /// A uniform grid over pieces, sorted into cells by their centres (counting sort), each in one
 /// cell. Build once, then query from many threads. No allocation when rebuilt with no more pieces
 /// over no larger an area than before.
@@ -38,9 +56,36 @@ class ShapeGrid {
   /// Cells are `cell_m` wide, or wider where the extent would need more than about 2^20 cells.
   void build(std::span<const ShapePiece> pieces, double cell_m);
 
+  /// Adds the rows of pieces of which some could come within `radius_m` of `p`.
+  void add_rows_near(Vec2 p, double radius_m, std::vector<PieceRow>& rows) const {
+    for_each_row_near(p, radius_m, [&rows](std::uint32_t begin, std::uint32_t end) {
+      if (begin < end) rows.push_back({begin, end});
+    });
+  }
+  [[nodiscard]] PieceColumns columns() const noexcept {
+    return {x_m_.data(), y_m_.data(), reach_m_.data(), origin_};
+  }
+  [[nodiscard]] const ShapePiece& piece(std::uint32_t index) const noexcept {
+    return sorted_[index];
+  }
+
   /// Calls `visit(piece)` for each piece whose disc comes within `radius_m` of `p`, row by row.
   template <class Visit>
   void for_each_near(Vec2 p, double radius_m, Visit&& visit) const {
+    for_each_row_near(p, radius_m, [&](std::uint32_t begin, std::uint32_t end) {
+      for (std::uint32_t i = begin; i < end; ++i) {
+        const ShapePiece& piece = sorted_[i];
+        const double dx = piece.centre_W.x - p.x;
+        const double dy = piece.centre_W.y - p.y;
+        const double reach = radius_m + static_cast<double>(piece.radius_m);
+        if (dx * dx + dy * dy <= reach * reach) visit(piece);
+      }
+    });
+  }
+
+ private:
+  template <class Visit>
+  void for_each_row_near(Vec2 p, double radius_m, Visit&& visit) const {
     if (width_ == 0) return;
     const double reach_m = radius_m + largest_m_;
     const int x0 = cell_of(p.x - reach_m - origin_.x, width_);
@@ -49,18 +94,11 @@ class ShapeGrid {
     const int y1 = cell_of(p.y + reach_m - origin_.y, height_);
     for (int y = y0; y <= y1; ++y) {
       const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_);
-      const std::uint32_t last = begin_[row + static_cast<std::size_t>(x1) + 1];
-      for (std::uint32_t i = begin_[row + static_cast<std::size_t>(x0)]; i < last; ++i) {
-        const ShapePiece& piece = sorted_[i];
-        const double dx = piece.centre_W.x - p.x;
-        const double dy = piece.centre_W.y - p.y;
-        const double reach = radius_m + static_cast<double>(piece.radius_m);
-        if (dx * dx + dy * dy <= reach * reach) visit(piece);
-      }
+      visit(begin_[row + static_cast<std::size_t>(x0)],
+            begin_[row + static_cast<std::size_t>(x1) + 1]);
     }
   }
-
- private:
+  void fill_columns();
   [[nodiscard]] int cell_of(double offset_m, int count) const noexcept {
     const double cell = offset_m * cells_per_m_;
     if (!(cell > 0)) return 0;
@@ -75,6 +113,9 @@ class ShapeGrid {
   std::vector<std::uint32_t> begin_;  ///< Per cell; one more at the end.
   std::vector<std::uint32_t> cell_;   ///< Per piece, while it is built.
   std::vector<ShapePiece> sorted_;
+  std::vector<float> x_m_;  ///< Of sorted_, from origin_ on; these three are padded.
+  std::vector<float> y_m_;
+  std::vector<float> reach_m_;
 };
 
 /// A disc of a cover, in the frame of the shape's body.

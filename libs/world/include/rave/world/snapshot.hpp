@@ -47,6 +47,9 @@ class Snapshot final : public WorldView {
     fixed_.for_each_near(p_W, radius_m, visit);
     moving_.for_each_near(p_W, radius_m, visit);
   }
+  /// The pieces of obstacles, and those of robots, for queries of their own.
+  [[nodiscard]] const ShapeGrid& standing() const noexcept { return fixed_; }
+  [[nodiscard]] const ShapeGrid& moving() const noexcept { return moving_; }
   /// All vertices, and the outward unit normal of the edge from each to the next of its shape;
   /// pieces say where theirs begin.
   [[nodiscard]] const Vec2* vertices_W() const noexcept { return vertices_.data(); }

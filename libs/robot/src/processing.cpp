@@ -157,8 +157,9 @@ std::byte* Processing::slot(std::byte* state, std::uint32_t index) const noexcep
   return state + sizeof(Ring) + slot_size_ * (index % depth_);
 }
 
-void Processing::push(const SampleHeader& raw, const void* records, RandomStream random,
-                      std::byte* state) const noexcept {
+/// Copies a sample to the end of the ring and returns where its header is.
+std::byte* Processing::enqueue(const SampleHeader& raw, const void* records,
+                               std::byte* state) const noexcept {
   auto& ring = *reinterpret_cast<Ring*>(state);
   if (ring.count == depth_) {
     const auto& lost = *reinterpret_cast<const SampleHeader*>(slot(state, ring.first));
@@ -172,9 +173,21 @@ void Processing::push(const SampleHeader& raw, const void* records, RandomStream
   header = raw;
   header.count = std::min(raw.count, capacity_);
   header.dropped += raw.count - header.count;
-  std::byte* const own = place + sizeof(SampleHeader);
-  if (header.count > 0) std::memcpy(own, records, std::size_t{header.count} * record_size_);
-  apply_noise(header, own, random);
+  if (header.count > 0) {
+    std::memcpy(place + sizeof(SampleHeader), records, std::size_t{header.count} * record_size_);
+  }
+  return place;
+}
+
+void Processing::push(const SampleHeader& raw, const void* records, const RandomStream& random,
+                      std::byte* state) const noexcept {
+  std::byte* const place = enqueue(raw, records, state);
+  apply_noise(*reinterpret_cast<SampleHeader*>(place), place + sizeof(SampleHeader), random);
+}
+
+void Processing::push_noisy(const SampleHeader& noisy, const void* records,
+                            std::byte* state) const noexcept {
+  enqueue(noisy, records, state);
 }
 
 bool Processing::deliver(SimTime now, std::byte* state, SampleHeader* out,

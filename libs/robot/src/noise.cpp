@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "noise_batch.hpp"
+#include "range_kernel.hpp"
 #include "rave/math/scalar.hpp"
 #include "rave/robot/processing.hpp"
 
@@ -118,7 +119,7 @@ void disturb_all(Items items, const Terms& terms) noexcept {
         disturb(records[i], terms, normals + std::size_t{kEach} * i);
       }
     };
-    NoiseBatch<float, decltype(use)> batch(kNormalBlock, kEach, use);
+    NoiseBatch<float, kEach, decltype(use)> batch(kNormalBlock, use);
     for (const NoiseItem& item : items) batch.add(item, item.header->count);
     return;
   }
@@ -130,34 +131,6 @@ void disturb_all(Items items, const Terms& terms) noexcept {
   }
 }
 
-// The loops over rays have neither calls nor jumps, so that the compiler can make vectors of them.
-
-void scatter(float* ranges_m, std::uint32_t count, float sigma_m, const float* normals) noexcept {
-  constexpr float kLargest = std::numeric_limits<float>::max();
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const float x = ranges_m[i];
-    const float wrong = x + sigma_m * normals[i];
-    const float bounded = wrong < 0 ? 0 : wrong;
-    ranges_m[i] = std::abs(x) <= kLargest ? bounded : x;
-  }
-}
-
-void round_to(float* ranges_m, std::uint32_t count, double quantum_m) noexcept {
-  constexpr double kLargest = std::numeric_limits<float>::max();
-  // Adding and taking away 1.5 * 2^52 rounds to an integer, as long as that is below 2^51.
-  constexpr double kRounder = 0x1.8p52;
-  constexpr double kMost = 0x1p51;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const double x = ranges_m[i];
-    const double bounded = x < 0 ? 0 : x;
-    const double steps = bounded / quantum_m + 0.5;
-    const double near = steps + kRounder - kRounder;
-    const double floor = near - (near > steps ? 1.0 : 0.0);
-    const double rounded = (steps < kMost ? floor : steps) * quantum_m;
-    ranges_m[i] = static_cast<float>(std::abs(x) <= kLargest ? rounded : x);
-  }
-}
-
 void disturb_ranges(Items items, const NoiseSpec& noise) noexcept {
   const double quantum_m = noise.length_quantum_m;
   if (noise.length_sigma_m > 0) {
@@ -165,14 +138,14 @@ void disturb_ranges(Items items, const NoiseSpec& noise) noexcept {
     const auto sigma_m = static_cast<float>(std::min(noise.length_sigma_m, kLargest));
     const auto use = [sigma_m, quantum_m](const NoisePiece& piece, const float* normals) {
       auto* const ranges_m = piece.records<float>();
-      scatter(ranges_m, piece.count, sigma_m, normals);
-      if (quantum_m > 0) round_to(ranges_m, piece.count, quantum_m);
+      detail::scatter_ranges(ranges_m, piece.count, sigma_m, normals);
+      if (quantum_m > 0) detail::round_ranges(ranges_m, piece.count, quantum_m);
     };
-    NoiseBatch<float, decltype(use)> batch(kNormalBlock, 1, use);
+    NoiseBatch<float, 1, decltype(use)> batch(kNormalBlock, use);
     for (const NoiseItem& item : items) batch.add(item, item.header->count);
   } else if (quantum_m > 0) {
     for (const NoiseItem& item : items) {
-      round_to(static_cast<float*>(item.records), item.header->count, quantum_m);
+      detail::round_ranges(static_cast<float*>(item.records), item.header->count, quantum_m);
     }
   }
 }
@@ -185,7 +158,7 @@ std::uint32_t dropout_limit(double probability) noexcept {
 /// `use(piece, words)` with one word for each of `count(item)` records.
 template <class Count, class Use>
 void drop_out(Items items, Count count, Use use) noexcept {
-  NoiseBatch<std::uint32_t, Use> batch(kDropoutBlock, 1, use);
+  NoiseBatch<std::uint32_t, 1, Use> batch(kDropoutBlock, use);
   for (const NoiseItem& item : items) batch.add(item, count(item));
 }
 
@@ -194,11 +167,7 @@ std::uint32_t one_record(const NoiseItem& /*item*/) noexcept { return 1; }
 
 void silence(Items items, std::uint32_t limit) noexcept {
   drop_out(items, all_records, [limit](const NoisePiece& piece, const std::uint32_t* words) {
-    constexpr float kNoReturn = std::numeric_limits<float>::infinity();
-    auto* const ranges_m = piece.records<float>();
-    for (std::uint32_t i = 0; i < piece.count; ++i) {
-      ranges_m[i] = words[i] <= limit ? kNoReturn : ranges_m[i];
-    }
+    detail::silence_ranges(piece.records<float>(), piece.count, words, limit);
   });
 }
 

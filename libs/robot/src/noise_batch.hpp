@@ -13,10 +13,10 @@ namespace rave::detail {
 
 /// Records `first` to `first + count - 1` of one sample.
 struct NoisePiece {
-  const NoiseItem* item = nullptr;
-  std::uint32_t first = 0;
-  std::uint32_t count = 0;
-  std::uint32_t place = 0;  ///< Of their first number in the batch.
+  const NoiseItem* item;
+  std::uint32_t first;
+  std::uint32_t count;
+  std::uint32_t place;  ///< Of their first number in the batch.
 
   template <class Record>
   [[nodiscard]] Record* records() const noexcept {
@@ -27,26 +27,26 @@ struct NoisePiece {
 /// Draws the numbers for the records of many samples together, so that short samples fill vectors
 /// too: gathers counters until there is a batch, draws it and calls `use(piece, numbers)` for each
 /// piece, in the order of the records. Number i of a sample is number i of its stream from the
-/// block `first_block` on; a record takes `per_record` of them. `Number`: float for normal numbers,
+/// block `first_block` on; a record takes `kPerRecord` of them. `Number`: float for normal numbers,
 /// std::uint32_t for bits. Lives on the stack of whoever draws; what was added is served at the end
 /// of its life at the latest.
-template <class Number, class Use>
+template <class Number, std::uint32_t kPerRecord, class Use>
 class NoiseBatch {
  public:
-  NoiseBatch(std::uint32_t first_block, std::uint32_t per_record, Use use) noexcept
-      : first_block_(first_block), per_record_(per_record), use_(use) {}
+  NoiseBatch(std::uint32_t first_block, Use use) noexcept : first_block_(first_block), use_(use) {}
   NoiseBatch(const NoiseBatch&) = delete;
   NoiseBatch& operator=(const NoiseBatch&) = delete;
   ~NoiseBatch() { flush(); }
 
   /// Wants numbers for the first `count` records of a sample.
   void add(const NoiseItem& item, std::uint32_t count) noexcept {
-    if (item.random.key() != key_) {
+    const RandomKey& key = item.random.key();
+    if (key[0] != key_[0] || key[1] != key_[1]) {
       flush();
-      key_ = item.random.key();
+      key_ = key;
     }
     for (std::uint32_t first = 0; first < count;) {
-      const std::uint32_t room = (kBlocks - blocks_) * 4 / per_record_;
+      const std::uint32_t room = (kBlocks - blocks_) * 4 / kPerRecord;
       std::uint32_t fitting = count - first;
       // A next piece must start with a block.
       if (fitting > room) fitting = room / 4 * 4;
@@ -65,8 +65,8 @@ class NoiseBatch {
   void take(const NoiseItem& item, std::uint32_t first, std::uint32_t count) noexcept {
     pieces_[pieces_used_++] = {&item, first, count, 4 * blocks_};
     RandomCounter counter = item.random.counter();
-    counter[0] += first_block_ + first / 4 * per_record_;
-    const std::uint32_t end = blocks_ + (count * per_record_ + 3) / 4;
+    counter[0] += first_block_ + first / 4 * kPerRecord;
+    const std::uint32_t end = blocks_ + (count * kPerRecord + 3) / 4;
     for (; blocks_ < end; ++blocks_, ++counter[0]) counters_[blocks_] = counter;
   }
 
@@ -89,7 +89,6 @@ class NoiseBatch {
   }
 
   std::uint32_t first_block_;
-  std::uint32_t per_record_;
   Use use_;
   RandomKey key_{};
   std::uint32_t blocks_ = 0;

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <limits>
 
+#include "range_kernel.hpp"
 #include "rave/math/scalar.hpp"
 
 namespace rave::detail {
@@ -19,7 +19,6 @@ std::size_t whole_words(std::size_t bytes) { return (bytes + 7) / 8 * 8; }
 using Rank = std::int32_t;
 constexpr Rank kEmpty = std::numeric_limits<Rank>::max();
 constexpr Rank kNoNumber = kEmpty - 1;
-constexpr Rank kLowest = std::numeric_limits<Rank>::min();
 
 Rank rank_of(float x) noexcept {
   const auto bits = std::bit_cast<Rank>(x);
@@ -48,34 +47,12 @@ struct MedianMemory {
 constexpr std::uint32_t kRow = 64;
 using Row = std::array<Rank, kRow>;
 
-/// Takes `old` out of a sorted column and puts `fresh` in, for each ray: where fresh is the larger,
-/// what lies between the two moves down by one, otherwise up. `stride` from one rank to the next.
-void replace_in_order(Rank* sorted, std::size_t stride, std::uint32_t window, std::uint32_t count,
-                      const Row& old, const Row& fresh) noexcept {
-  Row below;
-  Row none;
-  below.fill(kLowest);
-  none.fill(kEmpty);
-  for (std::uint32_t k = 0; k < window; ++k) {
-    Rank* const here = sorted + stride * k;
-    const Rank* const above = k + 1 < window ? here + stride : none.data();
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const Rank s = here[i];
-      const Rank up = std::max(s, std::min(fresh[i], above[i]));
-      const Rank down = std::min(s, std::max(fresh[i], below[i]));
-      const Rank larger = s < old[i] ? s : up;
-      const Rank smaller = s > old[i] ? s : down;
-      here[i] = fresh[i] < old[i] ? smaller : larger;
-      below[i] = s;
-    }
-  }
-}
-
 void median(std::uint32_t window, std::uint32_t capacity, std::span<float> ranges_m,
             std::byte* memory) noexcept {
   const MedianMemory own(memory, capacity, window);
   Row old;
   Row fresh;
+  Row below;
   for (std::uint32_t first = 0; first < ranges_m.size(); first += kRow) {
     const auto count =
         static_cast<std::uint32_t>(std::min<std::size_t>(kRow, ranges_m.size() - first));
@@ -88,7 +65,8 @@ void median(std::uint32_t window, std::uint32_t capacity, std::span<float> range
       own.next[ray] = own.next[ray] + 1 == window ? 0 : own.next[ray] + 1;
       own.filled[ray] = std::min(own.filled[ray] + 1, window);
     }
-    replace_in_order(own.sorted + first, capacity, window, count, old, fresh);
+    exchange_in_order(own.sorted + first, capacity, window, count,
+                      {old.data(), fresh.data(), below.data()});
     for (std::uint32_t ray = first; ray < first + count; ++ray) {
       const std::size_t middle = (own.filled[ray] - 1) / 2;
       ranges_m[ray] = range_of(own.sorted[middle * capacity + ray]);
@@ -110,19 +88,6 @@ double gain_of(std::int64_t dt_ns, double time_constant_s) noexcept {
   return 1.0 - exp(-static_cast<double>(dt_ns) * 1e-9 / time_constant_s);
 }
 
-void exponential_row(double gain, std::span<float> ranges_m, double* output) noexcept {
-  constexpr double kLargest = std::numeric_limits<float>::max();
-  for (std::size_t i = 0; i < ranges_m.size(); ++i) {
-    const double x = ranges_m[i];
-    const double before = output[i];
-    const double moved = before + gain * (x - before);
-    const double now = before == before ? moved : x;
-    const bool finite = std::abs(x) <= kLargest;
-    output[i] = finite ? now : std::numeric_limits<double>::quiet_NaN();
-    ranges_m[i] = static_cast<float>(finite ? now : x);
-  }
-}
-
 void exponential(double time_constant_s, std::uint32_t capacity, std::int64_t stamp_ns,
                  std::span<float> ranges_m, std::byte* memory) noexcept {
   const ExponentialMemory own(memory, capacity);
@@ -132,8 +97,8 @@ void exponential(double time_constant_s, std::uint32_t capacity, std::int64_t st
     std::size_t last = first;
     while (last < ranges_m.size() && own.stamp_ns[last] == before_ns)
       own.stamp_ns[last++] = stamp_ns;
-    exponential_row(gain_of(stamp_ns - before_ns, time_constant_s),
-                    ranges_m.subspan(first, last - first), own.output + first);
+    blend_ranges(ranges_m.data() + first, last - first,
+                 gain_of(stamp_ns - before_ns, time_constant_s), own.output + first);
     first = last;
   }
 }

@@ -10,7 +10,7 @@
 namespace rave::detail {
 
 /// The filters of range sensors: what FieldFilter does with each field, for all rays at once, in
-/// loops that the compiler can make vectors of. `capacity`: rays of a sample at most.
+/// vector instructions. `capacity`: rays of a sample at most.
 
 /// Bytes that a filter remembers, a multiple of 8.
 [[nodiscard]] std::size_t range_filter_memory(const FilterSpec& filter,

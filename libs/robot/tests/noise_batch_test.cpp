@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Noise of many samples at once: what the batches, the vectors and the chain must not change.
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <cmath>
 #include <cstring>
 #include <limits>
 
+#include "each_target.hpp"
 #include "processing_support.hpp"
 #include "rave/math/random_batch.hpp"
 #include "rave/math/scalar.hpp"
@@ -124,23 +124,18 @@ TEST(NoiseBatch, OfManySamplesIsTheNoiseOfEach) {
 }
 
 TEST(NoiseBatch, HasEqualBitsWithAllInstructions) {
-  const std::int64_t all = hwy::SupportedTargets();
-  ASSERT_NE(all & (all - 1), 0) << "a processor with one set of instructions shows nothing";
   for (const ReadingKind kind : kKinds) {
     const NoiseSpec noise = noises(kind).back();
     const Processing chain = made({.noise = noise}, kind, kCapacity);
     Samples first;
-    for (std::int64_t rest = all; rest != 0; rest &= rest - 1) {
-      hwy::SetSupportedTargetsForTest(rest & -rest);
-      hwy::GetChosenTarget().DeInit();
+    const int targets = for_each_target([&](const char* name) {
       Samples samples = samples_of(kind, 60, mixed_count);
       at_once(chain, samples);
-      if (rest == all) first = samples;
-      EXPECT_TRUE(samples == first) << to_string(kind) << ", " << hwy::TargetName(rest & -rest);
-    }
+      if (first.headers.empty()) first = samples;
+      EXPECT_TRUE(samples == first) << to_string(kind) << ", " << name;
+    });
+    ASSERT_GE(targets, 2) << "a processor with one set of instructions shows nothing";
   }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().DeInit();
 }
 
 TEST(NoiseBatch, TakesTheNumbersThatTheHeaderNames) {

@@ -7,6 +7,7 @@
 #include <deque>
 #include <limits>
 
+#include "each_target.hpp"
 #include "processing_support.hpp"
 #include "rave/math/scalar.hpp"
 
@@ -120,6 +121,18 @@ TEST(RangeFilter, ExponentialsAreThoseOfEachRay) {
                 200, PlainExponential(time_constant_s));
     }
   }
+}
+
+TEST(RangeFilter, IsTheSameWithAllInstructions) {
+  const int targets = for_each_target([](const char* name) {
+    SCOPED_TRACE(name);
+    for (const std::uint32_t rays : {3U, 16U, 77U}) {
+      expect_as({.window = 5}, rays, 60, PlainMedian(5));
+      expect_as({.kind = FilterSpec::Kind::kExponential, .time_constant_s = 0.03}, rays, 60,
+                PlainExponential(0.03));
+    }
+  });
+  EXPECT_GE(targets, 2) << "a processor with one set of instructions shows nothing";
 }
 
 TEST(RangeFilter, ResetForgetsTheReadings) {

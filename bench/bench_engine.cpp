@@ -11,7 +11,7 @@ using namespace rave::sim;
 using namespace rave::sim::testing;
 
 /// `count` robots with a laser of 16 rays and 3 m that roam a field with one robot on 4 m^2.
-EngineSpec crowd(std::uint32_t count, unsigned threads) {
+EngineSpec crowd(std::uint32_t count, unsigned threads, bool noisy) {
   static constexpr VirtualActuatorOps kWheels = rave::detail::virtual_actuator_ops<Wheels>();
   static constexpr ControllerOps kPass = rave::detail::controller_ops<Pass>();
   EngineSpec spec;
@@ -25,6 +25,7 @@ EngineSpec crowd(std::uint32_t count, unsigned threads) {
   laser.params.add_number("fov_rad", 4);
   laser.params.add_number("range_m", 3);
   laser.z_m = 0.1;
+  if (noisy) laser.processing.noise.length_sigma_m = 0.01;
   type.sensors.push_back(std::move(laser));
   ActuatorSpec wheels;
   wheels.name = wheels.driver = "wheels";
@@ -54,16 +55,20 @@ EngineSpec crowd(std::uint32_t count, unsigned threads) {
 
 void engine_step(benchmark::State& state) {
   const auto count = static_cast<std::uint32_t>(state.range(0));
-  const auto engine = Engine::create(crowd(count, static_cast<unsigned>(state.range(1)))).value();
+  const auto engine =
+      Engine::create(crowd(count, static_cast<unsigned>(state.range(1)), state.range(2) != 0))
+          .value();
   for (auto _ : state) {
     if (!engine->step()) state.SkipWithError("the run ended");
   }
   state.counters["robot_steps"] = benchmark::Counter(
       static_cast<double>(state.iterations()) * count, benchmark::Counter::kIsRate);
 }
+// Robots, threads, whether ranges have Gaussian noise.
 BENCHMARK(engine_step)
-    ->Args({1000, 1})
-    ->Args({1000, 2})
+    ->Args({1000, 1, 0})
+    ->Args({1000, 1, 1})
+    ->Args({1000, 2, 0})
     ->Unit(benchmark::kMicrosecond)
     ->UseRealTime();
 

@@ -74,9 +74,10 @@ function(rave_plugin name)
   target_link_libraries(rave_plugin_${name} PRIVATE rave_build_flags ${ARG_DEPS})
   set_target_properties(rave_plugin_${name} PROPERTIES PREFIX "" OUTPUT_NAME ${name}
     LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${RAVE_PLUGIN_DIR}")
-  # Only the one entry point and the stamp are visible; static libraries stay inside.
+  # Only the one entry point and the stamp are visible; static libraries stay inside, and a shared
+  # one that they want is needed only by a plug-in that uses that part of them.
   target_link_options(rave_plugin_${name} PRIVATE
-    -Wl,--exclude-libs,ALL -Wl,--no-undefined)
+    -Wl,--exclude-libs,ALL -Wl,--no-undefined -Wl,--as-needed)
   set_property(GLOBAL APPEND PROPERTY RAVE_PLUGIN_TARGETS rave_plugin_${name})
 endfunction()
 

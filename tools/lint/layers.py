@@ -20,12 +20,14 @@ PACKAGE_INCLUDES = {"fmt/": "fmt", "tl/": "expected", "yaml-cpp/": "yaml-cpp", "
                     "cairo": "cairo", "spdlog/": "spdlog", "CLI/": "cli11", "zlib.h": "zlib",
                     "sodium": "sodium", "nlohmann/": "json", "backtrace": "backtrace",
                     "gtest/": "gtest", "benchmark/": "benchmark", "dds/": "dds",
-                    "Eigen/": "eigen", "zstd.h": "zstd", "boost/": "boost", "dlfcn.h": "dl"}
+                    "Eigen/": "eigen", "zstd.h": "zstd", "boost/": "boost", "dlfcn.h": "dl",
+                    "hwy/": "hwy"}
 PACKAGE_LINKS = {"fmt::": "fmt", "tl::": "expected", "yaml-cpp": "yaml-cpp", "PNG::": "png",
                  "${CAIRO_": "cairo", "spdlog::": "spdlog", "CLI11::": "cli11", "ZLIB::": "zlib",
                  "PkgConfig::sodium": "sodium", "nlohmann_json": "json",
                  "${backtrace": "backtrace", "GTest::": "gtest", "benchmark::": "benchmark",
-                 "Eigen3::": "eigen", "${ZSTD_": "zstd", "Boost::": "boost", "${CMAKE_DL_LIBS}": "dl"}
+                 "Eigen3::": "eigen", "${ZSTD_": "zstd", "Boost::": "boost", "${CMAKE_DL_LIBS}": "dl",
+                 "hwy::": "hwy"}
 
 
 def read_table(tree):

@@ -2,9 +2,11 @@
 #include <benchmark/benchmark.h>
 
 #include <array>
+#include <vector>
 
 #include "rave/math/gaussian.hpp"
 #include "rave/math/polygon.hpp"
+#include "rave/math/random_batch.hpp"
 #include "rave/math/scalar.hpp"
 
 namespace rave {
@@ -48,6 +50,27 @@ void bench_gaussian(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(gaussian(stream));
 }
 
+/// Seconds per number: the report prints it with its prefix, `n` for nanoseconds.
+template <class Number, class Fill>
+void fill(benchmark::State& state, const Fill& fill) {
+  std::vector<Number> numbers(static_cast<std::size_t>(state.range(0)));
+  std::uint32_t sample = 0;
+  for (auto _ : state) {
+    fill(RandomStream(1, 2, 3, ++sample), std::span(numbers));
+    benchmark::DoNotOptimize(numbers.data());
+    benchmark::ClobberMemory();
+  }
+  state.counters["per_number"] = benchmark::Counter(
+      static_cast<double>(numbers.size()),
+      benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+void bench_fill_bits(benchmark::State& state) {
+  fill<std::uint32_t>(state, [](const RandomStream& stream, auto out) { fill_bits(stream, out); });
+}
+void bench_fill_normal(benchmark::State& state) {
+  fill<float>(state, [](const RandomStream& stream, auto out) { fill_normal(stream, out); });
+}
+
 void bench_distance(benchmark::State& state) {
   const auto a = ConvexPolygon::regular(static_cast<int>(state.range(0)), 0.3).value();
   const auto b = ConvexPolygon::box(2, 0.2).value();
@@ -68,6 +91,8 @@ BENCHMARK(bench_atan2);
 BENCHMARK(bench_exp);
 BENCHMARK(bench_log);
 BENCHMARK(bench_gaussian);
+BENCHMARK(bench_fill_bits)->Arg(16)->Arg(180)->Arg(4096);
+BENCHMARK(bench_fill_normal)->Arg(16)->Arg(180)->Arg(4096);
 BENCHMARK(bench_distance)->Arg(4)->Arg(16)->Arg(64);
 BENCHMARK(bench_time_of_impact)->Arg(4)->Arg(16);
 

@@ -8,8 +8,8 @@
 
 namespace rave::detail {
 
-/// The numbers in a record that filters work on: `count` of them from the start of the record,
-/// floats for ranges and doubles otherwise. 0: a kind that cannot be filtered.
+/// The doubles in a record that filters work on: `count` of them from the start of the record. 0: a
+/// kind that cannot be filtered. Ranges have filters of their own (range_filter.hpp).
 struct FilterFields {
   std::uint32_t count = 0;
   std::uint32_t angle = UINT32_MAX;  ///< Which of them is an angle.

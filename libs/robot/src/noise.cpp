@@ -1,48 +1,54 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "rave/math/gaussian.hpp"
+#include "noise_batch.hpp"
+#include "range_kernel.hpp"
 #include "rave/math/scalar.hpp"
 #include "rave/robot/processing.hpp"
 
 namespace rave {
 namespace {
 
+using detail::NoiseBatch;
+using detail::NoisePiece;
+using Items = std::span<const NoiseItem>;
+
+/// Blocks of a sample's stream: normal numbers from the first on, drop-out from the middle on.
+constexpr std::uint32_t kNormalBlock = 0;
+constexpr std::uint32_t kDropoutBlock = 0x8000'0000U;
+
 /// The normal error and the rounding of one kind of field.
 class Term {
  public:
   Term(double sigma, double quantum) noexcept : sigma_(sigma), quantum_(quantum) {}
 
-  /// Always takes what one normal number takes, so that terms do not disturb each other.
-  [[nodiscard]] double error(RandomStream& random) const noexcept {
-    if (sigma_ > 0) return sigma_ * gaussian(random);
-    for (int i = 0; i < 4; ++i) random.bits();
-    return 0;
+  [[nodiscard]] bool scatters() const noexcept { return sigma_ > 0; }
+  [[nodiscard]] bool rounds() const noexcept { return quantum_ > 0; }
+  [[nodiscard]] double variance() const noexcept { return sigma_ * sigma_; }
+
+  /// A coordinate or a speed.
+  template <class Real>
+  void plain(Real& x, float normal) const noexcept {
+    x = static_cast<Real>(rounded(x + sigma_ * double{normal}));
   }
+  /// A distance: never negative. No return stays no return.
+  void distance(float& x, float normal) const noexcept {
+    const double wrong = double{x} + sigma_ * double{normal};
+    if (std::isfinite(x)) x = static_cast<float>(rounded(wrong < 0 ? 0 : wrong));
+  }
+  template <class Real>
+  void angle(Real& x, float normal) const noexcept {
+    if (!scatters() && !rounds()) return;
+    x = static_cast<Real>(wrap_angle(rounded(x + sigma_ * double{normal})));
+  }
+
+ private:
   [[nodiscard]] double rounded(double x) const noexcept {
     return quantum_ > 0 ? std::floor(x / quantum_ + 0.5) * quantum_ : x;
   }
 
-  /// A coordinate or a speed.
-  template <class Real>
-  void plain(Real& x, RandomStream& random) const noexcept {
-    const double wrong = x + error(random);
-    x = static_cast<Real>(rounded(wrong));
-  }
-  /// A distance: never negative. No return stays no return.
-  void distance(float& x, RandomStream& random) const noexcept {
-    const double wrong = x + error(random);
-    if (std::isfinite(x)) x = static_cast<float>(rounded(wrong < 0 ? 0 : wrong));
-  }
-  template <class Real>
-  void angle(Real& x, RandomStream& random) const noexcept {
-    const double wrong = x + error(random);
-    if (sigma_ > 0 || quantum_ > 0) x = static_cast<Real>(wrap_angle(rounded(wrong)));
-  }
-  [[nodiscard]] double variance() const noexcept { return sigma_ * sigma_; }
-
- private:
   double sigma_;
   double quantum_;
 };
@@ -51,62 +57,149 @@ struct Terms {
   Term length;
   Term angle;
   Term velocity;
+
+  [[nodiscard]] bool scatter() const noexcept {
+    return length.scatters() || angle.scatters() || velocity.scatters();
+  }
+  [[nodiscard]] bool round() const noexcept {
+    return length.rounds() || angle.rounds() || velocity.rounds();
+  }
 };
 
-void disturb(float& range, const Terms& terms, RandomStream& random) noexcept {
-  terms.length.distance(range, random);
-}
-void disturb(Sighting& seen, const Terms& terms, RandomStream& random) noexcept {
-  terms.length.distance(seen.range_m, random);
-  terms.angle.angle(seen.bearing_rad, random);
+/// How many normal numbers a record takes, one for each field that noise can touch.
+template <class Record>
+constexpr std::uint32_t kNormals = 0;
+template <>
+constexpr std::uint32_t kNormals<Sighting> = 2;
+template <>
+constexpr std::uint32_t kNormals<PoseReading> = 3;
+template <>
+constexpr std::uint32_t kNormals<OdometryReading> = 4;
+template <>
+constexpr std::uint32_t kNormals<NeighbourReading> = 4;
+template <>
+constexpr std::uint32_t kNormals<VelocityReading> = 1;
+
+void disturb(Sighting& seen, const Terms& terms, const float* normals) noexcept {
+  terms.length.distance(seen.range_m, normals[0]);
+  terms.angle.angle(seen.bearing_rad, normals[1]);
 }
 template <class Posed>
-void disturb_pose(Posed& pose, const Terms& terms, RandomStream& random) noexcept {
-  terms.length.plain(pose.x_m, random);
-  terms.length.plain(pose.y_m, random);
-  terms.angle.angle(pose.yaw_rad, random);
+void disturb_pose(Posed& pose, const Terms& terms, const float* normals) noexcept {
+  terms.length.plain(pose.x_m, normals[0]);
+  terms.length.plain(pose.y_m, normals[1]);
+  terms.angle.angle(pose.yaw_rad, normals[2]);
   pose.variance_xy_m2 += terms.length.variance();
   pose.variance_yaw_rad2 += terms.angle.variance();
 }
-void disturb(PoseReading& pose, const Terms& terms, RandomStream& random) noexcept {
-  disturb_pose(pose, terms, random);
+void disturb(PoseReading& pose, const Terms& terms, const float* normals) noexcept {
+  disturb_pose(pose, terms, normals);
 }
-void disturb(OdometryReading& odometry, const Terms& terms, RandomStream& random) noexcept {
-  disturb_pose(odometry, terms, random);
-  terms.velocity.plain(odometry.v_mps, random);
+void disturb(OdometryReading& odometry, const Terms& terms, const float* normals) noexcept {
+  disturb_pose(odometry, terms, normals);
+  terms.velocity.plain(odometry.v_mps, normals[3]);
 }
-void disturb(NeighbourReading& other, const Terms& terms, RandomStream& random) noexcept {
-  terms.length.distance(other.range_m, random);
-  terms.angle.angle(other.bearing_rad, random);
-  terms.velocity.plain(other.vx_mps, random);
-  terms.velocity.plain(other.vy_mps, random);
+void disturb(NeighbourReading& other, const Terms& terms, const float* normals) noexcept {
+  terms.length.distance(other.range_m, normals[0]);
+  terms.angle.angle(other.bearing_rad, normals[1]);
+  terms.velocity.plain(other.vx_mps, normals[2]);
+  terms.velocity.plain(other.vy_mps, normals[3]);
 }
-void disturb(VelocityReading& velocity, const Terms& terms, RandomStream& random) noexcept {
-  terms.velocity.plain(velocity.v_mps, random);
+void disturb(VelocityReading& velocity, const Terms& terms, const float* normals) noexcept {
+  terms.velocity.plain(velocity.v_mps, normals[0]);
 }
 
 template <class Record>
-Record* disturb_all(void* records, std::uint32_t count, const Terms& terms,
-                    RandomStream& random) noexcept {
-  auto* const first = static_cast<Record*>(records);
-  for (std::uint32_t i = 0; i < count; ++i) disturb(first[i], terms, random);
-  return first;
-}
-
-/// Takes records out, keeping the order of the others; returns how many are left.
-template <class Record>
-std::uint32_t thin_out(Record* records, std::uint32_t count, double probability,
-                       RandomStream& random) noexcept {
-  std::uint32_t kept = 0;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    if (random.uniform() >= probability) records[kept++] = records[i];
+void disturb_all(Items items, const Terms& terms) noexcept {
+  constexpr std::uint32_t kEach = kNormals<Record>;
+  if (terms.scatter()) {
+    const auto use = [&terms](const NoisePiece& piece, const float* normals) {
+      Record* const records = piece.records<Record>();
+      for (std::uint32_t i = 0; i < piece.count; ++i) {
+        disturb(records[i], terms, normals + std::size_t{kEach} * i);
+      }
+    };
+    NoiseBatch<float, kEach, decltype(use)> batch(kNormalBlock, use);
+    for (const NoiseItem& item : items) batch.add(item, item.header->count);
+    return;
   }
-  return kept;
+  if (!terms.round()) return;
+  constexpr float kNothing[kEach] = {};
+  for (const NoiseItem& item : items) {
+    auto* const records = static_cast<Record*>(item.records);
+    for (std::uint32_t i = 0; i < item.header->count; ++i) disturb(records[i], terms, kNothing);
+  }
 }
 
-void silence(float* rays, std::uint32_t count, double probability, RandomStream& random) noexcept {
-  for (std::uint32_t i = 0; i < count; ++i) {
-    if (random.uniform() < probability) rays[i] = std::numeric_limits<float>::infinity();
+void disturb_ranges(Items items, const NoiseSpec& noise) noexcept {
+  const double quantum_m = noise.length_quantum_m;
+  if (noise.length_sigma_m > 0) {
+    constexpr double kLargest = std::numeric_limits<float>::max();
+    const auto sigma_m = static_cast<float>(std::min(noise.length_sigma_m, kLargest));
+    const auto use = [sigma_m, quantum_m](const NoisePiece& piece, const float* normals) {
+      auto* const ranges_m = piece.records<float>();
+      detail::scatter_ranges(ranges_m, piece.count, sigma_m, normals);
+      if (quantum_m > 0) detail::round_ranges(ranges_m, piece.count, quantum_m);
+    };
+    NoiseBatch<float, 1, decltype(use)> batch(kNormalBlock, use);
+    for (const NoiseItem& item : items) batch.add(item, item.header->count);
+  } else if (quantum_m > 0) {
+    for (const NoiseItem& item : items) {
+      detail::round_ranges(static_cast<float*>(item.records), item.header->count, quantum_m);
+    }
+  }
+}
+
+/// Lost is what draws a number up to this.
+std::uint32_t dropout_limit(double probability) noexcept {
+  return static_cast<std::uint32_t>(std::ceil(probability * 0x1p32) - 1);
+}
+
+/// `use(piece, words)` with one word for each of `count(item)` records.
+template <class Count, class Use>
+void drop_out(Items items, Count count, Use use) noexcept {
+  NoiseBatch<std::uint32_t, 1, Use> batch(kDropoutBlock, use);
+  for (const NoiseItem& item : items) batch.add(item, count(item));
+}
+
+std::uint32_t all_records(const NoiseItem& item) noexcept { return item.header->count; }
+std::uint32_t one_record(const NoiseItem& /*item*/) noexcept { return 1; }
+
+void silence(Items items, std::uint32_t limit) noexcept {
+  drop_out(items, all_records, [limit](const NoisePiece& piece, const std::uint32_t* words) {
+    detail::silence_ranges(piece.records<float>(), piece.count, words, limit);
+  });
+}
+
+/// Takes records out, keeping the order of the others.
+template <class Record>
+void thin_out(Items items, std::uint32_t limit) noexcept {
+  drop_out(items, all_records, [limit](const NoisePiece& piece, const std::uint32_t* words) {
+    auto* const records = static_cast<Record*>(piece.item->records);
+    std::uint32_t& kept = piece.item->header->count;
+    if (piece.first == 0) kept = 0;
+    for (std::uint32_t i = 0; i < piece.count; ++i) {
+      if (words[i] > limit) records[kept++] = records[piece.first + i];
+    }
+  });
+}
+
+void empty_samples(Items items, std::uint32_t limit) noexcept {
+  drop_out(items, one_record, [limit](const NoisePiece& piece, const std::uint32_t* words) {
+    if (words[0] <= limit) piece.item->header->count = 0;
+  });
+}
+
+void lose(ReadingKind kind, Items items, std::uint32_t limit) noexcept {
+  switch (kind) {
+    case ReadingKind::kRanges:
+      return silence(items, limit);
+    case ReadingKind::kSightings:
+      return thin_out<Sighting>(items, limit);
+    case ReadingKind::kNeighbours:
+      return thin_out<NeighbourReading>(items, limit);
+    default:
+      return empty_samples(items, limit);
   }
 }
 
@@ -119,44 +212,41 @@ bool NoiseSpec::any() const noexcept {
 }
 
 void Processing::apply_noise(SampleHeader& header, void* records,
-                             RandomStream random) const noexcept {
-  if (!noisy_ || header.count == 0) return;
+                             const RandomStream& random) const noexcept {
+  const NoiseItem item{&header, records, random};
+  apply_noise({&item, 1});
+}
+
+void Processing::apply_noise(std::span<const NoiseItem> items) const noexcept {
+  if (!noisy_) return;
   const Terms terms{{noise_.length_sigma_m, noise_.length_quantum_m},
                     {noise_.angle_sigma_rad, noise_.angle_quantum_rad},
                     {noise_.velocity_sigma_mps, noise_.velocity_quantum_mps}};
-  const double lost = noise_.dropout_probability;
-  const std::uint32_t count = header.count;
   switch (kind_) {
-    case ReadingKind::kRanges: {
-      float* const rays = disturb_all<float>(records, count, terms, random);
-      if (lost > 0) silence(rays, count, lost, random);
-      return;
-    }
-    case ReadingKind::kSightings: {
-      auto* const seen = disturb_all<Sighting>(records, count, terms, random);
-      if (lost > 0) header.count = thin_out(seen, count, lost, random);
-      return;
-    }
-    case ReadingKind::kNeighbours: {
-      auto* const others = disturb_all<NeighbourReading>(records, count, terms, random);
-      if (lost > 0) header.count = thin_out(others, count, lost, random);
-      return;
-    }
+    case ReadingKind::kRanges:
+      disturb_ranges(items, noise_);
+      break;
+    case ReadingKind::kSightings:
+      disturb_all<Sighting>(items, terms);
+      break;
+    case ReadingKind::kNeighbours:
+      disturb_all<NeighbourReading>(items, terms);
+      break;
     case ReadingKind::kPose:
-      disturb_all<PoseReading>(records, count, terms, random);
+      disturb_all<PoseReading>(items, terms);
       break;
     case ReadingKind::kOdometry:
-      disturb_all<OdometryReading>(records, count, terms, random);
+      disturb_all<OdometryReading>(items, terms);
       break;
     case ReadingKind::kVelocity:
-      disturb_all<VelocityReading>(records, count, terms, random);
+      disturb_all<VelocityReading>(items, terms);
       break;
     case ReadingKind::kContact:
     case ReadingKind::kValues:
     case ReadingKind::kNone:
       break;
   }
-  if (lost > 0 && random.uniform() < lost) header.count = 0;
+  if (noise_.dropout_probability > 0) lose(kind_, items, dropout_limit(noise_.dropout_probability));
 }
 
 }  // namespace rave

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "field_filter.hpp"
+#include "range_filter.hpp"
 
 namespace rave {
 namespace {
@@ -97,6 +98,11 @@ Status check_times(double latency_s, double period_s) {
   return {};
 }
 
+std::size_t filter_memory(const FilterSpec& filter, ReadingKind kind, std::uint32_t capacity) {
+  if (kind == ReadingKind::kRanges) return detail::range_filter_memory(filter, capacity);
+  return std::size_t{capacity} * detail::filter_fields(kind).count * detail::filter_memory(filter);
+}
+
 std::uint64_t ring_depth(Duration latency, Duration period) {
   if (period.ns == 0) return std::max(kIrregularDepth, ring_depth(latency, kIrregularPeriod));
   return static_cast<std::uint64_t>((latency.ns + period.ns - 1) / period.ns + 1);
@@ -129,13 +135,12 @@ Result<Processing> Processing::make(const ProcessingSpec& spec, ReadingKind kind
   const std::size_t records_size = std::size_t{made.record_size_} * capacity;
   made.slot_size_ = sizeof(SampleHeader) + whole_words(records_size);
   const std::uint64_t depth = ring_depth(made.latency_, from_seconds(period_s));
-  const std::size_t fields = std::size_t{capacity} * detail::filter_fields(kind).count;
   // All factors are far below 2^48, and the sum is tested before a next one could overflow it.
   bool fits = depth <= kLargestState / made.slot_size_;
   std::size_t size = sizeof(Ring) + (fits ? depth * made.slot_size_ : 0);
   for (const FilterSpec& filter : spec.filters) {
     made.stages_.push_back({filter, size});
-    size += fields * detail::filter_memory(filter);
+    size += filter_memory(filter, kind, capacity);
     fits = fits && size <= kLargestState;
     if (!fits) break;
   }
@@ -151,14 +156,21 @@ Result<Processing> Processing::make(const ProcessingSpec& spec, ReadingKind kind
   return made;
 }
 
-void Processing::reset(std::byte* state) const noexcept { std::memset(state, 0, state_size_); }
+void Processing::reset(std::byte* state) const noexcept {
+  std::memset(state, 0, state_size_);
+  if (kind_ != ReadingKind::kRanges) return;
+  for (const Stage& stage : stages_) {
+    detail::reset_range_filter(stage.filter, capacity_, state + stage.offset);
+  }
+}
 
 std::byte* Processing::slot(std::byte* state, std::uint32_t index) const noexcept {
   return state + sizeof(Ring) + slot_size_ * (index % depth_);
 }
 
-void Processing::push(const SampleHeader& raw, const void* records, RandomStream random,
-                      std::byte* state) const noexcept {
+/// Copies a sample to the end of the ring and returns where its header is.
+std::byte* Processing::enqueue(const SampleHeader& raw, const void* records,
+                               std::byte* state) const noexcept {
   auto& ring = *reinterpret_cast<Ring*>(state);
   if (ring.count == depth_) {
     const auto& lost = *reinterpret_cast<const SampleHeader*>(slot(state, ring.first));
@@ -172,9 +184,21 @@ void Processing::push(const SampleHeader& raw, const void* records, RandomStream
   header = raw;
   header.count = std::min(raw.count, capacity_);
   header.dropped += raw.count - header.count;
-  std::byte* const own = place + sizeof(SampleHeader);
-  if (header.count > 0) std::memcpy(own, records, std::size_t{header.count} * record_size_);
-  apply_noise(header, own, random);
+  if (header.count > 0) {
+    std::memcpy(place + sizeof(SampleHeader), records, std::size_t{header.count} * record_size_);
+  }
+  return place;
+}
+
+void Processing::push(const SampleHeader& raw, const void* records, const RandomStream& random,
+                      std::byte* state) const noexcept {
+  std::byte* const place = enqueue(raw, records, state);
+  apply_noise(*reinterpret_cast<SampleHeader*>(place), place + sizeof(SampleHeader), random);
+}
+
+void Processing::push_noisy(const SampleHeader& noisy, const void* records,
+                            std::byte* state) const noexcept {
+  enqueue(noisy, records, state);
 }
 
 bool Processing::deliver(SimTime now, std::byte* state, SampleHeader* out,
@@ -213,16 +237,14 @@ bool Processing::deliver_some(SimTime now, bool all, std::byte* state, SampleHea
 
 void Processing::filter(const Stage& stage, const SampleHeader& header, void* records,
                         std::byte* state) const noexcept {
-  detail::FieldFilter run(stage.filter);
-  const std::size_t each = detail::filter_memory(stage.filter);
   std::byte* memory = state + stage.offset;
   if (kind_ == ReadingKind::kRanges) {
-    auto* const rays = static_cast<float*>(records);
-    for (std::uint32_t i = 0; i < header.count; ++i, memory += each) {
-      rays[i] = static_cast<float>(run(rays[i], header.stamp_ns, false, memory));
-    }
+    detail::filter_ranges(stage.filter, capacity_, header.stamp_ns,
+                          {static_cast<float*>(records), header.count}, memory);
     return;
   }
+  detail::FieldFilter run(stage.filter);
+  const std::size_t each = detail::filter_memory(stage.filter);
   const detail::FilterFields fields = detail::filter_fields(kind_);
   auto* record = static_cast<double*>(records);
   for (std::uint32_t i = 0; i < header.count; ++i, record += record_size_ / sizeof(double)) {

@@ -40,6 +40,8 @@ struct Worker {
   std::vector<Event> events;
   std::vector<RobotId> near;
   std::vector<GuardNeighbour> neighbours;
+  std::vector<NoiseItem> noise;  ///< Samples of a block that wait for their noise, and whose.
+  std::vector<std::uint32_t> noisy_members;
 };
 
 /// What the guard of one robot remembers.
@@ -112,6 +114,7 @@ struct Engine::Impl {
   void sense_block(const Block& block, Worker& worker);
   void sample_members(RobotGroup& group, SensorSlots& slots, std::uint32_t device,
                       const Block& block, Worker& worker);
+  void process_members(RobotGroup& group, SensorSlots& slots, std::uint32_t device, Worker& worker);
   void deliver(RobotGroup& group, SensorSlots& slots, std::uint32_t device, std::size_t member,
                Worker& worker);
   void hash_delivery(const RobotGroup& group, SensorSlots& slots, std::uint32_t device,

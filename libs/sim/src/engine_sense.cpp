@@ -19,7 +19,7 @@ void Engine::Impl::sense_block(const Block& block, Worker& worker) {
     if (due(slots.spec->period_steps, slots.spec->phase_steps)) {
       sample_members(group, slots, device, block, worker);
     }
-    if (!slots.processing) continue;
+    if (!slots.queued()) continue;
     for (std::uint32_t m = block.begin; m < block.end; ++m) {
       deliver(group, slots, device, m, worker);
     }
@@ -31,10 +31,12 @@ void Engine::Impl::sample_members(RobotGroup& group, SensorSlots& slots, std::ui
   const SensorSpec& sensor = *slots.spec;
   const double period_s = sensor.period_steps * spec.step.seconds();
   const SinCos mounting = sincos(sensor.X_RS.yaw);
+  worker.noise.clear();
+  worker.noisy_members.clear();
   for (std::uint32_t m = block.begin; m < block.end; ++m) {
     const RobotId robot = group.members[m];
     if (slots.failed[m] != 0 || !movers[robot.value()].present) continue;
-    const bool direct = !slots.processing;
+    const bool direct = !slots.queued();
     SampleHeader& header = direct ? slots.headers[m] : slots.raw_headers[m];
     std::byte* records = direct ? slots.records_of(m) : slots.raw_records_of(m);
     const std::uint32_t sequence = slots.sequence[m]++;
@@ -74,13 +76,32 @@ void Engine::Impl::sample_members(RobotGroup& group, SensorSlots& slots, std::ui
              fmt::format("sensor `{}` (driver `{}`): {}", sensor.name, sensor.driver, error.text)});
       }
     }
-    if (direct) {
+    if (!slots.processing) {
       hash_delivery(group, slots, device, m, worker.hash);
       note_reported_pose(group, slots, m, header, records);
     } else {
-      slots.processing->push(
-          header, records, RandomStream(spec.seed, robot.value(), device | 0x8000'0000U, sequence),
-          slots.processing_state_of(m));
+      worker.noise.push_back(
+          {&header, records,
+           RandomStream(spec.seed, robot.value(), device | 0x8000'0000U, sequence)});
+      worker.noisy_members.push_back(m);
+    }
+  }
+  if (slots.processing) process_members(group, slots, device, worker);
+}
+
+/// The noise of all samples in `worker.noise` at once; then each goes into its chain, or where
+/// noise is the whole chain, it is delivered.
+void Engine::Impl::process_members(RobotGroup& group, SensorSlots& slots, std::uint32_t device,
+                                   Worker& worker) {
+  slots.processing->apply_noise(worker.noise);
+  for (std::size_t i = 0; i < worker.noise.size(); ++i) {
+    const NoiseItem& item = worker.noise[i];
+    const std::uint32_t m = worker.noisy_members[i];
+    if (slots.queued()) {
+      slots.processing->push_noisy(*item.header, item.records, slots.processing_state_of(m));
+    } else {
+      hash_delivery(group, slots, device, m, worker.hash);
+      note_reported_pose(group, slots, m, *item.header, slots.records_of(m));
     }
   }
 }

@@ -61,11 +61,11 @@ void allocate(SensorSlots& slots, std::size_t count) {
   slots.flip.resize(count);
   if (slots.is_virtual()) slots.driver_state.resize(slots.spec->virtual_ops->state_size * count);
   if (!slots.is_virtual()) slots.scratch.resize(slots.stride);
-  if (slots.processing) {
+  if (slots.queued()) {
     slots.raw_headers.resize(count);
     slots.raw_records.resize(slots.stride * count);
+    slots.processing_state.resize(slots.processing->state_size() * count);
   }
-  if (slots.processing) slots.processing_state.resize(slots.processing->state_size() * count);
 }
 
 void clear_samples(SensorSlots& slots) {
@@ -79,7 +79,7 @@ void clear_samples(SensorSlots& slots) {
   std::fill(slots.failed.begin(), slots.failed.end(), std::uint8_t{0});
   std::fill(slots.flip.begin(), slots.flip.end(), std::uint8_t{0});
   if (slots.fusion) slots.fusion->clear();
-  if (!slots.processing) return;
+  if (!slots.queued()) return;
   for (std::size_t m = 0; m < slots.headers.size(); ++m) {
     slots.processing->reset(slots.processing_state_of(m));
   }

@@ -46,6 +46,11 @@ struct SensorSlots {
   std::unique_ptr<FusionSlots> fusion;  ///< Hybrids: what their halves give.
 
   [[nodiscard]] bool is_virtual() const noexcept { return spec->virtual_ops != nullptr; }
+  /// Whether samples wait in the processing chain. Where it is noise alone, a virtual sensor's are
+  /// disturbed where they lie.
+  [[nodiscard]] bool queued() const noexcept {
+    return processing && !(is_virtual() && processing->noise_only());
+  }
   [[nodiscard]] std::byte* records_of(std::size_t member) noexcept {
     return records.data() + stride * member;
   }

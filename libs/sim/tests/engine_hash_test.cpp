@@ -120,6 +120,28 @@ TEST(EngineHash, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
+TEST(EngineHash, NoiseInPlaceIsTheNoiseOfTheChain) {
+  // A median of one reading changes nothing, but sends the samples through the chain.
+  const auto hash_with = [](double sigma_m, std::vector<FilterSpec> filters, unsigned threads) {
+    EngineSpec spec = busy_world(threads);
+    for (RobotType& type : spec.types) {
+      for (SensorSpec& sensor : type.sensors) {
+        if (sensor.virtual_ops == nullptr || sensor.kind != ReadingKind::kRanges) continue;
+        sensor.processing = {};
+        sensor.processing.noise.length_sigma_m = sigma_m;
+        sensor.processing.filters = filters;
+      }
+    }
+    const auto engine = make_engine(std::move(spec));
+    run(*engine, kSteps);
+    return engine->hash();
+  };
+  const RunHash in_place = hash_with(0.02, {}, 1);
+  EXPECT_EQ(in_place, hash_with(0.02, {{FilterSpec::Kind::kMedian, 1, 0}}, 1));
+  EXPECT_EQ(in_place, hash_with(0.02, {}, 3));
+  EXPECT_NE(in_place, hash_with(0.03, {}, 1));
+}
+
 TEST(EngineHash, IsTheSameAfterTenResetsInARow) {
   const auto engine = make_engine(busy_world(2));
   run(*engine, kSteps);

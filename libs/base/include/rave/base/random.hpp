@@ -55,6 +55,21 @@ class RandomStream {
     return low + (high - low) * uniform();
   }
 
+  /// The same stream at the start of its block `block`, as after 4 * block calls of bits(). There
+  /// are 2^32 blocks; after the last comes the first.
+  [[nodiscard]] constexpr RandomStream at_block(std::uint32_t block) const noexcept {
+    RandomStream moved = *this;
+    moved.counter_[0] = block;
+    moved.next_ = 4;
+    return moved;
+  }
+
+  /// Key and counter of the next whole block, for those who compute many blocks at once.
+  [[nodiscard]] constexpr const std::array<std::uint32_t, 2>& key() const noexcept { return key_; }
+  [[nodiscard]] constexpr const std::array<std::uint32_t, 4>& counter() const noexcept {
+    return counter_;
+  }
+
  private:
   std::array<std::uint32_t, 2> key_;
   std::array<std::uint32_t, 4> counter_;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "rave/base/random.hpp"
@@ -59,15 +60,23 @@ struct ProcessingSpec {
   [[nodiscard]] bool empty() const noexcept;
 };
 
+/// One sample for the noise of many. What it points to belongs to the caller.
+struct NoiseItem {
+  SampleHeader* header = nullptr;
+  void* records = nullptr;  ///< `header->count` of them.
+  RandomStream random;      ///< The sample's own; its next whole block is where it starts.
+};
+
 /// The processing chain of one sensor; the same object serves all robots of a group. Immutable, so
 /// any thread may use it; what is remembered of one robot lies in memory of the caller, `state`,
 /// which must be aligned to 8 bytes, be reset() once and be used by one thread at a time.
 ///
-/// Random numbers are a function of the sample alone. First each record in turn draws one normal
-/// number (two uniform ones) for each field that noise can touch, in the order of the fields in
-/// the record; then each record in turn draws one uniform number for drop-out, of which only the
-/// first counts where the whole sample drops out. Both happen whichever terms are switched on, so
-/// one term never changes the numbers of another.
+/// Random numbers are a function of the sample alone, whichever samples are processed with it. A
+/// record takes one normal number for each field that noise can touch, in the order of the fields
+/// in the record, and the records one after the other take those of fill_normal() from the start
+/// of the stream. For drop-out a record takes one word of fill_bits() from 2^31 blocks further on;
+/// where the whole sample drops out, that is the first. So one term never changes the numbers of
+/// another.
 class Processing {
  public:
   /// `capacity`: records of one sample at most. `period_s`: time between two samples, 0 if they
@@ -87,8 +96,10 @@ class Processing {
   /// Takes a raw sample with `raw.count` records. Stamps must not step back. If the samples under
   /// way fill the ring, the oldest is lost and counts in `dropped` of the next delivery, as do
   /// records beyond the capacity.
-  void push(const SampleHeader& raw, const void* records, RandomStream random,
+  void push(const SampleHeader& raw, const void* records, const RandomStream& random,
             std::byte* state) const noexcept;
+  /// As push() for a sample that has been through apply_noise().
+  void push_noisy(const SampleHeader& noisy, const void* records, std::byte* state) const noexcept;
 
   /// Moves every sample with stamp + latency <= now through the filters, in order. The newest ends
   /// in `*out` and `out_records` (room for `capacity` records): true. If none is due, both stay as
@@ -100,9 +111,15 @@ class Processing {
   bool deliver_oldest(SimTime now, std::byte* state, SampleHeader* out,
                       void* out_records) const noexcept;
 
-  /// The noise alone, in place: enough where there is neither latency nor filter. Drop-out may
-  /// lower `header.count`; nothing else of the header changes.
-  void apply_noise(SampleHeader& header, void* records, RandomStream random) const noexcept;
+  /// The noise alone, in place. Drop-out may lower `header.count`; nothing else of a header
+  /// changes.
+  void apply_noise(SampleHeader& header, void* records, const RandomStream& random) const noexcept;
+  /// The same for many samples, the quicker the more there are: numbers are drawn a batch at a
+  /// time.
+  void apply_noise(std::span<const NoiseItem> items) const noexcept;
+  /// Whether noise is all: no latency, no filter. Then apply_noise() gives what push() and
+  /// deliver() would, and no state is needed.
+  [[nodiscard]] bool noise_only() const noexcept { return latency_.ns == 0 && stages_.empty(); }
 
  private:
   struct Stage {
@@ -110,6 +127,7 @@ class Processing {
     std::size_t offset = 0;  ///< Of the filter's memory in the state.
   };
   Processing() = default;
+  std::byte* enqueue(const SampleHeader& raw, const void* records, std::byte* state) const noexcept;
   bool deliver_some(SimTime now, bool all, std::byte* state, SampleHeader* out,
                     void* out_records) const noexcept;
   [[nodiscard]] std::byte* slot(std::byte* state, std::uint32_t index) const noexcept;

@@ -8,6 +8,7 @@
 #include <CLI/Formatter.hpp>
 #include <algorithm>
 
+#include "bench_arguments.hpp"
 #include "error_text.hpp"
 #include "rave/base/names.hpp"
 #include "rave/base/result.hpp"
@@ -32,6 +33,8 @@ struct Everything {
   ArmCommand arm;
   SetCommand set;
   HoldCommand hold;
+  BenchSwarmCommand bench_swarm;
+  BenchCompareCommand bench_compare;
 };
 
 void add_plugins(CLI::App& app, std::vector<std::string>& folders) {
@@ -348,6 +351,10 @@ Command chosen_command(const CLI::App& root, const Everything& all) {
   if (name == "stop") return all.stop;
   if (name == "arm") return all.arm;
   if (name == "set") return all.set;
+  if (name == "bench") {
+    if (chosen_app(root).get_name() == "swarm") return all.bench_swarm;
+    return all.bench_compare;
+  }
   HoldCommand hold = all.hold;
   if (name == "pause") return hold;
   if (name == "resume" || name == "step") {
@@ -376,6 +383,7 @@ Command parse_arguments(int argc, const char* const* argv) {
   add_play(root, all.play);
   add_report(root, all.gap);
   add_control(root, all);
+  add_bench(root, all.bench_swarm, all.bench_compare);
   root.add_subcommand("version", "What this build is, and which plug-ins fit it");
   root.footer(
       "Examples:\n"

@@ -3,6 +3,7 @@
 
 #include <variant>
 
+#include "commands/bench.hpp"
 #include "commands/check.hpp"
 #include "commands/control.hpp"
 #include "commands/describe.hpp"
@@ -24,10 +25,10 @@ struct Finished {
   int exit_code = 0;
 };
 
-using Command =
-    std::variant<Finished, RunCommand, CheckCommand, DriversCommand, DescribeCommand, NewCommand,
-                 SchemaCommand, InfoCommand, VerifyCommand, PlayCommand, GapCommand, PsCommand,
-                 StopCommand, ArmCommand, SetCommand, HoldCommand, VersionCommand>;
+using Command = std::variant<Finished, RunCommand, CheckCommand, DriversCommand, DescribeCommand,
+                             NewCommand, SchemaCommand, InfoCommand, VerifyCommand, PlayCommand,
+                             GapCommand, PsCommand, StopCommand, ArmCommand, SetCommand,
+                             HoldCommand, BenchSwarmCommand, BenchCompareCommand, VersionCommand>;
 
 /// Reads the command line. Prints help and complaints itself.
 [[nodiscard]] Command parse_arguments(int argc, const char* const* argv);

@@ -26,6 +26,8 @@ struct Dispatch {
   int operator()(const ArmCommand& options) const { return arm_robots(options); }
   int operator()(const SetCommand& options) const { return set_parameter(options); }
   int operator()(const HoldCommand& options) const { return hold_run(options); }
+  int operator()(const BenchSwarmCommand& options) const { return bench_swarm(options); }
+  int operator()(const BenchCompareCommand& options) const { return bench_compare(options); }
   int operator()(const VersionCommand& /*options*/) const { return version(); }
 };
 

@@ -50,6 +50,8 @@ class ScenarioTest : public testing::Test {
     EXPECT_TRUE(built) << (built ? "" : built.error().text());
     if (!built) return world;
     built->spec.live_clock = nullptr;
+    // So few robots would otherwise be left to one thread, whatever the scenario asks for.
+    built->spec.share_always = true;
     auto engine = sim::Engine::create(std::move(built->spec));
     EXPECT_TRUE(engine) << (engine ? "" : engine.error().text());
     if (engine) world.engine = *std::move(engine);

@@ -153,10 +153,15 @@ std::vector<std::size_t> robots_named(const ExpandedScenario& scenario, std::str
   return found;
 }
 
+Result<ExpandedScenario> expand_scenario_file(ScenarioFile scenario,
+                                              const std::filesystem::path& path) {
+  return Expansion(std::move(scenario), path).run();
+}
+
 Result<ExpandedScenario> expand_scenario_text(std::string_view text,
                                               const std::filesystem::path& path) {
   RAVE_TRY_ASSIGN(ScenarioFile scenario, read_scenario_text(text, path.string()));
-  return Expansion(std::move(scenario), path).run();
+  return expand_scenario_file(std::move(scenario), path);
 }
 
 Result<ExpandedScenario> expand_scenario(const std::filesystem::path& path) {

@@ -103,11 +103,10 @@ std::string_view to_string(EventKind kind) noexcept {
 
 Engine::Impl::Impl(EngineSpec s)
     : spec(std::move(s)),
-      pool(spec.threads),
+      pool(spec.threads, spec.share_always),
       workers(pool.threads()),
       resolver(spec.world),
-      snapshot(spec.world),
-      past(spec.world) {
+      snapshot(spec.world) {
   for (const world::Body& body : spec.world.robots) radius_m.push_back(body.radius_m());
   if (!has_hybrid(spec)) return;
   spec.history = std::max(spec.history, kHybridHistory);
@@ -204,6 +203,7 @@ void Engine::Impl::set_initial_state() {
   now = {};
   slack_m = 0;
   hash = RunHash();
+  phase_times = {};
   events.clear();
   pending.clear();
   by_hand = 0;
@@ -251,6 +251,7 @@ Result<std::unique_ptr<Engine>> Engine::create(EngineSpec spec) {
 
 Status Engine::step() {
   Impl& engine = *impl_;
+  PhaseTimer phase(engine.spec.phase_clock, engine.phase_times);
   engine.now = engine.step_time(engine.step);
   engine.make_changes();
   engine.events = std::move(engine.pending);
@@ -258,13 +259,21 @@ Status Engine::step() {
   engine.past_valid = false;  // samples of this step may change what the past looked like
   if (engine.fusion_world) engine.fusion_world->valid = false;
   RAVE_TRY(engine.ingest());
+  phase.ends(Phase::kIngest);
   engine.sense();
+  phase.ends(Phase::kSense);
   engine.deliver_messages();
+  phase.ends(Phase::kRadio);
   engine.decide();
+  phase.ends(Phase::kDecide);
   engine.carry_messages();
+  phase.ends(Phase::kRadio);
   engine.act();
+  phase.ends(Phase::kAct);
   engine.resolve();
+  phase.ends(Phase::kResolve);
   engine.publish();
+  phase.ends(Phase::kPublish);
   ++engine.step;
   return {};
 }
@@ -281,6 +290,7 @@ const ReportedPose& Engine::reported(RobotId robot) const noexcept {
 Pose2 Engine::true_pose(RobotId robot) const noexcept { return impl_->movers[robot.value()].X_WR; }
 std::span<const Event> Engine::events() const noexcept { return impl_->events; }
 RunHash Engine::hash() const noexcept { return impl_->hash; }
+const PhaseTimes& Engine::phase_times() const noexcept { return impl_->phase_times; }
 
 SensorSample Engine::sensor(RobotId robot, std::uint32_t index) const noexcept {
   const RobotGroup& group = impl_->group_of(robot);
@@ -391,13 +401,13 @@ void Engine::Impl::look_back(SimTime stamp) {
     if (history[i - 1].time <= stamp) frame = &history[i - 1];
   }
   for (std::uint32_t r = 0; frame != nullptr && r < movers.size(); ++r) {
-    world::RobotState state = past.robot(RobotId(r));
+    world::RobotState state = past->robot(RobotId(r));
     state.velocity_W = frame->robots[r].velocity_W;
-    past.set_robot(RobotId(r), state);
-    past.set_touch(RobotId(r), frame->touch[r]);
+    past->set_robot(RobotId(r), state);
+    past->set_touch(RobotId(r), frame->touch[r]);
   }
-  past.set_time(stamp);
-  past.rebuild();
+  past->set_time(stamp);
+  past->rebuild();
   past_valid = true;
 }
 
@@ -436,10 +446,11 @@ Result<SampleHeader> Engine::sample_at(RobotId robot, std::uint32_t sensor, SimT
     return fail(ErrorCode::kInvalidArgument, "sensor `{}` is not virtual", slots.spec->name);
   }
   RAVE_TRY_ASSIGN(const Pose2 X_WR, pose_at(robot, stamp));
-  if (!engine.past_valid || engine.past.time() != stamp) {
+  if (!engine.past) engine.past = std::make_unique<world::Snapshot>(engine.spec.world);
+  if (!engine.past_valid || engine.past->time() != stamp) {
     for (std::uint32_t r = 0; r < engine.movers.size(); ++r) {
       const auto pose = pose_at(RobotId(r), stamp);
-      engine.past.set_robot(RobotId(r), {pose.value_or(Pose2{}), {}, pose.has_value()});
+      engine.past->set_robot(RobotId(r), {pose.value_or(Pose2{}), {}, pose.has_value()});
     }
     engine.look_back(stamp);
   }
@@ -447,8 +458,8 @@ Result<SampleHeader> Engine::sample_at(RobotId robot, std::uint32_t sensor, SimT
   header.stamp_ns = stamp.ns;
   if (slots.uses_fan) {
     std::vector<std::uint32_t> bodies(slots.capacity);
-    cast_fan(engine.past, slots.fan, sensor_place(X_WR, slots.spec->X_RS), slots.spec->z_m,
-             engine.past.body_of(robot), engine.past_scratch,
+    cast_fan(*engine.past, slots.fan, sensor_place(X_WR, slots.spec->X_RS), slots.spec->z_m,
+             engine.past->body_of(robot), engine.past_scratch,
              {static_cast<float*>(records), slots.capacity}, bodies);
     header.count = slots.capacity;
     return header;
@@ -467,7 +478,8 @@ Result<SampleHeader> Engine::sample_at(RobotId robot, std::uint32_t sensor, SimT
   item.state = state.data();
   std::uint8_t failed = 0;
   ErrorText error;
-  slots.spec->virtual_ops->sample(slots.instances.at(0), &engine.past, &item, 1, &failed, &error);
+  slots.spec->virtual_ops->sample(slots.instances.at(0), engine.past.get(), &item, 1, &failed,
+                                  &error);
   if (failed != 0) return fail(ErrorCode::kPlugin, "{}", error.text);
   header.count = std::min(header.count, slots.capacity);
   return header;

@@ -195,8 +195,8 @@ struct Engine::Impl {
   std::uint64_t step = 0;
   SimTime now;
   world::Snapshot snapshot;
-  world::Snapshot past;     ///< For sample_at().
-  bool past_valid = false;  ///< Still shows what is known of its time.
+  std::unique_ptr<world::Snapshot> past;  ///< For sample_at(); made when it is first asked.
+  bool past_valid = false;                ///< Still shows what is known of its time.
   HistoryRing history;
   std::vector<Mover> movers;     ///< True poses of simulated, reported poses of real robots.
   std::vector<Twist2> velocity;  ///< Body frame, of the last step.
@@ -221,6 +221,7 @@ struct Engine::Impl {
   std::map<std::uint32_t, world::Body> original_bodies;  ///< Of robots that were resized.
   std::map<std::uint32_t, double> scales;                ///< Of the same.
   RunHash hash;
+  PhaseTimes phase_times;
   FanScratch past_scratch;
   std::unique_ptr<FusionWorld> fusion_world;  ///< Null without hybrid sensors.
 };

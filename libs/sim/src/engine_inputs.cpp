@@ -263,7 +263,7 @@ void Engine::Impl::put_body(RobotId robot, const world::Body& body) {
   radius_m[r] = body.radius_m();
   resolver.body_changed(r);
   snapshot.body_changed(robot);
-  past.body_changed(robot);
+  if (past) past->body_changed(robot);
   if (fusion_world) {
     fusion_world->world.body_changed(robot);
     fusion_world->valid = false;

@@ -15,7 +15,7 @@ std::int64_t nanoseconds_since(Clock::time_point begin) {
 
 }  // namespace
 
-ThreadPool::ThreadPool(unsigned threads) {
+ThreadPool::ThreadPool(unsigned threads, bool always) : always_(always) {
   for (unsigned worker = 1; worker < std::max(threads, 1U); ++worker) {
     workers_.emplace_back([this, worker] { serve(worker); });
   }
@@ -36,7 +36,7 @@ void ThreadPool::for_each_block(std::size_t blocks, Effort& effort,
     for (std::size_t block = 0; block < blocks; ++block) work(block, 0);
     return;
   }
-  if (blocks < 2 || !effort.is_worth_waking()) {
+  if (blocks < 2 || !(always_ || effort.is_worth_waking())) {
     const auto begin = Clock::now();
     for (std::size_t block = 0; block < blocks; ++block) work(block, 0);
     effort.work_ns_ = nanoseconds_since(begin);

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <set>
+#include <thread>
 
 namespace rave::sim {
 namespace {
@@ -74,6 +76,23 @@ TEST(ThreadPool, SharesALoopOnlyWhenItIsLong) {
   EXPECT_EQ(run(5ms), std::set<unsigned>{0});
   EXPECT_TRUE(effort.is_worth_waking());
   EXPECT_EQ(run(50ms), (std::set<unsigned>{0, 1}));
+}
+
+TEST(ThreadPool, SharesEveryLoopIfItIsToldTo) {
+  ThreadPool pool(2, true);
+  ThreadPool::Effort effort;
+  for (int round = 0; round < 20; ++round) {
+    // Each block ends when the other has begun, so one thread alone would never get to the second.
+    std::atomic<int> begun = 0;
+    std::atomic<int> met = 0;
+    pool.for_each_block(2, effort, [&](std::size_t, unsigned) {
+      ++begun;
+      const auto patience = std::chrono::steady_clock::now() + 20s;
+      while (begun < 2 && std::chrono::steady_clock::now() < patience) std::this_thread::yield();
+      if (begun == 2) ++met;
+    });
+    ASSERT_EQ(met, 2) << "round " << round;
+  }
 }
 
 TEST(ThreadPool, EndsWithoutHavingWorked) {

@@ -63,6 +63,10 @@ struct ExpandedScenario {
 [[nodiscard]] Result<ExpandedScenario> expand_scenario_text(std::string_view text,
                                                             const std::filesystem::path& path);
 
+/// The same for a scenario that was made by code; `path` is where it would stand.
+[[nodiscard]] Result<ExpandedScenario> expand_scenario_file(ScenarioFile scenario,
+                                                            const std::filesystem::path& path);
+
 /// One scenario file that says everything, all defaults included; expanding it anywhere gives an
 /// equal value as long as the maps exist.
 [[nodiscard]] std::string write_expanded(const ExpandedScenario& expanded);

@@ -160,6 +160,8 @@ class Engine {
   /// Events of the last step, ordered by robot.
   [[nodiscard]] std::span<const Event> events() const noexcept;
   [[nodiscard]] RunHash hash() const noexcept;
+  /// What the steps so far took; all zero without EngineSpec::phase_clock.
+  [[nodiscard]] const PhaseTimes& phase_times() const noexcept;
   /// Changes one bit of the next percept of a robot's sensor that has records, before it is
   /// delivered and hashed. For the test that the hash notices.
   void flip_percept_bit(RobotId robot, std::uint32_t sensor) noexcept;

@@ -21,6 +21,7 @@
 #include "rave/robot/sample_queue.hpp"
 #include "rave/sim/guard.hpp"
 #include "rave/sim/parameter_change.hpp"
+#include "rave/sim/phase_clock.hpp"
 #include "rave/sim/radio.hpp"
 #include "rave/sim/virtual_sensor.hpp"
 #include "rave/world/body.hpp"
@@ -177,6 +178,11 @@ struct EngineSpec {
   std::vector<ScheduledChange> changes;
   /// Not owned; outlives the engine.
   LogSink* log = nullptr;
+  /// Set: phase_times() tells what the phases took. No part of any result.
+  PhaseClock phase_clock = nullptr;
+  /// Shares every loop among the threads, also where one of them would be done sooner: for tests
+  /// of what threads must not change.
+  bool share_always = false;
 };
 
 }  // namespace rave::sim

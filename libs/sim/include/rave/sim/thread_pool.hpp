@@ -17,8 +17,9 @@ namespace rave::sim {
 /// which takes part in the work.
 class ThreadPool {
  public:
-  /// `threads` in all, the calling one included; at least 1.
-  explicit ThreadPool(unsigned threads);
+  /// `threads` in all, the calling one included; at least 1. `always`: every loop of two blocks and
+  /// more is shared, also where that costs more than it brings.
+  explicit ThreadPool(unsigned threads, bool always = false);
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
   ~ThreadPool();
@@ -52,6 +53,7 @@ class ThreadPool {
   void share(std::size_t blocks, const std::function<void(std::size_t, unsigned)>& work);
   void take_blocks(unsigned worker);
 
+  const bool always_;
   std::mutex mutex_;
   std::condition_variable wake_;
   std::condition_variable done_;

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench_arguments.hpp"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <string>
+
+namespace rave::cli {
+namespace {
+
+/// What a run of the swarm is, in both commands.
+void add_workload(CLI::App& app, swarm::Workload& workload, swarm::RunEnd& end) {
+  app.add_option_function<std::string>(
+         "--workload",
+         [&workload](const std::string& word) {
+           workload.sensing = word == "B" ? swarm::Sensing::kB : swarm::Sensing::kA;
+         },
+         "A: 16 rays all round, 3 m; B: 180 rays ahead, 8 m [A]")
+      ->type_name("A|B")
+      ->check(CLI::IsMember({"A", "B"}).description(""));
+  app.add_option("--robots", workload.robots, "How many robots [1000]")
+      ->type_name("N")
+      ->check(CLI::Range(std::uint32_t{1}, swarm::kMostRobots));
+  app.add_option("--threads", workload.threads, "Threads; they do not change the result [1]")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+  auto* const steps = app.add_option("--steps", end.steps, "How many steps of 0.1 s")
+                          ->type_name("K")
+                          ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
+  app.add_option("--seconds", end.seconds, "How long to measure, by the wall [5]")
+      ->type_name("S")
+      ->check(CLI::Range(1e-3, 1e6))
+      ->excludes(steps);
+  app.add_option_function<std::string>(
+         "--noise",
+         [&workload](const std::string& word) {
+           workload.noise = word == "gaussian" ? swarm::Noise::kGaussian : swarm::Noise::kNone;
+         },
+         "Of every range: normal, 1 cm [none]")
+      ->type_name("none|gaussian")
+      ->check(CLI::IsMember({"none", "gaussian"}).description(""));
+  app.add_option("--seed", workload.seed, "Another seed: other places, other chance [1]")
+      ->type_name("N");
+}
+
+void add_swarm(CLI::App& parent, BenchSwarmCommand& c) {
+  CLI::App& app = *parent.add_subcommand(
+      "swarm", "Measure robots that avoid boxes and one another in an arena");
+  add_workload(app, c.workload, c.end);
+  app.add_option(
+         "--write", c.write,
+         "Also write the scenario into this folder, for `rave run`, as long as this run was")
+      ->type_name("DIR");
+  app.footer(
+      "Prints one line of JSON. The hash is that of the same steps in `rave run` of the written\n"
+      "scenario.\n\n"
+      "Examples:\n"
+      "  rave bench swarm --robots 10000\n"
+      "  rave bench swarm --workload B --robots 1000 --steps 500 --write my/swarm\n"
+      "  rave run my/swarm --no-record --no-picture");
+}
+
+void add_compare(CLI::App& parent, BenchCompareCommand& c) {
+  CLI::App& app = *parent.add_subcommand("compare", "Measure two builds in turn");
+  app.add_option("a", c.options.a, "A folder of a build, or an executable")
+      ->required()
+      ->type_name("BUILD_A");
+  app.add_option("b", c.options.b, "The other one")->required()->type_name("BUILD_B");
+  add_workload(app, c.options.workload, c.options.end);
+  app.add_option("--rounds", c.options.rounds, "How often each runs [7]")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000));
+  app.add_flag("--allow-different-hash", c.options.allow_different_hash,
+               "Compare them even if they do not do the same");
+  app.footer(
+      "Prints one line of JSON, and a sentence to the standard error. With --seconds both do as\n"
+      "many steps as A does in that time.\n\n"
+      "Exit code: 0 if both could be measured and their hashes are the same or need not be,\n"
+      "1 if not, 2 for bad input.\n\n"
+      "Example:\n"
+      "  rave bench compare ../before/build/release build/release --workload B --robots 1000");
+}
+
+}  // namespace
+
+void add_bench(CLI::App& root, BenchSwarmCommand& swarm, BenchCompareCommand& compare) {
+  CLI::App& parent = *root.add_subcommand("bench", "Measure how fast this build is");
+  parent.require_subcommand(1);
+  parent.footer("Example:\n  rave bench swarm --robots 10000");
+  add_swarm(parent, swarm);
+  add_compare(parent, compare);
+}
+
+}  // namespace rave::cli

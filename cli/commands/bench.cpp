@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/bench.hpp"
+
+#include <chrono>
+
+#include "console.hpp"
+#include "error_text.hpp"
+#include "places.hpp"
+#include "rave/robot_host/build.hpp"
+
+namespace rave::cli {
+namespace {
+
+constexpr double kUsual_s = 5;
+
+swarm::RunEnd usual(swarm::RunEnd end) {
+  if (!end.steps && !end.seconds) end.seconds = kUsual_s;
+  return end;
+}
+
+}  // namespace
+
+int bench_swarm(const BenchSwarmCommand& command) {
+  const auto began = std::chrono::steady_clock::now();
+  plugin::Catalogue catalogue(robot_host::host_stamp());
+  if (auto added = add_plugin_folders({}, catalogue); !added) return complain(added.error());
+  Console console(true);
+  const auto run =
+      swarm::run_swarm(command.workload, usual(command.end), catalogue, &console, began);
+  if (!run) return complain(run.error());
+  if (!command.write.empty()) {
+    const double duration_s = static_cast<double>(run->steps) * swarm::kStep_s;
+    const auto written = swarm::write_scenario(command.workload, duration_s, command.write);
+    if (!written) return complain(written.error());
+  }
+  put(stdout, swarm::swarm_json(*run) + "\n");
+  return kGood;
+}
+
+int bench_compare(const BenchCompareCommand& command) {
+  swarm::CompareOptions options = command.options;
+  options.end = usual(options.end);
+  const auto comparison = swarm::compare(options);
+  if (!comparison) {
+    const int code = complain(comparison.error());
+    return comparison.error().code == ErrorCode::kState ? kNotGood : code;
+  }
+  put(stdout, swarm::comparison_json(*comparison) + "\n");
+  put(stderr, swarm::comparison_text(*comparison) + "\n");
+  return kGood;
+}
+
+}  // namespace rave::cli

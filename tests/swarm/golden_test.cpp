@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// The workloads of `rave bench swarm` give the same hash for any number of threads, on any
+// processor and in any type of build. ctest runs the first test once more with the C library's
+// processor features hidden.
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <filesystem>
+
+#include "rave/robot_host/build.hpp"
+#include "rave/sim/engine.hpp"
+#include "rave/swarm/workload.hpp"
+
+namespace rave::swarm {
+namespace {
+
+constexpr std::uint32_t kRobots = 200;
+constexpr std::uint64_t kSteps = 2000;
+
+struct Golden {
+  Sensing sensing;
+  Noise noise;
+  std::uint64_t hash;
+};
+/// The hashes after kSteps steps. They change with the engine, the drivers, `cruise` and the
+/// generator of the workload; then look why, and write the new ones here.
+constexpr Golden kGolden[] = {
+    {Sensing::kA, Noise::kNone, 0},
+    {Sensing::kB, Noise::kNone, 0},
+    {Sensing::kA, Noise::kGaussian, 0},
+};
+
+class SwarmGolden : public testing::TestWithParam<Golden> {
+ protected:
+  void TearDown() override { use_targets(0); }
+
+  /// Which sets of instructions the kernels may use; 0: all that the processor has.
+  static void use_targets(std::int64_t targets) {
+    hwy::SetSupportedTargetsForTest(targets);
+    hwy::GetChosenTarget().DeInit();
+  }
+
+  static std::unique_ptr<sim::Engine> make(plugin::Catalogue& catalogue, int threads) {
+    EXPECT_TRUE(catalogue.add_folder(std::filesystem::path(RAVE_BINARY_DIR) / "lib/rave/plugins"));
+    const auto scenario =
+        make_scenario({GetParam().sensing, kRobots, GetParam().noise, threads, 1}, 1);
+    EXPECT_TRUE(scenario) << (scenario ? "" : scenario.error().text());
+    if (!scenario) return nullptr;
+    auto built = robot_host::build(*scenario, catalogue, {{}, nullptr, nullptr});
+    EXPECT_TRUE(built) << (built ? "" : built.error().text());
+    if (!built) return nullptr;
+    // So few robots would otherwise be left to one thread.
+    built->spec.share_always = true;
+    auto engine = sim::Engine::create(std::move(built->spec));
+    EXPECT_TRUE(engine) << (engine ? "" : engine.error().text());
+    return engine ? *std::move(engine) : nullptr;
+  }
+
+  static std::uint64_t hash_with(int threads) {
+    plugin::Catalogue catalogue(robot_host::host_stamp());
+    const auto engine = make(catalogue, threads);
+    while (engine && engine->steps_done() < kSteps) {
+      const Status status = engine->step();
+      EXPECT_TRUE(status) << status.error().text();
+      if (!status) return 0;
+    }
+    return engine ? engine->hash().value() : 0;
+  }
+};
+
+TEST_P(SwarmGolden, OneThread) { EXPECT_EQ(hash_with(1), GetParam().hash); }
+
+TEST_P(SwarmGolden, TheNumberOfThreadsDoesNotMatter) {
+  for (const int threads : {2, 3, 8}) {
+    EXPECT_EQ(hash_with(threads), GetParam().hash) << threads << " threads";
+  }
+}
+
+TEST_P(SwarmGolden, TheSetOfInstructionsDoesNotMatter) {
+  const std::int64_t all = hwy::SupportedTargets();
+  ASSERT_NE(all & (all - 1), 0) << "a processor with one set of instructions shows nothing";
+  for (std::int64_t rest = all; rest != 0; rest &= rest - 1) {
+    use_targets(rest & -rest);
+    EXPECT_EQ(hash_with(1), GetParam().hash) << hwy::TargetName(rest & -rest);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Workloads, SwarmGolden, testing::ValuesIn(kGolden), [](const auto& test) {
+  return std::string(to_string(test.param.sensing)) + "_" +
+         std::string(to_string(test.param.noise));
+});
+
+}  // namespace
+}  // namespace rave::swarm

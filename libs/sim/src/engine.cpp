@@ -252,7 +252,7 @@ Status Engine::step() {
   Impl& engine = *impl_;
   engine.now = engine.step_time(engine.step);
   engine.make_changes();
-  engine.events = std::move(engine.pending);
+  engine.events.swap(engine.pending);  // both keep their room
   engine.pending.clear();
   engine.past_valid = false;  // samples of this step may change what the past looked like
   if (engine.fusion_world) engine.fusion_world->valid = false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <deque>
 #include <map>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "history_ring.hpp"
+#include "motion_phase.hpp"
 #include "pose_track.hpp"
 #include "rave/sim/engine.hpp"
 #include "rave/sim/thread_pool.hpp"
@@ -85,8 +87,10 @@ struct Engine::Impl {
   void note_reported_pose(RobotGroup& group, const SensorSlots& slots, std::size_t member,
                           const SampleHeader& header, const std::byte* record);
   void refresh_reported();
+  void refresh_block(const Block& block, Worker& worker);
   void make_way_for_real_robots();
   void place_robots();
+  void place_block(std::uint32_t first, std::uint32_t last);
   void remember();
   void look_back(SimTime stamp);
 
@@ -132,6 +136,7 @@ struct Engine::Impl {
   void actuate(RobotGroup& group, const Block& block, Worker& worker);
   void resolve();
   void publish();
+  void hash_poses(std::uint32_t first, std::uint32_t last, RunHash& sum) const;
 
   // engine_guard.cpp: the limits of commands
   void set_up_guards();
@@ -153,6 +158,14 @@ struct Engine::Impl {
   [[nodiscard]] bool due(std::uint32_t period, std::uint32_t phase) const noexcept {
     return step >= phase && (step - phase) % period == 0;
   }
+  /// Robots in the order of their ids, by blocks, whatever their groups.
+  static constexpr std::size_t kRobotBlock = 256;
+  [[nodiscard]] std::size_t robot_blocks() const noexcept {
+    return (movers.size() + kRobotBlock - 1) / kRobotBlock;
+  }
+  [[nodiscard]] std::uint32_t first_of_block(std::size_t block) const noexcept {
+    return static_cast<std::uint32_t>(std::min(block * kRobotBlock, movers.size()));
+  }
   [[nodiscard]] SimTime step_time(std::uint64_t k) const noexcept {
     return SimTime{static_cast<std::int64_t>(k) * spec.step.ns};
   }
@@ -167,9 +180,11 @@ struct Engine::Impl {
   std::vector<std::uint32_t> member_index;  ///< By robot.
   std::vector<Block> blocks;
   ThreadPool pool;
-  ThreadPool::Effort sense_effort, decide_effort, act_effort;
+  ThreadPool::Effort refresh_effort, place_effort, sense_effort, decide_effort, act_effort,
+      publish_effort;
   std::vector<Worker> workers;
   Resolver resolver;
+  MotionPhase motion{resolver, pool};
   std::unique_ptr<Radio> radio;  ///< Always there after make().
 
   std::uint64_t step = 0;

@@ -216,7 +216,6 @@ void Engine::Impl::set_initial_state() {
   if (fusion_world) fusion_world->valid = false;
   movers.resize(count);
   velocity.assign(count, Twist2{});
-  turn.assign(count, SinCos{});
   proposal.assign(count, Twist2{});
   limited.assign(count, 0);
   touch.assign(count, TouchState{});
@@ -254,7 +253,7 @@ Status Engine::step() {
   PhaseTimer phase(engine.spec.phase_clock, engine.phase_times);
   engine.now = engine.step_time(engine.step);
   engine.make_changes();
-  engine.events = std::move(engine.pending);
+  engine.events.swap(engine.pending);  // both keep their room
   engine.pending.clear();
   engine.past_valid = false;  // samples of this step may change what the past looked like
   if (engine.fusion_world) engine.fusion_world->valid = false;

@@ -4,7 +4,6 @@
 #include <tuple>
 
 #include "engine_impl.hpp"
-#include "rave/math/transform.hpp"
 
 namespace rave::sim {
 namespace {
@@ -141,39 +140,8 @@ void Engine::Impl::actuate(RobotGroup& group, const Block& block, Worker& worker
 }
 
 void Engine::Impl::resolve() {
-  const double dt_s = spec.step.seconds();
-  slack_m = 0;
-  for (std::uint32_t r = 0; r < movers.size(); ++r) {
-    if (!movers[r].simulated) continue;
-    const Twist2& twist = proposal[r];
-    // A turn moves what lies off the body's origin.
-    const double speed_mps = std::sqrt(twist.vx * twist.vx + twist.vy * twist.vy);
-    slack_m = std::max(slack_m, (speed_mps + std::abs(twist.wz) * radius_m[r]) * dt_s);
-  }
-  notes.clear();
-  for (std::uint32_t r = 0; r < movers.size(); ++r) {
-    if (!movers[r].simulated) continue;
-    touch[r] = {};
-    const Pose2 X_before = movers[r].X_WR;
-    const Twist2& twist = proposal[r];
-    if (twist == Twist2{}) {
-      velocity[r] = {};
-      limited[r] = 0;
-      continue;
-    }
-    const Pose2 X_wanted = integrate(X_before, twist, dt_s);
-    const std::size_t first = notes.size();
-    resolver.move(r, {X_wanted.x - X_before.x, X_wanted.y - X_before.y, twist.wz * dt_s}, snapshot,
-                  slack_m, movers, notes);
-    limited[r] = notes.size() > first ? 1 : 0;
-    if (limited[r] == 0) {
-      movers[r].X_WR = X_wanted;
-      velocity[r] = twist;
-    } else {
-      movers[r].X_WR.yaw = wrap_angle(movers[r].X_WR.yaw);
-      velocity[r] = twist_between(X_before, movers[r].X_WR, dt_s);
-    }
-  }
+  motion.run(snapshot, spec.step.seconds(), {movers, proposal, velocity, limited, touch}, notes);
+  slack_m = motion.slack_m();
   for (const ContactNote& contact : notes) {
     touch[contact.robot] = {true, contact.direction_W};
     const auto obstacles = static_cast<std::uint32_t>(spec.world.obstacles.size());
@@ -189,8 +157,8 @@ void Engine::Impl::resolve() {
 }
 
 void Engine::Impl::publish() {
-  for_each_robot(publish_effort, [this](std::uint32_t begin, std::uint32_t end, Worker& worker) {
-    hash_poses(begin, end, worker.hash);
+  pool.for_each_block(robot_blocks(), publish_effort, [this](std::size_t b, unsigned w) {
+    hash_poses(first_of_block(b), first_of_block(b + 1), workers[w].hash);
   });
   for (Worker& worker : workers) {
     hash.merge(worker.hash);
@@ -210,8 +178,8 @@ void Engine::Impl::publish() {
   }
 }
 
-void Engine::Impl::hash_poses(std::uint32_t begin, std::uint32_t end, RunHash& sum) const {
-  for (std::uint32_t r = begin; r < end; ++r) {
+void Engine::Impl::hash_poses(std::uint32_t first, std::uint32_t last, RunHash& sum) const {
+  for (std::uint32_t r = first; r < last; ++r) {
     if (!movers[r].present) continue;
     const Pose2& X_WR = movers[r].X_WR;
     const Twist2& twist = velocity[r];

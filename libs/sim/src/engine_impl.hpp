@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "history_ring.hpp"
+#include "motion_phase.hpp"
 #include "pose_track.hpp"
 #include "rave/sim/engine.hpp"
 #include "rave/sim/thread_pool.hpp"
@@ -29,9 +30,6 @@ struct Block {
   std::uint32_t begin = 0;
   std::uint32_t end = 0;
 };
-
-/// How many robots one thread takes at a time where their types do not matter.
-inline constexpr std::uint32_t kRobotRow = 256;
 
 /// What each thread has of its own during a phase.
 struct Worker {
@@ -91,10 +89,10 @@ struct Engine::Impl {
   void note_reported_pose(RobotGroup& group, const SensorSlots& slots, std::size_t member,
                           const SampleHeader& header, const std::byte* record);
   void refresh_reported();
-  void refresh_simulated(std::uint32_t begin, std::uint32_t end);
-  void place(std::uint32_t begin, std::uint32_t end);
+  void refresh_block(const Block& block, Worker& worker);
   void make_way_for_real_robots();
   void place_robots();
+  void place_block(std::uint32_t first, std::uint32_t last);
   void remember();
   void look_back(SimTime stamp);
 
@@ -141,7 +139,7 @@ struct Engine::Impl {
   void actuate(RobotGroup& group, const Block& block, Worker& worker);
   void resolve();
   void publish();
-  void hash_poses(std::uint32_t begin, std::uint32_t end, RunHash& sum) const;
+  void hash_poses(std::uint32_t first, std::uint32_t last, RunHash& sum) const;
 
   // engine_guard.cpp: the limits of commands
   void set_up_guards();
@@ -159,19 +157,17 @@ struct Engine::Impl {
   void put_body(RobotId robot, const world::Body& body);
   void restore_bodies();
 
-  /// Calls `work(begin, end, worker)` for rows of robots that together are all of them.
-  template <class Work>
-  void for_each_robot(ThreadPool::Effort& effort, const Work& work) {
-    const auto count = static_cast<std::uint32_t>(movers.size());
-    pool.for_each_block((count + kRobotRow - 1) / kRobotRow, effort,
-                        [&](std::size_t b, unsigned w) {
-                          const auto begin = static_cast<std::uint32_t>(b) * kRobotRow;
-                          work(begin, std::min(begin + kRobotRow, count), workers[w]);
-                        });
-  }
   void note(Event event) { events.push_back(std::move(event)); }
   [[nodiscard]] bool due(std::uint32_t period, std::uint32_t phase) const noexcept {
     return step >= phase && (step - phase) % period == 0;
+  }
+  /// Robots in the order of their ids, by blocks, whatever their groups.
+  static constexpr std::size_t kRobotBlock = 256;
+  [[nodiscard]] std::size_t robot_blocks() const noexcept {
+    return (movers.size() + kRobotBlock - 1) / kRobotBlock;
+  }
+  [[nodiscard]] std::uint32_t first_of_block(std::size_t block) const noexcept {
+    return static_cast<std::uint32_t>(std::min(block * kRobotBlock, movers.size()));
   }
   [[nodiscard]] SimTime step_time(std::uint64_t k) const noexcept {
     return SimTime{static_cast<std::int64_t>(k) * spec.step.ns};
@@ -187,9 +183,11 @@ struct Engine::Impl {
   std::vector<std::uint32_t> member_index;  ///< By robot.
   std::vector<Block> blocks;
   ThreadPool pool;
-  ThreadPool::Effort place_effort, sense_effort, decide_effort, act_effort, publish_effort;
+  ThreadPool::Effort refresh_effort, place_effort, sense_effort, decide_effort, act_effort,
+      publish_effort;
   std::vector<Worker> workers;
   Resolver resolver;
+  MotionPhase motion{resolver, pool};
   std::unique_ptr<Radio> radio;  ///< Always there after make().
 
   std::uint64_t step = 0;

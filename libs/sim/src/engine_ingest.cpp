@@ -175,36 +175,35 @@ void Engine::Impl::note_reported_pose(RobotGroup& group, const SensorSlots& slot
   pose.velocity = tracks[robot.value()].velocity();
 }
 
-void Engine::Impl::refresh_simulated(std::uint32_t begin, std::uint32_t end) {
-  for (std::uint32_t r = begin; r < end; ++r) {
-    if (groups[group_index[r]].type->pose_from) continue;
-    const Pose2& X_WR = movers[r].X_WR;
-    reported[r] = {{X_WR.x, X_WR.y, X_WR.yaw, 0, 0}, velocity[r], now, true, false};
-  }
+void Engine::Impl::refresh_reported() {
+  pool.for_each_block(blocks.size(), refresh_effort,
+                      [this](std::size_t b, unsigned w) { refresh_block(blocks[b], workers[w]); });
 }
 
-void Engine::Impl::refresh_reported() {
-  for_each_robot(place_effort, [this](std::uint32_t begin, std::uint32_t end, Worker&) {
-    refresh_simulated(begin, end);
-  });
-  for (const RobotGroup& group : groups) {
-    if (!group.type->pose_from) continue;
-    for (const RobotId robot : group.members) {
-      const std::uint32_t r = robot.value();
-      ReportedPose& pose = reported[r];
-      const bool stale = pose.known && now - pose.stamp > group.type->staleness;
-      if (stale != pose.stale) {
-        note({step, robot, stale ? EventKind::kPoseStale : EventKind::kPoseBack, BodyId(),
-              stale ? fmt::format("its last pose is from {:.2f} s", pose.stamp.seconds())
-                    : fmt::format("poses come again from {:.2f} s", pose.stamp.seconds())});
-        pose.stale = stale;
-      }
-      if (stale) pose.velocity = {};
-      if (group.type->simulated) continue;
-      movers[r].X_WR = {pose.pose.x_m, pose.pose.y_m, pose.pose.yaw_rad};
-      movers[r].present = pose.known;
-      velocity[r] = pose.velocity;
+void Engine::Impl::refresh_block(const Block& block, Worker& worker) {
+  const RobotGroup& group = groups[block.group];
+  for (std::uint32_t m = block.begin; m < block.end; ++m) {
+    const RobotId robot = group.members[m];
+    const std::uint32_t r = robot.value();
+    ReportedPose& pose = reported[r];
+    if (!group.type->pose_from) {
+      const Pose2& X_WR = movers[r].X_WR;
+      pose = {{X_WR.x, X_WR.y, X_WR.yaw, 0, 0}, velocity[r], now, true, false};
+      continue;
     }
+    const bool stale = pose.known && now - pose.stamp > group.type->staleness;
+    if (stale != pose.stale) {
+      worker.events.push_back(
+          {step, robot, stale ? EventKind::kPoseStale : EventKind::kPoseBack, BodyId(),
+           stale ? fmt::format("its last pose is from {:.2f} s", pose.stamp.seconds())
+                 : fmt::format("poses come again from {:.2f} s", pose.stamp.seconds())});
+      pose.stale = stale;
+    }
+    if (stale) pose.velocity = {};
+    if (group.type->simulated) continue;
+    movers[r].X_WR = {pose.pose.x_m, pose.pose.y_m, pose.pose.yaw_rad};
+    movers[r].present = pose.known;
+    velocity[r] = pose.velocity;
   }
 }
 
@@ -225,20 +224,7 @@ void Engine::Impl::make_way_for_real_robots() {
   }
 }
 
-void Engine::Impl::place(std::uint32_t begin, std::uint32_t end) {
-  for (std::uint32_t r = begin; r < end; ++r) {
-    turn[r] = sincos(movers[r].X_WR.yaw);
-    const Vec2 over_ground = rotate(turn[r], {velocity[r].vx, velocity[r].vy});
-    snapshot.set_robot(
-        RobotId(r),
-        {movers[r].X_WR, {over_ground.x, over_ground.y, velocity[r].wz}, movers[r].present});
-  }
-}
-
 void Engine::Impl::place_robots() {
-  const double before_m = slack_m;
-  for_each_robot(place_effort,
-                 [this](std::uint32_t begin, std::uint32_t end, Worker&) { place(begin, end); });
   // Contacts: of simulated robots those of the last motion and of making way; of real robots those
   // that their place shows.
   for (const ContactNote& contact : notes) {
@@ -256,7 +242,7 @@ void Engine::Impl::place_robots() {
   for (std::uint32_t r = 0; r < movers.size(); ++r) {
     if (movers[r].simulated || !movers[r].present) continue;
     const std::size_t first = notes.size();
-    resolver.probe(r, snapshot, before_m, kTouch_m, movers, notes);
+    resolver.probe(r, snapshot, slack_m, kTouch_m, movers, notes);
     touch[r] = notes.size() > first ? TouchState{true, notes.back().direction_W} : TouchState{};
   }
   for (const ContactNote& contact : notes) {
@@ -266,13 +252,26 @@ void Engine::Impl::place_robots() {
       before = 1;
     }
   }
-  for (std::uint32_t r = 0; r < movers.size(); ++r) {
-    touching_before[r] = touch[r].touching ? 1 : 0;
-    snapshot.set_touch(RobotId(r), touch[r]);
-  }
   snapshot.set_time(now);
-  snapshot.rebuild();
+  pool.for_each_block(robot_blocks(), place_effort, [this](std::size_t b, unsigned) {
+    place_block(first_of_block(b), first_of_block(b + 1));
+  });
+  snapshot.index_robots();
   slack_m = 0;
+}
+
+void Engine::Impl::place_block(std::uint32_t first, std::uint32_t last) {
+  for (std::uint32_t r = first; r < last; ++r) {
+    const RobotId robot(r);
+    const SinCos turn = sincos(movers[r].X_WR.yaw);
+    const Vec2 over_ground = rotate(turn, {velocity[r].vx, velocity[r].vy});
+    snapshot.set_robot(
+        robot, {movers[r].X_WR, {over_ground.x, over_ground.y, velocity[r].wz}, movers[r].present},
+        turn);
+    touching_before[r] = touch[r].touching ? 1 : 0;
+    snapshot.set_touch(robot, touch[r]);
+  }
+  snapshot.place_robots(first, last);
 }
 
 void Engine::Impl::remember() {

@@ -45,7 +45,7 @@ void Engine::Impl::sample_members(RobotGroup& group, SensorSlots& slots, std::ui
     if (slots.uses_fan) {
       const std::size_t first = std::size_t{slots.capacity} * m;
       const SensorPlace place =
-          sensor_place(X_WR.position(), turn[robot.value()], sensor.X_RS.position(), mounting);
+          sensor_place(X_WR.position(), snapshot.turn_WR(robot), sensor.X_RS.position(), mounting);
       cast_fan(snapshot, slots.fan, place, sensor.z_m, snapshot.body_of(robot), worker.fan,
                {reinterpret_cast<float*>(records), slots.capacity},
                {slots.bodies.data() + first, slots.capacity});

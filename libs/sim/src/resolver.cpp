@@ -36,6 +36,16 @@ Pose2 Resolver::pose_of(std::uint32_t body, std::span<const Mover> movers) const
   return body < obstacles ? model_->obstacles[body].X_WB : movers[body - obstacles].X_WR;
 }
 
+Pose2 Resolver::pose_in_turn(std::uint32_t body, std::uint32_t id,
+                             std::span<const Mover> movers) const {
+  const auto robot = static_cast<std::uint32_t>(body - model_->obstacles.size());
+  if (!ahead_.empty() && body >= model_->obstacles.size() && robot > id &&
+      ahead_[robot] == kAhead) {
+    return snapshot_->robot(RobotId(robot)).X_WR;
+  }
+  return pose_of(body, movers);
+}
+
 void Resolver::find_near(std::uint32_t id, Vec2 p_W, double reach_m,
                          const world::Snapshot& snapshot) {
   snapshot.gather(p_W, reach_m, found_);
@@ -55,10 +65,10 @@ bool Resolver::advance_until_hit(std::uint32_t id, const Motion2& motion, std::s
   const auto self = static_cast<std::uint32_t>(model_->obstacles.size()) + id;
   for (const std::uint32_t body : near_) {
     if (body == ignored_) continue;
-    const Pose2 X_WB = pose_of(body, movers);
+    const Pose2 X_WB = pose_in_turn(body, id, movers);
     const bool standing = body < model_->obstacles.size();
     if (!standing) {
-      const double reach = length_m + radius_m_[self] + radius_m_[body] + kLimits.skin_m + 1e-6;
+      const double reach = length_m + radius_m_[self] + radius_m_[body] + kPassOver_m;
       if (squared_norm(X_WB.position() - mover.X_WR.position()) > reach * reach) continue;
     }
     const Impact impact = world::time_of_impact(model_->robots[id], mover.X_WR, motion,
@@ -74,11 +84,15 @@ bool Resolver::advance_until_hit(std::uint32_t id, const Motion2& motion, std::s
 }
 
 void Resolver::move(std::uint32_t id, const Motion2& motion_W, const world::Snapshot& snapshot,
-                    double slack_m, std::span<Mover> movers, std::vector<ContactNote>& notes) {
+                    double slack_m, std::span<Mover> movers, std::vector<ContactNote>& notes,
+                    std::span<const std::uint8_t> ahead) {
+  ahead_ = ahead;
+  snapshot_ = &snapshot;
   Mover& mover = movers[id];
   const double length_m = std::sqrt(motion_W.dx * motion_W.dx + motion_W.dy * motion_W.dy);
   const auto self = static_cast<std::uint32_t>(model_->obstacles.size()) + id;
-  find_near(id, mover.X_WR.position(), radius_m_[self] + length_m + slack_m + 1e-3, snapshot);
+  find_near(id, mover.X_WR.position(), radius_m_[self] + length_m + slack_m + kLookAround_m,
+            snapshot);
   ignored_ = BodyId::kNone;
   Motion2 rest = motion_W;
   for (int slide = 0; slide < kMaxSlides; ++slide) {
@@ -128,6 +142,7 @@ bool Resolver::push_out(std::uint32_t real, std::uint32_t id, std::span<Mover> m
 
 double Resolver::make_way(std::uint32_t id, const world::Snapshot& snapshot, double slack_m,
                           std::span<Mover> movers, std::vector<ContactNote>& notes) {
+  ahead_ = {};
   const auto obstacles = static_cast<std::uint32_t>(model_->obstacles.size());
   find_near(id, movers[id].X_WR.position(), radius_m_[obstacles + id] + slack_m + 1e-3, snapshot);
   crowd_.clear();

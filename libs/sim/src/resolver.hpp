@@ -34,9 +34,13 @@ class Resolver {
   explicit Resolver(const world::WorldModel& model);
 
   /// Moves robot `id` from movers[id] by `motion_W`. `snapshot` is the broad phase: poses in it may
-  /// be up to `slack_m` away from those in `movers`.
+  /// be up to `slack_m` away from those in `movers`. Robots that were moved before it was their
+  /// turn are marked kAhead in `ahead` (one entry per robot, or none at all): until then they count
+  /// where the snapshot shows them.
   void move(std::uint32_t id, const Motion2& motion_W, const world::Snapshot& snapshot,
-            double slack_m, std::span<Mover> movers, std::vector<ContactNote>& notes);
+            double slack_m, std::span<Mover> movers, std::vector<ContactNote>& notes,
+            std::span<const std::uint8_t> ahead = {});
+  static constexpr std::uint8_t kAhead = 1;
 
   /// Pushes simulated robots out of the real robot `id`, which has just come to its place; one that
   /// cannot get away is noted as pinned. Returns how far the farthest was pushed: by so much more
@@ -53,12 +57,28 @@ class Resolver {
   /// Robot `id` has another body from now on, as the model says.
   void body_changed(std::uint32_t id);
 
+  /// Of the robot's body about its origin.
+  [[nodiscard]] double radius_m(std::uint32_t id) const noexcept {
+    return radius_m_[model_->obstacles.size() + id];
+  }
+  [[nodiscard]] std::uint32_t obstacle_count() const noexcept {
+    return static_cast<std::uint32_t>(model_->obstacles.size());
+  }
+
+  /// move() looks for what its snapshot shows nearer than this to where the body may get.
+  static constexpr double kLookAround_m = 1e-3;
+  /// It passes over another robot if the two cannot get nearer to each other than this.
+  static constexpr double kPassOver_m = ImpactLimits{}.skin_m + 1e-6;
+
  private:
   void find_near(std::uint32_t id, Vec2 p_W, double reach_m, const world::Snapshot& snapshot);
   /// Moves until something stops it; true if something did, which is then described in `impact_`
   /// and `obstacle_`.
   bool advance_until_hit(std::uint32_t id, const Motion2& motion, std::span<Mover> movers);
   [[nodiscard]] Pose2 pose_of(std::uint32_t body, std::span<const Mover> movers) const;
+  /// The same while robot `id` moves.
+  [[nodiscard]] Pose2 pose_in_turn(std::uint32_t body, std::uint32_t id,
+                                   std::span<const Mover> movers) const;
   bool push_out(std::uint32_t real, std::uint32_t id, std::span<Mover> movers);
 
   const world::WorldModel* model_;
@@ -69,6 +89,8 @@ class Resolver {
   std::uint32_t ignored_ = BodyId::kNone;
   Impact impact_;
   std::uint32_t obstacle_ = 0;
+  std::span<const std::uint8_t> ahead_;        ///< During move() alone.
+  const world::Snapshot* snapshot_ = nullptr;  ///< The same.
 };
 
 }  // namespace rave::sim

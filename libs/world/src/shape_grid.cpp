@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace rave::world {
 namespace {
@@ -80,44 +81,54 @@ std::vector<CoverDisc> cover(const Shape& shape, double largest_m) {
   return pieces;
 }
 
-void ShapeGrid::build(std::span<const ShapePiece> pieces, double cell_m) {
-  width_ = 0;
-  height_ = 0;
-  largest_m_ = 0;
-  sorted_.resize(pieces.size());
-  if (pieces.empty()) return;
-  Vec2 low = pieces.front().centre_W;
-  Vec2 high = low;
+bool ShapeGrid::lay_cells(std::span<const ShapePiece> pieces, double cell_m) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Vec2 low{kInfinity, kInfinity};
+  Vec2 high{-kInfinity, -kInfinity};
   float largest_m = 0;
   for (const ShapePiece& piece : pieces) {
+    if (piece.pieces == 0) continue;
     low = {std::min(low.x, piece.centre_W.x), std::min(low.y, piece.centre_W.y)};
     high = {std::max(high.x, piece.centre_W.x), std::max(high.y, piece.centre_W.y)};
     largest_m = std::max(largest_m, piece.radius_m);
   }
+  width_ = 0;
+  height_ = 0;
   largest_m_ = static_cast<double>(largest_m);
+  if (!(low.x <= high.x)) return false;
   const double cell =
       std::max(cell_m, std::sqrt((high.x - low.x) * (high.y - low.y) / kMaxCells) + 1e-9);
   origin_ = low;
   cells_per_m_ = 1.0 / cell;
   width_ = static_cast<int>(std::min((high.x - low.x) * cells_per_m_, kMaxCells)) + 1;
   height_ = static_cast<int>(std::min((high.y - low.y) * cells_per_m_, kMaxCells)) + 1;
+  return true;
+}
 
+void ShapeGrid::build(std::span<const ShapePiece> pieces, double cell_m) {
+  if (!lay_cells(pieces, cell_m)) return;
   begin_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) + 1, 0);
-  cell_.resize(pieces.size());
+  slots_.resize(pieces.size());
   for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (pieces[i].pieces == 0) continue;
     const int x = cell_of(pieces[i].centre_W.x - origin_.x, width_);
     const int y = cell_of(pieces[i].centre_W.y - origin_.y, height_);
-    cell_[i] = static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(width_) +
-               static_cast<std::uint32_t>(x);
-    ++begin_[cell_[i]];
+    const std::uint32_t cell = static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(width_) +
+                               static_cast<std::uint32_t>(x);
+    slots_[i] = {cell, begin_[cell]++};
   }
   std::uint32_t sum = 0;
   for (std::uint32_t& count : begin_) {
+    const std::uint32_t first = sum;
     sum += count;
-    count = sum;
+    count = first;
   }
-  // Backwards, so that pieces of one cell end up in their order.
-  for (std::size_t i = pieces.size(); i-- > 0;) sorted_[--begin_[cell_[i]]] = pieces[i];
+  // Pieces of one cell stay in their order.
+  sorted_.resize(sum);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (pieces[i].pieces == 0) continue;
+    sorted_[begin_[slots_[i].cell] + slots_[i].rank] = pieces[i];
+  }
   fill_columns();
 }
 

@@ -26,26 +26,21 @@ std::vector<std::uint32_t>& scratch() {
 }  // namespace
 
 Snapshot::Snapshot(const WorldModel& model)
-    : model_(&model), robots_(model.robots.size()), touch_(model.robots.size()) {
+    : model_(&model),
+      robots_(model.robots.size()),
+      turns_(model.robots.size()),
+      touch_(model.robots.size()) {
   for (std::uint32_t body = 0; body < model.body_count(); ++body) {
     add_shapes(body, model.body(body));
   }
   first_shape_.push_back(static_cast<std::uint32_t>(shapes_.size()));
   first_disc_.push_back(static_cast<std::uint32_t>(cover_.size()));
-  std::vector<ShapePiece> fixed;
-  for (std::uint32_t body = 0; body < model.obstacles.size(); ++body) {
-    const Obstacle& obstacle = model.obstacles[body];
-    place(body, obstacle.body, obstacle.X_WB, true, fixed);
-    if (obstacle.body.code) {
-      fixed_landmarks_.push_back({BodyId(body), *obstacle.body.code, obstacle.X_WB.position(),
-                                  obstacle.body.code_z0_m, obstacle.body.code_z1_m, RobotId(),
-                                  obstacle.body.radius_m()});
-    }
-  }
-  fixed_.build(fixed, kCellSize_m);
+  make_pieces();
+  index_obstacles();
   for (const Body& body : model.robots) {
     largest_robot_m_ = std::max(largest_robot_m_, body.radius_m());
   }
+  find_codes();
   rebuild();
 }
 
@@ -72,47 +67,80 @@ void Snapshot::add_shapes(std::uint32_t body, const Body& description) {
   }
 }
 
-void Snapshot::place(std::uint32_t body, const Body& description, const Pose2& X_WB, bool present,
-                     std::vector<ShapePiece>& pieces) {
-  const SinCos turn = sincos(X_WB.yaw);
-  const Vec2 p_WB = X_WB.position();
-  for (std::size_t i = 0; i < description.shapes.size(); ++i) {
-    const Shape& shape = description.shapes[i];
-    const std::uint32_t index = first_shape_[body] + static_cast<std::uint32_t>(i);
-    PlacedShape& placed = shapes_[index];
-    if (!present) {
-      placed.centre_W = kNowhere;
-      std::fill_n(vertices_.begin() + placed.first_vertex, placed.vertex_count, kNowhere);
-      continue;
-    }
-    placed.centre_W = p_WB + rotate(turn, whole_[index]);
-    const std::span<const Vec2> vertices_B = shape.vertices();
-    for (std::size_t k = 0; k < vertices_B.size(); ++k) {
-      vertices_[placed.first_vertex + k] = p_WB + rotate(turn, vertices_B[k]);
-      normals_[placed.first_vertex + k] = rotate(turn, shape.polygon->normals()[k]);
-    }
-    ShapePiece piece;
-    piece.z0_m = static_cast<float>(placed.z0_m);
-    piece.z1_m = static_cast<float>(placed.z1_m);
-    piece.body = body;
-    piece.shape = index;
-    piece.first_vertex = placed.first_vertex;
-    piece.vertex_count = static_cast<std::uint8_t>(placed.vertex_count);
-    piece.layer = static_cast<std::uint8_t>(placed.layer);
-    piece.pieces = static_cast<std::uint16_t>(first_disc_[index + 1] - first_disc_[index]);
+void Snapshot::make_pieces() {
+  pieces_.resize(cover_.size());
+  for (std::uint32_t index = 0; index < shapes_.size(); ++index) {
+    const PlacedShape& placed = shapes_[index];
     for (std::uint32_t d = first_disc_[index]; d < first_disc_[index + 1]; ++d) {
-      piece.centre_W = p_WB + rotate(turn, cover_[d].centre_B);
+      ShapePiece& piece = pieces_[d];
+      piece.z0_m = static_cast<float>(placed.z0_m);
+      piece.z1_m = static_cast<float>(placed.z1_m);
+      piece.body = placed.body;
+      piece.shape = index;
+      piece.first_vertex = placed.first_vertex;
+      piece.vertex_count = static_cast<std::uint8_t>(placed.vertex_count);
+      piece.layer = static_cast<std::uint8_t>(placed.layer);
       // A radius rounded down would leave something out.
-      piece.radius_m = shape.kind == ShapeKind::kDisc
+      piece.radius_m = placed.kind == ShapeKind::kDisc
                            ? static_cast<float>(cover_[d].radius_m)
                            : static_cast<float>(cover_[d].radius_m * (1 + 1e-6));
-      pieces.push_back(piece);
     }
   }
 }
 
+void Snapshot::index_obstacles() {
+  const auto count = static_cast<std::uint32_t>(model_->obstacles.size());
+  for (std::uint32_t body = 0; body < count; ++body) {
+    const auto& [description, X_WB] = model_->obstacles[body];
+    place(body, description, X_WB.position(), sincos(X_WB.yaw), true);
+    if (!description.code) continue;
+    landmarks_.push_back({BodyId(body), *description.code, X_WB.position(), description.code_z0_m,
+                          description.code_z1_m, RobotId(), description.radius_m()});
+  }
+  fixed_landmarks_ = landmarks_.size();
+  fixed_.build(std::span(pieces_).first(first_disc_[first_shape_[count]]), kCellSize_m);
+}
+
+void Snapshot::find_codes() {
+  coded_.clear();
+  for (std::uint32_t r = 0; r < model_->robots.size(); ++r) {
+    if (model_->robots[r].code) coded_.push_back(r);
+  }
+}
+
+void Snapshot::place(std::uint32_t body, const Body& description, Vec2 p_WB, SinCos turn,
+                     bool present) {
+  const std::uint32_t first = first_shape_[body];
+  for (std::uint32_t index = first; index < first_shape_[body + 1]; ++index) {
+    PlacedShape& placed = shapes_[index];
+    placed.centre_W = present ? p_WB + rotate(turn, whole_[index]) : kNowhere;
+    if (placed.vertex_count > 0) {
+      place_outline(placed, *description.shapes[index - first].polygon, p_WB, turn, present);
+    }
+    const std::uint32_t discs = first_disc_[index + 1] - first_disc_[index];
+    for (std::uint32_t d = first_disc_[index]; d < first_disc_[index + 1]; ++d) {
+      pieces_[d].centre_W = p_WB + rotate(turn, cover_[d].centre_B);
+      pieces_[d].pieces = static_cast<std::uint16_t>(present ? discs : 0);
+    }
+  }
+}
+
+void Snapshot::place_outline(const PlacedShape& placed, const ConvexPolygon& polygon, Vec2 p_WB,
+                             SinCos turn, bool present) {
+  for (std::uint32_t k = 0; k < placed.vertex_count; ++k) {
+    Vec2& vertex = vertices_[placed.first_vertex + k];
+    vertex = present ? p_WB + rotate(turn, polygon.vertices()[k]) : kNowhere;
+    normals_[placed.first_vertex + k] = rotate(turn, polygon.normals()[k]);
+  }
+}
+
 void Snapshot::set_robot(RobotId robot, const RobotState& state) noexcept {
+  set_robot(robot, state, sincos(state.X_WR.yaw));
+}
+
+void Snapshot::set_robot(RobotId robot, const RobotState& state, SinCos turn) noexcept {
   robots_[robot.value()] = state;
+  turns_[robot.value()] = turn;
 }
 
 void Snapshot::set_touch(RobotId robot, const TouchState& touch) noexcept {
@@ -134,25 +162,36 @@ void Snapshot::body_changed(RobotId robot) {
     const auto more = static_cast<std::uint32_t>(discs.size()) - old_count;  // modulo 2^32
     for (std::size_t next = index + 1; next < first_disc_.size(); ++next) first_disc_[next] += more;
   }
+  make_pieces();
   // Never smaller: it only says how far a query has to look.
   largest_robot_m_ = std::max(largest_robot_m_, body.radius_m());
 }
 
 void Snapshot::rebuild() {
-  pieces_.clear();
+  place_robots(0, robot_count());
+  index_robots();
+}
+
+void Snapshot::place_robots(std::uint32_t first, std::uint32_t last) {
   const auto obstacle_count = static_cast<std::uint32_t>(model_->obstacles.size());
-  for (std::uint32_t r = 0; r < robots_.size(); ++r) {
-    place(obstacle_count + r, model_->robots[r], robots_[r].X_WR, robots_[r].present, pieces_);
+  for (std::uint32_t r = first; r < last; ++r) {
+    place(obstacle_count + r, model_->robots[r], robots_[r].X_WR.position(), turns_[r],
+          robots_[r].present);
   }
-  moving_.build(pieces_, kCellSize_m);
+}
+
+void Snapshot::index_robots() {
+  const std::uint32_t first = first_disc_[first_shape_[model_->obstacles.size()]];
+  moving_.build(std::span(pieces_).subspan(first), kCellSize_m);
   rebuild_landmarks();
 }
 
 void Snapshot::rebuild_landmarks() {
-  landmarks_ = fixed_landmarks_;
-  for (std::uint32_t r = 0; r < robots_.size(); ++r) {
+  landmarks_.erase(landmarks_.begin() + static_cast<std::ptrdiff_t>(fixed_landmarks_),
+                   landmarks_.end());
+  for (const std::uint32_t r : coded_) {
+    if (!robots_[r].present) continue;
     const Body& body = model_->robots[r];
-    if (!body.code || !robots_[r].present) continue;
     landmarks_.push_back({body_of(RobotId(r)), *body.code, robots_[r].X_WR.position(),
                           body.code_z0_m, body.code_z1_m, RobotId(r), 0});
   }

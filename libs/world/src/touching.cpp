@@ -26,6 +26,11 @@ Separation reversed(const Separation& s) noexcept {
   return {s.distance_m, -s.normal_W, s.p_WB, s.p_WA};
 }
 
+/// Most discs lie about the origin of their body, where its yaw does not matter.
+Vec2 centre_in_world(const Shape& disc, const Pose2& X_WB) noexcept {
+  return disc.centre == Vec2{} ? X_WB.position() : transform(X_WB, disc.centre);
+}
+
 bool heights_overlap(const Shape& a, const Shape& b) noexcept {
   return a.z0_m < b.z1_m && b.z0_m < a.z1_m;
 }
@@ -81,9 +86,9 @@ Separation separation(const Shape& a, const Pose2& X_WA, const Shape& b,
     return apart;
   }
   if (a.polygon && b.polygon) return distance(*a.polygon, X_WA, *b.polygon, X_WB);
-  if (a.polygon) return distance(*a.polygon, X_WA, transform(X_WB, b.centre), b.radius_m);
-  if (b.polygon) return reversed(distance(*b.polygon, X_WB, transform(X_WA, a.centre), a.radius_m));
-  return disc_to_disc(transform(X_WA, a.centre), a.radius_m, transform(X_WB, b.centre), b.radius_m);
+  if (a.polygon) return distance(*a.polygon, X_WA, centre_in_world(b, X_WB), b.radius_m);
+  if (b.polygon) return reversed(distance(*b.polygon, X_WB, centre_in_world(a, X_WA), a.radius_m));
+  return disc_to_disc(centre_in_world(a, X_WA), a.radius_m, centre_in_world(b, X_WB), b.radius_m);
 }
 
 Separation separation(const Body& a, const Pose2& X_WA, const Body& b, const Pose2& X_WB) noexcept {

@@ -105,6 +105,88 @@ TEST(Snapshot, ARayMeetsTheNearestBody) {
   EXPECT_NEAR(hit.range_m, 2 - std::sqrt(0.165 * 0.165 - 0.01), 1e-12);
 }
 
+/// Boxes and discs, some of them absent.
+void scatter(Snapshot& world) {
+  for (std::uint32_t r = 0; r < world.robot_count(); ++r) {
+    RandomStream random(4, r, 1, 1);
+    world.set_robot(
+        RobotId(r),
+        {{random.uniform(-9, 9), random.uniform(-9, 9), 0.1 * r}, {}, random.bits() % 4 != 0});
+  }
+}
+
+TEST(Snapshot, PlacedInPartsIsTheSameAsRebuilt) {
+  WorldModel model;
+  const std::array<Vec2, 4> square = {{{0, 0}, {3, 0}, {3, 1}, {0, 1}}};
+  for (int i = 0; i < 40; ++i) {
+    Body body = disc_body(0.1, Layer::kSimulatedRobots);
+    if (i % 2 == 0) body.shapes.push_back(make_prisms(square, 0, 1).value().front());
+    if (i % 5 == 0) body.code = i;
+    model.robots.push_back(body);
+  }
+  Snapshot whole(model);
+  Snapshot parts(model);
+  scatter(whole);
+  scatter(parts);
+  whole.rebuild();
+  parts.place_robots(17, 40);
+  parts.place_robots(0, 17);
+  parts.index_robots();
+  const auto seen = [](const Snapshot& world) {
+    std::vector<std::pair<std::uint32_t, Vec2>> pieces;
+    world.for_each_near({0, 0}, 100, [&](const ShapePiece& piece) {
+      pieces.emplace_back(piece.shape, piece.centre_W);
+      for (std::uint32_t k = 0; k < piece.vertex_count; ++k) {
+        pieces.emplace_back(k, world.vertices_W()[piece.first_vertex + k]);
+        pieces.emplace_back(k, world.normals_W()[piece.first_vertex + k]);
+      }
+    });
+    return pieces;
+  };
+  EXPECT_EQ(seen(parts), seen(whole));
+  EXPECT_GT(seen(whole).size(), 100U);
+  EXPECT_EQ(parts.landmarks().size(), whole.landmarks().size());
+}
+
+TEST(Snapshot, KnowsSineAndCosineOfEachYaw) {
+  const WorldModel model = tube_and_robots();
+  Snapshot world(model);
+  world.set_robot(RobotId(1), {{2, 0, 1.3}, {}, true});
+  EXPECT_EQ(world.turn_WR(RobotId(1)), sincos(1.3));
+  world.set_robot(RobotId(1), {{2, 0, -0.7}, {}, true}, sincos(-0.7));
+  EXPECT_EQ(world.turn_WR(RobotId(1)), sincos(-0.7));
+  EXPECT_EQ(world.turn_WR(RobotId(0)), sincos(0));
+}
+
+TEST(Snapshot, AnotherBodyCountsFromTheNextRebuild) {
+  WorldModel model = tube_and_robots();
+  Snapshot world(model);
+  world.set_robot(RobotId(0), {{0, 3, 0}, {}, true});
+  world.set_robot(RobotId(1), {{2, 0, 0}, {}, true});
+  world.rebuild();
+  const auto range_m = [&] { return world.cast({0, 0}, 0.05, 0, 8, kAllLayers, BodyId()).range_m; };
+  EXPECT_NEAR(range_m(), 2 - 0.165, 1e-9);
+  model.robots[1] = scaled(model.robots[1], 2).value();
+  world.body_changed(RobotId(1));
+  world.rebuild();
+  EXPECT_NEAR(range_m(), 2 - 0.33, 1e-9);
+}
+
+TEST(ShapeGrid, LeavesOutWhatIsNowhere) {
+  std::vector<ShapePiece> pieces(3);
+  for (std::uint32_t i = 0; i < 3; ++i) pieces[i].shape = i;
+  pieces[1].pieces = 0;
+  pieces[1].centre_W = {1e12, 0};  // would make the cells as large as the world
+  ShapeGrid grid;
+  grid.build(pieces, 1);
+  std::vector<std::uint32_t> found;
+  grid.for_each_near({0, 0}, 1e13, [&](const ShapePiece& piece) { found.push_back(piece.shape); });
+  EXPECT_EQ(found, (std::vector<std::uint32_t>{0, 2}));
+  for (ShapePiece& piece : pieces) piece.pieces = 0;
+  grid.build(pieces, 1);
+  grid.for_each_near({0, 0}, 1e13, [&](const ShapePiece&) { FAIL() << "nothing is there"; });
+}
+
 TEST(ShapeGrid, FindsWhatALinearSearchFinds) {
   RandomStream random(2, 7, 1, 8);
   for (int world = 0; world < 50; ++world) {

@@ -23,7 +23,9 @@ struct ShapePiece {
   std::uint32_t first_vertex = 0;
   std::uint8_t vertex_count = 0;  ///< 0: a disc.
   std::uint8_t layer = 0;         ///< The bit of rave::Layer.
-  std::uint16_t pieces = 1;       ///< Of the same shape; more than 1: a query may meet it again.
+  /// Of the same shape; more than 1: a query may meet it again; 0: nowhere, the index leaves it
+  /// out.
+  std::uint16_t pieces = 1;
 
   [[nodiscard]] bool in_layers(LayerMask layers) const noexcept { return (layers & layer) != 0; }
   [[nodiscard]] bool at_height(float z_m) const noexcept { return z_m >= z0_m && z_m <= z1_m; }
@@ -99,6 +101,14 @@ class ShapeGrid {
     }
   }
   void fill_columns();
+  /// Where a piece goes: its cell, and how many pieces of that cell come before it.
+  struct Slot {
+    std::uint32_t cell = 0;
+    std::uint32_t rank = 0;
+  };
+
+  /// Lays the cells over the pieces; false if there are none.
+  bool lay_cells(std::span<const ShapePiece> pieces, double cell_m);
   [[nodiscard]] int cell_of(double offset_m, int count) const noexcept {
     const double cell = offset_m * cells_per_m_;
     if (!(cell > 0)) return 0;
@@ -111,7 +121,7 @@ class ShapeGrid {
   int width_ = 0;
   int height_ = 0;
   std::vector<std::uint32_t> begin_;  ///< Per cell; one more at the end.
-  std::vector<std::uint32_t> cell_;   ///< Per piece, while it is built.
+  std::vector<Slot> slots_;           ///< Per piece, while it is built.
   std::vector<ShapePiece> sorted_;
   std::vector<float> x_m_;  ///< Of sorted_, from origin_ on; these three are padded.
   std::vector<float> y_m_;

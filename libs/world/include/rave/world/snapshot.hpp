@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "rave/math/pose.hpp"
+#include "rave/math/trigonometry.hpp"
 #include "rave/world/placed_shape.hpp"
 #include "rave/world/shape_grid.hpp"
 #include "rave/world/world_view.hpp"
@@ -29,12 +30,19 @@ class Snapshot final : public WorldView {
 
   void set_time(SimTime time) noexcept { time_ = time; }
   void set_robot(RobotId robot, const RobotState& state) noexcept;
+  /// The same for who has `turn`, which must be sincos(state.X_WR.yaw), already.
+  void set_robot(RobotId robot, const RobotState& state, SinCos turn) noexcept;
   void set_touch(RobotId robot, const TouchState& touch) noexcept;
   /// The model has another body of this robot, with as many shapes and corners as before; it counts
   /// from the next rebuild() on.
   void body_changed(RobotId robot);
   /// Moves all shapes of robots to their places and sorts them into the grid.
   void rebuild();
+  /// rebuild() in parts: moves the shapes of robots [first, last) to their places. Several threads
+  /// may set and place robots at once, as long as no two have the same robot; then one calls
+  /// index_robots(), and only then may anybody look again.
+  void place_robots(std::uint32_t first, std::uint32_t last);
+  void index_robots();
 
   /// Shapes whose bounding disc comes within `radius_m` of a point, ascending and without
   /// repetition, put into `found` (its former content is dropped).
@@ -44,7 +52,16 @@ class Snapshot final : public WorldView {
   /// shape of several pieces may come several times. The order is the same in every run.
   template <class Visit>
   void for_each_near(Vec2 p_W, double radius_m, Visit&& visit) const {
+    for_each_standing_near(p_W, radius_m, visit);
+    for_each_robot_near(p_W, radius_m, visit);
+  }
+  /// The same for the pieces of obstacles alone, and for those of robots.
+  template <class Visit>
+  void for_each_standing_near(Vec2 p_W, double radius_m, Visit&& visit) const {
     fixed_.for_each_near(p_W, radius_m, visit);
+  }
+  template <class Visit>
+  void for_each_robot_near(Vec2 p_W, double radius_m, Visit&& visit) const {
     moving_.for_each_near(p_W, radius_m, visit);
   }
   /// The pieces of obstacles, and those of robots, for queries of their own.
@@ -67,6 +84,8 @@ class Snapshot final : public WorldView {
   }
   /// By robot.
   [[nodiscard]] std::span<const RobotState> robots() const noexcept { return robots_; }
+  /// Sine and cosine of a robot's yaw: computed once for all who turn something by it.
+  [[nodiscard]] SinCos turn_WR(RobotId robot) const noexcept { return turns_[robot.value()]; }
   [[nodiscard]] const WorldModel& model() const noexcept { return *model_; }
 
   // WorldView
@@ -86,10 +105,15 @@ class Snapshot final : public WorldView {
   [[nodiscard]] TouchState touch(RobotId robot) const noexcept override;
 
  private:
-  /// Moves the shapes of a body and adds its pieces.
-  void place(std::uint32_t body, const Body& description, const Pose2& X_WB, bool present,
-             std::vector<ShapePiece>& pieces);
+  /// Moves the shapes of a body and its pieces.
+  void place(std::uint32_t body, const Body& description, Vec2 p_WB, SinCos turn, bool present);
+  void place_outline(const PlacedShape& placed, const ConvexPolygon& polygon, Vec2 p_WB,
+                     SinCos turn, bool present);
   void add_shapes(std::uint32_t body, const Body& description);
+  /// The pieces as far as they do not change with the place.
+  void make_pieces();
+  void index_obstacles();
+  void find_codes();
   void rebuild_landmarks();
   [[nodiscard]] RayHit nearest(Vec2 p_W, Vec2 direction, double z_m, double range_max_m,
                                LayerMask layers, BodyId a, BodyId b) const;
@@ -100,14 +124,16 @@ class Snapshot final : public WorldView {
   std::vector<Vec2> vertices_;
   std::vector<std::uint32_t> first_shape_;  ///< Per body; one more at the end.
   std::vector<RobotState> robots_;
+  std::vector<SinCos> turns_;  ///< Per robot.
   std::vector<TouchState> touch_;
-  std::vector<Landmark> landmarks_;
-  std::vector<Landmark> fixed_landmarks_;
-  std::vector<Vec2> normals_;  ///< Of the edges that begin at vertices_.
-  std::vector<Vec2> whole_;    ///< Per shape: middle of its bounding disc, body frame.
+  std::vector<Landmark> landmarks_;   ///< Those of obstacles first.
+  std::size_t fixed_landmarks_ = 0;   ///< How many those are.
+  std::vector<std::uint32_t> coded_;  ///< Robots that carry a code.
+  std::vector<Vec2> normals_;         ///< Of the edges that begin at vertices_.
+  std::vector<Vec2> whole_;           ///< Per shape: middle of its bounding disc, body frame.
   std::vector<CoverDisc> cover_;
   std::vector<std::uint32_t> first_disc_;  ///< Per shape, in cover_; one more at the end.
-  std::vector<ShapePiece> pieces_;         ///< Of robots, while they are sorted.
+  std::vector<ShapePiece> pieces_;         ///< One per disc of the cover, in the same order.
   double largest_robot_m_ = 0;
   ShapeGrid fixed_;
   ShapeGrid moving_;

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "motion_phase.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rave/math/scalar.hpp"
+#include "rave/math/transform.hpp"
+
+namespace rave::sim {
+namespace {
+
+/// Robots that one thread takes at a time. Part of no result.
+constexpr std::size_t kBlock = 256;
+/// Two that stay farther apart than this do not touch: the resolver's own limit, and as much again
+/// for the rounding of coordinates up to a thousand kilometres.
+constexpr double kApart_m = 2 * Resolver::kPassOver_m;
+/// A robot that turns farther in one step goes to the resolver, whose bound for a turn ends at a
+/// quarter of a revolution.
+constexpr double kMostTurn_rad = 1.5;
+
+/// Whether all of the piece's shape lies farther than `reach_m` from p: surely so if one of its
+/// edges has it behind. Pieces of discs are not asked for unless they are near.
+bool is_beyond(const world::Snapshot& snapshot, const world::ShapePiece& piece, Vec2 p_W,
+               double reach_m) noexcept {
+  const Vec2* const vertices = snapshot.vertices_W() + piece.first_vertex;
+  const Vec2* const normals = snapshot.normals_W() + piece.first_vertex;
+  for (std::uint32_t k = 0; k < piece.vertex_count; ++k) {
+    if (dot(normals[k], p_W - vertices[k]) > reach_m) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void MotionPhase::run(const world::Snapshot& snapshot, double dt_s, const MotionArrays& robots,
+                      std::vector<ContactNote>& notes) {
+  const std::size_t count = robots.movers.size();
+  const std::size_t blocks = (count + kBlock - 1) / kBlock;
+  reach_m_.resize(count);
+  way_.resize(count);
+  block_slack_m_.resize(blocks);
+  const Step step{snapshot, dt_s, robots};
+  pool_->for_each_block(blocks, measure_effort_,
+                        [this, &step](std::size_t b, unsigned) { measure(step, b); });
+  slack_m_ = 0;
+  for (const double slack_m : block_slack_m_) slack_m_ = std::max(slack_m_, slack_m);
+  pool_->for_each_block(blocks, let_go_effort_,
+                        [this, &step](std::size_t b, unsigned) { let_go(step, b); });
+  notes.clear();
+  resolved_ = 0;
+  const auto begin = way_.begin();
+  for (auto it = std::find(begin, way_.end(), kToResolve); it != way_.end();
+       it = std::find(it + 1, way_.end(), kToResolve)) {
+    resolve(step, static_cast<std::uint32_t>(it - begin), notes);
+    ++resolved_;
+  }
+}
+
+void MotionPhase::measure(const Step& step, std::size_t block) {
+  const std::size_t last = std::min((block + 1) * kBlock, reach_m_.size());
+  double slack_m = 0;
+  for (std::size_t r = block * kBlock; r < last; ++r) {
+    const double radius_m = resolver_->radius_m(static_cast<std::uint32_t>(r));
+    reach_m_[r] = radius_m;
+    if (!step.robots.movers[r].simulated) continue;
+    const Twist2& twist = step.robots.proposal[r];
+    const double speed_mps = std::sqrt(twist.vx * twist.vx + twist.vy * twist.vy);
+    // The chord of an arc is no longer than the arc.
+    reach_m_[r] = radius_m + speed_mps * step.dt_s;
+    // A turn moves what lies off the body's origin.
+    slack_m = std::max(slack_m, (speed_mps + std::abs(twist.wz) * radius_m) * step.dt_s);
+  }
+  block_slack_m_[block] = slack_m;
+}
+
+void MotionPhase::let_go(const Step& step, std::size_t block) {
+  const std::size_t last = std::min((block + 1) * kBlock, way_.size());
+  for (std::size_t r = block * kBlock; r < last; ++r) {
+    way_[r] = try_to_go(step, static_cast<std::uint32_t>(r));
+  }
+}
+
+MotionPhase::Way MotionPhase::try_to_go(const Step& step, std::uint32_t robot) const {
+  Mover& mover = step.robots.movers[robot];
+  if (!mover.simulated) return kStands;
+  step.robots.touch[robot] = {};
+  const Twist2& twist = step.robots.proposal[robot];
+  if (twist == Twist2{}) {
+    step.robots.velocity[robot] = {};
+    step.robots.limited[robot] = 0;
+    return kStands;
+  }
+  if (!misses_what_stands(step, robot) || !misses_robots(step, robot)) return kToResolve;
+  // Nobody else reads or writes this mover here: of others the snapshot is asked.
+  mover.X_WR = integrate(mover.X_WR, twist, step.dt_s);
+  step.robots.velocity[robot] = twist;
+  step.robots.limited[robot] = 0;
+  return kAhead;
+}
+
+bool MotionPhase::misses_what_stands(const Step& step, std::uint32_t robot) const {
+  const Vec2 p_WR = step.robots.movers[robot].X_WR.position();
+  const double turn_rad = std::abs(step.robots.proposal[robot].wz * step.dt_s);
+  // What the resolver's time of impact allows for the turn of a vertex at the rim.
+  const double turn_m = resolver_->radius_m(robot) * turn_rad * (1 + 0.5 * turn_rad);
+  const double reach_m = reach_m_[robot] + turn_m + kApart_m;
+  bool misses = true;
+  step.snapshot.for_each_standing_near(p_WR, reach_m, [&](const world::ShapePiece& piece) {
+    misses = misses && turn_rad <= kMostTurn_rad && is_beyond(step.snapshot, piece, p_WR, reach_m);
+  });
+  return misses;
+}
+
+bool MotionPhase::misses_robots(const Step& step, std::uint32_t robot) const {
+  const Vec2 p_WR = step.robots.movers[robot].X_WR.position();
+  const std::uint32_t obstacles = resolver_->obstacle_count();
+  const double look_m = reach_m_[robot] + slack_m_ + Resolver::kLookAround_m + kApart_m;
+  bool misses = true;
+  step.snapshot.for_each_robot_near(p_WR, look_m, [&](const world::ShapePiece& piece) {
+    const std::uint32_t other = piece.body - obstacles;
+    if (!misses || other == robot) return;
+    const Vec2 apart = step.snapshot.robot(RobotId(other)).X_WR.position() - p_WR;
+    const double reach_m = reach_m_[robot] + reach_m_[other] + kApart_m;
+    misses = squared_norm(apart) > reach_m * reach_m;
+  });
+  return misses;
+}
+
+void MotionPhase::resolve(const Step& step, std::uint32_t robot, std::vector<ContactNote>& notes) {
+  Mover& mover = step.robots.movers[robot];
+  const Pose2 X_before = mover.X_WR;
+  const Twist2& twist = step.robots.proposal[robot];
+  const Pose2 X_wanted = integrate(X_before, twist, step.dt_s);
+  const std::size_t first = notes.size();
+  resolver_->move(robot, {X_wanted.x - X_before.x, X_wanted.y - X_before.y, twist.wz * step.dt_s},
+                  step.snapshot, slack_m_, step.robots.movers, notes, way_);
+  const bool limited = notes.size() > first;
+  step.robots.limited[robot] = limited ? 1 : 0;
+  if (limited) {
+    mover.X_WR.yaw = wrap_angle(mover.X_WR.yaw);
+    step.robots.velocity[robot] = twist_between(X_before, mover.X_WR, step.dt_s);
+  } else {
+    mover.X_WR = X_wanted;
+    step.robots.velocity[robot] = twist;
+  }
+}
+
+}  // namespace rave::sim

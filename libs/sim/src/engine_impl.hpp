@@ -198,7 +198,6 @@ struct Engine::Impl {
   HistoryRing history;
   std::vector<Mover> movers;     ///< True poses of simulated, reported poses of real robots.
   std::vector<Twist2> velocity;  ///< Body frame, of the last step.
-  std::vector<SinCos> turn;      ///< Of each robot's yaw in the snapshot.
   std::vector<Twist2> proposal;
   std::vector<std::uint8_t> limited;  ///< The last motion was cut short.
   std::vector<TouchState> touch;

@@ -19,8 +19,8 @@ using Floats = hn::CappedTag<float, kRayPadding>;
 using Words = hn::RebindToUnsigned<Floats>;
 
 struct Point {
-  float x = 0;
-  float y = 0;
+  float x;  // no default: many of them are made and few are filled
+  float y;
 };
 
 /// A point of the world in the sensor frame. The difference is taken in double: far from the origin

@@ -9,9 +9,9 @@ namespace {
 constexpr double kSpan_s = 20;
 /// The hash of the first twenty seconds of `mixed-reality`. It changes with the scenario, its
 /// robots and their drivers; then look why, and write the new one here.
-constexpr std::uint64_t kGolden = 18266699578193528798ULL;
+constexpr std::uint64_t kGolden = 15630736733129666193ULL;
 /// The same of `flock`, whose robots talk.
-constexpr std::uint64_t kGoldenFlock = 11056842298751647203ULL;
+constexpr std::uint64_t kGoldenFlock = 2383855366677754669ULL;
 
 class Determinism : public ScenarioTest {
  protected:

@@ -131,7 +131,7 @@ void range_kernel(benchmark::State& state) {
   std::vector<std::uint32_t> bodies(rays);
   for (auto _ : state) {
     for (std::uint32_t r = 0; r < robots; ++r) {
-      cast_fan(*arena->snapshot, fan, arena->movers[r].X_WR, 0.1,
+      cast_fan(*arena->snapshot, fan, sensor_place(arena->movers[r].X_WR, Pose2{}), 0.1,
                arena->snapshot->body_of(RobotId(r)), scratch, ranges, bodies);
     }
     benchmark::DoNotOptimize(ranges.data());

@@ -95,8 +95,9 @@ void exponential(double time_constant_s, std::uint32_t capacity, std::int64_t st
   for (std::size_t first = 0; first < ranges_m.size();) {
     const std::int64_t before_ns = own.stamp_ns[first];
     std::size_t last = first;
-    while (last < ranges_m.size() && own.stamp_ns[last] == before_ns)
-      own.stamp_ns[last++] = stamp_ns;
+    for (; last < ranges_m.size() && own.stamp_ns[last] == before_ns; ++last) {
+      own.stamp_ns[last] = stamp_ns;
+    }
     blend_ranges(ranges_m.data() + first, last - first,
                  gain_of(stamp_ns - before_ns, time_constant_s), own.output + first);
     first = last;

@@ -42,7 +42,7 @@ EngineSpec crowd() {
         box({0.6 + 2.4 * (i % 10), 0.6 + 2.4 * (i / 10), 0.1 * i}, 0.5, 0.4));
   }
   RobotType type = simulated_type();
-  type.sensors.push_back(laser(16, 6, 0.5));
+  type.sensors.push_back(laser(16, 6, 0.2));
   type.program = program<Roam>();
   add_robot(spec, std::move(type));
   for (std::uint32_t r = 1; r < 400; ++r) {

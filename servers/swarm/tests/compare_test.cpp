@@ -133,7 +133,7 @@ TEST_F(CompareTest, ABuildThatDoesNotRepeatItselfIsFound) {
 }
 
 TEST_F(CompareTest, SaysWhatItLookedFor) {
-  const fs::path b = build("b", {1}, "11");
+  const fs::path b = build("b", {1, 1}, "11");
   fs::create_directories(folder_ / "empty");
   const auto no_rave = compare(options(folder_ / "empty", b, 1));
   ASSERT_FALSE(no_rave);

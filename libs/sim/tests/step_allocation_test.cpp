@@ -1,28 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A program of its own: it counts every allocation of the process.
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
+#include "counted_allocations.hpp"
 #include "engine_fixture.hpp"
-
-namespace {
-std::atomic<std::uint64_t> allocations{0};
-}  // namespace
-
-// Not inlined: the compiler would take malloc and delete for a pair that does not match.
-// NOLINTBEGIN(misc-new-delete-overloads)
-__attribute__((noinline)) void* operator new(std::size_t size) {
-  ++allocations;
-  void* const memory = std::malloc(size == 0 ? 1 : size);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-__attribute__((noinline)) void operator delete(void* memory) noexcept { std::free(memory); }
-__attribute__((noinline)) void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
-// NOLINTEND(misc-new-delete-overloads)
 
 namespace rave::sim::testing {
 namespace {

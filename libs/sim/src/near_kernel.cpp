@@ -13,20 +13,39 @@ namespace rave::sim::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+using Floats = hn::CappedTag<float, world::kPiecePadding>;
+
+/// Which discs of radius `reach` about (dx, dy) reach to the left of the field's right edge and to
+/// the right of its left edge; of a field beyond half a circle, to one of them.
+template <class V>
+HWY_INLINE auto in_field(const NearField& field, V dx, V dy, V reach) {
+  const Floats d;
+  const auto from_right =
+      hn::Sub(hn::Mul(hn::Set(d, field.right_x), dy), hn::Mul(hn::Set(d, field.right_y), dx));
+  const auto to_left =
+      hn::Sub(hn::Mul(hn::Set(d, field.left_y), dx), hn::Mul(hn::Set(d, field.left_x), dy));
+  const auto outside = hn::Neg(reach);
+  const auto right = hn::Ge(from_right, outside);
+  const auto left = hn::Ge(to_left, outside);
+  return field.field.beyond_half ? hn::Or(right, left) : hn::And(right, left);
+}
+
 std::size_t select_near(const world::PieceColumns& columns, std::span<const world::PieceRow> rows,
-                        float x_m, float y_m, float radius_m, std::uint32_t* found) {
-  const hn::CappedTag<float, world::kPiecePadding> d;
-  const hn::RebindToUnsigned<decltype(d)> words;
-  const auto x = hn::Set(d, x_m);
-  const auto y = hn::Set(d, y_m);
-  const auto radius = hn::Set(d, radius_m);
+                        const NearField& field, std::uint32_t* found) {
+  const Floats d;
+  const hn::RebindToUnsigned<Floats> words;
+  const auto x = hn::Set(d, field.x_m);
+  const auto y = hn::Set(d, field.y_m);
+  const auto radius = hn::Set(d, field.radius_m);
   std::size_t count = 0;
   for (const world::PieceRow& row : rows) {
     for (std::uint32_t i = row.begin; i < row.end; i += static_cast<std::uint32_t>(hn::Lanes(d))) {
       const auto dx = hn::Sub(hn::LoadU(d, columns.x_m + i), x);
       const auto dy = hn::Sub(hn::LoadU(d, columns.y_m + i), y);
-      const auto reach = hn::Add(hn::LoadU(d, columns.reach_m + i), radius);
-      const auto near = hn::Le(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(reach, reach));
+      const auto own = hn::LoadU(d, columns.reach_m + i);
+      const auto reach = hn::Add(own, radius);
+      auto near = hn::Le(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(reach, reach));
+      if (field.field.limited) near = hn::And(near, in_field(field, dx, dy, own));
       const auto in_row = hn::FirstN(d, row.end - i);
       count += hn::CompressStore(hn::Iota(words, i), hn::RebindMask(words, hn::And(near, in_row)),
                                  words, found + count);
@@ -44,8 +63,8 @@ namespace rave::sim {
 HWY_EXPORT(select_near);
 
 std::size_t select_near(const world::PieceColumns& columns, std::span<const world::PieceRow> rows,
-                        float x_m, float y_m, float radius_m, std::uint32_t* found) {
-  return HWY_DYNAMIC_DISPATCH(select_near)(columns, rows, x_m, y_m, radius_m, found);
+                        const NearField& field, std::uint32_t* found) {
+  return HWY_DYNAMIC_DISPATCH(select_near)(columns, rows, field, found);
 }
 
 }  // namespace rave::sim

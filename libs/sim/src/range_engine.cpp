@@ -33,12 +33,31 @@ std::vector<std::uint16_t> index_of(const FanTable& fan) {
   return first_ray;
 }
 
+/// What lies between the first and the last ray, if they go counter-clockwise.
+FanField field_of(const FanQuery& query) {
+  // With less left open than this, there is nothing worth leaving out.
+  constexpr double kLeastOpen_rad = 0.5;
+  FanField field;
+  const double* const bearings_rad = query.bearings_rad;
+  if (query.ray_count == 0 || !std::is_sorted(bearings_rad, bearings_rad + query.ray_count)) {
+    return field;
+  }
+  const double right_rad = bearings_rad[0];
+  const double left_rad = bearings_rad[query.ray_count - 1];
+  field.limited = left_rad - right_rad < 2 * kPi - kLeastOpen_rad;
+  field.beyond_half = left_rad - right_rad > kPi;
+  field.right = sincos(right_rad);
+  field.left = sincos(left_rad);
+  return field;
+}
+
 /// Up to here from the grid's origin the floats of PieceColumns are fine enough to choose by.
 constexpr double kFloatReach_m = 2048;
 
 /// Adds the pieces of a grid that the fan could meet, each shape once.
-void collect(const world::ShapeGrid& grid, const FanTable& fan, Vec2 p_WS, float z_m, BodyId owner,
-             FanScratch& scratch) {
+void collect(const world::ShapeGrid& grid, const FanTable& fan, const SensorPlace& place, float z_m,
+             BodyId owner, FanScratch& scratch) {
+  const Vec2 p_WS = place.p_WS;
   std::vector<const world::ShapePiece*>& pieces = scratch.pieces;
   const auto consider = [&](const world::ShapePiece& piece) {
     if (piece.body == owner.value() || !piece.in_layers(fan.layers) || !piece.at_height(z_m)) {
@@ -64,9 +83,17 @@ void collect(const world::ShapeGrid& grid, const FanTable& fan, Vec2 p_WS, float
   std::size_t most = world::kPiecePadding;
   for (const world::PieceRow& row : scratch.rows) most += row.end - row.begin;
   if (scratch.near.size() < most) scratch.near.resize(most);
-  const std::size_t count =
-      select_near(columns, scratch.rows, static_cast<float>(p.x), static_cast<float>(p.y),
-                  fan.range_max_m, scratch.near.data());
+  const Vec2 right = rotate(place.turn, {fan.field.right.cos, fan.field.right.sin});
+  const Vec2 left = rotate(place.turn, {fan.field.left.cos, fan.field.left.sin});
+  const NearField field{static_cast<float>(p.x),
+                        static_cast<float>(p.y),
+                        fan.range_max_m,
+                        fan.field,
+                        static_cast<float>(right.x),
+                        static_cast<float>(right.y),
+                        static_cast<float>(left.x),
+                        static_cast<float>(left.y)};
+  const std::size_t count = select_near(columns, scratch.rows, field, scratch.near.data());
   for (std::size_t i = 0; i < count; ++i) consider(grid.piece(scratch.near[i]));
 }
 
@@ -99,6 +126,7 @@ FanTable FanTable::make(const FanQuery& query, LayerMask layers) {
     fan.cos[i] = static_cast<float>(bearing.cos);
     fan.sin[i] = static_cast<float>(bearing.sin);
   }
+  fan.field = field_of(query);
   constexpr std::uint32_t kMostIndexed = 0xffff;
   if (fan.rays > kFewRays && fan.rays <= kMostIndexed) fan.first_ray = index_of(fan);
   return fan;
@@ -108,8 +136,8 @@ void cast_fan(const world::Snapshot& world, const FanTable& fan, const SensorPla
               double z_m, BodyId owner, FanScratch& scratch, std::span<float> ranges,
               std::span<std::uint32_t> bodies) {
   scratch.pieces.clear();
-  collect(world.standing(), fan, place.p_WS, static_cast<float>(z_m), owner, scratch);
-  collect(world.moving(), fan, place.p_WS, static_cast<float>(z_m), owner, scratch);
+  collect(world.standing(), fan, place, static_cast<float>(z_m), owner, scratch);
+  collect(world.moving(), fan, place, static_cast<float>(z_m), owner, scratch);
   scratch.inverse.assign(fan.cos.size(), 0.0F);
   scratch.body.assign(fan.cos.size(), BodyId::kNone);
   scratch.ranges_m.resize(fan.cos.size());

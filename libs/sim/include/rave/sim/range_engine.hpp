@@ -11,6 +11,15 @@
 
 namespace rave::sim {
 
+/// Between which directions all rays of a fan point, in the sensor frame: from `right` on,
+/// counter-clockwise, to `left`; unit vectors.
+struct FanField {
+  bool limited = false;      ///< False: all around, or not known.
+  bool beyond_half = false;  ///< More than half a circle.
+  SinCos right;
+  SinCos left;
+};
+
 /// The fan of one sensor, prepared once: where each ray points in the sensor frame. Arrays are
 /// padded for the kernel.
 struct FanTable {
@@ -22,6 +31,7 @@ struct FanTable {
   float range_min_m = 0;
   float range_max_m = 0;
   LayerMask layers = kAllLayers;
+  FanField field;
 
   [[nodiscard]] static FanTable make(const FanQuery& query, LayerMask layers);
   [[nodiscard]] std::uint32_t readings() const noexcept { return rays / rays_per_reading; }

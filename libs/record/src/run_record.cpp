@@ -47,7 +47,7 @@ struct Batch {
     parts.assign({cdr.bytes(), std::as_bytes(std::span(elements)),
                   std::as_bytes(std::span(&size, 1)), std::span<const std::byte>(records)});
     parts.insert(parts.end(), blocks.begin(), blocks.end());
-    const Status status = stream.write(file, time, parts);
+    Status status = stream.write(file, time, parts);
     elements.clear();
     records.clear();
     block_elements.clear();

@@ -18,7 +18,10 @@ std::size_t allocated(bool talk) {
     type.program = program<Drive>({{"v", 0}});
   }
   add_robot(spec, std::move(type));
-  for (int r = 1; r < 200; ++r) add_twin(spec, {2.0 * (r % 15), 2.0 * (r / 15), 0});
+  for (int r = 1; r < 200; ++r) {
+    const int row = r / 15;
+    add_twin(spec, {2.0 * (r % 15), 2.0 * row, 0});
+  }
   const auto engine = make_engine(std::move(spec));
   for (int k = 0; k < 100; ++k) EXPECT_TRUE(engine->step());
   const std::size_t before = allocations;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record_keeper.hpp"
 
+#include <array>
+#include <bit>
 #include <chrono>
-#include <cstring>
 #include <ctime>
 
 #include "radio_report.hpp"
@@ -44,9 +45,8 @@ void describe_sensors(const sim::Engine& engine, std::uint32_t robot, record::Ru
 }
 
 bool same_bits(const Pose2& a, const PoseReading& b) noexcept {
-  const double x[] = {a.x, a.y, a.yaw};
-  const double y[] = {b.x_m, b.y_m, b.yaw_rad};
-  return std::memcmp(x, y, sizeof x) == 0;
+  using Words = std::array<std::uint64_t, 3>;
+  return std::bit_cast<Words>(a) == std::bit_cast<Words>(Pose2{b.x_m, b.y_m, b.yaw_rad});
 }
 
 }  // namespace

@@ -65,6 +65,8 @@ std::unique_ptr<ContactArena> field(std::uint32_t robots) {
 void contacts(benchmark::State& state) {
   const auto robots = static_cast<std::uint32_t>(state.range(0));
   const auto arena = field(robots);
+  // Two metres straight on bring some of them to a box or to one another.
+  for (int k = 0; k < 50; ++k) arena->step(0.1);
   const std::vector<Mover> start = arena->movers;
   double resolved = 0;
   for (auto _ : state) {

@@ -234,7 +234,7 @@ void add_run_name(CLI::App& app, std::string& run) {
       ->type_name("RUN");
 }
 
-void add_robot(CLI::App& app, std::string& robot) {
+void take_robot(CLI::App& app, std::string& robot) {
   app.add_option("--robot", robot, "Only this one [all]")->type_name("NAME");
 }
 
@@ -244,7 +244,7 @@ void add_control(CLI::App& root, Everything& all) {
 
   CLI::App& stop = *root.add_subcommand("stop", "Make robots of a run stand until released");
   add_run_name(stop, all.stop.run);
-  add_robot(stop, all.stop.robot);
+  take_robot(stop, all.stop.robot);
   stop.add_flag("--all", all.stop.all, "Every robot of every run");
   stop.footer(
       "No program can move a stopped robot. `rave arm --release` lets it go again.\n\n"
@@ -254,7 +254,7 @@ void add_control(CLI::App& root, Everything& all) {
 
   CLI::App& arm = *root.add_subcommand("arm", "Let real robots of a run move");
   add_run_name(arm, all.arm.run);
-  add_robot(arm, all.arm.robot);
+  take_robot(arm, all.arm.robot);
   arm.add_flag("--release", all.arm.release, "Also those that were stopped");
 
   CLI::App& set = *root.add_subcommand("set", "Change a parameter of a robot while it runs");

@@ -41,13 +41,38 @@ if(RAVE_FUZZERS)
   add_custom_target(rave_fuzzers)
 endif()
 
-# rave_library(NAME [DEPS ...] [PRIVATE_DEPS ...] [SOURCES ...])
+# rave_unity(target): with RAVE_UNITY the sources of a target are compiled a few at a time, so that
+# the compiler reads the headers they share once for all of them. A source that Highway compiles once
+# per instruction set includes itself and stays alone.
+function(rave_unity target)
+  get_target_property(sources ${target} SOURCES)
+  list(LENGTH sources count)
+  if(NOT RAVE_UNITY OR count LESS 2)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  # A class that its own source keeps to itself looks to the compiler as if a header declared it.
+  target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+  foreach(source ${sources})
+    file(STRINGS "${source}" per_target REGEX "hwy/foreach_target.h" LIMIT_COUNT 1)
+    if(per_target)
+      set_source_files_properties("${source}" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    endif()
+  endforeach()
+endfunction()
+
+# rave_library(NAME [DEPS ...] [PRIVATE_DEPS ...] [SOURCES ...] [SEPARATE])
 # The static library rave_NAME (alias rave::NAME) of the calling folder: public headers in
-# include/rave/NAME, sources in src/, unit tests in tests/.
+# include/rave/NAME, sources in src/, unit tests in tests/. SEPARATE for what plug-ins link: they get
+# the objects that they use and no more, so that a robot program does not need the packages of the
+# rest.
 function(rave_library name)
-  cmake_parse_arguments(ARG "" "" "DEPS;PRIVATE_DEPS;SOURCES" ${ARGN})
+  cmake_parse_arguments(ARG "SEPARATE" "" "DEPS;PRIVATE_DEPS;SOURCES" ${ARGN})
   if(ARG_SOURCES)
     add_library(rave_${name} STATIC ${ARG_SOURCES})
+    if(NOT ARG_SEPARATE)
+      rave_unity(rave_${name})
+    endif()
     set(scope PUBLIC)
     target_link_libraries(rave_${name} PRIVATE $<BUILD_INTERFACE:rave_build_flags> ${ARG_PRIVATE_DEPS})
   else()
@@ -71,6 +96,7 @@ endfunction()
 function(rave_plugin name)
   cmake_parse_arguments(ARG "" "" "DEPS;SOURCES" ${ARGN})
   add_library(rave_plugin_${name} MODULE ${ARG_SOURCES})
+  rave_unity(rave_plugin_${name})
   target_link_libraries(rave_plugin_${name} PRIVATE rave_build_flags ${ARG_DEPS})
   set_target_properties(rave_plugin_${name} PROPERTIES PREFIX "" OUTPUT_NAME ${name}
     LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${RAVE_PLUGIN_DIR}")
@@ -95,6 +121,7 @@ endfunction()
 function(rave_executable name)
   cmake_parse_arguments(ARG "" "" "DEPS;SOURCES" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
+  rave_unity(${name})
   target_link_libraries(${name} PRIVATE rave_build_flags ${ARG_DEPS})
 endfunction()
 
@@ -108,6 +135,7 @@ function(rave_test name)
   endif()
   cmake_parse_arguments(ARG "OPTIMIZE" "TIMEOUT" "DEPS;SOURCES;LABELS;NEEDS;ENVIRONMENT" ${ARGN})
   add_executable(test_${name} ${ARG_SOURCES})
+  rave_unity(test_${name})
   if(NOT ARG_OPTIMIZE)
     target_compile_options(test_${name} PRIVATE -O0)
   endif()

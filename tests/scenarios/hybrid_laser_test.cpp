@@ -12,11 +12,11 @@
 namespace rave::tests {
 namespace {
 
-constexpr double kRangeMax_m = 30;
+constexpr double kLaserRange_m = 30;
 
 carmen::Log shipped_log() {
   carmen::LoadOptions options;
-  options.range_max_m = kRangeMax_m;
+  options.range_max_m = kLaserRange_m;
   auto log = carmen::load(
       std::filesystem::path(RAVE_SOURCE_DIR) / "data/freiburg-079/104-224/freiburg-079.log.gz",
       options);

@@ -10,7 +10,7 @@
 namespace rave::oi {
 namespace {
 
-constexpr double kPeriod_s = 0.015;
+constexpr double kFrame_s = 0.015;
 
 /// Turns wheels and reads their counters as a robot does.
 class Wheels {
@@ -19,9 +19,9 @@ class Wheels {
   /// Drives for some frames.
   void drive(WheelOdometer& odometer, double left_mps, double right_mps, int frames) {
     for (int i = 0; i < frames; ++i) {
-      left_m_ += left_mps * kPeriod_s;
-      right_m_ += right_mps * kPeriod_s;
-      t_s_ += kPeriod_s;
+      left_m_ += left_mps * kFrame_s;
+      right_m_ += right_mps * kFrame_s;
+      t_s_ += kFrame_s;
       EXPECT_TRUE(read(odometer));
     }
   }
@@ -53,10 +53,10 @@ TEST(WheelOdometer, AMetreStraightAndAQuarterTurn) {
   EXPECT_NEAR(reading.v_mps, 0.25, 0.005);
   EXPECT_NEAR(reading.w_radps, 0, 0.05);
   const double rim_mps = 0.2;
-  const int frames = static_cast<int>(std::lround(kPi / 2 * 0.235 / 2 / rim_mps / kPeriod_s));
+  const int frames = static_cast<int>(std::lround(kPi / 2 * 0.235 / 2 / rim_mps / kFrame_s));
   wheels.drive(odometer, -rim_mps, rim_mps, frames);
   reading = odometer.reading();
-  EXPECT_NEAR(reading.yaw_rad, frames * kPeriod_s * 2 * rim_mps / 0.235, 0.01);
+  EXPECT_NEAR(reading.yaw_rad, frames * kFrame_s * 2 * rim_mps / 0.235, 0.01);
   EXPECT_NEAR(reading.x_m, 1.00125, 2e-3);
   EXPECT_NEAR(reading.w_radps, 2 * rim_mps / 0.235, 0.05);
 }
@@ -66,11 +66,11 @@ TEST(WheelOdometer, CountersRollOverBothWays) {
   WheelOdometer forward({});
   Wheels wheels(per_turn_m - 0.5);
   wheels.drive(forward, 0.4, 0.4, 167);
-  EXPECT_NEAR(forward.reading().x_m, 166 * 0.4 * kPeriod_s, 2e-3);
+  EXPECT_NEAR(forward.reading().x_m, 166 * 0.4 * kFrame_s, 2e-3);
   WheelOdometer back({});
   Wheels reversed(0.5);
   reversed.drive(back, -0.4, -0.4, 167);
-  EXPECT_NEAR(back.reading().x_m, -166 * 0.4 * kPeriod_s, 2e-3);
+  EXPECT_NEAR(back.reading().x_m, -166 * 0.4 * kFrame_s, 2e-3);
   EXPECT_EQ(back.disbelieved() + forward.disbelieved(), 0U);
 }
 
@@ -94,10 +94,10 @@ TEST(WheelOdometer, CountsThatNoWheelMakesAreNotBelieved) {
   Wheels wheels;
   wheels.drive(odometer, 0.2, 0.2, 100);
   const OdometryReading before = odometer.reading();
-  EXPECT_FALSE(odometer.step(9000, 500, wheels.t_s() + kPeriod_s));
+  EXPECT_FALSE(odometer.step(9000, 500, wheels.t_s() + kFrame_s));
   EXPECT_EQ(odometer.reading().x_m, before.x_m);
   wheels.drive(odometer, 0.2, 0.2, 100);
-  EXPECT_NEAR(odometer.reading().x_m, 199 * 0.2 * kPeriod_s, 2e-3);
+  EXPECT_NEAR(odometer.reading().x_m, 199 * 0.2 * kFrame_s, 2e-3);
   EXPECT_EQ(odometer.disbelieved(), 1U);
   EXPECT_EQ(odometer.restarts(), 0U);
 }
@@ -109,7 +109,7 @@ TEST(WheelOdometer, WhatIsDrivenDuringAShortPauseIsKept) {
   const double before_m = odometer.reading().x_m;
   wheels.wait(1);
   wheels.drive(odometer, 0.5, 0.5, 20);
-  EXPECT_NEAR(odometer.reading().x_m, before_m + 20 * 0.5 * kPeriod_s, 2e-3);
+  EXPECT_NEAR(odometer.reading().x_m, before_m + 20 * 0.5 * kFrame_s, 2e-3);
   EXPECT_EQ(odometer.restarts(), 0U);
 }
 
@@ -122,7 +122,7 @@ TEST(WheelOdometer, ARestartKeepsThePoseAndDoubtsIt) {
     wheels.wait(pause_s);
     wheels.restart();
     for (int i = 0; i < 10; ++i) {
-      wheels.wait(kPeriod_s);
+      wheels.wait(kFrame_s);
       (void)wheels.read(odometer);
     }
     EXPECT_EQ(odometer.restarts(), 1U) << pause_s;
@@ -131,7 +131,7 @@ TEST(WheelOdometer, ARestartKeepsThePoseAndDoubtsIt) {
     EXPECT_EQ(after.v_mps, 0);
     EXPECT_GT(after.variance_xy_m2, before.variance_xy_m2 + pause_s * pause_s / 4 / 3 * 0.99);
     wheels.drive(odometer, 0.4, 0.4, 100);
-    EXPECT_NEAR(odometer.reading().x_m, before.x_m + 100 * 0.4 * kPeriod_s, 2e-3);
+    EXPECT_NEAR(odometer.reading().x_m, before.x_m + 100 * 0.4 * kFrame_s, 2e-3);
   }
 }
 

@@ -18,7 +18,7 @@ struct MapFlag {
   bool on = false;
 };
 
-struct MapFile {
+struct MapServerFile {
   Located<std::string> image;
   double resolution_m = 0;
   std::array<double, 3> origin{};
@@ -50,7 +50,7 @@ struct Codec<MapFlag> {
 namespace {
 
 template <class V>
-void describe(V& v, MapFile& c) {
+void describe(V& v, MapServerFile& c) {
   v.required("image", c.image, {.min_items = 1, .max_items = 4096});
   v.required("resolution", c.resolution_m,
              {.min = 0, .exclusive_min = true, .max = 1000, .unit = "m"});
@@ -61,7 +61,7 @@ void describe(V& v, MapFile& c) {
   v.field("mode", c.mode);
 }
 
-void validate(const MapFile& c, CheckContext& check) {
+void validate(const MapServerFile& c, CheckContext& check) {
   if (c.free_thresh > c.occupied_thresh) {
     check.error("free_thresh", "`free_thresh`: found {}, expected at most `occupied_thresh` ({})",
                 c.free_thresh, c.occupied_thresh);
@@ -69,7 +69,7 @@ void validate(const MapFile& c, CheckContext& check) {
 }
 
 /// Source: http://wiki.ros.org/map_server, "Value Interpretation".
-CellState state_of(std::uint8_t shade, bool opaque, const MapFile& file) {
+CellState state_of(std::uint8_t shade, bool opaque, const MapServerFile& file) {
   double p = file.negate.on ? shade / 255.0 : (255 - shade) / 255.0;
   if (file.mode == MapMode::kScale && !opaque) return CellState::kUnknown;
   if (file.mode == MapMode::kRaw) {
@@ -96,7 +96,7 @@ Result<MapImage> read_map(const std::filesystem::path& yaml_path) {
 
 Result<MapImage> read_map_text(std::string_view yaml, const std::filesystem::path& yaml_path) {
   constexpr std::size_t kMaxImageBytes = std::size_t{512} << 20;
-  RAVE_TRY_ASSIGN(const MapFile file, read_text<MapFile>(yaml, yaml_path.string()));
+  RAVE_TRY_ASSIGN(const MapServerFile file, read_text<MapServerFile>(yaml, yaml_path.string()));
   const std::filesystem::path path = yaml_path.parent_path() / file.image.value;
   const auto decode = [&path]() -> Result<GreyImage> {
     // Reading a pipe or a terminal would wait for ever.

@@ -22,7 +22,7 @@ bool needs_escape(std::uint32_t code) {
 }
 
 /// In double quotes. JSON has no `\x`, so that both formats use `\u`.
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string out = "\"";
   for (std::size_t i = 0; i < text.size();) {
     Utf8Character c = utf8_at(text, i);
@@ -69,7 +69,7 @@ bool is_plain_word(std::string_view text) {
 std::string scalar_text(const RawNode& node) {
   if (node.is_null()) return "null";
   if (!node.is_text()) return node.scalar();
-  return is_plain_word(node.scalar()) ? node.scalar() : quoted(node.scalar());
+  return is_plain_word(node.scalar()) ? node.scalar() : in_quotes(node.scalar());
 }
 
 /// The node if it fits behind its key: scalars, empty collections, short lists of such.
@@ -115,7 +115,7 @@ class YamlText {
     for (std::size_t i = 0; i < node.size(); ++i) {
       const std::string spaces(indent, ' ');
       std::string line = i == 0 && !lead.empty() ? lead : spaces;
-      line += is_plain_word(node.key(i)) ? node.key(i) : quoted(node.key(i));
+      line += is_plain_word(node.key(i)) ? node.key(i) : in_quotes(node.key(i));
       line += ':';
       const std::string text = inline_text(node.child(i));
       if (!text.empty()) line += ' ' + text;
@@ -159,7 +159,7 @@ class YamlText {
 
 std::string json_scalar(const RawNode& node) {
   if (node.is_null()) return "null";
-  if (node.is_text()) return quoted(node.scalar());
+  if (node.is_text()) return in_quotes(node.scalar());
   if (node.as_bool()) return node.scalar();
   if (const auto whole = node.as_int()) return fmt::format("{}", *whole);
   if (const auto whole = node.as_uint()) return fmt::format("{}", *whole);
@@ -181,7 +181,7 @@ void json(const RawNode& node, std::size_t indent, std::string& out) {
   for (std::size_t i = 0; i < node.size(); ++i) {
     out += i == 0 ? "\n" : ",\n";
     out.append(indent + 2, ' ');
-    if (named) out += quoted(node.key(i)) + ": ";
+    if (named) out += in_quotes(node.key(i)) + ": ";
     json(node.child(i), indent + 2, out);
   }
   out += '\n';

@@ -38,7 +38,7 @@ RawNode parse(std::string_view text) {
   return parse_yaml(text, "r.yaml", diagnostics).value_or(RawNode{});
 }
 
-std::string error_of(std::string_view text) {
+std::string params_error(std::string_view text) {
   const auto values = read_params(parse(text), specs(), "driver `x`");
   return values ? "none" : values.error().text();
 }
@@ -59,25 +59,25 @@ TEST(Params, GivenValuesAndDefaultsInTheOrderOfTheSpecs) {
 }
 
 TEST(Params, BadValuesAreNamed) {
-  EXPECT_EQ(error_of("port: a\nrange_m: -1\n"),
+  EXPECT_EQ(params_error("port: a\nrange_m: -1\n"),
             "r.yaml:2:10: driver `x`: `range_m`: found the number -1, expected a number (greater "
             "than 0, in metres)");
   EXPECT_EQ(
-      error_of("port: a\nrange: 1\n"),
+      params_error("port: a\nrange: 1\n"),
       "r.yaml:2:1: driver `x`: unknown key `range`: unit missing: expected `range_m` (metres)");
-  EXPECT_EQ(error_of("port: a\nkinds: sonar\n"),
+  EXPECT_EQ(params_error("port: a\nkinds: sonar\n"),
             "r.yaml:2:1: driver `x`: unknown key `kinds`; did you mean `kind`?");
-  EXPECT_EQ(error_of("port: a\nkind: sonr\n"),
+  EXPECT_EQ(params_error("port: a\nkind: sonr\n"),
             "r.yaml:2:7: driver `x`: `kind`: found the text \"sonr\", expected one of laser and "
             "sonar; did you mean `sonar`?");
-  EXPECT_EQ(error_of("port: a\nrays: 2.5\n"),
+  EXPECT_EQ(params_error("port: a\nrays: 2.5\n"),
             "r.yaml:2:7: driver `x`: `rays`: found the number 2.5, expected a whole number (at "
             "least 1)");
-  EXPECT_EQ(error_of("port: a\nweights: [1, -1]\n"),
+  EXPECT_EQ(params_error("port: a\nweights: [1, -1]\n"),
             "r.yaml:2:14: driver `x`: item 2 of `weights`: found the number -1, expected a number "
             "(at least 0)");
-  EXPECT_EQ(error_of("rays: 3\n"), "r.yaml:1:1: driver `x`: missing key `port`: expected text");
-  EXPECT_EQ(error_of("[1]"), "r.yaml:1:1: driver `x`: found a list, expected a mapping");
+  EXPECT_EQ(params_error("rays: 3\n"), "r.yaml:1:1: driver `x`: missing key `port`: expected text");
+  EXPECT_EQ(params_error("[1]"), "r.yaml:1:1: driver `x`: found a list, expected a mapping");
 }
 
 TEST(Params, WrittenParametersReadBackEqual) {

@@ -6,19 +6,19 @@
 namespace rave::config {
 namespace {
 
-struct Case {
+struct FileCase {
   const char* name;
   const char* text;
   const char* error;
 };
 
 // The name that GoogleTest looks for. NOLINTNEXTLINE(readability-identifier-naming)
-void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
-std::string name_of(const testing::TestParamInfo<Case>& info) { return info.param.name; }
+void PrintTo(const FileCase& c, std::ostream* out) { *out << c.name; }
+std::string name_of(const testing::TestParamInfo<FileCase>& info) { return info.param.name; }
 
 #define BODY "body: {shapes: [{disc_radius_m: 0.1, z_m: [0, 0.1]}]}\n"
 
-class BadRobot : public testing::TestWithParam<Case> {};
+class BadRobot : public testing::TestWithParam<FileCase> {};
 
 TEST_P(BadRobot, IsRefused) {
   const auto robot = read_robot_text(GetParam().text, "r.yaml");
@@ -26,7 +26,7 @@ TEST_P(BadRobot, IsRefused) {
   EXPECT_EQ(robot.error().text(), GetParam().error);
 }
 
-const Case kRobots[] = {
+const FileCase kRobots[] = {
     {"NoBody", "description: x\n", "r.yaml:1:1: missing key `body`: expected a mapping"},
     {"NoShapes", "body: {shapes: []}\n",
      "r.yaml:1:16: `shapes`: found a list of 0 items, expected a list of 1 to 64 items, each a "
@@ -126,7 +126,7 @@ TEST(BadRobotPolygon, ThatCrossesItselfIsRefusedAtItsCorners) {
   EXPECT_NE(text.find("cross"), std::string::npos) << text;
 }
 
-class BadWorld : public testing::TestWithParam<Case> {};
+class BadWorld : public testing::TestWithParam<FileCase> {};
 
 TEST_P(BadWorld, IsRefused) {
   const auto world = read_world_text(GetParam().text, "w.yaml");
@@ -134,7 +134,7 @@ TEST_P(BadWorld, IsRefused) {
   EXPECT_EQ(world.error().text(), GetParam().error);
 }
 
-const Case kWorlds[] = {
+const FileCase kWorlds[] = {
     {"NamedTwice", "obstacles:\n  - {name: a, disc_radius_m: 1}\n  - {name: a, disc_radius_m: 1}\n",
      "w.yaml:3:12: two obstacles are named `a`; the first is at w.yaml:2:12"},
     {"NoOutline", "obstacles:\n  - {name: a}\n",
@@ -148,7 +148,7 @@ const Case kWorlds[] = {
 
 INSTANTIATE_TEST_SUITE_P(Config, BadWorld, testing::ValuesIn(kWorlds), name_of);
 
-class BadScenario : public testing::TestWithParam<Case> {};
+class BadScenario : public testing::TestWithParam<FileCase> {};
 
 TEST_P(BadScenario, IsRefused) {
   const auto scenario = read_scenario_text(GetParam().text, "s.yaml");
@@ -156,7 +156,7 @@ TEST_P(BadScenario, IsRefused) {
   EXPECT_EQ(scenario.error().text(), GetParam().error);
 }
 
-const Case kScenarios[] = {
+const FileCase kScenarios[] = {
     {"NoRobots", "name: a\n",
      "s.yaml:1:1: missing key `robots`: expected a list of 1 to 100000 items, each a mapping"},
     {"Empty", "name: a\nrobots: []\n",

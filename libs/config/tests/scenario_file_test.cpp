@@ -6,11 +6,11 @@
 namespace rave::config {
 namespace {
 
-const std::filesystem::path kData = RAVE_SOURCE_DIR "/libs/config/tests/data";
+const std::filesystem::path kFiles = RAVE_SOURCE_DIR "/libs/config/tests/data";
 
 TEST(RobotFileText, VariablesTakeTheTypeOfTheirValueOrBecomeText) {
   const auto robot =
-      read_robot_file(kData / "robots/recorded.yaml", {{"robot", RawNode::integer(3)}});
+      read_robot_file(kFiles / "robots/recorded.yaml", {{"robot", RawNode::integer(3)}});
   ASSERT_TRUE(robot.has_value()) << robot.error().text();
   EXPECT_EQ(robot->description,
             "Robot 3 of the recording; its barcode is 5, written as $(barcode)");
@@ -29,10 +29,10 @@ TEST(RobotFileText, VariablesTakeTheTypeOfTheirValueOrBecomeText) {
 }
 
 TEST(RobotFileText, ValuesKeepTheirPlaces) {
-  const auto robot = read_robot_file(kData / "robots/walker.yaml");
+  const auto robot = read_robot_file(kFiles / "robots/walker.yaml");
   ASSERT_TRUE(robot.has_value()) << robot.error().text();
   const SensorFile& laser = robot->sensors.at(0);
-  EXPECT_EQ(laser.driver.where.text(), (kData / "robots/walker.yaml").string() + ":10:13");
+  EXPECT_EQ(laser.driver.where.text(), (kFiles / "robots/walker.yaml").string() + ":10:13");
   EXPECT_EQ(**laser.period_s, 0.1);
   EXPECT_EQ(laser.filters.at(0).median->window, 5);
   EXPECT_EQ(laser.filters.at(1).exponential->time_constant_s, 0.2);
@@ -43,7 +43,7 @@ TEST(RobotFileText, ValuesKeepTheirPlaces) {
 
 TEST(RobotFileText, ReadsBackWhatItWrites) {
   for (const char* name : {"robots/walker.yaml", "robots/recorded.yaml"}) {
-    const auto robot = read_robot_file(kData / name);
+    const auto robot = read_robot_file(kFiles / name);
     ASSERT_TRUE(robot.has_value()) << robot.error().text();
     const auto again = read_robot_text(write_robot(*robot), "again.yaml");
     ASSERT_TRUE(again.has_value()) << again.error().text();
@@ -52,7 +52,7 @@ TEST(RobotFileText, ReadsBackWhatItWrites) {
 }
 
 TEST(WorldFileText, DefaultsAndRoundTrip) {
-  const auto world = read_world_file(kData / "worlds/hall.yaml");
+  const auto world = read_world_file(kFiles / "worlds/hall.yaml");
   ASSERT_TRUE(world.has_value()) << world.error().text();
   ASSERT_EQ(world->obstacles.size(), 2U);
   EXPECT_EQ(world->obstacles[0].barcode, 72);

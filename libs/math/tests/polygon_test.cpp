@@ -12,7 +12,7 @@
 namespace rave {
 namespace {
 
-constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 std::string error_of(const std::vector<Vec2>& vertices) {
   const auto polygon = ConvexPolygon::make(vertices);
@@ -56,7 +56,7 @@ TEST(ConvexPolygon, SaysWhatIsWrong) {
   EXPECT_EQ(error_of({{0, 0}, {1, 0}}), "a polygon has 3 to 10000 vertices, this one has 2");
   EXPECT_EQ(error_of({{0, 0}, {1, 0}, {0, 0}, {0, 0}}),
             "a polygon needs 3 distinct vertices, this one has 2");
-  EXPECT_EQ(error_of({{0, 0}, {1, 0}, {0, kInf}}), "polygon vertex 2 is not finite: (0, inf)");
+  EXPECT_EQ(error_of({{0, 0}, {1, 0}, {0, kEndless}}), "polygon vertex 2 is not finite: (0, inf)");
   EXPECT_EQ(error_of({{0, 0}, {std::nan(""), 0}, {0, 1}}),
             "polygon vertex 1 is not finite: (nan, 0)");
   EXPECT_EQ(error_of({{0, 0}, {2e9, 0}, {0, 1}}),
@@ -94,8 +94,8 @@ TEST(ConvexPolygon, PentagramIsNotSimpleAlthoughItAlwaysTurnsLeft) {
 TEST(CastRay, HitsABox) {
   const ConvexPolygon box = ConvexPolygon::box(2, 2).value();
   EXPECT_DOUBLE_EQ(cast_ray({-3, 0.5}, {1, 0}, box), 2);
-  EXPECT_EQ(cast_ray({-3, 1.5}, {1, 0}, box), kInf);
-  EXPECT_EQ(cast_ray({3, 0}, {1, 0}, box), kInf);
+  EXPECT_EQ(cast_ray({-3, 1.5}, {1, 0}, box), kEndless);
+  EXPECT_EQ(cast_ray({3, 0}, {1, 0}, box), kEndless);
   EXPECT_EQ(cast_ray({0.3, 0}, {1, 0}, box), 0);
 }
 
@@ -108,7 +108,7 @@ TEST(CastRay, EndsOnTheBorderAndNotBefore) {
     const SinCos heading = sincos(random.uniform(-kPi, kPi));
     const Vec2 direction{heading.cos, heading.sin};
     const double range_m = cast_ray(origin, direction, polygon);
-    double nearest = kInf;
+    double nearest = kEndless;
     for (int k = 0; k <= 200; ++k) {
       nearest = std::min(nearest, polygon.distance(origin + 0.04 * k * direction));
     }

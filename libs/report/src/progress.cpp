@@ -54,14 +54,6 @@ std::string joined(const std::vector<Part>& parts, int lowest_priority) {
   return line;
 }
 
-std::string without_controls(std::string_view text) {
-  std::string clean;
-  for (const char c : text) {
-    if (static_cast<unsigned char>(c) >= 0x20 && c != 0x7F) clean += c;
-  }
-  return clean;
-}
-
 }  // namespace
 
 std::string format_progress(const Progress& progress, std::size_t width) {

@@ -23,14 +23,6 @@ std::size_t total_of(const Widths& widths) {
   return std::accumulate(widths.begin(), widths.end(), 3 * widths.size() + 1);
 }
 
-std::string without_controls(std::string_view text) {
-  std::string clean;
-  for (const char c : text) {
-    if (static_cast<unsigned char>(c) >= 0x20 && c != 0x7F) clean += c;
-  }
-  return clean;
-}
-
 std::string cell_of(const std::vector<std::string>& row, std::size_t column) {
   return column < row.size() ? without_controls(row[column]) : std::string();
 }

@@ -79,6 +79,14 @@ std::size_t columns_of(std::string_view text) noexcept {
   return columns;
 }
 
+std::string without_controls(std::string_view text) {
+  std::string clean;
+  for (const char c : text) {
+    if (static_cast<unsigned char>(c) >= 0x20 && c != 0x7F) clean += c;
+  }
+  return clean;
+}
+
 std::string clip_to_columns(std::string_view text, std::size_t columns) {
   if (columns_of(text) <= columns) return std::string(text);
   if (columns == 0) return {};

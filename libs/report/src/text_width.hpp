@@ -14,6 +14,9 @@ namespace rave::report {
 /// combining marks and control characters, else one. Bytes that are not UTF-8 count one each.
 [[nodiscard]] std::size_t columns_of(std::string_view text) noexcept;
 
+/// The text without control characters, so that it cannot move the cursor.
+[[nodiscard]] std::string without_controls(std::string_view text);
+
 /// The text if it fits into `columns`, else as much of it as fits with an ellipsis at the end.
 [[nodiscard]] std::string clip_to_columns(std::string_view text, std::size_t columns);
 

@@ -13,13 +13,13 @@ namespace {
 constexpr std::size_t kLargestWindow = 99;
 
 /// Followed by `window` doubles, a ring of the last readings.
-struct MedianMemory {
+struct MedianState {
   double output = 0;
   std::uint32_t filled = 0;
   std::uint32_t next = 0;
 };
 
-struct ExponentialMemory {
+struct ExponentialState {
   double output = 0;
   std::int64_t stamp_ns = 0;
   std::uint32_t valid = 0;
@@ -51,8 +51,8 @@ FilterFields filter_fields(ReadingKind kind) noexcept {
 }
 
 std::size_t filter_memory(const FilterSpec& filter) noexcept {
-  if (filter.kind == FilterSpec::Kind::kExponential) return sizeof(ExponentialMemory);
-  return sizeof(MedianMemory) + static_cast<std::size_t>(filter.window) * sizeof(double);
+  if (filter.kind == FilterSpec::Kind::kExponential) return sizeof(ExponentialState);
+  return sizeof(MedianState) + static_cast<std::size_t>(filter.window) * sizeof(double);
 }
 
 double FieldFilter::operator()(double x, std::int64_t stamp_ns, bool angle,
@@ -64,8 +64,8 @@ double FieldFilter::operator()(double x, std::int64_t stamp_ns, bool angle,
 }
 
 double FieldFilter::median(double x, bool angle, std::byte* memory) const noexcept {
-  auto& own = *reinterpret_cast<MedianMemory*>(memory);
-  auto* const history = reinterpret_cast<double*>(memory + sizeof(MedianMemory));
+  auto& own = *reinterpret_cast<MedianState*>(memory);
+  auto* const history = reinterpret_cast<double*>(memory + sizeof(MedianState));
   const auto window = static_cast<std::uint32_t>(filter_.window);
   if (own.filled == 0) own.output = x;
   history[own.next] = x;
@@ -85,7 +85,7 @@ double FieldFilter::median(double x, bool angle, std::byte* memory) const noexce
 
 double FieldFilter::exponential(double x, std::int64_t stamp_ns, bool angle,
                                 std::byte* memory) noexcept {
-  auto& own = *reinterpret_cast<ExponentialMemory*>(memory);
+  auto& own = *reinterpret_cast<ExponentialState*>(memory);
   if (!std::isfinite(x)) {
     own = {};
     return x;

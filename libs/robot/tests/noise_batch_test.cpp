@@ -14,7 +14,6 @@
 namespace rave {
 namespace {
 
-constexpr float kNoReturn = std::numeric_limits<float>::infinity();
 constexpr std::uint32_t kCapacity = 1000;
 
 RandomStream stream_of(std::uint32_t sample) {

@@ -10,7 +10,6 @@
 namespace rave {
 namespace {
 
-constexpr float kNoReturn = std::numeric_limits<float>::infinity();
 constexpr double kPeriod_s = 0.01;
 constexpr std::int64_t kPeriod_ns = 10'000'000;
 

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "rave/base/check.hpp"
 #include "rave/robot/processing.hpp"
 
 namespace rave {
+
+inline constexpr float kNoReturn = std::numeric_limits<float>::infinity();
 
 inline Processing made(const ProcessingSpec& spec, ReadingKind kind, std::uint32_t capacity,
                        double period_s = 0.01) {

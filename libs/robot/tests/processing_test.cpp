@@ -14,7 +14,6 @@ namespace rave {
 namespace {
 
 constexpr int kCount = 100'000;
-constexpr float kNoReturn = std::numeric_limits<float>::infinity();
 
 RandomStream stream(std::uint32_t sample) { return {7, 3, 2, sample}; }
 
@@ -288,19 +287,19 @@ TEST(Latency, DeliversEachSampleWhenItIsDue) {
   const Processing chain = made({.latency_s = 0.1}, ReadingKind::kValues, 1, 0.01);
   EXPECT_EQ(chain.depth(), 11U);
   std::vector<std::byte> state = fresh_state(chain);
-  constexpr std::int64_t kPeriod_ns = 10'000'000;
+  constexpr std::int64_t kStep_ns = 10'000'000;
   for (std::int64_t step = 0; step < 1000; ++step) {
     const double value = static_cast<double>(step);
-    chain.push(header_of(step * kPeriod_ns, 1), &value, stream(0), state.data());
+    chain.push(header_of(step * kStep_ns, 1), &value, stream(0), state.data());
     SampleHeader header;
     double out = -1;
-    const bool came = chain.deliver({step * kPeriod_ns}, state.data(), &header, &out);
+    const bool came = chain.deliver({step * kStep_ns}, state.data(), &header, &out);
     ASSERT_EQ(came, step >= 10) << step;
     if (!came) continue;
-    ASSERT_EQ(header.stamp_ns, (step - 10) * kPeriod_ns);
+    ASSERT_EQ(header.stamp_ns, (step - 10) * kStep_ns);
     ASSERT_EQ(out, static_cast<double>(step - 10));
     ASSERT_EQ(header.dropped, 0U);
-    ASSERT_FALSE(chain.deliver({step * kPeriod_ns}, state.data(), &header, &out));
+    ASSERT_FALSE(chain.deliver({step * kStep_ns}, state.data(), &header, &out));
   }
 }
 

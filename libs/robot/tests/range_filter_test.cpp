@@ -14,8 +14,7 @@
 namespace rave {
 namespace {
 
-constexpr float kNoReturn = std::numeric_limits<float>::infinity();
-constexpr std::int64_t kPeriod_ns = 10'000'000;
+constexpr std::int64_t kTick_ns = 10'000'000;
 
 class PlainMedian {
  public:
@@ -76,7 +75,7 @@ void expect_as(const FilterSpec& filter, std::uint32_t most, int samples, const 
   RandomStream random(most, 1, 2, 3);
   std::int64_t now_ns = 0;
   for (int s = 0; s < samples; ++s) {
-    now_ns += kPeriod_ns * (1 + static_cast<std::int64_t>(random.uniform(0, 3)));
+    now_ns += kTick_ns * (1 + static_cast<std::int64_t>(random.uniform(0, 3)));
     const std::uint32_t count =
         random.uniform() < 0.8 ? most : static_cast<std::uint32_t>(random.uniform(0, most));
     std::vector<float> raw(count);
@@ -146,8 +145,8 @@ TEST(RangeFilter, ResetForgetsTheReadings) {
       const float raw[3] = {1, 2.0F + static_cast<float>(run), kNoReturn};
       SampleHeader header;
       float out[3];
-      chain.push(header_of(kPeriod_ns, 3), raw, {0, 0, 0, 0}, state.data());
-      ASSERT_TRUE(chain.deliver({kPeriod_ns}, state.data(), &header, out));
+      chain.push(header_of(kTick_ns, 3), raw, {0, 0, 0, 0}, state.data());
+      ASSERT_TRUE(chain.deliver({kTick_ns}, state.data(), &header, out));
       EXPECT_EQ(out[1], raw[1]);
       chain.reset(state.data());
       EXPECT_EQ(state, fresh);

@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
+#include "plugin_call.hpp"
 #include "radio.hpp"
 #include "rave/base/check.hpp"
 
 namespace rave::sim {
 namespace {
-
-/// Runs a function of a plug-in that returns 0 or sets an ErrorText.
-template <class Call>
-Status called(Call&& call) {
-  ErrorText error;
-  if (call(&error) == 0) return {};
-  return fail(ErrorCode::kPlugin, "{}", error.text);
-}
 
 Status check(const RadioDeclaration& radio) {
   const bool sound = radio.range_m >= 0 && radio.byte_rate >= 0 && radio.max_messages > 0 &&

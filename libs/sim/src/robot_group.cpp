@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "declared_fan.hpp"
+#include "plugin_call.hpp"
 #include "radio.hpp"
 
 namespace rave::sim {
@@ -39,14 +40,6 @@ Error named(const GroupContext& context, RobotId id, std::string_view kind, std:
   return std::move(error).with_context(fmt::format("robot `{}`, {} `{}` (driver `{}`)",
                                                    context.spec.robots[id.value()].name, kind, name,
                                                    driver));
-}
-
-/// Runs a function of a plug-in that returns 0 or sets an ErrorText.
-template <class Call>
-Status called(Call&& call) {
-  ErrorText error;
-  if (call(&error) == 0) return {};
-  return fail(ErrorCode::kPlugin, "{}", error.text);
 }
 
 void allocate(SensorSlots& slots, std::size_t count) {

@@ -73,7 +73,7 @@ class Motor final : public HardwareActuator {
 };
 
 /// Time passes when the test says so.
-class HandClock final : public RunClock {
+class StoppedClock final : public RunClock {
  public:
   [[nodiscard]] SimTime now() const noexcept override { return {}; }
   [[nodiscard]] std::chrono::steady_clock::time_point wall_time_of(
@@ -116,7 +116,7 @@ class EngineDevices : public ::testing::Test {
     return spec;
   }
 
-  HandClock clock_;
+  StoppedClock clock_;
   Notebook notebook_;
 };
 

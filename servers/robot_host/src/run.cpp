@@ -19,8 +19,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kProgressInterval = std::chrono::milliseconds(100);
-
 /// All observers of one run.
 struct Observers {
   BodyKinds kinds;

@@ -10,6 +10,9 @@
 
 namespace rave::robot_host {
 
+/// Between two messages about how far a run has come.
+inline constexpr auto kProgressInterval = std::chrono::milliseconds(100);
+
 /// Ties simulation time to the clock on the wall. Written by one thread before the run starts, read
 /// by any afterwards.
 class WallPace final : public RunClock {

@@ -128,7 +128,7 @@ endfunction()
 # rave_test(NAME SOURCES ... [DEPS ...] [LABELS ...] [TIMEOUT seconds] [NEEDS target...] [OPTIMIZE])
 # A GoogleTest program, run by ctest as NAME. NEEDS names targets it starts or loads. The code of
 # tests is not optimised, which saves a third of the time it takes to compile; OPTIMIZE for those
-# that reckon much themselves.
+# that reckon much themselves. The target rave_tests_LABEL builds all tests of a label.
 function(rave_test name)
   if(NOT RAVE_TESTS)
     return()
@@ -152,6 +152,12 @@ function(rave_test name)
   if(NOT ARG_LABELS)
     set(ARG_LABELS unit)
   endif()
+  foreach(label ${ARG_LABELS})
+    if(NOT TARGET rave_tests_${label})
+      add_custom_target(rave_tests_${label})
+    endif()
+    add_dependencies(rave_tests_${label} test_${name})
+  endforeach()
   add_test(NAME ${name} COMMAND test_${name} WORKING_DIRECTORY "${CMAKE_BINARY_DIR}")
   set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}"
     ENVIRONMENT "${ARG_ENVIRONMENT}")

@@ -71,6 +71,9 @@ class RunRecorder::Impl {
     return status;
   }
 
+ private:
+  friend class RunRecorder;
+
   McapWriter file_;
   StandardViews views_;
   Stream run_, end_, events_, inputs_, console_, hash_;

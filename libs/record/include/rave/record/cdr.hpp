@@ -79,10 +79,9 @@ class CdrWriter {
 /// point into the message.
 class CdrReader {
  public:
-  explicit CdrReader(std::span<const std::byte> message) noexcept {
-    ok_ = message.size() >= 4 && message[0] == std::byte{0} && message[1] == std::byte{1};
-    if (ok_) body_ = message.subspan(4);
-  }
+  explicit CdrReader(std::span<const std::byte> message) noexcept
+      : body_(is_plain(message) ? message.subspan(4) : std::span<const std::byte>()),
+        ok_(is_plain(message)) {}
   template <CdrPrimitive T>
   [[nodiscard]] T get() noexcept {
     T value{};
@@ -129,6 +128,9 @@ class CdrReader {
   [[nodiscard]] bool ok() const noexcept { return ok_; }
 
  private:
+  [[nodiscard]] static bool is_plain(std::span<const std::byte> message) noexcept {
+    return message.size() >= 4 && message[0] == std::byte{0} && message[1] == std::byte{1};
+  }
   void align(std::size_t size) noexcept {
     const std::size_t over = position_ % size;
     if (over != 0) static_cast<void>(raw(size - over));
@@ -145,7 +147,7 @@ class CdrReader {
 
   std::span<const std::byte> body_;
   std::size_t position_ = 0;
-  bool ok_ = true;
+  bool ok_;
 };
 
 }  // namespace rave::record

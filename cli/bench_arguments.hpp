@@ -3,7 +3,7 @@
 
 #include "commands/bench.hpp"
 
-namespace CLI {
+namespace CLI {  // its own name. NOLINT(readability-identifier-naming)
 class App;
 }
 

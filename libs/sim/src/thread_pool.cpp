@@ -9,13 +9,41 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// How long an idle thread looks for work: longer than what lies between two loops of a step, and
+/// no longer than waking it would take.
+constexpr auto kLook = std::chrono::microseconds(50);
+
+/// Leaves the processor's resources to its other thread for a moment.
+void pause_processor() noexcept {
+#if defined(__x86_64__) || defined(__i386__)
+  __builtin_ia32_pause();
+#else
+  std::this_thread::yield();
+#endif
+}
+
+/// Waits for `reached` without sleeping; false if it takes too long.
+template <class Condition>
+bool look_for(const Condition& reached) noexcept {
+  constexpr int kLooks = 16;  // between two looks at the clock
+  const auto end = Clock::now() + kLook;
+  do {
+    for (int i = 0; i < kLooks; ++i) {
+      if (reached()) return true;
+      pause_processor();
+    }
+  } while (Clock::now() < end);
+  return false;
+}
+
 std::int64_t nanoseconds_since(Clock::time_point begin) {
   return std::chrono::nanoseconds(Clock::now() - begin).count();
 }
 
 }  // namespace
 
-ThreadPool::ThreadPool(unsigned threads, bool always) : always_(always) {
+ThreadPool::ThreadPool(unsigned threads, bool always)
+    : always_(always), may_look_(threads <= std::thread::hardware_concurrency()) {
   for (unsigned worker = 1; worker < std::max(threads, 1U); ++worker) {
     workers_.emplace_back([this, worker] { serve(worker); });
   }
@@ -36,7 +64,9 @@ void ThreadPool::for_each_block(std::size_t blocks, Effort& effort,
     for (std::size_t block = 0; block < blocks; ++block) work(block, 0);
     return;
   }
-  if (blocks < 2 || !(always_ || effort.is_worth_waking())) {
+  const bool awake = asleep_.load(std::memory_order_relaxed) == 0;
+  const bool worth = awake ? effort.is_worth_sharing() : effort.is_worth_waking();
+  if (blocks < 2 || !(always_ || worth)) {
     const auto begin = Clock::now();
     for (std::size_t block = 0; block < blocks; ++block) work(block, 0);
     effort.work_ns_ = nanoseconds_since(begin);
@@ -47,19 +77,24 @@ void ThreadPool::for_each_block(std::size_t blocks, Effort& effort,
 }
 
 void ThreadPool::share(std::size_t blocks, const std::function<void(std::size_t, unsigned)>& work) {
+  // Nobody reads these before the next round begins: all are done with the last one.
+  work_ = &work;
+  blocks_ = blocks;
+  next_.store(0, std::memory_order_relaxed);
+  work_ns_.store(0, std::memory_order_relaxed);
+  busy_.store(static_cast<unsigned>(workers_.size()), std::memory_order_relaxed);
+  bool wake = false;
   {
     const std::lock_guard lock(mutex_);
-    work_ = &work;
-    blocks_ = blocks;
-    next_.store(0, std::memory_order_relaxed);
-    work_ns_.store(0, std::memory_order_relaxed);
-    busy_ = static_cast<unsigned>(workers_.size());
-    ++round_;
+    round_.fetch_add(1, std::memory_order_release);
+    wake = asleep_.load(std::memory_order_relaxed) > 0;
   }
-  wake_.notify_all();
+  if (wake) wake_.notify_all();
   take_blocks(0);
+  const auto all_done = [this] { return busy_.load(std::memory_order_acquire) == 0; };
+  if (may_look_ && look_for(all_done)) return;
   std::unique_lock lock(mutex_);
-  done_.wait(lock, [this] { return busy_ == 0; });
+  done_.wait(lock, all_done);
 }
 
 void ThreadPool::take_blocks(unsigned worker) {
@@ -72,18 +107,26 @@ void ThreadPool::take_blocks(unsigned worker) {
   work_ns_.fetch_add(nanoseconds_since(begin), std::memory_order_relaxed);
 }
 
+bool ThreadPool::look_for_round(std::uint64_t seen) const noexcept {
+  return may_look_ &&
+         look_for([this, seen] { return round_.load(std::memory_order_acquire) != seen; });
+}
+
 void ThreadPool::serve(unsigned worker) {
   std::uint64_t seen = 0;
   while (true) {
-    {
+    if (!look_for_round(seen)) {
       std::unique_lock lock(mutex_);
-      wake_.wait(lock, [&] { return ending_ || round_ != seen; });
+      asleep_.fetch_add(1, std::memory_order_relaxed);
+      wake_.wait(lock, [&] { return ending_ || round_.load(std::memory_order_acquire) != seen; });
+      asleep_.fetch_sub(1, std::memory_order_relaxed);
       if (ending_) return;
-      seen = round_;
     }
+    ++seen;  // no round begins before all have done the last one
     take_blocks(worker);
+    if (busy_.fetch_sub(1, std::memory_order_acq_rel) > 1) continue;
     const std::lock_guard lock(mutex_);
-    if (--busy_ == 0) done_.notify_one();
+    done_.notify_one();
   }
 }
 

@@ -14,7 +14,8 @@ namespace rave::sim {
 
 /// Threads that share the blocks of one loop at a time. Which thread takes which block is left to
 /// chance, so blocks must not depend on one another nor on who runs them. Belongs to one thread,
-/// which takes part in the work.
+/// which takes part in the work. A thread that has nothing to do keeps looking for more for a
+/// moment before it sleeps: the loops of a step follow one another closely.
 class ThreadPool {
  public:
   /// `threads` in all, the calling one included; at least 1. `always`: every loop of two blocks and
@@ -25,16 +26,19 @@ class ThreadPool {
   ~ThreadPool();
 
   /// What one loop cost when it ran last, kept by the caller from round to round. A loop that takes
-  /// less than waking a thread does stays with the caller; which threads run it changes nothing.
+  /// less than having others join does stays with the caller; which threads run it changes nothing.
   class Effort {
    public:
     [[nodiscard]] bool is_worth_waking() const noexcept { return work_ns_ > kWakeWorthNs; }
+    /// The same where all threads are awake.
+    [[nodiscard]] bool is_worth_sharing() const noexcept { return work_ns_ > kShareWorthNs; }
 
    private:
     friend class ThreadPool;
     /// Waking a sleeping thread and waiting for its end costs 10 to 100 us, so a loop has to hold
-    /// several times that before sharing it pays.
+    /// several times that before sharing it pays; telling one that is awake costs 1 us.
     static constexpr std::int64_t kWakeWorthNs = 200'000;
+    static constexpr std::int64_t kShareWorthNs = 20'000;
     std::int64_t work_ns_ = 0;
   };
 
@@ -52,14 +56,18 @@ class ThreadPool {
   void serve(unsigned worker);
   void share(std::size_t blocks, const std::function<void(std::size_t, unsigned)>& work);
   void take_blocks(unsigned worker);
+  /// Looks for the next round; false if none comes for a while.
+  [[nodiscard]] bool look_for_round(std::uint64_t seen) const noexcept;
 
   const bool always_;
+  const bool may_look_;  ///< There is a processor for each thread.
   std::mutex mutex_;
   std::condition_variable wake_;
   std::condition_variable done_;
-  std::uint64_t round_ = 0;
-  unsigned busy_ = 0;
-  bool ending_ = false;
+  std::atomic<std::uint64_t> round_{0};  ///< Changed under mutex_.
+  std::atomic<unsigned> busy_{0};
+  std::atomic<unsigned> asleep_{0};  ///< Changed under mutex_.
+  bool ending_ = false;              ///< Guarded by mutex_.
   const std::function<void(std::size_t, unsigned)>* work_ = nullptr;
   std::size_t blocks_ = 0;
   std::atomic<std::size_t> next_{0};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -263,7 +264,11 @@ void Engine::Impl::place_robots() {
 void Engine::Impl::place_block(std::uint32_t first, std::uint32_t last) {
   for (std::uint32_t r = first; r < last; ++r) {
     const RobotId robot(r);
-    const SinCos turn = sincos(movers[r].X_WR.yaw);
+    // Who goes straight on keeps what was reckoned for the last step.
+    const double before_rad = snapshot.robot(robot).X_WR.yaw;
+    const bool turned = std::bit_cast<std::uint64_t>(movers[r].X_WR.yaw) !=
+                        std::bit_cast<std::uint64_t>(before_rad);
+    const SinCos turn = turned ? sincos(movers[r].X_WR.yaw) : snapshot.turn_WR(robot);
     const Vec2 over_ground = rotate(turn, {velocity[r].vx, velocity[r].vy});
     snapshot.set_robot(
         robot, {movers[r].X_WR, {over_ground.x, over_ground.y, velocity[r].wz}, movers[r].present},

@@ -93,7 +93,7 @@ MotionPhase::Way MotionPhase::try_to_go(const Step& step, std::uint32_t robot) c
   }
   if (!misses_what_stands(step, robot) || !misses_robots(step, robot)) return kToResolve;
   // Nobody else reads or writes this mover here: of others the snapshot is asked.
-  mover.X_WR = integrate(mover.X_WR, twist, step.dt_s);
+  mover.X_WR = integrate(mover.X_WR, step.snapshot.turn_WR(RobotId(robot)), twist, step.dt_s);
   step.robots.velocity[robot] = twist;
   step.robots.limited[robot] = 0;
   return kAhead;

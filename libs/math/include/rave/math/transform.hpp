@@ -51,24 +51,31 @@ namespace rave {
 }
 
 namespace detail {
-/// sin(h)/h given sin(h); its Taylor series where the quotient is 0/0 or nearly so.
-[[nodiscard]] constexpr double sinc(double h, double sin_h) noexcept {
+/// sin(h)/h; its Taylor series where the quotient is 0/0 or nearly so.
+[[nodiscard]] inline double sinc(double h) noexcept {
   const double z = h * h;
   if (z < 1.0e-4) return 1.0 - z / 6.0 * (1.0 - z / 20.0 * (1.0 - z / 42.0));
-  return sin_h / h;
+  return sin(h) / h;
 }
 }  // namespace detail
 
 /// The pose after moving for dt_s with the constant body twist v_WB_B: an exact circular arc, a
 /// straight line for wz = 0. The chord of the arc points along the mean heading and is sinc(half
-/// the turn) times as long as the arc.
-[[nodiscard]] inline Pose2 integrate(const Pose2& X_WB, const Twist2& v_WB_B,
+/// the turn) times as long as the arc. For who has `turn_WB`, which must be sincos(X_WB.yaw),
+/// already: what goes straight on needs no other.
+[[nodiscard]] inline Pose2 integrate(const Pose2& X_WB, const SinCos& turn_WB, const Twist2& v_WB_B,
                                      double dt_s) noexcept {
   const double turn_rad = v_WB_B.wz * dt_s;
   const double half_rad = 0.5 * turn_rad;
-  const double scale_s = dt_s * detail::sinc(half_rad, sin(half_rad));
-  const Vec2 chord_W = rotate(X_WB.yaw + half_rad, {scale_s * v_WB_B.vx, scale_s * v_WB_B.vy});
+  const double scale_s = dt_s * detail::sinc(half_rad);
+  const SinCos heading = half_rad == 0 ? turn_WB : sincos(X_WB.yaw + half_rad);
+  const Vec2 chord_W = rotate(heading, {scale_s * v_WB_B.vx, scale_s * v_WB_B.vy});
   return {X_WB.x + chord_W.x, X_WB.y + chord_W.y, wrap_angle(X_WB.yaw + turn_rad)};
+}
+/// The same, with the same bits.
+[[nodiscard]] inline Pose2 integrate(const Pose2& X_WB, const Twist2& v_WB_B,
+                                     double dt_s) noexcept {
+  return integrate(X_WB, sincos(X_WB.yaw), v_WB_B, dt_s);
 }
 
 /// The constant body twist that leads from X_0 to X_1 in dt_s (not 0) by the shortest turn: the
@@ -77,7 +84,7 @@ namespace detail {
                                           double dt_s) noexcept {
   const double turn_rad = wrap_angle(X_1.yaw - X_0.yaw);
   const double half_rad = 0.5 * turn_rad;
-  const double scale_s = dt_s * detail::sinc(half_rad, sin(half_rad));
+  const double scale_s = dt_s * detail::sinc(half_rad);
   const Vec2 chord = rotate_back(sincos(X_0.yaw + half_rad), X_1.position() - X_0.position());
   return {chord.x / scale_s, chord.y / scale_s, turn_rad / dt_s};
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "rave/math/convex_polygon.hpp"
+
 // Compiled once for each set of instructions.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "src/fan_kernel.cpp"
@@ -17,6 +19,17 @@ namespace rave::sim::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using Floats = hn::CappedTag<float, kRayPadding>;
 using Words = hn::RebindToUnsigned<Floats>;
+// The edges of a polygon are looked at in groups of so many.
+using Quads = hn::CappedTag<double, world::kVertexPadding + 1>;
+using QuadFloats = hn::Rebind<float, Quads>;
+
+/// A bit for each lane, at most 8.
+template <class D, class M>
+HWY_INLINE unsigned bits_of(D d, M mask) {
+  std::uint8_t bits = 0;
+  hn::StoreMaskBits(d, mask, &bits);
+  return bits & ((1U << hn::Lanes(d)) - 1U);
+}
 
 struct Point {
   float x;  // no default: many of them are made and few are filled
@@ -83,10 +96,14 @@ HWY_INLINE void cast_disc_piece(const world::ShapePiece& piece, const FanPlace& 
     return;
   }
   const Point centre = to_sensor(place, piece.centre_W.x, piece.centre_W.y);
-  const float tangent = static_cast<float>(std::sqrt(outside));
   const float r = piece.radius_m;
-  const Point right{centre.x * tangent + centre.y * r, centre.y * tangent - centre.x * r};
-  const Point left{centre.x * tangent - centre.y * r, centre.y * tangent + centre.x * r};
+  Point right{0, 0};
+  Point left{0, 0};
+  if (fan.first_ray != nullptr) {
+    const float tangent = static_cast<float>(std::sqrt(outside));
+    right = {centre.x * tangent + centre.y * r, centre.y * tangent - centre.x * r};
+    left = {centre.x * tangent - centre.y * r, centre.y * tangent + centre.x * r};
+  }
   const Floats d;
   const auto cx = hn::Set(d, centre.x);
   const auto cy = hn::Set(d, centre.y);
@@ -107,48 +124,76 @@ HWY_INLINE void cast_disc_piece(const world::ShapePiece& piece, const FanPlace& 
   });
 }
 
+/// The edges of a convex polygon that face the sensor.
+struct FacingEdges {
+  float
+      x[ConvexPolygon::kMaxVertices + 1];  ///< n/c of each: its line is met at 1/range = (x, y).d.
+  float y[ConvexPolygon::kMaxVertices + 1];
+  std::size_t count = 0;     ///< If it is 1, that edge is there twice.
+  std::uint64_t facing = 0;  ///< A bit for each edge of the polygon.
+};
+
+HWY_INLINE FacingEdges facing_edges(const world::ShapePiece& piece, const Vec2* vertices_W,
+                                    const Vec2* normals_W, const FanPlace& place) {
+  const Quads d;
+  const QuadFloats floats;
+  const auto sensor_x = hn::Set(d, place.x_m);
+  const auto sensor_y = hn::Set(d, place.y_m);
+  const auto cos = hn::Set(floats, place.cos);
+  const auto sin = hn::Set(floats, place.sin);
+  const std::size_t n = piece.vertex_count;
+  FacingEdges edges;
+  for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
+    auto vx = hn::Undefined(d);
+    auto vy = hn::Undefined(d);
+    auto nx = hn::Undefined(d);
+    auto ny = hn::Undefined(d);
+    hn::LoadInterleaved2(d, &vertices_W[piece.first_vertex + i].x, vx, vy);
+    hn::LoadInterleaved2(d, &normals_W[piece.first_vertex + i].x, nx, ny);
+    const auto c = hn::Add(hn::Mul(nx, hn::Sub(vx, sensor_x)), hn::Mul(ny, hn::Sub(vy, sensor_y)));
+    unsigned facing = bits_of(d, hn::Lt(c, hn::Zero(d)));
+    if (n - i < hn::Lanes(d)) facing &= (1U << (n - i)) - 1U;
+    const auto scale = hn::DemoteTo(floats, hn::Div(hn::Set(d, 1.0), c));
+    const auto x = hn::DemoteTo(floats, nx);
+    const auto y = hn::DemoteTo(floats, ny);
+    HWY_ALIGN float edge_x[4];
+    HWY_ALIGN float edge_y[4];
+    hn::Store(hn::Mul(hn::Add(hn::Mul(cos, x), hn::Mul(sin, y)), scale), floats, edge_x);
+    hn::Store(hn::Mul(hn::Sub(hn::Mul(cos, y), hn::Mul(sin, x)), scale), floats, edge_y);
+    // Without branches: which edges face the sensor is anybody's guess.
+    for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
+      edges.x[edges.count] = edge_x[lane];
+      edges.y[edges.count] = edge_y[lane];
+      edges.count += (facing >> lane) & 1U;
+    }
+    edges.facing |= std::uint64_t{facing} << i;
+  }
+  if (edges.count == 1) {
+    edges.x[1] = edges.x[0];
+    edges.y[1] = edges.y[0];
+  }
+  return edges;
+}
+
 /// A line n.p = c is met at 1/range = n.d / c; a convex polygon at the least of those of the edges
 /// that face the sensor, by the rays between its two outermost vertices.
 HWY_INLINE void cast_polygon_piece(const world::ShapePiece& piece, const Vec2* vertices_W,
                                    const Vec2* normals_W, const FanPlace& place,
                                    const FanView& fan) {
-  const Vec2* const vertices = vertices_W + piece.first_vertex;
-  const Vec2* const normals = normals_W + piece.first_vertex;
-  const std::size_t n = piece.vertex_count;
-  Point edges[64];
-  std::size_t count = 0;
-  std::size_t leftmost = n;
-  std::size_t rightmost = n;
-  bool first_faces = false;
-  bool before = false;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double c =
-        normals[i].x * (vertices[i].x - place.x_m) + normals[i].y * (vertices[i].y - place.y_m);
-    const bool faces = c < 0;
-    if (faces) {
-      const auto scale = static_cast<float>(1.0 / c);
-      const auto nx = static_cast<float>(normals[i].x);
-      const auto ny = static_cast<float>(normals[i].y);
-      edges[count++] = {(place.cos * nx + place.sin * ny) * scale,
-                        (place.cos * ny - place.sin * nx) * scale};
-    }
-    if (i == 0) {
-      first_faces = faces;
-    } else if (faces && !before) {
-      leftmost = i;
-    } else if (!faces && before) {
-      rightmost = i;
-    }
-    before = faces;
-  }
-  if (count == 0) {
+  const FacingEdges edges = facing_edges(piece, vertices_W, normals_W, place);
+  const std::uint64_t all = ~std::uint64_t{0} >> (64U - piece.vertex_count);
+  if (edges.facing == 0) {
     keep_all_inside(fan, piece.body);
     return;
   }
-  // The edge that closes the polygon.
-  if (first_faces && !before) leftmost = 0;
-  if (!first_faces && before) rightmost = 0;
-  if (leftmost == n || rightmost == n) return;  // rounding alone can make every edge face it
+  // The edges that face the sensor are one row; it begins at the left vertex and ends at the right.
+  const std::uint64_t before = ((edges.facing << 1U) | (edges.facing >> (piece.vertex_count - 1U)));
+  const std::uint64_t begin = edges.facing & ~before;
+  const std::uint64_t end = ~edges.facing & before & all;
+  if (begin == 0 || end == 0) return;  // rounding alone can make every edge face it
+  const Vec2* const vertices = vertices_W + piece.first_vertex;
+  const std::size_t leftmost = hwy::Num0BitsBelowLS1Bit_Nonzero64(begin);
+  const std::size_t rightmost = hwy::Num0BitsBelowLS1Bit_Nonzero64(end);
   const Point left = to_sensor(place, vertices[leftmost].x, vertices[leftmost].y);
   const Point right = to_sensor(place, vertices[rightmost].x, vertices[rightmost].y);
   const Floats d;
@@ -164,26 +209,21 @@ HWY_INLINE void cast_polygon_piece(const world::ShapePiece& piece, const Vec2* v
       const auto from_right = hn::Sub(hn::Mul(right_x, sin), hn::Mul(right_y, cos));
       const auto to_left = hn::Sub(hn::Mul(cos, left_y), hn::Mul(sin, left_x));
       const auto met = hn::And(hn::Ge(from_right, zero), hn::Ge(to_left, zero));
-      auto inverse =
-          hn::Add(hn::Mul(hn::Set(d, edges[0].x), cos), hn::Mul(hn::Set(d, edges[0].y), sin));
-      for (std::size_t e = 1; e < count; ++e) {
-        inverse = hn::Min(inverse, hn::Add(hn::Mul(hn::Set(d, edges[e].x), cos),
-                                           hn::Mul(hn::Set(d, edges[e].y), sin)));
-      }
+      const auto along = [&](std::size_t e) HWY_ATTR {
+        return hn::Add(hn::Mul(hn::Set(d, edges.x[e]), cos), hn::Mul(hn::Set(d, edges.y[e]), sin));
+      };
+      auto inverse = hn::Min(along(0), along(1));
+      for (std::size_t e = 2; e < edges.count; ++e) inverse = hn::Min(inverse, along(e));
       keep(fan, ray, hn::IfThenElseZero(met, inverse), piece.body);
     }
   });
 }
 
-void cast_pieces(const world::ShapePiece* const* pieces, std::size_t count, const Vec2* vertices_W,
-                 const Vec2* normals_W, const FanPlace& place, const FanView& fan) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const world::ShapePiece& piece = *pieces[i];
-    if (piece.vertex_count == 0) {
-      cast_disc_piece(piece, place, fan);
-    } else {
-      cast_polygon_piece(piece, vertices_W, normals_W, place, fan);
-    }
+void cast_pieces(Pieces discs, Pieces polygons, const Vec2* vertices_W, const Vec2* normals_W,
+                 const FanPlace& place, const FanView& fan) {
+  for (const world::ShapePiece* const piece : discs) cast_disc_piece(*piece, place, fan);
+  for (const world::ShapePiece* const piece : polygons) {
+    cast_polygon_piece(*piece, vertices_W, normals_W, place, fan);
   }
 }
 
@@ -213,9 +253,9 @@ namespace rave::sim {
 HWY_EXPORT(cast_pieces);
 HWY_EXPORT(finish_ranges);
 
-void cast_pieces(const world::ShapePiece* const* pieces, std::size_t count, const Vec2* vertices_W,
-                 const Vec2* normals_W, const FanPlace& place, const FanView& fan) {
-  HWY_DYNAMIC_DISPATCH(cast_pieces)(pieces, count, vertices_W, normals_W, place, fan);
+void cast_pieces(Pieces discs, Pieces polygons, const Vec2* vertices_W, const Vec2* normals_W,
+                 const FanPlace& place, const FanView& fan) {
+  HWY_DYNAMIC_DISPATCH(cast_pieces)(discs, polygons, vertices_W, normals_W, place, fan);
 }
 
 void finish_ranges(const FanView& fan, float range_min_m, float range_max_m, float* ranges_m) {

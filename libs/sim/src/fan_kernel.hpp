@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "rave/world/shape_grid.hpp"
 
@@ -36,10 +37,12 @@ struct FanPlace {
   float sin = 0;
 };
 
+using Pieces = std::span<const world::ShapePiece* const>;
+
 /// Puts what the rays meet of the pieces' shapes into `fan.inverse` and `fan.body`. Picks the
 /// widest instructions that the processor has; the bits are the same with all of them.
-void cast_pieces(const world::ShapePiece* const* pieces, std::size_t count, const Vec2* vertices_W,
-                 const Vec2* normals_W, const FanPlace& place, const FanView& fan);
+void cast_pieces(Pieces discs, Pieces polygons, const Vec2* vertices_W, const Vec2* normals_W,
+                 const FanPlace& place, const FanView& fan);
 
 /// 1/inverse for each ray: beyond `range_max` it is no return (+infinity, no body), nearer than
 /// `range_min` is range_min. `ranges` is padded as the fan is.

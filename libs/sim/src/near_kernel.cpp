@@ -30,15 +30,17 @@ HWY_INLINE auto in_field(const NearField& field, V dx, V dy, V reach) {
   return field.field.beyond_half ? hn::Or(right, left) : hn::And(right, left);
 }
 
-std::size_t select_near(const world::PieceColumns& columns, std::span<const world::PieceRow> rows,
+std::size_t select_near(const world::ShapeGrid& grid, const world::CellBlock& block,
                         const NearField& field, std::uint32_t* found) {
+  const world::PieceColumns columns = grid.columns();
   const Floats d;
   const hn::RebindToUnsigned<Floats> words;
   const auto x = hn::Set(d, field.x_m);
   const auto y = hn::Set(d, field.y_m);
   const auto radius = hn::Set(d, field.radius_m);
   std::size_t count = 0;
-  for (const world::PieceRow& row : rows) {
+  for (int y_cell = block.y0; y_cell <= block.y1; ++y_cell) {
+    const world::PieceRow row = grid.row_of(block, y_cell);
     for (std::uint32_t i = row.begin; i < row.end; i += static_cast<std::uint32_t>(hn::Lanes(d))) {
       const auto dx = hn::Sub(hn::LoadU(d, columns.x_m + i), x);
       const auto dy = hn::Sub(hn::LoadU(d, columns.y_m + i), y);
@@ -62,9 +64,9 @@ namespace rave::sim {
 
 HWY_EXPORT(select_near);
 
-std::size_t select_near(const world::PieceColumns& columns, std::span<const world::PieceRow> rows,
+std::size_t select_near(const world::ShapeGrid& grid, const world::CellBlock& block,
                         const NearField& field, std::uint32_t* found) {
-  return HWY_DYNAMIC_DISPATCH(select_near)(columns, rows, field, found);
+  return HWY_DYNAMIC_DISPATCH(select_near)(grid, block, field, found);
 }
 
 }  // namespace rave::sim

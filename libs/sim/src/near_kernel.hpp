@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "rave/sim/range_engine.hpp"
 #include "rave/world/shape_grid.hpp"
@@ -22,12 +21,11 @@ struct NearField {
   float left_y = 0;
 };
 
-/// Puts the indexes of those pieces of `rows` that come into the field, in their order, into
+/// Puts the indexes of those pieces in `block` that come into the field, in their order, into
 /// `found`, and returns how many there are. As it reckons in floats, a piece that is up to a
-/// millimetre outside may be among them. `found` has room for all pieces of the rows and 16 more.
-/// The same with all instruction sets.
-[[nodiscard]] std::size_t select_near(const world::PieceColumns& columns,
-                                      std::span<const world::PieceRow> rows, const NearField& field,
-                                      std::uint32_t* found);
+/// millimetre outside may be among them. `found` has room for all pieces of the grid and
+/// kPiecePadding more. The same with all instruction sets.
+[[nodiscard]] std::size_t select_near(const world::ShapeGrid& grid, const world::CellBlock& block,
+                                      const NearField& field, std::uint32_t* found);
 
 }  // namespace rave::sim

@@ -54,35 +54,67 @@ FanField field_of(const FanQuery& query) {
 /// Up to here from the grid's origin the floats of PieceColumns are fine enough to choose by.
 constexpr double kFloatReach_m = 2048;
 
-/// Adds the pieces of a grid that the fan could meet, each shape once.
-void collect(const world::ShapeGrid& grid, const FanTable& fan, const SensorPlace& place, float z_m,
-             BodyId owner, FanScratch& scratch) {
+/// Adds candidates to a scratch, each shape once.
+class Candidates {
+ public:
+  Candidates(const FanTable& fan, float z_m, BodyId owner, FanScratch& scratch)
+      : scratch_(&scratch), owner_(owner.value()), layers_(fan.layers), z_m_(z_m) {}
+
+  /// Room for so many more.
+  void make_room(std::size_t count) {
+    grow(scratch_->discs, scratch_->disc_count + count);
+    grow(scratch_->polygons, scratch_->polygon_count + count);
+  }
+
+  /// Without branches that are hard to foresee: each goes to the end of its list, and counts or
+  /// not.
+  void add(const world::ShapePiece& piece) noexcept {
+    const auto seen = static_cast<unsigned>(piece.body != owner_) &
+                      static_cast<unsigned>(piece.in_layers(layers_)) &
+                      static_cast<unsigned>(piece.z0_m <= z_m_) &
+                      static_cast<unsigned>(piece.z1_m >= z_m_);
+    if (piece.pieces > 1 && is_known(piece.shape)) return;
+    const auto disc = static_cast<unsigned>(piece.vertex_count == 0);
+    scratch_->discs[scratch_->disc_count] = &piece;
+    scratch_->disc_count += seen & disc;
+    scratch_->polygons[scratch_->polygon_count] = &piece;
+    scratch_->polygon_count += seen & (disc ^ 1U);
+  }
+
+ private:
+  static void grow(std::vector<const world::ShapePiece*>& list, std::size_t size) {
+    if (list.size() < size) list.resize(size);
+  }
+  /// Only polygons have several pieces.
+  [[nodiscard]] bool is_known(std::uint32_t shape) const noexcept {
+    const auto begin = scratch_->polygons.begin();
+    return std::any_of(begin, begin + static_cast<std::ptrdiff_t>(scratch_->polygon_count),
+                       [&](const auto* other) { return other->shape == shape; });
+  }
+
+  FanScratch* scratch_;
+  std::uint32_t owner_;
+  LayerMask layers_;
+  float z_m_;
+};
+
+/// Adds the pieces of a grid that the fan could meet.
+void collect(const world::ShapeGrid& grid, const FanTable& fan, const SensorPlace& place,
+             Candidates& candidates, FanScratch& scratch) {
   const Vec2 p_WS = place.p_WS;
-  std::vector<const world::ShapePiece*>& pieces = scratch.pieces;
-  const auto consider = [&](const world::ShapePiece& piece) {
-    if (piece.body == owner.value() || !piece.in_layers(fan.layers) || !piece.at_height(z_m)) {
-      return;
-    }
-    if (piece.pieces > 1) {
-      const bool known = std::any_of(pieces.rbegin(), pieces.rend(), [&](const auto* other) {
-        return other->shape == piece.shape;
-      });
-      if (known) return;
-    }
-    pieces.push_back(&piece);
-  };
   const world::PieceColumns columns = grid.columns();
   const Vec2 p = p_WS - columns.origin;
   const auto range_m = static_cast<double>(fan.range_max_m);
   if (!(std::abs(p.x) < kFloatReach_m && std::abs(p.y) < kFloatReach_m)) {
-    grid.for_each_near(p_WS, range_m, consider);
+    grid.for_each_near(p_WS, range_m, [&](const world::ShapePiece& piece) {
+      candidates.make_room(1);
+      candidates.add(piece);
+    });
     return;
   }
-  scratch.rows.clear();
-  grid.add_rows_near(p_WS, range_m, scratch.rows);
-  std::size_t most = world::kPiecePadding;
-  for (const world::PieceRow& row : scratch.rows) most += row.end - row.begin;
-  if (scratch.near.size() < most) scratch.near.resize(most);
+  if (scratch.near.size() < grid.size() + world::kPiecePadding) {
+    scratch.near.resize(grid.size() + world::kPiecePadding);
+  }
   const Vec2 right = rotate(place.turn, {fan.field.right.cos, fan.field.right.sin});
   const Vec2 left = rotate(place.turn, {fan.field.left.cos, fan.field.left.sin});
   const NearField field{static_cast<float>(p.x),
@@ -93,8 +125,10 @@ void collect(const world::ShapeGrid& grid, const FanTable& fan, const SensorPlac
                         static_cast<float>(right.y),
                         static_cast<float>(left.x),
                         static_cast<float>(left.y)};
-  const std::size_t count = select_near(columns, scratch.rows, field, scratch.near.data());
-  for (std::size_t i = 0; i < count; ++i) consider(grid.piece(scratch.near[i]));
+  const std::size_t count =
+      select_near(grid, grid.cells_near(p_WS, range_m), field, scratch.near.data());
+  candidates.make_room(count + 1);
+  for (std::size_t i = 0; i < count; ++i) candidates.add(grid.piece(scratch.near[i]));
 }
 
 /// Of the rays of each cone the nearest.
@@ -135,16 +169,20 @@ FanTable FanTable::make(const FanQuery& query, LayerMask layers) {
 void cast_fan(const world::Snapshot& world, const FanTable& fan, const SensorPlace& place,
               double z_m, BodyId owner, FanScratch& scratch, std::span<float> ranges,
               std::span<std::uint32_t> bodies) {
-  scratch.pieces.clear();
-  collect(world.standing(), fan, place, static_cast<float>(z_m), owner, scratch);
-  collect(world.moving(), fan, place, static_cast<float>(z_m), owner, scratch);
+  scratch.disc_count = 0;
+  scratch.polygon_count = 0;
+  Candidates candidates(fan, static_cast<float>(z_m), owner, scratch);
+  collect(world.standing(), fan, place, candidates, scratch);
+  collect(world.moving(), fan, place, candidates, scratch);
   scratch.inverse.assign(fan.cos.size(), 0.0F);
   scratch.body.assign(fan.cos.size(), BodyId::kNone);
   scratch.ranges_m.resize(fan.cos.size());
   FanView view{fan.cos.data(),         fan.sin.data(),
                fan.cos.size(),         fan.first_ray.empty() ? nullptr : fan.first_ray.data(),
                scratch.inverse.data(), scratch.body.data()};
-  cast_pieces(scratch.pieces.data(), scratch.pieces.size(), world.vertices_W(), world.normals_W(),
+  cast_pieces({scratch.discs.data(), scratch.disc_count},
+              {scratch.polygons.data(), scratch.polygon_count}, world.vertices_W(),
+              world.normals_W(),
               {place.p_WS.x, place.p_WS.y, static_cast<float>(place.turn.cos),
                static_cast<float>(place.turn.sin)},
               view);

@@ -35,6 +35,8 @@ Snapshot::Snapshot(const WorldModel& model)
   }
   first_shape_.push_back(static_cast<std::uint32_t>(shapes_.size()));
   first_disc_.push_back(static_cast<std::uint32_t>(cover_.size()));
+  vertices_.resize(vertices_.size() + kVertexPadding);
+  normals_.resize(vertices_.size());
   make_pieces();
   index_obstacles();
   for (const Body& body : model.robots) {

@@ -39,8 +39,10 @@ struct FanTable {
 
 /// What one thread needs to cast fans; kept between calls so that nothing is allocated.
 struct FanScratch {
-  std::vector<const world::ShapePiece*> pieces;
-  std::vector<world::PieceRow> rows;
+  std::vector<const world::ShapePiece*> discs;  ///< Candidates; room for more than there are.
+  std::vector<const world::ShapePiece*> polygons;
+  std::size_t disc_count = 0;
+  std::size_t polygon_count = 0;
   std::vector<std::uint32_t> near;  ///< Indexes of pieces.
   std::vector<float> inverse;       ///< Largest 1/range of each ray so far; 0: nothing.
   std::vector<std::uint32_t> body;  ///< Whose it is.

@@ -32,6 +32,8 @@ struct ShapePiece {
 };
 static_assert(sizeof(ShapePiece) == 48);
 
+/// Lists of vertices end with so many more, so that they can be read in groups.
+inline constexpr std::size_t kVertexPadding = 3;
 /// Columns of pieces end with so many that are nowhere, so that they can be read in groups.
 inline constexpr std::size_t kPiecePadding = 16;
 
@@ -50,6 +52,14 @@ struct PieceRow {
   std::uint32_t end = 0;
 };
 
+/// Cells of a grid from one corner to the other, both included; none if y1 < y0.
+struct CellBlock {
+  int x0 = 0;
+  int x1 = -1;
+  int y0 = 0;
+  int y1 = -1;
+};
+
 /// A uniform grid over pieces, sorted into cells by their centres (counting sort), each in one
 /// cell. Build once, then query from many threads. No allocation when rebuilt with no more pieces
 /// over no larger an area than before.
@@ -58,12 +68,21 @@ class ShapeGrid {
   /// Cells are `cell_m` wide, or wider where the extent would need more than about 2^20 cells.
   void build(std::span<const ShapePiece> pieces, double cell_m);
 
-  /// Adds the rows of pieces of which some could come within `radius_m` of `p`.
-  void add_rows_near(Vec2 p, double radius_m, std::vector<PieceRow>& rows) const {
-    for_each_row_near(p, radius_m, [&rows](std::uint32_t begin, std::uint32_t end) {
-      if (begin < end) rows.push_back({begin, end});
-    });
+  /// The cells whose pieces could come within `radius_m` of `p`.
+  [[nodiscard]] CellBlock cells_near(Vec2 p, double radius_m) const noexcept {
+    if (width_ == 0) return {};
+    const double reach_m = radius_m + largest_m_;
+    return {cell_of(p.x - reach_m - origin_.x, width_), cell_of(p.x + reach_m - origin_.x, width_),
+            cell_of(p.y - reach_m - origin_.y, height_),
+            cell_of(p.y + reach_m - origin_.y, height_)};
   }
+  /// The pieces in one row of a block, y0 <= y <= y1.
+  [[nodiscard]] PieceRow row_of(const CellBlock& block, int y) const noexcept {
+    const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_);
+    return {begin_[row + static_cast<std::size_t>(block.x0)],
+            begin_[row + static_cast<std::size_t>(block.x1) + 1]};
+  }
+  [[nodiscard]] std::size_t size() const noexcept { return sorted_.size(); }
   [[nodiscard]] PieceColumns columns() const noexcept {
     return {x_m_.data(), y_m_.data(), reach_m_.data(), origin_};
   }
@@ -74,32 +93,20 @@ class ShapeGrid {
   /// Calls `visit(piece)` for each piece whose disc comes within `radius_m` of `p`, row by row.
   template <class Visit>
   void for_each_near(Vec2 p, double radius_m, Visit&& visit) const {
-    for_each_row_near(p, radius_m, [&](std::uint32_t begin, std::uint32_t end) {
-      for (std::uint32_t i = begin; i < end; ++i) {
+    const CellBlock block = cells_near(p, radius_m);
+    for (int y = block.y0; y <= block.y1; ++y) {
+      const PieceRow row = row_of(block, y);
+      for (std::uint32_t i = row.begin; i < row.end; ++i) {
         const ShapePiece& piece = sorted_[i];
         const double dx = piece.centre_W.x - p.x;
         const double dy = piece.centre_W.y - p.y;
         const double reach = radius_m + static_cast<double>(piece.radius_m);
         if (dx * dx + dy * dy <= reach * reach) visit(piece);
       }
-    });
+    }
   }
 
  private:
-  template <class Visit>
-  void for_each_row_near(Vec2 p, double radius_m, Visit&& visit) const {
-    if (width_ == 0) return;
-    const double reach_m = radius_m + largest_m_;
-    const int x0 = cell_of(p.x - reach_m - origin_.x, width_);
-    const int x1 = cell_of(p.x + reach_m - origin_.x, width_);
-    const int y0 = cell_of(p.y - reach_m - origin_.y, height_);
-    const int y1 = cell_of(p.y + reach_m - origin_.y, height_);
-    for (int y = y0; y <= y1; ++y) {
-      const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_);
-      visit(begin_[row + static_cast<std::size_t>(x0)],
-            begin_[row + static_cast<std::size_t>(x1) + 1]);
-    }
-  }
   void fill_columns();
   /// Where a piece goes: its cell, and how many pieces of that cell come before it.
   struct Slot {

@@ -68,7 +68,7 @@ class Snapshot final : public WorldView {
   [[nodiscard]] const ShapeGrid& standing() const noexcept { return fixed_; }
   [[nodiscard]] const ShapeGrid& moving() const noexcept { return moving_; }
   /// All vertices, and the outward unit normal of the edge from each to the next of its shape;
-  /// pieces say where theirs begin.
+  /// pieces say where theirs begin. kVertexPadding more follow.
   [[nodiscard]] const Vec2* vertices_W() const noexcept { return vertices_.data(); }
   [[nodiscard]] const Vec2* normals_W() const noexcept { return normals_.data(); }
 

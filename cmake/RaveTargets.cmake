@@ -51,8 +51,9 @@ function(rave_unity target)
     return()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
-  # A class that its own source keeps to itself looks to the compiler as if a header declared it.
-  target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+  # A class that its own source keeps to itself looks to g++ as if a header declared it.
+  target_compile_options(${target} PRIVATE
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   foreach(source ${sources})
     file(STRINGS "${source}" per_target REGEX "hwy/foreach_target.h" LIMIT_COUNT 1)
     if(per_target)

@@ -4,10 +4,10 @@
 
     tools/tidy.py [--build build/tidy] [--notes FILE] [--clang-tidy NAME] [FOLDER ...]
 
-With FOLDERs only the sources below them. A source is passed over if its text, the text of all
-files of the repository that it includes, the configuration and its compiler command are those of
-an earlier clean run; those runs are remembered in build/tidy-cache. --notes appends one line per
-source for ./test.
+With FOLDERs only the sources below them, and those that the build compiles together with them. A
+piece is passed over if its text, the text of all files of the repository that it includes, the
+configuration and its compiler command are those of an earlier clean run; those runs are remembered
+in build/tidy-cache. --notes appends one line per source for ./test.
 """
 import argparse
 import concurrent.futures
@@ -69,32 +69,43 @@ def key_of(entry, configuration):
     return digest.hexdigest()
 
 
-def check(entry, arguments, cache, configuration):
-    """(source, ok, seconds, output)"""
+def check(entry, sources, arguments, cache, configuration):
+    """(sources, ok, seconds, output)"""
     begin = time.monotonic()
     mark = cache / key_of(entry, configuration)
-    name = os.path.relpath(entry["file"], ROOT)
+    names = [os.path.relpath(source, ROOT) for source in sources]
     if mark.exists():
-        return name, True, 0.0, ""
+        return names, True, 0.0, ""
     run = subprocess.run([arguments.clang_tidy, "-p", arguments.build, "--quiet",
                           "--warnings-as-errors=*", entry["file"]],
                          capture_output=True, text=True, check=False)
     if run.returncode == 0:
         mark.touch()
-    return name, run.returncode == 0, time.monotonic() - begin, run.stdout + run.stderr
+    return names, run.returncode == 0, time.monotonic() - begin, run.stdout + run.stderr
+
+
+def sources_of(entry):
+    """The sources of the repository that one compiler command reads: itself, or for a file that the
+    build made to compile several at a time, those that it includes."""
+    file = pathlib.Path(entry["file"]).resolve()
+    if not file.is_relative_to(ROOT / "build"):
+        return [file]
+    included = [pathlib.Path(os.fsdecode(name)) for name in INCLUDE.findall(text_of(file))]
+    return [path.resolve() for path in included if path.suffix == ".cpp"]
 
 
 def entries_of(arguments):
-    """One compiler command per source of the repository below the asked folders."""
+    """(compiler command, sources) that have something below the asked folders; no source twice."""
     database = pathlib.Path(arguments.build) / "compile_commands.json"
     below = [pathlib.Path(folder).resolve() for folder in arguments.folders] or [ROOT]
-    build = (ROOT / "build").resolve()
-    entries = {}
+    entries, known = [], set()
     for entry in json.loads(database.read_text()):
-        source = pathlib.Path(entry["file"]).resolve()
-        if not source.is_relative_to(build) and any(source.is_relative_to(b) for b in below):
-            entries.setdefault(source, entry)
-    return [entries[source] for source in sorted(entries)]
+        sources = sources_of(entry)
+        asked = any(source.is_relative_to(b) for source in sources for b in below)
+        if asked and not known.issuperset(sources):
+            known.update(sources)
+            entries.append((entry, sources))
+    return entries
 
 
 def main():
@@ -108,19 +119,24 @@ def main():
     cache.mkdir(parents=True, exist_ok=True)
     version = subprocess.run([arguments.clang_tidy, "--version"], capture_output=True, check=True)
     configuration = version.stdout + (ROOT / ".clang-tidy").read_bytes()
-    entries, failed, notes = entries_of(arguments), 0, []
+    entries, done, failed, notes = entries_of(arguments), 0, 0, []
+    total = sum(len(sources) for _, sources in entries)
     with concurrent.futures.ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
-        jobs = [pool.submit(check, e, arguments, cache, configuration) for e in entries]
+        jobs = [pool.submit(check, *e, arguments, cache, configuration) for e in entries]
         for job in concurrent.futures.as_completed(jobs):
-            name, ok, seconds, output = job.result()
-            notes.append(f"tidy\ttidy\t{'passed' if ok else 'failed'}\t{seconds:.2f}\n")
+            names, ok, seconds, output = job.result()
+            result = "passed" if ok else "failed"
+            notes += [f"tidy\ttidy\t{result}\t{seconds / len(names):.2f}\n"] * len(names)
+            done += len(names)
             if not ok:
-                failed += 1
-                print(f"clang-tidy: {name}\n{output}", flush=True)
+                failed += len(names)
+                print(f"clang-tidy: {', '.join(names)}\n{output}", flush=True)
+            elif done * 10 // total != (done - len(names)) * 10 // total:
+                print(f"clang-tidy: {done} of {total}", flush=True)
     if arguments.notes:
         with open(arguments.notes, "a", encoding="utf-8") as file:
             file.writelines(notes)
-    print(f"clang-tidy: {len(entries)} sources, {failed} with findings")
+    print(f"clang-tidy: {total} sources, {failed} in pieces with findings")
     return 1 if failed or not entries else 0
 
 

@@ -91,7 +91,7 @@ void add_track_marks(const Picture& picture, std::vector<LegendEntry>& entries) 
   }
   const PictureTrack* strong =
       first_track(picture, [](const PictureTrack& track) { return look_of(track).is_strong; });
-  entries.push_back({[neutral, grey, strong](Pen& pen, const PageBox& box) {
+  entries.push_back({[neutral, grey](Pen& pen, const PageBox& box) {
                        stroke_track(pen, neutral, {left_of(box), right_of(box)}, false);
                        for (const double along : {0.2, 0.55, 0.9}) {
                          const double x = box.x0 + 2 + along * (box.width() - 6);

@@ -18,8 +18,7 @@ constexpr double kGapShare = 0.3;
 }  // namespace
 
 TrackRecorder::TrackRecorder(const BodyKinds& kinds, const sim::EngineSpec& spec, double duration_s,
-                             const std::string& odometry_sensor)
-    : kinds_(&kinds) {
+                             const std::string& odometry_sensor) {
   const double interval_s = std::max(kLeastInterval_s, duration_s / kMostPoints);
   every_ = std::max<std::uint64_t>(
       1, static_cast<std::uint64_t>(std::llround(interval_s / spec.step.seconds())));

@@ -35,7 +35,6 @@ class TrackRecorder final : public Observer {
   void follow_pose(const sim::Engine& engine, std::uint32_t robot, bool keep);
   void follow_odometry(const sim::Engine& engine, std::uint32_t robot, bool keep);
 
-  const BodyKinds* kinds_;
   std::uint64_t every_ = 1;
   std::vector<report::PictureTrack> poses_;
   std::vector<report::PictureTrack> odometry_tracks_;

@@ -36,7 +36,7 @@ class ThreadPool {
    private:
     friend class ThreadPool;
     /// Waking a sleeping thread and waiting for its end costs 10 to 100 us, so a loop has to hold
-    /// several times that before sharing it pays; telling one that is awake costs 1 us.
+    /// several times that before sharing it pays. One that is awake is told in far less.
     static constexpr std::int64_t kWakeWorthNs = 200'000;
     static constexpr std::int64_t kShareWorthNs = 20'000;
     std::int64_t work_ns_ = 0;

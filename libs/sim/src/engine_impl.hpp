@@ -213,7 +213,6 @@ struct Engine::Impl {
   std::vector<ContactNote> notes;
   std::vector<double> radius_m;  ///< Of each robot's body about its origin.
   double slack_m = 0;            ///< How far robots may have moved since the snapshot.
-  double moves_m = 0;            ///< How far the farthest of the pieces of robots went last.
   std::vector<double> block_moves_m;
   std::vector<Event> events;
   std::vector<Event> pending;                    ///< Of inputs, for the next step.

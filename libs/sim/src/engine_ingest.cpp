@@ -258,9 +258,9 @@ void Engine::Impl::place_robots() {
   pool.for_each_block(robot_blocks(), place_effort, [this](std::size_t b, unsigned) {
     block_moves_m[b] = place_block(first_of_block(b), first_of_block(b + 1));
   });
-  moves_m = 0;
-  for (const double block_m : block_moves_m) moves_m = std::max(moves_m, block_m);
-  snapshot.index_robots(moves_m);
+  double farthest_m = 0;
+  for (const double block_m : block_moves_m) farthest_m = std::max(farthest_m, block_m);
+  snapshot.index_robots(farthest_m);
   slack_m = 0;
 }
 

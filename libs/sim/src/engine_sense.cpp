@@ -36,13 +36,12 @@ const NearLists* Engine::Impl::find_places(const RobotGroup& group, SensorSlots&
   const std::span<const RobotId> members =
       std::span(group.members).subspan(block.begin, block.end - block.begin);
   for (std::size_t i = 0; i < members.size(); ++i) {
-    worker.places[i] =
-        sensor_place(movers[members[i].value()].X_WR.position(), snapshot.turn_WR(members[i]),
-                     sensor.X_RS.position(), mounting);
+    worker.places[i] = sensor_place(movers[members[i].value()].X_WR.position(),
+                                    snapshot.turn_WR(members[i]), sensor.X_RS.position(), mounting);
     worker.places_W[i] = worker.places[i].p_WS;
   }
-  const double margin_m =
-      NearLists::margin_for(moves_m * sensor.period_steps, 0.25 * static_cast<double>(slots.fan.range_max_m));
+  const double margin_m = NearLists::margin_for(snapshot.last_move_m() * sensor.period_steps,
+                                                0.25 * static_cast<double>(slots.fan.range_max_m));
   if (margin_m == 0) return nullptr;
   NearLists& lists = slots.near[block.begin / kMemberBlock];
   const std::span places_W(worker.places_W.data(), members.size());
@@ -78,8 +77,8 @@ void Engine::Impl::sample_members(RobotGroup& group, SensorSlots& slots, std::ui
       if (lists != nullptr) {
         cast_fan(snapshot, slots.fan, place, *lists, m - block.begin, worker.fan, ranges, bodies);
       } else {
-        cast_fan(snapshot, slots.fan, place, sensor.z_m, snapshot.body_of(robot), worker.fan, ranges,
-                 bodies);
+        cast_fan(snapshot, slots.fan, place, sensor.z_m, snapshot.body_of(robot), worker.fan,
+                 ranges, bodies);
       }
       header.count = slots.capacity;
     } else {

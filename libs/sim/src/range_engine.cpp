@@ -255,8 +255,8 @@ void list_near(const world::Snapshot& world, const FanTable& fan, double z_m,
     Surroundings around;
     around.p_W = places_W[i];
     around.reach_m = static_cast<double>(fan.range_max_m) + margin_m;
-    collect(world, around,
-            {fan, static_cast<float>(z_m), world.body_of(owners[i]), scratch}, scratch);
+    collect(world, around, {fan, static_cast<float>(z_m), world.body_of(owners[i]), scratch},
+            scratch);
     const auto list = [&lists](const auto& candidates, std::size_t count) {
       for (std::size_t k = 0; k < count; ++k) lists.add(candidates[k]->index);
       lists.end_list();

@@ -192,6 +192,7 @@ double Snapshot::place_robots(std::uint32_t first, std::uint32_t last) {
 }
 
 void Snapshot::index_robots(double farthest_m) {
+  last_move_m_ = farthest_m;
   if (farthest_m <= kJump_m) {
     drift_m_ += farthest_m;
   } else {

@@ -50,6 +50,8 @@ class Snapshot final : public WorldView {
   /// robot appears, vanishes, jumps by more than a metre, or gets another body.
   [[nodiscard]] double drift_m() const noexcept { return drift_m_; }
   [[nodiscard]] std::uint64_t generation() const noexcept { return generation_; }
+  /// What index_robots() was told last.
+  [[nodiscard]] double last_move_m() const noexcept { return last_move_m_; }
 
   /// Shapes whose bounding disc comes within `radius_m` of a point, ascending and without
   /// repetition, put into `found` (its former content is dropped).
@@ -147,6 +149,7 @@ class Snapshot final : public WorldView {
   std::vector<ShapePiece> pieces_;         ///< One per disc of the cover, in the same order.
   double largest_robot_m_ = 0;
   double drift_m_ = 0;
+  double last_move_m_ = 0;
   std::uint64_t generation_ = 0;
   ShapeGrid fixed_;
   ShapeGrid moving_;

@@ -217,12 +217,19 @@ namespace {
 void cast_candidates(const world::Snapshot& world, const FanTable& fan, const SensorPlace& place,
                      FanScratch& scratch, std::span<float> ranges,
                      std::span<std::uint32_t> bodies) {
-  scratch.inverse.assign(fan.cos.size(), 0.0F);
-  scratch.body.assign(fan.cos.size(), BodyId::kNone);
-  scratch.ranges_m.resize(fan.cos.size());
-  FanView view{fan.cos.data(),         fan.sin.data(),
-               fan.cos.size(),         fan.first_ray.empty() ? nullptr : fan.first_ray.data(),
-               scratch.inverse.data(), scratch.body.data()};
+  const std::size_t size = fan.cos.size();
+  scratch.inverse.resize(size);
+  scratch.body.resize(size);
+  scratch.ranges_m.resize(size);
+  // What has room for the padding is written where it belongs.
+  const bool exact = fan.rays_per_reading == 1 && ranges.size() == size && bodies.size() == size;
+  float* const ranges_m = exact ? ranges.data() : scratch.ranges_m.data();
+  FanView view{fan.cos.data(),
+               fan.sin.data(),
+               size,
+               fan.first_ray.empty() ? nullptr : fan.first_ray.data(),
+               scratch.inverse.data(),
+               exact ? bodies.data() : scratch.body.data()};
   cast_pieces({scratch.discs.data(), scratch.disc_count},
               {scratch.polygons.data(), scratch.polygon_count}, world.vertices_W(),
               world.normals_W(),
@@ -233,7 +240,8 @@ void cast_candidates(const world::Snapshot& world, const FanTable& fan, const Se
     join_cones(fan, scratch);
     view.padded = padded(ranges.size());
   }
-  finish_ranges(view, fan.range_min_m, fan.range_max_m, scratch.ranges_m.data());
+  finish_ranges(view, {fan.range_min_m, fan.range_max_m}, ranges_m);
+  if (exact) return;
   std::copy_n(scratch.ranges_m.begin(), ranges.size(), ranges.begin());
   std::copy_n(scratch.body.begin(), bodies.size(), bodies.begin());
 }

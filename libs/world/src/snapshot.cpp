@@ -184,9 +184,9 @@ double Snapshot::place_robots(std::uint32_t first, std::uint32_t last) {
   const auto obstacle_count = static_cast<std::uint32_t>(model_->obstacles.size());
   double farthest_m2 = 0;
   for (std::uint32_t r = first; r < last; ++r) {
-    farthest_m2 = std::max(farthest_m2, place(obstacle_count + r, model_->robots[r],
-                                              robots_[r].X_WR.position(), turns_[r],
-                                              robots_[r].present));
+    farthest_m2 =
+        std::max(farthest_m2, place(obstacle_count + r, model_->robots[r],
+                                    robots_[r].X_WR.position(), turns_[r], robots_[r].present));
   }
   return std::sqrt(farthest_m2);
 }

@@ -38,7 +38,6 @@ class NearLists {
   void begin(const world::Snapshot& world, std::span<const Vec2> places, double margin_m);
   void add(std::uint32_t number) { numbers_.push_back(number); }
   void end_list() { ends_.push_back(static_cast<std::uint32_t>(numbers_.size())); }
-  void clear() noexcept { places_.clear(); }
 
   [[nodiscard]] std::span<const std::uint32_t> first(std::size_t asker) const noexcept {
     return between(2 * asker);
@@ -46,9 +45,6 @@ class NearLists {
   [[nodiscard]] std::span<const std::uint32_t> second(std::size_t asker) const noexcept {
     return between(2 * asker + 1);
   }
-  /// The most numbers that one asker has.
-  [[nodiscard]] std::size_t size() const noexcept { return numbers_.size(); }
-  [[nodiscard]] double margin_m() const noexcept { return margin_m_; }
 
  private:
   [[nodiscard]] std::span<const std::uint32_t> between(std::size_t list) const noexcept {

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # fused_test.sh LIBRARY ...
 # Fails if a library has a fused multiply-add: it rounds once where the other sets of instructions
-# round twice, and a run would not give the same bits on every processor.
+# round twice, and a run would not give the same bits on every processor. Knows the names of x86.
 set -euo pipefail
 
 status=0

@@ -214,6 +214,8 @@ struct Engine::Impl {
   std::vector<double> radius_m;  ///< Of each robot's body about its origin.
   double slack_m = 0;            ///< How far robots may have moved since the snapshot.
   std::vector<double> block_moves_m;
+  MotionWatch motion_watch;
+  double moves_m = 0;  ///< How far pieces of robots have moved since sensors looked last.
   std::vector<Event> events;
   std::vector<Event> pending;                    ///< Of inputs, for the next step.
   std::vector<std::optional<GuardSpec>> guards;  ///< By type.

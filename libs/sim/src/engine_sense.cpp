@@ -8,6 +8,7 @@
 namespace rave::sim {
 
 void Engine::Impl::sense() {
+  moves_m = motion_watch.look(snapshot);
   pool.for_each_block(blocks.size(), sense_effort,
                       [this](std::size_t b, unsigned w) { sense_block(blocks[b], workers[w]); });
 }
@@ -40,7 +41,7 @@ const NearLists* Engine::Impl::find_places(const RobotGroup& group, SensorSlots&
                                     snapshot.turn_WR(members[i]), sensor.X_RS.position(), mounting);
     worker.places_W[i] = worker.places[i].p_WS;
   }
-  const double margin_m = NearLists::margin_for(snapshot.last_move_m() * sensor.period_steps,
+  const double margin_m = NearLists::margin_for(moves_m * sensor.period_steps,
                                                 0.25 * static_cast<double>(slots.fan.range_max_m));
   if (margin_m == 0) return nullptr;
   NearLists& lists = slots.near[block.begin / kMemberBlock];

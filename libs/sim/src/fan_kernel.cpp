@@ -286,6 +286,7 @@ void cast_many(Pieces discs, Pieces polygons, const Vec2* vertices_W, const Vec2
   }
 }
 
+#if !HWY_HAVE_SCALABLE
 /// Few rays, kGroups registers of them: all are tried against every shape, and what they have met
 /// stays in registers.
 template <std::size_t kGroups>
@@ -333,6 +334,7 @@ void cast_few(Pieces discs, Pieces polygons, const Vec2* vertices_W, const Vec2*
     hn::StoreU(body[g], words, fan.body + g * hn::Lanes(d));
   }
 }
+#endif
 
 void cast_pieces(Pieces discs, Pieces polygons, const Vec2* vertices_W, const Vec2* normals_W,
                  const FanPlace& place, const FanView& fan) {

@@ -42,12 +42,14 @@ void MotionPhase::run(const world::Snapshot& snapshot, double dt_s, const Motion
   way_.resize(count);
   block_slack_m_.resize(blocks);
   near_.resize(blocks);
+  kept_.assign(blocks, 0);
   listed_slack_m_.resize(blocks);
   const Step step{snapshot, dt_s, robots};
   pool_->for_each_block(blocks, measure_effort_,
                         [this, &step](std::size_t b, unsigned) { measure(step, b); });
   slack_m_ = 0;
   for (const double slack_m : block_slack_m_) slack_m_ = std::max(slack_m_, slack_m);
+  moves_m_ = std::max(slack_m_, watch_.look(snapshot));
   pool_->for_each_block(blocks, let_go_effort_,
                         [this, &step](std::size_t b, unsigned) { let_go(step, b); });
   notes.clear();
@@ -88,8 +90,7 @@ void MotionPhase::let_go(const Step& step, std::size_t block) {
 const NearLists* MotionPhase::find_near(const Step& step, std::size_t block) {
   constexpr double kMostMargin_m = 0.5;
   const world::Snapshot& world = step.snapshot;
-  const double moves_m = std::max(slack_m_, world.last_move_m());
-  const double margin_m = NearLists::margin_for(moves_m, kMostMargin_m);
+  const double margin_m = NearLists::margin_for(moves_m_, kMostMargin_m);
   if (margin_m == 0) return nullptr;
   const auto first = static_cast<std::uint32_t>(block * kBlock);
   const std::size_t count = std::min(kBlock, way_.size() - first);
@@ -100,7 +101,8 @@ const NearLists* MotionPhase::find_near(const Step& step, std::size_t block) {
   NearLists& lists = near_[block];
   // What a robot has to look at lies within its radius, twice the slack, and what is always added.
   const double more_m = std::max(0.0, 2 * (slack_m_ - listed_slack_m_[block]));
-  if (lists.hold(world, {places_W.data(), count}, more_m)) return &lists;
+  kept_[block] = lists.hold(world, {places_W.data(), count}, more_m) ? 1 : 0;
+  if (kept_[block] != 0) return &lists;
   lists.begin(world, {places_W.data(), count}, margin_m);
   listed_slack_m_[block] = slack_m_;
   for (std::uint32_t i = 0; i < count; ++i) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -41,6 +42,10 @@ class MotionPhase {
   [[nodiscard]] double slack_m() const noexcept { return slack_m_; }
   /// Of the last run: how many robots the broad phase could not let go.
   [[nodiscard]] std::size_t resolved() const noexcept { return resolved_; }
+  /// Of the last run: for how many blocks of robots lists of earlier runs were used.
+  [[nodiscard]] std::size_t kept_lists() const noexcept {
+    return static_cast<std::size_t>(std::count(kept_.begin(), kept_.end(), 1));
+  }
 
  private:
   struct Step {
@@ -74,7 +79,10 @@ class MotionPhase {
   std::vector<double> block_slack_m_;
   std::vector<std::uint8_t> way_;       ///< Per robot.
   std::vector<NearLists> near_;         ///< Per block.
+  std::vector<std::uint8_t> kept_;      ///< Per block: its lists are of an earlier run.
   std::vector<double> listed_slack_m_;  ///< Per block: slack_m_ when its lists were made.
+  MotionWatch watch_;
+  double moves_m_ = 0;  ///< What a robot may move by until the next run, as far as one can tell.
   double slack_m_ = 0;
   std::size_t resolved_ = 0;
 };

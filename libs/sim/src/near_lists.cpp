@@ -1,22 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "near_lists.hpp"
 
+#include <limits>
+
 namespace rave::sim {
+
+double MotionWatch::look(const world::Snapshot& world) noexcept {
+  const bool jumped = generation_ != world.generation();
+  const double moved_m = world.drift_m() - drift_m_;
+  generation_ = world.generation();
+  drift_m_ = world.drift_m();
+  return jumped ? std::numeric_limits<double>::infinity() : moved_m;
+}
 
 bool NearLists::hold(const world::Snapshot& world, std::span<const Vec2> places,
                      double more_m) const noexcept {
   if (places_.size() != places.size() || generation_ != world.generation()) return false;
   const double left_m = margin_m_ - more_m - (world.drift_m() - drift_m_);
   if (left_m < 0) return false;
-  double farthest_m2 = 0;
+  bool near = true;  // and not if a place is no number
   for (std::size_t i = 0; i < places.size(); ++i) {
-    farthest_m2 = std::max(farthest_m2, squared_norm(places[i] - places_[i]));
+    near = near && squared_norm(places[i] - places_[i]) <= left_m * left_m;
   }
-  return farthest_m2 <= left_m * left_m;
+  return near;
 }
 
 void NearLists::begin(const world::Snapshot& world, std::span<const Vec2> places, double margin_m) {
   places_.assign(places.begin(), places.end());
+  // Room for half as much again as last time, so that blocks stop growing early.
+  numbers_.reserve(numbers_.size() + numbers_.size() / 2);
   numbers_.clear();
   ends_.assign(1, 0);
   generation_ = world.generation();

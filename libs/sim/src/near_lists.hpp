@@ -10,6 +10,18 @@
 
 namespace rave::sim {
 
+/// How far things move from one use of a world to the next.
+class MotionWatch {
+ public:
+  /// What no piece of a robot has moved farther than since the last call, in metres; infinite at
+  /// the first call, and if somebody has jumped since.
+  double look(const world::Snapshot& world) noexcept;
+
+ private:
+  std::uint64_t generation_ = 0;
+  double drift_m_ = 0;
+};
+
 /// Who is near whom, found once and kept while nobody has moved far (neighbour lists; L. Verlet,
 /// Physical Review 159, 98, 1967). A block of askers, each at a place of its own, has two lists of
 /// numbers each: what lay within its reach and a margin when they were made. Until askers and

@@ -54,6 +54,8 @@ FanField field_of(const FanQuery& query) {
 
 /// Up to here from the grid's origin the floats of PieceColumns are fine enough to choose by.
 constexpr double kFloatReach_m = 2048;
+/// So much farther than the range candidates may lie, as PieceColumns have it.
+constexpr double kRounding_m = 1e-3;
 
 /// Adds candidates to a scratch, each shape once.
 class Candidates {
@@ -124,10 +126,11 @@ void collect(const world::ShapeGrid& grid, const Surroundings& around, Candidate
   const world::PieceColumns columns = grid.columns();
   const Vec2 p = around.p_W - columns.origin;
   if (!(std::abs(p.x) < kFloatReach_m && std::abs(p.y) < kFloatReach_m)) {
-    grid.for_each_near(around.p_W, around.reach_m, [&](const world::ShapePiece& piece) {
-      make_room(scratch, 1);
-      candidates.add(piece);
-    });
+    grid.for_each_near(around.p_W, around.reach_m + kRounding_m,
+                       [&](const world::ShapePiece& piece) {
+                         make_room(scratch, 1);
+                         candidates.add(piece);
+                       });
     return;
   }
   if (scratch.near.size() < grid.size() + world::kPiecePadding) {
@@ -151,13 +154,19 @@ void collect(const world::Snapshot& world, const Surroundings& around, Candidate
              FanScratch& scratch) {
   collect(world.standing(), around, candidates, scratch);
   collect(world.moving(), around, candidates, scratch);
+  // Of what is equally near the first is seen: that must not depend on how it was found.
+  const auto sort = [](std::vector<const world::ShapePiece*>& list, std::size_t count) {
+    std::sort(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(count),
+              [](const auto* a, const auto* b) { return a->shape < b->shape; });
+  };
+  sort(scratch.discs, scratch.disc_count);
+  sort(scratch.polygons, scratch.polygon_count);
 }
 
 /// Of the listed pieces those that the fan could meet. A shape of several pieces is listed once, by
 /// any of them, and always taken. Without branches, as Candidates.
 std::size_t choose(const world::ShapePiece* pieces, std::span<const std::uint32_t> listed,
                    const Surroundings& around, const world::ShapePiece** chosen) noexcept {
-  constexpr double kRounding_m = 1e-3;  // as PieceColumns have it
   std::size_t count = 0;
   for (const std::uint32_t index : listed) {
     const world::ShapePiece& piece = pieces[index];

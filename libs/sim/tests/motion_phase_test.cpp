@@ -112,14 +112,18 @@ void fill(ContactArena& arena, std::uint32_t world) {
   arena.begin();
 }
 
-/// Proposals of one step: some rest, some are slow, some fast, some spin.
-void propose(ContactArena& arena, std::uint32_t world, std::uint32_t step) {
+/// Proposals of one step: some rest, some are slow, some fast, some spin; in a calm world all are
+/// slow and hold their course.
+void propose(ContactArena& arena, std::uint32_t world, std::uint32_t step, bool calm) {
   for (std::uint32_t r = 0; r < arena.movers.size(); ++r) {
     // Each robot keeps its course for a while, so that some press on what they meet.
-    RandomStream random(22, r, world, step / 8);
-    const std::uint32_t kind = random.bits() % 10;
-    const double speed_mps = kind == 9 ? 3 : random.uniform(0, 0.6);
-    const double spin_radps = kind == 8 ? random.uniform(-30, 30) : random.uniform(-1, 1);
+    RandomStream random(22, r, world, calm ? 0 : step / 8);
+    const std::uint32_t kind = calm ? 4 + random.bits() % 4 : random.bits() % 10;
+    const double most_mps = calm ? 0.3 : 0.6;
+    const double speed_mps = kind == 9 ? 3 : random.uniform(0, most_mps);
+    const double spin_radps = kind == 8 ? random.uniform(-30, 30)
+                              : calm    ? random.uniform(-0.1, 0.1)
+                                        : random.uniform(-1, 1);
     arena.proposal[r] = kind < 2 ? Twist2{}
                                  : Twist2{random.uniform(-speed_mps, speed_mps),
                                           kind == 3 ? random.uniform(-0.3, 0.3) : 0, spin_radps};
@@ -132,25 +136,65 @@ void propose(ContactArena& arena, std::uint32_t world, std::uint32_t step) {
 TEST(MotionPhase, GivesTheBitsOfTheResolverAlone) {
   std::size_t let_go = 0;
   std::size_t resolved = 0;
+  std::size_t kept = 0;
   for (std::uint32_t world = 0; world < 300; ++world) {
     ContactArena fast;
     ContactArena plain;
     fill(fast, world);
     fill(plain, world);
+    const bool calm = world % 2 == 1;
     for (std::uint32_t step = 0; step < 30; ++step) {
-      propose(fast, world, step);
-      propose(plain, world, step);
+      propose(fast, world, step, calm);
+      propose(plain, world, step, calm);
       fast.step(kStep_s);
       step_one_by_one(plain, *plain.resolver);
       expect_equal(fast, plain, static_cast<int>(world), static_cast<int>(step));
       if (HasFatalFailure()) return;
       resolved += fast.phase->resolved();
       let_go += fast.movers.size() - fast.phase->resolved();
+      kept += fast.phase->kept_lists();
     }
   }
-  // Both ways were gone often enough to be compared.
+  // Each way was gone often enough to be compared.
   EXPECT_GT(let_go, 50'000U);
   EXPECT_GT(resolved, 20'000U);
+  EXPECT_GT(kept, 2'000U);
+}
+
+/// Drives for `steps` and expects that nobody ever overlaps and that kept lists were used.
+void expect_apart(ContactArena& arena, int steps) {
+  std::size_t kept = 0;
+  for (int step = 0; step < steps; ++step) {
+    arena.step(kStep_s);
+    kept += arena.phase->kept_lists();
+    ASSERT_GE(arena.least_gap(), 0) << "step " << step;
+  }
+  EXPECT_GT(kept, 0U);
+}
+
+TEST(MotionPhase, TwoThatCreepTowardsEachOtherMeet) {
+  ContactArena arena;
+  arena.add(round_robot(0.15), {0, 0, 0});
+  arena.add(round_robot(0.15), {1, 0, 0});
+  arena.begin();
+  arena.drive(0, {0.1, 0});
+  arena.drive(1, {-0.1, 0});
+  expect_apart(arena, 60);
+  EXPECT_LT(arena.gap(0, 1), 1e-3);
+}
+
+TEST(MotionPhase, WhoStartsSuddenlyMeetsWhatStoodBeyondItsList) {
+  ContactArena arena;
+  // Nobody moves at first, and lists reach 0.05 m; then one makes steps of 0.1 m.
+  arena.model.obstacles.push_back(standing(square_robot(0.02, 2), {0.24, 0, 0}));
+  arena.add(round_robot(0.15), {0, 0, 0});
+  arena.begin();
+  expect_apart(arena, 3);
+  arena.drive(0, {1, 0});
+  arena.step(kStep_s);
+  EXPECT_EQ(arena.phase->resolved(), 1U);
+  EXPECT_EQ(arena.limited[0], 1);
+  EXPECT_GE(arena.least_gap(), 0);
 }
 
 /// The density of the swarm benchmark: a robot on 10 m^2, half as many boxes.

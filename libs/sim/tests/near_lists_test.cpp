@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include "../src/listed_fan.hpp"
 #include "rave/base/random.hpp"
@@ -29,7 +31,15 @@ world::Body round_body(double radius_m, Vec2 centre = {}) {
   return body;
 }
 
-/// Boxes and long walls that stand; robots of one disc, of a disc off the middle, and square ones.
+world::Body long_body(double length_m) {
+  const double half_m = length_m / 2;
+  const std::array<Vec2, 4> outline = {
+      {{-half_m, -0.2}, {half_m, -0.2}, {half_m, 0.2}, {-half_m, 0.2}}};
+  return body_of(outline, Layer::kSimulatedRobots);
+}
+
+/// Boxes and long walls that stand, some side by side; robots of one disc, of a disc off the
+/// middle, square ones, and one so long that the index cuts it into pieces.
 world::WorldModel crowded(RandomStream& random) {
   world::WorldModel model;
   for (int i = 0; i < 20; ++i) {
@@ -37,9 +47,10 @@ world::WorldModel crowded(RandomStream& random) {
     const double length_m = i % 5 == 0 ? random.uniform(2, 8) : half_m;
     const std::array<Vec2, 4> box = {
         {{-length_m, -half_m}, {length_m, -half_m}, {length_m, half_m}, {-length_m, half_m}}};
-    model.obstacles.push_back(
-        {body_of(box, Layer::kVirtualObstacles),
-         {random.uniform(0, kSide_m), random.uniform(0, kSide_m), random.uniform(-3, 3)}});
+    const Pose2 X_WB{random.uniform(0, kSide_m), random.uniform(0, kSide_m), random.uniform(-3, 3)};
+    model.obstacles.push_back({body_of(box, Layer::kVirtualObstacles), X_WB});
+    // A second one with the same face: which of them is seen must always be the same.
+    if (i % 5 == 0) model.obstacles.push_back({body_of(box, Layer::kMappedReal), X_WB});
   }
   const std::array<Vec2, 4> square = {{{-0.2, -0.2}, {0.2, -0.2}, {0.2, 0.2}, {-0.2, 0.2}}};
   for (int i = 0; i < 30; ++i) {
@@ -47,6 +58,7 @@ world::WorldModel crowded(RandomStream& random) {
                            : i % 3 == 1 ? round_body(0.1, {0.3, 0})
                                         : body_of(square, Layer::kSimulatedRobots));
   }
+  model.robots[5] = long_body(2.4);
   return model;
 }
 
@@ -99,11 +111,17 @@ TEST_P(ListedFan, SeesWhatTheGridsShow) {
     for (int step = 0; step < 120; ++step) {
       if (step == 60) {
         model.robots[0] = round_body(0.45);
+        model.robots[5] = long_body(5);  // in more pieces than before
         world.body_changed(RobotId(0));
+        world.body_changed(RobotId(5));
       }
       move_robots(world, random, poses);
+      std::vector<SensorPlace> places;
       std::vector<Vec2> places_W;
-      for (const Pose2& pose : poses) places_W.push_back(pose.position());
+      for (const Pose2& pose : poses) {
+        places.push_back(sensor_place(pose, {0.1, 0.05, 0.4}));
+        places_W.push_back(places.back().p_WS);
+      }
       ++used;
       if (!lists.hold(world, places_W)) {
         list_near(world, fan, 0.2, owners, places_W, 0.4, scratch, lists);
@@ -112,10 +130,12 @@ TEST_P(ListedFan, SeesWhatTheGridsShow) {
       for (std::uint32_t r = 0; r < poses.size(); ++r) {
         std::vector<float> listed(rays);
         std::vector<float> fresh(rays);
-        std::vector<std::uint32_t> bodies(rays);
-        const SensorPlace place = sensor_place(poses[r], Pose2{});
-        cast_fan(world, fan, place, lists, r, scratch, listed, bodies);
-        cast_fan(world, fan, place, 0.2, world.body_of(owners[r]), scratch, fresh, bodies);
+        std::vector<std::uint32_t> listed_bodies(rays);
+        std::vector<std::uint32_t> fresh_bodies(rays);
+        cast_fan(world, fan, places[r], lists, r, scratch, listed, listed_bodies);
+        cast_fan(world, fan, places[r], 0.2, world.body_of(owners[r]), scratch, fresh,
+                 fresh_bodies);
+        ASSERT_EQ(listed_bodies, fresh_bodies) << "world " << w << ", step " << step;
         ASSERT_EQ(listed, fresh) << "world " << w << ", step " << step << ", robot " << r;
       }
     }
@@ -156,8 +176,48 @@ TEST(NearLists, HoldUntilThingsHaveMovedByTheMargin) {
   EXPECT_FALSE(lists.hold(world, moved));
 }
 
+TEST(NearLists, DoNotHoldForWhatIsNoNumber) {
+  world::WorldModel model;
+  model.robots = {round_body(0.1)};
+  world::Snapshot world(model);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto put = [&](double x) {
+    world.set_robot(RobotId(0), {{x, 0, 0}, {}, true});
+    world.rebuild();
+  };
+  put(nan);
+  const std::array<Vec2, 1> nowhere = {{{nan, 0}}};
+  const std::array<Vec2, 1> at = {{{0, 0}}};
+  NearLists lists;
+  lists.begin(world, at, 0.5);
+  EXPECT_TRUE(lists.hold(world, at));
+  EXPECT_FALSE(lists.hold(world, nowhere));
+  put(0);
+  EXPECT_FALSE(lists.hold(world, at)) << "it came from nowhere";
+}
+
+TEST(MotionWatch, TellsWhatMovedAndWhoJumped) {
+  world::WorldModel model;
+  model.robots = {round_body(0.1)};
+  world::Snapshot world(model);
+  const auto put = [&](double x) {
+    world.set_robot(RobotId(0), {{x, 0, 0}, {}, true});
+    world.rebuild();
+  };
+  MotionWatch watch;
+  put(0);
+  EXPECT_TRUE(std::isinf(watch.look(world)));
+  EXPECT_EQ(watch.look(world), 0);
+  put(0.25);
+  put(0);
+  EXPECT_EQ(watch.look(world), 0.5);
+  put(3);
+  EXPECT_TRUE(std::isinf(watch.look(world)));
+}
+
 TEST(NearLists, PayOnlyWhereTheyServeSeveralSteps) {
   EXPECT_EQ(NearLists::margin_for(1, 0.5), 0);
+  EXPECT_EQ(NearLists::margin_for(std::numeric_limits<double>::infinity(), 0.5), 0);
   EXPECT_EQ(NearLists::margin_for(0.1, 0.5), 0.5);
   EXPECT_GT(NearLists::margin_for(0, 0.5), 0);
   EXPECT_LT(NearLists::margin_for(0.001, 0.5), 0.5);

@@ -129,7 +129,10 @@ double Snapshot::place(std::uint32_t body, const Body& description, Vec2 p_WB, S
       const Vec2 before_W = piece.centre_W;
       piece.centre_W = present ? p_WB + rotate(turn, cover_[d].centre_B) : kNowhere;
       piece.pieces = static_cast<std::uint16_t>(present ? discs : 0);
-      farthest_m2 = std::max(farthest_m2, squared_norm(piece.centre_W - before_W));
+      const double moved_m2 = squared_norm(piece.centre_W - before_W);
+      if (!(moved_m2 <= farthest_m2)) {
+        farthest_m2 = std::isnan(moved_m2) ? std::numeric_limits<double>::infinity() : moved_m2;
+      }
     }
   }
   return farthest_m2;
@@ -192,7 +195,6 @@ double Snapshot::place_robots(std::uint32_t first, std::uint32_t last) {
 }
 
 void Snapshot::index_robots(double farthest_m) {
-  last_move_m_ = farthest_m;
   if (farthest_m <= kJump_m) {
     drift_m_ += farthest_m;
   } else {

@@ -50,8 +50,6 @@ class Snapshot final : public WorldView {
   /// robot appears, vanishes, jumps by more than a metre, or gets another body.
   [[nodiscard]] double drift_m() const noexcept { return drift_m_; }
   [[nodiscard]] std::uint64_t generation() const noexcept { return generation_; }
-  /// What index_robots() was told last.
-  [[nodiscard]] double last_move_m() const noexcept { return last_move_m_; }
 
   /// Shapes whose bounding disc comes within `radius_m` of a point, ascending and without
   /// repetition, put into `found` (its former content is dropped).
@@ -118,7 +116,8 @@ class Snapshot final : public WorldView {
   [[nodiscard]] TouchState touch(RobotId robot) const noexcept override;
 
  private:
-  /// Moves the shapes of a body and its pieces; returns the square of how far the farthest went.
+  /// Moves the shapes of a body and its pieces; returns the square of how far the farthest went,
+  /// infinite if that is no number.
   double place(std::uint32_t body, const Body& description, Vec2 p_WB, SinCos turn, bool present);
   void place_outline(const PlacedShape& placed, const ConvexPolygon& polygon, Vec2 p_WB,
                      SinCos turn, bool present);
@@ -149,7 +148,6 @@ class Snapshot final : public WorldView {
   std::vector<ShapePiece> pieces_;         ///< One per disc of the cover, in the same order.
   double largest_robot_m_ = 0;
   double drift_m_ = 0;
-  double last_move_m_ = 0;
   std::uint64_t generation_ = 0;
   ShapeGrid fixed_;
   ShapeGrid moving_;

@@ -186,7 +186,7 @@ TEST(MotionPhase, TwoThatCreepTowardsEachOtherMeet) {
 TEST(MotionPhase, WhoStartsSuddenlyMeetsWhatStoodBeyondItsList) {
   ContactArena arena;
   // Nobody moves at first, and lists reach 0.05 m; then one makes steps of 0.1 m.
-  arena.model.obstacles.push_back(standing(square_robot(0.02, 2), {0.24, 0, 0}));
+  arena.model.obstacles.push_back(standing(round_robot(0.05), {0.28, 0, 0}));
   arena.add(round_robot(0.15), {0, 0, 0});
   arena.begin();
   expect_apart(arena, 3);

@@ -13,10 +13,10 @@ namespace rave::bus {
 /// What readers of all types share: it takes samples on loan. Owner: a Reader.
 class ReaderCore {
  public:
-  static constexpr std::size_t kBatch = 64;
+  static constexpr std::size_t kBatch = 8;
   struct Loan {
     std::array<void*, kBatch> samples{};
-    std::array<dds_sample_info_t, kBatch> infos{};
+    std::array<dds_sample_info_t, kBatch> infos;
     std::size_t size = 0;
   };
 

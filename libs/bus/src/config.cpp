@@ -145,7 +145,7 @@ Status validate(const BusConfig& config) {
   RAVE_TRY(check_text("tag", config.tag, 255));
   if (config.run.none())
     return fail(kBad, "run: an id is needed; all processes of a run share one");
-  if (config.domain > 231) return fail(kBad, "domain: {} is not in 0 to 231", config.domain);
+  if (config.domain > 230) return fail(kBad, "domain: {} is not in 0 to 230", config.domain);
   if (config.interface.empty()) return fail(kBad, "interface: an address or a name is needed");
   if (config.max_processes < 1 || config.max_processes > 119) {
     return fail(kBad, "max_processes: {} is not in 1 to 119", config.max_processes);

@@ -87,8 +87,8 @@ TEST(BusConfig, RefusesWhatCannotWork) {
   config.run = {};
   EXPECT_EQ(reason(config), "run: an id is needed; all processes of a run share one");
   config = good();
-  config.domain = 232;
-  EXPECT_EQ(reason(config), "domain: 232 is not in 0 to 231");
+  config.domain = 231;
+  EXPECT_EQ(reason(config), "domain: 231 is not in 0 to 230");
   config = good();
   config.max_processes = 120;
   EXPECT_EQ(reason(config), "max_processes: 120 is not in 1 to 119");

@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
   config.domain = static_cast<std::uint32_t>(std::atoi(arguments["domain"].c_str()));
   config.tag = arguments["tag"];
   if (!arguments["peer"].empty()) config.peers = {arguments["peer"]};
+  config.security = arguments["security"];
   const auto run = RunId::parse(arguments["run"]);
   if (!run) return 2;
   config.run = *run;

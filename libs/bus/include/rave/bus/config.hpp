@@ -25,7 +25,7 @@ struct BusConfig {
   std::string participant;
   /// Must not be none.
   RunId run;
-  /// 0 to 231: chooses the UDP ports, 7400 + 250 * domain and up.
+  /// 0 to 230: chooses the UDP ports, 7400 + 250 * domain and up.
   std::uint32_t domain = 0;
   /// The network interface, by address (`192.168.1.7`) or by name (`eth0`).
   std::string interface = "127.0.0.1";

@@ -1,24 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/bus/host_claims.hpp"
 
+#include <algorithm>
+
 namespace rave::bus {
 
 Status HostClaims::claim(std::uint32_t host, std::uint64_t writer) {
-  const auto [entry, fresh] = writers_.try_emplace(host, writer);
-  if (fresh || entry->second == writer) return {};
+  if (host >= writers_.size()) {
+    return fail(ErrorCode::kNotFound, "host {} is not one of the {} of the scenario", host,
+                writers_.size());
+  }
+  std::uint64_t& owner = writers_[host];
+  if (owner == 0) owner = writer;
+  if (owner == writer) return {};
   return fail(ErrorCode::kState,
               "host {} is served by process {:016x} already, so {:016x} is refused; stop one of "
               "them, or give it another host",
-              host, entry->second, writer);
+              host, owner, writer);
 }
 
 void HostClaims::release(std::uint64_t writer) {
-  std::erase_if(writers_, [&](const auto& entry) { return entry.second == writer; });
+  std::ranges::replace(writers_, writer, std::uint64_t{0});
 }
 
 std::uint64_t HostClaims::writer_of(std::uint32_t host) const {
-  const auto found = writers_.find(host);
-  return found == writers_.end() ? 0 : found->second;
+  return host < writers_.size() ? writers_[host] : 0;
 }
 
 }  // namespace rave::bus

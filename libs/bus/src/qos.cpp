@@ -2,6 +2,13 @@
 #include "rave/bus/qos.hpp"
 
 namespace rave::bus {
+namespace {
+
+/// Objects or writers of one topic: twice the robots that a world can have. Someone who makes up
+/// new ones for ever gets no further.
+constexpr std::int32_t kMostInstances = 2 * 65536;
+
+}  // namespace
 
 Qos make_qos(const QosProfile& profile) {
   Qos qos(dds_create_qos());
@@ -13,7 +20,7 @@ Qos make_qos(const QosProfile& profile) {
   const std::int32_t depth = profile.depth == 0 ? 1 : profile.depth;
   const std::int32_t most = profile.max_samples == 0 ? DDS_LENGTH_UNLIMITED : profile.max_samples;
   dds_qset_history(qos.get(), history, depth);
-  dds_qset_resource_limits(qos.get(), most, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
+  dds_qset_resource_limits(qos.get(), most, kMostInstances, DDS_LENGTH_UNLIMITED);
   if (profile.durable) {
     dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
     // What a late reader is given follows this policy and not the history.

@@ -8,6 +8,7 @@
 #include "peer_process.hpp"
 #include "rave/bus/reader.hpp"
 #include "rave/bus/sequence.hpp"
+#include "rave/bus/wait_set.hpp"
 
 namespace rave::bus::testing {
 namespace {
@@ -55,6 +56,27 @@ TEST(Durability, AnObstacleGoesWhenItIsTakenAwayAndNotWhenItsWriterEnds) {
   EXPECT_EQ(await_event(**bus, EventKind::kParticipantLost).participant, "early");
   listen();
   EXPECT_EQ(gone, (std::set<std::uint32_t>{0}));
+}
+
+TEST(Durability, AnObstacleThatWentBeforeItWasLookedAtIsGone) {
+  const TestDomain domain;
+  const auto bus = Bus::open(domain.config());
+  ASSERT_TRUE(bus) << bus.error().text();
+  auto obstacles = Reader<Obstacle>::create(**bus);
+  PeerProcess peer(domain, "furnish", "early", {"count=3"});
+  ASSERT_EQ(peer.line(), "ready");
+  // They come, and are left where they are.
+  auto waits = WaitSet::create(**bus);
+  ASSERT_TRUE(waits->add(*obstacles));
+  ASSERT_EQ(waits->wait(Duration{kPatience_s * 1'000'000'000LL}), Woken::kReady);
+  peer.poke();
+  ASSERT_EQ(peer.line(), "disposed");
+  EXPECT_EQ(peer.end(), 0);
+  EXPECT_EQ(await_event(**bus, EventKind::kParticipantLost).participant, "early");
+  std::set<std::uint32_t> there;
+  obstacles->take([&](const Obstacle& obstacle) { there.insert(obstacle.id); },
+                  [&](const Obstacle& obstacle) { there.erase(obstacle.id); });
+  EXPECT_EQ(there, (std::set<std::uint32_t>{1, 2}));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace rave::bus {
 namespace {
 
 TEST(HostClaims, TheFirstHasTheHostUntilItIsLost) {
-  HostClaims claims;
+  HostClaims claims(3);
   EXPECT_TRUE(claims.claim(1, 0xa));
   EXPECT_TRUE(claims.claim(1, 0xa));
   EXPECT_TRUE(claims.claim(2, 0xb));
@@ -16,6 +16,7 @@ TEST(HostClaims, TheFirstHasTheHostUntilItIsLost) {
   EXPECT_EQ(second.error().message,
             "host 1 is served by process 000000000000000a already, so 000000000000000b is refused; "
             "stop one of them, or give it another host");
+  EXPECT_EQ(claims.claim(3, 0xa).error().message, "host 3 is not one of the 3 of the scenario");
   claims.release(0xa);
   EXPECT_EQ(claims.writer_of(1), 0U);
   EXPECT_TRUE(claims.claim(1, 0xb));

@@ -90,7 +90,7 @@ TEST(Processes, ASecondProcessForAHostIsRefusedUntilTheFirstIsGone) {
   const auto bus = Bus::open(domain.config());
   ASSERT_TRUE(bus) << bus.error().text();
   auto reader = Reader<HostState>::create(**bus);
-  HostClaims claims;
+  HostClaims claims(2);
   std::string why;
   const auto listen = [&] {
     reader->take([&](const HostState& state) {

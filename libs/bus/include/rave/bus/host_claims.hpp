@@ -2,9 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
-#include <string_view>
-#include <unordered_map>
+#include <vector>
 
 #include "rave/base/result.hpp"
 
@@ -15,7 +13,11 @@ namespace rave::bus {
 /// same name do not overwrite each other. One owner thread.
 class HostClaims {
  public:
-  /// Takes the host for the writer, or confirms it. Error kState names both writers.
+  /// The scenario has the hosts 0 to `hosts` - 1.
+  explicit HostClaims(std::uint32_t hosts) : writers_(hosts, 0) {}
+
+  /// Takes the host for the writer, or confirms it. Errors: kState names both writers, kNotFound if
+  /// the scenario has no such host.
   [[nodiscard]] Status claim(std::uint32_t host, std::uint64_t writer);
   /// A writer is lost: its hosts are free.
   void release(std::uint64_t writer);
@@ -23,7 +25,7 @@ class HostClaims {
   [[nodiscard]] std::uint64_t writer_of(std::uint32_t host) const;
 
  private:
-  std::unordered_map<std::uint32_t, std::uint64_t> writers_;
+  std::vector<std::uint64_t> writers_;  ///< By host; 0: free.
 };
 
 }  // namespace rave::bus

@@ -14,6 +14,8 @@ namespace rave::bus {
 class ReaderCore {
  public:
   static constexpr std::size_t kBatch = 8;
+  /// A sender that never stops must not keep the receiver from everything else.
+  static constexpr std::size_t kMostAtOnce = 4096;
   struct Loan {
     std::array<void*, kBatch> samples{};
     std::array<dds_sample_info_t, kBatch> infos;
@@ -56,12 +58,13 @@ class Reader {
   /// `gone(const Message&)`, of which the key fields alone hold, for every object that its writer
   /// disposed of. Samples are on loan: valid during the call only, not copied. Those of other runs
   /// and those that validate() refuses are dropped, counted, and told as events. Returns how many
-  /// were visited. The callbacks must not throw and must not take from this reader.
+  /// were visited; after kMostAtOnce the rest waits for the next call. The callbacks must not throw
+  /// and must not take from this reader.
   template <class Visit, class Gone>
   std::size_t take(Visit&& visit, Gone&& gone) {
     std::size_t visited = 0;
     ReaderCore::Loan loan;
-    do {
+    for (std::size_t taken = 0; taken < ReaderCore::kMostAtOnce; taken += ReaderCore::kBatch) {
       core_.take(loan);
       for (std::size_t i = 0; i < loan.size; ++i) {
         const auto& sample = *static_cast<const Message*>(loan.samples[i]);
@@ -70,7 +73,7 @@ class Reader {
       const bool more = loan.size == ReaderCore::kBatch;
       core_.give_back(loan);
       if (!more) break;
-    } while (true);
+    }
     return visited;
   }
   template <class Visit>
@@ -94,21 +97,23 @@ class Reader {
   template <class Visit, class Gone>
   std::size_t hand_over(const Message& sample, const dds_sample_info_t& info, Visit& visit,
                         Gone& gone) {
-    if (!info.valid_data && info.instance_state != DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE) return 0;
+    const bool disposed = info.instance_state == DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE;
+    if (!info.valid_data && !disposed) return 0;
     if (!core_.bus().config().run.equals(sample.run)) {
       core_.note_foreign();
       return 0;
     }
-    if (!info.valid_data) {
-      gone(sample);
-      return 0;
-    }
-    if (Status status = validate(sample); !status) {
-      core_.refuse(sample.writer, std::move(status.error().message));
-      return 0;
-    }
-    visit(sample);
-    return 1;
+    const bool good = info.valid_data && judge(sample);
+    if (good) visit(sample);
+    // Every sample of an object that is gone says so; the last of them counts.
+    if (disposed && info.sample_rank == 0) gone(sample);
+    return good ? 1 : 0;
+  }
+
+  bool judge(const Message& sample) {
+    Status status = validate(sample);
+    if (!status) core_.refuse(sample.writer, std::move(status.error().message));
+    return status.has_value();
   }
 
   ReaderCore core_;

@@ -54,11 +54,12 @@ Identity read_identity(const dds_qos_t* qos) {
   return identity;
 }
 
-Participants::Participants(dds_entity_t participant, const RunId& run) : run_(run) {
+Participants::Participants(dds_entity_t participant, const RunId& run)
+    : run_(run),
+      reader_(dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, nullptr, nullptr)) {
   dds_guid_t guid{};
   dds_get_guid(participant, &guid);
   self_ = key_of(guid);
-  reader_ = dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, nullptr, nullptr);
 }
 
 void Participants::collect(std::vector<BusEvent>& events) {

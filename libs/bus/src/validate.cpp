@@ -36,7 +36,7 @@ Status check_numbers(std::string_view list, std::string_view field, const Sequen
   bool good = true;
   for (const double value : values) good &= std::fabs(value) <= limit;
   for (std::size_t i = 0; !good; ++i) {
-    const Status status = check_number(fmt::format("{}.{}[{}]", list, field, i), values[i], limit);
+    Status status = check_number(fmt::format("{}.{}[{}]", list, field, i), values[i], limit);
     if (!status) return status;
   }
   return {};

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "rave/bus/bus.hpp"
@@ -82,8 +84,8 @@ class Reader {
   }
 
   /// Refuses a sample for a reason that only the caller can know: counted and told like the others.
-  void refuse(const Message& sample, std::string why) {
-    core_.refuse(sample.writer, std::move(why));
+  void refuse(const Message& sample, std::string_view why) {
+    core_.refuse(sample.writer, std::string(why));
   }
 
   /// How many writers are known now.

@@ -29,13 +29,13 @@ void borrow(Sequence& sequence, Container& container) noexcept {
 
 /// Puts text into a bounded string of a wire type; what does not fit is cut off at the end of a
 /// character. Returns whether all of it fitted.
-template <std::size_t N>
-bool put_text(char (&field)[N], std::string_view text) noexcept {
-  std::size_t size = std::min(text.size(), N - 1);
+template <std::size_t kSize>
+bool put_text(char (&field)[kSize], std::string_view text) noexcept {
+  std::size_t size = std::min(text.size(), kSize - 1);
   while (size < text.size() && size > 0 && (static_cast<unsigned char>(text[size]) & 0xC0U) == 0x80)
     --size;
   std::copy_n(text.data(), size, field);
-  std::fill(field + size, field + N, '\0');
+  std::fill(field + size, field + kSize, '\0');
   return size == text.size();
 }
 

@@ -59,10 +59,13 @@ std::string general(const BusConfig& config) {
   const char* const multicast = config.multicast == Multicast::kOff         ? "false"
                                 : config.multicast == Multicast::kDiscovery ? "spdp"
                                                                             : "true";
+  // Loopback can do multicast, although Linux does not say so of it.
+  const bool unsaid = config.loopback() && config.multicast != Multicast::kOff;
+  const char* const assume = unsaid ? " multicast=\"true\"" : "";
   std::string xml = fmt::format(
-      "<General><Interfaces><NetworkInterface {}=\"{}\"/></Interfaces>"
+      "<General><Interfaces><NetworkInterface {}=\"{}\"{}/></Interfaces>"
       "<AllowMulticast>{}</AllowMulticast>",
-      kind, escape(config.interface), multicast);
+      kind, escape(config.interface), assume, multicast);
   // Nothing gets lost on loopback but by full buffers, and a packet there may have 64 KB; elsewhere
   // a fragment must fit into a frame, or the loss of one frame costs 40 others.
   if (config.loopback()) {

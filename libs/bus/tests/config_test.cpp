@@ -58,6 +58,9 @@ TEST(BusConfig, SaysWhatMulticastIsFor) {
   EXPECT_TRUE(has(cyclone_xml(config), "<AllowMulticast>spdp</AllowMulticast>"));
   config.multicast = Multicast::kOn;
   EXPECT_TRUE(has(cyclone_xml(config), "<AllowMulticast>true</AllowMulticast>"));
+  EXPECT_FALSE(has(cyclone_xml(config), "multicast=\"true\""));
+  config.interface = "lo";
+  EXPECT_TRUE(has(cyclone_xml(config), "<NetworkInterface name=\"lo\" multicast=\"true\"/>"));
 }
 
 TEST(BusConfig, WritesTextsSoThatTheyStayTexts) {

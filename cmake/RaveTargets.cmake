@@ -41,9 +41,20 @@ if(RAVE_FUZZERS)
   add_custom_target(rave_fuzzers)
 endif()
 
+# rave_vector_sources(SOURCES ...): sources of the calling folder that Highway compiles once for each
+# set of instructions, for which they include themselves. g++ 12 puts vfmsubadd and vfmaddsub into
+# pairs of a product and a sum there, whatever -ffp-contract says, and then the sets differ in the
+# last bit; it finds such pairs when it vectorises straight code. The test house_fused looks for them.
+function(rave_vector_sources)
+  set_source_files_properties(${ARGN} PROPERTIES
+    INCLUDE_DIRECTORIES "${CMAKE_CURRENT_SOURCE_DIR}"
+    SKIP_UNITY_BUILD_INCLUSION ON
+    COMPILE_OPTIONS "$<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>")
+endfunction()
+
 # rave_unity(target): with RAVE_UNITY the sources of a target are compiled a few at a time, so that
-# the compiler reads the headers they share once for all of them. A source that Highway compiles once
-# per instruction set includes itself and stays alone.
+# the compiler reads the headers they share once for all of them. Those named to
+# rave_vector_sources() stay alone.
 function(rave_unity target)
   get_target_property(sources ${target} SOURCES)
   list(LENGTH sources count)
@@ -54,12 +65,6 @@ function(rave_unity target)
   # A class that its own source keeps to itself looks to g++ as if a header declared it.
   target_compile_options(${target} PRIVATE
     $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
-  foreach(source ${sources})
-    file(STRINGS "${source}" per_target REGEX "hwy/foreach_target.h" LIMIT_COUNT 1)
-    if(per_target)
-      set_source_files_properties("${source}" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-    endif()
-  endforeach()
 endfunction()
 
 # rave_library(NAME [DEPS ...] [PRIVATE_DEPS ...] [SOURCES ...] [SEPARATE])
@@ -71,7 +76,7 @@ function(rave_library name)
   cmake_parse_arguments(ARG "SEPARATE" "" "DEPS;PRIVATE_DEPS;SOURCES" ${ARGN})
   if(ARG_SOURCES)
     add_library(rave_${name} STATIC ${ARG_SOURCES})
-    if(NOT ARG_SEPARATE)
+    if(NOT ARG_SEPARATE OR RAVE_UNITY STREQUAL "ALL")
       rave_unity(rave_${name})
     endif()
     set(scope PUBLIC)

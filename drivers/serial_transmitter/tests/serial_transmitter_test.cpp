@@ -7,7 +7,9 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include "rave/live_testing/live_transmitter.hpp"
 
@@ -106,6 +108,10 @@ TEST_F(SerialTransmitter, WhatOneSendsAnotherHears) {
   right.write(third);
   ASSERT_TRUE(port_b.wait_packets(3));
   EXPECT_EQ(port_b.packets(), (std::vector<std::string>{"first", "third", "third"}));
+  // Counted when the line has taken it, which may be after it arrived.
+  for (int i = 0; i < 500 && a.report()["sent"] != 3; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
   EXPECT_EQ(a.report()["sent"], 3);
   EXPECT_EQ(a.report()["sent_bytes"], first.size() + second.size() + third.size());
 }

@@ -11,8 +11,6 @@
 namespace rave::sim {
 namespace {
 
-/// Robots that one thread takes at a time. Part of no result; the buffers in the phases rely on it.
-constexpr std::uint32_t kBlockSize = 64;
 /// How old a real sample may be when it is fused.
 constexpr Duration kHybridHistory{1'000'000'000};
 
@@ -171,8 +169,8 @@ Status Engine::Impl::make() {
   for (std::uint32_t g = 0; g < groups.size(); ++g) {
     RAVE_TRY(make_group({spec, logs, radio.get()}, groups[g]));
     const auto size = static_cast<std::uint32_t>(groups[g].members.size());
-    for (std::uint32_t begin = 0; begin < size; begin += kBlockSize) {
-      blocks.push_back({g, begin, std::min(begin + kBlockSize, size)});
+    for (std::uint32_t begin = 0; begin < size; begin += kMemberBlock) {
+      blocks.push_back({g, begin, std::min(begin + kMemberBlock, size)});
     }
   }
   return begin();

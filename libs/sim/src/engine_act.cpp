@@ -66,7 +66,7 @@ void Engine::Impl::control(RobotGroup& group, const Block& block, Worker& worker
       input.velocity = pose.velocity;
       input.dt_s = spec.step.seconds();
     }
-    std::uint8_t failed_before[64];
+    std::uint8_t failed_before[kMemberBlock];
     std::copy(slots.failed.begin() + block.begin, slots.failed.begin() + block.end, failed_before);
     ErrorText error;
     slots.spec->ops->control(slots.instances.at(block.begin), slots.instances.stride(),
@@ -113,7 +113,7 @@ void Engine::Impl::actuate(RobotGroup& group, const Block& block, Worker& worker
     }
     if (slots.spec->virtual_ops == nullptr) continue;
     ErrorText error;
-    std::uint8_t failed_before[64];
+    std::uint8_t failed_before[kMemberBlock];
     std::copy(slots.failed.begin() + block.begin, slots.failed.begin() + block.end, failed_before);
     slots.spec->virtual_ops->propose(slots.instances.at(block.begin), slots.instances.stride(),
                                      slots.inputs.data() + block.begin,

@@ -48,7 +48,7 @@ void Engine::Impl::decide_block(const Block& block, Worker& worker) {
     clear_commands(group, m);
   }
   if (program.spec->isolate) return;  // in processes of their own: decide_isolated()
-  std::uint8_t failed_before[64];
+  std::uint8_t failed_before[kMemberBlock];
   std::copy(program.failed.begin() + block.begin, program.failed.begin() + block.end,
             failed_before);
   ErrorText error;

@@ -34,6 +34,8 @@ struct Block {
 /// What each thread has of its own during a phase.
 struct Worker {
   FanScratch fan;
+  std::array<SensorPlace, kMemberBlock> places;  ///< Of the sensors of a block, and again.
+  std::array<Vec2, kMemberBlock> places_W;
   RunHash hash;
   std::vector<Event> events;
   std::vector<RobotId> near;
@@ -92,7 +94,7 @@ struct Engine::Impl {
   void refresh_block(const Block& block, Worker& worker);
   void make_way_for_real_robots();
   void place_robots();
-  void place_block(std::uint32_t first, std::uint32_t last);
+  double place_block(std::uint32_t first, std::uint32_t last);
   void remember();
   void look_back(SimTime stamp);
 
@@ -112,6 +114,9 @@ struct Engine::Impl {
   void sense_block(const Block& block, Worker& worker);
   void sample_members(RobotGroup& group, SensorSlots& slots, std::uint32_t device,
                       const Block& block, Worker& worker);
+  [[nodiscard]] const NearLists* find_places(const RobotGroup& group, SensorSlots& slots,
+                                             const Block& block, const SinCos& mounting,
+                                             Worker& worker) const;
   void process_members(RobotGroup& group, SensorSlots& slots, std::uint32_t device, Worker& worker);
   void deliver(RobotGroup& group, SensorSlots& slots, std::uint32_t device, std::size_t member,
                Worker& worker);
@@ -208,6 +213,7 @@ struct Engine::Impl {
   std::vector<ContactNote> notes;
   std::vector<double> radius_m;  ///< Of each robot's body about its origin.
   double slack_m = 0;            ///< How far robots may have moved since the snapshot.
+  std::vector<double> block_moves_m;
   std::vector<Event> events;
   std::vector<Event> pending;                    ///< Of inputs, for the next step.
   std::vector<std::optional<GuardSpec>> guards;  ///< By type.

@@ -254,14 +254,17 @@ void Engine::Impl::place_robots() {
     }
   }
   snapshot.set_time(now);
+  block_moves_m.resize(robot_blocks());
   pool.for_each_block(robot_blocks(), place_effort, [this](std::size_t b, unsigned) {
-    place_block(first_of_block(b), first_of_block(b + 1));
+    block_moves_m[b] = place_block(first_of_block(b), first_of_block(b + 1));
   });
-  snapshot.index_robots();
+  double farthest_m = 0;
+  for (const double block_m : block_moves_m) farthest_m = std::max(farthest_m, block_m);
+  snapshot.index_robots(farthest_m);
   slack_m = 0;
 }
 
-void Engine::Impl::place_block(std::uint32_t first, std::uint32_t last) {
+double Engine::Impl::place_block(std::uint32_t first, std::uint32_t last) {
   for (std::uint32_t r = first; r < last; ++r) {
     const RobotId robot(r);
     // Who goes straight on keeps what was reckoned for the last step.
@@ -276,7 +279,7 @@ void Engine::Impl::place_block(std::uint32_t first, std::uint32_t last) {
     touching_before[r] = touch[r].touching ? 1 : 0;
     snapshot.set_touch(robot, touch[r]);
   }
-  snapshot.place_robots(first, last);
+  return snapshot.place_robots(first, last);
 }
 
 void Engine::Impl::remember() {

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "engine_impl.hpp"
+#include "listed_fan.hpp"
 #include "rave/math/transform.hpp"
 
 namespace rave::sim {
@@ -26,6 +27,30 @@ void Engine::Impl::sense_block(const Block& block, Worker& worker) {
   }
 }
 
+/// Finds where the sensors of a block stand, and the lists of what is near them; null if lists do
+/// not pay.
+const NearLists* Engine::Impl::find_places(const RobotGroup& group, SensorSlots& slots,
+                                           const Block& block, const SinCos& mounting,
+                                           Worker& worker) const {
+  const SensorSpec& sensor = *slots.spec;
+  const std::span<const RobotId> members =
+      std::span(group.members).subspan(block.begin, block.end - block.begin);
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    worker.places[i] = sensor_place(movers[members[i].value()].X_WR.position(),
+                                    snapshot.turn_WR(members[i]), sensor.X_RS.position(), mounting);
+    worker.places_W[i] = worker.places[i].p_WS;
+  }
+  const double margin_m = NearLists::margin_for(snapshot.last_move_m() * sensor.period_steps,
+                                                0.25 * static_cast<double>(slots.fan.range_max_m));
+  if (margin_m == 0) return nullptr;
+  NearLists& lists = slots.near[block.begin / kMemberBlock];
+  const std::span places_W(worker.places_W.data(), members.size());
+  if (!lists.hold(snapshot, places_W)) {
+    list_near(snapshot, slots.fan, sensor.z_m, members, places_W, margin_m, worker.fan, lists);
+  }
+  return &lists;
+}
+
 void Engine::Impl::sample_members(RobotGroup& group, SensorSlots& slots, std::uint32_t device,
                                   const Block& block, Worker& worker) {
   const SensorSpec& sensor = *slots.spec;
@@ -33,6 +58,8 @@ void Engine::Impl::sample_members(RobotGroup& group, SensorSlots& slots, std::ui
   const SinCos mounting = sincos(sensor.X_RS.yaw);
   worker.noise.clear();
   worker.noisy_members.clear();
+  const NearLists* const lists =
+      slots.uses_fan ? find_places(group, slots, block, mounting, worker) : nullptr;
   for (std::uint32_t m = block.begin; m < block.end; ++m) {
     const RobotId robot = group.members[m];
     if (slots.failed[m] != 0 || !movers[robot.value()].present) continue;
@@ -44,11 +71,15 @@ void Engine::Impl::sample_members(RobotGroup& group, SensorSlots& slots, std::ui
     const Pose2& X_WR = movers[robot.value()].X_WR;
     if (slots.uses_fan) {
       const std::size_t first = std::size_t{slots.capacity} * m;
-      const SensorPlace place =
-          sensor_place(X_WR.position(), snapshot.turn_WR(robot), sensor.X_RS.position(), mounting);
-      cast_fan(snapshot, slots.fan, place, sensor.z_m, snapshot.body_of(robot), worker.fan,
-               {reinterpret_cast<float*>(records), slots.capacity},
-               {slots.bodies.data() + first, slots.capacity});
+      const SensorPlace& place = worker.places[m - block.begin];
+      const std::span ranges(reinterpret_cast<float*>(records), slots.capacity);
+      const std::span bodies(slots.bodies.data() + first, slots.capacity);
+      if (lists != nullptr) {
+        cast_fan(snapshot, slots.fan, place, *lists, m - block.begin, worker.fan, ranges, bodies);
+      } else {
+        cast_fan(snapshot, slots.fan, place, sensor.z_m, snapshot.body_of(robot), worker.fan,
+                 ranges, bodies);
+      }
       header.count = slots.capacity;
     } else {
       SampleItem item;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fan_kernel.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "rave/math/convex_polygon.hpp"
+#include "rave/world/world_view.hpp"
 
 // Compiled once for each set of instructions.
 #undef HWY_TARGET_INCLUDE
@@ -44,22 +46,24 @@ HWY_INLINE Point to_sensor(const FanPlace& place, double x_W, double y_W) {
   return {place.cos * dx + place.sin * dy, place.cos * dy - place.sin * dx};
 }
 
+/// Which of two is nearer: the larger inverse, and whose it is.
+template <class V, class W>
+HWY_INLINE void keep_nearer(V inverse, std::uint32_t body, V& nearest, W& nearest_body) {
+  const Words words;
+  const auto nearer = hn::Gt(inverse, nearest);
+  nearest = hn::IfThenElse(nearer, inverse, nearest);
+  nearest_body = hn::IfThenElse(hn::RebindMask(words, nearer), hn::Set(words, body), nearest_body);
+}
+
 template <class V>
 HWY_INLINE void keep(const FanView& fan, std::size_t ray, V inverse, std::uint32_t body) {
   const Floats d;
   const Words words;
-  const auto before = hn::LoadU(d, fan.inverse + ray);
-  const auto nearer = hn::Gt(inverse, before);
-  hn::StoreU(hn::IfThenElse(nearer, inverse, before), d, fan.inverse + ray);
-  const auto body_before = hn::LoadU(words, fan.body + ray);
-  hn::StoreU(hn::IfThenElse(hn::RebindMask(words, nearer), hn::Set(words, body), body_before),
-             words, fan.body + ray);
-}
-
-HWY_INLINE void keep_all_inside(const FanView& fan, std::uint32_t body) {
-  const Floats d;
-  const auto inside = hn::Set(d, std::numeric_limits<float>::infinity());
-  for (std::size_t ray = 0; ray < fan.padded; ray += hn::Lanes(d)) keep(fan, ray, inside, body);
+  auto nearest = hn::LoadU(d, fan.inverse + ray);
+  auto nearest_body = hn::LoadU(words, fan.body + ray);
+  keep_nearer(inverse, body, nearest, nearest_body);
+  hn::StoreU(nearest, d, fan.inverse + ray);
+  hn::StoreU(nearest_body, words, fan.body + ray);
 }
 
 /// Calls `cast(first, last)` for the rays between two bearings, counter-clockwise from `right` to
@@ -83,58 +87,93 @@ HWY_INLINE void for_rays_between(const FanView& fan, Point right, Point left, co
   if (first < fan.first_ray[kBearingBuckets]) cast(first & group, fan.padded);
 }
 
-/// A ray meets a disc of radius r about c at 1/range = (a + sqrt(r^2 - b^2)) / (|c|^2 - r^2) with
-/// a = c.d ahead and b = c x d aside.
-HWY_INLINE void cast_disc_piece(const world::ShapePiece& piece, const FanPlace& place,
-                                const FanView& fan) {
-  const double dx = piece.centre_W.x - place.x_m;
-  const double dy = piece.centre_W.y - place.y_m;
-  const double radius = static_cast<double>(piece.radius_m);
-  const double outside = dx * dx + dy * dy - radius * radius;
-  if (outside <= 0) {
-    keep_all_inside(fan, piece.body);
-    return;
-  }
-  const Point centre = to_sensor(place, piece.centre_W.x, piece.centre_W.y);
-  const float r = piece.radius_m;
-  Point right{0, 0};
-  Point left{0, 0};
-  if (fan.first_ray != nullptr) {
-    const float tangent = static_cast<float>(std::sqrt(outside));
-    right = {centre.x * tangent + centre.y * r, centre.y * tangent - centre.x * r};
-    left = {centre.x * tangent - centre.y * r, centre.y * tangent + centre.x * r};
-  }
-  const Floats d;
-  const auto cx = hn::Set(d, centre.x);
-  const auto cy = hn::Set(d, centre.y);
-  const auto radius2 = hn::Set(d, r * r);
-  const auto scale = hn::Set(d, static_cast<float>(1.0 / outside));
-  const auto zero = hn::Zero(d);
-  for_rays_between(fan, right, left, [&](std::size_t first, std::size_t last) HWY_ATTR {
-    for (std::size_t ray = first; ray < last; ray += hn::Lanes(d)) {
-      const auto cos = hn::LoadU(d, fan.cos + ray);
-      const auto sin = hn::LoadU(d, fan.sin + ray);
-      const auto ahead = hn::Add(hn::Mul(cx, cos), hn::Mul(cy, sin));
-      const auto aside = hn::Sub(hn::Mul(cx, sin), hn::Mul(cy, cos));
-      const auto root = hn::Sub(radius2, hn::Mul(aside, aside));
-      const auto met = hn::And(hn::Gt(ahead, zero), hn::Ge(root, zero));
-      const auto half = hn::Sqrt(hn::Max(root, zero));
-      keep(fan, ray, hn::IfThenElseZero(met, hn::Mul(hn::Add(ahead, half), scale)), piece.body);
-    }
-  });
-}
-
-/// The edges of a convex polygon that face the sensor.
-struct FacingEdges {
-  float
-      x[ConvexPolygon::kMaxVertices + 1];  ///< n/c of each: its line is met at 1/range = (x, y).d.
-  float y[ConvexPolygon::kMaxVertices + 1];
-  std::size_t count = 0;     ///< If it is 1, that edge is there twice.
-  std::uint64_t facing = 0;  ///< A bit for each edge of the polygon.
+/// How a sensor sees a piece.
+enum class Sight : std::uint8_t {
+  kOutside,  ///< From outside.
+  kInside,   ///< It stands inside: all rays read 0.
+  kNothing,  ///< Not at all.
 };
 
-HWY_INLINE FacingEdges facing_edges(const world::ShapePiece& piece, const Vec2* vertices_W,
-                                    const Vec2* normals_W, const FanPlace& place) {
+/// A disc in the sensor frame. A ray meets a disc of radius r about c at
+/// 1/range = (a + sqrt(r^2 - b^2)) / (|c|^2 - r^2) with a = c.d ahead and b = c x d aside.
+struct SeenDisc {
+  Point centre;
+  float radius;
+  double outside;  ///< |c|^2 - r^2
+  float scale;     ///< Its inverse.
+
+  HWY_INLINE Sight see(const world::ShapePiece& piece, const FanPlace& place) {
+    const double dx = piece.centre_W.x - place.x_m;
+    const double dy = piece.centre_W.y - place.y_m;
+    const double r = static_cast<double>(piece.radius_m);
+    outside = dx * dx + dy * dy - r * r;
+    if (outside <= 0) return Sight::kInside;
+    centre = to_sensor(place, piece.centre_W.x, piece.centre_W.y);
+    radius = piece.radius_m;
+    scale = static_cast<float>(1.0 / outside);
+    return Sight::kOutside;
+  }
+  template <class V>
+  HWY_INLINE V inverse(V cos, V sin) const {
+    const Floats d;
+    const auto cx = hn::Set(d, centre.x);
+    const auto cy = hn::Set(d, centre.y);
+    const auto zero = hn::Zero(d);
+    const auto ahead = hn::Add(hn::Mul(cx, cos), hn::Mul(cy, sin));
+    const auto aside = hn::Sub(hn::Mul(cx, sin), hn::Mul(cy, cos));
+    const auto root = hn::Sub(hn::Set(d, radius * radius), hn::Mul(aside, aside));
+    const auto met = hn::And(hn::Gt(ahead, zero), hn::Ge(root, zero));
+    const auto half = hn::Sqrt(hn::Max(root, zero));
+    return hn::IfThenElseZero(met, hn::Mul(hn::Add(ahead, half), hn::Set(d, scale)));
+  }
+};
+
+/// The edges of a convex polygon that face the sensor, and between which of its vertices it is
+/// seen. A line n.p = c is met at 1/range = n.d / c; a convex polygon at the least of those of the
+/// edges that face the sensor, by the rays between its two outermost vertices.
+struct SeenPolygon {
+  float
+      x[ConvexPolygon::kMaxVertices + 2];  ///< n/c of each: its line is met at 1/range = (x, y).d.
+  float y[ConvexPolygon::kMaxVertices + 2];
+  std::size_t count;  ///< At least 3; where fewer face the sensor, one is there more than once.
+  Point right;
+  Point left;
+
+  HWY_INLINE Sight see(const world::ShapePiece& piece, const Vec2* vertices_W,
+                       const Vec2* normals_W, const FanPlace& place);
+  template <class V>
+  HWY_INLINE V inverse(V cos, V sin) const {
+    const Floats d;
+    const auto zero = hn::Zero(d);
+    const auto from_right =
+        hn::Sub(hn::Mul(hn::Set(d, right.x), sin), hn::Mul(hn::Set(d, right.y), cos));
+    const auto to_left =
+        hn::Sub(hn::Mul(cos, hn::Set(d, left.y)), hn::Mul(sin, hn::Set(d, left.x)));
+    const auto met = hn::And(hn::Ge(from_right, zero), hn::Ge(to_left, zero));
+    const auto along = [&](std::size_t e) HWY_ATTR {
+      return hn::Add(hn::Mul(hn::Set(d, x[e]), cos), hn::Mul(hn::Set(d, y[e]), sin));
+    };
+    auto nearest = hn::Min(hn::Min(along(0), along(1)), along(2));
+    for (std::size_t e = 3; e < count; ++e) nearest = hn::Min(nearest, along(e));
+    return hn::IfThenElseZero(met, nearest);
+  }
+};
+
+/// Of a polygon of four edges, of which a row of one to three faces the sensor: which, and where
+/// the row begins and ends.
+struct FacingRow {
+  std::uint8_t edges[3];  ///< 0xff in the first: no such row.
+  std::uint8_t leftmost;
+  std::uint8_t rightmost;
+};
+inline constexpr FacingRow kRowsOfFour[16] = {
+    {{0xff, 0, 0}, 0, 0}, {{0, 0, 0}, 0, 1},    {{1, 1, 1}, 1, 2},    {{0, 1, 1}, 0, 2},
+    {{2, 2, 2}, 2, 3},    {{0xff, 0, 0}, 0, 0}, {{1, 2, 2}, 1, 3},    {{0, 1, 2}, 0, 3},
+    {{3, 3, 3}, 3, 0},    {{3, 0, 0}, 3, 1},    {{0xff, 0, 0}, 0, 0}, {{3, 0, 1}, 3, 2},
+    {{2, 3, 3}, 2, 0},    {{2, 3, 0}, 2, 1},    {{1, 2, 3}, 1, 0},    {{0xff, 0, 0}, 0, 0}};
+
+HWY_INLINE Sight SeenPolygon::see(const world::ShapePiece& piece, const Vec2* vertices_W,
+                                  const Vec2* normals_W, const FanPlace& place) {
   const Quads d;
   const QuadFloats floats;
   const auto sensor_x = hn::Set(d, place.x_m);
@@ -142,97 +181,181 @@ HWY_INLINE FacingEdges facing_edges(const world::ShapePiece& piece, const Vec2* 
   const auto cos = hn::Set(floats, place.cos);
   const auto sin = hn::Set(floats, place.sin);
   const std::size_t n = piece.vertex_count;
-  FacingEdges edges;
+  const Vec2* const vertices = vertices_W + piece.first_vertex;
+  const Vec2* const normals = normals_W + piece.first_vertex;
+  HWY_ALIGN float edge_x[ConvexPolygon::kMaxVertices + 4];
+  HWY_ALIGN float edge_y[ConvexPolygon::kMaxVertices + 4];
+  std::uint64_t facing = 0;
   for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
-    auto vx = hn::Undefined(d);
-    auto vy = hn::Undefined(d);
-    auto nx = hn::Undefined(d);
-    auto ny = hn::Undefined(d);
-    hn::LoadInterleaved2(d, &vertices_W[piece.first_vertex + i].x, vx, vy);
-    hn::LoadInterleaved2(d, &normals_W[piece.first_vertex + i].x, nx, ny);
+    auto vx = hn::Zero(d);
+    auto vy = hn::Zero(d);
+    auto nx = hn::Zero(d);
+    auto ny = hn::Zero(d);
+    hn::LoadInterleaved2(d, &vertices[i].x, vx, vy);
+    hn::LoadInterleaved2(d, &normals[i].x, nx, ny);
     const auto c = hn::Add(hn::Mul(nx, hn::Sub(vx, sensor_x)), hn::Mul(ny, hn::Sub(vy, sensor_y)));
-    unsigned facing = bits_of(d, hn::Lt(c, hn::Zero(d)));
-    if (n - i < hn::Lanes(d)) facing &= (1U << (n - i)) - 1U;
+    facing |= std::uint64_t{bits_of(d, hn::Lt(c, hn::Zero(d)))} << i;
     const auto scale = hn::DemoteTo(floats, hn::Div(hn::Set(d, 1.0), c));
-    const auto x = hn::DemoteTo(floats, nx);
-    const auto y = hn::DemoteTo(floats, ny);
-    HWY_ALIGN float edge_x[4];
-    HWY_ALIGN float edge_y[4];
-    hn::Store(hn::Mul(hn::Add(hn::Mul(cos, x), hn::Mul(sin, y)), scale), floats, edge_x);
-    hn::Store(hn::Mul(hn::Sub(hn::Mul(cos, y), hn::Mul(sin, x)), scale), floats, edge_y);
+    const auto ux = hn::DemoteTo(floats, nx);
+    const auto uy = hn::DemoteTo(floats, ny);
+    hn::StoreU(hn::Mul(hn::Add(hn::Mul(cos, ux), hn::Mul(sin, uy)), scale), floats, edge_x + i);
+    hn::StoreU(hn::Mul(hn::Sub(hn::Mul(cos, uy), hn::Mul(sin, ux)), scale), floats, edge_y + i);
+  }
+  const std::uint64_t all = ~std::uint64_t{0} >> (64U - n);
+  facing &= all;
+  if (facing == 0) return Sight::kInside;
+  std::size_t leftmost = 0;
+  std::size_t rightmost = 0;
+  if (n == 4 && kRowsOfFour[facing].edges[0] != 0xff) {
     // Without branches: which edges face the sensor is anybody's guess.
-    for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
-      edges.x[edges.count] = edge_x[lane];
-      edges.y[edges.count] = edge_y[lane];
-      edges.count += (facing >> lane) & 1U;
+    const FacingRow& row = kRowsOfFour[facing];
+    for (std::size_t e = 0; e < 3; ++e) {
+      x[e] = edge_x[row.edges[e]];
+      y[e] = edge_y[row.edges[e]];
     }
-    edges.facing |= std::uint64_t{facing} << i;
+    count = 3;
+    leftmost = row.leftmost;
+    rightmost = row.rightmost;
+  } else {
+    // The edges that face the sensor are one row; it begins at the left vertex and ends at the
+    // right.
+    const std::uint64_t before = (facing << 1U) | (facing >> (n - 1U));
+    const std::uint64_t begin = facing & ~before;
+    const std::uint64_t end = ~facing & before & all;
+    if (begin == 0 || end == 0)
+      return Sight::kNothing;  // rounding alone can make every edge face it
+    count = 0;
+    for (std::size_t e = 0; e < n; ++e) {
+      x[count] = edge_x[e];
+      y[count] = edge_y[e];
+      count += (facing >> e) & 1U;
+    }
+    for (; count < 3; ++count) {
+      x[count] = x[0];
+      y[count] = y[0];
+    }
+    leftmost = hwy::Num0BitsBelowLS1Bit_Nonzero64(begin);
+    rightmost = hwy::Num0BitsBelowLS1Bit_Nonzero64(end);
   }
-  if (edges.count == 1) {
-    edges.x[1] = edges.x[0];
-    edges.y[1] = edges.y[0];
-  }
-  return edges;
+  left = to_sensor(place, vertices[leftmost].x, vertices[leftmost].y);
+  right = to_sensor(place, vertices[rightmost].x, vertices[rightmost].y);
+  return Sight::kOutside;
 }
 
-/// A line n.p = c is met at 1/range = n.d / c; a convex polygon at the least of those of the edges
-/// that face the sensor, by the rays between its two outermost vertices.
-HWY_INLINE void cast_polygon_piece(const world::ShapePiece& piece, const Vec2* vertices_W,
-                                   const Vec2* normals_W, const FanPlace& place,
-                                   const FanView& fan) {
-  const FacingEdges edges = facing_edges(piece, vertices_W, normals_W, place);
-  const std::uint64_t all = ~std::uint64_t{0} >> (64U - piece.vertex_count);
-  if (edges.facing == 0) {
-    keep_all_inside(fan, piece.body);
-    return;
-  }
-  // The edges that face the sensor are one row; it begins at the left vertex and ends at the right.
-  const std::uint64_t before = ((edges.facing << 1U) | (edges.facing >> (piece.vertex_count - 1U)));
-  const std::uint64_t begin = edges.facing & ~before;
-  const std::uint64_t end = ~edges.facing & before & all;
-  if (begin == 0 || end == 0) return;  // rounding alone can make every edge face it
-  const Vec2* const vertices = vertices_W + piece.first_vertex;
-  const std::size_t leftmost = hwy::Num0BitsBelowLS1Bit_Nonzero64(begin);
-  const std::size_t rightmost = hwy::Num0BitsBelowLS1Bit_Nonzero64(end);
-  const Point left = to_sensor(place, vertices[leftmost].x, vertices[leftmost].y);
-  const Point right = to_sensor(place, vertices[rightmost].x, vertices[rightmost].y);
+/// Puts what the rays between two bearings meet of a shape into the fan.
+template <class Seen>
+HWY_INLINE void cast_between(const FanView& fan, Point right, Point left, const Seen& seen,
+                             std::uint32_t body) {
   const Floats d;
-  const auto right_x = hn::Set(d, right.x);
-  const auto right_y = hn::Set(d, right.y);
-  const auto left_x = hn::Set(d, left.x);
-  const auto left_y = hn::Set(d, left.y);
-  const auto zero = hn::Zero(d);
   for_rays_between(fan, right, left, [&](std::size_t first, std::size_t last) HWY_ATTR {
     for (std::size_t ray = first; ray < last; ray += hn::Lanes(d)) {
-      const auto cos = hn::LoadU(d, fan.cos + ray);
-      const auto sin = hn::LoadU(d, fan.sin + ray);
-      const auto from_right = hn::Sub(hn::Mul(right_x, sin), hn::Mul(right_y, cos));
-      const auto to_left = hn::Sub(hn::Mul(cos, left_y), hn::Mul(sin, left_x));
-      const auto met = hn::And(hn::Ge(from_right, zero), hn::Ge(to_left, zero));
-      const auto along = [&](std::size_t e) HWY_ATTR {
-        return hn::Add(hn::Mul(hn::Set(d, edges.x[e]), cos), hn::Mul(hn::Set(d, edges.y[e]), sin));
-      };
-      auto inverse = hn::Min(along(0), along(1));
-      for (std::size_t e = 2; e < edges.count; ++e) inverse = hn::Min(inverse, along(e));
-      keep(fan, ray, hn::IfThenElseZero(met, inverse), piece.body);
+      keep(fan, ray, seen.inverse(hn::LoadU(d, fan.cos + ray), hn::LoadU(d, fan.sin + ray)), body);
     }
   });
 }
 
-void cast_pieces(Pieces discs, Pieces polygons, const Vec2* vertices_W, const Vec2* normals_W,
-                 const FanPlace& place, const FanView& fan) {
-  for (const world::ShapePiece* const piece : discs) cast_disc_piece(*piece, place, fan);
+HWY_INLINE void keep_all_inside(const FanView& fan, std::uint32_t body) {
+  const Floats d;
+  const auto inside = hn::Set(d, std::numeric_limits<float>::infinity());
+  for (std::size_t ray = 0; ray < fan.padded; ray += hn::Lanes(d)) keep(fan, ray, inside, body);
+}
+
+/// Many rays: of each shape those that could meet it.
+void cast_many(Pieces discs, Pieces polygons, const Vec2* vertices_W, const Vec2* normals_W,
+               const FanPlace& place, const FanView& fan) {
+  std::fill_n(fan.inverse, fan.padded, 0.0F);
+  std::fill_n(fan.body, fan.padded, BodyId::kNone);
+  SeenDisc disc;
+  for (const world::ShapePiece* const piece : discs) {
+    if (disc.see(*piece, place) == Sight::kInside) {
+      keep_all_inside(fan, piece->body);
+      continue;
+    }
+    const float tangent = static_cast<float>(std::sqrt(disc.outside));
+    const Point c = disc.centre;
+    const float r = disc.radius;
+    cast_between(fan, {c.x * tangent + c.y * r, c.y * tangent - c.x * r},
+                 {c.x * tangent - c.y * r, c.y * tangent + c.x * r}, disc, piece->body);
+  }
+  SeenPolygon polygon;
   for (const world::ShapePiece* const piece : polygons) {
-    cast_polygon_piece(*piece, vertices_W, normals_W, place, fan);
+    const Sight sight = polygon.see(*piece, vertices_W, normals_W, place);
+    if (sight == Sight::kInside) keep_all_inside(fan, piece->body);
+    if (sight != Sight::kOutside) continue;
+    cast_between(fan, polygon.right, polygon.left, polygon, piece->body);
   }
 }
 
-void finish_ranges(const FanView& fan, float range_min_m, float range_max_m, float* ranges_m) {
+/// Few rays, kGroups registers of them: all are tried against every shape, and what they have met
+/// stays in registers.
+template <std::size_t kGroups>
+void cast_few(Pieces discs, Pieces polygons, const Vec2* vertices_W, const Vec2* normals_W,
+              const FanPlace& place, const FanView& fan) {
+  const Floats d;
+  const Words words;
+  using V = decltype(hn::Zero(d));
+  using W = decltype(hn::Zero(words));
+  V cos[kGroups];
+  V sin[kGroups];
+  V inverse[kGroups];
+  W body[kGroups];
+  for (std::size_t g = 0; g < kGroups; ++g) {
+    cos[g] = hn::LoadU(d, fan.cos + g * hn::Lanes(d));
+    sin[g] = hn::LoadU(d, fan.sin + g * hn::Lanes(d));
+    inverse[g] = hn::Zero(d);
+    body[g] = hn::Set(words, BodyId::kNone);
+  }
+  const auto keep_inside = [&](std::uint32_t whose) HWY_ATTR {
+    const auto inside = hn::Set(d, std::numeric_limits<float>::infinity());
+    for (std::size_t g = 0; g < kGroups; ++g) keep_nearer(inside, whose, inverse[g], body[g]);
+  };
+  SeenDisc disc;
+  for (const world::ShapePiece* const piece : discs) {
+    if (disc.see(*piece, place) == Sight::kInside) {
+      keep_inside(piece->body);
+      continue;
+    }
+    for (std::size_t g = 0; g < kGroups; ++g) {
+      keep_nearer(disc.inverse(cos[g], sin[g]), piece->body, inverse[g], body[g]);
+    }
+  }
+  SeenPolygon polygon;
+  for (const world::ShapePiece* const piece : polygons) {
+    const Sight sight = polygon.see(*piece, vertices_W, normals_W, place);
+    if (sight == Sight::kInside) keep_inside(piece->body);
+    if (sight != Sight::kOutside) continue;
+    for (std::size_t g = 0; g < kGroups; ++g) {
+      keep_nearer(polygon.inverse(cos[g], sin[g]), piece->body, inverse[g], body[g]);
+    }
+  }
+  for (std::size_t g = 0; g < kGroups; ++g) {
+    hn::StoreU(inverse[g], d, fan.inverse + g * hn::Lanes(d));
+    hn::StoreU(body[g], words, fan.body + g * hn::Lanes(d));
+  }
+}
+
+void cast_pieces(Pieces discs, Pieces polygons, const Vec2* vertices_W, const Vec2* normals_W,
+                 const FanPlace& place, const FanView& fan) {
+#if !HWY_HAVE_SCALABLE
+  constexpr std::size_t kLanes = hn::MaxLanes(Floats());
+  if (fan.first_ray == nullptr && fan.padded == kRayPadding) {
+    cast_few<kRayPadding / kLanes>(discs, polygons, vertices_W, normals_W, place, fan);
+    return;
+  }
+  if (fan.first_ray == nullptr && fan.padded == 2 * kRayPadding) {
+    cast_few<2 * kRayPadding / kLanes>(discs, polygons, vertices_W, normals_W, place, fan);
+    return;
+  }
+#endif
+  cast_many(discs, polygons, vertices_W, normals_W, place, fan);
+}
+
+void finish_ranges(const FanView& fan, RangeLimits limits, float* ranges_m) {
   const Floats d;
   const Words words;
   const auto one = hn::Set(d, 1.0F);
-  const auto nearest = hn::Set(d, range_min_m);
-  const auto farthest = hn::Set(d, range_max_m);
+  const auto nearest = hn::Set(d, limits.min_m);
+  const auto farthest = hn::Set(d, limits.max_m);
   const auto none = hn::Set(d, std::numeric_limits<float>::infinity());
   for (std::size_t ray = 0; ray < fan.padded; ray += hn::Lanes(d)) {
     const auto range = hn::Div(one, hn::LoadU(d, fan.inverse + ray));
@@ -258,8 +381,8 @@ void cast_pieces(Pieces discs, Pieces polygons, const Vec2* vertices_W, const Ve
   HWY_DYNAMIC_DISPATCH(cast_pieces)(discs, polygons, vertices_W, normals_W, place, fan);
 }
 
-void finish_ranges(const FanView& fan, float range_min_m, float range_max_m, float* ranges_m) {
-  HWY_DYNAMIC_DISPATCH(finish_ranges)(fan, range_min_m, range_max_m, ranges_m);
+void finish_ranges(const FanView& fan, RangeLimits limits, float* ranges_m) {
+  HWY_DYNAMIC_DISPATCH(finish_ranges)(fan, limits, ranges_m);
 }
 
 }  // namespace rave::sim

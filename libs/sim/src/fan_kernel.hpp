@@ -25,8 +25,14 @@ struct FanView {
   /// For each bucket of the bearing the first ray that does not lie before it; kBearingBuckets + 1
   /// of them. Null: all rays are tried.
   const std::uint16_t* first_ray = nullptr;
-  float* inverse = nullptr;  ///< Largest 1/range so far; 0: nothing.
-  std::uint32_t* body = nullptr;
+  float* inverse = nullptr;       ///< Out: largest 1/range; 0: nothing.
+  std::uint32_t* body = nullptr;  ///< Out: what it belongs to.
+};
+
+/// What a sensor says of a range.
+struct RangeLimits {
+  float min_m = 0;  ///< Nearer reads this.
+  float max_m = 0;  ///< Farther is no return: +infinity, no body.
 };
 
 /// Where a sensor stands.
@@ -39,14 +45,14 @@ struct FanPlace {
 
 using Pieces = std::span<const world::ShapePiece* const>;
 
-/// Puts what the rays meet of the pieces' shapes into `fan.inverse` and `fan.body`. Picks the
-/// widest instructions that the processor has; the bits are the same with all of them.
+/// Puts what the rays meet of the pieces' shapes into `fan.inverse` and `fan.body`; what was there
+/// before is lost. Picks the widest instructions that the processor has; the bits are the same with
+/// all of them.
 void cast_pieces(Pieces discs, Pieces polygons, const Vec2* vertices_W, const Vec2* normals_W,
                  const FanPlace& place, const FanView& fan);
 
-/// 1/inverse for each ray: beyond `range_max` it is no return (+infinity, no body), nearer than
-/// `range_min` is range_min. `ranges` is padded as the fan is.
-void finish_ranges(const FanView& fan, float range_min_m, float range_max_m, float* ranges_m);
+/// 1/inverse for each ray, within the limits. `ranges` is padded as the fan is.
+void finish_ranges(const FanView& fan, RangeLimits limits, float* ranges_m);
 
 /// The bearing as a number that grows with it from 0 at -pi to 4 at pi, without arc tangent.
 inline float bearing_scale(float x, float y) noexcept {

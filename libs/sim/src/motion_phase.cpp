@@ -2,6 +2,7 @@
 #include "motion_phase.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "rave/math/scalar.hpp"
@@ -40,6 +41,8 @@ void MotionPhase::run(const world::Snapshot& snapshot, double dt_s, const Motion
   reach_m_.resize(count);
   way_.resize(count);
   block_slack_m_.resize(blocks);
+  near_.resize(blocks);
+  listed_slack_m_.resize(blocks);
   const Step step{snapshot, dt_s, robots};
   pool_->for_each_block(blocks, measure_effort_,
                         [this, &step](std::size_t b, unsigned) { measure(step, b); });
@@ -75,13 +78,53 @@ void MotionPhase::measure(const Step& step, std::size_t block) {
 }
 
 void MotionPhase::let_go(const Step& step, std::size_t block) {
+  const NearLists* const lists = find_near(step, block);
   const std::size_t last = std::min((block + 1) * kBlock, way_.size());
   for (std::size_t r = block * kBlock; r < last; ++r) {
-    way_[r] = try_to_go(step, static_cast<std::uint32_t>(r));
+    way_[r] = try_to_go(step, static_cast<std::uint32_t>(r), lists);
   }
 }
 
-MotionPhase::Way MotionPhase::try_to_go(const Step& step, std::uint32_t robot) const {
+const NearLists* MotionPhase::find_near(const Step& step, std::size_t block) {
+  constexpr double kMostMargin_m = 0.5;
+  const world::Snapshot& world = step.snapshot;
+  const double moves_m = std::max(slack_m_, world.last_move_m());
+  const double margin_m = NearLists::margin_for(moves_m, kMostMargin_m);
+  if (margin_m == 0) return nullptr;
+  const auto first = static_cast<std::uint32_t>(block * kBlock);
+  const std::size_t count = std::min(kBlock, way_.size() - first);
+  std::array<Vec2, kBlock> places_W;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    places_W[i] = world.robot(RobotId(first + i)).X_WR.position();
+  }
+  NearLists& lists = near_[block];
+  // What a robot has to look at lies within its radius, twice the slack, and what is always added.
+  const double more_m = std::max(0.0, 2 * (slack_m_ - listed_slack_m_[block]));
+  if (lists.hold(world, {places_W.data(), count}, more_m)) return &lists;
+  lists.begin(world, {places_W.data(), count}, margin_m);
+  listed_slack_m_[block] = slack_m_;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint32_t robot = first + i;
+    const bool asks = step.robots.movers[robot].simulated;
+    const double reach_m = look_m(resolver_->radius_m(robot) + slack_m_) + margin_m;
+    if (asks) {
+      world.for_each_standing_near(places_W[i], reach_m,
+                                   [&](const world::ShapePiece& piece) { lists.add(piece.index); });
+    }
+    lists.end_list();
+    if (asks) {
+      world.for_each_robot_near(places_W[i], reach_m, [&](const world::ShapePiece& piece) {
+        const std::uint32_t other = piece.body - resolver_->obstacle_count();
+        if (other != robot) lists.add(other);
+      });
+    }
+    lists.end_list();
+  }
+  return &lists;
+}
+
+MotionPhase::Way MotionPhase::try_to_go(const Step& step, std::uint32_t robot,
+                                        const NearLists* lists) const {
   Mover& mover = step.robots.movers[robot];
   if (!mover.simulated) return kStands;
   step.robots.touch[robot] = {};
@@ -91,7 +134,8 @@ MotionPhase::Way MotionPhase::try_to_go(const Step& step, std::uint32_t robot) c
     step.robots.limited[robot] = 0;
     return kStands;
   }
-  if (!misses_what_stands(step, robot) || !misses_robots(step, robot)) return kToResolve;
+  const bool free = lists != nullptr ? is_free(step, robot, *lists) : is_free(step, robot);
+  if (!free) return kToResolve;
   // Nobody else reads or writes this mover here: of others the snapshot is asked.
   mover.X_WR = integrate(mover.X_WR, step.snapshot.turn_WR(RobotId(robot)), twist, step.dt_s);
   step.robots.velocity[robot] = twist;
@@ -99,32 +143,61 @@ MotionPhase::Way MotionPhase::try_to_go(const Step& step, std::uint32_t robot) c
   return kAhead;
 }
 
-bool MotionPhase::misses_what_stands(const Step& step, std::uint32_t robot) const {
-  const Vec2 p_WR = step.robots.movers[robot].X_WR.position();
+double MotionPhase::standing_reach_m(const Step& step, std::uint32_t robot) const {
   const double turn_rad = std::abs(step.robots.proposal[robot].wz * step.dt_s);
   // What the resolver's time of impact allows for the turn of a vertex at the rim.
   const double turn_m = resolver_->radius_m(robot) * turn_rad * (1 + 0.5 * turn_rad);
-  const double reach_m = reach_m_[robot] + turn_m + kApart_m;
-  bool misses = true;
-  step.snapshot.for_each_standing_near(p_WR, reach_m, [&](const world::ShapePiece& piece) {
-    misses = misses && turn_rad <= kMostTurn_rad && is_beyond(step.snapshot, piece, p_WR, reach_m);
-  });
-  return misses;
+  return reach_m_[robot] + turn_m + kApart_m;
 }
 
-bool MotionPhase::misses_robots(const Step& step, std::uint32_t robot) const {
+double MotionPhase::look_m(double reach_m) const noexcept {
+  return reach_m + slack_m_ + Resolver::kLookAround_m + kApart_m;
+}
+
+bool MotionPhase::may_meet(const Step& step, std::uint32_t robot, std::uint32_t other) const {
+  const Vec2 apart = step.snapshot.robot(RobotId(other)).X_WR.position() -
+                     step.robots.movers[robot].X_WR.position();
+  const double reach_m = reach_m_[robot] + reach_m_[other] + kApart_m;
+  return !(squared_norm(apart) > reach_m * reach_m);
+}
+
+bool MotionPhase::is_free(const Step& step, std::uint32_t robot) const {
   const Vec2 p_WR = step.robots.movers[robot].X_WR.position();
-  const std::uint32_t obstacles = resolver_->obstacle_count();
-  const double look_m = reach_m_[robot] + slack_m_ + Resolver::kLookAround_m + kApart_m;
-  bool misses = true;
-  step.snapshot.for_each_robot_near(p_WR, look_m, [&](const world::ShapePiece& piece) {
-    const std::uint32_t other = piece.body - obstacles;
-    if (!misses || other == robot) return;
-    const Vec2 apart = step.snapshot.robot(RobotId(other)).X_WR.position() - p_WR;
-    const double reach_m = reach_m_[robot] + reach_m_[other] + kApart_m;
-    misses = squared_norm(apart) > reach_m * reach_m;
+  const bool spins = std::abs(step.robots.proposal[robot].wz * step.dt_s) > kMostTurn_rad;
+  const double reach_m = standing_reach_m(step, robot);
+  bool free = true;
+  step.snapshot.for_each_standing_near(p_WR, reach_m, [&](const world::ShapePiece& piece) {
+    free = free && !spins && is_beyond(step.snapshot, piece, p_WR, reach_m);
   });
-  return misses;
+  if (!free) return false;
+  step.snapshot.for_each_robot_near(
+      p_WR, look_m(reach_m_[robot]), [&](const world::ShapePiece& piece) {
+        const std::uint32_t other = piece.body - resolver_->obstacle_count();
+        free = free && (other == robot || !may_meet(step, robot, other));
+      });
+  return free;
+}
+
+bool MotionPhase::is_free(const Step& step, std::uint32_t robot, const NearLists& lists) const {
+  // The lists do not reach as far as one that spins may need.
+  if (std::abs(step.robots.proposal[robot].wz * step.dt_s) > kMostTurn_rad) {
+    return is_free(step, robot);
+  }
+  const std::size_t asker = robot % kBlock;
+  const Vec2 p_WR = step.robots.movers[robot].X_WR.position();
+  const double reach_m = standing_reach_m(step, robot);
+  for (const std::uint32_t index : lists.first(asker)) {
+    const world::ShapePiece& piece = step.snapshot.pieces()[index];
+    const double near_m = reach_m + static_cast<double>(piece.radius_m);
+    if (squared_norm(piece.centre_W - p_WR) <= near_m * near_m &&
+        !is_beyond(step.snapshot, piece, p_WR, reach_m)) {
+      return false;
+    }
+  }
+  for (const std::uint32_t other : lists.second(asker)) {
+    if (may_meet(step, robot, other)) return false;
+  }
+  return true;
 }
 
 void MotionPhase::resolve(const Step& step, std::uint32_t robot, std::vector<ContactNote>& notes) {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "near_lists.hpp"
 #include "rave/sim/thread_pool.hpp"
 #include "rave/world/snapshot.hpp"
 #include "resolver.hpp"
@@ -52,10 +53,18 @@ class MotionPhase {
 
   void measure(const Step& step, std::size_t block);
   void let_go(const Step& step, std::size_t block);
-  /// Lets it go or stand, if it may.
-  [[nodiscard]] Way try_to_go(const Step& step, std::uint32_t robot) const;
-  [[nodiscard]] bool misses_what_stands(const Step& step, std::uint32_t robot) const;
-  [[nodiscard]] bool misses_robots(const Step& step, std::uint32_t robot) const;
+  /// What the robots of a block have near; null if lists do not pay.
+  [[nodiscard]] const NearLists* find_near(const Step& step, std::size_t block);
+  /// Lets it go or stand, if it may. `lists`: of its block, or null.
+  [[nodiscard]] Way try_to_go(const Step& step, std::uint32_t robot, const NearLists* lists) const;
+  /// Whether nothing can be met, by what the grids of the snapshot or the lists say is near.
+  [[nodiscard]] bool is_free(const Step& step, std::uint32_t robot) const;
+  [[nodiscard]] bool is_free(const Step& step, std::uint32_t robot, const NearLists& lists) const;
+  [[nodiscard]] bool may_meet(const Step& step, std::uint32_t robot, std::uint32_t other) const;
+  /// Farther off than this from where its origin is, nothing that stands and no piece of a robot
+  /// has to be looked at.
+  [[nodiscard]] double standing_reach_m(const Step& step, std::uint32_t robot) const;
+  [[nodiscard]] double look_m(double reach_m) const noexcept;
   void resolve(const Step& step, std::uint32_t robot, std::vector<ContactNote>& notes);
 
   Resolver* resolver_;
@@ -63,7 +72,9 @@ class MotionPhase {
   ThreadPool::Effort measure_effort_, let_go_effort_;
   std::vector<double> reach_m_;  ///< Per robot: it stays this near to where its origin was.
   std::vector<double> block_slack_m_;
-  std::vector<std::uint8_t> way_;  ///< Per robot.
+  std::vector<std::uint8_t> way_;       ///< Per robot.
+  std::vector<NearLists> near_;         ///< Per block.
+  std::vector<double> listed_slack_m_;  ///< Per block: slack_m_ when its lists were made.
   double slack_m_ = 0;
   std::size_t resolved_ = 0;
 };

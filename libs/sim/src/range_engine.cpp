@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "fan_kernel.hpp"
+#include "listed_fan.hpp"
 #include "near_kernel.hpp"
 #include "rave/math/scalar.hpp"
 
@@ -58,16 +59,13 @@ constexpr double kFloatReach_m = 2048;
 class Candidates {
  public:
   Candidates(const FanTable& fan, float z_m, BodyId owner, FanScratch& scratch)
-      : scratch_(&scratch), owner_(owner.value()), layers_(fan.layers), z_m_(z_m) {}
-
-  /// Room for so many more.
-  void make_room(std::size_t count) {
-    grow(scratch_->discs, scratch_->disc_count + count);
-    grow(scratch_->polygons, scratch_->polygon_count + count);
+      : scratch_(&scratch), owner_(owner.value()), layers_(fan.layers), z_m_(z_m) {
+    scratch.disc_count = 0;
+    scratch.polygon_count = 0;
   }
 
   /// Without branches that are hard to foresee: each goes to the end of its list, and counts or
-  /// not.
+  /// not. There must be room.
   void add(const world::ShapePiece& piece) noexcept {
     const auto seen = static_cast<unsigned>(piece.body != owner_) &
                       static_cast<unsigned>(piece.in_layers(layers_)) &
@@ -82,9 +80,6 @@ class Candidates {
   }
 
  private:
-  static void grow(std::vector<const world::ShapePiece*>& list, std::size_t size) {
-    if (list.size() < size) list.resize(size);
-  }
   /// Only polygons have several pieces.
   [[nodiscard]] bool is_known(std::uint32_t shape) const noexcept {
     const auto begin = scratch_->polygons.begin();
@@ -98,16 +93,39 @@ class Candidates {
   float z_m_;
 };
 
-/// Adds the pieces of a grid that the fan could meet.
-void collect(const world::ShapeGrid& grid, const FanTable& fan, const SensorPlace& place,
-             Candidates& candidates, FanScratch& scratch) {
-  const Vec2 p_WS = place.p_WS;
+/// Where to look for candidates: as far as `reach_m` around p_W, in `field`, whose edges point to
+/// `right_W` and `left_W`.
+struct Surroundings {
+  Vec2 p_W;
+  double reach_m = 0;
+  FanField field;
+  Vec2 right_W;
+  Vec2 left_W;
+};
+
+Surroundings what_sees(const FanTable& fan, const SensorPlace& place) noexcept {
+  return {place.p_WS, static_cast<double>(fan.range_max_m), fan.field,
+          rotate(place.turn, {fan.field.right.cos, fan.field.right.sin}),
+          rotate(place.turn, {fan.field.left.cos, fan.field.left.sin})};
+}
+
+/// Room for so many more candidates of each kind.
+void make_room(FanScratch& scratch, std::size_t count) {
+  const auto grow = [](std::vector<const world::ShapePiece*>& list, std::size_t size) {
+    if (list.size() < size) list.resize(size);
+  };
+  grow(scratch.discs, scratch.disc_count + count);
+  grow(scratch.polygons, scratch.polygon_count + count);
+}
+
+/// Adds the pieces of a grid that lie in the surroundings.
+void collect(const world::ShapeGrid& grid, const Surroundings& around, Candidates& candidates,
+             FanScratch& scratch) {
   const world::PieceColumns columns = grid.columns();
-  const Vec2 p = p_WS - columns.origin;
-  const auto range_m = static_cast<double>(fan.range_max_m);
+  const Vec2 p = around.p_W - columns.origin;
   if (!(std::abs(p.x) < kFloatReach_m && std::abs(p.y) < kFloatReach_m)) {
-    grid.for_each_near(p_WS, range_m, [&](const world::ShapePiece& piece) {
-      candidates.make_room(1);
+    grid.for_each_near(around.p_W, around.reach_m, [&](const world::ShapePiece& piece) {
+      make_room(scratch, 1);
       candidates.add(piece);
     });
     return;
@@ -115,20 +133,47 @@ void collect(const world::ShapeGrid& grid, const FanTable& fan, const SensorPlac
   if (scratch.near.size() < grid.size() + world::kPiecePadding) {
     scratch.near.resize(grid.size() + world::kPiecePadding);
   }
-  const Vec2 right = rotate(place.turn, {fan.field.right.cos, fan.field.right.sin});
-  const Vec2 left = rotate(place.turn, {fan.field.left.cos, fan.field.left.sin});
   const NearField field{static_cast<float>(p.x),
                         static_cast<float>(p.y),
-                        fan.range_max_m,
-                        fan.field,
-                        static_cast<float>(right.x),
-                        static_cast<float>(right.y),
-                        static_cast<float>(left.x),
-                        static_cast<float>(left.y)};
+                        static_cast<float>(around.reach_m),
+                        around.field,
+                        static_cast<float>(around.right_W.x),
+                        static_cast<float>(around.right_W.y),
+                        static_cast<float>(around.left_W.x),
+                        static_cast<float>(around.left_W.y)};
   const std::size_t count =
-      select_near(grid, grid.cells_near(p_WS, range_m), field, scratch.near.data());
-  candidates.make_room(count + 1);
+      select_near(grid, grid.cells_near(around.p_W, around.reach_m), field, scratch.near.data());
+  make_room(scratch, count + 1);
   for (std::size_t i = 0; i < count; ++i) candidates.add(grid.piece(scratch.near[i]));
+}
+
+void collect(const world::Snapshot& world, const Surroundings& around, Candidates candidates,
+             FanScratch& scratch) {
+  collect(world.standing(), around, candidates, scratch);
+  collect(world.moving(), around, candidates, scratch);
+}
+
+/// Of the listed pieces those that the fan could meet. A shape of several pieces is listed once, by
+/// any of them, and always taken. Without branches, as Candidates.
+std::size_t choose(const world::ShapePiece* pieces, std::span<const std::uint32_t> listed,
+                   const Surroundings& around, const world::ShapePiece** chosen) noexcept {
+  constexpr double kRounding_m = 1e-3;  // as PieceColumns have it
+  std::size_t count = 0;
+  for (const std::uint32_t index : listed) {
+    const world::ShapePiece& piece = pieces[index];
+    const Vec2 apart = piece.centre_W - around.p_W;
+    const double own_m = static_cast<double>(piece.radius_m) + kRounding_m;
+    const double reach_m = around.reach_m + own_m;
+    auto in_sight = static_cast<unsigned>(squared_norm(apart) <= reach_m * reach_m);
+    if (around.field.limited) {
+      const auto right = static_cast<unsigned>(cross(around.right_W, apart) >= -own_m);
+      const auto left = static_cast<unsigned>(cross(apart, around.left_W) >= -own_m);
+      in_sight &= around.field.beyond_half ? right | left : right & left;
+    }
+    chosen[count] = &piece;
+    count += in_sight | static_cast<unsigned>(piece.pieces > 1);
+  }
+  return count;
 }
 
 /// Of the rays of each cone the nearest.
@@ -166,20 +211,25 @@ FanTable FanTable::make(const FanQuery& query, LayerMask layers) {
   return fan;
 }
 
-void cast_fan(const world::Snapshot& world, const FanTable& fan, const SensorPlace& place,
-              double z_m, BodyId owner, FanScratch& scratch, std::span<float> ranges,
-              std::span<std::uint32_t> bodies) {
-  scratch.disc_count = 0;
-  scratch.polygon_count = 0;
-  Candidates candidates(fan, static_cast<float>(z_m), owner, scratch);
-  collect(world.standing(), fan, place, candidates, scratch);
-  collect(world.moving(), fan, place, candidates, scratch);
-  scratch.inverse.assign(fan.cos.size(), 0.0F);
-  scratch.body.assign(fan.cos.size(), BodyId::kNone);
-  scratch.ranges_m.resize(fan.cos.size());
-  FanView view{fan.cos.data(),         fan.sin.data(),
-               fan.cos.size(),         fan.first_ray.empty() ? nullptr : fan.first_ray.data(),
-               scratch.inverse.data(), scratch.body.data()};
+namespace {
+
+/// Casts the fan at the candidates.
+void cast_candidates(const world::Snapshot& world, const FanTable& fan, const SensorPlace& place,
+                     FanScratch& scratch, std::span<float> ranges,
+                     std::span<std::uint32_t> bodies) {
+  const std::size_t size = fan.cos.size();
+  scratch.inverse.resize(size);
+  scratch.body.resize(size);
+  scratch.ranges_m.resize(size);
+  // What has room for the padding is written where it belongs.
+  const bool exact = fan.rays_per_reading == 1 && ranges.size() == size && bodies.size() == size;
+  float* const ranges_m = exact ? ranges.data() : scratch.ranges_m.data();
+  FanView view{fan.cos.data(),
+               fan.sin.data(),
+               size,
+               fan.first_ray.empty() ? nullptr : fan.first_ray.data(),
+               scratch.inverse.data(),
+               exact ? bodies.data() : scratch.body.data()};
   cast_pieces({scratch.discs.data(), scratch.disc_count},
               {scratch.polygons.data(), scratch.polygon_count}, world.vertices_W(),
               world.normals_W(),
@@ -190,9 +240,52 @@ void cast_fan(const world::Snapshot& world, const FanTable& fan, const SensorPla
     join_cones(fan, scratch);
     view.padded = padded(ranges.size());
   }
-  finish_ranges(view, fan.range_min_m, fan.range_max_m, scratch.ranges_m.data());
+  finish_ranges(view, {fan.range_min_m, fan.range_max_m}, ranges_m);
+  if (exact) return;
   std::copy_n(scratch.ranges_m.begin(), ranges.size(), ranges.begin());
   std::copy_n(scratch.body.begin(), bodies.size(), bodies.begin());
+}
+
+}  // namespace
+
+void cast_fan(const world::Snapshot& world, const FanTable& fan, const SensorPlace& place,
+              double z_m, BodyId owner, FanScratch& scratch, std::span<float> ranges,
+              std::span<std::uint32_t> bodies) {
+  collect(world, what_sees(fan, place), {fan, static_cast<float>(z_m), owner, scratch}, scratch);
+  cast_candidates(world, fan, place, scratch, ranges, bodies);
+}
+
+void list_near(const world::Snapshot& world, const FanTable& fan, double z_m,
+               std::span<const RobotId> owners, std::span<const Vec2> places_W, double margin_m,
+               FanScratch& scratch, NearLists& lists) {
+  lists.begin(world, places_W, margin_m);
+  for (std::size_t i = 0; i < places_W.size(); ++i) {
+    Surroundings around;
+    around.p_W = places_W[i];
+    around.reach_m = static_cast<double>(fan.range_max_m) + margin_m;
+    collect(world, around, {fan, static_cast<float>(z_m), world.body_of(owners[i]), scratch},
+            scratch);
+    const auto list = [&lists](const auto& candidates, std::size_t count) {
+      for (std::size_t k = 0; k < count; ++k) lists.add(candidates[k]->index);
+      lists.end_list();
+    };
+    list(scratch.discs, scratch.disc_count);
+    list(scratch.polygons, scratch.polygon_count);
+  }
+}
+
+void cast_fan(const world::Snapshot& world, const FanTable& fan, const SensorPlace& place,
+              const NearLists& lists, std::size_t asker, FanScratch& scratch,
+              std::span<float> ranges, std::span<std::uint32_t> bodies) {
+  const Surroundings around = what_sees(fan, place);
+  const auto discs = lists.first(asker);
+  const auto polygons = lists.second(asker);
+  scratch.disc_count = 0;
+  scratch.polygon_count = 0;
+  make_room(scratch, std::max(discs.size(), polygons.size()) + 1);
+  scratch.disc_count = choose(world.pieces(), discs, around, scratch.discs.data());
+  scratch.polygon_count = choose(world.pieces(), polygons, around, scratch.polygons.data());
+  cast_candidates(world, fan, place, scratch, ranges, bodies);
 }
 
 }  // namespace rave::sim

@@ -48,7 +48,10 @@ void allocate(SensorSlots& slots, std::size_t count) {
   slots.stride = (slots.stride + 7U) / 8U * 8U;
   slots.headers.resize(count);
   slots.records.resize(slots.stride * count);
-  if (slots.uses_fan) slots.bodies.resize(std::size_t{slots.capacity} * count);
+  if (slots.uses_fan) {
+    slots.bodies.resize(std::size_t{slots.capacity} * count);
+    slots.near.resize((count + kMemberBlock - 1) / kMemberBlock);
+  }
   slots.sequence.resize(count);
   slots.failed.resize(count);
   slots.flip.resize(count);

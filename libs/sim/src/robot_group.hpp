@@ -9,12 +9,16 @@
 
 #include "fusion.hpp"
 #include "instances.hpp"
+#include "near_lists.hpp"
 #include "rave/sim/engine_spec.hpp"
 #include "rave/sim/range_engine.hpp"
 
 namespace rave::sim {
 
 class Radio;
+
+/// Members of a group that one thread takes at a time.
+inline constexpr std::uint32_t kMemberBlock = 64;
 
 /// One sensor of a type, for all robots of it. Vectors are indexed by member; after creation none
 /// changes its size, so views into them stay valid.
@@ -24,6 +28,7 @@ struct SensorSlots {
   InstanceArray instances;  ///< One for all if virtual, one each if hardware.
   bool uses_fan = false;
   FanTable fan;
+  std::vector<NearLists> near;  ///< Fans: what each block of members has near.
   std::uint32_t capacity = 0;
   std::uint32_t stride = 0;  ///< Bytes of all records of one member.
   bool collect = false;

@@ -14,6 +14,8 @@ namespace {
 constexpr double kCellSize_m = 2.0;
 /// Shapes of a larger bounding disc are cut into pieces for the index.
 constexpr double kLargestPiece_m = 1.0;
+/// Who goes farther than this at once has jumped.
+constexpr double kJump_m = 1.0;
 /// Robots that are not in the world are parked where no query reaches.
 constexpr Vec2 kNowhere{1e12, 1e12};
 
@@ -78,6 +80,7 @@ void Snapshot::make_pieces() {
       piece.z0_m = static_cast<float>(placed.z0_m);
       piece.z1_m = static_cast<float>(placed.z1_m);
       piece.body = placed.body;
+      piece.index = d;
       piece.shape = index;
       piece.first_vertex = placed.first_vertex;
       piece.vertex_count = static_cast<std::uint8_t>(placed.vertex_count);
@@ -110,8 +113,9 @@ void Snapshot::find_codes() {
   }
 }
 
-void Snapshot::place(std::uint32_t body, const Body& description, Vec2 p_WB, SinCos turn,
-                     bool present) {
+double Snapshot::place(std::uint32_t body, const Body& description, Vec2 p_WB, SinCos turn,
+                       bool present) {
+  double farthest_m2 = 0;
   const std::uint32_t first = first_shape_[body];
   for (std::uint32_t index = first; index < first_shape_[body + 1]; ++index) {
     PlacedShape& placed = shapes_[index];
@@ -121,10 +125,14 @@ void Snapshot::place(std::uint32_t body, const Body& description, Vec2 p_WB, Sin
     }
     const std::uint32_t discs = first_disc_[index + 1] - first_disc_[index];
     for (std::uint32_t d = first_disc_[index]; d < first_disc_[index + 1]; ++d) {
-      pieces_[d].centre_W = p_WB + rotate(turn, cover_[d].centre_B);
-      pieces_[d].pieces = static_cast<std::uint16_t>(present ? discs : 0);
+      ShapePiece& piece = pieces_[d];
+      const Vec2 before_W = piece.centre_W;
+      piece.centre_W = present ? p_WB + rotate(turn, cover_[d].centre_B) : kNowhere;
+      piece.pieces = static_cast<std::uint16_t>(present ? discs : 0);
+      farthest_m2 = std::max(farthest_m2, squared_norm(piece.centre_W - before_W));
     }
   }
+  return farthest_m2;
 }
 
 void Snapshot::place_outline(const PlacedShape& placed, const ConvexPolygon& polygon, Vec2 p_WB,
@@ -165,24 +173,31 @@ void Snapshot::body_changed(RobotId robot) {
     for (std::size_t next = index + 1; next < first_disc_.size(); ++next) first_disc_[next] += more;
   }
   make_pieces();
+  ++generation_;
   // Never smaller: it only says how far a query has to look.
   largest_robot_m_ = std::max(largest_robot_m_, body.radius_m());
 }
 
-void Snapshot::rebuild() {
-  place_robots(0, robot_count());
-  index_robots();
-}
+void Snapshot::rebuild() { index_robots(place_robots(0, robot_count())); }
 
-void Snapshot::place_robots(std::uint32_t first, std::uint32_t last) {
+double Snapshot::place_robots(std::uint32_t first, std::uint32_t last) {
   const auto obstacle_count = static_cast<std::uint32_t>(model_->obstacles.size());
+  double farthest_m2 = 0;
   for (std::uint32_t r = first; r < last; ++r) {
-    place(obstacle_count + r, model_->robots[r], robots_[r].X_WR.position(), turns_[r],
-          robots_[r].present);
+    farthest_m2 =
+        std::max(farthest_m2, place(obstacle_count + r, model_->robots[r],
+                                    robots_[r].X_WR.position(), turns_[r], robots_[r].present));
   }
+  return std::sqrt(farthest_m2);
 }
 
-void Snapshot::index_robots() {
+void Snapshot::index_robots(double farthest_m) {
+  last_move_m_ = farthest_m;
+  if (farthest_m <= kJump_m) {
+    drift_m_ += farthest_m;
+  } else {
+    ++generation_;
+  }
   const std::uint32_t first = first_disc_[first_shape_[model_->obstacles.size()]];
   moving_.build(std::span(pieces_).subspan(first), kCellSize_m);
   rebuild_landmarks();

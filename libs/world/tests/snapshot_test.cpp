@@ -129,9 +129,8 @@ TEST(Snapshot, PlacedInPartsIsTheSameAsRebuilt) {
   scatter(whole);
   scatter(parts);
   whole.rebuild();
-  parts.place_robots(17, 40);
-  parts.place_robots(0, 17);
-  parts.index_robots();
+  const double last_m = parts.place_robots(17, 40);
+  parts.index_robots(std::max(last_m, parts.place_robots(0, 17)));
   const auto seen = [](const Snapshot& world) {
     std::vector<std::pair<std::uint32_t, Vec2>> pieces;
     world.for_each_near({0, 0}, 100, [&](const ShapePiece& piece) {

@@ -26,6 +26,7 @@ struct ShapePiece {
   /// Of the same shape; more than 1: a query may meet it again; 0: nowhere, the index leaves it
   /// out.
   std::uint16_t pieces = 1;
+  std::uint32_t index = 0;  ///< Of this piece in Snapshot::pieces().
 
   [[nodiscard]] bool in_layers(LayerMask layers) const noexcept { return (layers & layer) != 0; }
   [[nodiscard]] bool at_height(float z_m) const noexcept { return z_m >= z0_m && z_m <= z1_m; }

@@ -38,11 +38,20 @@ class Snapshot final : public WorldView {
   void body_changed(RobotId robot);
   /// Moves all shapes of robots to their places and sorts them into the grid.
   void rebuild();
-  /// rebuild() in parts: moves the shapes of robots [first, last) to their places. Several threads
-  /// may set and place robots at once, as long as no two have the same robot; then one calls
-  /// index_robots(), and only then may anybody look again.
-  void place_robots(std::uint32_t first, std::uint32_t last);
-  void index_robots();
+  /// rebuild() in parts: moves the shapes of robots [first, last) to their places and returns how
+  /// far the farthest piece went, in metres. Several threads may set and place robots at once, as
+  /// long as no two have the same robot; then one calls index_robots() with the largest of these
+  /// distances, and only then may anybody look again.
+  double place_robots(std::uint32_t first, std::uint32_t last);
+  void index_robots(double farthest_m);
+
+  /// For who keeps what it found near for later: since then no piece of a robot has moved by more
+  /// than what drift_m() has grown by, if generation() is the same. The generation changes when a
+  /// robot appears, vanishes, jumps by more than a metre, or gets another body.
+  [[nodiscard]] double drift_m() const noexcept { return drift_m_; }
+  [[nodiscard]] std::uint64_t generation() const noexcept { return generation_; }
+  /// What index_robots() was told last.
+  [[nodiscard]] double last_move_m() const noexcept { return last_move_m_; }
 
   /// Shapes whose bounding disc comes within `radius_m` of a point, ascending and without
   /// repetition, put into `found` (its former content is dropped).
@@ -71,6 +80,10 @@ class Snapshot final : public WorldView {
   /// pieces say where theirs begin. kVertexPadding more follow.
   [[nodiscard]] const Vec2* vertices_W() const noexcept { return vertices_.data(); }
   [[nodiscard]] const Vec2* normals_W() const noexcept { return normals_.data(); }
+
+  /// All pieces, each at its ShapePiece::index, which stays while the generation does. Those of who
+  /// is not in the world lie where no query reaches.
+  [[nodiscard]] const ShapePiece* pieces() const noexcept { return pieces_.data(); }
 
   [[nodiscard]] const PlacedShape& shape(std::uint32_t index) const noexcept {
     return shapes_[index];
@@ -105,8 +118,8 @@ class Snapshot final : public WorldView {
   [[nodiscard]] TouchState touch(RobotId robot) const noexcept override;
 
  private:
-  /// Moves the shapes of a body and its pieces.
-  void place(std::uint32_t body, const Body& description, Vec2 p_WB, SinCos turn, bool present);
+  /// Moves the shapes of a body and its pieces; returns the square of how far the farthest went.
+  double place(std::uint32_t body, const Body& description, Vec2 p_WB, SinCos turn, bool present);
   void place_outline(const PlacedShape& placed, const ConvexPolygon& polygon, Vec2 p_WB,
                      SinCos turn, bool present);
   void add_shapes(std::uint32_t body, const Body& description);
@@ -135,6 +148,9 @@ class Snapshot final : public WorldView {
   std::vector<std::uint32_t> first_disc_;  ///< Per shape, in cover_; one more at the end.
   std::vector<ShapePiece> pieces_;         ///< One per disc of the cover, in the same order.
   double largest_robot_m_ = 0;
+  double drift_m_ = 0;
+  double last_move_m_ = 0;
+  std::uint64_t generation_ = 0;
   ShapeGrid fixed_;
   ShapeGrid moving_;
 };

@@ -6,7 +6,8 @@
 rave_tools_of_group() {
   case "$1" in
     build) echo "g++ cmake ninja ccache pkg-config git python3" ;;
-    check) echo "clang-format-16 readelf nm" ;;
+    library) echo "idlc" ;;
+    check) echo "clang-format-16 readelf nm openssl" ;;
     full) echo "clang++-16 clang-tidy-16 node npm" ;;
   esac
 }

@@ -54,7 +54,7 @@ step_asan_ubsan() {
 
 step_tsan() {
   step_build tsan || return 0
-  TSAN_OPTIONS=second_deadlock_stack=1:halt_on_error=1 \
+  TSAN_OPTIONS="second_deadlock_stack=1:halt_on_error=1:suppressions=$root/tools/tsan.supp" \
     step_tsan_ctest -LE '^(lint|docs|no_tsan)$'
 }
 
@@ -96,7 +96,7 @@ step_tidy() {
     step_note tidy build failed $((SECONDS - begin))
     return 0
   fi
-  ninja -C "$root/build/tidy" build.ninja >/dev/null
+  ninja -C "$root/build/tidy" build.ninja rave_generated >/dev/null
   python3 "$root/tools/tidy.py" --build "$root/build/tidy" --notes "$report/notes.tsv" || true
 }
 

@@ -19,7 +19,7 @@ RAVE_NAME = re.compile(r"^rave(?:::|_)([a-z_]+)$")
 PACKAGE_INCLUDES = {"fmt/": "fmt", "tl/": "expected", "yaml-cpp/": "yaml-cpp", "png.h": "png",
                     "cairo": "cairo", "spdlog/": "spdlog", "CLI/": "cli11", "zlib.h": "zlib",
                     "sodium": "sodium", "nlohmann/": "json", "backtrace": "backtrace",
-                    "gtest/": "gtest", "benchmark/": "benchmark", "dds/": "dds",
+                    "gtest/": "gtest", "benchmark/": "benchmark", "dds/": "dds", "idl/": "wire",
                     "Eigen/": "eigen", "zstd.h": "zstd", "boost/": "boost", "dlfcn.h": "dl",
                     "hwy/": "hwy"}
 PACKAGE_LINKS = {"fmt::": "fmt", "tl::": "expected", "yaml-cpp": "yaml-cpp", "PNG::": "png",
@@ -27,7 +27,7 @@ PACKAGE_LINKS = {"fmt::": "fmt", "tl::": "expected", "yaml-cpp": "yaml-cpp", "PN
                  "PkgConfig::sodium": "sodium", "nlohmann_json": "json",
                  "${backtrace": "backtrace", "GTest::": "gtest", "benchmark::": "benchmark",
                  "Eigen3::": "eigen", "${ZSTD_": "zstd", "Boost::": "boost", "${CMAKE_DL_LIBS}": "dl",
-                 "hwy::": "hwy"}
+                 "hwy::": "hwy", "CycloneDDS::": "dds", "rave::wire": "wire"}
 
 
 def read_table(tree):

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// Measures the bus between processes of this machine and prints JSON.
+//   bench_bus ping [COUNT]                     64 B there and back, beside UDP in the same run
+//   bench_bus world [RECEIVERS [ROBOTS [S]]]   the world at 10 Hz to many processes
+// It starts itself for the other processes.
+#include <sys/resource.h>
+#include <sys/wait.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "child.hpp"
+#include "ping.hpp"
+#include "rave/bus/reader.hpp"
+#include "rave/bus/sequence.hpp"
+#include "rave/bus/wait_set.hpp"
+#include "rave/bus/writer.hpp"
+#include "udp_ping.hpp"
+
+namespace {
+
+using namespace rave;
+using namespace rave::bus;
+using bench::Child;
+
+constexpr Duration kForEver{-1};
+
+double cpu_s(int who) {
+  rusage usage{};
+  ::getrusage(who, &usage);
+  return static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+         1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+}
+
+/// Takes worlds until the step is kLast; prints how many came, how many were missing in between,
+/// and the CPU time since the first.
+constexpr std::uint64_t kLast = ~0ULL;
+int receive(const std::string& run) {
+  const auto bus = bench::join(run, "receiver");
+  auto reader = Reader<World>::create(*bus);
+  auto waits = WaitSet::create(*bus);
+  static_cast<void>(waits->add(*reader));
+  std::uint64_t first = 0;
+  std::uint64_t newest = 0;
+  std::uint64_t taken = 0;
+  double start_s = 0;
+  bool end = false;
+  while (!end) {
+    static_cast<void>(waits->wait(kForEver));
+    reader->take([&](const World& world) {
+      end = world.step == kLast;
+      if (end) return;
+      if (taken == 0) start_s = cpu_s(RUSAGE_SELF);
+      if (taken == 0) first = world.step;
+      newest = world.step;
+      ++taken;
+    });
+  }
+  const std::uint64_t missing = taken == 0 ? 0 : newest - first + 1 - taken;
+  std::printf("%llu %llu %.6f\n", static_cast<unsigned long long>(taken),
+              static_cast<unsigned long long>(missing), cpu_s(RUSAGE_SELF) - start_s);
+  return 0;
+}
+
+/// The arrays of a world of robots.
+struct Robots {
+  explicit Robots(std::uint32_t count) : id(count), values(6, std::vector<double>(count, 0.5)) {
+    for (std::uint32_t i = 0; i < count; ++i) id[i] = i;
+  }
+  void lend(rave_wire_PlanarRobots& robots) {
+    borrow(robots.id, id);
+    borrow(robots.x_m, values[0]);
+    borrow(robots.y_m, values[1]);
+    borrow(robots.yaw_rad, values[2]);
+    borrow(robots.vx_mps, values[3]);
+    borrow(robots.vy_mps, values[4]);
+    borrow(robots.wz_radps, values[5]);
+  }
+  std::vector<std::uint32_t> id;
+  std::vector<std::vector<double>> values;
+};
+
+int world(std::size_t receivers, std::uint32_t count, std::uint64_t seconds) {
+  const std::string run = RunId::random().text();
+  const auto bus = bench::join(run, "authority");
+  auto writer = Writer<World>::create(*bus);
+  std::vector<Child> children;
+  for (std::size_t i = 0; i < receivers; ++i) children.push_back(bench::start({"receive", run}));
+  bench::wait_for(receivers, [&] { return writer->readers(); });
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  Robots robots(count);
+  World sample{};
+  robots.lend(sample.robots);
+  const double own_start_s = cpu_s(RUSAGE_SELF);
+  const auto begin = std::chrono::steady_clock::now();
+  std::size_t failures = 0;
+  for (std::uint64_t step = 1; step <= 10 * seconds; ++step) {
+    std::this_thread::sleep_until(begin + std::chrono::milliseconds(100) * step);
+    sample.step = step;
+    if (!writer->write(sample)) ++failures;
+  }
+  const double own_s = cpu_s(RUSAGE_SELF) - own_start_s;
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  sample.step = kLast;
+  static_cast<void>(writer->write(sample));
+  double taken = 0;
+  double missing = 0;
+  double used_s = 0;
+  for (const Child& child : children) {
+    taken += bench::number_from(child);
+    missing += bench::number_from(child);
+    used_s += bench::number_from(child);
+    ::waitpid(child.process, nullptr, 0);
+  }
+  const auto all = static_cast<double>(seconds);
+  std::printf(
+      "{\"receivers\": %zu, \"robots\": %u, \"sent\": %llu, \"write_failures\": %zu, \"taken\": "
+      "%.0f,"
+      " \"missing\": %.0f, \"receivers_core_percent\": %.2f, \"writer_core_percent\": %.2f}\n",
+      receivers, count, static_cast<unsigned long long>(10 * seconds), failures, taken, missing,
+      100 * used_s / all, 100 * own_s / all);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string role = argc > 1 ? argv[1] : "";
+  const auto argument = [&](int index, unsigned long usual) {
+    return argc > index ? std::strtoul(argv[index], nullptr, 10) : usual;
+  };
+  if (role == "serve-udp") return bench::serve_udp();
+  if (role == "serve-bus" && argc > 2) return bench::serve_bus(argv[2], bench::Way::kWaitSet);
+  if (role == "serve-listener" && argc > 2) {
+    return bench::serve_bus(argv[2], bench::Way::kListener);
+  }
+  if (role == "receive" && argc > 2) return receive(argv[2]);
+  if (role == "ping") return bench::ping(argument(2, 20'000));
+  if (role == "world") {
+    return world(argument(2, 10), static_cast<std::uint32_t>(argument(3, 10'000)), argument(4, 10));
+  }
+  std::fprintf(stderr, "usage: %s ping [COUNT] | world [RECEIVERS [ROBOTS [SECONDS]]]\n", argv[0]);
+  return 2;
+}

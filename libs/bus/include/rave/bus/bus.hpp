@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <dds/dds.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "rave/bus/config.hpp"
+#include "rave/bus/event.hpp"
+#include "rave/bus/topics.hpp"
+
+namespace rave::bus {
+
+class CycloneLog;
+class Participants;
+
+/// This process on the bus: one participant in one run. Writers and readers are made on it and must
+/// be gone before it. At most one per process and domain.
+///
+/// Thread: one owner, also for its writers, readers and wait sets; only a stop token may come from
+/// another. Cyclone DDS has threads of its own that call nothing of ours.
+class Bus {
+ public:
+  /// Errors: kInvalidArgument (the configuration), kState (this process has a bus in that domain),
+  /// kIo (no such interface, no free port, certificates that do not fit).
+  [[nodiscard]] static Result<std::unique_ptr<Bus>> open(const BusConfig& config);
+  Bus(const Bus&) = delete;
+  Bus& operator=(const Bus&) = delete;
+  ~Bus();
+
+  [[nodiscard]] const BusConfig& config() const noexcept { return config_; }
+  /// The name of this start of this process; the `writer` of all its samples.
+  [[nodiscard]] std::uint64_t writer() const noexcept { return writer_; }
+
+  /// What has changed since the last call, oldest first. Call it now and then: at most kMaxEvents
+  /// are kept, after which refusals and foreign samples are only counted.
+  [[nodiscard]] std::vector<BusEvent> take_events();
+
+  /// How many samples of other runs came by.
+  [[nodiscard]] std::uint64_t foreign_samples() const noexcept { return foreign_samples_; }
+  /// How many samples were refused by validation.
+  [[nodiscard]] std::uint64_t refused_samples() const noexcept { return refused_samples_; }
+
+  static constexpr std::size_t kMaxEvents = 1000;
+
+ private:
+  friend class WriterCore;
+  friend class ReaderCore;
+  friend class WaitSet;
+
+  /// A writer or reader of ours and who is at its other end.
+  struct Endpoint {
+    dds_entity_t entity = 0;
+    bool reads = false;
+    std::string topic;
+    struct Peer {
+      dds_instance_handle_t handle = 0;
+      dds_guid_t participant{};
+    };
+    std::vector<Peer> peers;
+  };
+
+  explicit Bus(BusConfig config);
+  [[nodiscard]] Status open_participant();
+  [[nodiscard]] tl::unexpected<Error> refused(dds_return_t code);
+  [[nodiscard]] Result<dds_entity_t> make_topic(const TopicSpec& spec);
+  [[nodiscard]] Status add_endpoint(dds_entity_t entity, bool reads, const char* topic);
+  void remove_endpoint(dds_entity_t entity);
+  void note_foreign(const std::string& topic);
+  void note_refused(const std::string& topic, std::uint64_t writer, std::string why);
+  void collect_matches(Endpoint& endpoint);
+  void collect_incompatible(const Endpoint& endpoint);
+
+  BusConfig config_;
+  std::uint64_t writer_;
+  std::unique_ptr<CycloneLog> log_;
+  dds_entity_t domain_ = 0;
+  dds_entity_t participant_ = 0;
+  dds_entity_t publisher_ = 0;
+  dds_entity_t subscriber_ = 0;
+  std::unique_ptr<Participants> participants_;
+  std::vector<Endpoint> endpoints_;
+  std::vector<BusEvent> events_;
+  std::uint64_t foreign_samples_ = 0;
+  std::uint64_t refused_samples_ = 0;
+};
+
+}  // namespace rave::bus

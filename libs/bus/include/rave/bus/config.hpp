@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "rave/base/result.hpp"
+#include "rave/base/time.hpp"
+#include "rave/bus/run_id.hpp"
+
+namespace rave::bus {
+
+/// What multicast is used for.
+enum class Multicast : std::uint8_t {
+  kOff,        ///< Nothing: processes are found at the addresses of `peers`.
+  kDiscovery,  ///< To find processes; data goes to each by itself.
+  kOn,         ///< For data to several receivers too.
+};
+
+/// How a process takes part in a run. A plain value; the defaults stay on this machine.
+struct BusConfig {
+  /// Shown to others, in events and tables: 1 to 64 bytes.
+  std::string participant;
+  /// Must not be none.
+  RunId run;
+  /// 0 to 230: chooses the UDP ports, 7400 + 250 * domain and up.
+  std::uint32_t domain = 0;
+  /// The network interface, by address (`192.168.1.7`) or by name (`eth0`).
+  std::string interface = "127.0.0.1";
+  /// Addresses or names of machines to look for others at, this one included. On loopback an empty
+  /// list means this machine.
+  std::vector<std::string> peers;
+  Multicast multicast = Multicast::kOff;
+  /// Most processes of one machine in a domain, of this and other runs: 1 to 119. Without multicast
+  /// each of them is looked for, so a larger number costs messages.
+  int max_processes = 64;
+  /// A process that has been silent for this long is lost.
+  Duration lease{1'000'000'000};
+  /// Processes with another tag do not exist for this one, whatever their run. Usually empty.
+  std::string tag;
+  /// A folder with certificates switches DDS Security on; see docs/design/distribution.md.
+  std::filesystem::path security;
+  /// Settings of Cyclone DDS in its own XML, or `file://...`, which win over those made from the
+  /// rest. The variable CYCLONEDDS_URI counts only if somebody puts its value here.
+  std::string cyclone_settings;
+
+  /// Whether `interface` is this machine's loopback.
+  [[nodiscard]] bool loopback() const;
+};
+
+/// Whether a bus can be made of it. Error kInvalidArgument names the field.
+[[nodiscard]] Status validate(const BusConfig& config);
+
+/// The settings of Cyclone DDS that follow from a valid configuration.
+[[nodiscard]] std::string cyclone_xml(const BusConfig& config);
+
+}  // namespace rave::bus

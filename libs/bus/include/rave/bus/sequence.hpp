@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <type_traits>
+
+namespace rave::bus {
+
+/// The elements of a sequence of a wire type.
+template <class Sequence>
+[[nodiscard]] auto elements(const Sequence& sequence) noexcept {
+  using Element = std::remove_pointer_t<decltype(sequence._buffer)>;
+  return std::span<const Element>(sequence._buffer, sequence._length);
+}
+
+/// Lets a sequence of a wire type show memory of the caller, who keeps it alive as long as the
+/// sample is used. At most 2^32 - 1 elements.
+template <class Sequence, class Container>
+void borrow(Sequence& sequence, Container& container) noexcept {
+  sequence._buffer = std::data(container);
+  sequence._length = static_cast<std::uint32_t>(std::size(container));
+  sequence._maximum = sequence._length;
+  sequence._release = false;
+}
+
+/// Puts text into a bounded string of a wire type; what does not fit is cut off at the end of a
+/// character. Returns whether all of it fitted.
+template <std::size_t kSize>
+bool put_text(char (&field)[kSize], std::string_view text) noexcept {
+  std::size_t size = std::min(text.size(), kSize - 1);
+  while (size < text.size() && size > 0 && (static_cast<unsigned char>(text[size]) & 0xC0U) == 0x80)
+    --size;
+  std::copy_n(text.data(), size, field);
+  std::fill(field + size, field + kSize, '\0');
+  return size == text.size();
+}
+
+}  // namespace rave::bus

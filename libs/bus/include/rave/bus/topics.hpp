@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "idl/rave/command.h"
+#include "idl/rave/host.h"
+#include "idl/rave/obstacle.h"
+#include "idl/rave/roster.h"
+#include "idl/rave/world.h"
+#include "rave/bus/qos.hpp"
+
+namespace rave::bus {
+
+using HostState = rave_wire_HostState;
+using World = rave_wire_World;
+using RosterEntry = rave_wire_RosterEntry;
+using Obstacle = rave_wire_Obstacle;
+using Edit = rave_wire_Edit;
+using Command = rave_wire_Command;
+using Packet = rave_wire_Packet;
+using HostInfo = rave_wire_HostInfo;
+using ClockPing = rave_wire_ClockPing;
+using ClockPong = rave_wire_ClockPong;
+
+/// A topic as the bus needs it: where it is found, what it carries, how it is delivered.
+struct TopicSpec {
+  const char* name;
+  const dds_topic_descriptor_t* type;
+  QosProfile qos;
+};
+
+/// The topic of a message type. This is the one place with names and qualities of service; the
+/// table of docs/design/distribution.md says the same.
+template <class Message>
+[[nodiscard]] TopicSpec topic_of();
+
+template <>
+inline TopicSpec topic_of<HostState>() {
+  return {"rave/host_state", &rave_wire_HostState_desc, kNewest};
+}
+template <>
+inline TopicSpec topic_of<World>() {
+  return {"rave/world", &rave_wire_World_desc, kNewest};
+}
+template <>
+inline TopicSpec topic_of<RosterEntry>() {
+  return {"rave/roster", &rave_wire_RosterEntry_desc, kDurable};
+}
+template <>
+inline TopicSpec topic_of<Obstacle>() {
+  return {"rave/obstacle", &rave_wire_Obstacle_desc, kDurable};
+}
+template <>
+inline TopicSpec topic_of<Edit>() {
+  return {"rave/edit", &rave_wire_Edit_desc, kEverything};
+}
+template <>
+inline TopicSpec topic_of<Command>() {
+  return {"rave/command", &rave_wire_Command_desc, kRecent};
+}
+template <>
+inline TopicSpec topic_of<Packet>() {
+  return {"rave/radio", &rave_wire_Packet_desc, kRecent};
+}
+template <>
+inline TopicSpec topic_of<HostInfo>() {
+  return {"rave/host", &rave_wire_HostInfo_desc, kDurable};
+}
+template <>
+inline TopicSpec topic_of<ClockPing>() {
+  return {"rave/clock_ping", &rave_wire_ClockPing_desc, kOnce};
+}
+template <>
+inline TopicSpec topic_of<ClockPong>() {
+  return {"rave/clock_pong", &rave_wire_ClockPong_desc, kOnce};
+}
+
+}  // namespace rave::bus

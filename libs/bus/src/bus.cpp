@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/bus/bus.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <utility>
+
+#include "cyclone_log.hpp"
+#include "participants.hpp"
+
+namespace rave::bus {
+namespace {
+
+constexpr std::uint32_t kReaderStatus =
+    DDS_SUBSCRIPTION_MATCHED_STATUS | DDS_REQUESTED_INCOMPATIBLE_QOS_STATUS;
+constexpr std::uint32_t kWriterStatus =
+    DDS_PUBLICATION_MATCHED_STATUS | DDS_OFFERED_INCOMPATIBLE_QOS_STATUS;
+
+Qos partition_of(const RunId& run) {
+  Qos qos(dds_create_qos());
+  const std::string name = "rave/" + run.text();
+  dds_qset_partition1(qos.get(), name.c_str());
+  return qos;
+}
+
+/// Who is at the other end of `entity` now.
+std::vector<dds_instance_handle_t> matched(dds_entity_t entity, bool reads) {
+  const auto list = reads ? dds_get_matched_publications : dds_get_matched_subscriptions;
+  std::vector<dds_instance_handle_t> handles(16);
+  while (true) {
+    const dds_return_t count = list(entity, handles.data(), handles.size());
+    if (count < 0) return {};
+    const auto size = static_cast<std::size_t>(count);
+    const bool all = size <= handles.size();
+    handles.resize(size);
+    if (all) return handles;
+  }
+}
+
+dds_guid_t participant_of(dds_entity_t entity, bool reads, dds_instance_handle_t handle) {
+  const auto data_of = reads ? dds_get_matched_publication_data : dds_get_matched_subscription_data;
+  dds_builtintopic_endpoint_t* const data = data_of(entity, handle);
+  if (data == nullptr) return {};
+  const dds_guid_t guid = data->participant_key;
+  dds_builtintopic_free_endpoint(data);
+  return guid;
+}
+
+}  // namespace
+
+Bus::Bus(BusConfig config)
+    : config_(std::move(config)),
+      writer_(random_writer_id()),
+      log_(std::make_unique<CycloneLog>()) {}
+
+Result<std::unique_ptr<Bus>> Bus::open(const BusConfig& config) {
+  RAVE_TRY(validate(config));
+  std::unique_ptr<Bus> bus(new Bus(config));
+  bus->domain_ = dds_create_domain(config.domain, cyclone_xml(config).c_str());
+  if (bus->domain_ < 0) return bus->refused(bus->domain_);
+  RAVE_TRY(bus->open_participant());
+  return bus;
+}
+
+Status Bus::open_participant() {
+  const Qos qos(dds_create_qos());
+  write_identity({config_.participant, config_.run, writer_}, qos.get());
+  participant_ = dds_create_participant(config_.domain, qos.get(), nullptr);
+  if (participant_ < 0) return refused(participant_);
+  const Qos partition = partition_of(config_.run);
+  publisher_ = dds_create_publisher(participant_, partition.get(), nullptr);
+  subscriber_ = dds_create_subscriber(participant_, partition.get(), nullptr);
+  participants_ = std::make_unique<Participants>(participant_, config_.run);
+  const dds_return_t worst =
+      std::min({publisher_, subscriber_, participants_->reader(), dds_entity_t{0}});
+  if (worst < 0) return refused(worst);
+  return {};
+}
+
+tl::unexpected<Error> Bus::refused(dds_return_t code) {
+  if (code == DDS_RETCODE_PRECONDITION_NOT_MET) {
+    return fail(ErrorCode::kState, "this process has a bus in domain {} already", config_.domain);
+  }
+  std::string reason(dds_strretcode(code));
+  for (const std::string& line : log_->take()) reason += "; " + line;
+  return fail(ErrorCode::kIo, "cannot join domain {} at {}: {}", config_.domain, config_.interface,
+              reason);
+}
+
+Bus::~Bus() {
+  // Deleting a domain deletes all that is in it.
+  if (domain_ > 0) dds_delete(domain_);
+}
+
+Result<dds_entity_t> Bus::make_topic(const TopicSpec& spec) {
+  const Qos qos = make_qos(spec.qos);
+  const dds_entity_t topic =
+      dds_create_topic(participant_, spec.type, spec.name, qos.get(), nullptr);
+  if (topic < 0) {
+    return fail(ErrorCode::kState, "topic {}: {}", spec.name, dds_strretcode(topic));
+  }
+  return topic;
+}
+
+Status Bus::add_endpoint(dds_entity_t entity, bool reads, const char* topic) {
+  if (entity < 0) {
+    return fail(ErrorCode::kIo, "cannot {} {}: {}", reads ? "read" : "write", topic,
+                dds_strretcode(entity));
+  }
+  dds_set_status_mask(entity, reads ? kReaderStatus : kWriterStatus);
+  Endpoint endpoint;
+  endpoint.entity = entity;
+  endpoint.reads = reads;
+  endpoint.topic = topic;
+  endpoints_.push_back(std::move(endpoint));
+  return {};
+}
+
+void Bus::remove_endpoint(dds_entity_t entity) {
+  std::erase_if(endpoints_, [&](const Endpoint& e) { return e.entity == entity; });
+  dds_delete(entity);
+}
+
+std::vector<BusEvent> Bus::take_events() {
+  for (std::string& line : log_->take()) {
+    events_.push_back({EventKind::kNotice, "", "", 0, std::move(line)});
+  }
+  participants_->collect(events_);
+  for (Endpoint& endpoint : endpoints_) {
+    collect_incompatible(endpoint);
+    collect_matches(endpoint);
+  }
+  return std::exchange(events_, {});
+}
+
+void Bus::collect_matches(Endpoint& endpoint) {
+  std::uint32_t status = 0;
+  dds_take_status(
+      endpoint.entity, &status,
+      endpoint.reads ? DDS_SUBSCRIPTION_MATCHED_STATUS : DDS_PUBLICATION_MATCHED_STATUS);
+  if (status == 0) return;
+  const auto add = [&](const Endpoint::Peer& peer, bool appeared) {
+    const Identity who = participants_->find(peer.participant);
+    const EventKind reader = appeared ? EventKind::kReaderAppeared : EventKind::kReaderLost;
+    const EventKind writer = appeared ? EventKind::kWriterAppeared : EventKind::kWriterLost;
+    events_.push_back({endpoint.reads ? writer : reader, endpoint.topic, who.name, who.writer, ""});
+  };
+  const auto now = matched(endpoint.entity, endpoint.reads);
+  std::erase_if(endpoint.peers, [&](const Endpoint::Peer& peer) {
+    const bool gone = std::ranges::find(now, peer.handle) == now.end();
+    if (gone) add(peer, false);
+    return gone;
+  });
+  for (const dds_instance_handle_t handle : now) {
+    if (std::ranges::find(endpoint.peers, handle, &Endpoint::Peer::handle) != endpoint.peers.end())
+      continue;
+    endpoint.peers.push_back({handle, participant_of(endpoint.entity, endpoint.reads, handle)});
+    // It may have come after the participants were read.
+    participants_->collect(events_);
+    add(endpoint.peers.back(), true);
+  }
+}
+
+void Bus::collect_incompatible(const Endpoint& endpoint) {
+  std::uint32_t policy = 0;
+  std::int32_t fresh = 0;
+  if (endpoint.reads) {
+    dds_requested_incompatible_qos_status_t status{};
+    dds_get_requested_incompatible_qos_status(endpoint.entity, &status);
+    policy = status.last_policy_id;
+    fresh = status.total_count_change;
+  } else {
+    dds_offered_incompatible_qos_status_t status{};
+    dds_get_offered_incompatible_qos_status(endpoint.entity, &status);
+    policy = status.last_policy_id;
+    fresh = status.total_count_change;
+  }
+  if (fresh == 0) return;
+  const PolicyAdvice advice = advice_for_policy(policy);
+  events_.push_back(
+      {EventKind::kIncompatible, endpoint.topic, "", 0,
+       fmt::format("a {} gets nothing {} us: {} does not match; {}",
+                   endpoint.reads ? "writer" : "reader", endpoint.reads ? "through to" : "from",
+                   advice.name, advice.remedy)});
+}
+
+void Bus::note_foreign(const std::string& topic) {
+  // Once in a thousand: whoever sends in the wrong partition sends at a rate.
+  if (foreign_samples_++ % kMaxEvents == 0) {
+    events_.push_back({EventKind::kForeignRun, topic, "", 0,
+                       fmt::format("{} samples of other runs so far", foreign_samples_)});
+  }
+}
+
+void Bus::note_refused(const std::string& topic, std::uint64_t writer, std::string why) {
+  ++refused_samples_;
+  if (events_.size() < kMaxEvents) {
+    events_.push_back({EventKind::kRefused, topic, "", writer, std::move(why)});
+  }
+}
+
+}  // namespace rave::bus

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/bus/clock_offset.hpp"
+
+#include <cmath>
+
+namespace rave::bus {
+
+Result<ClockReading> read_clock(const ClockExchange& exchange) {
+  // Clocks of different machines may be any number apart, so only differences are formed within
+  // one.
+  const std::int64_t away = exchange.heard_ns - exchange.asked_ns;
+  const std::int64_t held = exchange.answered_ns - exchange.received_ns;
+  if (away < 0 || held < 0 || held > away) {
+    return fail(ErrorCode::kInvalidArgument,
+                "an exchange of clocks of {} ns, of which {} ns at the other end, cannot be", away,
+                held);
+  }
+  const std::int64_t on_the_way = away - held;
+  // Odd sums are cut by half a nanosecond; the bound is rounded up to cover it.
+  const std::int64_t there = exchange.received_ns - exchange.asked_ns;
+  return ClockReading{{there - on_the_way / 2}, {on_the_way / 2 + 1}};
+}
+
+Status ClockOffset::add(const ClockExchange& exchange) {
+  RAVE_TRY_ASSIGN(const ClockReading reading, read_clock(exchange));
+  entries_.push_back({exchange.heard_ns, reading});
+  while (entries_.front().heard_ns < exchange.heard_ns - options_.window.ns) entries_.pop_front();
+  // One that is newer and no worse stays better for as long as both are in the window.
+  while (entries_.size() > 1) {
+    const Entry& older = entries_[entries_.size() - 2];
+    if (bound_at(older, exchange.heard_ns) < reading.bound) break;
+    entries_.erase(entries_.end() - 2);
+  }
+  return {};
+}
+
+std::optional<ClockReading> ClockOffset::at(std::int64_t now_ns) const {
+  std::optional<ClockReading> best;
+  for (const Entry& entry : entries_) {
+    if (entry.heard_ns < now_ns - options_.window.ns) continue;
+    const Duration bound = bound_at(entry, now_ns);
+    if (!best || bound < best->bound) best = ClockReading{entry.reading.offset, bound};
+  }
+  return best;
+}
+
+Duration ClockOffset::bound_at(const Entry& entry, std::int64_t now_ns) const {
+  const auto age_ns = static_cast<double>(now_ns - entry.heard_ns);
+  const double drift_ns = std::ceil(std::fabs(age_ns) * options_.max_drift);
+  return {entry.reading.bound.ns + static_cast<std::int64_t>(drift_ns)};
+}
+
+}  // namespace rave::bus

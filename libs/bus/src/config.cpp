@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/bus/config.hpp"
+
+#include <cctype>
+#include <string_view>
+
+namespace rave::bus {
+namespace {
+
+std::string escape(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        escaped += c;
+    }
+  }
+  return escaped;
+}
+
+/// Control characters have no business in names, and `$` starts the name of a variable there.
+bool plain(std::string_view text) {
+  for (const char c : text) {
+    if (std::iscntrl(static_cast<unsigned char>(c)) != 0 || c == '$') return false;
+  }
+  return true;
+}
+
+bool is_address(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789.") == std::string_view::npos;
+}
+
+Status check_text(std::string_view field, std::string_view text, std::size_t longest) {
+  if (text.size() > longest) {
+    return fail(ErrorCode::kInvalidArgument, "{}: {} bytes are more than {}", field, text.size(),
+                longest);
+  }
+  if (!plain(text)) {
+    return fail(ErrorCode::kInvalidArgument, "{}: control characters and `$` cannot be in it",
+                field);
+  }
+  return {};
+}
+
+std::string general(const BusConfig& config) {
+  const char* const kind = is_address(config.interface) ? "address" : "name";
+  const char* const multicast = config.multicast == Multicast::kOff         ? "false"
+                                : config.multicast == Multicast::kDiscovery ? "spdp"
+                                                                            : "true";
+  // Loopback can do multicast, although Linux does not say so of it.
+  const bool unsaid = config.loopback() && config.multicast != Multicast::kOff;
+  const char* const assume = unsaid ? " multicast=\"true\"" : "";
+  std::string xml = fmt::format(
+      "<General><Interfaces><NetworkInterface {}=\"{}\"{}/></Interfaces>"
+      "<AllowMulticast>{}</AllowMulticast>",
+      kind, escape(config.interface), assume, multicast);
+  // Nothing gets lost on loopback but by full buffers, and a packet there may have 64 KB; elsewhere
+  // a fragment must fit into a frame, or the loss of one frame costs 40 others.
+  if (config.loopback()) {
+    xml += "<MaxMessageSize>65500B</MaxMessageSize><FragmentSize>63000B</FragmentSize>";
+  }
+  return xml + "</General>";
+}
+
+std::string discovery(const BusConfig& config) {
+  std::vector<std::string> peers = config.peers;
+  if (peers.empty() && config.loopback()) peers = {config.interface};
+  // With `none` as index and without multicast every process sees itself alone and says nothing.
+  std::string xml = fmt::format(
+      "<Discovery><ParticipantIndex>auto</ParticipantIndex>"
+      "<MaxAutoParticipantIndex>{}</MaxAutoParticipantIndex>"
+      "<LeaseDuration>{}ms</LeaseDuration>",
+      config.max_processes - 1, config.lease.ns / 1'000'000);
+  if (!config.tag.empty()) xml += fmt::format("<Tag>{}</Tag>", escape(config.tag));
+  if (!peers.empty()) {
+    xml += "<Peers>";
+    for (const std::string& peer : peers) {
+      xml += fmt::format("<Peer address=\"{}\"/>", escape(peer));
+    }
+    xml += "</Peers>";
+  }
+  return xml + "</Discovery>";
+}
+
+/// A world of 10 000 robots is half a megabyte: the usual limits would stop a writer after one, and
+/// a sample of many megabytes is no message of ours.
+std::string internals() {
+  return "<Internal><SocketReceiveBufferSize max=\"8MiB\"/>"
+         "<Watermarks><WhcHigh>16MB</WhcHigh><WhcHighInit>16MB</WhcHighInit></Watermarks>"
+         "<MaxSampleSize>16MiB</MaxSampleSize></Internal>"
+         "<SharedMemory><Enable>false</Enable></SharedMemory>"
+         "<Tracing><Verbosity>none</Verbosity></Tracing>";
+}
+
+std::string security(const std::filesystem::path& folder) {
+  const auto file = [&](const char* name) {
+    return "file:" + escape((std::filesystem::absolute(folder) / name).string());
+  };
+  const auto library = [](const char* name, const char* what) {
+    return fmt::format(
+        "<Library path=\"{}/libdds_security_{}.so\" initFunction=\"init_{}\" "
+        "finalizeFunction=\"finalize_{}\"/>",
+        escape(RAVE_DDS_SECURITY_FOLDER), name, what, what);
+  };
+  return "<Security><Authentication>" + library("auth", "authentication") + "<IdentityCA>" +
+         file("identity_ca.pem") + "</IdentityCA><IdentityCertificate>" + file("identity.pem") +
+         "</IdentityCertificate><PrivateKey>" + file("identity_key.pem") +
+         "</PrivateKey></Authentication><AccessControl>" + library("ac", "access_control") +
+         "<PermissionsCA>" + file("permissions_ca.pem") + "</PermissionsCA><Governance>" +
+         file("governance.p7s") + "</Governance><Permissions>" + file("permissions.p7s") +
+         "</Permissions></AccessControl><Cryptographic>" + library("crypto", "crypto") +
+         "</Cryptographic></Security>";
+}
+
+Status check_certificates(const std::filesystem::path& folder) {
+  for (const char* const name : {"identity_ca.pem", "identity.pem", "identity_key.pem",
+                                 "permissions_ca.pem", "governance.p7s", "permissions.p7s"}) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(folder / name, error)) {
+      return fail(ErrorCode::kInvalidArgument, "security: there is no {}",
+                  (folder / name).string());
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+bool BusConfig::loopback() const { return interface.starts_with("127.") || interface == "lo"; }
+
+Status validate(const BusConfig& config) {
+  constexpr ErrorCode kBad = ErrorCode::kInvalidArgument;
+  if (config.participant.empty()) return fail(kBad, "participant: a name is needed");
+  RAVE_TRY(check_text("participant", config.participant, 64));
+  RAVE_TRY(check_text("interface", config.interface, 255));
+  RAVE_TRY(check_text("tag", config.tag, 255));
+  if (config.run.none())
+    return fail(kBad, "run: an id is needed; all processes of a run share one");
+  if (config.domain > 230) return fail(kBad, "domain: {} is not in 0 to 230", config.domain);
+  if (config.interface.empty()) return fail(kBad, "interface: an address or a name is needed");
+  if (config.max_processes < 1 || config.max_processes > 119) {
+    return fail(kBad, "max_processes: {} is not in 1 to 119", config.max_processes);
+  }
+  if (config.lease.ns < 100'000'000 || config.lease.ns > 3600'000'000'000) {
+    return fail(kBad, "lease: {} s is not in 0.1 s to 3600 s", config.lease.seconds());
+  }
+  for (const std::string& peer : config.peers) {
+    RAVE_TRY(check_text("peers", peer, 255));
+    if (peer.empty()) return fail(kBad, "peers: an empty address");
+  }
+  if (config.peers.empty() && config.multicast == Multicast::kOff && !config.loopback()) {
+    return fail(
+        kBad,
+        "peers: without multicast nobody is found on {}; list the machines that take part, this "
+        "one included, or allow multicast",
+        config.interface);
+  }
+  if (!config.security.empty()) RAVE_TRY(check_certificates(config.security));
+  return {};
+}
+
+std::string cyclone_xml(const BusConfig& config) {
+  std::string xml =
+      "<CycloneDDS><Domain Id=\"any\">" + general(config) + discovery(config) + internals();
+  if (!config.security.empty()) xml += security(config.security);
+  xml += "</Domain></CycloneDDS>";
+  if (!config.cyclone_settings.empty()) xml += "," + config.cyclone_settings;
+  return xml;
+}
+
+}  // namespace rave::bus

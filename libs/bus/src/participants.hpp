@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <dds/dds.h>
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "rave/bus/event.hpp"
+#include "rave/bus/run_id.hpp"
+
+namespace rave::bus {
+
+/// What a process says of itself with its participant, before anything else is exchanged.
+struct Identity {
+  std::string name;
+  RunId run;  ///< None: no process of RAVE, for example a ROS 2 robot.
+  std::uint64_t writer = 0;
+};
+
+/// Puts the identity into the qualities of service of a participant, and reads it there.
+void write_identity(const Identity& identity, dds_qos_t* qos);
+[[nodiscard]] Identity read_identity(const dds_qos_t* qos);
+
+/// Who else is in the domain, from the topic on which DDS tells it. Owner: the bus.
+class Participants {
+ public:
+  Participants(dds_entity_t participant, const RunId& run);
+
+  /// Reads what is new. Those of this run, and those that are not of RAVE, become events; a process
+  /// of another run becomes a foreign one.
+  void collect(std::vector<BusEvent>& events);
+  /// Who has the participant; empty if nobody known.
+  [[nodiscard]] Identity find(const dds_guid_t& guid) const;
+  [[nodiscard]] dds_entity_t reader() const noexcept { return reader_; }
+
+ private:
+  using Guid = std::array<std::uint8_t, 16>;
+  void appear(const dds_builtintopic_participant_t& sample, std::vector<BusEvent>& events);
+  void disappear(const dds_guid_t& guid, std::vector<BusEvent>& events);
+  [[nodiscard]] bool foreign(const Identity& who) const;
+
+  RunId run_;
+  Guid self_{};
+  dds_entity_t reader_ = 0;
+  std::map<Guid, Identity> known_;
+  /// Names stay known after their owners have gone: their endpoints are told of later.
+  std::map<Guid, Identity> gone_;
+};
+
+}  // namespace rave::bus

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/bus/qos.hpp"
+
+namespace rave::bus {
+namespace {
+
+/// Objects or writers of one topic: twice the robots that a world can have. Someone who makes up
+/// new ones for ever gets no further.
+constexpr std::int32_t kMostInstances = 2 * 65536;
+
+}  // namespace
+
+Qos make_qos(const QosProfile& profile) {
+  Qos qos(dds_create_qos());
+  dds_qset_reliability(qos.get(),
+                       profile.reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT,
+                       DDS_MSECS(500));
+  const dds_history_kind_t history =
+      profile.depth == 0 ? DDS_HISTORY_KEEP_ALL : DDS_HISTORY_KEEP_LAST;
+  const std::int32_t depth = profile.depth == 0 ? 1 : profile.depth;
+  const std::int32_t most = profile.max_samples == 0 ? DDS_LENGTH_UNLIMITED : profile.max_samples;
+  dds_qset_history(qos.get(), history, depth);
+  dds_qset_resource_limits(qos.get(), most, kMostInstances, DDS_LENGTH_UNLIMITED);
+  if (profile.durable) {
+    dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
+    // What a late reader is given follows this policy and not the history.
+    dds_qset_durability_service(qos.get(), 0, history, depth, most, DDS_LENGTH_UNLIMITED,
+                                DDS_LENGTH_UNLIMITED);
+  }
+  // A process that ends takes back neither its robots nor the obstacles it has placed; who wants
+  // that says so with dispose().
+  dds_qset_writer_data_lifecycle(qos.get(), false);
+  // A process knows what it has sent itself.
+  dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
+  const dds_data_representation_id_t representation = DDS_DATA_REPRESENTATION_XCDR1;
+  dds_qset_data_representation(qos.get(), 1, &representation);
+  return qos;
+}
+
+PolicyAdvice advice_for_policy(std::uint32_t policy_id) noexcept {
+  switch (policy_id) {
+    case DDS_RELIABILITY_QOS_POLICY_ID:
+      return {"reliability", "make the writer reliable, or the reader best effort"};
+    case DDS_DURABILITY_QOS_POLICY_ID:
+      return {"durability", "make the writer transient-local, or the reader volatile"};
+    case DDS_DEADLINE_QOS_POLICY_ID:
+      return {"deadline", "give the writer a shorter deadline than the reader, or the reader none"};
+    case DDS_LATENCYBUDGET_QOS_POLICY_ID:
+      return {"latency budget", "give the reader a latency budget no less than the writer's"};
+    case DDS_LIVELINESS_QOS_POLICY_ID:
+      return {"liveliness", "give the reader automatic liveliness and no shorter a lease"};
+    case DDS_OWNERSHIP_QOS_POLICY_ID:
+      return {"ownership", "make both shared or both exclusive"};
+    case DDS_DESTINATIONORDER_QOS_POLICY_ID:
+      return {"destination order", "let the reader order by time of reception"};
+    case DDS_PRESENTATION_QOS_POLICY_ID:
+      return {"presentation", "leave the reader's access scope at instance"};
+    case DDS_DATA_REPRESENTATION_QOS_POLICY_ID:
+      return {"data representation", "let the other side use XCDR1, as ROS 2 does"};
+    case DDS_TYPE_CONSISTENCY_ENFORCEMENT_QOS_POLICY_ID:
+      return {"type consistency", "use the same version of RAVE on both sides"};
+    case DDS_PARTITION_QOS_POLICY_ID:
+      return {"partition", "let both take part in the same run"};
+    default:
+      return {"an unnamed policy", "compare the qualities of service of both ends"};
+  }
+}
+
+}  // namespace rave::bus

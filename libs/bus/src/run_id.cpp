@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/bus/run_id.hpp"
+
+#include <fmt/ranges.h>
+
+#include <charconv>
+#include <random>
+
+namespace rave::bus {
+
+RunId RunId::random() {
+  std::random_device chance;
+  RunId id;
+  for (std::size_t i = 0; i < id.bytes.size(); i += sizeof(std::uint32_t)) {
+    const std::uint32_t bits = chance();
+    std::memcpy(id.bytes.data() + i, &bits, sizeof bits);
+  }
+  return id;
+}
+
+Result<RunId> RunId::parse(std::string_view text) {
+  RunId id;
+  if (text.size() != 2 * id.bytes.size()) {
+    return fail(ErrorCode::kParse, "a run id has 32 hexadecimal digits, not {} characters",
+                text.size());
+  }
+  for (std::size_t i = 0; i < id.bytes.size(); ++i) {
+    const char* const digits = text.data() + 2 * i;
+    const auto [end, error] = std::from_chars(digits, digits + 2, id.bytes[i], 16);
+    if (error != std::errc() || end != digits + 2) {
+      return fail(ErrorCode::kParse, "a run id has hexadecimal digits only, not `{}`",
+                  text.substr(2 * i, 2));
+    }
+  }
+  return id;
+}
+
+std::string RunId::text() const { return fmt::format("{:02x}", fmt::join(bytes, "")); }
+
+std::uint64_t random_writer_id() {
+  std::random_device chance;
+  std::uint64_t id = 0;
+  while (id == 0) id = (std::uint64_t{chance()} << 32U) | chance();
+  return id;
+}
+
+}  // namespace rave::bus

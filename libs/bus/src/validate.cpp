@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/bus/validate.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <string_view>
+#include <tuple>
+
+#include "rave/bus/sequence.hpp"
+
+namespace rave::bus {
+namespace {
+
+/// Angles may have been wound up by turning, but not for ever.
+constexpr double kMaxAngle_rad = 2e6 * std::numbers::pi;
+
+tl::unexpected<Error> invalid(std::string text) {
+  return tl::unexpected<Error>(Error{ErrorCode::kInvalidArgument, std::move(text), {}});
+}
+
+Status check_number(std::string_view field, double value, double limit) {
+  // Written so that NaN fails.
+  if (std::fabs(value) <= limit) return {};
+  return invalid(fmt::format("{} is {}, not within +-{}", field, value, limit));
+}
+
+template <class Sequence>
+Status check_numbers(std::string_view list, std::string_view field, const Sequence& numbers,
+                     std::size_t size, double limit) {
+  const auto values = elements(numbers);
+  if (values.size() != size) {
+    return invalid(
+        fmt::format("{}.{} has {} entries for {} robots", list, field, values.size(), size));
+  }
+  // One pass that the compiler can do in vectors; who is to blame is looked for only then.
+  bool good = true;
+  for (const double value : values) good &= std::fabs(value) <= limit;
+  for (std::size_t i = 0; !good; ++i) {
+    Status status = check_number(fmt::format("{}.{}[{}]", list, field, i), values[i], limit);
+    if (!status) return status;
+  }
+  return {};
+}
+
+template <class Sequence>
+Status check_ids(std::string_view list, const Sequence& ids) {
+  const auto values = elements(ids);
+  if (values.size() > rave_wire_kMaxRobots) {
+    return invalid(
+        fmt::format("{} has {} robots, more than {}", list, values.size(), rave_wire_kMaxRobots));
+  }
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    if (values[i - 1] >= values[i]) {
+      return invalid(
+          fmt::format("{}.id[{}] is {} after {}; ids ascend", list, i, values[i], values[i - 1]));
+    }
+  }
+  if (!values.empty() && values.back() == rave_wire_kNone) {
+    return invalid(fmt::format("{}.id: a robot without a number", list));
+  }
+  return {};
+}
+
+Status check_robots(std::string_view list, const rave_wire_PlanarRobots& robots) {
+  RAVE_TRY(check_ids(list, robots.id));
+  const std::size_t size = robots.id._length;
+  RAVE_TRY(check_numbers(list, "x_m", robots.x_m, size, kMaxPosition_m));
+  RAVE_TRY(check_numbers(list, "y_m", robots.y_m, size, kMaxPosition_m));
+  RAVE_TRY(check_numbers(list, "yaw_rad", robots.yaw_rad, size, kMaxAngle_rad));
+  RAVE_TRY(check_numbers(list, "vx_mps", robots.vx_mps, size, kMaxSpeed_mps));
+  RAVE_TRY(check_numbers(list, "vy_mps", robots.vy_mps, size, kMaxSpeed_mps));
+  return check_numbers(list, "wz_radps", robots.wz_radps, size, kMaxTurn_radps);
+}
+
+Status check_twists(std::string_view list, const rave_wire_PlanarTwists& twists) {
+  RAVE_TRY(check_ids(list, twists.id));
+  const std::size_t size = twists.id._length;
+  RAVE_TRY(check_numbers(list, "vx_mps", twists.vx_mps, size, kMaxSpeed_mps));
+  RAVE_TRY(check_numbers(list, "vy_mps", twists.vy_mps, size, kMaxSpeed_mps));
+  return check_numbers(list, "wz_radps", twists.wz_radps, size, kMaxTurn_radps);
+}
+
+/// Inputs are in the order in which everybody applies them, and none is there twice.
+template <class Sequence>
+Status check_inputs(std::string_view list, const Sequence& sequence) {
+  const auto inputs = elements(sequence);
+  if (inputs.size() > rave_wire_kMaxInputs) {
+    return invalid(
+        fmt::format("{} has {} entries, more than {}", list, inputs.size(), rave_wire_kMaxInputs));
+  }
+  const auto place = [](const rave_wire_Input& input) {
+    return std::tuple(static_cast<int>(input.kind), input.robot, input.number);
+  };
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (inputs[i].kind > rave_wire_INPUT_JOIN) {
+      return invalid(fmt::format("{}[{}] is of no known kind", list, i));
+    }
+    if (i > 0 && place(inputs[i - 1]) >= place(inputs[i])) {
+      return invalid(
+          fmt::format("{}[{}] is out of order; inputs ascend by kind, robot and number", list, i));
+    }
+  }
+  return {};
+}
+
+/// Names end up in logs and on terminals.
+Status check_label(std::string_view field, std::string_view text, bool needed) {
+  if (needed && text.empty()) return invalid(fmt::format("{} is empty", field));
+  for (const char c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      return invalid(fmt::format("{} has control characters", field));
+    }
+  }
+  return {};
+}
+
+/// Every corner lies to the left of every edge: convex, counterclockwise, and wound once.
+bool convex(std::span<const double> x, std::span<const double> y) {
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const std::size_t next = (i + 1) % x.size();
+    const double ex = x[next] - x[i];
+    const double ey = y[next] - y[i];
+    if (ex == 0 && ey == 0) return false;
+    bool inside = false;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      const double side = ex * (y[k] - y[i]) - ey * (x[k] - x[i]);
+      if (side < -1e-9) return false;
+      inside |= side > 1e-12;
+    }
+    if (!inside) return false;
+  }
+  return true;
+}
+
+Status check_prism(std::size_t index, const rave_wire_Prism& prism) {
+  const auto x = elements(prism.x_m);
+  const auto y = elements(prism.y_m);
+  const std::string name = fmt::format("body[{}]", index);
+  if (x.size() < 3 || x.size() != y.size()) {
+    return invalid(fmt::format("{} has {} x and {} y; a polygon has 3 corners or more", name,
+                               x.size(), y.size()));
+  }
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    RAVE_TRY(check_number(name + ".x_m", x[i], kMaxPosition_m));
+    RAVE_TRY(check_number(name + ".y_m", y[i], kMaxPosition_m));
+  }
+  RAVE_TRY(check_number(name + ".z_min_m", prism.z_min_m, kMaxPosition_m));
+  RAVE_TRY(check_number(name + ".z_max_m", prism.z_max_m, kMaxPosition_m));
+  if (prism.z_min_m > prism.z_max_m) {
+    return invalid(
+        fmt::format("{}: z_min_m {} is above z_max_m {}", name, prism.z_min_m, prism.z_max_m));
+  }
+  if (!convex(x, y)) {
+    return invalid(fmt::format("{} is not convex and counterclockwise", name));
+  }
+  return {};
+}
+
+template <class Sequence>
+Status check_body(const Sequence& body, bool needed) {
+  const auto prisms = elements(body);
+  if (needed && prisms.empty()) return invalid("body is empty");
+  for (std::size_t i = 0; i < prisms.size(); ++i) RAVE_TRY(check_prism(i, prisms[i]));
+  return {};
+}
+
+template <class Placed>
+Status check_pose(const Placed& sample) {
+  RAVE_TRY(check_number("x_m", sample.x_m, kMaxPosition_m));
+  RAVE_TRY(check_number("y_m", sample.y_m, kMaxPosition_m));
+  return check_number("yaw_rad", sample.yaw_rad, kMaxAngle_rad);
+}
+
+Status check_id(std::string_view field, std::uint32_t id) {
+  if (id == rave_wire_kNone) return invalid(fmt::format("{} is none", field));
+  return {};
+}
+
+template <class Sample>
+Status check_writer(const Sample& sample) {
+  if (sample.writer == 0) return invalid("writer is 0");
+  return {};
+}
+
+}  // namespace
+
+Status validate(const HostState& sample) {
+  RAVE_TRY(check_writer(sample));
+  RAVE_TRY(check_id("host", sample.host));
+  RAVE_TRY(check_robots("resolved", sample.resolved));
+  RAVE_TRY(check_twists("proposal", sample.proposal));
+  RAVE_TRY(check_inputs("commands", sample.commands));
+  return check_inputs("packets", sample.packets);
+}
+
+Status validate(const World& sample) {
+  RAVE_TRY(check_writer(sample));
+  RAVE_TRY(check_robots("robots", sample.robots));
+  return check_inputs("inputs", sample.inputs);
+}
+
+Status validate(const RosterEntry& sample) {
+  RAVE_TRY(check_writer(sample));
+  RAVE_TRY(check_id("robot", sample.robot));
+  RAVE_TRY(check_label("name", sample.name, true));
+  RAVE_TRY(check_label("team", sample.team, false));
+  if (sample.kind > rave_wire_ROBOT_SHADOW) return invalid("kind is unknown");
+  RAVE_TRY(check_body(sample.body, true));
+  for (const auto& sensor : elements(sample.sensors)) {
+    RAVE_TRY(check_label("sensors.name", sensor.name, true));
+    RAVE_TRY(check_label("sensors.type", sensor.type, true));
+    RAVE_TRY(check_pose(sensor));
+    RAVE_TRY(check_number("sensors.z_m", sensor.z_m, kMaxPosition_m));
+  }
+  for (const auto& parameter : elements(sample.parameters)) {
+    RAVE_TRY(check_label("parameters.name", parameter.name, true));
+    RAVE_TRY(check_label("parameters.value", parameter.value, false));
+  }
+  return {};
+}
+
+Status validate(const Obstacle& sample) {
+  RAVE_TRY(check_writer(sample));
+  RAVE_TRY(check_id("id", sample.id));
+  RAVE_TRY(check_label("name", sample.name, false));
+  RAVE_TRY(check_label("author", sample.author, false));
+  if (sample.layer > rave_wire_LAYER_MAPPED_REAL) return invalid("layer is unknown");
+  RAVE_TRY(check_pose(sample));
+  return check_body(sample.body, !sample.removed);
+}
+
+Status validate(const Edit& sample) {
+  RAVE_TRY(check_writer(sample));
+  RAVE_TRY(check_label("author", sample.author, true));
+  RAVE_TRY(check_label("name", sample.name, false));
+  if (sample.action > rave_wire_EDIT_REMOVE) return invalid("action is unknown");
+  if (sample.layer > rave_wire_LAYER_MAPPED_REAL) return invalid("layer is unknown");
+  const bool adds = sample.action == rave_wire_EDIT_ADD;
+  if (!adds) RAVE_TRY(check_id("id", sample.id));
+  RAVE_TRY(check_pose(sample));
+  return check_body(sample.body, adds);
+}
+
+Status validate(const Command& sample) {
+  RAVE_TRY(check_writer(sample));
+  RAVE_TRY(check_id("robot", sample.robot));
+  RAVE_TRY(check_label("author", sample.author, true));
+  RAVE_TRY(check_label("name", sample.name, sample.kind == rave_wire_COMMAND_PARAMETER));
+  if (sample.kind > rave_wire_COMMAND_PARAMETER) return invalid("kind is unknown");
+  RAVE_TRY(check_pose(sample));
+  RAVE_TRY(check_number("vx_mps", sample.vx_mps, kMaxSpeed_mps));
+  RAVE_TRY(check_number("vy_mps", sample.vy_mps, kMaxSpeed_mps));
+  RAVE_TRY(check_number("wz_radps", sample.wz_radps, kMaxTurn_radps));
+  for (const double axis : elements(sample.axes)) RAVE_TRY(check_number("axes", axis, 1.0));
+  if (sample.lease_ns < 0) return invalid(fmt::format("lease_ns is {}", sample.lease_ns));
+  return {};
+}
+
+Status validate(const Packet& sample) {
+  RAVE_TRY(check_writer(sample));
+  return check_id("from_robot", sample.from_robot);
+}
+
+Status validate(const HostInfo& sample) {
+  RAVE_TRY(check_writer(sample));
+  RAVE_TRY(check_label("name", sample.name, true));
+  RAVE_TRY(check_label("machine", sample.machine, false));
+  RAVE_TRY(check_label("version", sample.version, false));
+  if (sample.clock > rave_wire_CLOCK_REAL_TIME) return invalid("clock is unknown");
+  if (sample.robots > rave_wire_kMaxRobots) {
+    return invalid(fmt::format("robots is {}, more than {}", sample.robots, rave_wire_kMaxRobots));
+  }
+  return {};
+}
+
+Status validate(const ClockPing& sample) {
+  RAVE_TRY(check_writer(sample));
+  if (sample.target == 0) return invalid("target is 0");
+  return {};
+}
+
+Status validate(const ClockPong& sample) {
+  RAVE_TRY(check_writer(sample));
+  if (sample.target == 0) return invalid("target is 0");
+  if (sample.pong_sent_ns < sample.ping_received_ns) {
+    return invalid("a pong was sent before its ping came");
+  }
+  return {};
+}
+
+Status check_step(std::uint64_t step, std::uint64_t now, std::uint64_t behind,
+                  std::uint64_t ahead) {
+  if (step < now && now - step > behind) {
+    return fail(ErrorCode::kState, "step {} is {} before {}; at most {} are of use", step,
+                now - step, now, behind);
+  }
+  if (step > now && step - now > ahead) {
+    return fail(ErrorCode::kState, "step {} is {} after {}; at most {} are of use", step,
+                step - now, now, ahead);
+  }
+  return {};
+}
+
+}  // namespace rave::bus

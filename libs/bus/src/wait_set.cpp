@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/bus/wait_set.hpp"
+
+#include <array>
+#include <utility>
+
+#include "participants.hpp"
+
+namespace rave::bus {
+namespace {
+
+Status done(dds_return_t code) {
+  if (code >= 0) return {};
+  return fail(ErrorCode::kIo, "cannot wait: {}", dds_strretcode(code));
+}
+
+}  // namespace
+
+Result<WaitSet> WaitSet::create(Bus& bus) {
+  WaitSet set(bus);
+  set.set_ = dds_create_waitset(bus.participant_);
+  set.stop_ = dds_create_guardcondition(bus.participant_);
+  RAVE_TRY(done(set.set_));
+  RAVE_TRY(done(set.stop_));
+  RAVE_TRY(set.attach(set.stop_));
+  return set;
+}
+
+WaitSet::WaitSet(WaitSet&& other) noexcept
+    : bus_(other.bus_),
+      set_(std::exchange(other.set_, 0)),
+      stop_(std::exchange(other.stop_, 0)),
+      conditions_(std::exchange(other.conditions_, {})) {}
+
+WaitSet::~WaitSet() {
+  if (set_ > 0) dds_delete(set_);
+  if (stop_ > 0) dds_delete(stop_);
+  for (const dds_entity_t condition : conditions_) dds_delete(condition);
+}
+
+Status WaitSet::attach(dds_entity_t entity) {
+  return done(dds_waitset_attach(set_, entity, entity));
+}
+
+Status WaitSet::add_reader(dds_entity_t reader) {
+  const dds_entity_t condition = dds_create_readcondition(reader, DDS_ANY_STATE);
+  RAVE_TRY(done(condition));
+  conditions_.push_back(condition);
+  return attach(condition);
+}
+
+Status WaitSet::add_events() {
+  RAVE_TRY(add_reader(bus_->participants_->reader()));
+  for (const Bus::Endpoint& endpoint : bus_->endpoints_) RAVE_TRY(attach(endpoint.entity));
+  return {};
+}
+
+Woken WaitSet::wait(Duration timeout, const std::stop_token& stop) {
+  dds_set_guardcondition(stop_, false);
+  const std::stop_callback wake(stop, [this] { dds_set_guardcondition(stop_, true); });
+  std::array<dds_attach_t, 1> woken{};
+  const dds_return_t count = dds_waitset_wait(set_, woken.data(), woken.size(),
+                                              timeout.ns < 0 ? DDS_INFINITY : timeout.ns);
+  if (stop.stop_requested()) return Woken::kStopped;
+  return count > 0 ? Woken::kReady : Woken::kTimeout;
+}
+
+}  // namespace rave::bus

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/bus/writer.hpp"
+
+namespace rave::bus {
+
+Result<WriterCore> WriterCore::create(Bus& bus, const TopicSpec& topic) {
+  RAVE_TRY_ASSIGN(const dds_entity_t handle, bus.make_topic(topic));
+  WriterCore core(bus, topic.name);
+  const dds_entity_t writer =
+      dds_create_writer(bus.publisher_, handle, make_qos(topic.qos).get(), nullptr);
+  // The writer keeps the topic alive.
+  dds_delete(handle);
+  RAVE_TRY(bus.add_endpoint(writer, false, topic.name));
+  core.writer_ = writer;
+  return core;
+}
+
+WriterCore::WriterCore(WriterCore&& other) noexcept
+    : bus_(other.bus_), topic_(other.topic_), writer_(std::exchange(other.writer_, 0)) {}
+
+WriterCore::~WriterCore() {
+  if (writer_ > 0) bus_->remove_endpoint(writer_);
+}
+
+Status WriterCore::write(const void* sample) {
+  const dds_return_t code = dds_write(writer_, sample);
+  if (code == DDS_RETCODE_OK) return {};
+  if (code == DDS_RETCODE_TIMEOUT) {
+    return fail(ErrorCode::kTimeout, "{}: a reader does not keep up", topic_);
+  }
+  return fail(ErrorCode::kInvalidArgument, "{}: the sample cannot be sent: {}", topic_,
+              dds_strretcode(code));
+}
+
+Status WriterCore::dispose(const void* key) {
+  const dds_return_t code = dds_dispose(writer_, key);
+  if (code == DDS_RETCODE_OK) return {};
+  return fail(ErrorCode::kState, "{}: cannot dispose: {}", topic_, dds_strretcode(code));
+}
+
+std::size_t WriterCore::readers() const {
+  const dds_return_t count = dds_get_matched_subscriptions(writer_, nullptr, 0);
+  return count < 0 ? 0 : static_cast<std::size_t>(count);
+}
+
+}  // namespace rave::bus

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/bus/config.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+namespace rave::bus {
+namespace {
+
+BusConfig good() {
+  BusConfig config;
+  config.participant = "host one";
+  config.run = RunId::random();
+  return config;
+}
+
+std::string reason(const BusConfig& config) {
+  const Status status = validate(config);
+  return status ? "accepted" : status.error().message;
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(BusConfig, StaysOnThisMachineByDefault) {
+  const BusConfig config = good();
+  EXPECT_EQ(reason(config), "accepted");
+  EXPECT_TRUE(config.loopback());
+  const std::string xml = cyclone_xml(config);
+  EXPECT_TRUE(has(xml, "<NetworkInterface address=\"127.0.0.1\"/>"));
+  EXPECT_TRUE(has(xml, "<AllowMulticast>false</AllowMulticast>"));
+  EXPECT_TRUE(has(xml, "<Peer address=\"127.0.0.1\"/>"));
+  EXPECT_TRUE(has(xml, "<ParticipantIndex>auto</ParticipantIndex>"));
+  EXPECT_TRUE(has(xml, "<MaxAutoParticipantIndex>63</MaxAutoParticipantIndex>"));
+  EXPECT_TRUE(has(xml, "<LeaseDuration>1000ms</LeaseDuration>"));
+}
+
+TEST(BusConfig, NamesInterfacesAndPeers) {
+  BusConfig config = good();
+  config.interface = "eth0";
+  config.peers = {"10.0.0.1", "robot-b.local"};
+  EXPECT_EQ(reason(config), "accepted");
+  const std::string xml = cyclone_xml(config);
+  EXPECT_TRUE(has(xml, "<NetworkInterface name=\"eth0\"/>"));
+  EXPECT_TRUE(has(xml, "<Peer address=\"10.0.0.1\"/><Peer address=\"robot-b.local\"/>"));
+  EXPECT_FALSE(has(xml, "FragmentSize"));
+}
+
+TEST(BusConfig, SaysWhatMulticastIsFor) {
+  BusConfig config = good();
+  config.interface = "eth0";
+  config.multicast = Multicast::kDiscovery;
+  EXPECT_EQ(reason(config), "accepted");
+  EXPECT_TRUE(has(cyclone_xml(config), "<AllowMulticast>spdp</AllowMulticast>"));
+  config.multicast = Multicast::kOn;
+  EXPECT_TRUE(has(cyclone_xml(config), "<AllowMulticast>true</AllowMulticast>"));
+  EXPECT_FALSE(has(cyclone_xml(config), "multicast=\"true\""));
+  config.interface = "lo";
+  EXPECT_TRUE(has(cyclone_xml(config), "<NetworkInterface name=\"lo\" multicast=\"true\"/>"));
+}
+
+TEST(BusConfig, WritesTextsSoThatTheyStayTexts) {
+  BusConfig config = good();
+  config.tag = "a<b>&\"c\"";
+  EXPECT_EQ(reason(config), "accepted");
+  EXPECT_TRUE(has(cyclone_xml(config), "<Tag>a&lt;b&gt;&amp;&quot;c&quot;</Tag>"));
+}
+
+TEST(BusConfig, TakesTheVariableOnlyIfToldTo) {
+  ::setenv("CYCLONEDDS_URI", "<CycloneDDS><Domain/></CycloneDDS>", 1);
+  BusConfig config = good();
+  EXPECT_FALSE(has(cyclone_xml(config), "<Domain/>"));
+  config.cyclone_settings = std::getenv("CYCLONEDDS_URI");
+  EXPECT_TRUE(cyclone_xml(config).ends_with(",<CycloneDDS><Domain/></CycloneDDS>"));
+  ::unsetenv("CYCLONEDDS_URI");
+}
+
+TEST(BusConfig, RefusesWhatCannotWork) {
+  BusConfig config = good();
+  config.participant = "";
+  EXPECT_EQ(reason(config), "participant: a name is needed");
+  config = good();
+  config.participant = std::string(65, 'x');
+  EXPECT_EQ(reason(config), "participant: 65 bytes are more than 64");
+  config = good();
+  config.run = {};
+  EXPECT_EQ(reason(config), "run: an id is needed; all processes of a run share one");
+  config = good();
+  config.domain = 231;
+  EXPECT_EQ(reason(config), "domain: 231 is not in 0 to 230");
+  config = good();
+  config.max_processes = 120;
+  EXPECT_EQ(reason(config), "max_processes: 120 is not in 1 to 119");
+  config = good();
+  config.lease = Duration{1};
+  EXPECT_TRUE(has(reason(config), "lease: 1e-09 s is not in 0.1 s to 3600 s"));
+  config = good();
+  config.interface = "${HOME}";
+  EXPECT_EQ(reason(config), "interface: control characters and `$` cannot be in it");
+  config = good();
+  config.interface = "192.168.0.1";
+  EXPECT_TRUE(has(reason(config), "peers: without multicast nobody is found on 192.168.0.1"));
+}
+
+TEST(BusConfig, LooksForEachCertificate) {
+  BusConfig config = good();
+  const auto folder = std::filesystem::temp_directory_path() / ("rave-" + config.run.text());
+  std::filesystem::create_directory(folder);
+  config.security = folder;
+  EXPECT_EQ(reason(config), "security: there is no " + (folder / "identity_ca.pem").string());
+  for (const char* const name : {"identity_ca.pem", "identity.pem", "identity_key.pem",
+                                 "permissions_ca.pem", "governance.p7s", "permissions.p7s"}) {
+    std::ofstream(folder / name) << "x";
+  }
+  EXPECT_EQ(reason(config), "accepted");
+  EXPECT_TRUE(
+      has(cyclone_xml(config), "<PrivateKey>file:" + (folder / "identity_key.pem").string()));
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace rave::bus

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/bus/host_claims.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rave::bus {
+namespace {
+
+TEST(HostClaims, TheFirstHasTheHostUntilItIsLost) {
+  HostClaims claims(3);
+  EXPECT_TRUE(claims.claim(1, 0xa));
+  EXPECT_TRUE(claims.claim(1, 0xa));
+  EXPECT_TRUE(claims.claim(2, 0xb));
+  const Status second = claims.claim(1, 0xb);
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().message,
+            "host 1 is served by process 000000000000000a already, so 000000000000000b is refused; "
+            "stop one of them, or give it another host");
+  EXPECT_EQ(claims.claim(3, 0xa).error().message, "host 3 is not one of the 3 of the scenario");
+  claims.release(0xa);
+  EXPECT_EQ(claims.writer_of(1), 0U);
+  EXPECT_TRUE(claims.claim(1, 0xb));
+  EXPECT_EQ(claims.writer_of(1), 0xbU);
+  EXPECT_EQ(claims.writer_of(2), 0xbU);
+}
+
+}  // namespace
+}  // namespace rave::bus

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: Apache-2.0
+// The bus between processes: who hears whom, and who notices what.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <map>
+#include <thread>
+
+#include "peer_process.hpp"
+#include "rave/bus/host_claims.hpp"
+#include "rave/bus/reader.hpp"
+#include "rave/bus/sequence.hpp"
+#include "rave/bus/wait_set.hpp"
+#include "rave/bus/writer.hpp"
+
+namespace rave::bus::testing {
+namespace {
+
+/// Packets go to a peer that sends them back; with the text of the first that returns.
+std::string round_trip(Bus& bus) {
+  auto writer = Writer<Packet>::create(bus);
+  auto reader = Reader<Packet>::create(bus);
+  std::vector<std::uint8_t> payload(64, 'r');
+  std::string returned;
+  std::uint64_t number = 0;
+  const bool came = eventually([&] {
+    // Again and again: what is sent before the other side knows of us is not for it.
+    Packet packet{};
+    packet.number = ++number;
+    packet.from_robot = 3;
+    borrow(packet.payload, payload);
+    EXPECT_TRUE(writer->write(packet));
+    reader->take([&](const Packet& answer) {
+      EXPECT_EQ(answer.to_robot, 3U);
+      EXPECT_EQ(answer.from_robot, 77U);
+      const auto bytes = elements(answer.payload);
+      returned.assign(bytes.begin(), bytes.end());
+    });
+    return !returned.empty();
+  });
+  return came ? returned : "nothing";
+}
+
+TEST(Processes, APacketGoesThereAndBack) {
+  const TestDomain domain;
+  PeerProcess peer(domain, "echo", "echo");
+  ASSERT_EQ(peer.line(), "ready");
+  const auto bus = Bus::open(domain.config());
+  ASSERT_TRUE(bus) << bus.error().text();
+  EXPECT_EQ(round_trip(**bus), std::string(64, 'r'));
+  EXPECT_EQ(peer.end(), 0);
+}
+
+TEST(Processes, APeerOfAListIsFoundWithoutMulticast) {
+  const TestDomain domain;
+  PeerProcess peer(domain, "echo", "echo", {"peer=127.0.0.1"});
+  ASSERT_EQ(peer.line(), "ready");
+  BusConfig config = domain.config();
+  config.multicast = Multicast::kOff;
+  config.peers = {"localhost"};
+  const auto bus = Bus::open(config);
+  ASSERT_TRUE(bus) << bus.error().text();
+  EXPECT_EQ(round_trip(**bus), std::string(64, 'r'));
+}
+
+TEST(Processes, TwoHostsAreBothHeardAlthoughOneSampleIsKept) {
+  const TestDomain domain;
+  const auto bus = Bus::open(domain.config());
+  ASSERT_TRUE(bus) << bus.error().text();
+  auto reader = Reader<HostState>::create(**bus);
+  PeerProcess first(domain, "host", "one", {"host=1", "count=50"});
+  PeerProcess second(domain, "host", "two", {"host=2", "count=50"});
+  for (PeerProcess* peer : {&first, &second}) {
+    ASSERT_EQ(peer->line(), "ready");
+    ASSERT_EQ(peer->line(), "written");
+  }
+  std::map<std::uint32_t, std::uint64_t> newest;
+  EXPECT_TRUE(eventually([&] {
+    reader->take([&](const HostState& state) {
+      EXPECT_EQ(elements(state.resolved.id).front(), 2 * state.host);
+      newest[state.host] = state.step;
+    });
+    return newest[1] == 50 && newest[2] == 50;
+  }));
+  EXPECT_EQ((*bus)->refused_samples(), 0U);
+}
+
+TEST(Processes, ASecondProcessForAHostIsRefusedUntilTheFirstIsGone) {
+  const TestDomain domain;
+  const auto bus = Bus::open(domain.config());
+  ASSERT_TRUE(bus) << bus.error().text();
+  auto reader = Reader<HostState>::create(**bus);
+  HostClaims claims(2);
+  std::string why;
+  const auto listen = [&] {
+    reader->take([&](const HostState& state) {
+      const Status status = claims.claim(state.host, state.writer);
+      if (status) return;
+      why = status.error().message;
+      reader->refuse(state, why);
+    });
+  };
+  PeerProcess first(domain, "host", "one", {"host=1", "count=1"});
+  ASSERT_EQ(first.line(), "ready");
+  ASSERT_TRUE(eventually([&] { return listen(), claims.writer_of(1) != 0; }));
+  PeerProcess second(domain, "host", "again", {"host=1", "count=1"});
+  ASSERT_TRUE(eventually([&] { return listen(), !why.empty(); }));
+  EXPECT_NE(why.find("host 1 is served by process"), std::string::npos) << why;
+  EXPECT_EQ(await_event(**bus, EventKind::kRefused).text, why);
+
+  EXPECT_EQ(first.line(), "written");
+  EXPECT_EQ(first.end(), 0);
+  const BusEvent lost = await_event(**bus, EventKind::kParticipantLost);
+  EXPECT_EQ(lost.participant, "one");
+  claims.release(lost.writer);
+  EXPECT_EQ(claims.writer_of(1), 0U);
+}
+
+TEST(Processes, AKilledProcessIsNoticed) {
+  const TestDomain domain;
+  const auto bus = Bus::open(domain.config());
+  ASSERT_TRUE(bus) << bus.error().text();
+  auto reader = Reader<HostState>::create(**bus);
+  auto waits = WaitSet::create(**bus);
+  ASSERT_TRUE(waits->add_events());
+  PeerProcess peer(domain, "idle", "victim");
+  ASSERT_EQ(peer.line(), "ready");
+  const BusEvent appeared = await_event(**bus, EventKind::kWriterAppeared);
+  EXPECT_EQ(appeared.participant, "victim");
+  EXPECT_EQ(appeared.topic, "rave/host_state");
+
+  const auto start = std::chrono::steady_clock::now();
+  peer.kill();
+  bool writer_lost = false;
+  bool participant_lost = false;
+  for (int i = 0; i < 100 && !(writer_lost && participant_lost); ++i) {
+    EXPECT_EQ(waits->wait(Duration{kPatience_s * 1'000'000'000LL}), Woken::kReady);
+    for (const BusEvent& event : (*bus)->take_events()) {
+      EXPECT_EQ(event.participant, "victim") << event.line();
+      EXPECT_EQ(event.writer, appeared.writer);
+      writer_lost |= event.kind == EventKind::kWriterLost;
+      participant_lost |= event.kind == EventKind::kParticipantLost;
+    }
+  }
+  EXPECT_TRUE(writer_lost);
+  EXPECT_TRUE(participant_lost);
+  // Recorded only: how long it takes depends on what else the machine does.
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  RecordProperty("noticed_after_s", std::to_string(took.count()));
+  std::printf("noticed after %.3f s\n", took.count());
+}
+
+TEST(Processes, TwoRunsOnOneMachineDoNotMeet) {
+  const TestDomain ours;
+  TestDomain theirs = ours;
+  theirs.run = RunId::random();
+  PeerProcess stranger(theirs, "furnish", "stranger", {"count=3"});
+  PeerProcess friendly(ours, "furnish", "friend", {"count=2"});
+  ASSERT_EQ(stranger.line(), "ready");
+  ASSERT_EQ(friendly.line(), "ready");
+  const auto bus = Bus::open(ours.config());
+  ASSERT_TRUE(bus) << bus.error().text();
+  auto reader = Reader<Obstacle>::create(**bus);
+  // That it is there is known; what it says is not.
+  const BusEvent foreign = await_event(**bus, EventKind::kForeignRun);
+  EXPECT_EQ(foreign.participant, "stranger");
+  EXPECT_NE(foreign.text.find(theirs.run.text()), std::string::npos);
+  std::map<std::uint32_t, int> seen;
+  EXPECT_TRUE(eventually([&] {
+    reader->take([&](const Obstacle& obstacle) { ++seen[obstacle.id]; });
+    return seen.size() == 2;
+  }));
+  EXPECT_EQ(reader->writers(), 1U);
+  EXPECT_FALSE(seen.contains(2));
+  EXPECT_EQ((*bus)->foreign_samples(), 0U);
+}
+
+TEST(Processes, ASampleOfAnotherRunInOurPartitionIsCountedAndDropped) {
+  const TestDomain domain;
+  const auto bus = Bus::open(domain.config());
+  ASSERT_TRUE(bus) << bus.error().text();
+  auto reader = Reader<World>::create(**bus);
+  PeerProcess peer(domain, "stray", "stray");
+  ASSERT_EQ(peer.line(), "ready");
+  EXPECT_TRUE(eventually([&] {
+    reader->take([](const World&) { ADD_FAILURE() << "a sample of another run came through"; });
+    return (*bus)->foreign_samples() >= 3;
+  }));
+  EXPECT_EQ(await_event(**bus, EventKind::kForeignRun).topic, "rave/world");
+}
+
+TEST(Processes, AWorldOfTenThousandRobotsArrivesWhole) {
+  const TestDomain domain;
+  const auto bus = Bus::open(domain.config());
+  ASSERT_TRUE(bus) << bus.error().text();
+  auto reader = Reader<World>::create(**bus);
+  PeerProcess peer(domain, "world", "authority", {"robots=10000"});
+  ASSERT_EQ(peer.line(), "ready");
+  int worlds = 0;
+  EXPECT_TRUE(eventually([&] {
+    reader->take([&](const World& world) {
+      ++worlds;
+      const auto x = elements(world.robots.x_m);
+      const auto wz = elements(world.robots.wz_radps);
+      ASSERT_EQ(x.size(), 10'000U);
+      for (std::size_t i = 0; i < x.size(); ++i) {
+        ASSERT_EQ(x[i], static_cast<double>(i + world.step));
+        ASSERT_EQ(wz[i], 0.25);
+      }
+    });
+    return worlds >= 5;
+  }));
+  EXPECT_EQ((*bus)->refused_samples(), 0U);
+  EXPECT_EQ(peer.end(), 0);
+}
+
+TEST(Processes, ABadPoseIsRefusedWithItsPlace) {
+  const TestDomain domain;
+  const auto bus = Bus::open(domain.config());
+  ASSERT_TRUE(bus) << bus.error().text();
+  auto reader = Reader<World>::create(**bus);
+  PeerProcess peer(domain, "world", "broken", {"robots=3", "nan=1"});
+  ASSERT_EQ(peer.line(), "ready");
+  EXPECT_TRUE(eventually([&] {
+    reader->take([](const World&) { ADD_FAILURE() << "a robot that is nowhere came through"; });
+    return (*bus)->refused_samples() > 0;
+  }));
+  EXPECT_EQ(await_event(**bus, EventKind::kRefused).text,
+            "robots.x_m[1] is nan, not within +-10000000");
+}
+
+TEST(Processes, AWriterThatDoesNotMatchIsToldWithTheRemedy) {
+  const TestDomain domain;
+  const auto bus = Bus::open(domain.config());
+  ASSERT_TRUE(bus) << bus.error().text();
+  const auto reader = Reader<World>::create(**bus);
+  PeerProcess peer(domain, "unreliable", "lossy");
+  ASSERT_EQ(peer.line(), "ready");
+  const BusEvent event = await_event(**bus, EventKind::kIncompatible);
+  EXPECT_EQ(event.topic, "rave/world");
+  EXPECT_NE(event.text.find("reliability does not match; make the writer reliable"),
+            std::string::npos)
+      << event.text;
+}
+
+TEST(Processes, AProcessHasOneBusInADomain) {
+  const TestDomain domain;
+  const auto bus = Bus::open(domain.config());
+  ASSERT_TRUE(bus) << bus.error().text();
+  const auto second = Bus::open(domain.config());
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().code, ErrorCode::kState);
+  EXPECT_NE(second.error().message.find("has a bus in domain"), std::string::npos);
+}
+
+TEST(Processes, ASampleThatIsTooLongIsNotSent) {
+  const TestDomain domain;
+  const auto bus = Bus::open(domain.config());
+  ASSERT_TRUE(bus) << bus.error().text();
+  auto writer = Writer<Packet>::create(**bus);
+  std::vector<std::uint8_t> payload(70'000);
+  Packet packet{};
+  borrow(packet.payload, payload);
+  const Status status = writer->write(packet);
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().code, ErrorCode::kInvalidArgument);
+  EXPECT_TRUE(status.error().message.starts_with("rave/radio: the sample cannot be sent"));
+  payload.resize(10);
+  borrow(packet.payload, payload);
+  EXPECT_TRUE(writer->write(packet));
+}
+
+TEST(Processes, AnInterfaceThatIsNotThereIsNamed) {
+  BusConfig config = TestDomain().config();
+  config.interface = "nosuch0";
+  config.multicast = Multicast::kOn;
+  const auto bus = Bus::open(config);
+  ASSERT_FALSE(bus);
+  EXPECT_NE(bus.error().message.find("nosuch0: does not match an available interface"),
+            std::string::npos)
+      << bus.error().message;
+}
+
+TEST(Processes, AWaitEndsByTimeAndByStop) {
+  const TestDomain domain;
+  const auto bus = Bus::open(domain.config());
+  ASSERT_TRUE(bus) << bus.error().text();
+  const auto reader = Reader<World>::create(**bus);
+  auto waits = WaitSet::create(**bus);
+  ASSERT_TRUE(waits->add(*reader));
+  EXPECT_EQ(waits->wait(Duration{1'000'000}), Woken::kTimeout);
+  std::stop_source stop;
+  std::jthread other([&] { stop.request_stop(); });
+  EXPECT_EQ(waits->wait(Duration{-1}, stop.get_token()), Woken::kStopped);
+  EXPECT_EQ(waits->wait(Duration{-1}, stop.get_token()), Woken::kStopped);
+  EXPECT_EQ(waits->wait(Duration{0}), Woken::kTimeout);
+}
+
+}  // namespace
+}  // namespace rave::bus::testing

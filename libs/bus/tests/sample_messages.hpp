@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "rave/bus/sequence.hpp"
+#include "rave/bus/topics.hpp"
+
+namespace rave::bus::testing {
+
+/// Memory of robots for a sample that borrows it. Robot i of `count` is at (i + step, -i).
+struct RobotArrays {
+  std::vector<std::uint32_t> id;
+  std::vector<double> x, y, yaw, vx, vy, wz;
+
+  RobotArrays(std::uint32_t count, std::uint64_t step, std::uint32_t first = 0) {
+    for (std::uint32_t i = first; i < first + count; ++i) {
+      id.push_back(i);
+      x.push_back(static_cast<double>(i) + static_cast<double>(step));
+      y.push_back(-static_cast<double>(i));
+      yaw.push_back(0.001 * i);
+      vx.push_back(1.5);
+      vy.push_back(-0.5);
+      wz.push_back(0.25);
+    }
+  }
+  void lend(rave_wire_PlanarRobots& robots) {
+    borrow(robots.id, id);
+    borrow(robots.x_m, x);
+    borrow(robots.y_m, y);
+    borrow(robots.yaw_rad, yaw);
+    borrow(robots.vx_mps, vx);
+    borrow(robots.vy_mps, vy);
+    borrow(robots.wz_radps, wz);
+  }
+  void lend(rave_wire_PlanarTwists& twists) {
+    borrow(twists.id, id);
+    borrow(twists.vx_mps, vx);
+    borrow(twists.vy_mps, vy);
+    borrow(twists.wz_radps, wz);
+  }
+};
+
+/// A box of 1 m for bodies.
+struct Box {
+  std::vector<double> x{0, 1, 1, 0};
+  std::vector<double> y{0, 0, 1, 1};
+  std::vector<rave_wire_Prism> prisms = std::vector<rave_wire_Prism>(1);
+
+  Box() {
+    borrow(prisms[0].x_m, x);
+    borrow(prisms[0].y_m, y);
+    prisms[0].z_max_m = 1;
+  }
+  Box(const Box&) = delete;
+  Box& operator=(const Box&) = delete;
+  template <class Sequence>
+  void lend(Sequence& body) {
+    borrow(body, prisms);
+  }
+};
+
+}  // namespace rave::bus::testing

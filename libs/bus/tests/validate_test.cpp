@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/bus/validate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "rave/bus/sequence.hpp"
+#include "sample_messages.hpp"
+
+namespace rave::bus {
+namespace {
+
+using testing::Box;
+using testing::RobotArrays;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+template <class Message>
+std::string reason(const Message& sample) {
+  const Status status = validate(sample);
+  return status ? "accepted" : status.error().message;
+}
+
+/// A world of three robots and two inputs.
+struct SampleWorld {
+  RobotArrays robots{3, 1};
+  std::vector<rave_wire_Input> inputs = std::vector<rave_wire_Input>(2);
+  World sample{};
+
+  SampleWorld() {
+    sample.writer = 9;
+    inputs[1].number = 1;
+  }
+  std::string judge() {
+    robots.lend(sample.robots);
+    borrow(sample.inputs, inputs);
+    return reason(sample);
+  }
+};
+
+TEST(Validate, AcceptsAWorld) {
+  EXPECT_EQ(SampleWorld().judge(), "accepted");
+  World empty{};
+  empty.writer = 1;
+  EXPECT_EQ(reason(empty), "accepted");
+}
+
+TEST(Validate, RefusesNumbersThatAreNone) {
+  SampleWorld world;
+  world.robots.yaw[2] = kNaN;
+  EXPECT_TRUE(world.judge().starts_with("robots.yaw_rad[2] is nan"));
+  SampleWorld fast;
+  fast.robots.vx[0] = -kInfinity;
+  EXPECT_EQ(fast.judge(), "robots.vx_mps[0] is -inf, not within +-10000");
+  SampleWorld far;
+  far.robots.x[1] = 1.1e7;
+  EXPECT_EQ(far.judge(), "robots.x_m[1] is 11000000, not within +-10000000");
+}
+
+TEST(Validate, RefusesListsThatDoNotFit) {
+  SampleWorld world;
+  world.robots.wz.pop_back();
+  EXPECT_EQ(world.judge(), "robots.wz_radps has 2 entries for 3 robots");
+  SampleWorld twice;
+  twice.robots.id = {0, 4, 4};
+  EXPECT_EQ(twice.judge(), "robots.id[2] is 4 after 4; ids ascend");
+  SampleWorld none;
+  none.robots.id = {0, 4, rave_wire_kNone};
+  EXPECT_EQ(none.judge(), "robots.id: a robot without a number");
+  SampleWorld many;
+  many.robots = RobotArrays(rave_wire_kMaxRobots + 1, 0);
+  EXPECT_EQ(many.judge(), "robots has 65537 robots, more than 65536");
+}
+
+TEST(Validate, RefusesInputsOutOfOrder) {
+  SampleWorld world;
+  world.inputs[1].number = 0;
+  EXPECT_EQ(world.judge(), "inputs[1] is out of order; inputs ascend by kind, robot and number");
+  SampleWorld kinds;
+  kinds.inputs[0].kind = rave_wire_INPUT_EDIT;
+  kinds.inputs[1].kind = rave_wire_INPUT_COMMAND;
+  EXPECT_TRUE(kinds.judge().starts_with("inputs[1] is out of order"));
+}
+
+TEST(Validate, NeedsAWriter) {
+  SampleWorld world;
+  world.sample.writer = 0;
+  EXPECT_EQ(world.judge(), "writer is 0");
+}
+
+TEST(Validate, LooksAtBothListsOfAHost) {
+  RobotArrays robots(2, 0);
+  RobotArrays wishes(2, 0);
+  HostState state{};
+  state.writer = 1;
+  robots.lend(state.resolved);
+  wishes.lend(state.proposal);
+  EXPECT_EQ(reason(state), "accepted");
+  wishes.vy[1] = kNaN;
+  EXPECT_TRUE(reason(state).starts_with("proposal.vy_mps[1] is nan"));
+  state.host = rave_wire_kNone;
+  EXPECT_EQ(reason(state), "host is none");
+}
+
+/// Obstacles with the body that a test makes.
+std::string judge_body(Box& box) {
+  Obstacle obstacle{};
+  obstacle.writer = 1;
+  box.lend(obstacle.body);
+  return reason(obstacle);
+}
+
+TEST(Validate, WantsBodiesConvexAndCounterclockwise) {
+  Box box;
+  EXPECT_EQ(judge_body(box), "accepted");
+  std::swap(box.x[1], box.x[3]);
+  std::swap(box.y[1], box.y[3]);
+  EXPECT_EQ(judge_body(box), "body[0] is not convex and counterclockwise");
+  Box dent;
+  dent.x[2] = 0.1;
+  dent.y[2] = 0.1;
+  EXPECT_EQ(judge_body(dent), "body[0] is not convex and counterclockwise");
+  Box point;
+  point.x = {1, 1, 1, 1};
+  point.y = point.x;
+  borrow(point.prisms[0].x_m, point.x);
+  borrow(point.prisms[0].y_m, point.y);
+  EXPECT_EQ(judge_body(point), "body[0] is not convex and counterclockwise");
+}
+
+TEST(Validate, AStarIsNotConvexAlthoughEveryCornerTurnsLeft) {
+  Box star;
+  star.x.clear();
+  star.y.clear();
+  for (int i = 0; i < 5; ++i) {
+    star.x.push_back(std::cos(i * 4 * 3.14159265 / 5));
+    star.y.push_back(std::sin(i * 4 * 3.14159265 / 5));
+  }
+  borrow(star.prisms[0].x_m, star.x);
+  borrow(star.prisms[0].y_m, star.y);
+  EXPECT_EQ(judge_body(star), "body[0] is not convex and counterclockwise");
+}
+
+TEST(Validate, WantsBodiesWithHeightAndCorners) {
+  Box box;
+  box.prisms[0].z_min_m = 2;
+  EXPECT_EQ(judge_body(box), "body[0]: z_min_m 2 is above z_max_m 1");
+  Box line;
+  line.prisms[0].x_m._length = 2;
+  EXPECT_EQ(judge_body(line), "body[0] has 2 x and 4 y; a polygon has 3 corners or more");
+  Box infinite;
+  infinite.x[0] = kInfinity;
+  EXPECT_TRUE(judge_body(infinite).starts_with("body[0].x_m is inf"));
+}
+
+TEST(Validate, AnObstacleThatIsGoneNeedsNoBody) {
+  Obstacle obstacle{};
+  obstacle.writer = 1;
+  EXPECT_EQ(reason(obstacle), "body is empty");
+  obstacle.removed = true;
+  EXPECT_EQ(reason(obstacle), "accepted");
+}
+
+TEST(Validate, RosterEntriesHaveNamesThatCanBeShown) {
+  Box box;
+  RosterEntry entry{};
+  entry.writer = 1;
+  box.lend(entry.body);
+  EXPECT_EQ(reason(entry), "name is empty");
+  put_text(entry.name, "ann\x1b[2J");
+  EXPECT_EQ(reason(entry), "name has control characters");
+  put_text(entry.name, "anna");
+  EXPECT_EQ(reason(entry), "accepted");
+}
+
+TEST(Validate, Edits) {
+  Edit edit{};
+  edit.writer = 1;
+  put_text(edit.author, "bob");
+  edit.action = rave_wire_EDIT_MOVE;
+  EXPECT_EQ(reason(edit), "accepted");
+  edit.x_m = kNaN;
+  EXPECT_TRUE(reason(edit).starts_with("x_m is nan"));
+  edit.x_m = 0;
+  edit.id = rave_wire_kNone;
+  EXPECT_EQ(reason(edit), "id is none");
+  edit.action = rave_wire_EDIT_ADD;
+  EXPECT_EQ(reason(edit), "body is empty");
+}
+
+TEST(Validate, Commands) {
+  Command command{};
+  command.writer = 1;
+  EXPECT_EQ(reason(command), "author is empty");
+  put_text(command.author, "bob");
+  EXPECT_EQ(reason(command), "accepted");
+  std::vector<double> axes = {0.5, -1.5};
+  borrow(command.axes, axes);
+  EXPECT_EQ(reason(command), "axes is -1.5, not within +-1");
+  axes[1] = 1;
+  command.lease_ns = -1;
+  EXPECT_EQ(reason(command), "lease_ns is -1");
+  command.lease_ns = 0;
+  command.kind = rave_wire_COMMAND_PARAMETER;
+  EXPECT_EQ(reason(command), "name is empty");
+}
+
+TEST(Validate, HostsAndClocks) {
+  HostInfo host{};
+  host.writer = 1;
+  EXPECT_EQ(reason(host), "name is empty");
+  put_text(host.name, "lab");
+  EXPECT_EQ(reason(host), "accepted");
+  ClockPing ping{};
+  ping.writer = 1;
+  EXPECT_EQ(reason(ping), "target is 0");
+  ClockPong pong{};
+  pong.writer = 1;
+  pong.target = 2;
+  pong.ping_received_ns = 5;
+  EXPECT_EQ(reason(pong), "a pong was sent before its ping came");
+  Packet packet{};
+  packet.writer = 1;
+  packet.from_robot = rave_wire_kNone;
+  EXPECT_EQ(reason(packet), "from_robot is none");
+}
+
+TEST(CheckStep, LetsThroughWhatIsNear) {
+  EXPECT_TRUE(check_step(10, 12, 2, 0));
+  EXPECT_TRUE(check_step(13, 12, 0, 1));
+  EXPECT_EQ(check_step(9, 12, 2, 0).error().message, "step 9 is 3 before 12; at most 2 are of use");
+  EXPECT_EQ(check_step(14, 12, 0, 1).error().message,
+            "step 14 is 2 after 12; at most 1 are of use");
+  EXPECT_FALSE(check_step(~0ULL, 0, 5, 5));
+}
+
+TEST(PutText, CutsAtTheEndOfACharacter) {
+  char field[4];
+  EXPECT_TRUE(put_text(field, "abc"));
+  EXPECT_FALSE(put_text(field, "abcd"));
+  EXPECT_STREQ(field, "abc");
+  EXPECT_FALSE(put_text(field, "ab\xc3\xa9"));
+  EXPECT_STREQ(field, "ab");
+}
+
+}  // namespace
+}  // namespace rave::bus

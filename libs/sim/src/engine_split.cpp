@@ -20,17 +20,16 @@ bool of_body(const ScheduledChange& scheduled) {
 
 Status Engine::propose(HostReport& report) {
   Impl& engine = *impl_;
-  report.begin(engine.step);
-  Status status;
   if (!engine.host) {
-    status = fail(ErrorCode::kState, "runs all robots: step() in the place of propose()");
-  } else if (engine.host->proposed) {
-    status = fail(ErrorCode::kState, "step {} has been proposed: apply() comes next", engine.step);
-  } else {
-    PhaseTimer phase(engine.spec.phase_clock, engine.phase_times);
-    status = engine.propose(report, phase);
+    return fail(ErrorCode::kState, "runs all robots: step() in the place of propose()");
   }
+  if (engine.host->proposed) {
+    return fail(ErrorCode::kState, "step {} has been proposed: apply() comes next", engine.step);
+  }
+  PhaseTimer phase(engine.spec.phase_clock, engine.phase_times);
+  Status status = engine.propose(report, phase);
   if (status) return {};
+  report.begin(engine.step);
   report.state = HostState::kFailed;
   report.text = status.error().text();
   return status;

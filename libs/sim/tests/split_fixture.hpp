@@ -50,7 +50,7 @@ class SplitRun {
 
   /// Reports to the authority and what it says to them.
   bool exchange() {
-    std::vector<const HostReport*> order;
+    order.clear();
     for (std::size_t h = 0; h < hosts.size(); ++h) {
       const Status status = hosts[h]->propose(reports[h]);
       if (!status) ADD_FAILURE() << status.error().text();
@@ -94,6 +94,7 @@ class SplitRun {
   std::vector<std::unique_ptr<Engine>> hosts;
   std::vector<HostReport> reports;
   WorldStep world;
+  std::vector<const HostReport*> order;
   std::size_t shift = 0;
 };
 
@@ -175,6 +176,33 @@ class Gossip final : public DecisionProcess {
   double v_mps_ = 0;
   double throw_at_ = 0;
   double decisions_ = 0;
+};
+
+/// What the robot touches, and how others near it move.
+class Feeler final : public VirtualSensor {
+ public:
+  static constexpr ReadingKind kReading = ReadingKind::kValues;
+  Status configure(const VirtualSensorSetup&, VirtualDeclaration& declaration) override {
+    declaration.capacity = 5;
+    return {};
+  }
+  void sample(const WorldView& world, const SampleItem& item) const override {
+    auto* const values = static_cast<double*>(item.records);
+    const TouchState touch = world.touch(item.robot);
+    values[0] = touch.direction_W.x;
+    values[1] = touch.direction_W.y;
+    values[2] = values[3] = values[4] = 0;
+    RobotId near[40];
+    const std::uint32_t count = world.robots_within(item.X_WR.position(), 1, near);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (near[i] == item.robot) continue;
+      const Twist2 velocity_W = world.velocity_W(near[i]);
+      values[2] += velocity_W.vx;
+      values[3] += velocity_W.vy;
+      values[4] += velocity_W.wz;
+    }
+    item.header->count = 5;
+  }
 };
 
 /// A recording of a laser: its two rays change with time; a sample every 33 ms. Own thread.

@@ -115,6 +115,7 @@ Status Engine::Impl::check(const WorldStep& world) const {
 Status Engine::Impl::apply(const WorldStep& world, PhaseTimer& phase) {
   host->proposed = false;
   host->begun = true;
+  past_valid = false;
   if (step > 0 && !radio->empty()) {
     // Who hears a message is decided in the world in which it was sent.
     const RadioMoment moment{

@@ -47,9 +47,13 @@ Status check_shared(const EngineSpec& spec) {
     return fail(ErrorCode::kInvalidArgument,
                 "a live run cannot be shared by hosts in lock-step: its drivers do not wait");
   }
-  for (const ScheduledChange& a : spec.changes) {
-    for (const ScheduledChange& b : spec.changes) {
-      if (a.step == b.step && a.robot == b.robot) RAVE_TRY(check_not_mixed(spec, a, b));
+  // They are made in the order of the list, so one that stands behind a later one waits for it.
+  std::uint64_t step = 0;
+  for (std::size_t i = 0; i < spec.changes.size(); ++i) {
+    const ScheduledChange& a = spec.changes[i];
+    step = std::max(step, a.step);
+    for (std::size_t k = i; k < spec.changes.size() && spec.changes[k].step <= step; ++k) {
+      if (spec.changes[k].robot == a.robot) RAVE_TRY(check_not_mixed(spec, a, spec.changes[k]));
     }
   }
   return {};

@@ -14,7 +14,7 @@ namespace rave::sim {
 /// How it stands with a host.
 enum class HostState : std::uint8_t {
   kRuns,
-  kDone,    ///< It wants the run to end after the step that it reports.
+  kDone,    ///< It wants the run to end; set by who runs the engine.
   kFailed,  ///< It cannot go on: HostReport::text says why.
 };
 

@@ -38,7 +38,7 @@ struct WorldStep {
   static constexpr std::uint8_t kLimited = 2;  ///< Something cut its last motion short.
 
   std::uint64_t step = 0;
-  bool last = false;  ///< The run ends with this step: a host is done.
+  bool last = false;  ///< No step comes after this one: a host is done.
 
   // By robot. Where the last motion led; of real robots, where they are reported in this step.
   std::vector<double> x_m;

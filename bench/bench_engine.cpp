@@ -3,6 +3,7 @@
 
 #include "engine_drivers.hpp"
 #include "rave/sim/engine.hpp"
+#include "rave/sim/world_authority.hpp"
 
 namespace {
 
@@ -69,6 +70,47 @@ BENCHMARK(engine_step)
     ->Args({1000, 1, 0})
     ->Args({1000, 1, 1})
     ->Args({1000, 2, 0})
+    ->Unit(benchmark::kMicrosecond)
+    ->UseRealTime();
+
+/// The same crowd on several hosts, all of them and the authority one after the other in this
+/// thread: what sharing a world costs, without what carries the messages.
+void shared_step(benchmark::State& state) {
+  const auto count = static_cast<std::uint32_t>(state.range(0));
+  const auto shares = static_cast<std::uint32_t>(state.range(1));
+  std::vector<std::uint32_t> host_of(count);
+  for (std::uint32_t r = 0; r < count; ++r) host_of[r] = r * shares / count;
+  const auto authority = WorldAuthority::create(crowd(count, 1, false), host_of).value();
+  std::vector<std::unique_ptr<Engine>> hosts;
+  std::vector<HostReport> reports(shares);
+  std::vector<const HostReport*> all;
+  for (std::uint32_t h = 0; h < shares; ++h) {
+    EngineSpec spec = crowd(count, 1, false);
+    spec.local.emplace();
+    for (std::uint32_t r = 0; r < count; ++r) {
+      if (host_of[r] == h) spec.local->emplace_back(r);
+    }
+    hosts.push_back(Engine::create(std::move(spec)).value());
+    reports[h].host = h;
+    all.push_back(&reports[h]);
+  }
+  WorldStep world;
+  for (auto _ : state) {
+    bool good = true;
+    for (std::uint32_t h = 0; h < shares; ++h) {
+      good = good && hosts[h]->propose(reports[h]).has_value();
+    }
+    good = good && authority->step(all, world).has_value();
+    for (const auto& host : hosts) good = good && host->apply(world).has_value();
+    if (!good) state.SkipWithError("the run ended");
+  }
+  state.counters["robot_steps"] = benchmark::Counter(
+      static_cast<double>(state.iterations()) * count, benchmark::Counter::kIsRate);
+}
+// Robots, hosts.
+BENCHMARK(shared_step)
+    ->Args({1000, 1})
+    ->Args({1000, 3})
     ->Unit(benchmark::kMicrosecond)
     ->UseRealTime();
 

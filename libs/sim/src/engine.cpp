@@ -7,6 +7,7 @@
 #include "radio.hpp"
 #include "rave/base/check.hpp"
 #include "rave/math/transform.hpp"
+#include "spec_checks.hpp"
 
 namespace rave::sim {
 namespace {
@@ -32,31 +33,40 @@ Status check_pose_source(const RobotType& type, const std::string& robot) {
   return {};
 }
 
-bool has_hybrid(const EngineSpec& spec) {
+/// Whether a robot that runs here has a hybrid sensor.
+bool has_hybrid(const EngineSpec& spec, const std::vector<std::uint8_t>& local) {
   const auto is_hybrid = [](const SensorSpec& sensor) { return sensor.hybrid.has_value(); };
-  return std::any_of(spec.types.begin(), spec.types.end(), [&](const RobotType& type) {
-    return std::any_of(type.sensors.begin(), type.sensors.end(), is_hybrid);
-  });
+  std::vector<std::uint8_t> runs(spec.types.size());
+  for (std::size_t r = 0; r < local.size(); ++r) {
+    if (local[r] != 0) runs[spec.robots[r].type] = 1;
+  }
+  for (std::size_t t = 0; t < runs.size(); ++t) {
+    const auto& sensors = spec.types[t].sensors;
+    if (runs[t] != 0 && std::any_of(sensors.begin(), sensors.end(), is_hybrid)) return true;
+  }
+  return false;
+}
+
+/// What must hold of a robot that runs here.
+void check_drivers(const RobotType& type) {
+  for (const SensorSpec& sensor : type.sensors) {
+    RAVE_CHECK((sensor.virtual_ops == nullptr) != (sensor.hardware_ops == nullptr));
+    RAVE_CHECK(!sensor.hybrid || sensor.hardware_ops != nullptr);
+    RAVE_CHECK(sensor.period_steps > 0);
+  }
+  RAVE_CHECK(!type.program || type.program->period_steps > 0);
+  if (type.guard) RAVE_CHECK(type.guard->deceleration_mps2 > 0);
 }
 
 Status check(const EngineSpec& spec) {
-  RAVE_CHECK(spec.robots.size() == spec.world.robots.size());
-  if (spec.step.ns <= 0) return fail(ErrorCode::kInvalidArgument, "the step must be above 0 s");
-  for (const RobotSpec& robot : spec.robots) {
-    RAVE_CHECK(robot.type < spec.types.size());
-    const RobotType& type = spec.types[robot.type];
-    if (!type.simulated && !type.pose_from) {
-      return fail(ErrorCode::kInvalidArgument,
-                  "robot `{}` is real, so something must say where it is: `pose_from`", robot.name);
-    }
-    RAVE_TRY(check_pose_source(type, robot.name));
-    for (const SensorSpec& sensor : type.sensors) {
-      RAVE_CHECK((sensor.virtual_ops == nullptr) != (sensor.hardware_ops == nullptr));
-      RAVE_CHECK(!sensor.hybrid || sensor.hardware_ops != nullptr);
-      RAVE_CHECK(sensor.period_steps > 0);
-    }
-    RAVE_CHECK(!type.program || type.program->period_steps > 0);
-    if (type.guard) RAVE_CHECK(type.guard->deceleration_mps2 > 0);
+  RAVE_TRY(check_world(spec));
+  RAVE_TRY(check_local(spec));
+  const std::vector<std::uint8_t> local = local_robots(spec);
+  for (std::size_t r = 0; r < spec.robots.size(); ++r) {
+    if (local[r] == 0) continue;
+    const RobotType& type = spec.types[spec.robots[r].type];
+    RAVE_TRY(check_pose_source(type, spec.robots[r].name));
+    check_drivers(type);
   }
   return {};
 }
@@ -101,12 +111,12 @@ std::string_view to_string(EventKind kind) noexcept {
 
 Engine::Impl::Impl(EngineSpec s)
     : spec(std::move(s)),
+      local(local_robots(spec)),
+      host(spec.local ? std::make_unique<HostPart>(spec, local) : nullptr),
       pool(spec.threads, spec.share_always),
       workers(pool.threads()),
-      resolver(spec.world),
-      snapshot(spec.world) {
-  for (const world::Body& body : spec.world.robots) radius_m.push_back(body.radius_m());
-  if (!has_hybrid(spec)) return;
+      truth(spec, pool) {
+  if (!has_hybrid(spec, local)) return;
   spec.history = std::max(spec.history, kHybridHistory);
   fusion_world = std::make_unique<FusionWorld>(spec.world);
 }
@@ -154,6 +164,8 @@ Status Engine::Impl::make() {
   member_index.resize(count);
   std::vector<std::uint32_t> group_of_type(spec.types.size(), RobotId::kNone);
   for (std::uint32_t r = 0; r < count; ++r) {
+    group_index[r] = RobotId::kNone;
+    if (!is_local(r)) continue;
     logs[r] = {spec.log, fmt::format("robot {}", spec.robots[r].name)};
     std::uint32_t& index = group_of_type[spec.robots[r].type];
     if (index == RobotId::kNone) {
@@ -164,7 +176,7 @@ Status Engine::Impl::make() {
     member_index[r] = static_cast<std::uint32_t>(groups[index].members.size());
     groups[index].members.emplace_back(r);
   }
-  radio = std::make_unique<Radio>(spec, logs, pool);
+  radio = std::make_unique<Radio>(spec, local, logs, pool);
   RAVE_TRY(radio->make());
   for (std::uint32_t g = 0; g < groups.size(); ++g) {
     RAVE_TRY(make_group({spec, logs, radio.get()}, groups[g]));
@@ -199,7 +211,6 @@ void Engine::Impl::set_initial_state() {
   const std::size_t count = spec.robots.size();
   step = 0;
   now = {};
-  slack_m = 0;
   hash = RunHash();
   phase_times = {};
   events.clear();
@@ -208,32 +219,21 @@ void Engine::Impl::set_initial_state() {
   next_change = 0;
   world_age = {};
   set_up_guards();
-  notes.clear();
   history.clear();
   past_valid = false;
   if (fusion_world) fusion_world->valid = false;
-  movers.resize(count);
-  velocity.assign(count, Twist2{});
-  proposal.assign(count, Twist2{});
-  limited.assign(count, 0);
-  touch.assign(count, TouchState{});
-  touching_before.assign(count, 0);
-  pinned_before.assign(count, 0);
+  truth.begin();
+  if (host) host->begin();
   reported.assign(count, ReportedPose{});
   const Duration keep = std::max(spec.history, from_seconds(1.0));
   tracks.assign(count, PoseTrack(keep));
   for (std::uint32_t r = 0; r < count; ++r) {
     const RobotType& type = spec.types[spec.robots[r].type];
-    movers[r] = {spec.robots[r].X_WR, type.simulated, type.simulated};
-    snapshot.set_robot(RobotId(r), {movers[r].X_WR, {}, movers[r].present});
-    snapshot.set_touch(RobotId(r), {});
     if (!type.simulated || !type.pose_from) continue;
     // Until its pose source speaks, a simulated robot is told where it was put.
-    const Pose2& X_WR = movers[r].X_WR;
+    const Pose2& X_WR = truth.movers[r].X_WR;
     reported[r] = {{X_WR.x, X_WR.y, X_WR.yaw, 0, 0}, {}, {}, true, false};
   }
-  snapshot.set_time(now);
-  snapshot.rebuild();
 }
 
 Engine::Engine(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -246,47 +246,68 @@ Result<std::unique_ptr<Engine>> Engine::create(EngineSpec spec) {
   return std::unique_ptr<Engine>(new Engine(std::move(impl)));
 }
 
-Status Engine::step() {
-  Impl& engine = *impl_;
-  PhaseTimer phase(engine.spec.phase_clock, engine.phase_times);
-  engine.now = engine.step_time(engine.step);
-  engine.make_changes();
-  engine.events.swap(engine.pending);  // both keep their room
-  engine.pending.clear();
-  engine.past_valid = false;  // samples of this step may change what the past looked like
-  if (engine.fusion_world) engine.fusion_world->valid = false;
-  RAVE_TRY(engine.ingest());
-  phase.ends(Phase::kIngest);
-  engine.sense();
+void Engine::Impl::begin_step() {
+  now = step_time(step);
+  make_changes();
+  events.swap(pending);  // both keep their room
+  pending.clear();
+  past_valid = false;  // samples of this step may change what the past looked like
+  if (fusion_world) fusion_world->valid = false;
+}
+
+void Engine::Impl::work(PhaseTimer& phase) {
+  sense();
   phase.ends(Phase::kSense);
-  engine.deliver_messages();
+  deliver_messages();
   phase.ends(Phase::kRadio);
-  engine.decide();
+  decide();
   phase.ends(Phase::kDecide);
-  engine.carry_messages();
+  carry_messages();
   phase.ends(Phase::kRadio);
-  engine.act();
+  act();
   phase.ends(Phase::kAct);
-  engine.resolve();
+}
+
+Status Engine::Impl::step_alone() {
+  PhaseTimer phase(spec.phase_clock, phase_times);
+  begin_step();
+  RAVE_TRY(ingest());
+  phase.ends(Phase::kIngest);
+  work(phase);
+  truth.resolve(step, events);
   phase.ends(Phase::kResolve);
-  engine.publish();
+  hash.merge(truth.hash_poses(step));
+  publish();
   phase.ends(Phase::kPublish);
-  ++engine.step;
+  ++step;
   return {};
+}
+
+Status Engine::step() {
+  if (impl_->host) {
+    return fail(ErrorCode::kState,
+                "runs a part of the robots: propose() and apply() in the place of step()");
+  }
+  return impl_->step_alone();
 }
 
 Status Engine::reset() { return impl_->reset(); }
 
 const EngineSpec& Engine::spec() const noexcept { return impl_->spec; }
 std::uint64_t Engine::steps_done() const noexcept { return impl_->step; }
-SimTime Engine::time() const noexcept { return impl_->now; }
-const world::Snapshot& Engine::snapshot() const noexcept { return impl_->snapshot; }
+SimTime Engine::time() const noexcept { return impl_->truth.snapshot.time(); }
+const world::Snapshot& Engine::snapshot() const noexcept { return impl_->truth.snapshot; }
 const ReportedPose& Engine::reported(RobotId robot) const noexcept {
   return impl_->reported[robot.value()];
 }
-Pose2 Engine::true_pose(RobotId robot) const noexcept { return impl_->movers[robot.value()].X_WR; }
-std::span<const Event> Engine::events() const noexcept { return impl_->events; }
-RunHash Engine::hash() const noexcept { return impl_->hash; }
+Pose2 Engine::true_pose(RobotId robot) const noexcept {
+  return impl_->truth.movers[robot.value()].X_WR;
+}
+bool Engine::is_local(RobotId robot) const noexcept { return impl_->is_local(robot.value()); }
+std::span<const Event> Engine::events() const noexcept {
+  return impl_->host ? impl_->host->events : impl_->events;
+}
+RunHash Engine::hash() const noexcept { return impl_->host ? impl_->host->hash : impl_->hash; }
 const PhaseTimes& Engine::phase_times() const noexcept { return impl_->phase_times; }
 
 SensorSample Engine::sensor(RobotId robot, std::uint32_t index) const noexcept {
@@ -387,6 +408,7 @@ std::string Engine::device_report(RobotId robot, std::uint32_t index) const {
 }
 
 void Engine::flip_percept_bit(RobotId robot, std::uint32_t sensor) noexcept {
+  RAVE_CHECK(is_local(robot));
   RobotGroup& group = impl_->groups[impl_->group_index[robot.value()]];
   group.sensors[sensor].flip[impl_->member_index[robot.value()]] = 1;
 }
@@ -397,7 +419,7 @@ void Engine::Impl::look_back(SimTime stamp) {
   for (std::size_t i = history.size(); i > 0 && frame == nullptr; --i) {
     if (history[i - 1].time <= stamp) frame = &history[i - 1];
   }
-  for (std::uint32_t r = 0; frame != nullptr && r < movers.size(); ++r) {
+  for (std::uint32_t r = 0; frame != nullptr && r < truth.movers.size(); ++r) {
     world::RobotState state = past->robot(RobotId(r));
     state.velocity_W = frame->robots[r].velocity_W;
     past->set_robot(RobotId(r), state);
@@ -412,9 +434,9 @@ Result<Pose2> Engine::pose_at(RobotId robot, SimTime stamp) const {
   const Impl& engine = *impl_;
   const std::uint32_t r = robot.value();
   std::optional<Pose2> pose;
-  if (stamp > engine.now) {
+  if (stamp > engine.truth.snapshot.time()) {
     // Where a robot will be is not known, even if nothing newer than its last pose is.
-  } else if (!engine.movers[r].simulated) {
+  } else if (!engine.truth.movers[r].simulated) {
     pose = engine.tracks[r].at(stamp);
   } else if (!engine.history.empty() && stamp >= engine.history.front().time &&
              stamp <= engine.history.back().time) {
@@ -437,6 +459,10 @@ Result<Pose2> Engine::pose_at(RobotId robot, SimTime stamp) const {
 Result<SampleHeader> Engine::sample_at(RobotId robot, std::uint32_t sensor, SimTime stamp,
                                        void* records) {
   Impl& engine = *impl_;
+  if (!is_local(robot)) {
+    return fail(ErrorCode::kInvalidArgument, "robot `{}` runs on another host",
+                engine.spec.robots[robot.value()].name);
+  }
   RobotGroup& group = engine.groups[engine.group_index[robot.value()]];
   SensorSlots& slots = group.sensors[sensor];
   if (!slots.is_virtual()) {
@@ -445,7 +471,7 @@ Result<SampleHeader> Engine::sample_at(RobotId robot, std::uint32_t sensor, SimT
   RAVE_TRY_ASSIGN(const Pose2 X_WR, pose_at(robot, stamp));
   if (!engine.past) engine.past = std::make_unique<world::Snapshot>(engine.spec.world);
   if (!engine.past_valid || engine.past->time() != stamp) {
-    for (std::uint32_t r = 0; r < engine.movers.size(); ++r) {
+    for (std::uint32_t r = 0; r < engine.truth.movers.size(); ++r) {
       const auto pose = pose_at(RobotId(r), stamp);
       engine.past->set_robot(RobotId(r), {pose.value_or(Pose2{}), {}, pose.has_value()});
     }

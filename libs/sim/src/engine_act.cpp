@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "engine_impl.hpp"
 
@@ -103,13 +102,13 @@ void Engine::Impl::actuate(RobotGroup& group, const Block& block, Worker& worker
       if (slots.spec->virtual_ops == nullptr) continue;
       const std::uint32_t r = group.members[m].value();
       slots.inputs[m] = {slots.commands[m],
-                         velocity[r],
+                         truth.velocity[r],
                          spec.step.seconds(),
                          spec.seed,
                          r,
                          a | 0x4000'0000U,
                          static_cast<std::uint32_t>(step),
-                         limited[r]};
+                         truth.limited[r]};
     }
     if (slots.spec->virtual_ops == nullptr) continue;
     ErrorText error;
@@ -134,61 +133,20 @@ void Engine::Impl::actuate(RobotGroup& group, const Block& block, Worker& worker
                                    fmt::format("actuator `{}`: {}", slots.spec->name, problem)});
         }
       }
-      proposal[group.members[m].value()] = twist;
+      truth.proposal[group.members[m].value()] = twist;
     }
   }
 }
 
-void Engine::Impl::resolve() {
-  motion.run(snapshot, spec.step.seconds(), {movers, proposal, velocity, limited, touch}, notes);
-  slack_m = motion.slack_m();
-  for (const ContactNote& contact : notes) {
-    touch[contact.robot] = {true, contact.direction_W};
-    const auto obstacles = static_cast<std::uint32_t>(spec.world.obstacles.size());
-    if (contact.other.value() < obstacles) continue;
-    const std::uint32_t other = contact.other.value() - obstacles;
-    if (movers[other].simulated) touch[other] = {true, -contact.direction_W};
-  }
-  for (const ContactNote& contact : notes) {
-    if (touching_before[contact.robot] != 0) continue;
-    touching_before[contact.robot] = 1;
-    note({step, RobotId(contact.robot), EventKind::kContact, contact.other, ""});
-  }
-}
-
+/// The end of a step: what threads gathered, put together.
 void Engine::Impl::publish() {
-  pool.for_each_block(robot_blocks(), publish_effort, [this](std::size_t b, unsigned w) {
-    hash_poses(first_of_block(b), first_of_block(b + 1), workers[w].hash);
-  });
   for (Worker& worker : workers) {
     hash.merge(worker.hash);
     worker.hash = RunHash();
     for (Event& event : worker.events) events.push_back(std::move(event));
     worker.events.clear();
   }
-  // Which thread noted an event is chance; its robot, kind and text are not.
-  std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) {
-    return std::tie(a.robot, a.kind, a.other, a.text) < std::tie(b.robot, b.kind, b.other, b.text);
-  });
-  for (const Event& event : events) {
-    ItemHash item(step, event.robot.value(), HashChannel::kEvent,
-                  static_cast<std::uint32_t>(event.kind));
-    item.add(std::uint64_t{event.other.value()});
-    hash.add(item);
-  }
-}
-
-void Engine::Impl::hash_poses(std::uint32_t first, std::uint32_t last, RunHash& sum) const {
-  for (std::uint32_t r = first; r < last; ++r) {
-    if (!movers[r].present) continue;
-    const Pose2& X_WR = movers[r].X_WR;
-    const Twist2& twist = velocity[r];
-    const double values[] = {
-        X_WR.x, X_WR.y, X_WR.yaw, twist.vx, twist.vy, twist.wz, touch[r].touching ? 1.0 : 0.0};
-    ItemHash item(step, r, HashChannel::kPose, 0);
-    item.add_bytes(std::as_bytes(std::span(values)));
-    sum.add(item);
-  }
+  finish_events(step, events, hash);
 }
 
 }  // namespace rave::sim

@@ -28,7 +28,7 @@ std::optional<Pose2> Engine::Impl::own_pose_at(RobotId robot, SimTime stamp,
                                                Duration staleness) const {
   if (history.empty() || stamp < history.front().time) return std::nullopt;
   const std::uint32_t r = robot.value();
-  if (movers[r].simulated) return fusion_world->movers[r].X_WR;
+  if (truth.movers[r].simulated) return fusion_world->movers[r].X_WR;
   const auto newest = tracks[r].newest();
   if (!newest || stamp - *newest > staleness) return std::nullopt;
   return tracks[r].carried_to(stamp, staleness);
@@ -45,18 +45,18 @@ void Engine::Impl::show_past(SimTime stamp) {
   const HistoryFrame& b = history[std::min(i + 1, history.size() - 1)];
   const Duration gap = b.time - a.time;
   const double s = gap.ns > 0 ? static_cast<double>((stamp - a.time).ns) / double(gap.ns) : 0;
-  past_world.movers.resize(movers.size());
-  for (std::uint32_t r = 0; r < movers.size(); ++r) {
+  past_world.movers.resize(truth.movers.size());
+  for (std::uint32_t r = 0; r < truth.movers.size(); ++r) {
     const RobotId robot(r);
     world::RobotState state = a.robots[r];
-    if (movers[r].simulated) {
+    if (truth.movers[r].simulated) {
       if (s > 0) state.X_WR = interpolate(a.robots[r].X_WR, b.robots[r].X_WR, s);
     } else {
-      const auto pose = tracks[r].carried_to(stamp, group_of(robot).type->staleness);
+      const auto pose = tracks[r].carried_to(stamp, spec.types[spec.robots[r].type].staleness);
       state.present = pose.has_value();
       state.X_WR = pose.value_or(Pose2{});
     }
-    past_world.movers[r] = {state.X_WR, movers[r].simulated, state.present};
+    past_world.movers[r] = {state.X_WR, truth.movers[r].simulated, state.present};
     past_world.world.set_robot(robot, state);
     past_world.world.set_touch(robot, a.touch[r]);
   }
@@ -87,8 +87,8 @@ void Engine::Impl::sample_virtual_half(const SensorSlots& slots, RobotId robot, 
   if (sensor.kind == ReadingKind::kContact) {
     // What was touched in the step may have been a layer that this half does not sense.
     past_world.notes.clear();
-    resolver.probe(robot.value(), past_world.world, 0, kTouch_m, past_world.movers,
-                   past_world.notes, sensor.layers);
+    truth.resolver.probe(robot.value(), past_world.world, 0, kTouch_m, past_world.movers,
+                         past_world.notes, sensor.layers);
     const bool touching = !past_world.notes.empty();
     past_world.world.set_touch(
         robot, touching ? TouchState{true, past_world.notes.back().direction_W} : TouchState{});
@@ -139,7 +139,7 @@ bool Engine::Impl::fuse(RobotGroup& group, SensorSlots& slots, std::size_t membe
   const auto X_WR = own_pose_at(robot, stamp, group.type->staleness);
   if (!X_WR) {
     // Without the virtual half a reading would say that a virtual wall is not there.
-    if (movers[robot.value()].present) ++fusion.too_late[member];
+    if (truth.movers[robot.value()].present) ++fusion.too_late[member];
     return withhold(fusion, member, sample);
   }
   SampleHeader& real = fusion.real_headers[member];

@@ -65,19 +65,19 @@ void Engine::Impl::find_neighbours(RobotId robot, double reach_m, Worker& worker
   worker.neighbours.clear();
   const std::uint32_t r = robot.value();
   const ReportedPose& own = reported[r];
-  const double largest_m = *std::max_element(radius_m.begin(), radius_m.end());
-  const double within_m = reach_m + radius_m[r] + largest_m + kOthersWay_m;
+  const double largest_m = *std::max_element(truth.radius_m.begin(), truth.radius_m.end());
+  const double within_m = reach_m + truth.radius_m[r] + largest_m + kOthersWay_m;
   const Vec2 p_W{own.pose.x_m, own.pose.y_m};
-  std::uint32_t count = snapshot.robots_within(p_W, within_m, worker.near);
+  std::uint32_t count = truth.snapshot.robots_within(p_W, within_m, worker.near);
   if (count > worker.near.size()) {
     worker.near.resize(count);
-    count = snapshot.robots_within(p_W, within_m, worker.near);
+    count = truth.snapshot.robots_within(p_W, within_m, worker.near);
   }
   for (std::uint32_t i = 0; i < count; ++i) {
     const RobotId other = worker.near[i];
     if (other == robot) continue;
-    worker.neighbours.push_back(
-        {&spec.world.robots[other.value()], snapshot.pose(other), snapshot.velocity_W(other)});
+    worker.neighbours.push_back({&spec.world.robots[other.value()], truth.snapshot.pose(other),
+                                 truth.snapshot.velocity_W(other)});
   }
 }
 
@@ -112,8 +112,8 @@ Command Engine::Impl::guarded(const RobotGroup& group, const ActuatorSlots& slot
   input.velocity = pose.velocity;
   input.world_age_s = world_age.seconds();
   input.dt_s = spec.step.seconds();
-  input.touching = limited[r] != 0;
-  input.radius_m = radius_m[r];
+  input.touching = truth.limited[r] != 0;
+  input.radius_m = truth.radius_m[r];
   input.body = &spec.world.robots[r];
   if (limits->separation_m >= 0 && input.pose_known) {
     find_neighbours(robot, guard_reach_m(*limits, input), worker);

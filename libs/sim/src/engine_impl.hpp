@@ -4,19 +4,19 @@
 #include <algorithm>
 #include <array>
 #include <deque>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "history_ring.hpp"
-#include "motion_phase.hpp"
+#include "host_part.hpp"
 #include "pose_track.hpp"
+#include "rave/base/check.hpp"
 #include "rave/sim/engine.hpp"
 #include "rave/sim/thread_pool.hpp"
-#include "resolver.hpp"
 #include "robot_group.hpp"
+#include "world_truth.hpp"
 
 namespace rave::sim {
 
@@ -79,6 +79,12 @@ struct Engine::Impl {
   /// Tells hardware to stand.
   void halt() noexcept;
 
+  Status step_alone();
+  /// A step begins: its time, what is asked of it.
+  void begin_step();
+  /// What each host does for its robots in a step: sense, radio, decide, act.
+  void work(PhaseTimer& phase);
+
   // engine_ingest.cpp: samples of hardware, reported poses, the snapshot of this step
   Status ingest();
   Status ingest_sensors(bool hybrid);
@@ -91,10 +97,11 @@ struct Engine::Impl {
   void note_reported_pose(RobotGroup& group, const SensorSlots& slots, std::size_t member,
                           const SampleHeader& header, const std::byte* record);
   void refresh_reported();
-  void refresh_block(const Block& block, Worker& worker);
-  void make_way_for_real_robots();
-  void place_robots();
-  double place_block(std::uint32_t first, std::uint32_t last);
+  /// Of robots that have a source of their pose.
+  void refresh_told(const Block& block, Worker& worker);
+  /// Of the others.
+  void refresh_true(std::uint32_t robot);
+  void show_world();
   void remember();
   void look_back(SimTime stamp);
 
@@ -142,9 +149,7 @@ struct Engine::Impl {
   void write_hardware(RobotGroup& group, ActuatorSlots& slots, std::size_t member);
   void control(RobotGroup& group, const Block& block, Worker& worker);
   void actuate(RobotGroup& group, const Block& block, Worker& worker);
-  void resolve();
   void publish();
-  void hash_poses(std::uint32_t first, std::uint32_t last, RunHash& sum) const;
 
   // engine_guard.cpp: the limits of commands
   void set_up_guards();
@@ -157,63 +162,61 @@ struct Engine::Impl {
   // engine_inputs.cpp: what is asked of a run between two steps
   void note_input(RobotId robot, EventKind kind, std::string text, Author author);
   void make_changes();
+  void make_change(const ScheduledChange& scheduled);
+  void stop(RobotId robot, Author author);
+  void release(RobotId robot, Author author);
+  void arm(RobotId robot, Author author);
   Status change(RobotId robot, std::span<const ParameterChange> changes, Author author);
-  Status resize(RobotId robot, double scale);
-  void put_body(RobotId robot, const world::Body& body);
+  /// One of several hosts: what may be changed without the authority.
+  [[nodiscard]] Status check_own(RobotId robot, std::span<const ParameterChange> changes) const;
+  void body_changed(RobotId robot);
+  void tell_program_of_body(RobotId robot);
   void restore_bodies();
+
+  // engine_split.cpp: one of several hosts
+  Status propose(HostReport& report, PhaseTimer& phase);
+  void fill_report(HostReport& report);
+  Status apply(const WorldStep& world, PhaseTimer& phase);
+  [[nodiscard]] Status check(const WorldStep& world) const;
+  Status make_changes(const WorldStep& world);
+  void do_input(const WorldInput& input);
+  void adopt(const WorldStep& world);
+  [[nodiscard]] bool is_local(std::uint32_t robot) const noexcept { return local[robot] != 0; }
 
   void note(Event event) { events.push_back(std::move(event)); }
   [[nodiscard]] bool due(std::uint32_t period, std::uint32_t phase) const noexcept {
     return step >= phase && (step - phase) % period == 0;
   }
-  /// Robots in the order of their ids, by blocks, whatever their groups.
-  static constexpr std::size_t kRobotBlock = 256;
-  [[nodiscard]] std::size_t robot_blocks() const noexcept {
-    return (movers.size() + kRobotBlock - 1) / kRobotBlock;
-  }
-  [[nodiscard]] std::uint32_t first_of_block(std::size_t block) const noexcept {
-    return static_cast<std::uint32_t>(std::min(block * kRobotBlock, movers.size()));
-  }
   [[nodiscard]] SimTime step_time(std::uint64_t k) const noexcept {
     return SimTime{static_cast<std::int64_t>(k) * spec.step.ns};
   }
+  /// Of a robot that runs here.
   [[nodiscard]] const RobotGroup& group_of(RobotId robot) const noexcept {
+    RAVE_CHECK(is_local(robot.value()));
     return groups[group_index[robot.value()]];
   }
 
   EngineSpec spec;
+  std::vector<std::uint8_t> local;  ///< By robot: runs here.
+  std::unique_ptr<HostPart> host;   ///< Null if all run here.
   std::vector<RobotLog> logs;
   std::deque<RobotGroup> groups;  ///< Deque: groups never move, views into them stay valid.
-  std::vector<std::uint32_t> group_index;   ///< By robot.
+  std::vector<std::uint32_t> group_index;   ///< By robot; those that run elsewhere have none.
   std::vector<std::uint32_t> member_index;  ///< By robot.
   std::vector<Block> blocks;
   ThreadPool pool;
-  ThreadPool::Effort refresh_effort, place_effort, sense_effort, decide_effort, act_effort,
-      publish_effort;
+  ThreadPool::Effort refresh_effort, sense_effort, decide_effort, act_effort;
   std::vector<Worker> workers;
-  Resolver resolver;
-  MotionPhase motion{resolver, pool};
+  WorldTruth truth;
   std::unique_ptr<Radio> radio;  ///< Always there after make().
 
   std::uint64_t step = 0;
   SimTime now;
-  world::Snapshot snapshot;
   std::unique_ptr<world::Snapshot> past;  ///< For sample_at(); made when it is first asked.
   bool past_valid = false;                ///< Still shows what is known of its time.
   HistoryRing history;
-  std::vector<Mover> movers;     ///< True poses of simulated, reported poses of real robots.
-  std::vector<Twist2> velocity;  ///< Body frame, of the last step.
-  std::vector<Twist2> proposal;
-  std::vector<std::uint8_t> limited;  ///< The last motion was cut short.
-  std::vector<TouchState> touch;
-  std::vector<std::uint8_t> touching_before;
-  std::vector<std::uint8_t> pinned_before;
   std::vector<ReportedPose> reported;
   std::vector<PoseTrack> tracks;
-  std::vector<ContactNote> notes;
-  std::vector<double> radius_m;  ///< Of each robot's body about its origin.
-  double slack_m = 0;            ///< How far robots may have moved since the snapshot.
-  std::vector<double> block_moves_m;
   MotionWatch motion_watch;
   double moves_m = 0;  ///< How far pieces of robots have moved since sensors looked last.
   std::vector<Event> events;
@@ -223,8 +226,6 @@ struct Engine::Impl {
   Duration world_age;
   std::uint64_t by_hand = 0;
   std::size_t next_change = 0;
-  std::map<std::uint32_t, world::Body> original_bodies;  ///< Of robots that were resized.
-  std::map<std::uint32_t, double> scales;                ///< Of the same.
   RunHash hash;
   PhaseTimes phase_times;
   FanScratch past_scratch;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -36,9 +35,9 @@ RandomStream processing_stream(const EngineSpec& spec, RobotId robot, std::uint3
 Status Engine::Impl::ingest() {
   RAVE_TRY(ingest_sensors(false));
   refresh_reported();
-  make_way_for_real_robots();
-  place_robots();
-  remember();
+  truth.make_way();
+  truth.note_contacts(step, events);
+  show_world();
   // The virtual half of a hybrid needs the poses and the world up to this step.
   if (fusion_world) RAVE_TRY(ingest_sensors(true));
   return {};
@@ -172,26 +171,37 @@ void Engine::Impl::note_reported_pose(RobotGroup& group, const SensorSlots& slot
   pose.pose = {X_WR.x, X_WR.y, X_WR.yaw, reading.variance_xy_m2, reading.variance_yaw_rad2};
   pose.stamp = {header.stamp_ns};
   pose.known = true;
-  tracks[robot.value()].add(pose.stamp, X_WR);
+  const bool newer = tracks[robot.value()].add(pose.stamp, X_WR);
+  if (host && newer && !group.type->simulated) {
+    host->samples.push_back({robot, pose.stamp, X_WR});
+  }
   pose.velocity = tracks[robot.value()].velocity();
 }
 
 void Engine::Impl::refresh_reported() {
-  pool.for_each_block(blocks.size(), refresh_effort,
-                      [this](std::size_t b, unsigned w) { refresh_block(blocks[b], workers[w]); });
+  pool.for_each_block(blocks.size(), refresh_effort, [this](std::size_t b, unsigned w) {
+    const RobotGroup& group = groups[blocks[b].group];
+    if (group.type->pose_from) {
+      refresh_told(blocks[b], workers[w]);
+      return;
+    }
+    for (std::uint32_t m = blocks[b].begin; m < blocks[b].end; ++m) {
+      refresh_true(group.members[m].value());
+    }
+  });
 }
 
-void Engine::Impl::refresh_block(const Block& block, Worker& worker) {
+void Engine::Impl::refresh_true(std::uint32_t robot) {
+  const Pose2& X_WR = truth.movers[robot].X_WR;
+  reported[robot] = {{X_WR.x, X_WR.y, X_WR.yaw, 0, 0}, truth.velocity[robot], now, true, false};
+}
+
+void Engine::Impl::refresh_told(const Block& block, Worker& worker) {
   const RobotGroup& group = groups[block.group];
   for (std::uint32_t m = block.begin; m < block.end; ++m) {
     const RobotId robot = group.members[m];
     const std::uint32_t r = robot.value();
     ReportedPose& pose = reported[r];
-    if (!group.type->pose_from) {
-      const Pose2& X_WR = movers[r].X_WR;
-      pose = {{X_WR.x, X_WR.y, X_WR.yaw, 0, 0}, velocity[r], now, true, false};
-      continue;
-    }
     const bool stale = pose.known && now - pose.stamp > group.type->staleness;
     if (stale != pose.stale) {
       worker.events.push_back(
@@ -202,84 +212,15 @@ void Engine::Impl::refresh_block(const Block& block, Worker& worker) {
     }
     if (stale) pose.velocity = {};
     if (group.type->simulated) continue;
-    movers[r].X_WR = {pose.pose.x_m, pose.pose.y_m, pose.pose.yaw_rad};
-    movers[r].present = pose.known;
-    velocity[r] = pose.velocity;
+    truth.movers[r].X_WR = {pose.pose.x_m, pose.pose.y_m, pose.pose.yaw_rad};
+    truth.movers[r].present = pose.known;
+    truth.velocity[r] = pose.velocity;
   }
 }
 
-void Engine::Impl::make_way_for_real_robots() {
-  notes.clear();
-  bool any = false;
-  for (std::uint32_t r = 0; r < movers.size(); ++r) {
-    if (movers[r].simulated) continue;
-    any = any || movers[r].present;
-    snapshot.set_robot(RobotId(r), {movers[r].X_WR, {}, movers[r].present});
-  }
-  if (!any) return;
-  // Real robots may have jumped (a first pose, the end of a gap): the broad phase must know.
-  snapshot.rebuild();
-  for (std::uint32_t r = 0; r < movers.size(); ++r) {
-    if (movers[r].simulated || !movers[r].present) continue;
-    slack_m += resolver.make_way(r, snapshot, slack_m, movers, notes);
-  }
-}
-
-void Engine::Impl::place_robots() {
-  // Contacts: of simulated robots those of the last motion and of making way; of real robots those
-  // that their place shows.
-  for (const ContactNote& contact : notes) {
-    touch[contact.robot] = {true, contact.direction_W};
-    if (contact.pinned && pinned_before[contact.robot] == 0) {
-      note({step, RobotId(contact.robot), EventKind::kPinned, contact.other,
-            "cannot get out of the way"});
-    }
-  }
-  std::fill(pinned_before.begin(), pinned_before.end(), std::uint8_t{0});
-  for (const ContactNote& contact : notes) {
-    if (contact.pinned) pinned_before[contact.robot] = 1;
-  }
-  constexpr double kTouch_m = 1e-3;
-  for (std::uint32_t r = 0; r < movers.size(); ++r) {
-    if (movers[r].simulated || !movers[r].present) continue;
-    const std::size_t first = notes.size();
-    resolver.probe(r, snapshot, slack_m, kTouch_m, movers, notes);
-    touch[r] = notes.size() > first ? TouchState{true, notes.back().direction_W} : TouchState{};
-  }
-  for (const ContactNote& contact : notes) {
-    std::uint8_t& before = touching_before[contact.robot];
-    if (before == 0) {
-      note({step, RobotId(contact.robot), EventKind::kContact, contact.other, ""});
-      before = 1;
-    }
-  }
-  snapshot.set_time(now);
-  block_moves_m.resize(robot_blocks());
-  pool.for_each_block(robot_blocks(), place_effort, [this](std::size_t b, unsigned) {
-    block_moves_m[b] = place_block(first_of_block(b), first_of_block(b + 1));
-  });
-  double farthest_m = 0;
-  for (const double block_m : block_moves_m) farthest_m = std::max(farthest_m, block_m);
-  snapshot.index_robots(farthest_m);
-  slack_m = 0;
-}
-
-double Engine::Impl::place_block(std::uint32_t first, std::uint32_t last) {
-  for (std::uint32_t r = first; r < last; ++r) {
-    const RobotId robot(r);
-    // Who goes straight on keeps what was reckoned for the last step.
-    const double before_rad = snapshot.robot(robot).X_WR.yaw;
-    const bool turned = std::bit_cast<std::uint64_t>(movers[r].X_WR.yaw) !=
-                        std::bit_cast<std::uint64_t>(before_rad);
-    const SinCos turn = turned ? sincos(movers[r].X_WR.yaw) : snapshot.turn_WR(robot);
-    const Vec2 over_ground = rotate(turn, {velocity[r].vx, velocity[r].vy});
-    snapshot.set_robot(
-        robot, {movers[r].X_WR, {over_ground.x, over_ground.y, velocity[r].wz}, movers[r].present},
-        turn);
-    touching_before[r] = touch[r].touching ? 1 : 0;
-    snapshot.set_touch(robot, touch[r]);
-  }
-  return snapshot.place_robots(first, last);
+void Engine::Impl::show_world() {
+  truth.show(now);
+  remember();
 }
 
 void Engine::Impl::remember() {
@@ -287,9 +228,10 @@ void Engine::Impl::remember() {
   if (!history.empty() && now - history.front().time > spec.history) history.drop_oldest();
   HistoryFrame& frame = history.add();
   frame.time = now;
-  frame.robots.resize(movers.size());
-  for (std::uint32_t r = 0; r < movers.size(); ++r) frame.robots[r] = snapshot.robot(RobotId(r));
-  frame.touch = touch;
+  frame.robots.resize(truth.movers.size());
+  for (std::uint32_t r = 0; r < truth.movers.size(); ++r)
+    frame.robots[r] = truth.snapshot.robot(RobotId(r));
+  frame.touch = truth.touch;
 }
 
 }  // namespace rave::sim

@@ -3,10 +3,10 @@
 #include <functional>
 
 #include "engine_impl.hpp"
+#include "input_notes.hpp"
 #include "parameters.hpp"
 #include "rave/base/check.hpp"
 #include "rave/base/names.hpp"
-#include "rave/world/touching.hpp"
 
 namespace rave::sim {
 namespace {
@@ -139,24 +139,21 @@ void undo(std::vector<Done>& done) {
 }  // namespace
 
 void Engine::Impl::note_input(RobotId robot, EventKind kind, std::string text, Author author) {
-  if (author == Author::kHand) {
-    text += text.empty() ? "by hand" : " (by hand)";
-    ++by_hand;
-  }
-  ItemHash item(step, robot.value(), HashChannel::kInput, static_cast<std::uint32_t>(kind));
-  item.add_bytes(std::as_bytes(std::span(text)));
-  hash.add(item);
-  pending.push_back({step, robot, kind, BodyId(), std::move(text)});
+  if (author == Author::kHand) ++by_hand;
+  pending.push_back(noted_input(step, robot, kind, std::move(text), author, hash));
 }
 
 void Engine::Impl::make_changes() {
   for (; next_change < spec.changes.size() && spec.changes[next_change].step <= step;
        ++next_change) {
-    const ScheduledChange& scheduled = spec.changes[next_change];
-    const Status status = change(scheduled.robot, scheduled.changes, Author::kRun);
-    if (status) continue;
-    note_input(scheduled.robot, EventKind::kChangeRefused, status.error().text(), Author::kRun);
+    make_change(spec.changes[next_change]);
   }
+}
+
+void Engine::Impl::make_change(const ScheduledChange& scheduled) {
+  const Status status = change(scheduled.robot, scheduled.changes, Author::kRun);
+  if (status) return;
+  note_input(scheduled.robot, EventKind::kChangeRefused, status.error().text(), Author::kRun);
 }
 
 Status Engine::Impl::change(RobotId robot, std::span<const ParameterChange> changes,
@@ -168,15 +165,11 @@ Status Engine::Impl::change(RobotId robot, std::span<const ParameterChange> chan
   const ParameterChange* scale = nullptr;
   const auto refuse = [&](const Error& error, std::string_view where) -> Status {
     undo(done);
-    Error named = error;
-    named.message =
-        fmt::format("robot `{}`, {}: {}", spec.robots[robot.value()].name, where, error.message);
-    return tl::unexpected(std::move(named));
+    return refused_change(spec, robot, where, error);
   };
   for (const ParameterChange& first : changes) {
     if (first.part == Part::kBody) {
-      const ParameterChange* const one[] = {&first};
-      const auto checked = with_changes(body_params(), {}, one);
+      const Status checked = check_body_change(first);
       if (!checked) return refuse(checked.error(), "body");
       scale = &first;
       continue;
@@ -200,11 +193,12 @@ Status Engine::Impl::change(RobotId robot, std::span<const ParameterChange> chan
   }
   std::string text;
   if (scale != nullptr) {
-    const double before = scales.contains(robot.value()) ? scales[robot.value()] : 1.0;
+    const double before = truth.scale_of(robot);
     const double after = std::get<double>(scale->value);
-    const Status status = resize(robot, after);
+    const Status status = truth.resize(robot, after);
     if (!status) return refuse(status.error(), "body");
-    text = fmt::format("body.scale: {} -> {}", before, after);
+    body_changed(robot);
+    text = body_change_text(before, after);
   }
   for (Done& part : done) {
     text += (text.empty() ? "" : ", ") + part.text;
@@ -215,98 +209,69 @@ Status Engine::Impl::change(RobotId robot, std::span<const ParameterChange> chan
     setup.params = group.program.changed[m]->values().data();
     setup.param_count = group.program.changed[m]->values().size();
   }
-  if (scale != nullptr && group.program.spec != nullptr && group.program.failed[m] == 0) {
-    // A program that keeps the radius of its robot learns the new one; one that takes no changes
-    // goes on with what it believes.
-    const auto target = program_target(group, m);
-    if (target) static_cast<void>(target->update(target->present));
-  }
+  if (scale != nullptr) tell_program_of_body(robot);
   note_input(robot, EventKind::kChanged, std::move(text), author);
   return {};
 }
 
-Status Engine::Impl::resize(RobotId robot, double scale) {
-  constexpr double kApart_m = 1e-4;  // the skin that the resolver keeps
-  const std::uint32_t r = robot.value();
-  if (!movers[r].simulated) {
-    return fail(ErrorCode::kInvalidArgument, "a real body has the size that it has");
-  }
-  const auto original = original_bodies.find(r);
-  RAVE_TRY_ASSIGN(
-      const world::Body body,
-      world::scaled(original != original_bodies.end() ? original->second : spec.world.robots[r],
-                    scale));
-  const auto own = static_cast<std::uint32_t>(spec.world.obstacles.size()) + r;
-  for (std::uint32_t other = 0; other < spec.world.body_count(); ++other) {
-    const std::uint32_t other_robot = other - (own - r);
-    const bool is_robot = other >= own - r;
-    if (other == own || (is_robot && !movers[other_robot].present)) continue;
-    const Pose2 X_WB = is_robot ? movers[other_robot].X_WR : spec.world.obstacles[other].X_WB;
-    const world::Body& theirs = spec.world.body(other);
-    const double gap_m = world::separation(body, movers[r].X_WR, theirs, X_WB).distance_m;
-    if (gap_m >= kApart_m) continue;
-    const double before_m =
-        world::separation(spec.world.robots[r], movers[r].X_WR, theirs, X_WB).distance_m;
-    if (gap_m >= before_m) continue;
-    return fail(ErrorCode::kInvalidArgument, "with `scale` {} it would overlap `{}`", scale,
-                theirs.name.empty() && is_robot ? spec.robots[other_robot].name : theirs.name);
-  }
-  if (original == original_bodies.end()) original_bodies.emplace(r, spec.world.robots[r]);
-  scales[r] = scale;
-  put_body(robot, body);
-  return {};
-}
-
-void Engine::Impl::put_body(RobotId robot, const world::Body& body) {
-  const std::uint32_t r = robot.value();
-  spec.world.robots[r] = body;
-  radius_m[r] = body.radius_m();
-  resolver.body_changed(r);
-  snapshot.body_changed(robot);
+void Engine::Impl::body_changed(RobotId robot) {
   if (past) past->body_changed(robot);
   if (fusion_world) {
     fusion_world->world.body_changed(robot);
     fusion_world->valid = false;
   }
-  RobotGroup& group = groups[group_index[r]];
-  group.program.setups[member_index[r]].robot.radius_m = radius_m[r];
+  if (!is_local(robot.value())) return;
+  RobotGroup& group = groups[group_index[robot.value()]];
+  group.program.setups[member_index[robot.value()]].robot.radius_m = truth.radius_m[robot.value()];
+}
+
+/// A program that keeps the radius of its robot learns the new one; one that takes no changes goes
+/// on with what it believes.
+void Engine::Impl::tell_program_of_body(RobotId robot) {
+  if (!is_local(robot.value())) return;
+  // Nobody listens if there is none, or if it has failed.
+  const auto target =
+      program_target(groups[group_index[robot.value()]], member_index[robot.value()]);
+  if (target) static_cast<void>(target->update(target->present));
 }
 
 void Engine::Impl::restore_bodies() {
-  for (const auto& [r, body] : original_bodies) put_body(RobotId(r), body);
-  original_bodies.clear();
-  scales.clear();
+  for (const RobotId robot : truth.restore_bodies()) body_changed(robot);
 }
 
-void Engine::stop(RobotId robot, Author author) {
-  for (std::uint32_t r = 0; r < impl_->guard_states.size(); ++r) {
-    if (robot.valid() && robot.value() != r) continue;
-    if (impl_->guard_states[r].stopped) continue;
-    impl_->guard_states[r].stopped = true;
-    impl_->note_input(RobotId(r), EventKind::kStopped, "", author);
+void Engine::Impl::stop(RobotId robot, Author author) {
+  for (std::uint32_t r = 0; r < guard_states.size(); ++r) {
+    if (!is_local(r) || (robot.valid() && robot.value() != r)) continue;
+    if (guard_states[r].stopped) continue;
+    guard_states[r].stopped = true;
+    note_input(RobotId(r), EventKind::kStopped, "", author);
   }
 }
 
-void Engine::release(RobotId robot, Author author) {
-  for (std::uint32_t r = 0; r < impl_->guard_states.size(); ++r) {
-    if (robot.valid() && robot.value() != r) continue;
-    GuardState& state = impl_->guard_states[r];
+void Engine::Impl::release(RobotId robot, Author author) {
+  for (std::uint32_t r = 0; r < guard_states.size(); ++r) {
+    if (!is_local(r) || (robot.valid() && robot.value() != r)) continue;
+    GuardState& state = guard_states[r];
     if (!state.stopped) continue;
     state.stopped = false;
-    const RobotType& type = impl_->spec.types[impl_->spec.robots[r].type];
-    state.armed = type.simulated || !impl_->guards[impl_->spec.robots[r].type]->arm;
-    impl_->note_input(RobotId(r), EventKind::kReleased, "", author);
+    const RobotType& type = spec.types[spec.robots[r].type];
+    state.armed = type.simulated || !guards[spec.robots[r].type]->arm;
+    note_input(RobotId(r), EventKind::kReleased, "", author);
   }
 }
 
-void Engine::arm(RobotId robot, Author author) {
-  for (std::uint32_t r = 0; r < impl_->guard_states.size(); ++r) {
-    if (robot.valid() && robot.value() != r) continue;
-    if (impl_->guard_states[r].armed) continue;
-    impl_->guard_states[r].armed = true;
-    impl_->note_input(RobotId(r), EventKind::kArmed, "", author);
+void Engine::Impl::arm(RobotId robot, Author author) {
+  for (std::uint32_t r = 0; r < guard_states.size(); ++r) {
+    if (!is_local(r) || (robot.valid() && robot.value() != r)) continue;
+    if (guard_states[r].armed) continue;
+    guard_states[r].armed = true;
+    note_input(RobotId(r), EventKind::kArmed, "", author);
   }
 }
+
+void Engine::stop(RobotId robot, Author author) { impl_->stop(robot, author); }
+void Engine::release(RobotId robot, Author author) { impl_->release(robot, author); }
+void Engine::arm(RobotId robot, Author author) { impl_->arm(robot, author); }
 
 bool Engine::stopped(RobotId robot) const noexcept {
   return impl_->guard_states[robot.value()].stopped;
@@ -315,10 +280,21 @@ bool Engine::armed(RobotId robot) const noexcept {
   return impl_->guard_states[robot.value()].armed;
 }
 
+Status Engine::Impl::check_own(RobotId robot, std::span<const ParameterChange> changes) const {
+  const std::string& name = spec.robots[robot.value()].name;
+  if (!is_local(robot.value())) {
+    return fail(ErrorCode::kState, "robot `{}` runs on another host", name);
+  }
+  const auto is_of_body = [](const ParameterChange& one) { return one.part == Part::kBody; };
+  if (std::none_of(changes.begin(), changes.end(), is_of_body)) return {};
+  return fail(ErrorCode::kState, "the body of robot `{}` is the authority's to change", name);
+}
+
 Status Engine::set_parameters(RobotId robot, std::span<const ParameterChange> changes,
                               Author author) {
   RAVE_CHECK(robot.value() < impl_->spec.robots.size());
   if (changes.empty()) return fail(ErrorCode::kInvalidArgument, "nothing to change");
+  if (impl_->host) RAVE_TRY(impl_->check_own(robot, changes));
   return impl_->change(robot, changes, author);
 }
 
@@ -326,9 +302,9 @@ std::string Engine::parameter(RobotId robot, ParameterChange::Part part, std::ui
                               std::string_view name) const {
   if (part == Part::kBody) {
     if (name != "scale") return {};
-    const auto scale = impl_->scales.find(robot.value());
-    return fmt::format("{}", scale == impl_->scales.end() ? 1.0 : scale->second);
+    return fmt::format("{}", impl_->truth.scale_of(robot));
   }
+  if (!is_local(robot)) return {};
   const auto target = target_of(impl_->groups[impl_->group_index[robot.value()]],
                                 impl_->member_index[robot.value()], part, index);
   if (!target) return {};
@@ -345,7 +321,7 @@ std::uint64_t Engine::inputs_by_hand() const noexcept { return impl_->by_hand; }
 void Engine::set_world_age(Duration age) noexcept { impl_->world_age = age; }
 void Engine::halt() noexcept { impl_->halt(); }
 double Engine::body_radius_m(RobotId robot) const noexcept {
-  return impl_->radius_m[robot.value()];
+  return impl_->truth.radius_m[robot.value()];
 }
 
 }  // namespace rave::sim

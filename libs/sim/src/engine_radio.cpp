@@ -5,7 +5,7 @@
 namespace rave::sim {
 
 RadioMoment Engine::Impl::radio_moment() {
-  return {step, now, reported, &snapshot, &hash, &events};
+  return {step, now, reported, &truth.snapshot, &hash, &events};
 }
 
 void Engine::Impl::deliver_messages() {
@@ -15,7 +15,8 @@ void Engine::Impl::deliver_messages() {
 void Engine::Impl::carry_messages() {
   if (radio->empty()) return;
   const RadioMoment moment = radio_moment();
-  for (std::uint32_t r = 0; r < movers.size(); ++r) {
+  for (std::uint32_t r = 0; r < truth.movers.size(); ++r) {
+    if (!is_local(r)) continue;
     const ProgramSlots& program = groups[group_index[r]].program;
     if (program.spec == nullptr) {
       // Nobody reads its mailbox.
@@ -24,7 +25,17 @@ void Engine::Impl::carry_messages() {
       radio->collect(moment, RobotId(r), program.failed[member_index[r]] == 0);
     }
   }
-  radio->carry(moment);
+  if (!host) {
+    radio->carry(moment);
+    return;
+  }
+  radio->send(moment, host->sent);
+  // Who hears what is found out when the messages of all hosts are known; by then these have
+  // changed.
+  host->reported_at_sending.resize(reported.size());
+  for (const RobotId robot : host->robots) {
+    host->reported_at_sending[robot.value()] = reported[robot.value()];
+  }
 }
 
 const RadioCounts& Engine::radio_counts() const noexcept { return impl_->radio->counts(); }

@@ -8,7 +8,7 @@
 namespace rave::sim {
 
 void Engine::Impl::sense() {
-  moves_m = motion_watch.look(snapshot);
+  moves_m = motion_watch.look(truth.snapshot);
   pool.for_each_block(blocks.size(), sense_effort,
                       [this](std::size_t b, unsigned w) { sense_block(blocks[b], workers[w]); });
 }
@@ -37,8 +37,9 @@ const NearLists* Engine::Impl::find_places(const RobotGroup& group, SensorSlots&
   const std::span<const RobotId> members =
       std::span(group.members).subspan(block.begin, block.end - block.begin);
   for (std::size_t i = 0; i < members.size(); ++i) {
-    worker.places[i] = sensor_place(movers[members[i].value()].X_WR.position(),
-                                    snapshot.turn_WR(members[i]), sensor.X_RS.position(), mounting);
+    worker.places[i] =
+        sensor_place(truth.movers[members[i].value()].X_WR.position(),
+                     truth.snapshot.turn_WR(members[i]), sensor.X_RS.position(), mounting);
     worker.places_W[i] = worker.places[i].p_WS;
   }
   const double margin_m = NearLists::margin_for(moves_m * sensor.period_steps,
@@ -46,8 +47,9 @@ const NearLists* Engine::Impl::find_places(const RobotGroup& group, SensorSlots&
   if (margin_m == 0) return nullptr;
   NearLists& lists = slots.near[block.begin / kMemberBlock];
   const std::span places_W(worker.places_W.data(), members.size());
-  if (!lists.hold(snapshot, places_W)) {
-    list_near(snapshot, slots.fan, sensor.z_m, members, places_W, margin_m, worker.fan, lists);
+  if (!lists.hold(truth.snapshot, places_W)) {
+    list_near(truth.snapshot, slots.fan, sensor.z_m, members, places_W, margin_m, worker.fan,
+              lists);
   }
   return &lists;
 }
@@ -63,23 +65,24 @@ void Engine::Impl::sample_members(RobotGroup& group, SensorSlots& slots, std::ui
       slots.uses_fan ? find_places(group, slots, block, mounting, worker) : nullptr;
   for (std::uint32_t m = block.begin; m < block.end; ++m) {
     const RobotId robot = group.members[m];
-    if (slots.failed[m] != 0 || !movers[robot.value()].present) continue;
+    if (slots.failed[m] != 0 || !truth.movers[robot.value()].present) continue;
     const bool direct = !slots.queued();
     SampleHeader& header = direct ? slots.headers[m] : slots.raw_headers[m];
     std::byte* records = direct ? slots.records_of(m) : slots.raw_records_of(m);
     const std::uint32_t sequence = slots.sequence[m]++;
     header = {now.ns, sequence + 1, 0, 1, 0};
-    const Pose2& X_WR = movers[robot.value()].X_WR;
+    const Pose2& X_WR = truth.movers[robot.value()].X_WR;
     if (slots.uses_fan) {
       const std::size_t first = std::size_t{slots.capacity} * m;
       const SensorPlace& place = worker.places[m - block.begin];
       const std::span ranges(reinterpret_cast<float*>(records), slots.capacity);
       const std::span bodies(slots.bodies.data() + first, slots.capacity);
       if (lists != nullptr) {
-        cast_fan(snapshot, slots.fan, place, *lists, m - block.begin, worker.fan, ranges, bodies);
+        cast_fan(truth.snapshot, slots.fan, place, *lists, m - block.begin, worker.fan, ranges,
+                 bodies);
       } else {
-        cast_fan(snapshot, slots.fan, place, sensor.z_m, snapshot.body_of(robot), worker.fan,
-                 ranges, bodies);
+        cast_fan(truth.snapshot, slots.fan, place, sensor.z_m, truth.snapshot.body_of(robot),
+                 worker.fan, ranges, bodies);
       }
       header.count = slots.capacity;
     } else {
@@ -98,7 +101,7 @@ void Engine::Impl::sample_members(RobotGroup& group, SensorSlots& slots, std::ui
       item.state = slots.driver_state.data() + sensor.virtual_ops->state_size * m;
       std::uint8_t failed = 0;
       ErrorText error;
-      sensor.virtual_ops->sample(slots.instances.at(0), &snapshot, &item, 1, &failed, &error);
+      sensor.virtual_ops->sample(slots.instances.at(0), &truth.snapshot, &item, 1, &failed, &error);
       header.count = std::min(header.count, slots.capacity);
       if (failed != 0) {
         slots.failed[m] = 1;

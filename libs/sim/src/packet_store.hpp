@@ -6,9 +6,19 @@
 #include <span>
 #include <vector>
 
+#include "rave/math/pose.hpp"
 #include "rave/robot/message.hpp"
 
 namespace rave::sim {
+
+/// What a receiver must know of who sent a message, as it was when the message left.
+struct PacketOrigin {
+  Vec2 p_W;            ///< Reported position, if `located`.
+  double range_m = 0;  ///< Of the sender's radio; 0: no limit.
+  double antenna_z_m = 0;
+  bool located = false;        ///< The sender has a reported pose.
+  bool line_of_sight = false;  ///< The sender's radio asks for it.
+};
 
 /// One message between outbox and inboxes.
 struct StoredPacket {
@@ -18,6 +28,7 @@ struct StoredPacket {
   std::int64_t queued_ns = 0;
   std::int64_t complete_ns = 0;    ///< When the last byte has left.
   std::uint64_t content_hash = 0;  ///< Of the bytes, for the run hash.
+  PacketOrigin origin;             ///< Known once it has left.
   std::uint32_t users = 0;         ///< Deliveries and queues that still need it.
 };
 
@@ -30,6 +41,18 @@ class PacketStore {
     packets_.clear();
     free_.clear();
     data_.clear();
+  }
+
+  /// Makes room for longer messages; views of bytes end.
+  void widen(std::uint32_t slot_bytes) {
+    if (slot_bytes <= slot_bytes_) return;
+    std::vector<std::byte> data(packets_.size() * slot_bytes);
+    for (std::size_t id = 0; id < packets_.size(); ++id) {
+      if (slot_bytes_ == 0) break;
+      std::memcpy(&data[id * slot_bytes], &data_[id * slot_bytes_], slot_bytes_);
+    }
+    data_ = std::move(data);
+    slot_bytes_ = slot_bytes;
   }
 
   /// A new packet with one user.

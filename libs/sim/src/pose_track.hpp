@@ -15,13 +15,15 @@ class PoseTrack {
  public:
   explicit PoseTrack(Duration keep) : keep_(keep) {}
 
-  void add(SimTime stamp, const Pose2& X_WR) {
-    if (!samples_.empty() && stamp <= samples_.back().stamp) return;
+  /// False: it is not newer than the newest one, and is left out.
+  bool add(SimTime stamp, const Pose2& X_WR) {
+    if (!samples_.empty() && stamp <= samples_.back().stamp) return false;
     std::size_t old = 0;
     while (old + 2 < samples_.size() && samples_[old + 1].stamp < stamp - keep_) ++old;
     // Shifting a few hundred small entries now and then is cheaper than a ring with seams.
     if (old > 64) samples_.erase(samples_.begin(), samples_.begin() + static_cast<long>(old));
     samples_.push_back({stamp, X_WR});
+    return true;
   }
 
   void clear() noexcept { samples_.clear(); }

@@ -135,7 +135,6 @@ void Radio::send_out(const RadioMoment& moment) {
   for (RadioLine& line : lines_) {
     send_waiting(line, endpoints_, models_, packets_, until_ns, complete_);
   }
-  for (Channel& channel : channels_) channel.placed = false;
   for (const std::uint32_t packet : complete_) {
     const Endpoint& sender = endpoints_[packets_[packet].endpoint];
     RadioLine& line = lines_[sender.line];
@@ -145,6 +144,7 @@ void Radio::send_out(const RadioMoment& moment) {
     }
     ++counts_.sent;
     carried_.push_back(packet);
+    packets_[packet].origin = origin_of(moment, sender);
     const MessageHead& head = packets_[packet].head;
     trace({RobotId(head.from),
            RobotId(),
@@ -155,16 +155,42 @@ void Radio::send_out(const RadioMoment& moment) {
            packets_[packet].complete_ns,
            {}},
           packet);
-    if (models_[sender.model].declaration.range_m > 0 && head.to.kind != RecipientKind::kRobot) {
-      place(channels_[sender.channel], moment);
-    }
   }
+}
+
+PacketOrigin Radio::origin_of(const RadioMoment& moment, const Endpoint& sender) const {
+  const RadioDeclaration& radio = models_[sender.model].declaration;
+  const ReportedPose& pose = moment.reported[sender.robot];
+  return {{pose.pose.x_m, pose.pose.y_m},
+          radio.range_m,
+          radio.antenna_z_m,
+          pose.known,
+          radio.line_of_sight != 0};
 }
 
 void Radio::carry(const RadioMoment& moment) {
   send_out(moment);
+  find_receivers(moment);
+  for (std::size_t b = 0; b < reaches_.size(); ++b) {
+    if (reaches_[b].failed_model != kNobody) count_failure(moment, reaches_[b]);
+  }
+  // Each sent packet was in use by its queue.
+  done_.insert(done_.end(), complete_.begin(), complete_.end());
+  show_payloads();
+}
+
+/// Fills `reaches_` and `arrivals_` with what becomes of the packets in `carried_`.
+void Radio::find_receivers(const RadioMoment& moment) {
+  for (Channel& channel : channels_) channel.placed = false;
+  for (const std::uint32_t packet : carried_) {
+    const StoredPacket& sent = packets_[packet];
+    if (sent.origin.range_m > 0 && sent.head.to.kind != RecipientKind::kRobot) {
+      place(channels_[endpoints_[sent.endpoint].channel], moment);
+    }
+  }
   const std::size_t blocks = (carried_.size() + kBlockSize - 1) / kBlockSize;
   if (reaches_.size() < blocks) reaches_.resize(blocks);
+  for (std::size_t b = blocks; b < reaches_.size(); ++b) reaches_[b].failed_model = kNobody;
   pool_.for_each_block(blocks, effort_, [&](std::size_t b, unsigned) {
     Reach& found = reaches_[b];
     found.deliveries.clear();
@@ -181,11 +207,7 @@ void Radio::carry(const RadioMoment& moment) {
       packets_.use(found.deliveries[i].packet);
       arrivals_.add(found.arrivals[i], found.deliveries[i]);
     }
-    if (found.failed_model != kNobody) count_failure(moment, found);
   }
-  // Each sent packet was in use by its queue.
-  done_.insert(done_.end(), complete_.begin(), complete_.end());
-  show_payloads();
 }
 
 void Radio::count_failure(const RadioMoment& moment, const Reach& reach) {

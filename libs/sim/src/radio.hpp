@@ -8,6 +8,7 @@
 #include "arrivals.hpp"
 #include "radio_parts.hpp"
 #include "rave/sim/engine.hpp"
+#include "rave/sim/sent_packet.hpp"
 #include "rave/sim/thread_pool.hpp"
 #include "robot_group.hpp"
 
@@ -28,8 +29,11 @@ struct RadioMoment {
 /// thread; uses the pool inside carry(). The result does not depend on the number of threads.
 class Radio {
  public:
-  Radio(const EngineSpec& spec, std::vector<RobotLog>& logs, ThreadPool& pool)
-      : spec_(spec), logs_(logs), pool_(pool) {}
+  /// Keeps references to all, which outlive it. `local`: by robot, 1 if it runs here. Of others it
+  /// is known that they have communicators, no more; what they send comes through receive().
+  Radio(const EngineSpec& spec, const std::vector<std::uint8_t>& local, std::vector<RobotLog>& logs,
+        ThreadPool& pool)
+      : spec_(spec), local_(local), logs_(logs), pool_(pool) {}
   Radio(const Radio&) = delete;
   Radio& operator=(const Radio&) = delete;
   ~Radio() { close(); }
@@ -56,6 +60,12 @@ class Radio {
   void collect(const RadioMoment& moment, RobotId robot, bool accepted);
   /// After all have been collected: sends what can be sent in this step.
   void carry(const RadioMoment& moment);
+  /// The two halves of carry() for one of several hosts: `sent` is filled with what leaves robots
+  /// that run here, and later receive() finds out who of them hears what left all robots. The
+  /// moment of both is that of the sending. Errors of receive(): kPlugin (a model failed, which
+  /// other hosts cannot know).
+  void send(const RadioMoment& moment, SentPackets& sent);
+  Status receive(const RadioMoment& moment, const SentPackets& sent);
 
   [[nodiscard]] bool empty() const noexcept { return endpoints_.empty(); }
   [[nodiscard]] const RadioCounts& counts() const noexcept { return counts_; }
@@ -91,12 +101,14 @@ class Radio {
   void show_payloads();
   void offer(const RadioMoment& moment, Endpoint& sender, const MessageHead& message);
   void send_out(const RadioMoment& moment);
+  [[nodiscard]] PacketOrigin origin_of(const RadioMoment& moment, const Endpoint& sender) const;
+  void write_sent(SentPackets& sent);
+  void find_receivers(const RadioMoment& moment);
   void count_failure(const RadioMoment& moment, const Reach& reach);
 
   // radio_reach.cpp: who hears what is carried in this process
   void place(Channel& channel, const RadioMoment& moment);
-  void find_candidates(const Endpoint& from, const Recipient& to, const RadioMoment& moment,
-                       Reach& reach) const;
+  void find_candidates(const StoredPacket& sent, Reach& reach) const;
   void reach(std::uint32_t packet, const RadioMoment& moment, Reach& reach) const;
   void reach_one(std::uint32_t packet, const Endpoint& to, std::uint32_t to_index,
                  const RadioMoment& moment, Reach& reach) const;
@@ -114,6 +126,7 @@ class Radio {
   [[nodiscard]] std::uint32_t robot_of_hash(std::uint32_t hash);
 
   const EngineSpec& spec_;
+  const std::vector<std::uint8_t>& local_;
   std::vector<RobotLog>& logs_;
   ThreadPool& pool_;
   ThreadPool::Effort effort_;

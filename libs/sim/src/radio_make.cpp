@@ -45,7 +45,7 @@ Status Radio::make_models() {
   for (std::uint32_t r = 0; r < spec_.robots.size(); ++r) {
     const std::uint32_t t = spec_.robots[r].type;
     const RobotType& type = spec_.types[t];
-    if (!models_of_[t].empty()) continue;
+    if (local_[r] == 0 || !models_of_[t].empty()) continue;
     for (const CommunicatorSpec& communicator : type.communicators) {
       RadioModel& model = models_.emplace_back();
       model.spec = &communicator;
@@ -100,7 +100,7 @@ Status Radio::make_robot(std::uint32_t robot) {
     Endpoint endpoint;
     endpoint.robot = robot;
     endpoint.device = c;
-    endpoint.model = models_of_[t][c];
+    endpoint.model = local_[robot] != 0 ? models_of_[t][c] : kNobody;
     endpoint.line = first + communicator.transmitter;
     endpoint.team = team_of(robot);
     const auto same = [&](const Channel& channel) { return channel.name == communicator.name; };
@@ -123,6 +123,7 @@ void Radio::lay_out_mailboxes() {
   std::size_t heads = 0;
   std::size_t bytes = 0;
   for (const Endpoint& endpoint : endpoints_) {
+    if (local_[endpoint.robot] == 0) continue;
     heads += std::size_t{2} * models_[endpoint.model].declaration.max_messages;
     bytes += std::size_t{2} * models_[endpoint.model].declaration.max_mailbox_bytes;
   }
@@ -131,13 +132,14 @@ void Radio::lay_out_mailboxes() {
   MessageHead* head = mailbox_heads_.data();
   std::byte* data = mailbox_bytes_.data();
   for (Endpoint& endpoint : endpoints_) {
+    views_.push_back({&endpoint.in, &endpoint.out});
+    if (local_[endpoint.robot] == 0) continue;
     const RadioDeclaration& radio = models_[endpoint.model].declaration;
     for (Mailbox* box : {&endpoint.in, &endpoint.out}) {
       *box = {head, data, radio.max_messages, radio.max_mailbox_bytes, 0, 0, 0, 0};
       head += radio.max_messages;
       data += radio.max_mailbox_bytes;
     }
-    views_.push_back({&endpoint.in, &endpoint.out});
   }
 }
 
@@ -182,6 +184,11 @@ Status Radio::configure_line(RadioLine& line) {
     return line.spec->ops->configure(line.instance.at(0), &setup, &line.declaration, error);
   }));
   if (line.declaration.in_process != 0) return {};
+  if (spec_.local) {
+    return fail(ErrorCode::kInvalidArgument,
+                "is a device, which keeps to the clock on the wall; robots of several hosts in "
+                "lock-step need transmitters that work in process");
+  }
   RAVE_TRY(check_packet_sizes(line));
   line.port = std::make_unique<RadioPort>(line.declaration.max_packet_bytes);
   encoded_.resize(std::max<std::size_t>(encoded_.size(), line.declaration.max_packet_bytes));
@@ -212,6 +219,7 @@ Status Radio::open_line(RadioLine& line) {
 
 Status Radio::open() {
   for (RadioLine& line : lines_) {
+    if (local_[line.robot] == 0) continue;
     Status status;
     if (!configured_) status = configure_line(line);
     if (status && line.declaration.in_process == 0) status = open_line(line);
@@ -229,7 +237,7 @@ void Radio::name_channels() {
   for (Channel& channel : channels_) channel.team_sizes.assign(teams_.size(), 0);
   for (std::uint32_t e = 0; e < endpoints_.size(); ++e) {
     const Endpoint& endpoint = endpoints_[e];
-    if (lines_[endpoint.line].declaration.in_process == 0) continue;
+    if (local_[endpoint.robot] == 0 || lines_[endpoint.line].declaration.in_process == 0) continue;
     Channel& channel = channels_[endpoint.channel];
     channel.members.push_back(e);
     if (endpoint.team != kNobody) ++channel.team_sizes[endpoint.team];
@@ -246,6 +254,7 @@ void Radio::close() noexcept {
 }
 
 std::string Radio::report(RobotId robot, std::uint32_t transmitter) const {
+  RAVE_CHECK(local_[robot.value()] != 0);
   const RadioLine& line = lines_[first_line_[robot.value()] + transmitter];
   std::string text;
   line.spec->ops->report(line.instance.at(0), &text,

@@ -33,14 +33,15 @@ void Radio::place(Channel& channel, const RadioMoment& moment) {
   channel.grid.build(items_, std::max({channel.largest_range_m, sparse_m, 0.1}));
 }
 
-void Radio::find_candidates(const Endpoint& from, const Recipient& to, const RadioMoment& moment,
-                            Reach& reach) const {
+void Radio::find_candidates(const StoredPacket& sent, Reach& reach) const {
+  const Endpoint& from = endpoints_[sent.endpoint];
+  const Recipient& to = sent.head.to;
   const Channel& channel = channels_[from.channel];
-  const double range_m = models_[from.model].declaration.range_m;
+  const double range_m = sent.origin.range_m;
   std::vector<std::uint32_t>& found = reach.candidates;
   found.clear();
   if (to.kind == RecipientKind::kRobot) {
-    if (to.robot >= spec_.robots.size() || to.robot == from.robot) return;
+    if (to.robot >= spec_.robots.size() || to.robot == from.robot || local_[to.robot] == 0) return;
     for (std::uint32_t e = first_endpoint_[to.robot]; e < first_endpoint_[to.robot + 1]; ++e) {
       const Endpoint& other = endpoints_[e];
       if (other.channel != from.channel || lines_[other.line].declaration.in_process == 0) continue;
@@ -51,12 +52,12 @@ void Radio::find_candidates(const Endpoint& from, const Recipient& to, const Rad
   }
   const bool to_team = to.kind == RecipientKind::kTeam;
   if (to_team && from.team == kNobody) return;
-  const std::size_t all = to_team ? channel.team_sizes[from.team] : channel.members.size();
-  const ReportedPose& pose = moment.reported[from.robot];
+  std::size_t all = to_team ? channel.team_sizes[from.team] : channel.members.size();
+  if (local_[from.robot] != 0) --all;  // it is a member itself
   if (range_m == 0) {
     found = channel.members;
-  } else if (pose.known) {
-    channel.grid.for_each_near(position(pose), range_m,
+  } else if (sent.origin.located) {
+    channel.grid.for_each_near(sent.origin.p_W, range_m,
                                [&](const world::ShapePiece& item) { found.push_back(item.shape); });
     std::sort(found.begin(), found.end());
   }
@@ -65,13 +66,12 @@ void Radio::find_candidates(const Endpoint& from, const Recipient& to, const Rad
     return other.robot == from.robot || (to_team && other.team != from.team);
   });
   // Those beyond the range are not looked at one by one.
-  reach.counts.addressed += all - 1;
-  reach.counts.lost_range += all - 1 - found.size();
+  reach.counts.addressed += all;
+  reach.counts.lost_range += all - found.size();
 }
 
 void Radio::reach(std::uint32_t packet, const RadioMoment& moment, Reach& reach) const {
-  const StoredPacket& sent = packets_[packet];
-  find_candidates(endpoints_[sent.endpoint], sent.head.to, moment, reach);
+  find_candidates(packets_[packet], reach);
   for (const std::uint32_t e : reach.candidates) {
     reach_one(packet, endpoints_[e], e, moment, reach);
   }
@@ -101,15 +101,14 @@ void Radio::reach_one(std::uint32_t packet, const Endpoint& to, std::uint32_t to
                       const RadioMoment& moment, Reach& reach) const {
   const StoredPacket& sent = packets_[packet];
   const Endpoint& from = endpoints_[sent.endpoint];
-  const RadioDeclaration& sender = models_[from.model].declaration;
+  const PacketOrigin& sender = sent.origin;
   const RadioDeclaration& receiver = models_[to.model].declaration;
-  const ReportedPose& here = moment.reported[from.robot];
   const ReportedPose& there = moment.reported[to.robot];
-  const bool sight = sender.line_of_sight != 0 || receiver.line_of_sight != 0;
+  const bool sight = sender.line_of_sight || receiver.line_of_sight != 0;
   const bool limited = sender.range_m > 0 || receiver.range_m > 0;
   LinkQuery query;
-  if (here.known && there.known) {
-    query.distance_m = std::sqrt(squared_norm(position(there) - position(here)));
+  if (sender.located && there.known) {
+    query.distance_m = std::sqrt(squared_norm(position(there) - sender.p_W));
   } else if (limited || sight) {
     ++reach.counts.lost_range;
     return;
@@ -123,7 +122,7 @@ void Radio::reach_one(std::uint32_t packet, const Endpoint& to, std::uint32_t to
   if (sight) {
     const double z_m = 0.5 * (sender.antenna_z_m + receiver.antenna_z_m);
     query.obstructed =
-        world.visible(position(here), position(there), z_m, kAllLayers,
+        world.visible(sender.p_W, position(there), z_m, kAllLayers,
                       world.body_of(RobotId(from.robot)), world.body_of(RobotId(to.robot)))
             ? 0
             : 1;

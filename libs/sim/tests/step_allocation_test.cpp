@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A program of its own: it counts every allocation of the process.
 #include "counted_allocations.hpp"
-#include "engine_fixture.hpp"
+#include "split_fixture.hpp"
 
 namespace rave::sim::testing {
 namespace {
@@ -65,6 +65,20 @@ TEST(EngineStep, AllocatesNothingInTheSwingOnTwoThreads) {
   // Each thread has lists of its own, and chance says which blocks it takes: a thread that was late
   // for the fullest blocks grows its lists when it first meets them. Once a step would be kSteps.
   EXPECT_LE(swing(2).allocations, kSteps / 10U);
+}
+
+/// What kSteps steps of the same crowd on two hosts allocate, all in one.
+TEST(EngineStep, AllocatesNothingForRobotsOfSeveralHosts) {
+  std::vector<std::uint32_t> host_of(400);
+  for (std::uint32_t r = 0; r < host_of.size(); ++r) host_of[r] = r / 7 % 2;
+  SplitRun run([] { return crowd(1); }, host_of);
+  for (int k = 0; k < kSteps; ++k) ASSERT_TRUE(run.advance());
+  const std::uint64_t before = allocations.load();
+  bool good = true;
+  for (int k = 0; k < kSteps; ++k) good = run.advance() && good;
+  EXPECT_TRUE(good);
+  // As above, and lists that a host and its report swap learn their size one after the other.
+  EXPECT_LE(allocations.load() - before, 16U);
 }
 
 }  // namespace

@@ -9,6 +9,10 @@
 
 #include "rave/base/hash.hpp"
 #include "rave/sim/engine_spec.hpp"
+#include "rave/sim/host_report.hpp"
+#include "rave/sim/reported_pose.hpp"
+#include "rave/sim/world_input.hpp"
+#include "rave/sim/world_step.hpp"
 #include "rave/world/snapshot.hpp"
 
 namespace rave::sim {
@@ -40,21 +44,6 @@ struct Event {
   BodyId other;              ///< Contacts and pins: with whom.
   std::string text;          ///< For people. Not part of the run hash.
   std::uint32_t detail = 0;  ///< Guard: the GuardLimit.
-};
-
-/// Who asks something of a run.
-enum class Author : std::uint8_t {
-  kRun,   ///< It belongs to the run, as what its scenario says.
-  kHand,  ///< Somebody, while it goes: the run is not the scenario's any more.
-};
-
-/// Where a robot is told to be.
-struct ReportedPose {
-  PoseReading pose;  ///< In W.
-  Twist2 velocity;   ///< Body frame.
-  SimTime stamp;
-  bool known = false;  ///< False before the first.
-  bool stale = false;
 };
 
 /// The latest sample of one sensor of one robot, for observers and records. Views into the engine.
@@ -95,6 +84,10 @@ struct CommandColumns {
 /// Runs the world: sense (const world), decide (const percepts), act (drivers propose motions),
 /// resolve (the world limits them), publish. Belongs to one thread; uses others inside step().
 /// Between steps everything may be read. Same spec, same run, whatever the number of threads.
+///
+/// With EngineSpec::local it runs these robots alone, as one host of several. Then propose() and
+/// apply() take turns in the place of step(), and a WorldAuthority stands between. What is asked by
+/// robot of sensors, commands, programs and devices, and by group, is there for these robots only.
 class Engine {
  public:
   /// Makes all instances, opens hardware, starts programs. Errors: whatever a driver or program
@@ -104,8 +97,22 @@ class Engine {
   Engine& operator=(const Engine&) = delete;
   ~Engine();
 
-  /// One base period. Errors end the run: a stepped driver that does not answer.
+  /// One base period. Errors end the run: a stepped driver that does not answer. kState: other
+  /// hosts have a part in this world.
   Status step();
+
+  /// One of several hosts: does the step that apply() began (none at first), takes in what hardware
+  /// has for the next one, and fills in what the authority needs for it; of `report` the number of
+  /// the host is left as it is. Errors: kState (apply() comes first; alone); what step() says,
+  /// which ends the run and stands in the report, too.
+  Status propose(HostReport& report);
+  /// The next step begins: the world is as the authority says. Errors: kState (propose() comes
+  /// first; alone), kInvalidArgument (another step or another world; nothing has changed); kPlugin
+  /// and what step() says end the run.
+  Status apply(const WorldStep& world);
+  /// Whether this engine runs the robot.
+  [[nodiscard]] bool is_local(RobotId robot) const noexcept;
+
   /// Back to the exact state after create(): the same steps follow.
   Status reset();
 
@@ -116,8 +123,9 @@ class Engine {
   [[nodiscard]] SimTime time() const noexcept;
   /// The world as the last step sensed it.
   [[nodiscard]] const world::Snapshot& snapshot() const noexcept;
+  /// Of robots of other hosts: as at the beginning of the last step.
   [[nodiscard]] const ReportedPose& reported(RobotId robot) const noexcept;
-  /// True pose of a simulated robot after the last step.
+  /// True pose of a simulated robot after the last step. One of several hosts: as apply() showed it.
   [[nodiscard]] Pose2 true_pose(RobotId robot) const noexcept;
   /// Sensors in the order of the robot's type.
   [[nodiscard]] SensorSample sensor(RobotId robot, std::uint32_t index) const noexcept;
@@ -157,8 +165,11 @@ class Engine {
   [[nodiscard]] const RadioCounts& radio_counts() const noexcept;
   /// Messages that were sent or delivered in the last step, in the order in which they were.
   [[nodiscard]] std::span<const RadioTrace> radio() const noexcept;
-  /// Events of the last step, ordered by robot.
+  /// Events of the last step, ordered by robot. One of several hosts has those of its robots but
+  /// contacts, pins and changes of bodies, which the authority has.
   [[nodiscard]] std::span<const Event> events() const noexcept;
+  /// Of the steps that are done. One of several hosts: percepts, commands, messages and events of
+  /// its robots.
   [[nodiscard]] RunHash hash() const noexcept;
   /// What the steps so far took; all zero without EngineSpec::phase_clock.
   [[nodiscard]] const PhaseTimes& phase_times() const noexcept;
@@ -176,7 +187,8 @@ class Engine {
   [[nodiscard]] Result<Pose2> pose_at(RobotId robot, SimTime stamp) const;
 
   // Inputs between two steps. They count from the next step on, are events of it and part of the
-  // hash. `robot` invalid: all robots.
+  // hash. `robot` invalid: all robots; one of several hosts asks its own only, and what is for
+  // others goes through WorldAuthority::ask().
 
   /// Makes robots stand, whatever their programs say, until they are released. Any robot can be
   /// stopped, simulated ones too.
@@ -190,7 +202,8 @@ class Engine {
   [[nodiscard]] bool armed(RobotId robot) const noexcept;
   /// Changes parameters of one robot, all or none. Errors: kInvalidArgument and kNotFound (unknown,
   /// out of range, refused by the driver or program, a body that would overlap something), kState
-  /// (its program has failed); then everything is as it was.
+  /// (its program has failed; a body, which the authority
+  /// changes); then everything is as it was.
   Status set_parameters(RobotId robot, std::span<const ParameterChange> changes,
                         Author author = Author::kHand);
   /// The present value of a parameter; empty if there is none of this name.

@@ -183,6 +183,10 @@ struct EngineSpec {
   /// Shares every loop among the threads, also where one of them would be done sooner: for tests
   /// of what threads must not change.
   bool share_always = false;
+  /// Set: the engine is one of several hosts of a world and runs these robots alone (at least one,
+  /// each once). Types that no local robot is of need no function tables. Such a run is stepped,
+  /// and transmitters work in process. Not set: all robots.
+  std::optional<std::vector<RobotId>> local;
 };
 
 }  // namespace rave::sim

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "rave/base/time.hpp"
+#include "rave/math/pose.hpp"
+#include "rave/robot/reading.hpp"
+
+namespace rave::sim {
+
+/// Where a robot is told to be.
+struct ReportedPose {
+  PoseReading pose;  ///< In W.
+  Twist2 velocity;   ///< Body frame.
+  SimTime stamp;
+  bool known = false;  ///< False before the first.
+  bool stale = false;
+};
+
+}  // namespace rave::sim

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "rave/base/hash.hpp"
+#include "rave/sim/engine.hpp"
+#include "rave/sim/host_report.hpp"
+#include "rave/sim/world_step.hpp"
+
+namespace rave::sim {
+
+/// Holds a world whose robots run on several hosts in lock-step: knows where all robots are, limits
+/// their motion as the engine of a one-process run does, and passes on what they send. It runs no
+/// driver and no program. The hashes of the authority and of all engines that take part add up to
+/// that of the one-process run. Belongs to one thread; uses others inside step().
+///
+/// For each step: Engine::propose() of each host, step() here, Engine::apply() of each host.
+class WorldAuthority {
+ public:
+  /// `spec` as for an Engine; function tables of drivers may be null, `local` is not looked at.
+  /// `host_of` says for each robot the number of the host that runs it, from 0 without gaps.
+  /// Errors: kInvalidArgument.
+  [[nodiscard]] static Result<std::unique_ptr<WorldAuthority>> create(
+      EngineSpec spec, std::vector<std::uint32_t> host_of);
+  WorldAuthority(const WorldAuthority&) = delete;
+  WorldAuthority& operator=(const WorldAuthority&) = delete;
+  ~WorldAuthority();
+
+  /// Takes one report of each host, in any order, and fills in the next step of the world.
+  /// Errors: kInvalidArgument (a report that is not what this step needs: another step, a robot
+  /// missing, twice or of another host, a number that is none), kState (a host is missing or has
+  /// failed). After an error nothing has changed, and it may be tried again.
+  Status step(std::span<const HostReport* const> reports, WorldStep& world);
+
+  /// Asks something of robots, from the next step on; returns its number. That it cannot be done is
+  /// known two steps later at the latest, see refusals(). Errors: kInvalidArgument (no such robot,
+  /// nothing to change, or a change of the body together with other parts).
+  Result<std::uint64_t> ask(WorldInput input);
+  /// What hosts and authority said in the last step to inputs that came by hand.
+  [[nodiscard]] std::span<const InputRefusal> refusals() const noexcept;
+
+  /// Back to the state after create().
+  void reset();
+
+  [[nodiscard]] const EngineSpec& spec() const noexcept;
+  /// Of which all is known: motion, contacts, hash.
+  [[nodiscard]] std::uint64_t steps_done() const noexcept;
+  /// True pose of a simulated, reported pose of a real robot, as the last WorldStep shows it.
+  [[nodiscard]] Pose2 pose(RobotId robot) const noexcept;
+  /// Contacts, pins and changes of bodies of the last step that is done, ordered by robot.
+  [[nodiscard]] std::span<const Event> events() const noexcept;
+  /// Of poses, contacts, pins and changes of bodies in the steps that are done.
+  [[nodiscard]] RunHash hash() const noexcept;
+  [[nodiscard]] std::uint32_t host_count() const noexcept;
+
+ private:
+  struct Impl;
+  explicit WorldAuthority(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace rave::sim

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "engine_impl.hpp"
+#include "message_checks.hpp"
+#include "radio.hpp"
+
+namespace rave::sim {
+namespace {
+
+bool of_body(const ScheduledChange& scheduled) {
+  return std::any_of(scheduled.changes.begin(), scheduled.changes.end(), [](const auto& change) {
+    return change.part == ParameterChange::Part::kBody;
+  });
+}
+
+}  // namespace
+
+Status Engine::propose(HostReport& report) {
+  Impl& engine = *impl_;
+  if (!engine.host) {
+    return fail(ErrorCode::kState, "runs all robots: step() in the place of propose()");
+  }
+  if (engine.host->proposed) {
+    return fail(ErrorCode::kState, "step {} has been proposed: apply() comes next", engine.step);
+  }
+  PhaseTimer phase(engine.spec.phase_clock, engine.phase_times);
+  Status status = engine.propose(report, phase);
+  if (status) return {};
+  report.begin(engine.step);
+  report.state = HostState::kFailed;
+  report.text = status.error().text();
+  return status;
+}
+
+Status Engine::Impl::propose(HostReport& report, PhaseTimer& phase) {
+  if (host->begun) {
+    // Inputs since the step began are events of it.
+    events.insert(events.end(), pending.begin(), pending.end());
+    pending.clear();
+    work(phase);
+    publish();
+    phase.ends(Phase::kPublish);
+    host->begun = false;
+    host->hash = hash;
+    host->events.swap(events);
+    events.clear();
+    ++step;
+  }
+  // What hardware says of the next step does not depend on where the authority lets robots go, and
+  // the authority needs to know where the real ones are.
+  now = step_time(step);
+  past_valid = false;
+  if (fusion_world) fusion_world->valid = false;
+  RAVE_TRY(ingest_sensors(false));
+  pool.for_each_block(blocks.size(), refresh_effort, [this](std::size_t b, unsigned w) {
+    if (groups[blocks[b].group].type->pose_from) refresh_told(blocks[b], workers[w]);
+  });
+  phase.ends(Phase::kIngest);
+  host->proposed = true;
+  fill_report(report);
+  phase.ends(Phase::kPublish);
+  return {};
+}
+
+void Engine::Impl::fill_report(HostReport& report) {
+  report.begin(step);
+  if (step > 0) {
+    Proposals& all = report.proposals;
+    for (const RobotId robot : host->simulated) {
+      const Twist2& twist = truth.proposal[robot.value()];
+      all.robots.push_back(robot.value());
+      all.vx_mps.push_back(twist.vx);
+      all.vy_mps.push_back(twist.vy);
+      all.wz_radps.push_back(twist.wz);
+    }
+  }
+  for (const RobotId robot : host->told) report.poses.push_back({robot, reported[robot.value()]});
+  // Swapped, so that both keep their room.
+  report.sent.packets.swap(host->sent.packets);
+  report.sent.bytes.swap(host->sent.bytes);
+  host->sent.clear();
+  report.samples.swap(host->samples);
+  host->samples.clear();
+  std::sort(report.samples.begin(), report.samples.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.robot, a.stamp) < std::tie(b.robot, b.stamp);
+  });
+  report.refusals.swap(host->refusals);
+  host->refusals.clear();
+}
+
+Status Engine::apply(const WorldStep& world) {
+  Impl& engine = *impl_;
+  if (!engine.host) {
+    return fail(ErrorCode::kState, "runs all robots: step() in the place of apply()");
+  }
+  if (!engine.host->proposed) {
+    return fail(ErrorCode::kState, "step {} has begun: propose() comes next", engine.step);
+  }
+  RAVE_TRY(engine.check(world));
+  PhaseTimer phase(engine.spec.phase_clock, engine.phase_times);
+  return engine.apply(world, phase);
+}
+
+Status Engine::Impl::check(const WorldStep& world) const {
+  if (world.step != step) {
+    return fail(ErrorCode::kInvalidArgument, "the world is of step {}, but step {} comes next",
+                world.step, step);
+  }
+  return check_world_step(spec, world);
+}
+
+Status Engine::Impl::apply(const WorldStep& world, PhaseTimer& phase) {
+  host->proposed = false;
+  host->begun = true;
+  past_valid = false;
+  if (step > 0 && !radio->empty()) {
+    // Who hears a message is decided in the world in which it was sent.
+    const RadioMoment moment{
+        step - 1, step_time(step - 1), host->reported_at_sending, &truth.snapshot, &hash, &events};
+    RAVE_TRY(radio->receive(moment, world.sent));
+  }
+  phase.ends(Phase::kRadio);
+  RAVE_TRY(make_changes(world));
+  adopt(world);
+  show_world();
+  if (fusion_world) RAVE_TRY(ingest_sensors(true));
+  phase.ends(Phase::kIngest);
+  return {};
+}
+
+Status Engine::Impl::make_changes(const WorldStep& world) {
+  for (const ResizedRobot& resized : world.resized) {
+    RAVE_TRY(truth.put_scale(resized.robot, resized.scale));
+    body_changed(resized.robot);
+    tell_program_of_body(resized.robot);
+  }
+  for (const WorldInput& input : world.inputs) do_input(input);
+  for (; next_change < spec.changes.size() && spec.changes[next_change].step <= step;
+       ++next_change) {
+    const ScheduledChange& scheduled = spec.changes[next_change];
+    if (!is_local(scheduled.robot.value()) || of_body(scheduled)) continue;
+    make_change(scheduled);
+  }
+  return {};
+}
+
+void Engine::Impl::do_input(const WorldInput& input) {
+  switch (input.kind) {
+    case WorldInput::Kind::kStop:
+      stop(input.robot, input.author);
+      return;
+    case WorldInput::Kind::kRelease:
+      release(input.robot, input.author);
+      return;
+    case WorldInput::Kind::kArm:
+      arm(input.robot, input.author);
+      return;
+    case WorldInput::Kind::kChange:
+      break;
+  }
+  if (!is_local(input.robot.value())) return;
+  const Status status = change(input.robot, input.changes, input.author);
+  if (!status) host->refusals.push_back({input.sequence, status.error().text()});
+}
+
+void Engine::Impl::adopt(const WorldStep& world) {
+  for (std::uint32_t r = 0; r < truth.movers.size(); ++r) {
+    const std::uint8_t flags = world.flags[r];
+    truth.movers[r].X_WR = {world.x_m[r], world.y_m[r], world.yaw_rad[r]};
+    truth.movers[r].present = (flags & WorldStep::kPresent) != 0;
+    truth.velocity[r] = {world.vx_mps[r], world.vy_mps[r], world.wz_radps[r]};
+    truth.limited[r] = (flags & WorldStep::kLimited) != 0 ? 1 : 0;
+    truth.touch[r] = {};
+    // Told as a robot that is alone is told: before it is pushed out of anybody's way.
+    if (!spec.types[spec.robots[r].type].pose_from) refresh_true(r);
+  }
+  for (const PushedRobot& pushed : world.pushed) {
+    truth.movers[pushed.robot.value()].X_WR = pushed.X_WR;
+  }
+  for (const TouchPoint& point : world.touches) {
+    truth.touch[point.robot.value()] = {true, point.direction_W};
+  }
+  for (const PoseReport& pose : world.poses) {
+    if (!is_local(pose.robot.value())) reported[pose.robot.value()] = pose.reported;
+  }
+  for (const PoseSample& sample : world.samples) {
+    if (!is_local(sample.robot.value()))
+      tracks[sample.robot.value()].add(sample.stamp, sample.X_WR);
+  }
+}
+
+}  // namespace rave::sim

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "rave/base/hash.hpp"
+#include "rave/sim/engine.hpp"
+
+/// How inputs of a run are written down, the same whoever carries them out.
+namespace rave::sim {
+
+/// The event of an input that counts from `step` on; adds it to the hash.
+[[nodiscard]] Event noted_input(std::uint64_t step, RobotId robot, EventKind kind, std::string text,
+                                Author author, RunHash& hash);
+
+/// Whether the change of a body names what bodies have, with a value that it may have. Errors:
+/// kNotFound, kInvalidArgument.
+Status check_body_change(const ParameterChange& change);
+[[nodiscard]] std::string body_change_text(double scale_before, double scale_after);
+
+/// The error of a change that was refused, with robot and part.
+[[nodiscard]] tl::unexpected<Error> refused_change(const EngineSpec& spec, RobotId robot,
+                                                   std::string_view part, const Error& error);
+
+}  // namespace rave::sim

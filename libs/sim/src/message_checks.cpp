@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "message_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace rave::sim {
+namespace {
+
+bool is_finite(const Pose2& pose) {
+  return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.yaw);
+}
+
+bool is_finite(const Twist2& twist) {
+  return std::isfinite(twist.vx) && std::isfinite(twist.vy) && std::isfinite(twist.wz);
+}
+
+bool all_finite(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(),
+                     [](double value) { return std::isfinite(value); });
+}
+
+std::int64_t time_ns(const EngineSpec& spec, std::uint64_t step) {
+  return static_cast<std::int64_t>(step) * spec.step.ns;
+}
+
+tl::unexpected<Error> wrong(const EngineSpec& spec, std::uint32_t robot, std::string_view what) {
+  const std::string name =
+      robot < spec.robots.size() ? spec.robots[robot].name : fmt::format("number {}", robot);
+  return fail(ErrorCode::kInvalidArgument, "robot `{}`: {}", name, what);
+}
+
+/// Whether `robots` are those that are expected: all of them, each once, ascending.
+template <class Robots, class Number>
+Status check_robots(const EngineSpec& spec, std::span<const RobotId> expected,
+                    std::span<const std::uint32_t> host_of, std::uint32_t host,
+                    const Robots& robots, Number number_of, std::string_view what) {
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    const std::uint32_t robot = number_of(robots[i]);
+    if (i < expected.size() && expected[i].value() == robot) continue;
+    if (robot >= host_of.size())
+      return wrong(spec, robot, fmt::format("{}, but it does not exist", what));
+    if (host_of[robot] != host) {
+      return wrong(spec, robot, fmt::format("{}, but it runs on host {}", what, host_of[robot]));
+    }
+    const bool again = std::any_of(robots.begin(), robots.begin() + static_cast<long>(i),
+                                   [&](const auto& one) { return number_of(one) == robot; });
+    if (again) return wrong(spec, robot, fmt::format("{} twice", what));
+    // An earlier one is missing, or this one should not be here.
+    if (i >= expected.size() || expected[i].value() > robot) {
+      return wrong(spec, robot, fmt::format("{}, which is not asked of it", what));
+    }
+    return wrong(spec, expected[i].value(), fmt::format("missing among those that have {}", what));
+  }
+  if (robots.size() == expected.size()) return {};
+  return wrong(spec, expected[robots.size()].value(),
+               fmt::format("missing among those that have {}", what));
+}
+
+Status check_proposals(const EngineSpec& spec, const HostRobots& own,
+                       std::span<const std::uint32_t> host_of, const HostReport& report) {
+  const Proposals& all = report.proposals;
+  const std::size_t count = all.robots.size();
+  if (all.vx_mps.size() != count || all.vy_mps.size() != count || all.wz_radps.size() != count) {
+    return fail(ErrorCode::kInvalidArgument, "proposals of unequal length");
+  }
+  const auto expected =
+      report.step > 0 ? std::span<const RobotId>(own.simulated) : std::span<const RobotId>();
+  RAVE_TRY(check_robots(
+      spec, expected, host_of, report.host, all.robots, [](std::uint32_t robot) { return robot; },
+      "a proposal"));
+  for (std::size_t i = 0; i < count; ++i) {
+    if (is_finite(Twist2{all.vx_mps[i], all.vy_mps[i], all.wz_radps[i]})) continue;
+    return wrong(spec, all.robots[i], "proposes a velocity that is not a number");
+  }
+  return {};
+}
+
+Status check_pose(const EngineSpec& spec, std::uint64_t step, const PoseReport& report) {
+  const ReportedPose& pose = report.reported;
+  const Pose2 X_WR{pose.pose.x_m, pose.pose.y_m, pose.pose.yaw_rad};
+  if (!is_finite(X_WR) || !is_finite(pose.velocity)) {
+    return wrong(spec, report.robot.value(), "a reported pose that is not a number");
+  }
+  if (pose.stamp.ns > time_ns(spec, step)) {
+    return wrong(spec, report.robot.value(), "a reported pose from the future");
+  }
+  return {};
+}
+
+/// Of robots for which `is_theirs` says that they may have any.
+template <class IsTheirs>
+Status check_samples(const EngineSpec& spec, std::uint64_t step,
+                     const std::vector<PoseSample>& samples, IsTheirs is_theirs) {
+  const PoseSample* before = nullptr;
+  for (const PoseSample& sample : samples) {
+    const std::uint32_t robot = sample.robot.value();
+    if (robot >= spec.robots.size() || spec.types[spec.robots[robot].type].simulated ||
+        !is_theirs(robot)) {
+      return wrong(spec, robot, "a sample of its pose that is not its host's to give");
+    }
+    if (!is_finite(sample.X_WR)) return wrong(spec, robot, "a sample that is not a number");
+    if (sample.stamp.ns > time_ns(spec, step))
+      return wrong(spec, robot, "a sample from the future");
+    if (before != nullptr &&
+        std::tie(sample.robot, sample.stamp) <= std::tie(before->robot, before->stamp)) {
+      return wrong(spec, robot, "samples out of order");
+    }
+    before = &sample;
+  }
+  return {};
+}
+
+/// Of a packet by itself.
+Status check_packet(const EngineSpec& spec, std::uint64_t step, const SentPackets& sent,
+                    const SentPacket& packet) {
+  const std::uint32_t robot = packet.robot.value();
+  if (packet.communicator >= spec.types[spec.robots[robot].type].communicators.size()) {
+    return wrong(spec, robot, "a message of a communicator that it does not have");
+  }
+  if (packet.size > SentPacket::kMostBytes ||
+      std::uint64_t{packet.first_byte} + packet.size > sent.bytes.size()) {
+    return wrong(spec, robot, "a message whose bytes are not there");
+  }
+  if (packet.to.kind > RecipientKind::kTeam) return wrong(spec, robot, "a message to nobody");
+  if (!(std::isfinite(packet.x_m) && std::isfinite(packet.y_m) && std::isfinite(packet.range_m) &&
+        packet.range_m >= 0 && std::isfinite(packet.antenna_z_m))) {
+    return wrong(spec, robot, "a message from a place or with a range that is not a number");
+  }
+  const std::int64_t begin_ns = time_ns(spec, step) - spec.step.ns;
+  if (packet.complete_ns < begin_ns || packet.complete_ns > begin_ns + spec.step.ns ||
+      packet.stamp_ns > begin_ns) {
+    return wrong(spec, robot, "a message of another step");
+  }
+  return {};
+}
+
+template <class IsTheirs>
+Status check_sent(const EngineSpec& spec, std::uint64_t step, const SentPackets& sent,
+                  IsTheirs is_theirs) {
+  if (step == 0 && !sent.packets.empty()) {
+    return fail(ErrorCode::kInvalidArgument, "messages before the first step");
+  }
+  const SentPacket* before = nullptr;
+  for (const SentPacket& packet : sent.packets) {
+    const std::uint32_t robot = packet.robot.value();
+    if (robot >= spec.robots.size() || !is_theirs(robot)) {
+      return wrong(spec, robot, "a message that is not its host's to give");
+    }
+    RAVE_TRY(check_packet(spec, step, sent, packet));
+    if (before != nullptr && std::tie(packet.robot, packet.communicator, packet.sequence) <=
+                                 std::tie(before->robot, before->communicator, before->sequence)) {
+      return wrong(spec, robot, "messages out of order");
+    }
+    before = &packet;
+  }
+  return {};
+}
+
+bool is_any(std::uint32_t /*robot*/) { return true; }
+
+Status check_columns(const EngineSpec& spec, const WorldStep& world) {
+  const std::size_t count = spec.robots.size();
+  for (const auto* const column :
+       {&world.x_m, &world.y_m, &world.yaw_rad, &world.vx_mps, &world.vy_mps, &world.wz_radps}) {
+    if (column->size() != count || world.flags.size() != count) {
+      return fail(ErrorCode::kInvalidArgument, "a world of {} robots, but there are {}",
+                  column->size(), count);
+    }
+    if (!all_finite(*column)) {
+      return fail(ErrorCode::kInvalidArgument, "a world with a pose that is not a number");
+    }
+  }
+  return {};
+}
+
+Status check_inputs(const EngineSpec& spec, const WorldStep& world) {
+  for (const WorldInput& input : world.inputs) {
+    const bool all = !input.robot.valid() && input.kind != WorldInput::Kind::kChange;
+    if (input.kind <= WorldInput::Kind::kChange &&
+        (all || input.robot.value() < spec.robots.size())) {
+      continue;
+    }
+    return wrong(spec, input.robot.value(), "an input that cannot be");
+  }
+  return {};
+}
+
+}  // namespace
+
+Status check_report(const EngineSpec& spec, const HostRobots& own,
+                    std::span<const std::uint32_t> host_of, const HostReport& report) {
+  RAVE_TRY(check_proposals(spec, own, host_of, report));
+  RAVE_TRY(check_robots(
+      spec, own.told, host_of, report.host, report.poses,
+      [](const PoseReport& pose) { return pose.robot.value(); }, "a reported pose"));
+  for (const PoseReport& pose : report.poses) RAVE_TRY(check_pose(spec, report.step, pose));
+  const auto is_theirs = [&](std::uint32_t robot) { return host_of[robot] == report.host; };
+  RAVE_TRY(check_samples(spec, report.step, report.samples, is_theirs));
+  return check_sent(spec, report.step, report.sent, is_theirs);
+}
+
+Status check_world_step(const EngineSpec& spec, const WorldStep& world) {
+  RAVE_TRY(check_columns(spec, world));
+  const std::size_t count = spec.robots.size();
+  for (const PushedRobot& pushed : world.pushed) {
+    if (pushed.robot.value() < count && is_finite(pushed.X_WR)) continue;
+    return wrong(spec, pushed.robot.value(), "pushed to a place that is none");
+  }
+  for (const TouchPoint& point : world.touches) {
+    if (point.robot.value() < count && std::isfinite(point.direction_W.x) &&
+        std::isfinite(point.direction_W.y)) {
+      continue;
+    }
+    return wrong(spec, point.robot.value(), "touches something where nothing can be");
+  }
+  for (const PoseReport& pose : world.poses) {
+    if (pose.robot.value() >= count) return wrong(spec, pose.robot.value(), "a reported pose");
+    RAVE_TRY(check_pose(spec, world.step, pose));
+  }
+  for (const ResizedRobot& resized : world.resized) {
+    if (resized.robot.value() < count && std::isfinite(resized.scale)) continue;
+    return wrong(spec, resized.robot.value(), "a size that no body can have");
+  }
+  RAVE_TRY(check_inputs(spec, world));
+  RAVE_TRY(check_samples(spec, world.step, world.samples, is_any));
+  return check_sent(spec, world.step, world.sent, is_any);
+}
+
+}  // namespace rave::sim

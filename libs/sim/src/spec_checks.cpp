@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "spec_checks.hpp"
+
+#include <algorithm>
+
+#include "rave/base/check.hpp"
+
+namespace rave::sim {
+namespace {
+
+bool is_of_body(const ParameterChange& change) {
+  return change.part == ParameterChange::Part::kBody;
+}
+
+/// A body is changed by the authority and all else by the host of the robot, so neither can wait
+/// for what the other says of its half.
+Status check_not_mixed(const EngineSpec& spec, const ScheduledChange& a, const ScheduledChange& b) {
+  const bool body = std::any_of(a.changes.begin(), a.changes.end(), is_of_body) ||
+                    std::any_of(b.changes.begin(), b.changes.end(), is_of_body);
+  const bool all = std::all_of(a.changes.begin(), a.changes.end(), is_of_body) &&
+                   std::all_of(b.changes.begin(), b.changes.end(), is_of_body);
+  if (!body || all) return {};
+  return fail(ErrorCode::kInvalidArgument,
+              "robot `{}`, step {}: its body and other parts change in one step, which several "
+              "hosts cannot do yet; change the body a step earlier",
+              spec.robots[a.robot.value()].name, a.step);
+}
+
+}  // namespace
+
+Status check_world(const EngineSpec& spec) {
+  RAVE_CHECK(spec.robots.size() == spec.world.robots.size());
+  if (spec.step.ns <= 0) return fail(ErrorCode::kInvalidArgument, "the step must be above 0 s");
+  for (const RobotSpec& robot : spec.robots) {
+    RAVE_CHECK(robot.type < spec.types.size());
+    const RobotType& type = spec.types[robot.type];
+    if (!type.simulated && !type.pose_from) {
+      return fail(ErrorCode::kInvalidArgument,
+                  "robot `{}` is real, so something must say where it is: `pose_from`", robot.name);
+    }
+  }
+  return {};
+}
+
+Status check_shared(const EngineSpec& spec) {
+  if (spec.live_clock != nullptr) {
+    return fail(ErrorCode::kInvalidArgument,
+                "a live run cannot be shared by hosts in lock-step: its drivers do not wait");
+  }
+  // They are made in the order of the list, so one that stands behind a later one waits for it.
+  std::uint64_t step = 0;
+  for (std::size_t i = 0; i < spec.changes.size(); ++i) {
+    const ScheduledChange& a = spec.changes[i];
+    step = std::max(step, a.step);
+    for (std::size_t k = i; k < spec.changes.size() && spec.changes[k].step <= step; ++k) {
+      if (spec.changes[k].robot == a.robot) RAVE_TRY(check_not_mixed(spec, a, spec.changes[k]));
+    }
+  }
+  return {};
+}
+
+Status check_local(const EngineSpec& spec) {
+  if (!spec.local) return {};
+  RAVE_TRY(check_shared(spec));
+  if (spec.local->empty()) return fail(ErrorCode::kInvalidArgument, "a host needs a robot to run");
+  std::vector<std::uint8_t> seen(spec.robots.size());
+  for (const RobotId robot : *spec.local) {
+    if (robot.value() >= seen.size()) {
+      return fail(ErrorCode::kInvalidArgument, "robot {} is local, but there are {} robots",
+                  robot.value(), seen.size());
+    }
+    if (seen[robot.value()] != 0) {
+      return fail(ErrorCode::kInvalidArgument, "robot `{}` is local twice",
+                  spec.robots[robot.value()].name);
+    }
+    seen[robot.value()] = 1;
+  }
+  return {};
+}
+
+std::vector<std::uint8_t> local_robots(const EngineSpec& spec) {
+  std::vector<std::uint8_t> local(spec.robots.size(), spec.local ? 0 : 1);
+  if (!spec.local) return local;
+  for (const RobotId robot : *spec.local) local[robot.value()] = 1;
+  return local;
+}
+
+}  // namespace rave::sim

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "rave/sim/engine_spec.hpp"
+
+namespace rave::sim {
+
+/// What must hold of a spec whoever runs its robots. Errors: kInvalidArgument.
+Status check_world(const EngineSpec& spec);
+/// What must hold of it, too, if several hosts share the world. Errors: kInvalidArgument.
+Status check_shared(const EngineSpec& spec);
+/// The same and EngineSpec::local; nothing if that is not set.
+Status check_local(const EngineSpec& spec);
+
+/// By robot: 1 if it runs here.
+[[nodiscard]] std::vector<std::uint8_t> local_robots(const EngineSpec& spec);
+
+}  // namespace rave::sim

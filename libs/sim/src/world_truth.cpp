@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "world_truth.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <tuple>
+
+#include "rave/math/transform.hpp"
+#include "rave/world/touching.hpp"
+
+namespace rave::sim {
+
+WorldTruth::WorldTruth(EngineSpec& s, ThreadPool& p)
+    : spec(s), pool(p), snapshot(s.world), resolver(s.world) {
+  for (const world::Body& body : spec.world.robots) radius_m.push_back(body.radius_m());
+}
+
+void WorldTruth::begin() {
+  const std::size_t count = spec.robots.size();
+  slack_m_ = 0;
+  notes.clear();
+  movers.resize(count);
+  velocity.assign(count, Twist2{});
+  proposal.assign(count, Twist2{});
+  limited.assign(count, 0);
+  touch.assign(count, TouchState{});
+  touching_before_.assign(count, 0);
+  pinned_before_.assign(count, 0);
+  for (std::uint32_t r = 0; r < count; ++r) {
+    const RobotType& type = spec.types[spec.robots[r].type];
+    movers[r] = {spec.robots[r].X_WR, type.simulated, type.simulated};
+    snapshot.set_robot(RobotId(r), {movers[r].X_WR, {}, movers[r].present});
+    snapshot.set_touch(RobotId(r), {});
+  }
+  snapshot.set_time({});
+  snapshot.rebuild();
+}
+
+void WorldTruth::make_way() {
+  notes.clear();
+  bool any = false;
+  for (std::uint32_t r = 0; r < movers.size(); ++r) {
+    if (movers[r].simulated) continue;
+    any = any || movers[r].present;
+    snapshot.set_robot(RobotId(r), {movers[r].X_WR, {}, movers[r].present});
+  }
+  if (!any) return;
+  // Real robots may have jumped (a first pose, the end of a gap): the broad phase must know.
+  snapshot.rebuild();
+  for (std::uint32_t r = 0; r < movers.size(); ++r) {
+    if (movers[r].simulated || !movers[r].present) continue;
+    slack_m_ += resolver.make_way(r, snapshot, slack_m_, movers, notes);
+  }
+}
+
+void WorldTruth::note_contacts(std::uint64_t step, std::vector<Event>& events) {
+  // Contacts: of simulated robots those of the last motion and of making way; of real robots those
+  // that their place shows.
+  for (const ContactNote& contact : notes) {
+    touch[contact.robot] = {true, contact.direction_W};
+    if (contact.pinned && pinned_before_[contact.robot] == 0) {
+      events.push_back({step, RobotId(contact.robot), EventKind::kPinned, contact.other,
+                        "cannot get out of the way"});
+    }
+  }
+  std::fill(pinned_before_.begin(), pinned_before_.end(), std::uint8_t{0});
+  for (const ContactNote& contact : notes) {
+    if (contact.pinned) pinned_before_[contact.robot] = 1;
+  }
+  constexpr double kTouch_m = 1e-3;
+  for (std::uint32_t r = 0; r < movers.size(); ++r) {
+    if (movers[r].simulated || !movers[r].present) continue;
+    const std::size_t first = notes.size();
+    resolver.probe(r, snapshot, slack_m_, kTouch_m, movers, notes);
+    touch[r] = notes.size() > first ? TouchState{true, notes.back().direction_W} : TouchState{};
+  }
+  for (const ContactNote& contact : notes) {
+    std::uint8_t& before = touching_before_[contact.robot];
+    if (before == 0) {
+      events.push_back({step, RobotId(contact.robot), EventKind::kContact, contact.other, ""});
+      before = 1;
+    }
+  }
+}
+
+void WorldTruth::show(SimTime now) {
+  snapshot.set_time(now);
+  block_moves_m_.resize(robot_blocks());
+  pool.for_each_block(robot_blocks(), place_effort_, [this](std::size_t b, unsigned) {
+    block_moves_m_[b] = place_block(first_of_block(b), first_of_block(b + 1));
+  });
+  double farthest_m = 0;
+  for (const double block_m : block_moves_m_) farthest_m = std::max(farthest_m, block_m);
+  snapshot.index_robots(farthest_m);
+  slack_m_ = 0;
+}
+
+double WorldTruth::place_block(std::uint32_t first, std::uint32_t last) {
+  for (std::uint32_t r = first; r < last; ++r) {
+    const RobotId robot(r);
+    // Who goes straight on keeps what was reckoned for the last step.
+    const double before_rad = snapshot.robot(robot).X_WR.yaw;
+    const bool turned = std::bit_cast<std::uint64_t>(movers[r].X_WR.yaw) !=
+                        std::bit_cast<std::uint64_t>(before_rad);
+    const SinCos turn = turned ? sincos(movers[r].X_WR.yaw) : snapshot.turn_WR(robot);
+    const Vec2 over_ground = rotate(turn, {velocity[r].vx, velocity[r].vy});
+    snapshot.set_robot(
+        robot, {movers[r].X_WR, {over_ground.x, over_ground.y, velocity[r].wz}, movers[r].present},
+        turn);
+    touching_before_[r] = touch[r].touching ? 1 : 0;
+    snapshot.set_touch(robot, touch[r]);
+  }
+  return snapshot.place_robots(first, last);
+}
+
+void WorldTruth::resolve(std::uint64_t step, std::vector<Event>& events) {
+  motion.run(snapshot, spec.step.seconds(), {movers, proposal, velocity, limited, touch}, notes);
+  slack_m_ = motion.slack_m();
+  for (const ContactNote& contact : notes) {
+    touch[contact.robot] = {true, contact.direction_W};
+    const auto obstacles = static_cast<std::uint32_t>(spec.world.obstacles.size());
+    if (contact.other.value() < obstacles) continue;
+    const std::uint32_t other = contact.other.value() - obstacles;
+    if (movers[other].simulated) touch[other] = {true, -contact.direction_W};
+  }
+  for (const ContactNote& contact : notes) {
+    if (touching_before_[contact.robot] != 0) continue;
+    touching_before_[contact.robot] = 1;
+    events.push_back({step, RobotId(contact.robot), EventKind::kContact, contact.other, ""});
+  }
+}
+
+RunHash WorldTruth::hash_poses(std::uint64_t step) {
+  block_hash_.assign(robot_blocks(), RunHash());
+  pool.for_each_block(robot_blocks(), hash_effort_, [this, step](std::size_t b, unsigned) {
+    hash_block(step, first_of_block(b), first_of_block(b + 1), block_hash_[b]);
+  });
+  RunHash sum;
+  for (const RunHash block : block_hash_) sum.merge(block);
+  return sum;
+}
+
+void WorldTruth::hash_block(std::uint64_t step, std::uint32_t first, std::uint32_t last,
+                            RunHash& sum) const {
+  RunHash own;  // kept off the memory that other threads write to
+  for (std::uint32_t r = first; r < last; ++r) {
+    if (!movers[r].present) continue;
+    const Pose2& X_WR = movers[r].X_WR;
+    const Twist2& twist = velocity[r];
+    const double values[] = {
+        X_WR.x, X_WR.y, X_WR.yaw, twist.vx, twist.vy, twist.wz, touch[r].touching ? 1.0 : 0.0};
+    ItemHash item(step, r, HashChannel::kPose, 0);
+    item.add_bytes(std::as_bytes(std::span(values)));
+    own.add(item);
+  }
+  sum = own;
+}
+
+Result<world::Body> WorldTruth::body_at(RobotId robot, double scale) const {
+  const auto original = original_bodies_.find(robot.value());
+  return world::scaled(
+      original != original_bodies_.end() ? original->second : spec.world.robots[robot.value()],
+      scale);
+}
+
+Status WorldTruth::resize(RobotId robot, double scale) {
+  if (!movers[robot.value()].simulated) {
+    return fail(ErrorCode::kInvalidArgument, "a real body has the size that it has");
+  }
+  RAVE_TRY_ASSIGN(const world::Body body, body_at(robot, scale));
+  RAVE_TRY(check_room(robot, body, scale));
+  return put_scale(robot, scale);
+}
+
+Status WorldTruth::check_room(RobotId robot, const world::Body& body, double scale) const {
+  constexpr double kApart_m = 1e-4;  // the skin that the resolver keeps
+  const std::uint32_t r = robot.value();
+  const auto own = static_cast<std::uint32_t>(spec.world.obstacles.size()) + r;
+  for (std::uint32_t other = 0; other < spec.world.body_count(); ++other) {
+    const std::uint32_t other_robot = other - (own - r);
+    const bool is_robot = other >= own - r;
+    if (other == own || (is_robot && !movers[other_robot].present)) continue;
+    const Pose2 X_WB = is_robot ? movers[other_robot].X_WR : spec.world.obstacles[other].X_WB;
+    const world::Body& theirs = spec.world.body(other);
+    const double gap_m = world::separation(body, movers[r].X_WR, theirs, X_WB).distance_m;
+    if (gap_m >= kApart_m) continue;
+    const double before_m =
+        world::separation(spec.world.robots[r], movers[r].X_WR, theirs, X_WB).distance_m;
+    if (gap_m >= before_m) continue;
+    return fail(ErrorCode::kInvalidArgument, "with `scale` {} it would overlap `{}`", scale,
+                theirs.name.empty() && is_robot ? spec.robots[other_robot].name : theirs.name);
+  }
+  return {};
+}
+
+Status WorldTruth::put_scale(RobotId robot, double scale) {
+  const std::uint32_t r = robot.value();
+  RAVE_TRY_ASSIGN(const world::Body body, body_at(robot, scale));
+  original_bodies_.try_emplace(r, spec.world.robots[r]);
+  scales_[r] = scale;
+  put_body(robot, body);
+  return {};
+}
+
+void WorldTruth::put_body(RobotId robot, const world::Body& body) {
+  const std::uint32_t r = robot.value();
+  spec.world.robots[r] = body;
+  radius_m[r] = body.radius_m();
+  resolver.body_changed(r);
+  snapshot.body_changed(robot);
+}
+
+double WorldTruth::scale_of(RobotId robot) const {
+  const auto scale = scales_.find(robot.value());
+  return scale == scales_.end() ? 1.0 : scale->second;
+}
+
+std::vector<RobotId> WorldTruth::restore_bodies() {
+  std::vector<RobotId> changed;
+  for (const auto& [r, body] : original_bodies_) {
+    put_body(RobotId(r), body);
+    changed.emplace_back(r);
+  }
+  original_bodies_.clear();
+  scales_.clear();
+  return changed;
+}
+
+void finish_events(std::uint64_t step, std::vector<Event>& events, RunHash& hash) {
+  // Which thread noted an event is chance; its robot, kind and text are not.
+  std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) {
+    return std::tie(a.robot, a.kind, a.other, a.text) < std::tie(b.robot, b.kind, b.other, b.text);
+  });
+  for (const Event& event : events) {
+    ItemHash item(step, event.robot.value(), HashChannel::kEvent,
+                  static_cast<std::uint32_t>(event.kind));
+    item.add(std::uint64_t{event.other.value()});
+    hash.add(item);
+  }
+}
+
+}  // namespace rave::sim

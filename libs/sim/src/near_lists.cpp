@@ -27,8 +27,8 @@ bool NearLists::hold(const world::Snapshot& world, std::span<const Vec2> places,
 
 void NearLists::begin(const world::Snapshot& world, std::span<const Vec2> places, double margin_m) {
   places_.assign(places.begin(), places.end());
-  // Room for half as much again as last time, so that blocks stop growing early.
-  numbers_.reserve(numbers_.size() + numbers_.size() / 2);
+  // Twice the room of last time once that is nearly used up, so that blocks soon stop growing.
+  if (numbers_.size() > numbers_.capacity() / 4 * 3) numbers_.reserve(2 * numbers_.size());
   numbers_.clear();
   ends_.assign(1, 0);
   generation_ = world.generation();

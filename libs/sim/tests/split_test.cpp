@@ -181,8 +181,8 @@ Track alone(unsigned threads) {
 }
 
 const Track& reference() {
-  static const Track track = alone(1);
-  return track;
+  static const Track kTrack = alone(1);
+  return kTrack;
 }
 
 void expect_same(const std::vector<Event>& split, const std::vector<Event>& one) {

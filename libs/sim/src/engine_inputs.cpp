@@ -144,9 +144,8 @@ void Engine::Impl::note_input(RobotId robot, EventKind kind, std::string text, A
 }
 
 void Engine::Impl::make_changes() {
-  for (; next_change < spec.changes.size() && spec.changes[next_change].step <= step;
-       ++next_change) {
-    make_change(spec.changes[next_change]);
+  while (next_change < spec.changes.size() && spec.changes[next_change].step <= step) {
+    make_change(spec.changes[next_change++]);
   }
 }
 

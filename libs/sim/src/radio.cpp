@@ -171,8 +171,8 @@ PacketOrigin Radio::origin_of(const RadioMoment& moment, const Endpoint& sender)
 void Radio::carry(const RadioMoment& moment) {
   send_out(moment);
   find_receivers(moment);
-  for (std::size_t b = 0; b < reaches_.size(); ++b) {
-    if (reaches_[b].failed_model != kNobody) count_failure(moment, reaches_[b]);
+  for (const Reach& found : reaches_) {
+    if (found.failed_model != kNobody) count_failure(moment, found);
   }
   // Each sent packet was in use by its queue.
   done_.insert(done_.end(), complete_.begin(), complete_.end());

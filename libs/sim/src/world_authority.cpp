@@ -234,7 +234,7 @@ void WorldAuthority::Impl::write_messages(WorldStep& world) {
     world.samples.insert(world.samples.end(), report->samples.begin(), report->samples.end());
     refusals.insert(refusals.end(), report->refusals.begin(), report->refusals.end());
     for (const SentPacket& packet : report->sent.packets) {
-      sent.push_back({&packet, &report->sent});
+      sent.emplace_back(&packet, &report->sent);
     }
   }
   std::sort(world.poses.begin(), world.poses.end(),

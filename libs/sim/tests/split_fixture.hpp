@@ -139,7 +139,7 @@ class Gossip final : public DecisionProcess {
     if (bumper_ && percepts.header(*bumper_).count > 0) {
       touching = percepts[*bumper_][0].touching != 0;
     }
-    const double w_radps = random.uniform(-1, 1) + 0.5 * heard + (touching ? 1.0 : 0.0);
+    const double w_radps = random.uniform(-1, 1) + 0.5 * heard + (touching ? 1.0 : 0.0) + radius_m_;
     if (nearest < 0.3F + static_cast<float>(radius_m_)) {
       commands.velocity(drive_, 0.3 * v_mps_, 1.5 + w_radps);
     } else {
@@ -176,6 +176,25 @@ class Gossip final : public DecisionProcess {
   double v_mps_ = 0;
   double throw_at_ = 0;
   double decisions_ = 0;
+};
+
+/// Comes up to speed by and by, trembles, and turns away when something stopped it.
+class Wagon final : public VirtualActuator {
+ public:
+  static constexpr CommandKind kAccepts = CommandKind::kVelocity;
+  Status start(const DeviceSetup& setup) override {
+    shake_ = setup.parameters().number("shake");
+    return {};
+  }
+  Twist2 propose(const MotionInput& input) override {
+    RandomStream random = input.random();
+    const double wanted_mps = input.command.value[0] + shake_ * random.uniform(-1, 1);
+    const double turn_radps = input.contact != 0 ? 0.8 : 0.0;
+    return {0.3 * input.velocity.vx + 0.7 * wanted_mps, 0, input.command.value[1] + turn_radps};
+  }
+
+ private:
+  double shake_ = 0;
 };
 
 /// What the robot touches, and how others near it move.

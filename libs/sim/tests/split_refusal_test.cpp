@@ -13,7 +13,6 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 /// Counts how many of it there are.
 class Counted final : public VirtualActuator {
  public:
-  static constexpr CommandKind kAccepts = CommandKind::kVelocity;
   static int& alive() {
     static int count = 0;
     return count;

@@ -28,7 +28,9 @@ void add_radio(RobotType& type, Numbers model) {
 
 /// Talks within a range and sight, with losses and a delay of a few steps.
 RobotType talker(double v_mps, double throw_at = 0) {
+  static constexpr VirtualActuatorOps kWagon = detail::virtual_actuator_ops<Wagon>();
   RobotType type = simulated_type({{"shake", 0.05}});
+  type.actuators[0].virtual_ops = &kWagon;
   type.sensors.push_back(noisy_laser());
   type.sensors.push_back(virtual_sensor<Bumper>("bumper"));
   type.sensors.push_back(virtual_sensor<Feeler>("feeler"));
@@ -179,8 +181,8 @@ Track alone(unsigned threads) {
 }
 
 const Track& reference() {
-  static const Track track = alone(1);
-  return track;
+  static const Track kTrack = alone(1);
+  return kTrack;
 }
 
 void expect_same(const std::vector<Event>& split, const std::vector<Event>& one) {

@@ -17,6 +17,7 @@ import json
 import os
 import pathlib
 import re
+import shlex
 import subprocess
 import sys
 import time
@@ -76,11 +77,13 @@ def check(entry, sources, arguments, cache, configuration):
     names = [os.path.relpath(source, ROOT) for source in sources]
     if mark.exists():
         return names, True, 0.0, ""
-    command = [arguments.clang_tidy, "-p", arguments.build, "--quiet", "--warnings-as-errors=*"]
-    if len(sources) > 1:  # a file of the build that includes sources is no mistake
+    command = [arguments.clang_tidy, "--quiet", "--warnings-as-errors=*", entry["file"]]
+    if pathlib.Path(entry["file"]).resolve() not in sources:
+        # A file of the build that includes sources is no mistake.
         command.append("--checks=-bugprone-suspicious-include")
-    run = subprocess.run([*command, entry["file"]],
-                         capture_output=True, text=True, check=False)
+    # Not with -p: it would look at a source once for every target that it is part of.
+    run = subprocess.run([*command, "--", *shlex.split(entry["command"])[1:]],
+                         cwd=entry["directory"], capture_output=True, text=True, check=False)
     if run.returncode == 0:
         mark.touch()
     return names, run.returncode == 0, time.monotonic() - begin, run.stdout + run.stderr

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <functional>
+#include <ranges>
 
 #include "engine_impl.hpp"
 #include "input_notes.hpp"
@@ -131,8 +132,8 @@ std::string change_text(const Target& target, std::span<const ParameterChange* c
 }
 
 void undo(std::vector<Done>& done) {
-  for (auto it = done.rbegin(); it != done.rend(); ++it) {
-    static_cast<void>(it->target.update(it->target.present));
+  for (Done& one : std::views::reverse(done)) {
+    static_cast<void>(one.target.update(one.target.present));
   }
 }
 

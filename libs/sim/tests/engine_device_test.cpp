@@ -83,10 +83,11 @@ class StoppedClock final : public RunClock {
 };
 
 class EngineDevices : public ::testing::Test {
- protected:
+ public:
   EngineDevices() { notebook = &notebook_; }
   ~EngineDevices() override { notebook = nullptr; }
 
+ protected:
   /// A simulated body that carries a device with a part and, if wanted, a motor.
   EngineSpec spec_with(bool broken = false) {
     static constexpr HardwareDeviceOps kBase = detail::hardware_device_ops<Base>();

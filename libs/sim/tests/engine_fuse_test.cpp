@@ -314,7 +314,10 @@ std::uint64_t hash_of(unsigned threads, bool twice = false) {
   crowd.sensors.push_back(laser(8, 3, 2));
   crowd.program = program<Roam>();
   add_robot(spec, std::move(crowd), {0, 2, 0});
-  for (int i = 1; i < 150; ++i) add_twin(spec, {0.5 * (i % 15), 2 + 0.5 * (i / 15), 0.1 * i});
+  for (int i = 1; i < 150; ++i) {
+    const int row = i / 15;
+    add_twin(spec, {0.5 * (i % 15), 2 + 0.5 * row, 0.1 * i});
+  }
   const auto engine = make_engine(std::move(spec));
   for (int pass = 0; pass < (twice ? 2 : 1); ++pass) {
     if (pass > 0) {

@@ -253,7 +253,8 @@ TEST(EngineGuard, TheHashKnowsInputsAndNotThreads) {
     type.guard->max_speed_mps = 0.4;
     add_robot(spec, std::move(type), {-2, -2, 0});
     for (std::uint32_t i = 1; i < 100; ++i) {
-      add_twin(spec, {-2 + 0.45 * (i % 10), -2 + 0.45 * (i / 10), 0.7 * (i % 9)});
+      const std::uint32_t row = i / 10;
+      add_twin(spec, {-2 + 0.45 * (i % 10), -2 + 0.45 * row, 0.7 * (i % 9)});
     }
     const auto engine = make_engine(std::move(spec));
     run(*engine, stop_at);

@@ -122,7 +122,8 @@ TEST(EngineHash, IsTheSameForAnyNumberOfThreads) {
 
 TEST(EngineHash, NoiseInPlaceIsTheNoiseOfTheChain) {
   // A median of one reading changes nothing, but sends the samples through the chain.
-  const auto hash_with = [](double sigma_m, std::vector<FilterSpec> filters, unsigned threads) {
+  const auto hash_with = [](double sigma_m, const std::vector<FilterSpec>& filters,
+                            unsigned threads) {
     EngineSpec spec = busy_world(threads);
     for (RobotType& type : spec.types) {
       for (SensorSpec& sensor : type.sensors) {

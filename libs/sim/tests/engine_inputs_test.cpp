@@ -157,7 +157,10 @@ TEST(EngineInputs, ChangesOfTheScenarioBelongToTheRun) {
     EngineSpec spec;
     spec.threads = threads;
     add_robot(spec, cruiser_type());
-    for (std::uint32_t i = 1; i < 150; ++i) add_twin(spec, {0.5 * (i % 12), 0.5 * (i / 12), 0});
+    for (std::uint32_t i = 1; i < 150; ++i) {
+      const std::uint32_t row = i / 12;
+      add_twin(spec, {0.5 * (i % 12), 0.5 * row, 0});
+    }
     spec.changes.push_back({at, RobotId(5), {to("v", v)}});
     spec.changes.push_back({at, RobotId(7), {scale(0.7), to("w", 0.3)}});
     const auto engine = make_engine(std::move(spec));

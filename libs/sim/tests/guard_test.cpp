@@ -19,12 +19,12 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
 const world::Body& disc() {
-  static const world::Body body = [] {
+  static const world::Body kBody = [] {
     world::Body made;
     made.shapes.push_back(world::make_disc({}, 0.2, 0, 0.3).value());
     return made;
   }();
-  return body;
+  return kBody;
 }
 
 GuardInput input(double v_mps, double w_radps, const Pose2& X_WR = {}) {
@@ -84,7 +84,7 @@ TEST(Guard, EachReasonToStandStops) {
   stops_for(GuardLimit::kWatchdog, [](GuardInput& in) { in.command_age_s = 1.1; });
   stops_for(GuardLimit::kWatchdog, [](GuardInput& in) { in.command_age_s = kInf; });
   for (const double bad : {kNan, kInf, -kInf}) {
-    for (int i = 0; i < 4; ++i) {
+    for (const std::size_t i : {0U, 1U, 2U, 3U}) {
       stops_for(GuardLimit::kBadCommand, [&](GuardInput& in) { in.command.value[i] = bad; });
     }
   }

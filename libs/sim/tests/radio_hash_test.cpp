@@ -18,7 +18,10 @@ EngineSpec talkative(unsigned threads, double loss = 0.1) {
                                                               {"jitter_s", 0.05},
                                                               {"loss", loss},
                                                               {"messages", 40}}));
-  for (int r = 1; r < 150; ++r) add_twin(spec, {1.0 * (r % 13), 1.0 * (r / 13), 0.1 * r});
+  for (int r = 1; r < 150; ++r) {
+    const int row = r / 13;
+    add_twin(spec, {1.0 * (r % 13), 1.0 * row, 0.1 * r});
+  }
   spec.world.obstacles.push_back(box({6.5, 6.5, 0.4}, 6, 0.2));
   return spec;
 }

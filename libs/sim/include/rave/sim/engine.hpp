@@ -125,7 +125,8 @@ class Engine {
   [[nodiscard]] const world::Snapshot& snapshot() const noexcept;
   /// Of robots of other hosts: as at the beginning of the last step.
   [[nodiscard]] const ReportedPose& reported(RobotId robot) const noexcept;
-  /// True pose of a simulated robot after the last step. One of several hosts: as apply() showed it.
+  /// True pose of a simulated robot after the last step. One of several hosts: as apply() showed
+  /// it.
   [[nodiscard]] Pose2 true_pose(RobotId robot) const noexcept;
   /// Sensors in the order of the robot's type.
   [[nodiscard]] SensorSample sensor(RobotId robot, std::uint32_t index) const noexcept;

@@ -3,7 +3,8 @@
 #include <functional>
 #include <limits>
 
-#include "split_fixture.hpp"
+#include "split_drivers.hpp"
+#include "split_run.hpp"
 
 namespace rave::sim::testing {
 namespace {

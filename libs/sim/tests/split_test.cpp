@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
-#include "split_fixture.hpp"
+#include "split_drivers.hpp"
+#include "split_run.hpp"
 
 namespace rave::sim::testing {
 namespace {

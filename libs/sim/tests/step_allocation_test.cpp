@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A program of its own: it counts every allocation of the process.
 #include "counted_allocations.hpp"
-#include "split_fixture.hpp"
+#include "split_run.hpp"
 
 namespace rave::sim::testing {
 namespace {

@@ -112,11 +112,12 @@ TEST(OccupancyGrid, TracesTheCellsThatTheBeamCrosses) {
     for (int i = 0; i < 8300; ++i) {
       const double x = (0.013 + i * 1e-4 * std::cos(bearing_rad) + 2) / 0.1;
       const double y = (0.027 + i * 1e-4 * std::sin(bearing_rad) + 1) / 0.1;
-      ++crossed[static_cast<std::size_t>(static_cast<int>(y) * 40 + static_cast<int>(x))];
+      ++crossed[static_cast<std::size_t>(y) * 40 + static_cast<std::size_t>(x)];
     }
     for (int row = 0; row < 20; ++row) {
       for (int column = 0; column < 40; ++column) {
-        const int times = crossed[static_cast<std::size_t>(row * 40 + column)];
+        const int times =
+            crossed[static_cast<std::size_t>(row) * 40 + static_cast<std::size_t>(column)];
         const bool seen = grid.seen(column, row);
         EXPECT_TRUE(seen || times <= 3) << k << ": " << column << ", " << row;
         // Only a corner that was cut, or the cell of the end.

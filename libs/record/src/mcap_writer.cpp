@@ -9,17 +9,17 @@ namespace rave::record {
 class McapWriter::Impl {
  public:
   Impl(std::unique_ptr<McapFile> file, const McapWriterOptions& options, LogSink* sink)
-      : queue_(std::move(file), options, sink) {}
+      : queue(std::move(file), options, sink) {}
 
   [[nodiscard]] Status usable() {
-    if (closed_) return fail(ErrorCode::kState, "the record is closed");
-    return queue_.failure();
+    if (closed) return fail(ErrorCode::kState, "the record is closed");
+    return queue.failure();
   }
 
-  WriteQueue queue_;
-  std::vector<SchemaInfo> schemas_;
-  std::vector<ChannelInfo> channels_;
-  bool closed_ = false;
+  WriteQueue queue;
+  std::vector<SchemaInfo> schemas;
+  std::vector<ChannelInfo> channels;
+  bool closed = false;
 };
 
 McapWriter::McapWriter(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
@@ -53,34 +53,34 @@ Result<McapWriter> McapWriter::open(const std::filesystem::path& path, McapWrite
 Result<std::uint16_t> McapWriter::add_schema(std::string_view name, std::string_view encoding,
                                              std::string_view data) {
   RAVE_TRY(impl_->usable());
-  if (impl_->schemas_.size() == 65535) {
+  if (impl_->schemas.size() == 65535) {
     return fail(ErrorCode::kInvalidArgument, "a record holds at most 65535 schemas; `{}` is more",
                 name);
   }
-  SchemaInfo schema{static_cast<std::uint16_t>(impl_->schemas_.size() + 1), std::string(name),
+  SchemaInfo schema{static_cast<std::uint16_t>(impl_->schemas.size() + 1), std::string(name),
                     std::string(encoding), std::string(data)};
-  impl_->queue_.append([&](Chunk& chunk) { put_schema(chunk.records, schema); });
-  impl_->schemas_.push_back(std::move(schema));
-  return impl_->schemas_.back().id;
+  impl_->queue.append([&](Chunk& chunk) { put_schema(chunk.records, schema); });
+  impl_->schemas.push_back(std::move(schema));
+  return impl_->schemas.back().id;
 }
 
 Result<std::uint16_t> McapWriter::add_channel(std::string_view topic,
                                               std::string_view message_encoding,
                                               std::uint16_t schema_id, const StringMap& metadata) {
   RAVE_TRY(impl_->usable());
-  if (schema_id > impl_->schemas_.size()) {
+  if (schema_id > impl_->schemas.size()) {
     return fail(ErrorCode::kInvalidArgument, "channel `{}` names schema {}, which is not there",
                 topic, schema_id);
   }
-  if (impl_->channels_.size() == 65535) {
+  if (impl_->channels.size() == 65535) {
     return fail(ErrorCode::kInvalidArgument, "a record holds at most 65535 channels; `{}` is more",
                 topic);
   }
-  ChannelInfo channel{static_cast<std::uint16_t>(impl_->channels_.size() + 1), schema_id,
+  ChannelInfo channel{static_cast<std::uint16_t>(impl_->channels.size() + 1), schema_id,
                       std::string(topic), std::string(message_encoding), metadata};
-  impl_->queue_.append([&](Chunk& chunk) { put_channel(chunk.records, channel); });
-  impl_->channels_.push_back(std::move(channel));
-  return impl_->channels_.back().id;
+  impl_->queue.append([&](Chunk& chunk) { put_channel(chunk.records, channel); });
+  impl_->channels.push_back(std::move(channel));
+  return impl_->channels.back().id;
 }
 
 Status McapWriter::write(std::uint16_t channel, std::uint32_t sequence, std::uint64_t log_time_ns,
@@ -92,15 +92,15 @@ Status McapWriter::write_parts(std::uint16_t channel, std::uint32_t sequence,
                                std::uint64_t log_time_ns, std::uint64_t publish_time_ns,
                                std::span<const std::span<const std::byte>> parts) {
   if (auto usable = impl_->usable(); !usable) {
-    impl_->queue_.count_dropped();
+    impl_->queue.count_dropped();
     return usable;
   }
-  if (channel == 0 || channel > impl_->channels_.size()) {
+  if (channel == 0 || channel > impl_->channels.size()) {
     return fail(ErrorCode::kInvalidArgument, "message for channel {}, which is not there", channel);
   }
   std::uint64_t size = kMessageHead;
   for (const auto part : parts) size += part.size();
-  impl_->queue_.append([&](Chunk& chunk) {
+  impl_->queue.append([&](Chunk& chunk) {
     chunk.entries.push_back({log_time_ns, chunk.records.size(), channel});
     std::array<std::byte, kRecordHead + kMessageHead> head;
     head[0] = std::byte{opcode::kMessage};
@@ -124,29 +124,29 @@ Status McapWriter::add_attachment(std::string_view name, std::string_view media_
   info.create_time_ns = time_ns;
   info.name = name;
   info.media_type = media_type;
-  impl_->queue_.push(AttachmentJob{std::move(info), Bytes(bytes.begin(), bytes.end())});
+  impl_->queue.push(AttachmentJob{std::move(info), Bytes(bytes.begin(), bytes.end())});
   return {};
 }
 
 Status McapWriter::add_metadata(std::string_view name, const StringMap& entries) {
   RAVE_TRY(impl_->usable());
-  impl_->queue_.push(MetadataJob{std::string(name), entries});
+  impl_->queue.push(MetadataJob{std::string(name), entries});
   return {};
 }
 
 Status McapWriter::flush() {
   RAVE_TRY(impl_->usable());
-  impl_->queue_.drain();
-  return impl_->queue_.failure();
+  impl_->queue.drain();
+  return impl_->queue.failure();
 }
 
 Status McapWriter::close() {
-  if (impl_->closed_) return {};
-  impl_->closed_ = true;
-  return impl_->queue_.finish(impl_->schemas_, impl_->channels_);
+  if (impl_->closed) return {};
+  impl_->closed = true;
+  return impl_->queue.finish(impl_->schemas, impl_->channels);
 }
 
-std::uint64_t McapWriter::dropped() const noexcept { return impl_->queue_.dropped(); }
-std::uint64_t McapWriter::waits() const noexcept { return impl_->queue_.waits(); }
+std::uint64_t McapWriter::dropped() const noexcept { return impl_->queue.dropped(); }
+std::uint64_t McapWriter::waits() const noexcept { return impl_->queue.waits(); }
 
 }  // namespace rave::record

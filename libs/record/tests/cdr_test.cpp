@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "crc32.hpp"
+#include "same_bits.hpp"
 #include "temporary_file.hpp"
 
 namespace rave::record {
@@ -68,7 +69,7 @@ TEST(Cdr, ReadsBackWhatWasWritten) {
   EXPECT_EQ(reader.get<std::uint8_t>(), 5);
   const auto read = reader.get_sequence<double>();
   ASSERT_EQ(read.size(), 3U);
-  EXPECT_EQ(std::memcmp(read.data(), numbers.data(), 24), 0);
+  EXPECT_TRUE(same_bits(read.data(), numbers.data(), 24));
   EXPECT_EQ(reader.get_string(), "é");
   EXPECT_EQ(reader.get<std::int64_t>(), -2);
   EXPECT_TRUE(reader.ok());

@@ -18,8 +18,7 @@ namespace {
 template <class Role>
 class Victim {
  public:
-  explicit Victim(Role role) {
-    pid_ = ::fork();
+  explicit Victim(Role role) : pid_(::fork()) {
     if (pid_ != 0) return;
     role();
     while (true) ::pause();

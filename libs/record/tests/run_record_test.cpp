@@ -14,6 +14,7 @@
 #include "rave/record/run_reader.hpp"
 #include "rave/robot/command.hpp"
 #include "rave/robot/reading.hpp"
+#include "same_bits.hpp"
 #include "sample_run.hpp"
 #include "standard_views.hpp"
 #include "temporary_file.hpp"
@@ -63,7 +64,7 @@ class RunRecord : public ::testing::Test {
 void expect_same_bits(const std::optional<Pose2>& a, const std::optional<Pose2>& b) {
   ASSERT_EQ(a.has_value(), b.has_value());
   if (a) {
-    EXPECT_EQ(std::memcmp(&*a, &*b, sizeof(Pose2)), 0);
+    EXPECT_TRUE(same_bits(&*a, &*b, sizeof(Pose2)));
   }
 }
 
@@ -79,7 +80,7 @@ TEST_F(RunRecord, PosesComeBackBitForBit) {
       EXPECT_EQ(read->items[i].robot, sample.poses[i].robot);
       expect_same_bits(read->items[i].true_pose, sample.poses[i].true_pose);
       expect_same_bits(read->items[i].reported_pose, sample.poses[i].reported_pose);
-      EXPECT_EQ(std::memcmp(&read->items[i].velocity_W, &sample.poses[i].velocity_W, 24), 0);
+      EXPECT_TRUE(same_bits(&read->items[i].velocity_W, &sample.poses[i].velocity_W, 24));
     }
   });
   EXPECT_EQ(count, kSteps);
@@ -101,7 +102,7 @@ TEST_F(RunRecord, PerceptsComeBackWithTheirParts) {
     EXPECT_EQ(result.header,
               (ReadingHeader{read->time.ns - 1, static_cast<std::uint32_t>(step) + 1, 3, 1, 0}));
     ASSERT_EQ(result.records.size(), 12U);
-    EXPECT_EQ(std::memcmp(result.records.data(), sample.ranges.data(), 12), 0);
+    EXPECT_TRUE(same_bits(result.records.data(), sample.ranges.data(), 12));
   });
   EXPECT_EQ(count, kSteps);
 }
@@ -165,7 +166,7 @@ TEST_F(RunRecord, OneSensorAndOneRobotAreReadAtATime) {
   for (std::size_t step = 0; step < kSteps; ++step) {
     const auto bytes = all->records_of(all->samples[step]);
     ASSERT_EQ(bytes.size(), 12U);
-    EXPECT_EQ(std::memcmp(bytes.data(), sample_step(step).ranges.data(), 12), 0);
+    EXPECT_TRUE(same_bits(bytes.data(), sample_step(step).ranges.data(), 12));
     EXPECT_EQ(all->samples[step].delivered.ns, all->samples[step].header.stamp_ns + 1);
   }
   const auto halves = read_samples(*reader_, (*robot)->id, (*sensor)->sensor, PerceptPart::kReal);
@@ -343,7 +344,7 @@ TEST(RunRecordBlocks, EachRobotOfARowComesBackBitForBit) {
         EXPECT_EQ(percept.header,
                   (ReadingHeader{7, static_cast<std::uint32_t>(read->step), 2, 1, 0}));
         ASSERT_EQ(percept.records.size(), 8U);
-        EXPECT_EQ(std::memcmp(percept.records.data(), &ranges[2 * r], 8), 0);
+        EXPECT_TRUE(same_bits(percept.records.data(), &ranges[2 * r], 8));
       }
     } else if (channel->topic == topic::kCommands) {
       const auto read = decode_commands((*message)->bytes);

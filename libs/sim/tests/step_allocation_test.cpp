@@ -17,8 +17,8 @@ EngineSpec crowd(unsigned threads) {
     spec.world.obstacles.push_back(box({kSide_m / 2, at_m, 0}, 30, 0.1));
   }
   for (int i = 0; i < 100; ++i) {
-    spec.world.obstacles.push_back(
-        box({0.6 + 2.4 * (i % 10), 0.6 + 2.4 * (i / 10), 0.1 * i}, 0.5, 0.4));
+    const int row = i / 10;
+    spec.world.obstacles.push_back(box({0.6 + 2.4 * (i % 10), 0.6 + 2.4 * row, 0.1 * i}, 0.5, 0.4));
   }
   RobotType type = simulated_type();
   type.sensors.push_back(laser(16, 6, 0.2));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "rave/math/scalar.hpp"
@@ -55,8 +56,7 @@ class Wander final : public DecisionProcess {
     longest_turn_ = std::max(shortest_turn_, params.integer("turn_decisions_max"));
     rear_stop_m_ = params.number("rear_stop_m");
     rear_rad_ = deg_to_rad(params.number("rear_deg"));
-    longest_back_off_ =
-        static_cast<std::int64_t>(params.number("back_off_s") / setup_->period_s() + 0.5);
+    longest_back_off_ = std::llround(params.number("back_off_s") / setup_->period_s());
     centre_W_ = {params.number("centre_x_m"), params.number("centre_y_m")};
     stay_within_m_ = params.number("stay_within_m");
     return {};

@@ -17,6 +17,7 @@
 
 // Sanitizers leave the signals to crash_report.cpp, which tells the host. Nobody calls these
 // functions in a build without sanitizers.
+// The sanitizers give the names. NOLINTBEGIN(readability-identifier-naming)
 extern "C" __attribute__((visibility("default"))) const char* __asan_default_options();
 extern "C" __attribute__((visibility("default"))) const char* __tsan_default_options();
 extern "C" const char* __asan_default_options() {
@@ -26,6 +27,8 @@ extern "C" const char* __asan_default_options() {
 extern "C" const char* __tsan_default_options() { return __asan_default_options(); }
 
 namespace rave::isolation {
+// NOLINTEND(readability-identifier-naming)
+
 namespace {
 
 pid_t host_id;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables): for a handler.

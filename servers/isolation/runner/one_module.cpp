@@ -22,7 +22,8 @@ bool holds(const dl_phdr_info& info, std::uintptr_t address) {
 }
 }  // namespace
 
-// The linker's --wrap=dl_iterate_phdr brings the calls of libbacktrace here.
+// The linker's --wrap=dl_iterate_phdr brings the calls of libbacktrace here, and gives the names.
+// NOLINTBEGIN(readability-identifier-naming)
 extern "C" int __real_dl_iterate_phdr(rave::isolation::ModuleVisitor visitor, void* data);
 extern "C" int __wrap_dl_iterate_phdr(rave::isolation::ModuleVisitor visitor, void* data);
 extern "C" int __wrap_dl_iterate_phdr(rave::isolation::ModuleVisitor visitor, void* data) {
@@ -35,6 +36,7 @@ extern "C" int __wrap_dl_iterate_phdr(rave::isolation::ModuleVisitor visitor, vo
       },
       &filter);
 }
+// NOLINTEND(readability-identifier-naming)
 
 namespace rave::isolation {
 

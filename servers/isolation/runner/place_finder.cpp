@@ -82,6 +82,7 @@ void PlaceFinder::note_return_address(Search& search, const void* interrupted) {
   if (interrupted == nullptr) return;
   const auto& registers = static_cast<const ucontext_t*>(interrupted)->uc_mcontext.gregs;
   if (registers[REG_RIP] > 4096) return;
+  // What the register holds is an address. NOLINTNEXTLINE(performance-no-int-to-ptr)
   const auto* top = reinterpret_cast<const std::uintptr_t*>(registers[REG_RSP]);
   on_frame(&search, *top - 1);
 #else

@@ -52,14 +52,14 @@ ProgramHost::ProgramHost(SharedMemory memory, std::unique_ptr<SetupCopy> setup, 
 }
 
 Mailbox ProgramHost::mailbox(const Layout::Box& box) const {
-  const auto& state = *memory_.at<SharedMailbox>(box.state);
+  const auto& counts = *memory_.at<SharedMailbox>(box.state);
   return {memory_.at<rave::MessageHead>(box.heads),
           memory_.at<std::byte>(box.data),
           box.max_messages,
           box.max_bytes,
-          state.count,
-          state.bytes,
-          state.dropped,
+          counts.count,
+          counts.bytes,
+          counts.dropped,
           0};
 }
 

@@ -29,7 +29,7 @@ Error decision_error(const std::string& program, double timeout_s = 60) {
   return status.error();
 }
 
-Error start_error(IsolationOptions options) {
+Error start_error(const IsolationOptions& options) {
   TestRobot robot;
   const auto isolated = IsolatedProgram::start(options, robot.setup());
   EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), isolated ? 0 : -1);

@@ -24,12 +24,12 @@ using rave::Status;
 
 struct Fault : rave::DecisionProcess {
   Status start(const Setup& setup) override {
-    setup_ = setup;
+    own_setup = setup;
     return {};
   }
   void decide(const Percepts&, Commands&) override {}
 
-  std::optional<Setup> setup_;
+  std::optional<Setup> own_setup;
 };
 
 struct NullPointer final : Fault {
@@ -76,7 +76,7 @@ struct Abort final : Fault {
 struct BadVector final : Fault {
   RAVE_WANTED_FAULT void decide(const Percepts&, Commands&) override {
     std::string text(*size, 'x');  // mark: bad_vector
-    setup_->log(text);
+    own_setup->log(text);
   }
   std::size_t* volatile size = nullptr;
 };
@@ -149,13 +149,13 @@ struct StartCrashes final : Fault {
 
 struct Talks final : Fault {
   void decide(const Percepts&, Commands&) override {
-    for (int i = 0; i < 100; ++i) setup_->log("line " + std::to_string(i));
+    for (int i = 0; i < 100; ++i) own_setup->log("line " + std::to_string(i));
   }
 };
 
 struct LastWords final : Fault {
   void decide(const Percepts&, Commands&) override {
-    setup_->log("this will not end well");
+    own_setup->log("this will not end well");
     std::abort();
   }
 };

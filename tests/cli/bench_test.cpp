@@ -100,10 +100,10 @@ TEST(BenchSwarm, BadOptions) {
 }
 
 TEST(BenchCompare, ABuildIsAsFastAsItselfAndDoesTheSame) {
-  const std::vector<std::string> words = {
-      "bench",    "compare", RAVE_BINARY_DIR, RAVE_BINARY_DIR "/bin/rave",
-      "--robots", "50",      "--steps",       "40",
-      "--rounds", "3"};
+  const std::string program = std::string(RAVE_BINARY_DIR) + "/bin/rave";
+  const std::vector<std::string> words = {"bench",    "compare", RAVE_BINARY_DIR, program,
+                                          "--robots", "50",      "--steps",       "40",
+                                          "--rounds", "3"};
   const Ended ended = run_rave(words);
   const auto json = json_of(ended);
   EXPECT_EQ(json.at("same_hash"), true);

@@ -30,7 +30,7 @@ Arguments::Arguments(int argc, char** argv, const std::vector<std::string>& know
     if (name.rfind("--", 0) != 0 || i + 1 >= argc ||
         std::find(known.begin(), known.end(), name.substr(2)) == known.end()) {
       std::string all;
-      for (const std::string& option : known) all += " --" + option;
+      for (const std::string& option : known) all.append(" --").append(option);
       give_up("unknown or without value: " + name + "; options, each with a value:" + all);
     }
     values_[name.substr(2)] = argv[i + 1];

@@ -8,7 +8,7 @@ BodyKinds::BodyKinds(const sim::EngineSpec& spec, const std::vector<std::string>
   for (const world::Obstacle& obstacle : spec.world.obstacles) {
     const bool real = obstacle.body.layer == Layer::kMappedReal;
     const bool landmark = real && obstacle.body.code.has_value();
-    words_.push_back(landmark ? "landmark" : (real ? "mapped_wall" : "virtual_obstacle"));
+    words_.emplace_back(landmark ? "landmark" : (real ? "mapped_wall" : "virtual_obstacle"));
     kinds_.push_back(landmark
                          ? report::Kind::kLandmark
                          : (real ? report::Kind::kMappedWall : report::Kind::kVirtualObstacle));
@@ -18,7 +18,7 @@ BodyKinds::BodyKinds(const sim::EngineSpec& spec, const std::vector<std::string>
   std::size_t real_robots = 0;
   for (std::size_t r = 0; r < spec.robots.size(); ++r) {
     const bool simulated = spec.types[spec.robots[r].type].simulated;
-    words_.push_back(simulated ? "simulated" : "real");
+    words_.emplace_back(simulated ? "simulated" : "real");
     const bool hunter = robot_words[r] == "hunter";
     kinds_.push_back(
         hunter ? report::Kind::kHunter

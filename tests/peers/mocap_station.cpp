@@ -19,8 +19,8 @@ MocapStation::MocapStation(const Arguments& given, const std::string& prefix, Ow
       loss_(given.number(prefix + "loss", 0)),
       twice_(given.number(prefix + "twice", 0)),
       clock_(clock),
-      log_(given.text(prefix + "log", "")) {
-  socket_ = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+      log_(given.text(prefix + "log", "")),
+      socket_(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
   to_.sin_family = AF_INET;
   to_.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   to_.sin_port = htons(static_cast<std::uint16_t>(given.number(prefix + "port", 0)));

@@ -43,7 +43,9 @@ Room::Room(const std::string& path) {
     } else if (n.size() == 4) {
       walls_.push_back({n[0], n[1], n[2], n[3]});
     } else {
-      give_up(path + ": a wall is x1 y1 x2 y2, a box x y yaw_deg length width, not: " + line);
+      give_up(std::string(path)
+                  .append(": a wall is x1 y1 x2 y2, a box x y yaw_deg length width, not: ")
+                  .append(line));
     }
   }
 }

@@ -57,7 +57,7 @@ std::string ScipDevice::parameters() const {
 std::string ScipDevice::answer(const std::string& command) {
   if (command.empty()) return {};
   if (command == "SCIP2.0") {
-    const std::string reply = scip2_ ? status(command, "0E") : command + "\n0\n\n";
+    std::string reply = scip2_ ? status(command, "0E") : command + "\n0\n\n";
     scip2_ = true;
     return reply;
   }
@@ -70,7 +70,7 @@ std::string ScipDevice::answer(const std::string& command) {
     return status(command, "00");
   }
   if (name == "BM") {
-    const std::string reply = status(command, laser_on_ ? "02" : "00");
+    std::string reply = status(command, laser_on_ ? "02" : "00");
     laser_on_ = true;
     return reply;
   }

@@ -29,9 +29,10 @@ Arguments::Arguments(int argc, char** argv, const std::vector<std::string>& know
     const std::string name = argv[i];
     if (name.rfind("--", 0) != 0 || i + 1 >= argc ||
         std::find(known.begin(), known.end(), name.substr(2)) == known.end()) {
-      std::string all;
+      std::string all = "unknown or without value: ";
+      all.append(name).append("; options, each with a value:");
       for (const std::string& option : known) all.append(" --").append(option);
-      give_up("unknown or without value: " + name + "; options, each with a value:" + all);
+      give_up(all);
     }
     values_[name.substr(2)] = argv[i + 1];
   }

@@ -8,10 +8,6 @@
 namespace rave::sim {
 namespace {
 
-bool is_of_body(const ParameterChange& change) {
-  return change.part == ParameterChange::Part::kBody;
-}
-
 /// A body is changed by the authority and all else by the host of the robot, so neither can wait
 /// for what the other says of its half.
 Status check_not_mixed(const EngineSpec& spec, const ScheduledChange& a, const ScheduledChange& b) {

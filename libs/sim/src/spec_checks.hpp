@@ -8,6 +8,11 @@
 
 namespace rave::sim {
 
+/// Whether a change is one of the robot's body, which only the authority can make.
+[[nodiscard]] inline bool is_of_body(const ParameterChange& change) noexcept {
+  return change.part == ParameterChange::Part::kBody;
+}
+
 /// What must hold of a spec whoever runs its robots. Errors: kInvalidArgument.
 Status check_world(const EngineSpec& spec);
 /// What must hold of it, too, if several hosts share the world. Errors: kInvalidArgument.

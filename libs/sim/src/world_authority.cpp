@@ -12,10 +12,6 @@
 namespace rave::sim {
 namespace {
 
-bool is_of_body(const ParameterChange& change) {
-  return change.part == ParameterChange::Part::kBody;
-}
-
 Status check_hosts(const EngineSpec& spec, std::span<const std::uint32_t> host_of) {
   if (host_of.size() != spec.robots.size() || host_of.empty()) {
     return fail(ErrorCode::kInvalidArgument, "hosts for {} robots, but there are {}",

@@ -103,18 +103,24 @@ Result<dds_entity_t> Bus::make_topic(const TopicSpec& spec) {
   return topic;
 }
 
-Status Bus::add_endpoint(dds_entity_t entity, bool reads, const char* topic) {
+Result<dds_entity_t> Bus::add_endpoint(const TopicSpec& topic, bool reads) {
+  RAVE_TRY_ASSIGN(const dds_entity_t handle, make_topic(topic));
+  const Qos qos = make_qos(topic.qos);
+  const dds_entity_t entity = reads ? dds_create_reader(subscriber_, handle, qos.get(), nullptr)
+                                    : dds_create_writer(publisher_, handle, qos.get(), nullptr);
+  // The endpoint keeps the topic alive.
+  dds_delete(handle);
   if (entity < 0) {
-    return fail(ErrorCode::kIo, "cannot {} {}: {}", reads ? "read" : "write", topic,
+    return fail(ErrorCode::kIo, "cannot {} {}: {}", reads ? "read" : "write", topic.name,
                 dds_strretcode(entity));
   }
   dds_set_status_mask(entity, reads ? kReaderStatus : kWriterStatus);
   Endpoint endpoint;
   endpoint.entity = entity;
   endpoint.reads = reads;
-  endpoint.topic = topic;
+  endpoint.topic = topic.name;
   endpoints_.push_back(std::move(endpoint));
-  return {};
+  return entity;
 }
 
 void Bus::remove_endpoint(dds_entity_t entity) {

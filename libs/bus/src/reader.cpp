@@ -4,14 +4,8 @@
 namespace rave::bus {
 
 Result<ReaderCore> ReaderCore::create(Bus& bus, const TopicSpec& topic) {
-  RAVE_TRY_ASSIGN(const dds_entity_t handle, bus.make_topic(topic));
   ReaderCore core(bus, topic.name);
-  const dds_entity_t reader =
-      dds_create_reader(bus.subscriber_, handle, make_qos(topic.qos).get(), nullptr);
-  // The reader keeps the topic alive.
-  dds_delete(handle);
-  RAVE_TRY(bus.add_endpoint(reader, true, topic.name));
-  core.reader_ = reader;
+  RAVE_TRY_ASSIGN(core.reader_, bus.add_endpoint(topic, true));
   return core;
 }
 

@@ -4,14 +4,8 @@
 namespace rave::bus {
 
 Result<WriterCore> WriterCore::create(Bus& bus, const TopicSpec& topic) {
-  RAVE_TRY_ASSIGN(const dds_entity_t handle, bus.make_topic(topic));
   WriterCore core(bus, topic.name);
-  const dds_entity_t writer =
-      dds_create_writer(bus.publisher_, handle, make_qos(topic.qos).get(), nullptr);
-  // The writer keeps the topic alive.
-  dds_delete(handle);
-  RAVE_TRY(bus.add_endpoint(writer, false, topic.name));
-  core.writer_ = writer;
+  RAVE_TRY_ASSIGN(core.writer_, bus.add_endpoint(topic, false));
   return core;
 }
 

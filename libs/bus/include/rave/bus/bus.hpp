@@ -69,7 +69,8 @@ class Bus {
   [[nodiscard]] Status open_participant();
   [[nodiscard]] tl::unexpected<Error> refused(dds_return_t code);
   [[nodiscard]] Result<dds_entity_t> make_topic(const TopicSpec& spec);
-  [[nodiscard]] Status add_endpoint(dds_entity_t entity, bool reads, const char* topic);
+  /// Makes a reader or writer of a topic.
+  [[nodiscard]] Result<dds_entity_t> add_endpoint(const TopicSpec& topic, bool reads);
   void remove_endpoint(dds_entity_t entity);
   void note_foreign(const std::string& topic);
   void note_refused(const std::string& topic, std::uint64_t writer, std::string why);

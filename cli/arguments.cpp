@@ -19,6 +19,8 @@ namespace {
 /// All options of all subcommands, one of which is used.
 struct Everything {
   RunCommand run;
+  RobotCommand robot;
+  EnvCommand env;
   CheckCommand check;
   DriversCommand drivers;
   DescribeCommand describe;
@@ -65,12 +67,38 @@ void add_run_options(CLI::App& app, RunCommand& c) {
   add_plugins(app, c.plugins);
 }
 
+/// How a process takes part in a run of several.
+void add_bus_options(CLI::App& app, BusOptions& c) {
+  app.add_option("--run", c.run, "Name of the run, the same for all its processes [its scenario]")
+      ->type_name("NAME");
+  app.add_option("--domain", c.domain, "DDS domain of a run with several processes [0]")
+      ->type_name("N")
+      ->check(CLI::Range(0, 230));
+  app.add_option("--interface", c.interface,
+                 "Address or name of the network interface [this machine only]")
+      ->type_name("ADDR");
+  app.add_option("--peer", c.peers, "A machine to look for others at; may be repeated")
+      ->type_name("ADDR")
+      ->take_all()
+      ->allow_extra_args(false);
+  app.add_option("--multicast", c.multicast, "off, discovery (to find one another) or on")
+      ->type_name("USE");
+  app.add_option("--security", c.security, "Folder with the certificates of this process")
+      ->type_name("DIR");
+  // Not for people: keeps tests on one machine apart.
+  app.add_option("--bus-tag", c.tag)->group("");
+}
+
 void add_run(CLI::App& root, RunCommand& c) {
   CLI::App& app = *root.add_subcommand("run", "Run a scenario");
   app.add_option("scenario", c.scenario, "A file, a folder with scenario.yaml, or a name")
       ->required()
       ->type_name("SCENARIO");
   add_run_options(app, c);
+  app.add_option("--processes", c.processes, "Share the robots evenly among so many processes")
+      ->type_name("N")
+      ->check(CLI::Range(1, 100));
+  add_bus_options(app, c.bus);
   app.footer(
       "Exit code: 0 if the run was whole and its checks hold, 1 if not, 2 for bad input.\n"
       "Ctrl-C ends a run early and still writes its results; a second one kills it.\n"
@@ -78,6 +106,47 @@ void add_run(CLI::App& root, RunCommand& c) {
       "Examples:\n"
       "  rave run mixed-reality --pace 10x\n"
       "  rave run my/scenario.yaml --seed 7 --duration 30 --output results");
+}
+
+void add_hosts(CLI::App& root, Everything& all) {
+  RunCommand& robot = all.robot.run;
+  CLI::App& host = *root.add_subcommand("robot", "Run the robots of one host of a scenario");
+  host.add_option("scenario", robot.scenario, "A file, a folder with scenario.yaml, or a name")
+      ->required()
+      ->type_name("SCENARIO");
+  host.add_option("--host", all.robot.host, "Which one, as the scenario names it")
+      ->required()
+      ->type_name("NAME");
+  add_run_options(host, robot);
+  host.add_option("--processes", robot.processes, "As of `rave env`")
+      ->type_name("N")
+      ->check(CLI::Range(2, 100));
+  add_bus_options(host, robot.bus);
+  host.footer(
+      "It waits for the environment manager of the run (`rave env`, or `rave run` of the same\n"
+      "scenario), however late that comes, and goes on with the next one if it is lost.\n"
+      "Exit code: 0 if it took part from the first step to the last, 1 if not, 2 for bad input.\n\n"
+      "Examples:\n"
+      "  rave robot lab --host left\n"
+      "  rave robot lab --host left --interface 192.168.1.7 --peer 192.168.1.2");
+
+  RunCommand& env = all.env.run;
+  CLI::App& manager =
+      *root.add_subcommand("env", "Manage the world of a scenario that several hosts share");
+  manager.add_option("scenario", env.scenario, "A file, a folder with scenario.yaml, or a name")
+      ->required()
+      ->type_name("SCENARIO");
+  add_run_options(manager, env);
+  manager
+      .add_option("--processes", env.processes, "Share the robots evenly among host-1, host-2 ...")
+      ->type_name("N")
+      ->check(CLI::Range(2, 100));
+  add_bus_options(manager, env.bus);
+  manager.footer(
+      "The hosts are started with `rave robot`, in any order. If it dies, another one goes on in\n"
+      "its place. Exit code: 0 if the run was whole, 1 if not, 2 for bad input.\n\n"
+      "Example:\n"
+      "  rave env lab");
 }
 
 void add_check(CLI::App& root, CheckCommand& c) {
@@ -338,6 +407,8 @@ Finished usage_error(const CLI::App& root, const CLI::ParseError& e) {
 Command chosen_command(const CLI::App& root, const Everything& all) {
   const std::string name = root.get_subcommands().front()->get_name();
   if (name == "run") return all.run;
+  if (name == "robot") return all.robot;
+  if (name == "env") return all.env;
   if (name == "check") return all.check;
   if (name == "drivers") return all.drivers;
   if (name == "describe") return all.describe;
@@ -373,6 +444,7 @@ Command parse_arguments(int argc, const char* const* argv) {
   root.require_subcommand(0, 1);
   root.add_flag("--version", version, "What this build is");
   add_run(root, all.run);
+  add_hosts(root, all);
   add_check(root, all.check);
   add_drivers(root, all.drivers);
   add_describe(root, all.describe);

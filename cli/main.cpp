@@ -12,6 +12,8 @@ namespace {
 struct Dispatch {
   int operator()(const Finished& finished) const { return finished.exit_code; }
   int operator()(const RunCommand& options) const { return run(options); }
+  int operator()(const RobotCommand& options) const { return robot(options); }
+  int operator()(const EnvCommand& options) const { return env(options); }
   int operator()(const CheckCommand& options) const { return check(options); }
   int operator()(const DriversCommand& options) const { return drivers(options); }
   int operator()(const DescribeCommand& options) const { return describe(options); }

@@ -15,26 +15,11 @@
 #include "rave/run_control/folder.hpp"
 #include "rave/run_control/server.hpp"
 #include "run_folder.hpp"
+#include "run_scenario.hpp"
+#include "shared_run.hpp"
 
 namespace rave::cli {
 namespace {
-
-Status override_settings(const RunCommand& options, config::ScenarioFile& scenario) {
-  if (options.seed) scenario.seed = *options.seed;
-  if (options.threads) scenario.threads = *options.threads;
-  if (options.pace) {
-    auto pace = config::parse_pace(*options.pace);
-    if (!pace) return tl::unexpected(std::move(pace).error().with_context("--pace"));
-    scenario.pace = *pace;
-  }
-  if (!options.duration_s) return {};
-  scenario.duration_s = *options.duration_s;
-  // An instant that a shorter run never reaches: the middle instead.
-  if (scenario.picture && scenario.picture->instant_s.value_or(0) > scenario.duration_s) {
-    scenario.picture->instant_s.reset();
-  }
-  return {};
-}
 
 /// The files that a run leaves and that people look at, in that order.
 std::string files_of(const std::filesystem::path& folder) {
@@ -77,13 +62,11 @@ int report_outcome(const RunCommand& options, const robot_host::RunOutcome& outc
 }  // namespace
 
 int run(const RunCommand& options) {
-  const auto path = find_scenario(options.scenario);
-  if (!path) return complain(path.error());
-  auto scenario = config::expand_scenario(*path);
+  auto scenario = read_scenario(options);
   if (!scenario) return complain(scenario.error());
-  if (auto status = override_settings(options, scenario->scenario); !status) {
-    return complain(status.error());
-  }
+  const auto hosts = config::plan_hosts(*scenario);
+  if (!hosts) return complain(hosts.error());
+  if (!hosts->empty()) return run_shared(options, *scenario, *hosts);
   plugin::Catalogue catalogue(robot_host::host_stamp());
   if (auto added = add_plugin_folders(options.plugins, catalogue); !added) {
     return complain(added.error());

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "bus_options.hpp"
+
 namespace rave::cli {
 
 /// `rave run`. What is unset comes from the scenario.
@@ -21,6 +23,8 @@ struct RunCommand {
   bool arm = false;
   bool quiet = false;
   std::vector<std::string> plugins;
+  std::optional<int> processes;  ///< Share the robots among so many.
+  BusOptions bus;                ///< Of runs with several processes.
 };
 
 /// Runs a scenario. Returns 0 if it was whole and its checks hold, 1 if not, 2 on bad input.

@@ -1,65 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/bus/validate.hpp"
 
-#include <cmath>
-#include <numbers>
-#include <string_view>
 #include <tuple>
 
-#include "rave/bus/sequence.hpp"
+#include "sample_checks.hpp"
 
 namespace rave::bus {
 namespace {
-
-/// Angles may have been wound up by turning, but not for ever.
-constexpr double kMaxAngle_rad = 2e6 * std::numbers::pi;
-
-tl::unexpected<Error> invalid(std::string text) {
-  return tl::unexpected<Error>(Error{ErrorCode::kInvalidArgument, std::move(text), {}});
-}
-
-Status check_number(std::string_view field, double value, double limit) {
-  // Written so that NaN fails.
-  if (std::fabs(value) <= limit) return {};
-  return invalid(fmt::format("{} is {}, not within +-{}", field, value, limit));
-}
-
-template <class Sequence>
-Status check_numbers(std::string_view list, std::string_view field, const Sequence& numbers,
-                     std::size_t size, double limit) {
-  const auto values = elements(numbers);
-  if (values.size() != size) {
-    return invalid(
-        fmt::format("{}.{} has {} entries for {} robots", list, field, values.size(), size));
-  }
-  // One pass that the compiler can do in vectors; who is to blame is looked for only then.
-  bool good = true;
-  for (const double value : values) good &= std::fabs(value) <= limit;
-  for (std::size_t i = 0; !good; ++i) {
-    Status status = check_number(fmt::format("{}.{}[{}]", list, field, i), values[i], limit);
-    if (!status) return status;
-  }
-  return {};
-}
-
-template <class Sequence>
-Status check_ids(std::string_view list, const Sequence& ids) {
-  const auto values = elements(ids);
-  if (values.size() > rave_wire_kMaxRobots) {
-    return invalid(
-        fmt::format("{} has {} robots, more than {}", list, values.size(), rave_wire_kMaxRobots));
-  }
-  for (std::size_t i = 1; i < values.size(); ++i) {
-    if (values[i - 1] >= values[i]) {
-      return invalid(
-          fmt::format("{}.id[{}] is {} after {}; ids ascend", list, i, values[i], values[i - 1]));
-    }
-  }
-  if (!values.empty() && values.back() == rave_wire_kNone) {
-    return invalid(fmt::format("{}.id: a robot without a number", list));
-  }
-  return {};
-}
 
 Status check_robots(std::string_view list, const rave_wire_PlanarRobots& robots) {
   RAVE_TRY(check_ids(list, robots.id));
@@ -70,14 +17,6 @@ Status check_robots(std::string_view list, const rave_wire_PlanarRobots& robots)
   RAVE_TRY(check_numbers(list, "vx_mps", robots.vx_mps, size, kMaxSpeed_mps));
   RAVE_TRY(check_numbers(list, "vy_mps", robots.vy_mps, size, kMaxSpeed_mps));
   return check_numbers(list, "wz_radps", robots.wz_radps, size, kMaxTurn_radps);
-}
-
-Status check_twists(std::string_view list, const rave_wire_PlanarTwists& twists) {
-  RAVE_TRY(check_ids(list, twists.id));
-  const std::size_t size = twists.id._length;
-  RAVE_TRY(check_numbers(list, "vx_mps", twists.vx_mps, size, kMaxSpeed_mps));
-  RAVE_TRY(check_numbers(list, "vy_mps", twists.vy_mps, size, kMaxSpeed_mps));
-  return check_numbers(list, "wz_radps", twists.wz_radps, size, kMaxTurn_radps);
 }
 
 /// Inputs are in the order in which everybody applies them, and none is there twice.
@@ -98,17 +37,6 @@ Status check_inputs(std::string_view list, const Sequence& sequence) {
     if (i > 0 && place(inputs[i - 1]) >= place(inputs[i])) {
       return invalid(
           fmt::format("{}[{}] is out of order; inputs ascend by kind, robot and number", list, i));
-    }
-  }
-  return {};
-}
-
-/// Names end up in logs and on terminals.
-Status check_label(std::string_view field, std::string_view text, bool needed) {
-  if (needed && text.empty()) return invalid(fmt::format("{} is empty", field));
-  for (const char c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
-      return invalid(fmt::format("{} has control characters", field));
     }
   }
   return {};
@@ -169,17 +97,6 @@ Status check_pose(const Placed& sample) {
   RAVE_TRY(check_number("x_m", sample.x_m, kMaxPosition_m));
   RAVE_TRY(check_number("y_m", sample.y_m, kMaxPosition_m));
   return check_number("yaw_rad", sample.yaw_rad, kMaxAngle_rad);
-}
-
-Status check_id(std::string_view field, std::uint32_t id) {
-  if (id == rave_wire_kNone) return invalid(fmt::format("{} is none", field));
-  return {};
-}
-
-template <class Sample>
-Status check_writer(const Sample& sample) {
-  if (sample.writer == 0) return invalid("writer is 0");
-  return {};
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "cdr.hpp"
+#include "rave/bus/testing/cdr.hpp"
 #include "rave/bus/validate.hpp"
 
 namespace {
@@ -19,10 +19,11 @@ void receive(std::span<const std::byte> bytes, bool swapped) {
 }
 
 using Receive = void (*)(std::span<const std::byte>, bool);
-constexpr Receive kTopics[] = {receive<HostState>, receive<World>,    receive<RosterEntry>,
-                               receive<Obstacle>,  receive<Edit>,     receive<Command>,
-                               receive<Packet>,    receive<HostInfo>, receive<ClockPing>,
-                               receive<ClockPong>};
+constexpr Receive kTopics[] = {receive<HostState>, receive<World>,      receive<RosterEntry>,
+                               receive<Obstacle>,  receive<Edit>,       receive<Command>,
+                               receive<Packet>,    receive<HostInfo>,   receive<ClockPing>,
+                               receive<ClockPong>, receive<HostReport>, receive<WorldStep>,
+                               receive<RunState>};
 
 }  // namespace
 

@@ -29,6 +29,7 @@ class Checks {
       robots_exist("robot", change.robot);
       multiple_of_step("at_s", change.at_s);
     }
+    if (auto hosts = plan_hosts(expanded_); !hosts) diagnostics_.add(std::move(hosts).error());
     if (scenario_.checks.capture) {
       robots_exist("predator", scenario_.checks.capture->predator);
       robots_exist("prey", scenario_.checks.capture->prey);

@@ -52,8 +52,14 @@ void validate(const ChangeFile& c, CheckContext& check) {
   }
 }
 
+void validate(const HostFile& c, CheckContext& check) { check_name("name", *c.name, check); }
+
 void validate(const ScenarioFile& c, CheckContext& check) {
   check_name("name", *c.name, check);
+  check_unique("host", c.hosts, check);
+  if (c.processes && !c.hosts.empty()) {
+    check.error("processes", "`processes` and `hosts` both say who runs the robots; one can");
+  }
   check_unique("obstacle", c.obstacles, check);
   if (c.picture && c.picture->instant_s && *c.picture->instant_s > c.duration_s) {
     check.error("picture", "`instant_s`: found {}, expected at most `duration_s` ({})",

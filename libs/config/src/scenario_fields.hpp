@@ -142,6 +142,40 @@ void describe(V& v, PictureFile& c) {
           {.doc = "The sensor whose track is drawn dashed; null: none."});
 }
 
+constexpr auto enum_names(EnumTag<LostHost> /*tag*/) {
+  return std::array{EnumName{LostHost::kWait, "wait"}, EnumName{LostHost::kDrop, "drop"},
+                    EnumName{LostHost::kRestart, "restart"}};
+}
+
+template <class V>
+void describe(V& v, HostFile& c) {
+  v.required("name", c.name, {.doc = "Letters, digits, - and _; what `rave robot` is told."});
+  v.field("robots", c.robots,
+          {.doc = "Robots, or entries of robots; none: all that no other host has.",
+           .max_items = static_cast<std::size_t>(kMaxRobots)});
+  v.field("elsewhere", c.elsewhere,
+          {.doc = "Whether it is started by hand, with `rave robot`; else `rave run` starts it."});
+}
+
+void validate(const HostFile& c, CheckContext& check);
+
+template <class V>
+void describe_hosts(V& v, ScenarioFile& c) {
+  v.field(
+      "processes", c.processes,
+      {.doc = "Share the robots evenly among so many processes; null: one.", .min = 1, .max = 100});
+  v.field("hosts", c.hosts,
+          {.doc = "Which robots run in which process, here or elsewhere.", .max_items = 100});
+  v.field("on_lost_host", c.on_lost_host,
+          {.doc = "What happens when a host is late or gone: wait for it, drop its robots, or drop "
+                  "them and let it come back."});
+  v.field("host_timeout_s", c.host_timeout_s,
+          {.doc = "Wall time after which a host that does not answer counts as late.",
+           .min = 0.1,
+           .max = 3600,
+           .unit = "s"});
+}
+
 template <class V>
 void describe_run(V& v, ScenarioFile& c) {
   v.field("seed", c.seed, {.doc = "Of all chance in the run."});
@@ -163,6 +197,7 @@ void describe(V& v, ScenarioFile& c) {
   v.field("obstacles", c.obstacles, obstacle_list());
   v.field("maps", c.maps, map_list());
   describe_run(v, c);
+  describe_hosts(v, c);
   v.required(
       "robots", c.robots,
       {.doc = "At least one.", .min_items = 1, .max_items = static_cast<std::size_t>(kMaxRobots)});

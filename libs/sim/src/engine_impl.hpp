@@ -176,7 +176,8 @@ struct Engine::Impl {
   // engine_split.cpp: one of several hosts
   Status propose(HostReport& report, PhaseTimer& phase);
   void fill_report(HostReport& report);
-  Status apply(const WorldStep& world, PhaseTimer& phase);
+  /// `was_there`: in the step before, too, so that its messages are heard.
+  Status apply(const WorldStep& world, bool was_there, PhaseTimer& phase);
   [[nodiscard]] Status check(const WorldStep& world) const;
   Status make_changes(const WorldStep& world);
   void do_input(const WorldInput& input);

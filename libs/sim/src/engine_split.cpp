@@ -101,7 +101,24 @@ Status Engine::apply(const WorldStep& world) {
   }
   RAVE_TRY(engine.check(world));
   PhaseTimer phase(engine.spec.phase_clock, engine.phase_times);
-  return engine.apply(world, phase);
+  return engine.apply(world, true, phase);
+}
+
+Status Engine::join(const WorldStep& world) {
+  Impl& engine = *impl_;
+  const bool later = engine.host && engine.host->proposed && world.step > engine.step;
+  if (!later) return apply(world);
+  RAVE_TRY(check_world_step(engine.spec, world));
+  PhaseTimer phase(engine.spec.phase_clock, engine.phase_times);
+  engine.step = world.step;
+  engine.now = engine.step_time(world.step);
+  RAVE_TRY(engine.ingest_sensors(false));
+  for (const Block& block : engine.blocks) {
+    if (engine.groups[block.group].type->pose_from) engine.refresh_told(block, engine.workers[0]);
+  }
+  // The authority has had what it needs of that time from nobody, and needs it no more.
+  engine.host->samples.clear();
+  return engine.apply(world, false, phase);
 }
 
 Status Engine::Impl::check(const WorldStep& world) const {
@@ -112,11 +129,11 @@ Status Engine::Impl::check(const WorldStep& world) const {
   return check_world_step(spec, world);
 }
 
-Status Engine::Impl::apply(const WorldStep& world, PhaseTimer& phase) {
+Status Engine::Impl::apply(const WorldStep& world, bool was_there, PhaseTimer& phase) {
   host->proposed = false;
   host->begun = true;
   past_valid = false;
-  if (step > 0 && !radio->empty()) {
+  if (was_there && step > 0 && !radio->empty()) {
     // Who hears a message is decided in the world in which it was sent.
     const RadioMoment moment{
         step - 1, step_time(step - 1), host->reported_at_sending, &truth.snapshot, &hash, &events};

@@ -34,8 +34,10 @@ struct WorldAuthority::Impl {
   Impl(EngineSpec s, std::vector<std::uint32_t> hosts);
 
   void begin();
+  [[nodiscard]] Status check(const HostReport& report) const;
   [[nodiscard]] Status check(std::span<const HostReport* const> reports);
   void finish_step();
+  void take_over(const WorldStep& world);
   void make_changes(WorldStep& world);
   void do_input(WorldInput& input, WorldStep& world);
   Status change_body(RobotId robot, std::span<const ParameterChange> changes, Author author,
@@ -94,31 +96,36 @@ void WorldAuthority::Impl::begin() {
   refusals.clear();
 }
 
+Status WorldAuthority::Impl::check(const HostReport& report) const {
+  if (report.host >= hosts.size()) {
+    return fail(ErrorCode::kInvalidArgument, "a report of host {}, but there are {}", report.host,
+                hosts.size());
+  }
+  const auto named = [&](Error error) {
+    return tl::unexpected(std::move(error).with_context(fmt::format("host {}", report.host)));
+  };
+  if (report.state > HostState::kDone) {
+    return named({ErrorCode::kState, fmt::format("cannot go on: {}", report.text), {}});
+  }
+  if (report.step != step) {
+    return named({ErrorCode::kInvalidArgument,
+                  fmt::format("a report for step {}, but step {} comes next", report.step, step),
+                  {}});
+  }
+  const Status status = check_report(spec, hosts[report.host], host_of, report);
+  if (!status) return named(status.error());
+  return {};
+}
+
 /// Sorts the reports by host, too.
 Status WorldAuthority::Impl::check(std::span<const HostReport* const> reports) {
   by_host.assign(hosts.size(), nullptr);
   for (const HostReport* const report : reports) {
-    if (report->host >= hosts.size()) {
-      return fail(ErrorCode::kInvalidArgument, "a report of host {}, but there are {}",
-                  report->host, hosts.size());
-    }
-    const auto named = [&](Error error) {
-      return tl::unexpected(std::move(error).with_context(fmt::format("host {}", report->host)));
-    };
+    RAVE_TRY(check(*report));
     if (by_host[report->host] != nullptr) {
-      return named({ErrorCode::kInvalidArgument, "two reports for one step", {}});
+      return fail(ErrorCode::kInvalidArgument, "host {}: two reports for one step", report->host);
     }
     by_host[report->host] = report;
-    if (report->state > HostState::kDone) {
-      return named({ErrorCode::kState, fmt::format("cannot go on: {}", report->text), {}});
-    }
-    if (report->step != step) {
-      return named({ErrorCode::kInvalidArgument,
-                    fmt::format("a report for step {}, but step {} comes next", report->step, step),
-                    {}});
-    }
-    const Status status = check_report(spec, hosts[report->host], host_of, *report);
-    if (!status) return named(status.error());
   }
   for (std::size_t host = 0; host < hosts.size(); ++host) {
     if (by_host[host] == nullptr) {
@@ -277,6 +284,91 @@ Status WorldAuthority::step(std::span<const HostReport* const> reports, WorldSte
   authority.write_messages(world);
   ++authority.step;
   return {};
+}
+
+Status WorldAuthority::check(const HostReport& report) const { return impl_->check(report); }
+
+AuthorityState WorldAuthority::state() const {
+  const Impl& authority = *impl_;
+  AuthorityState state;
+  state.hash = authority.hash;
+  state.events = authority.events;
+  state.pinned = authority.truth.pinned();
+  for (const auto& [robot, scale] : authority.truth.scales()) {
+    state.scales.push_back({RobotId(robot), scale});
+  }
+  state.inputs = authority.inputs;
+  return state;
+}
+
+Status WorldAuthority::resume(const WorldStep& world, const AuthorityState& state) {
+  Impl& authority = *impl_;
+  RAVE_TRY(check_world_step(authority.spec, world));
+  const std::size_t robots = authority.spec.robots.size();
+  const auto is_there = [robots](RobotId robot) { return robot.value() < robots; };
+  if (!std::all_of(state.pinned.begin(), state.pinned.end(), is_there) ||
+      !std::all_of(state.scales.begin(), state.scales.end(),
+                   [&](const ResizedRobot& robot) { return is_there(robot.robot); })) {
+    return fail(ErrorCode::kInvalidArgument, "a state with robots that do not exist");
+  }
+  authority.begin();
+  for (const ResizedRobot& resized : state.scales) {
+    RAVE_TRY(authority.truth.put_scale(resized.robot, resized.scale));
+  }
+  authority.take_over(world);
+  authority.truth.take_over(SimTime{static_cast<std::int64_t>(world.step) * authority.spec.step.ns},
+                            state.pinned);
+  authority.step = world.step + 1;
+  authority.hash = state.hash;
+  authority.done_hash = state.hash;
+  authority.events = state.events;
+  authority.inputs = state.inputs;
+  const auto& changes = authority.spec.changes;
+  while (authority.next_change < changes.size() &&
+         changes[authority.next_change].step <= world.step) {
+    ++authority.next_change;
+  }
+  return {};
+}
+
+/// Where everybody is, as its own write_poses() and write_contacts() told it.
+void WorldAuthority::Impl::take_over(const WorldStep& world) {
+  for (std::uint32_t r = 0; r < truth.movers.size(); ++r) {
+    truth.movers[r].X_WR = {world.x_m[r], world.y_m[r], world.yaw_rad[r]};
+    truth.movers[r].present = (world.flags[r] & WorldStep::kPresent) != 0;
+    truth.velocity[r] = {world.vx_mps[r], world.vy_mps[r], world.wz_radps[r]};
+    truth.touch[r] = {};
+  }
+  for (const PushedRobot& pushed : world.pushed) {
+    truth.movers[pushed.robot.value()].X_WR = pushed.X_WR;
+  }
+  for (const TouchPoint& point : world.touches) {
+    truth.touch[point.robot.value()] = {true, point.direction_W};
+  }
+}
+
+void WorldAuthority::speak_for(std::uint32_t host, HostReport& report) const {
+  const Impl& authority = *impl_;
+  // Poses stay: the last that its host told, from now on too old to be believed.
+  std::vector<PoseReport> poses = std::move(report.poses);
+  report.begin(authority.step);
+  report.host = host;
+  report.poses = std::move(poses);
+  const std::vector<RobotId>& told = authority.hosts[host].told;
+  report.poses.resize(told.size());
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    report.poses[i].robot = told[i];
+    report.poses[i].reported.stale = report.poses[i].reported.known;
+    report.poses[i].reported.velocity = {};
+  }
+  if (authority.step == 0) return;
+  for (const RobotId robot : authority.hosts[host].simulated) {
+    report.proposals.robots.push_back(robot.value());
+  }
+  const std::size_t count = report.proposals.robots.size();
+  report.proposals.vx_mps.assign(count, 0);
+  report.proposals.vy_mps.assign(count, 0);
+  report.proposals.wz_radps.assign(count, 0);
 }
 
 Result<std::uint64_t> WorldAuthority::ask(WorldInput input) {

@@ -95,6 +95,26 @@ void WorldTruth::show(SimTime now) {
   slack_m_ = 0;
 }
 
+void WorldTruth::take_over(SimTime now, std::span<const RobotId> pinned) {
+  std::fill(pinned_before_.begin(), pinned_before_.end(), std::uint8_t{0});
+  for (const RobotId robot : pinned) pinned_before_[robot.value()] = 1;
+  notes.clear();
+  // Robots are anywhere: nothing that was known of the places before helps.
+  for (std::uint32_t r = 0; r < movers.size(); ++r) {
+    snapshot.set_robot(RobotId(r), {movers[r].X_WR, {}, movers[r].present});
+  }
+  snapshot.rebuild();
+  show(now);
+}
+
+std::vector<RobotId> WorldTruth::pinned() const {
+  std::vector<RobotId> robots;
+  for (std::uint32_t r = 0; r < pinned_before_.size(); ++r) {
+    if (pinned_before_[r] != 0) robots.emplace_back(r);
+  }
+  return robots;
+}
+
 double WorldTruth::place_block(std::uint32_t first, std::uint32_t last) {
   for (std::uint32_t r = first; r < last; ++r) {
     const RobotId robot(r);

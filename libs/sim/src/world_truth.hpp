@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <vector>
 
 #include "motion_phase.hpp"
@@ -37,6 +38,14 @@ struct WorldTruth {
   void resolve(std::uint64_t step, std::vector<Event>& events);
   /// Of the poses, velocities and contacts of who is present.
   [[nodiscard]] RunHash hash_poses(std::uint64_t step);
+
+  /// Takes over what another authority knew after show(): poses, velocities and touches stand in
+  /// `movers`, `velocity` and `touch` already.
+  void take_over(SimTime now, std::span<const RobotId> pinned);
+  /// Who could not get out of a real robot's way; ascending.
+  [[nodiscard]] std::vector<RobotId> pinned() const;
+  /// All robots whose bodies have another size than the spec says; ascending.
+  [[nodiscard]] const std::map<std::uint32_t, double>& scales() const noexcept { return scales_; }
 
   /// Changes the size of a simulated robot; between resolve() and make_way(). Errors:
   /// kInvalidArgument (a real robot, a scale that no body can have, it would overlap something);

@@ -136,15 +136,54 @@ void note_oddities(const config::RobotGroup& group, const world::Body& body, Bui
   }
 }
 
+/// By group, whether this process runs a robot of it.
+std::vector<std::uint8_t> groups_here(const config::ExpandedScenario& scenario,
+                                      const BuildOptions& options) {
+  std::vector<std::uint8_t> here(scenario.groups.size(), options.local ? 0 : 1);
+  if (!options.local) return here;
+  for (const RobotId robot : *options.local) here[scenario.robots[robot.value()].group] = 1;
+  return here;
+}
+
+/// Forgets everything that lies in the memory of plug-ins.
+void let_go_of_plugins(sim::RobotType& type) {
+  for (sim::DeviceSpec& device : type.devices) device.ops = nullptr;
+  for (sim::SensorSpec& sensor : type.sensors) {
+    sensor.virtual_ops = nullptr;
+    sensor.hardware_ops = nullptr;
+    if (!sensor.hybrid) continue;
+    sensor.hybrid->ops = nullptr;
+    sensor.hybrid->virtual_ops = nullptr;
+  }
+  for (sim::ControllerSpec& controller : type.controllers) {
+    controller.ops = nullptr;
+    controller.param_specs = {};
+  }
+  for (sim::ActuatorSpec& actuator : type.actuators) {
+    actuator.virtual_ops = nullptr;
+    actuator.hardware_ops = nullptr;
+    actuator.param_specs = {};
+  }
+  for (sim::TransmitterSpec& transmitter : type.transmitters) transmitter.ops = nullptr;
+  for (sim::CommunicatorSpec& communicator : type.communicators) communicator.ops = nullptr;
+  if (!type.program) return;
+  type.program->ops = nullptr;
+  type.program->param_specs = {};
+  type.program->isolate = nullptr;
+}
+
 Status add_groups(const config::ExpandedScenario& scenario, plugin::Catalogue& catalogue,
                   const BuildOptions& options, BuiltScenario& built,
                   std::vector<world::Body>& bodies) {
+  const std::vector<std::uint8_t> here = groups_here(scenario, options);
   for (const config::RobotGroup& group : scenario.groups) {
     sim::RobotType type;
     type.name = group.name.value;
     type.folder = std::filesystem::path(group.file).parent_path().string();
     type.staleness = from_seconds(group.robot.staleness_s);
-    RAVE_TRY(add_devices({scenario, catalogue, options, built}, group, type));
+    const bool others = here[built.spec.types.size()] == 0 && options.others != nullptr;
+    plugin::Catalogue& drivers = others ? *options.others : catalogue;
+    RAVE_TRY(add_devices({scenario, drivers, options, built}, group, type));
     RAVE_TRY_ASSIGN(type.guard, guard_spec(group));
     RAVE_TRY_ASSIGN(auto body, make_body(group));
     body.layer = type.simulated ? Layer::kSimulatedRobots : Layer::kRealRobots;
@@ -188,6 +227,12 @@ Result<BuiltScenario> build(const config::ExpandedScenario& scenario, plugin::Ca
   }
   RAVE_TRY(put_down_robots(scenario, spec));
   RAVE_TRY(add_changes(scenario, spec));
+  spec.local = options.local;
+  if (options.others == nullptr) return built;
+  const std::vector<std::uint8_t> here = groups_here(scenario, options);
+  for (std::size_t g = 0; g < here.size(); ++g) {
+    if (here[g] == 0) let_go_of_plugins(spec.types[g]);
+  }
   return built;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "part_keeper.hpp"
 
+#include <algorithm>
+
 namespace rave::robot_host {
 namespace {
 
@@ -8,6 +10,9 @@ namespace {
 template <class Take>
 void each_hybrid(const sim::EngineSpec& spec, Take take) {
   for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
+    const bool here = !spec.local || std::find(spec.local->begin(), spec.local->end(),
+                                               RobotId(r)) != spec.local->end();
+    if (!here) continue;
     const auto& sensors = spec.types[spec.robots[r].type].sensors;
     for (std::uint32_t s = 0; s < sensors.size(); ++s) {
       if (sensors[s].hybrid) take(r, s, sensors[s]);

@@ -92,6 +92,7 @@ Files input_files(const config::ExpandedScenario& scenario, const sim::Engine& e
   for (const config::MapFile& map : scenario.world.maps) add_map(map.file.value, files);
   const sim::EngineSpec& spec = engine.spec();
   for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
+    if (!engine.is_local(RobotId(r))) continue;
     const sim::RobotType& type = spec.types[spec.robots[r].type];
     for (std::uint32_t s = 0; s < type.sensors.size(); ++s) {
       if (type.sensors[s].virtual_ops != nullptr) continue;
@@ -108,7 +109,13 @@ Files versions_of(const sim::EngineSpec& spec, plugin::Catalogue& catalogue) {
   constexpr std::array kControllers = {DriverKind::kController};
   constexpr std::array kPrograms = {DriverKind::kProgram};
   Files versions = {{"rave", RAVE_VERSION}};
-  for (const sim::RobotType& type : spec.types) {
+  std::vector<std::uint8_t> here(spec.types.size(), spec.local ? 0 : 1);
+  if (spec.local) {
+    for (const RobotId robot : *spec.local) here[spec.robots[robot.value()].type] = 1;
+  }
+  for (std::size_t t = 0; t < spec.types.size(); ++t) {
+    if (here[t] == 0) continue;
+    const sim::RobotType& type = spec.types[t];
     for (const auto& sensor : type.sensors) {
       add_version(catalogue, kSensors, "driver", sensor.driver, versions);
     }

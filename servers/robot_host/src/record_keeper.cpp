@@ -80,7 +80,7 @@ Result<std::unique_ptr<RecordKeeper>> RecordKeeper::begin(const std::filesystem:
     info.robots.push_back({RobotId(r), spec.robots[r].name,
                            std::string(kinds.word(kinds.body_of(RobotId(r)))),
                            spec.robots[r].team});
-    describe_sensors(engine, r, info);
+    if (engine.is_local(RobotId(r))) describe_sensors(engine, r, info);
   }
   RAVE_TRY_ASSIGN(auto recorder, record::RunRecorder::open(path, info, {}, log));
   RAVE_TRY(PartKeeper::describe(spec, recorder));

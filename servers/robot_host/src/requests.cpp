@@ -21,6 +21,7 @@ std::string names_of(const sim::Engine& engine, RobotId robot, Holds&& holds) {
   std::vector<std::string_view> names;
   for (std::uint32_t r = 0; r < robot_count(engine); ++r) {
     if (robot.valid() && robot.value() != r) continue;
+    if (!engine.is_local(RobotId(r))) continue;
     if (holds(RobotId(r))) names.emplace_back(engine.spec().robots[r].name);
   }
   constexpr std::size_t kMany = 12;
@@ -66,6 +67,10 @@ Result<std::string> serve_request(sim::Engine& engine, const RunRequest& request
   RobotId robot;
   if (!request.robot.empty()) {
     RAVE_TRY_ASSIGN(robot, find_robot(engine.spec(), request.robot));
+    if (!engine.is_local(robot)) {
+      return fail(ErrorCode::kNotFound, "robot `{}` runs in another process of this run",
+                  request.robot);
+    }
   }
   switch (request.kind) {
     case RunRequest::Kind::kStop:
@@ -88,9 +93,10 @@ Result<std::string> serve_request(sim::Engine& engine, const RunRequest& request
 
 void refresh_status(const sim::Engine& engine, RunStatus& status) {
   const sim::EngineSpec& spec = engine.spec();
-  status.robots.resize(spec.robots.size());
+  status.robots.clear();
   for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
-    RunStatus::Robot& robot = status.robots[r];
+    if (!engine.is_local(RobotId(r))) continue;
+    RunStatus::Robot& robot = status.robots.emplace_back();
     robot.name = spec.robots[r].name;
     robot.simulated = spec.types[spec.robots[r].type].simulated;
     robot.armed = engine.armed(RobotId(r));

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "console_tee.hpp"
+#include "event_log.hpp"
 #include "goal_checks.hpp"
 #include "outcome.hpp"
 #include "rave/base/file.hpp"
@@ -62,50 +63,6 @@ struct Observers {
   }
 };
 
-LogLevel level_of(sim::EventKind kind) {
-  switch (kind) {
-    case sim::EventKind::kProgramFailed:
-    case sim::EventKind::kDriverFailed:
-    case sim::EventKind::kChangeRefused:
-      return LogLevel::kError;
-    case sim::EventKind::kReleased:
-    case sim::EventKind::kArmed:
-    case sim::EventKind::kChanged:
-    case sim::EventKind::kCaptured:
-      return LogLevel::kInfo;
-    default:
-      return LogLevel::kWarning;
-  }
-}
-
-void tell_events(const sim::Engine& engine, std::span<const sim::Event> events, LogSink* log,
-                 std::vector<sim::Event>& all) {
-  const sim::EngineSpec& spec = engine.spec();
-  for (const sim::Event& event : events) {
-    all.push_back(event);
-    // Contacts are daily bread in a crowd; the rest somebody should read now.
-    if (log == nullptr || event.kind == sim::EventKind::kContact) continue;
-    log->write(level_of(event.kind), fmt::format("robot {}", spec.robots[event.robot.value()].name),
-               fmt::format("{:.2f} s: {}: {}", engine.time().seconds(), to_string(event.kind),
-                           event.text));
-  }
-}
-
-std::string events_log(const sim::Engine& engine, const BodyKinds& kinds,
-                       const std::vector<sim::Event>& events) {
-  std::string text;
-  for (const sim::Event& event : events) {
-    text +=
-        fmt::format("{:10.3f} s  {:<16} {:<14} {}{}\n",
-                    static_cast<double>(event.step) * engine.spec().step.seconds(),
-                    engine.spec().robots[event.robot.value()].name, to_string(event.kind),
-                    event.other.valid() ? fmt::format("with {} ", kinds.name(event.other.value()))
-                                        : std::string(),
-                    event.text);
-  }
-  return text;
-}
-
 Status write_results(const Findings& findings, const RunOptions& options, RunOutcome& outcome) {
   outcome = judge(findings);
   if (options.picture) {
@@ -119,20 +76,6 @@ Status write_results(const Findings& findings, const RunOptions& options, RunOut
                                  events_log(findings.engine, findings.kinds, findings.events)));
   return write_file_atomically(options.output / "result.json", result_json(findings, outcome));
 }
-
-/// Lets the console speak to the record as long as both exist.
-class RecordedConsole {
- public:
-  RecordedConsole(ConsoleTee& console, RecordKeeper* record) : console_(console) {
-    if (record != nullptr) console_.attach(&record->recorder());
-  }
-  RecordedConsole(const RecordedConsole&) = delete;
-  RecordedConsole& operator=(const RecordedConsole&) = delete;
-  ~RecordedConsole() { console_.attach(nullptr); }
-
- private:
-  ConsoleTee& console_;
-};
 
 /// A run on its way: what the loop needs, and what it leaves.
 struct Journey {
@@ -244,20 +187,6 @@ class Controlled {
   RunControl* control_;
 };
 
-/// Arms robots if that was asked for, else says who waits for it.
-void tell_who_waits(Journey& journey) {
-  const std::string names = unarmed_robots(journey.engine);
-  if (names.empty()) return;
-  if (journey.options.arm) {
-    journey.engine.arm(RobotId(), sim::Author::kRun);
-    journey.console.warn("run", "armed from the start: {}", names);
-    return;
-  }
-  const std::string& run = journey.options.run_name;
-  journey.console.warn("run", "{} will stand until armed: `rave arm{}{}` in another terminal",
-                       names, run.empty() ? "" : " ", run);
-}
-
 }  // namespace
 
 Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalogue& catalogue,
@@ -302,11 +231,12 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
                              input_files(scenario, *engine), !live},
                             options.log));
   }
-  const RecordedConsole recorded(console, observers.record.get());
+  const RecordedConsole recorded(console,
+                                 observers.record ? &observers.record->recorder() : nullptr);
   Journey journey{*engine, observers, pace, live, file, options, console, {}, 0, false};
   if (!live) pace.start();  // a live run counts from when its sensors were opened
   const Controlled controlled(journey);
-  tell_who_waits(journey);
+  tell_who_waits(*engine, options, console);
   RAVE_TRY(go_through(journey));
   // Writing the results takes a while; nobody drives on meanwhile.
   engine->halt();

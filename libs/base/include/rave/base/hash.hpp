@@ -60,6 +60,12 @@ class RunHash {
   constexpr void add(const ItemHash& item) noexcept { sum_ += item.value(); }
   constexpr void merge(RunHash other) noexcept { sum_ += other.sum_; }
   [[nodiscard]] constexpr std::uint64_t value() const noexcept { return sum_; }
+  /// The sum that another process has come to.
+  [[nodiscard]] static constexpr RunHash of_value(std::uint64_t value) noexcept {
+    RunHash hash;
+    hash.sum_ = value;
+    return hash;
+  }
 
   friend constexpr bool operator==(RunHash, RunHash) noexcept = default;
 

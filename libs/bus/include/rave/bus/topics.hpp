@@ -3,6 +3,7 @@
 
 #include "idl/rave/command.h"
 #include "idl/rave/host.h"
+#include "idl/rave/lock_step.h"
 #include "idl/rave/obstacle.h"
 #include "idl/rave/roster.h"
 #include "idl/rave/world.h"
@@ -10,6 +11,11 @@
 
 namespace rave::bus {
 
+using HostReport = rave_wire_HostReport;
+using WorldStep = rave_wire_WorldStep;
+/// A world that a host hands back; the same type on another topic.
+struct LastWorld : rave_wire_WorldStep {};
+using RunState = rave_wire_RunState;
 using HostState = rave_wire_HostState;
 using World = rave_wire_World;
 using RosterEntry = rave_wire_RosterEntry;
@@ -33,6 +39,22 @@ struct TopicSpec {
 template <class Message>
 [[nodiscard]] TopicSpec topic_of();
 
+template <>
+inline TopicSpec topic_of<HostReport>() {
+  return {"rave/host_report", &rave_wire_HostReport_desc, kNewest};
+}
+template <>
+inline TopicSpec topic_of<WorldStep>() {
+  return {"rave/world_step", &rave_wire_WorldStep_desc, kNewest};
+}
+template <>
+inline TopicSpec topic_of<LastWorld>() {
+  return {"rave/last_world", &rave_wire_WorldStep_desc, kNewest};
+}
+template <>
+inline TopicSpec topic_of<RunState>() {
+  return {"rave/run", &rave_wire_RunState_desc, kDurable};
+}
 template <>
 inline TopicSpec topic_of<HostState>() {
   return {"rave/host_state", &rave_wire_HostState_desc, kNewest};

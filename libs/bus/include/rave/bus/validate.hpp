@@ -18,6 +18,9 @@ inline constexpr double kMaxTurn_radps = 1e4;
 /// allow, a body that is not convex. Error kInvalidArgument with field, entry and value. Pure.
 /// Readers call these for every sample; whether it fits the run is the receiver's to judge
 /// (check_step, HostClaims).
+[[nodiscard]] Status validate(const HostReport& sample);
+[[nodiscard]] Status validate(const WorldStep& sample);
+[[nodiscard]] Status validate(const RunState& sample);
 [[nodiscard]] Status validate(const HostState& sample);
 [[nodiscard]] Status validate(const World& sample);
 [[nodiscard]] Status validate(const RosterEntry& sample);

@@ -55,6 +55,19 @@ struct ExpandedScenario {
 [[nodiscard]] std::vector<std::size_t> robots_named(const ExpandedScenario& scenario,
                                                     std::string_view name);
 
+/// One host of a scenario that is shared among several.
+struct PlannedHost {
+  std::string name;
+  std::vector<std::size_t> robots;  ///< Indices, ascending; at least one.
+  bool elsewhere = false;           ///< Started by hand, not by `rave run`.
+  bool operator==(const PlannedHost&) const = default;
+};
+
+/// Who runs which robot: by `hosts`, or `processes` equal parts in the order of the robots. Empty:
+/// one process runs them all. Errors: kParse (no such robot, a robot of two hosts or of none, a
+/// host without robots, more processes than robots).
+[[nodiscard]] Result<std::vector<PlannedHost>> plan_hosts(const ExpandedScenario& scenario);
+
 /// Reads a scenario and the files it names (a robot file once per entry) and checks them together:
 /// names, periods that are multiples of the step, sensors that checks and picture name, files that
 /// do not exist (error at the line that names them). Errors: kNotFound, kIo, kParse.

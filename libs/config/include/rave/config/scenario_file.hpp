@@ -106,6 +106,24 @@ struct PictureFile {
   bool operator==(const PictureFile&) const = default;
 };
 
+/// One host of robots: a process, on this machine or another.
+struct HostFile {
+  Located<std::string> name;
+  /// Robots, or entries of `robots:` that stand for several. Empty: all that no other host has, and
+  /// at most one host may be so.
+  std::vector<Located<std::string>> robots;
+  /// It is started by hand, with `rave robot`; otherwise `rave run` starts it.
+  bool elsewhere = false;
+  bool operator==(const HostFile&) const = default;
+};
+
+/// What happens to a run in lock-step when one of its hosts does not answer, or is gone.
+enum class LostHost : std::uint8_t {
+  kWait,     ///< All wait until it is back, and say for whom.
+  kDrop,     ///< Its robots stand from then on, and the others go on.
+  kRestart,  ///< The same, and it may come back: its robots go on from where they stand.
+};
+
 struct ScenarioFile {
   Located<std::string> name;
   std::string description;
@@ -118,6 +136,11 @@ struct ScenarioFile {
   int threads = 1;
   Pace pace;
   double history_s = 0;
+  /// The robots are shared evenly among so many processes; unset: one, unless there are hosts.
+  std::optional<Located<int>> processes;
+  std::vector<HostFile> hosts;
+  LostHost on_lost_host = LostHost::kWait;
+  double host_timeout_s = 10;  ///< A host that has not answered for so long counts as late.
   std::vector<RobotEntry> robots;
   std::vector<ChangeFile> changes;
   ChecksFile checks;

@@ -110,6 +110,10 @@ class Engine {
   /// first; alone), kInvalidArgument (another step or another world; nothing has changed); kPlugin
   /// and what step() says end the run.
   Status apply(const WorldStep& world);
+  /// As apply(), but the world may be of a later step than the one that was proposed: the others
+  /// went on while this host was away. Its robots go on from where the world says they stand, with
+  /// programs and controllers as they are here; messages of the time between are lost to them.
+  Status join(const WorldStep& world);
   /// Whether this engine runs the robot.
   [[nodiscard]] bool is_local(RobotId robot) const noexcept;
 

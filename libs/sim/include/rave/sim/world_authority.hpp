@@ -13,6 +13,16 @@
 
 namespace rave::sim {
 
+/// What an authority knows beside the last WorldStep that it made. With both another one can go on
+/// in its place, to the bit.
+struct AuthorityState {
+  RunHash hash;                      ///< With what has been noted in the step of the world.
+  std::vector<Event> events;         ///< Noted so far in that step; their texts do not matter.
+  std::vector<RobotId> pinned;       ///< Who could not get out of a real robot's way; ascending.
+  std::vector<ResizedRobot> scales;  ///< Of all bodies that are not as the spec says; ascending.
+  std::uint64_t inputs = 0;          ///< How many have been asked for so far.
+};
+
 /// Holds a world whose robots run on several hosts in lock-step: knows where all robots are, limits
 /// their motion as the engine of a one-process run does, and passes on what they send. It runs no
 /// driver and no program. The hashes of the authority and of all engines that take part add up to
@@ -36,6 +46,16 @@ class WorldAuthority {
   /// failed). After an error nothing has changed, and it may be tried again.
   Status step(std::span<const HostReport* const> reports, WorldStep& world);
 
+  /// Whether a report is what step() needs next of its host; errors as there.
+  [[nodiscard]] Status check(const HostReport& report) const;
+
+  /// What belongs to the WorldStep that step() made last.
+  [[nodiscard]] AuthorityState state() const;
+  /// Goes on in the place of another authority of the same spec, after it had made `world` and
+  /// `state`: the reports of the step after `world` come next. Errors: kInvalidArgument (a world of
+  /// another spec); then nothing has changed.
+  Status resume(const WorldStep& world, const AuthorityState& state);
+
   /// Asks something of robots, from the next step on; returns its number. That it cannot be done is
   /// known two steps later at the latest, see refusals(). Errors: kInvalidArgument (no such robot,
   /// nothing to change, or a change of the body together with other parts).
@@ -56,6 +76,9 @@ class WorldAuthority {
   /// Of poses, contacts, pins and changes of bodies in the steps that are done.
   [[nodiscard]] RunHash hash() const noexcept;
   [[nodiscard]] std::uint32_t host_count() const noexcept;
+  /// The report of a host that is gone: of the next step, its simulated robots want to stand, its
+  /// real ones are where they were last reported, which is old by now. `report` keeps its memory.
+  void speak_for(std::uint32_t host, HostReport& report) const;
 
  private:
   struct Impl;

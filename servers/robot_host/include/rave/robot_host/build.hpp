@@ -20,6 +20,11 @@ struct BuildOptions {
   LogSink* log = nullptr;                ///< Not owned; outlives what is built.
   /// Clock of live drivers; not owned. A scenario with a live driver cannot be built without one.
   const RunClock* live_clock = nullptr;
+  /// The robots that this process runs, one of several that share the world; not set: all.
+  std::optional<std::vector<RobotId>> local = std::nullopt;
+  /// Where the drivers of robots that others run are looked up. What is built keeps nothing of it,
+  /// so it may be destroyed afterwards and their plug-ins with it. Not owned; null: `catalogue`.
+  plugin::Catalogue* others = nullptr;
 };
 
 /// A scenario, ready for an Engine. The catalogue it was built with must outlive it.

@@ -23,7 +23,8 @@ namespace rave::robot_host {
 [[nodiscard]] std::map<std::string, std::string> input_files(
     const config::ExpandedScenario& scenario, const sim::Engine& engine);
 
-/// Of RAVE, and of each driver and program that takes part: `rave`, `driver NAME`, `program NAME`.
+/// Of RAVE, and of each driver and program that takes part in this process: `rave`, `driver NAME`,
+/// `program NAME`.
 [[nodiscard]] std::map<std::string, std::string> versions_of(const sim::EngineSpec& spec,
                                                              plugin::Catalogue& catalogue);
 

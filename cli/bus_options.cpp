@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bus_options.hpp"
+
+#include <bit>
+
+#include "rave/base/hash.hpp"
+#include "rave/base/names.hpp"
+
+namespace rave::cli {
+namespace {
+
+/// The same for all who know the name: a number for a run that people can say to one another.
+bus::RunId run_of_name(std::uint64_t name) {
+  bus::RunId run;
+  const std::array<std::uint64_t, 2> halves = {mix64(name), mix64(~name)};
+  run.bytes = std::bit_cast<std::array<std::uint8_t, 16>>(halves);
+  return run;
+}
+
+Result<bus::Multicast> multicast_of(const std::string& word) {
+  if (word == "off") return bus::Multicast::kOff;
+  if (word == "discovery") return bus::Multicast::kDiscovery;
+  if (word == "on") return bus::Multicast::kOn;
+  constexpr std::array<std::string_view, 3> kWords = {"off", "discovery", "on"};
+  return fail(ErrorCode::kInvalidArgument, "--multicast: found `{}`{}", word,
+              suggestion(word, kWords));
+}
+
+}  // namespace
+
+Result<bus::BusConfig> bus_config(const BusOptions& options, std::string participant,
+                                  std::uint64_t scenario) {
+  bus::BusConfig config;
+  config.participant = std::move(participant);
+  config.domain = options.domain;
+  config.interface = options.interface;
+  config.peers = options.peers;
+  config.security = options.security;
+  config.tag = options.tag;
+  // Each costs a look now and then; a lab does not run more on one machine.
+  config.max_processes = 100;
+  RAVE_TRY_ASSIGN(config.multicast, multicast_of(options.multicast));
+  const auto digits = bus::RunId::parse(options.run);
+  if (digits) {
+    config.run = *digits;
+  } else {
+    const auto name = std::as_bytes(std::span(options.run.data(), options.run.size()));
+    config.run = run_of_name(options.run.empty() ? scenario : content_hash(name));
+  }
+  RAVE_TRY(bus::validate(config));
+  return config;
+}
+
+std::vector<std::string> words_of(const BusOptions& options, const bus::RunId& run) {
+  std::vector<std::string> words = {
+      "--run",       run.text(),        "--domain",    std::to_string(options.domain),
+      "--interface", options.interface, "--multicast", options.multicast};
+  for (const std::string& peer : options.peers) {
+    words.emplace_back("--peer");
+    words.push_back(peer);
+  }
+  if (!options.security.empty()) {
+    words.emplace_back("--security");
+    words.push_back(options.security);
+  }
+  if (!options.tag.empty()) {
+    words.emplace_back("--bus-tag");
+    words.push_back(options.tag);
+  }
+  return words;
+}
+
+}  // namespace rave::cli

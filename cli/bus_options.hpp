@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "rave/base/result.hpp"
+#include "rave/bus/config.hpp"
+
+namespace rave::cli {
+
+/// How a process of a shared run takes part in it, as the command line says.
+struct BusOptions {
+  std::string run;  ///< A name, or 32 hexadecimal digits; empty: that of the scenario.
+  std::uint32_t domain = 0;
+  std::string interface = "127.0.0.1";
+  std::vector<std::string> peers;
+  std::string multicast = "off";
+  std::string security;  ///< A folder with certificates; empty: none.
+  std::string tag;       ///< Hides the run from processes with another one; for tests.
+};
+
+/// `scenario` is the number of the scenario, from which the run's number is made if no run is
+/// named. Errors: kInvalidArgument.
+[[nodiscard]] Result<bus::BusConfig> bus_config(const BusOptions& options, std::string participant,
+                                                std::uint64_t scenario);
+
+/// The same as words for the command line of another process of the run.
+[[nodiscard]] std::vector<std::string> words_of(const BusOptions& options, const bus::RunId& run);
+
+}  // namespace rave::cli

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/hosts.hpp"
+
+#include <fmt/format.h>
+
+#include "console.hpp"
+#include "error_text.hpp"
+#include "interrupt.hpp"
+#include "managed_run.hpp"
+#include "places.hpp"
+#include "rave/robot_host/build.hpp"
+#include "rave/robot_host/host_run.hpp"
+#include "rave/run_control/folder.hpp"
+#include "rave/run_control/server.hpp"
+#include "run_folder.hpp"
+#include "run_scenario.hpp"
+
+namespace rave::cli {
+namespace {
+
+/// What `rave robot` and `rave env` end with; the exit code.
+int tell(const RunCommand& options, bool whole, const std::string& summary,
+         const std::vector<std::string>& problems, const std::filesystem::path& folder) {
+  const Terminal errors = terminal_of(stderr);
+  if (!options.quiet) put(stdout, summary + fmt::format("{}\n", folder.string()));
+  for (const std::string& problem : problems) {
+    put(stderr, fmt::format("{} {}\n", errors.red("problem:"), problem));
+  }
+  if (whole && !options.quiet) put(stdout, terminal_of(stdout).green("done") + "\n");
+  return whole ? kGood : kNotGood;
+}
+
+}  // namespace
+
+int robot(const RobotCommand& options) {
+  const RunCommand& run = options.run;
+  auto scenario = read_scenario(run);
+  if (!scenario) return complain(scenario.error());
+  plugin::Catalogue catalogue(robot_host::host_stamp());
+  auto others = std::make_unique<plugin::Catalogue>(robot_host::host_stamp());
+  for (plugin::Catalogue* const each : {&catalogue, others.get()}) {
+    if (auto added = add_plugin_folders(run.plugins, *each); !added) {
+      return complain(added.error());
+    }
+  }
+  const std::string name = fmt::format("{}-{}", scenario->scenario.name.value, options.host);
+  robot_host::HostOptions how;
+  how.host = options.host;
+  how.others = others.get();
+  auto bus = bus_config(run.bus, options.host, robot_host::shared_number(*scenario));
+  if (!bus) return complain(bus.error());
+  how.bus = *bus;
+  const auto folder = RunFolder::create(run.output, name);
+  if (!folder) return complain(folder.error());
+  Console console(run.quiet);
+  if (auto opened = console.open_file(folder->path() / "console.log"); !opened) {
+    return complain(opened.error());
+  }
+  robot_host::RunControl& control = ended_by_signals();
+  how.run.output = folder->path();
+  how.run.program_runner = program_runner();
+  how.run.record = !run.no_record;
+  how.run.log = &console;
+  how.run.control = &control;
+  how.run.arm = run.arm;
+  how.run.run_name = run_control::own_run_name(name);
+  auto server = run_control::Server::start(how.run.run_name, control);
+  if (!server) {
+    console.warn("host", "no other terminal can control this host: {}", server.error().message);
+  }
+  const auto outcome = robot_host::run_host(*scenario, catalogue, how);
+  if (!outcome) return complain(outcome.error());
+  return tell(run, outcome->whole, fmt::format("host {}: {} steps\n", options.host, outcome->steps),
+              outcome->problems, folder->path());
+}
+
+int env(const EnvCommand& options) {
+  const RunCommand& run = options.run;
+  auto scenario = read_scenario(run);
+  if (!scenario) return complain(scenario.error());
+  auto bus = bus_config(run.bus, "environment manager", robot_host::shared_number(*scenario));
+  if (!bus) return complain(bus.error());
+  const auto folder = RunFolder::create(run.output, scenario->scenario.name.value + "-env");
+  if (!folder) return complain(folder.error());
+  Console console(run.quiet);
+  if (auto opened = console.open_file(folder->path() / "console.log"); !opened) {
+    return complain(opened.error());
+  }
+  robot_host::RunControl& control = ended_by_signals();
+  const auto outcome = manage_run(
+      {*scenario, run, *bus, folder->path(), console, [&control] { return control.stopping(); }});
+  console.clear();
+  if (!outcome) return complain(outcome.error());
+  return tell(run, outcome->whole, summary_of(*scenario, *outcome), outcome->problems,
+              folder->path());
+}
+
+}  // namespace rave::cli

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "bus_options.hpp"
+#include "commands/run.hpp"
+
+namespace rave::cli {
+
+/// `rave robot`: the robots of one host of a scenario, in this process.
+struct RobotCommand {
+  RunCommand run;
+  std::string host;
+};
+
+/// `rave env`: the environment manager of a scenario that hosts share.
+struct EnvCommand {
+  RunCommand run;
+};
+
+/// Return 0 if the run was whole for them, 1 if not, 2 on bad input.
+[[nodiscard]] int robot(const RobotCommand& options);
+[[nodiscard]] int env(const EnvCommand& options);
+
+}  // namespace rave::cli

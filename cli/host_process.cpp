@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host_process.hpp"
+
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <thread>
+#include <utility>
+
+extern char** environ;
+
+namespace rave::cli {
+
+Result<HostProcess> HostProcess::start(std::vector<std::string> words) {
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  posix_spawnattr_t attributes;
+  ::posix_spawnattr_init(&attributes);
+  // A group of its own: Ctrl-C is for this process, which tells the others in its own time.
+  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  ::posix_spawnattr_setpgroup(&attributes, 0);
+  ::pid_t process = -1;
+  const int error = ::posix_spawn(&process, argv[0], nullptr, &attributes, argv.data(), environ);
+  ::posix_spawnattr_destroy(&attributes);
+  if (error != 0) {
+    return fail(ErrorCode::kIo, "cannot start `{}`: {}", words.front(), std::strerror(error));
+  }
+  return HostProcess(process);
+}
+
+HostProcess::HostProcess(HostProcess&& other) noexcept
+    : process_(std::exchange(other.process_, -1)), code_(other.code_) {}
+
+HostProcess& HostProcess::operator=(HostProcess&& other) noexcept {
+  if (this == &other) return *this;
+  end();
+  process_ = std::exchange(other.process_, -1);
+  code_ = other.code_;
+  return *this;
+}
+
+HostProcess::~HostProcess() { end(); }
+
+std::optional<int> HostProcess::ended() {
+  if (process_ < 0) return code_;
+  int status = 0;
+  if (::waitpid(process_, &status, WNOHANG) != process_) return std::nullopt;
+  process_ = -1;
+  code_ = WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
+  return code_;
+}
+
+std::optional<int> HostProcess::wait(double longest_s) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(longest_s);
+  auto code = ended();
+  while (!code && std::chrono::steady_clock::now() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    code = ended();
+  }
+  return code;
+}
+
+void HostProcess::end() noexcept {
+  constexpr double kPatience_s = 2;
+  if (ended()) return;
+  if (process_ < 0) return;
+  ::kill(process_, SIGTERM);
+  if (wait(kPatience_s)) return;
+  ::kill(process_, SIGKILL);
+  ::waitpid(process_, nullptr, 0);
+  process_ = -1;
+}
+
+}  // namespace rave::cli

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shared_run.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "console.hpp"
+#include "error_text.hpp"
+#include "host_process.hpp"
+#include "interrupt.hpp"
+#include "managed_run.hpp"
+#include "places.hpp"
+#include "rave/base/file.hpp"
+#include "rave/robot_host/host_run.hpp"
+#include "run_folder.hpp"
+
+namespace rave::cli {
+namespace {
+
+/// The processes of the hosts that `rave run` starts.
+class Crew {
+ public:
+  Crew(const RunCommand& options, const bus::BusConfig& bus, std::filesystem::path folder,
+       bool restarts, Console& console)
+      : options_(options),
+        bus_(bus),
+        folder_(std::move(folder)),
+        restarts_(restarts),
+        console_(console) {}
+
+  Status start(const config::PlannedHost& host) {
+    members_.push_back({host.name, 0, std::nullopt});
+    return start(members_.back());
+  }
+
+  /// Starts again who has died, if that is wanted.
+  void look_after() {
+    for (Member& member : members_) {
+      if (!member.process) continue;
+      const auto code = member.process->ended();
+      if (!code) continue;
+      member.process.reset();
+      member.code = code;
+      if (*code == kGood) continue;
+      console_.warn("run", "the process of host `{}` ended with {}", member.name,
+                    *code < 0 ? fmt::format("signal {}", -*code) : fmt::format("code {}", *code));
+      if (!restarts_ || member.starts >= kMostStarts) continue;
+      if (auto started = start(member); !started) {
+        console_.error("run", "host `{}` could not be started again: {}", member.name,
+                       started.error().message);
+      }
+    }
+  }
+
+  /// Nobody comes again: all that were to run have died before the run began.
+  [[nodiscard]] bool all_dead() const {
+    if (members_.empty()) return false;
+    for (const Member& member : members_) {
+      if (member.process || member.code == kGood) return false;
+    }
+    return true;
+  }
+
+  /// Waits for their ends. What went wrong, one sentence each.
+  [[nodiscard]] std::vector<std::string> part() {
+    constexpr double kPatience_s = 20;
+    std::vector<std::string> problems;
+    for (Member& member : members_) {
+      if (member.process) {
+        member.code = member.process->wait(kPatience_s);
+        member.process.reset();
+      }
+      if (member.code == kGood) continue;
+      problems.push_back(member.code
+                             ? fmt::format("host `{}`: see {}", member.name, member.folder.string())
+                             : fmt::format("host `{}` did not end and was killed", member.name));
+    }
+    return problems;
+  }
+
+ private:
+  static constexpr int kMostStarts = 10;
+  struct Member {
+    std::string name;
+    int starts = 0;
+    std::optional<HostProcess> process;
+    std::optional<int> code{};
+    std::filesystem::path folder{};
+  };
+
+  Status start(Member& member) {
+    ++member.starts;
+    member.folder =
+        folder_ / "hosts" /
+        (member.starts == 1 ? member.name : fmt::format("{}-{}", member.name, member.starts));
+    std::vector<std::string> words = {(executable_folder() / "rave").string(),
+                                      "robot",
+                                      (folder_ / "scenario.yaml").string(),
+                                      "--host",
+                                      member.name,
+                                      "--output",
+                                      member.folder.string(),
+                                      "--quiet"};
+    for (const std::string& word : words_of(options_.bus, bus_.run)) words.push_back(word);
+    for (const std::string& plugins : options_.plugins) {
+      words.emplace_back("--plugins");
+      words.push_back(plugins);
+    }
+    if (options_.no_record) words.emplace_back("--no-record");
+    if (options_.arm) words.emplace_back("--arm");
+    RAVE_TRY_ASSIGN(auto process, HostProcess::start(std::move(words)));
+    member.process.emplace(std::move(process));
+    return {};
+  }
+
+  const RunCommand& options_;
+  const bus::BusConfig& bus_;
+  std::filesystem::path folder_;
+  bool restarts_;
+  Console& console_;
+  std::vector<Member> members_;
+};
+
+/// How somebody starts a host that is elsewhere.
+std::string invitation(const config::ExpandedScenario& scenario, const config::PlannedHost& host,
+                       const RunCommand& options, const bus::BusConfig& bus) {
+  std::string words;
+  for (const std::string& word : words_of(options.bus, bus.run)) words += " " + word;
+  return fmt::format("waits for host `{}`: rave robot {} --host {}{}", host.name,
+                     scenario.scenario.name.value, host.name, words);
+}
+
+int report(const RunCommand& options, const config::ExpandedScenario& scenario,
+           const environment_manager::ManagerOutcome& outcome,
+           const std::vector<std::string>& problems, const std::filesystem::path& folder) {
+  const Terminal errors = terminal_of(stderr);
+  if (!options.quiet) {
+    put(stdout, summary_of(scenario, outcome));
+    put(stdout, fmt::format("{}: result.json, scenario.yaml, hosts/\n", folder.string()));
+  }
+  for (const auto* const list : {&outcome.problems, &problems}) {
+    for (const std::string& problem : *list) {
+      put(stderr, fmt::format("{} {}\n", errors.red("problem:"), problem));
+    }
+  }
+  const bool good = outcome.whole && problems.empty();
+  if (!good) {
+    put(stderr, fmt::format("{} the run was not whole\n", errors.red("not good:")));
+  } else if (!options.quiet) {
+    put(stdout, terminal_of(stdout).green("done") + "\n");
+  }
+  return good ? kGood : kNotGood;
+}
+
+}  // namespace
+
+int run_shared(const RunCommand& options, const config::ExpandedScenario& scenario,
+               const std::vector<config::PlannedHost>& hosts) {
+  BusOptions bus_options = options.bus;
+  // A run that this process starts is one of its own, whoever runs the same scenario beside it.
+  if (bus_options.run.empty()) bus_options.run = bus::RunId::random().text();
+  const auto bus =
+      bus_config(bus_options, "environment manager", robot_host::shared_number(scenario));
+  if (!bus) return complain(bus.error());
+  const auto folder = RunFolder::create(options.output, scenario.scenario.name.value);
+  if (!folder) return complain(folder.error());
+  Console console(options.quiet);
+  if (auto opened = console.open_file(folder->path() / "console.log"); !opened) {
+    return complain(opened.error());
+  }
+  if (auto written =
+          write_file_atomically(folder->path() / "scenario.yaml", config::write_expanded(scenario));
+      !written) {
+    return complain(written.error());
+  }
+  if (scenario.scenario.checks != config::ChecksFile{}) {
+    console.warn("run", "the scenario's checks need one process, so this run does not make them");
+  }
+  Crew crew(options, *bus, folder->path(),
+            scenario.scenario.on_lost_host == config::LostHost::kRestart, console);
+  for (const config::PlannedHost& host : hosts) {
+    if (host.elsewhere) {
+      console.warn("run", "{}", invitation(scenario, host, options, *bus));
+      continue;
+    }
+    if (auto started = crew.start(host); !started) return complain(started.error());
+  }
+  robot_host::RunControl& control = ended_by_signals();
+  const auto outcome = manage_run({scenario, options, *bus, folder->path(), console, [&] {
+                                     crew.look_after();
+                                     return control.stopping() || crew.all_dead();
+                                   }});
+  const std::vector<std::string> problems = crew.part();
+  console.clear();
+  if (!outcome) return complain(outcome.error());
+  return report(options, scenario, *outcome, problems, folder->path());
+}
+
+}  // namespace rave::cli

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <string_view>
+
+#include "rave/bus/sequence.hpp"
+#include "rave/bus/validate.hpp"
+
+/// What the validations of several topics share.
+namespace rave::bus {
+
+/// Angles may have been wound up by turning, but not for ever.
+inline constexpr double kMaxAngle_rad = 2e6 * std::numbers::pi;
+
+inline tl::unexpected<Error> invalid(std::string text) {
+  return tl::unexpected<Error>(Error{ErrorCode::kInvalidArgument, std::move(text), {}});
+}
+
+inline Status check_number(std::string_view field, double value, double limit) {
+  // Written so that NaN fails.
+  if (std::fabs(value) <= limit) return {};
+  return invalid(fmt::format("{} is {}, not within +-{}", field, value, limit));
+}
+
+template <class Sequence>
+Status check_numbers(std::string_view list, std::string_view field, const Sequence& numbers,
+                     std::size_t size, double limit) {
+  const auto values = elements(numbers);
+  if (values.size() != size) {
+    return invalid(
+        fmt::format("{}.{} has {} entries for {} robots", list, field, values.size(), size));
+  }
+  // One pass that the compiler can do in vectors; who is to blame is looked for only then.
+  bool good = true;
+  for (const double value : values) good &= std::fabs(value) <= limit;
+  for (std::size_t i = 0; !good; ++i) {
+    Status status = check_number(fmt::format("{}.{}[{}]", list, field, i), values[i], limit);
+    if (!status) return status;
+  }
+  return {};
+}
+
+template <class Sequence>
+Status check_ids(std::string_view list, const Sequence& ids) {
+  const auto values = elements(ids);
+  if (values.size() > rave_wire_kMaxRobots) {
+    return invalid(
+        fmt::format("{} has {} robots, more than {}", list, values.size(), rave_wire_kMaxRobots));
+  }
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    if (values[i - 1] >= values[i]) {
+      return invalid(
+          fmt::format("{}.id[{}] is {} after {}; ids ascend", list, i, values[i], values[i - 1]));
+    }
+  }
+  if (!values.empty() && values.back() == rave_wire_kNone) {
+    return invalid(fmt::format("{}.id: a robot without a number", list));
+  }
+  return {};
+}
+
+inline Status check_twists(std::string_view list, const rave_wire_PlanarTwists& twists) {
+  RAVE_TRY(check_ids(list, twists.id));
+  const std::size_t size = twists.id._length;
+  RAVE_TRY(check_numbers(list, "vx_mps", twists.vx_mps, size, kMaxSpeed_mps));
+  RAVE_TRY(check_numbers(list, "vy_mps", twists.vy_mps, size, kMaxSpeed_mps));
+  return check_numbers(list, "wz_radps", twists.wz_radps, size, kMaxTurn_radps);
+}
+
+/// Names end up in logs and on terminals.
+inline Status check_label(std::string_view field, std::string_view text, bool needed) {
+  if (needed && text.empty()) return invalid(fmt::format("{} is empty", field));
+  for (const char c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      return invalid(fmt::format("{} has control characters", field));
+    }
+  }
+  return {};
+}
+
+inline Status check_id(std::string_view field, std::uint32_t id) {
+  if (id == rave_wire_kNone) return invalid(fmt::format("{} is none", field));
+  return {};
+}
+
+template <class Sample>
+Status check_writer(const Sample& sample) {
+  if (sample.writer == 0) return invalid("writer is 0");
+  return {};
+}
+
+}  // namespace rave::bus

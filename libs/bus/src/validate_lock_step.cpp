@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "sample_checks.hpp"
+
+namespace rave::bus {
+namespace {
+
+Status check_place(std::string_view list, std::size_t index, double x_m, double y_m,
+                   double yaw_rad) {
+  if (std::fabs(x_m) <= kMaxPosition_m && std::fabs(y_m) <= kMaxPosition_m &&
+      std::fabs(yaw_rad) <= kMaxAngle_rad) {
+    return {};
+  }
+  return invalid(fmt::format("{}[{}] is at {}, {}, {}, which no robot can be", list, index, x_m,
+                             y_m, yaw_rad));
+}
+
+template <class Sequence>
+Status check_poses(const Sequence& sequence) {
+  const auto poses = elements(sequence);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const auto& pose = poses[i];
+    RAVE_TRY(check_place("poses", i, pose.x_m, pose.y_m, pose.yaw_rad));
+    RAVE_TRY(check_number("poses.vx_mps", pose.vx_mps, kMaxSpeed_mps));
+    RAVE_TRY(check_number("poses.vy_mps", pose.vy_mps, kMaxSpeed_mps));
+    RAVE_TRY(check_number("poses.wz_radps", pose.wz_radps, kMaxTurn_radps));
+    // Variances may be infinite: nothing is known.
+    if (!(pose.variance_xy_m2 >= 0 && pose.variance_yaw_rad2 >= 0)) {
+      return invalid(fmt::format("poses[{}] has a variance that is none", i));
+    }
+  }
+  return {};
+}
+
+template <class Sequence>
+Status check_samples(const Sequence& sequence) {
+  const auto samples = elements(sequence);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    RAVE_TRY(check_place("samples", i, samples[i].x_m, samples[i].y_m, samples[i].yaw_rad));
+  }
+  return {};
+}
+
+Status check_sent(const rave_wire_SentPackets& sent) {
+  const auto packets = elements(sent.packets);
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    const auto& packet = packets[i];
+    if (std::uint64_t{packet.first_byte} + packet.size > sent.bytes._length) {
+      return invalid(fmt::format("sent.packets[{}] has {} bytes from {} on, of {}", i, packet.size,
+                                 packet.first_byte, sent.bytes._length));
+    }
+    RAVE_TRY(check_place("sent.packets", i, packet.x_m, packet.y_m, packet.antenna_z_m));
+    if (!(packet.range_m >= 0)) {
+      return invalid(fmt::format("sent.packets[{}].range_m is {}", i, packet.range_m));
+    }
+  }
+  return {};
+}
+
+Status check_columns(const WorldStep& world) {
+  const std::size_t size = world.flags._length;
+  RAVE_TRY(check_numbers("world", "x_m", world.x_m, size, kMaxPosition_m));
+  RAVE_TRY(check_numbers("world", "y_m", world.y_m, size, kMaxPosition_m));
+  RAVE_TRY(check_numbers("world", "yaw_rad", world.yaw_rad, size, kMaxAngle_rad));
+  RAVE_TRY(check_numbers("world", "vx_mps", world.vx_mps, size, kMaxSpeed_mps));
+  RAVE_TRY(check_numbers("world", "vy_mps", world.vy_mps, size, kMaxSpeed_mps));
+  return check_numbers("world", "wz_radps", world.wz_radps, size, kMaxTurn_radps);
+}
+
+/// A list of entries that each name a robot of the world.
+template <class Sequence>
+Status check_named(std::string_view list, const Sequence& sequence, std::size_t robots) {
+  const auto entries = elements(sequence);
+  const auto wrong = std::find_if(entries.begin(), entries.end(),
+                                  [&](const auto& entry) { return entry.robot >= robots; });
+  if (wrong == entries.end()) return {};
+  return invalid(fmt::format("{}[{}] is of robot {}, but there are {}", list,
+                             wrong - entries.begin(), wrong->robot, robots));
+}
+
+Status check_inputs(const WorldStep& world) {
+  for (const auto& input : elements(world.inputs)) {
+    for (const auto& change : elements(input.changes)) {
+      RAVE_TRY(check_label("inputs.changes.name", change.name, true));
+      if (change.kind > rave_wire_VALUE_LIST) return invalid("inputs.changes.kind is unknown");
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Status validate(const HostReport& sample) {
+  RAVE_TRY(check_writer(sample));
+  RAVE_TRY(check_id("host", sample.host));
+  if (sample.state > rave_wire_REPORT_FAILED) return invalid("state is unknown");
+  RAVE_TRY(check_twists("proposals", sample.proposals));
+  RAVE_TRY(check_sent(sample.sent));
+  RAVE_TRY(check_poses(sample.poses));
+  return check_samples(sample.samples);
+}
+
+Status validate(const WorldStep& sample) {
+  RAVE_TRY(check_writer(sample));
+  if (sample.epoch == 0) return invalid("epoch is 0");
+  RAVE_TRY(check_columns(sample));
+  const std::size_t robots = sample.flags._length;
+  RAVE_TRY(check_named("pushed", sample.pushed, robots));
+  RAVE_TRY(check_named("touches", sample.touches, robots));
+  RAVE_TRY(check_named("poses", sample.poses, robots));
+  RAVE_TRY(check_named("samples", sample.samples, robots));
+  RAVE_TRY(check_named("resized", sample.resized, robots));
+  RAVE_TRY(check_named("authority.events", sample.authority.events, robots));
+  RAVE_TRY(check_named("authority.scales", sample.authority.scales, robots));
+  RAVE_TRY(check_sent(sample.sent));
+  RAVE_TRY(check_poses(sample.poses));
+  RAVE_TRY(check_samples(sample.samples));
+  return check_inputs(sample);
+}
+
+Status validate(const RunState& sample) {
+  RAVE_TRY(check_writer(sample));
+  RAVE_TRY(check_label("scenario", sample.scenario, false));
+  if (sample.phase > rave_wire_RUN_FAILED) return invalid("phase is unknown");
+  if (!(sample.step_s > 0)) return invalid(fmt::format("step_s is {}", sample.step_s));
+  if (!(sample.speed >= 0)) return invalid(fmt::format("speed is {}", sample.speed));
+  for (const auto& host : elements(sample.hosts)) {
+    RAVE_TRY(check_label("hosts.name", host.name, true));
+    if (host.phase > rave_wire_HOST_DROPPED) return invalid("hosts.phase is unknown");
+  }
+  return {};
+}
+
+}  // namespace rave::bus

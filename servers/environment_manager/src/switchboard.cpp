@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "switchboard.hpp"
+
+#include "rave/bus/run_id.hpp"
+#include "rave/bus/sequence.hpp"
+
+namespace rave::environment_manager {
+
+struct Switchboard::Parts {
+  lock_step::Identity identity;
+  LogSink* log;
+  std::unique_ptr<bus::Bus> bus;
+  bus::Writer<bus::WorldStep> worlds;
+  bus::Writer<bus::RunState> states;
+  bus::Writer<bus::HostInfo> own_info;
+  bus::Reader<bus::HostReport> reports;
+  bus::Reader<bus::LastWorld> last_worlds;
+  bus::Reader<bus::HostInfo> infos;
+  bus::WaitSet waits;
+};
+
+Switchboard::Switchboard(Parts parts)
+    : identity_(std::move(parts.identity)),
+      log_(parts.log),
+      bus_(std::move(parts.bus)),
+      worlds_(std::move(parts.worlds)),
+      states_(std::move(parts.states)),
+      own_info_(std::move(parts.own_info)),
+      reports_(std::move(parts.reports)),
+      last_worlds_(std::move(parts.last_worlds)),
+      infos_(std::move(parts.infos)),
+      waits_(std::move(parts.waits)),
+      epoch_(bus::random_writer_id()) {}
+
+Result<std::unique_ptr<Switchboard>> Switchboard::open(const bus::BusConfig& config,
+                                                       lock_step::Identity identity, LogSink* log) {
+  RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
+  RAVE_TRY_ASSIGN(auto worlds, bus::Writer<bus::WorldStep>::create(*bus));
+  RAVE_TRY_ASSIGN(auto states, bus::Writer<bus::RunState>::create(*bus));
+  RAVE_TRY_ASSIGN(auto own_info, bus::Writer<bus::HostInfo>::create(*bus));
+  RAVE_TRY_ASSIGN(auto reports, bus::Reader<bus::HostReport>::create(*bus));
+  RAVE_TRY_ASSIGN(auto last_worlds, bus::Reader<bus::LastWorld>::create(*bus));
+  RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
+  RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(*bus));
+  RAVE_TRY(waits.add(reports));
+  RAVE_TRY(waits.add(last_worlds));
+  RAVE_TRY(waits.add(infos));
+  RAVE_TRY(waits.add_events());
+  bus::HostInfo info = introduction(identity);
+  RAVE_TRY(own_info.write(info));
+  return std::unique_ptr<Switchboard>(
+      new Switchboard({std::move(identity), log, std::move(bus), std::move(worlds),
+                       std::move(states), std::move(own_info), std::move(reports),
+                       std::move(last_worlds), std::move(infos), std::move(waits)}));
+}
+
+Result<std::vector<std::uint64_t>> Switchboard::look_at_processes() {
+  bool second = false;
+  infos_.take([&](const bus::HostInfo& info) {
+    second = second || info.host == rave_wire_kNone;
+    const Status fits = check_fits(identity_, info);
+    if (fits) {
+      fitting_.insert(info.writer);
+    } else if (log_ != nullptr) {
+      log_->error("environment manager", "refused: {}", fits.error().message);
+    }
+  });
+  if (second) {
+    return fail(ErrorCode::kState,
+                "this run has an environment manager already; to start another run of the same "
+                "scenario beside it, give both a name of their own with --run");
+  }
+  std::vector<std::uint64_t> gone;
+  for (const bus::BusEvent& event : bus_->take_events()) {
+    using enum bus::EventKind;
+    if (event.kind == kParticipantLost && event.writer != 0) {
+      gone.push_back(event.writer);
+      continue;
+    }
+    const bool worth = event.kind == kRefused || event.kind == kIncompatible ||
+                       event.kind == kForeignRun || event.kind == kNotice;
+    if (worth && log_ != nullptr) log_->warn("bus", "{}", event.line());
+  }
+  return gone;
+}
+
+bool Switchboard::take_last_world(sim::WorldStep& world, sim::AuthorityState& authority,
+                                  bool has_one) {
+  bool newer = false;
+  last_worlds_.take([&](const bus::LastWorld& sample) {
+    if (!knows(sample.writer) || ((has_one || newer) && sample.step <= world.step)) return;
+    sim::WorldStep handed;
+    sim::AuthorityState state;
+    if (auto status = lock_step::read(sample, handed, state); !status) {
+      last_worlds_.refuse(sample, status.error().message);
+      return;
+    }
+    world = std::move(handed);
+    authority = std::move(state);
+    newer = true;
+  });
+  return newer;
+}
+
+Status Switchboard::send(const sim::WorldStep& world, const sim::AuthorityState& authority) {
+  RAVE_TRY_ASSIGN(sent_, message_.fill(world, authority, epoch_));
+  return worlds_.write(*sent_);
+}
+
+void Switchboard::resend() {
+  if (sent_ != nullptr) static_cast<void>(worlds_.write(*sent_));
+}
+
+}  // namespace rave::environment_manager

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <set>
+#include <span>
+#include <string>
+
+#include "rave/base/log.hpp"
+#include "rave/base/result.hpp"
+#include "rave/bus/wait_set.hpp"
+#include "rave/bus/writer.hpp"
+#include "rave/lock_step/introduction.hpp"
+#include "rave/lock_step/messages.hpp"
+#include "seats.hpp"
+
+namespace rave::environment_manager {
+
+/// What the manager does with the bus. Belongs to one thread.
+class Switchboard {
+ public:
+  /// Errors: those of bus::Bus::open().
+  [[nodiscard]] static Result<std::unique_ptr<Switchboard>> open(const bus::BusConfig& config,
+                                                                 lock_step::Identity identity,
+                                                                 LogSink* log);
+
+  /// Sleeps until something has come or the time is over.
+  void wait(Duration timeout) { static_cast<void>(waits_.wait(timeout)); }
+  /// Learns who is there; returns the processes that are gone. Errors: kState (another manager).
+  [[nodiscard]] Result<std::vector<std::uint64_t>> look_at_processes();
+  /// Whether a process said who it is, and fits.
+  [[nodiscard]] bool knows(std::uint64_t writer) const { return fitting_.contains(writer); }
+
+  /// Calls visit(const bus::HostReport&) for all that has come.
+  template <class Visit>
+  void take_reports(Visit&& visit) {
+    reports_.take(std::forward<Visit>(visit));
+  }
+  /// Reads what a host hands over of the manager before into `world` and `authority` if it is newer
+  /// than what is there; returns whether it was.
+  bool take_last_world(sim::WorldStep& world, sim::AuthorityState& authority, bool has_one);
+  void refuse(const bus::HostReport& report, std::string_view why) { reports_.refuse(report, why); }
+
+  /// Sends a step of the world, and remembers it for resend(). Errors: kInvalidArgument (larger
+  /// than the bus carries).
+  Status send(const sim::WorldStep& world, const sim::AuthorityState& authority);
+  /// Sends the last one again, for a host that has not got it.
+  void resend();
+  void publish(bus::RunState& state) { static_cast<void>(states_.write(state)); }
+
+ private:
+  struct Parts;
+  explicit Switchboard(Parts parts);
+
+  lock_step::Identity identity_;
+  LogSink* log_;
+  std::unique_ptr<bus::Bus> bus_;
+  bus::Writer<bus::WorldStep> worlds_;
+  bus::Writer<bus::RunState> states_;
+  bus::Writer<bus::HostInfo> own_info_;
+  bus::Reader<bus::HostReport> reports_;
+  bus::Reader<bus::LastWorld> last_worlds_;
+  bus::Reader<bus::HostInfo> infos_;
+  bus::WaitSet waits_;
+  lock_step::WorldMessage message_;
+  bus::LastWorld* sent_ = nullptr;  ///< In `message_`.
+  std::uint64_t epoch_;
+  std::set<std::uint64_t> fitting_;
+};
+
+}  // namespace rave::environment_manager

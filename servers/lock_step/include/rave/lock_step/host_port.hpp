@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "rave/base/log.hpp"
+#include "rave/base/result.hpp"
+#include "rave/bus/bus.hpp"
+#include "rave/lock_step/introduction.hpp"
+#include "rave/sim/host_report.hpp"
+#include "rave/sim/world_step.hpp"
+
+namespace rave::lock_step {
+
+/// A host's end of a run in lock-step: it sends reports to the environment manager, whoever and
+/// wherever that is, and gets the world. Belongs to one thread.
+class HostPort {
+ public:
+  enum class Answer : std::uint8_t {
+    kWorld,  ///< `world` is that of the reported step; or of a later one, if the run went on alone.
+    kStopped,  ///< Somebody here wants to stop.
+    kEnded,    ///< The run has ended; ending() says how.
+  };
+
+  /// Goes on the bus. `log` is not owned and may be null. Errors: those of bus::Bus::open().
+  [[nodiscard]] static Result<std::unique_ptr<HostPort>> open(const bus::BusConfig& bus,
+                                                              Identity identity, LogSink* log);
+  HostPort(const HostPort&) = delete;
+  HostPort& operator=(const HostPort&) = delete;
+  ~HostPort();
+
+  /// Sends a report, again and again until it is answered, and waits for the answer; `stopping` is
+  /// asked ten times a second. `world` is the last answer until it becomes the next one: it is
+  /// handed to an environment manager that was started anew, which goes on from there. While nobody
+  /// answers, the log is told for whom all wait. Errors: kState (this host is served by another
+  /// process already; the manager has another scenario or interface), kInvalidArgument (the report
+  /// is larger than what the bus carries).
+  [[nodiscard]] Result<Answer> exchange(const sim::HostReport& report, std::uint64_t hash,
+                                        sim::WorldStep& world,
+                                        const std::function<bool()>& stopping);
+  /// After kEnded: whether the run ended as it should, and what its manager says of it.
+  struct Ending {
+    bool good = false;
+    std::string text;
+  };
+  [[nodiscard]] const Ending& ending() const noexcept;
+
+  /// Sends a last report without waiting for an answer: `state` says that this host is done or has
+  /// failed.
+  void farewell(const sim::HostReport& report, std::uint64_t hash);
+
+ private:
+  struct Impl;
+  explicit HostPort(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace rave::lock_step

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/lock_step/host_port.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+
+#include "rave/bus/sequence.hpp"
+#include "rave/bus/wait_set.hpp"
+#include "rave/bus/writer.hpp"
+#include "rave/lock_step/messages.hpp"
+
+namespace rave::lock_step {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+constexpr milliseconds kLook{100};
+/// A report that is not answered is sent again after this, then after twice as long.
+constexpr milliseconds kFirstPatience{20};
+constexpr milliseconds kLongestPatience{1000};
+/// The epoch in worlds that hosts hand back: of no authority, but not 0.
+constexpr std::uint64_t kHandedOver = 1;
+
+Duration until(Clock::time_point when) {
+  const auto left = std::chrono::duration_cast<std::chrono::nanoseconds>(when - Clock::now());
+  return Duration{std::max<std::int64_t>(0, left.count())};
+}
+
+}  // namespace
+
+struct HostPort::Impl {
+  Identity self;
+  LogSink* log;
+  std::unique_ptr<bus::Bus> bus;
+  bus::Writer<bus::HostReport> reports;
+  bus::Writer<bus::HostInfo> own_info;
+  bus::Writer<bus::LastWorld> last_worlds;
+  bus::Reader<bus::WorldStep> worlds;
+  bus::Reader<bus::RunState> states;
+  bus::Reader<bus::HostInfo> infos;
+  bus::WaitSet waits;
+  ReportMessage message{};
+  WorldMessage last_message{};
+  sim::AuthorityState authority{};  ///< Of the last world.
+  bool has_world = false;
+  std::uint64_t epoch = 0;    ///< Of the authority that answered last; 0: it is gone.
+  std::uint64_t manager = 0;  ///< Its process; 0: nobody has been heard of.
+  std::string told{};         ///< What the log was told last.
+  Ending ending{};
+  std::optional<Error> unfit{};
+
+  void tell(LogLevel level, const std::string& text);
+  void look_at_processes();
+  void meet(const bus::HostInfo& info);
+  void hear(const bus::RunState& state);
+  Status send(const sim::HostReport& report, std::uint64_t hash, const sim::WorldStep& last);
+  [[nodiscard]] bool take_world(const sim::HostReport& report, sim::WorldStep& world);
+  [[nodiscard]] bool ended() const noexcept { return ended_; }
+
+  bool ended_ = false;
+};
+
+/// Each thing once, until something else is said.
+void HostPort::Impl::tell(LogLevel level, const std::string& text) {
+  if (text == told) return;
+  told = text;
+  if (log != nullptr && !text.empty()) log->write(level, "host " + self.name, text);
+}
+
+void HostPort::Impl::meet(const bus::HostInfo& info) {
+  if (info.host == rave_wire_kNone) {
+    if (auto fits = check_fits(self, info); !fits) unfit = std::move(fits).error();
+    manager = info.writer;
+    tell(LogLevel::kInfo, fmt::format("the environment manager is `{}` on {}", info.name,
+                                      *info.machine != '\0' ? info.machine : "this machine"));
+    return;
+  }
+  // Of two that start at once, one stays; who is in the run already stays anyway.
+  if (info.host != self.host || epoch != 0 || info.writer > bus->writer()) return;
+  unfit = Error{ErrorCode::kState,
+                fmt::format("host `{}` of this run is served already, by a process on {}; end that "
+                            "one first, or choose another host",
+                            self.name, *info.machine != '\0' ? info.machine : "this machine"),
+                {}};
+}
+
+void HostPort::Impl::hear(const bus::RunState& state) {
+  if (manager == 0) manager = state.writer;
+  switch (state.phase) {
+    case rave_wire_RUN_GOES:
+      told.clear();
+      return;
+    case rave_wire_RUN_GATHERS:
+    case rave_wire_RUN_WAITS:
+      tell(LogLevel::kWarning, state.text);
+      return;
+    case rave_wire_RUN_ENDED:
+    case rave_wire_RUN_FAILED:
+      ended_ = true;
+      ending = {state.phase == rave_wire_RUN_ENDED, state.text};
+      return;
+  }
+}
+
+void HostPort::Impl::look_at_processes() {
+  infos.take([this](const bus::HostInfo& info) { meet(info); });
+  states.take([this](const bus::RunState& state) { hear(state); });
+  for (const bus::BusEvent& event : bus->take_events()) {
+    const bool lost = event.kind == bus::EventKind::kParticipantLost;
+    if (lost && event.writer != 0 && event.writer == manager) {
+      manager = 0;
+      epoch = 0;
+      if (!ended_) {
+        tell(LogLevel::kError, "the environment manager is gone; robots stand until one is back");
+      }
+      continue;
+    }
+    using enum bus::EventKind;
+    const bool worth = event.kind == kRefused || event.kind == kIncompatible ||
+                       event.kind == kForeignRun || event.kind == kNotice;
+    if (worth && log != nullptr) log->warn("bus", "{}", event.line());
+  }
+}
+
+Status HostPort::Impl::send(const sim::HostReport& report, std::uint64_t hash,
+                            const sim::WorldStep& last) {
+  if (has_world && epoch == 0) {
+    // Whoever takes the place of the manager that is gone goes on from here.
+    RAVE_TRY_ASSIGN(bus::LastWorld* const handed, last_message.fill(last, authority, kHandedOver));
+    RAVE_TRY(last_worlds.write(*handed));
+  }
+  return reports.write(message.fill(report, epoch, hash));
+}
+
+bool HostPort::Impl::take_world(const sim::HostReport& report, sim::WorldStep& world) {
+  bool found = false;
+  worlds.take([&](const bus::WorldStep& sample) {
+    if (epoch != 0 && sample.epoch != epoch) {
+      worlds.refuse(sample, "it is of another authority than the one this run has");
+      return;
+    }
+    if (sample.step < report.step) return;  // sent again for somebody else
+    if (auto status = read(sample, world, authority); !status) {
+      worlds.refuse(sample, status.error().message);
+      return;
+    }
+    has_world = true;
+    epoch = sample.epoch;
+    manager = sample.writer;
+    found = true;
+  });
+  return found;
+}
+
+HostPort::HostPort(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+HostPort::~HostPort() = default;
+
+Result<std::unique_ptr<HostPort>> HostPort::open(const bus::BusConfig& config, Identity identity,
+                                                 LogSink* log) {
+  RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
+  RAVE_TRY_ASSIGN(auto reports, bus::Writer<bus::HostReport>::create(*bus));
+  RAVE_TRY_ASSIGN(auto own_info, bus::Writer<bus::HostInfo>::create(*bus));
+  RAVE_TRY_ASSIGN(auto last_worlds, bus::Writer<bus::LastWorld>::create(*bus));
+  RAVE_TRY_ASSIGN(auto worlds, bus::Reader<bus::WorldStep>::create(*bus));
+  RAVE_TRY_ASSIGN(auto states, bus::Reader<bus::RunState>::create(*bus));
+  RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
+  RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(*bus));
+  RAVE_TRY(waits.add(worlds));
+  RAVE_TRY(waits.add(states));
+  RAVE_TRY(waits.add(infos));
+  RAVE_TRY(waits.add_events());
+  bus::HostInfo info = introduction(identity);
+  RAVE_TRY(own_info.write(info));
+  return std::unique_ptr<HostPort>(new HostPort(
+      std::unique_ptr<Impl>(new Impl{std::move(identity), log, std::move(bus), std::move(reports),
+                                     std::move(own_info), std::move(last_worlds), std::move(worlds),
+                                     std::move(states), std::move(infos), std::move(waits)})));
+}
+
+Result<HostPort::Answer> HostPort::exchange(const sim::HostReport& report, std::uint64_t hash,
+                                            sim::WorldStep& world,
+                                            const std::function<bool()>& stopping) {
+  Impl& port = *impl_;
+  auto patience = kFirstPatience;
+  auto send_at = Clock::now();
+  for (;;) {
+    if (Clock::now() >= send_at) {
+      RAVE_TRY(port.send(report, hash, world));
+      send_at = Clock::now() + patience;
+      patience = std::min(2 * patience, kLongestPatience);
+    }
+    const auto woken = port.waits.wait(until(std::min(send_at, Clock::now() + kLook)));
+    if (port.take_world(report, world)) {
+      port.told.clear();
+      return Answer::kWorld;
+    }
+    port.look_at_processes();
+    if (port.unfit) return tl::unexpected(*port.unfit);
+    if (port.ended()) return Answer::kEnded;
+    // Asked seldom: a step is answered long before.
+    if (woken == bus::Woken::kTimeout && stopping()) return Answer::kStopped;
+  }
+}
+
+const HostPort::Ending& HostPort::ending() const noexcept { return impl_->ending; }
+
+void HostPort::farewell(const sim::HostReport& report, std::uint64_t hash) {
+  Impl& port = *impl_;
+  static_cast<void>(port.reports.write(port.message.fill(report, port.epoch, hash)));
+}
+
+}  // namespace rave::lock_step

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/lock_step/introduction.hpp"
+
+#include <unistd.h>
+
+#include <array>
+#include <span>
+
+#include "rave/base/hash.hpp"
+#include "rave/bus/sequence.hpp"
+
+namespace rave::lock_step {
+
+std::uint64_t scenario_number(std::string_view expanded) noexcept {
+  return content_hash(std::as_bytes(std::span(expanded.data(), expanded.size())));
+}
+
+bus::HostInfo introduction(const Identity& self) {
+  bus::HostInfo info{};
+  info.host = self.host;
+  bus::put_text(info.name, self.name);
+  std::array<char, sizeof info.machine> machine{};
+  if (::gethostname(machine.data(), machine.size() - 1) == 0) {
+    bus::put_text(info.machine, machine.data());
+  }
+  bus::put_text(info.version, RAVE_VERSION);
+  info.interface_stamp = self.interface_stamp;
+  info.scenario = self.scenario;
+  info.clock = rave_wire_CLOCK_LOCK_STEP;
+  info.robots = self.robots;
+  return info;
+}
+
+Status check_fits(const Identity& self, const bus::HostInfo& other) {
+  if (other.interface_stamp != self.interface_stamp) {
+    return fail(ErrorCode::kState,
+                "`{}` is another build of RAVE (version {}, here {}): all processes of a run need "
+                "the same",
+                other.name, other.version, RAVE_VERSION);
+  }
+  if (other.scenario != self.scenario) {
+    return fail(ErrorCode::kState,
+                "`{}` has another scenario: its files and options (seed, duration) must say the "
+                "same as here",
+                other.name);
+  }
+  return {};
+}
+
+}  // namespace rave::lock_step

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "rave/sim/host_report.hpp"
+#include "rave/sim/world_authority.hpp"
+#include "rave/sim/world_step.hpp"
+
+namespace rave::lock_step::testing {
+
+/// Messages in which every field has a value of its own.
+inline sim::PoseReport example_pose(std::uint32_t robot) {
+  const double k = robot;
+  sim::PoseReport report;
+  report.robot = RobotId(robot);
+  report.reported = {
+      {k + 0.1, k + 0.2, 0.3, 0.04, 0.05}, {0.6, -0.7, 0.8}, SimTime{900}, true, robot % 2 == 1};
+  return report;
+}
+
+inline void add_packets(sim::SentPackets& sent) {
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    sim::SentPacket packet;
+    packet.robot = RobotId(i + 1);
+    packet.communicator = 1;
+    packet.sequence = 7 + i;
+    packet.to = i == 0 ? Recipient::team() : Recipient::one(2);
+    packet.stamp_ns = 10;
+    packet.complete_ns = 20;
+    packet.x_m = 1.5;
+    packet.y_m = -2.5;
+    packet.range_m = 4;
+    packet.antenna_z_m = 0.3;
+    packet.located = 1;
+    packet.line_of_sight = static_cast<std::uint8_t>(i);
+    const std::vector<std::byte> bytes(3 + i, std::byte{0x5a});
+    sent.add(packet, bytes);
+  }
+}
+
+inline sim::HostReport example_report() {
+  sim::HostReport report;
+  report.host = 2;
+  report.begin(41);
+  report.state = sim::HostState::kDone;
+  report.text = "all is said";
+  report.proposals = {{1, 2, 5}, {0.1, 0.2, 0.3}, {0, -1, 1e-300}, {3, 2, 1}};
+  add_packets(report.sent);
+  report.poses = {example_pose(2), example_pose(5)};
+  report.samples = {{RobotId(5), SimTime{800}, {1, 2, 3}}, {RobotId(5), SimTime{900}, {4, 5, 6}}};
+  report.refusals = {{3, "there is no such parameter"}};
+  return report;
+}
+
+inline sim::WorldStep example_world() {
+  sim::WorldStep world;
+  world.begin(41, 3);
+  world.last = true;
+  world.x_m = {1, 2, 3};
+  world.y_m = {-1, -2, -3};
+  world.yaw_rad = {0.1, 0.2, 0.3};
+  world.vx_mps = {0.5, 0.6, 0.7};
+  world.vy_mps = {0, 0, -0.0};
+  world.wz_radps = {1, -1, 0.25};
+  world.flags = {3, 1, 0};
+  world.pushed = {{RobotId(1), {7, 8, 9}}};
+  world.touches = {{RobotId(2), {0.6, -0.8}}};
+  world.poses = {example_pose(0), example_pose(1)};
+  world.samples = {{RobotId(1), SimTime{700}, {1, 2, 3}}};
+  world.resized = {{RobotId(2), 1.5}};
+  add_packets(world.sent);
+  sim::WorldInput stop;
+  stop.sequence = 4;
+  sim::WorldInput change;
+  change.sequence = 5;
+  change.kind = sim::WorldInput::Kind::kChange;
+  change.author = sim::Author::kRun;
+  change.robot = RobotId(1);
+  using Part = sim::ParameterChange::Part;
+  change.changes = {{Part::kProgram, 0, "speed_mps", 0.4},
+                    {Part::kController, 1, "mode", std::string("fast")},
+                    {Part::kActuator, 2, "gains", std::vector<double>{1, 2, 3}}};
+  world.inputs = {stop, change};
+  return world;
+}
+
+inline sim::AuthorityState example_authority() {
+  sim::AuthorityState state;
+  state.hash = RunHash::of_value(0xfedcba9876543210);
+  state.events = {{41, RobotId(1), sim::EventKind::kContact, BodyId(9), "", 0}};
+  state.pinned = {RobotId(0), RobotId(2)};
+  state.scales = {{RobotId(2), 1.5}};
+  state.inputs = 5;
+  return state;
+}
+
+}  // namespace rave::lock_step::testing

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "rave/bus/config.hpp"
+#include "rave/config/expanded_scenario.hpp"
+#include "rave/plugin/catalogue.hpp"
+#include "rave/robot_host/run.hpp"
+
+namespace rave::robot_host {
+
+/// How a process runs the robots of one host of a scenario.
+struct HostOptions {
+  RunOptions run;  ///< `picture` and `on_progress` do not count.
+  bus::BusConfig bus;
+  std::string host;  ///< Its name in the scenario.
+  /// Where the drivers of the other hosts' robots are looked up while the scenario is built; not
+  /// needed afterwards. Null: in the catalogue of the run.
+  plugin::Catalogue* others = nullptr;
+};
+
+/// How it ended for this host. It leaves result.json, events.log, scenario.yaml and run.mcap, whose
+/// percepts and commands are of its robots, and whose poses are of all.
+struct HostOutcome {
+  bool whole = false;  ///< It took part from the first step to the last, and lost no driver.
+  std::uint64_t steps = 0;
+  std::string ending;                 ///< What the environment manager says of the run.
+  std::vector<std::string> problems;  ///< One sentence each.
+};
+
+/// Runs the robots of one host in lock-step with the other hosts of the run, until its environment
+/// manager says that it is over, in the calling thread. It waits for the manager, and if that is
+/// lost for one that takes its place; in a run that went on without it its robots go on where they
+/// stand. Errors: kNotFound (no such host in the scenario), what keeps a run from starting, what
+/// HostPort says, and what ends a run.
+[[nodiscard]] Result<HostOutcome> run_host(const config::ExpandedScenario& scenario,
+                                           plugin::Catalogue& catalogue,
+                                           const HostOptions& options);
+
+/// A number of what the processes of a run must agree on: of all that the scenario says but its
+/// pace, its threads and what to do about lost hosts.
+[[nodiscard]] std::uint64_t shared_number(const config::ExpandedScenario& scenario);
+
+/// What else they must have in common: the interface of plug-ins.
+[[nodiscard]] std::uint64_t interface_stamp();
+
+}  // namespace rave::robot_host

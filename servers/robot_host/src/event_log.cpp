@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "event_log.hpp"
+
+#include <fmt/format.h>
+
+#include "requests.hpp"
+
+namespace rave::robot_host {
+namespace {
+
+LogLevel level_of(sim::EventKind kind) {
+  switch (kind) {
+    case sim::EventKind::kProgramFailed:
+    case sim::EventKind::kDriverFailed:
+    case sim::EventKind::kChangeRefused:
+      return LogLevel::kError;
+    case sim::EventKind::kReleased:
+    case sim::EventKind::kArmed:
+    case sim::EventKind::kChanged:
+    case sim::EventKind::kCaptured:
+      return LogLevel::kInfo;
+    default:
+      return LogLevel::kWarning;
+  }
+}
+
+}  // namespace
+
+void tell_events(const sim::Engine& engine, std::span<const sim::Event> events, LogSink* log,
+                 std::vector<sim::Event>& all) {
+  const sim::EngineSpec& spec = engine.spec();
+  for (const sim::Event& event : events) {
+    all.push_back(event);
+    // Contacts are daily bread in a crowd; the rest somebody should read now.
+    if (log == nullptr || event.kind == sim::EventKind::kContact) continue;
+    log->write(level_of(event.kind), fmt::format("robot {}", spec.robots[event.robot.value()].name),
+               fmt::format("{:.2f} s: {}: {}", engine.time().seconds(), to_string(event.kind),
+                           event.text));
+  }
+}
+
+std::string events_log(const sim::Engine& engine, const BodyKinds& kinds,
+                       const std::vector<sim::Event>& events) {
+  std::string text;
+  for (const sim::Event& event : events) {
+    text +=
+        fmt::format("{:10.3f} s  {:<16} {:<14} {}{}\n",
+                    static_cast<double>(event.step) * engine.spec().step.seconds(),
+                    engine.spec().robots[event.robot.value()].name, to_string(event.kind),
+                    event.other.valid() ? fmt::format("with {} ", kinds.name(event.other.value()))
+                                        : std::string(),
+                    event.text);
+  }
+  return text;
+}
+
+void tell_who_waits(sim::Engine& engine, const RunOptions& options, LogSink& log) {
+  const std::string names = unarmed_robots(engine);
+  if (names.empty()) return;
+  if (options.arm) {
+    engine.arm(RobotId(), sim::Author::kRun);
+    log.warn("run", "armed from the start: {}", names);
+    return;
+  }
+  const std::string& run = options.run_name;
+  log.warn("run", "{} will stand until armed: `rave arm{}{}` in another terminal", names,
+           run.empty() ? "" : " ", run);
+}
+
+}  // namespace rave::robot_host

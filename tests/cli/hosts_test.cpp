@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+// One world over several processes, started as users would start them.
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+
+#include "shared_world.hpp"
+
+namespace rave::cli_test {
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+class Hosts : public SharedWorld {
+ protected:
+  /// Starts a manager and the two hosts of `crowd`, which would take longer than any test.
+  void start_crowd(const Words& more) {
+    Words words = more;
+    words.insert(words.end(), {"--duration", "100000"});
+    start("env", "env", scenario_, words);
+    start_host("one", scenario_, words);
+    start_host("two", scenario_, words);
+    wait_for_steps();
+  }
+  /// Until the record of a host shows that the run goes.
+  void wait_for_steps() {
+    for (const char* const host : {"one", "two"}) {
+      wait_until([&] { return record_size(host) > 100'000; }, std::string(host) + " runs");
+    }
+  }
+  [[nodiscard]] std::uintmax_t record_size(const std::string& host) const {
+    std::error_code error;
+    const auto size = fs::file_size(folder(host) + "/run.mcap", error);
+    return error ? 0 : size;
+  }
+  void wait_for_more(const std::string& host) {
+    const auto before = record_size(host);
+    wait_until([&] { return record_size(host) > before + 100'000; }, host + " goes on");
+  }
+  /// The scenario with another policy.
+  void write_policy(const std::string& policy, double timeout_s) {
+    std::string text = content_of(RAVE_SOURCE_DIR "/tests/cli/data/crowd.yaml");
+    const std::string robot = "file: ";
+    for (std::size_t at = 0; (at = text.find(robot, at)) != std::string::npos;) {
+      at += robot.size();
+      text.insert(at, RAVE_SOURCE_DIR "/tests/cli/data/");
+    }
+    scenario_ = folder_.path() / "policy.yaml";
+    std::ofstream(scenario_) << text << "on_lost_host: " << policy
+                             << "\nhost_timeout_s: " << timeout_s << "\n";
+  }
+
+  std::string scenario_ = "crowd.yaml";
+};
+
+TEST_F(Hosts, TwoHostsGiveTheHashOfOneProcess) {
+  const std::string alone = hash_alone("crowd.yaml", {});
+  ASSERT_EQ(alone.size(), 16U);
+  start("run", "run", "crowd.yaml");
+  EXPECT_EQ(end_of("run"), 0) << console("run");
+  const auto result = this->result("run");
+  EXPECT_EQ(result["hash"], alone);
+  EXPECT_EQ(result["whole"], true);
+  EXPECT_EQ(result["steps"], 300);
+  EXPECT_GT(result["contacts"], 0);
+  for (const char* const host : {"one", "two"}) {
+    EXPECT_EQ(this->result(std::string("run/hosts/") + host)["whole"], true) << host;
+    EXPECT_TRUE(fs::exists(folder(std::string("run/hosts/") + host + "/run.mcap")));
+  }
+}
+
+TEST_F(Hosts, AnySplitAndAnyOrderOfStartGiveTheSame) {
+  const Words span = {"--duration", "4"};
+  const std::string alone = hash_alone("flock", span);
+  ASSERT_EQ(alone.size(), 16U);
+  // Hosts first, the manager last; the other way round; in between.
+  const std::vector<Words> orders = {{"host-3", "host-1", "host-2", "env"},
+                                     {"env", "host-2", "host-3", "host-1"},
+                                     {"host-2", "env", "host-1", "host-3"}};
+  for (const Words& order : orders) {
+    Words words = span;
+    words.insert(words.end(), {"--processes", "3"});
+    for (const std::string& who : order) {
+      if (who == "env") {
+        start("env", "env", "flock", words);
+      } else {
+        start_host(who, "flock", words);
+      }
+    }
+    for (const std::string& who : order) EXPECT_EQ(end_of(who), 0) << who << console(who);
+    EXPECT_EQ(result("env")["hash"], alone);
+  }
+}
+
+TEST_F(Hosts, RecordedRealRobotsAndSimulatedOnesOnDifferentHosts) {
+  const Words span = {"--duration", "4"};
+  const std::string alone = hash_alone("mixed-reality", span);
+  ASSERT_EQ(alone.size(), 16U);
+  Words words = span;
+  words.insert(words.end(), {"--processes", "4"});
+  start("run", "run", "mixed-reality", words);
+  EXPECT_EQ(end_of("run"), 0) << console("run");
+  EXPECT_EQ(result("run")["hash"], alone);
+}
+
+TEST_F(Hosts, AHostLoadsItsOwnPluginsAndTheManagerNone) {
+  Words words = {"--duration", "100000", "--processes", "2", "--no-record"};
+  start("env", "env", "mixed-reality", words);
+  start_host("host-1", "mixed-reality", words);
+  start_host("host-2", "mixed-reality", words);
+  const auto maps = [this](const std::string& who) {
+    return content_of("/proc/" + std::to_string(id_of(who)) + "/maps");
+  };
+  wait_for_line("env", "host `host-2` is here");
+  wait_until([&] { return maps("host-1").find("utias_mocap.so") != std::string::npos; },
+             "the first host has the recorded robots");
+  EXPECT_EQ(maps("env").find("/plugins/"), std::string::npos);
+  // Robots 9 to 16 are simulated.
+  EXPECT_NE(maps("host-2").find("wander.so"), std::string::npos);
+  EXPECT_EQ(maps("host-2").find("utias_mocap.so"), std::string::npos);
+}
+
+TEST_F(Hosts, AManagerThatIsKilledIsReplacedAndNothingIsLost) {
+  const Words span = {"--duration", "40"};
+  const std::string alone = hash_alone("crowd.yaml", span);
+  ASSERT_EQ(alone.size(), 16U);
+  start("env", "env", "crowd.yaml", span);
+  start_host("one", "crowd.yaml", span);
+  start_host("two", "crowd.yaml", span);
+  wait_for_steps();
+  signal("env", SIGKILL);
+  EXPECT_EQ(end_of("env"), -1);
+  wait_for_line("one", "the environment manager is gone");
+  start("second", "env", "crowd.yaml", span);
+  EXPECT_EQ(end_of("second"), 0) << console("second");
+  EXPECT_NE(console("second").find("takes over from a manager that is gone"), std::string::npos);
+  EXPECT_EQ(result("second")["hash"], alone);
+  EXPECT_EQ(end_of("one"), 0) << console("one");
+  EXPECT_EQ(end_of("two"), 0) << console("two");
+}
+
+TEST_F(Hosts, AllWaitForAHostThatIsKilledUntilItIsBack) {
+  start_crowd({});
+  signal("one", SIGKILL);
+  EXPECT_EQ(end_of("one"), -1);
+  wait_for_line("env", "host `one` is gone");
+  wait_for_line("two", "waiting for one");
+  start_host("one", "crowd.yaml", {"--duration", "100000", "--output", folder("again")});
+  wait_for_line("env", "host `one` is back");
+  wait_for_more("two");
+  signal("env", SIGINT);
+  EXPECT_EQ(end_of("env"), 1);
+  EXPECT_EQ(result("env")["hash"], nullptr);
+  EXPECT_EQ(end_of("two"), 1);
+}
+
+TEST_F(Hosts, TheOthersGoOnWithoutAHostThatIsDropped) {
+  write_policy("drop", 5);
+  start_crowd({});
+  signal("one", SIGKILL);
+  EXPECT_EQ(end_of("one"), -1);
+  wait_for_line("env", "host `one` is gone");
+  wait_for_line("env", "its robots stand from this step on");
+  wait_for_more("two");
+  signal("env", SIGINT);
+  EXPECT_EQ(end_of("env"), 1);
+}
+
+TEST_F(Hosts, AHostThatHangsIsDroppedAfterItsTime) {
+  write_policy("drop", 0.3);
+  start_crowd({});
+  signal("one", SIGSTOP);
+  wait_for_line("env", "host `one`");
+  wait_for_more("two");
+  signal("one", SIGCONT);
+  signal("env", SIGINT);
+  EXPECT_EQ(end_of("env"), 1);
+}
+
+TEST_F(Hosts, ALostHostMayComeBackWhileTheOthersGoOn) {
+  write_policy("restart", 5);
+  start_crowd({});
+  signal("one", SIGKILL);
+  EXPECT_EQ(end_of("one"), -1);
+  wait_for_line("env", "its robots stand until it is back");
+  wait_for_more("two");
+  start_host("one", scenario_, {"--duration", "100000", "--output", folder("again")});
+  wait_for_line("env", "host `one` is back");
+  wait_until([&] { return record_size("again") > 100'000; }, "it takes part again");
+  wait_for_more("two");
+  signal("env", SIGINT);
+  EXPECT_EQ(end_of("env"), 1);
+  EXPECT_NE(console("again").find("was not there from step 0"), std::string::npos);
+}
+
+TEST_F(Hosts, RunStartsAHostAgainThatDies) {
+  write_policy("restart", 5);
+  start("run", "run", scenario_, {"--duration", "100000"});
+  wait_until([&] { return record_size("run/hosts/one") > 100'000; }, "it runs");
+  // The child whose folder it is.
+  const auto children = content_of("/proc/" + std::to_string(id_of("run")) + "/task/" +
+                                   std::to_string(id_of("run")) + "/children");
+  const auto first = static_cast<pid_t>(std::stol(children));
+  ASSERT_EQ(::kill(first, SIGKILL), 0);
+  wait_until([&] { return record_size("run/hosts/one-2") > 100'000; }, "it is back");
+  signal("run", SIGINT);
+  EXPECT_EQ(end_of("run"), 1);
+  EXPECT_TRUE(fs::exists(folder("run/result.json")));
+}
+
+TEST_F(Hosts, TwoRunsAtOnceDoNotSeeEachOther) {
+  const std::string first = hash_alone("crowd.yaml", {"--seed", "1"});
+  const std::string second = hash_alone("crowd.yaml", {"--seed", "2"});
+  ASSERT_NE(first, second);
+  start("a", "run", "crowd.yaml", {"--seed", "1"});
+  start("b", "run", "crowd.yaml", {"--seed", "2"});
+  EXPECT_EQ(end_of("a"), 0) << console("a");
+  EXPECT_EQ(end_of("b"), 0) << console("b");
+  EXPECT_EQ(result("a")["hash"], first);
+  EXPECT_EQ(result("b")["hash"], second);
+}
+
+TEST_F(Hosts, WhoDoesNotFitIsToldSo) {
+  start("env", "env", "crowd.yaml", {"--run", "lab"});
+  Words words = {"robot", "crowd.yaml", "--host", "one", "--run", "lab", "--seed", "3"};
+  for (const std::string& word : apart()) words.push_back(word);
+  words.insert(words.end(), {"--output", folder("other")});
+  const Ended other = run_rave(words);
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_NE(other.err.find("`environment manager` has another scenario"), std::string::npos)
+      << other.err;
+  wait_for_line("env", "refused: `one` has another scenario");
+
+  words = {"env", "crowd.yaml", "--run", "lab", "--output", folder("second")};
+  for (const std::string& word : apart()) words.push_back(word);
+  const Ended second = run_rave(words);
+  EXPECT_EQ(second.exit_code, 2);
+  EXPECT_NE(second.err.find("has an environment manager already"), std::string::npos) << second.err;
+}
+
+TEST_F(Hosts, ASecondProcessForAHostIsRefusedAndTheFirstGoesOn) {
+  start_crowd({});
+  start("second", "robot", "crowd.yaml", {"--host", "one", "--duration", "100000"});
+  wait_for_line("env", "host 0 is served by process");
+  wait_for_more("one");
+  signal("second", SIGTERM);
+  EXPECT_NE(end_of("second"), 0);
+  signal("env", SIGINT);
+  EXPECT_EQ(end_of("env"), 1);
+  EXPECT_EQ(end_of("one"), 1);
+}
+
+TEST_F(Hosts, BadInput) {
+  const Ended nobody = run_rave({"robot", "crowd.yaml", "--host", "on"});
+  EXPECT_EQ(nobody.exit_code, 2);
+  EXPECT_NE(nobody.err.find("the scenario `crowd` has no host `on`; did you mean `one`?"),
+            std::string::npos)
+      << nobody.err;
+  const Ended alone = run_rave({"env", "good_scenario.yaml"});
+  EXPECT_EQ(alone.exit_code, 2);
+  EXPECT_NE(alone.err.find("has no hosts"), std::string::npos) << alone.err;
+  const Ended many = run_rave({"run", "good_scenario.yaml", "--processes", "4"});
+  EXPECT_EQ(many.exit_code, 2);
+  EXPECT_NE(many.err.find("expected at most one per robot, of which there are 3"),
+            std::string::npos)
+      << many.err;
+  const Ended multicast =
+      run_rave({"run", "good_scenario.yaml", "--processes", "2", "--multicast", "of"});
+  EXPECT_EQ(multicast.exit_code, 2);
+  EXPECT_NE(multicast.err.find("did you mean `off`"), std::string::npos) << multicast.err;
+}
+
+}  // namespace
+}  // namespace rave::cli_test

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shared_world.hpp"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <random>
+#include <thread>
+
+namespace rave::cli_test {
+
+SharedWorld::SharedWorld() {
+  std::random_device chance;
+  tag_ = "test-" + std::to_string(::getpid()) + "-" + std::to_string(chance());
+  // Higher ones use ports that the kernel gives to others.
+  domain_ = static_cast<int>(1 + chance() % 90);
+}
+
+SharedWorld::~SharedWorld() {
+  for (auto& [name, process] : processes_) {
+    if (process <= 0) continue;
+    ::kill(process, SIGKILL);
+    ::waitpid(process, nullptr, 0);
+  }
+}
+
+std::vector<std::string> SharedWorld::apart() const {
+  return {"--bus-tag", tag_, "--domain", std::to_string(domain_)};
+}
+
+std::string SharedWorld::folder(const std::string& name) const {
+  return (folder_.path() / name).string();
+}
+
+void SharedWorld::start(const std::string& name, const std::string& what,
+                        const std::string& scenario, std::vector<std::string> more) {
+  std::vector<std::string> words = {what, scenario, "--output", folder(name)};
+  for (const std::string& word : apart()) words.push_back(word);
+  words.insert(words.end(), more.begin(), more.end());
+  const pid_t process = start_rave(words, {"XDG_RUNTIME_DIR=" + folder_.path().string(),
+                                           std::string("TMPDIR=") + folder_.path().string()});
+  ASSERT_GT(process, 0);
+  processes_[name] = process;
+}
+
+void SharedWorld::start_host(const std::string& host, const std::string& scenario,
+                             std::vector<std::string> more) {
+  more.insert(more.begin(), {"--host", host});
+  start(host, "robot", scenario, std::move(more));
+}
+
+int SharedWorld::end_of(const std::string& name) {
+  return wait_for(std::exchange(processes_.at(name), -1));
+}
+
+void SharedWorld::signal(const std::string& name, int number) {
+  ASSERT_EQ(::kill(processes_.at(name), number), 0);
+}
+
+bool SharedWorld::runs(const std::string& name) { return ::kill(processes_.at(name), 0) == 0; }
+
+nlohmann::json SharedWorld::result(const std::string& name) const {
+  return nlohmann::json::parse(content_of(folder(name) + "/result.json"), nullptr, false);
+}
+
+std::string SharedWorld::console(const std::string& name) const {
+  return content_of(folder(name) + "/console.log");
+}
+
+void SharedWorld::wait_until(const std::function<bool()>& holds, const std::string& what) {
+  for (int i = 0; i < 6000; ++i) {
+    if (holds()) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  FAIL() << "never: " << what;
+}
+
+void SharedWorld::wait_for_line(const std::string& name, const std::string& text) {
+  wait_until([&] { return console(name).find(text) != std::string::npos; },
+             name + ": " + text + "\n" + console(name));
+}
+
+std::string hash_alone(const std::string& scenario, const std::vector<std::string>& more) {
+  const TemporaryFolder folder;
+  std::vector<std::string> words = {
+      "run", scenario, "--output", folder.path() / "alone", "--processes",
+      "1",   "--pace", "max",      "--no-record",           "--no-picture"};
+  words.insert(words.end(), more.begin(), more.end());
+  static_cast<void>(run_rave(words));
+  const auto result =
+      nlohmann::json::parse(content_of(folder.path() / "alone/result.json"), nullptr, false);
+  return result.is_object() && result["hash"].is_string() ? result["hash"].get<std::string>() : "";
+}
+
+}  // namespace rave::cli_test

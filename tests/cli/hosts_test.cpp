@@ -230,7 +230,6 @@ TEST_F(Hosts, WhoDoesNotFitIsToldSo) {
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_NE(other.err.find("`environment manager` has another scenario"), std::string::npos)
       << other.err;
-  wait_for_line("env", "refused: `one` has another scenario");
 
   words = {"env", "crowd.yaml", "--run", "lab", "--output", folder("second")};
   for (const std::string& word : apart()) words.push_back(word);

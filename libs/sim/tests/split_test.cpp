@@ -299,6 +299,85 @@ TEST(Split, TheMessageToTheHostsDoesNotDependOnTheSplit) {
   }
 }
 
+TEST(Split, ANewAuthorityGoesOnToTheBit) {
+  SplitRun run([] { return scene(1); }, interleaved(3));
+  for (std::uint64_t k = 0; k < kSteps; ++k) {
+    if (k + 1 == kHandStep) ask_by_hand(*run.authority);
+    if (k % 7 == 6) {
+      auto successor = WorldAuthority::create(scene(1), interleaved(3));
+      ASSERT_TRUE(successor) << successor.error().text();
+      const Status resumed = (*successor)->resume(run.world, run.authority->state());
+      ASSERT_TRUE(resumed) << resumed.error().text();
+      // What was asked for and not told to anybody is gone with the first.
+      if (k + 1 == kHandStep) ask_by_hand(**successor);
+      run.authority = *std::move(successor);
+    }
+    ASSERT_TRUE(run.advance());
+    ASSERT_EQ(run.authority->steps_done(), k + 1);
+    ASSERT_EQ(run.hash(), reference().hashes[k]) << "step " << k;
+  }
+}
+
+TEST(Split, AnAuthorityOfAnotherWorldDoesNotGoOn) {
+  SplitRun run([] { return scene(1); }, interleaved(3));
+  AuthorityState state = run.authority->state();
+  WorldStep small = run.world;
+  small.x_m.pop_back();
+  const Status other = run.authority->resume(small, state);
+  ASSERT_FALSE(other);
+  EXPECT_NE(other.error().message.find("a world of 29 robots, but there are 30"), std::string::npos)
+      << other.error().message;
+  state.pinned = {RobotId(kRobots)};
+  EXPECT_FALSE(run.authority->resume(run.world, state));
+  EXPECT_TRUE(run.advance());
+}
+
+TEST(Split, TheOthersGoOnWithoutAHostAndItComesBack) {
+  constexpr std::uint32_t kHost = 1;
+  SplitRun run([] { return scene(1); }, interleaved(3));
+  for (int k = 0; k < 60; ++k) ASSERT_TRUE(run.advance());
+  run.hosts[kHost] = nullptr;
+  const auto step_without = [&] {
+    std::vector<const HostReport*> reports;
+    for (std::uint32_t h = 0; h < 3; ++h) {
+      if (h == kHost) {
+        run.authority->speak_for(h, run.reports[h]);
+      } else {
+        ASSERT_TRUE(run.hosts[h]->apply(run.world));
+        ASSERT_TRUE(run.hosts[h]->propose(run.reports[h]));
+      }
+      reports.push_back(&run.reports[h]);
+    }
+    const Status stepped = run.authority->step(reports, run.world);
+    ASSERT_TRUE(stepped) << stepped.error().text();
+  };
+  for (int k = 0; k < 20; ++k) ASSERT_NO_FATAL_FAILURE(step_without());
+  std::size_t moving = 0;
+  for (std::uint32_t r = kHost; r < kRobots; r += 3) {
+    const bool stands = run.world.vx_mps[r] == 0 && run.world.wz_radps[r] == 0;
+    moving += stands ? 0U : 1U;
+  }
+  EXPECT_EQ(moving, 0U);
+
+  EngineSpec spec = scene(1);
+  spec.local.emplace();
+  for (std::uint32_t r = kHost; r < kRobots; r += 3) spec.local->emplace_back(r);
+  run.hosts[kHost] = make_engine(std::move(spec));
+  ASSERT_TRUE(run.hosts[kHost]->propose(run.reports[kHost]));
+  EXPECT_EQ(run.reports[kHost].step, 0U);
+  const Status joined = run.hosts[kHost]->join(run.world);
+  ASSERT_TRUE(joined) << joined.error().text();
+  ASSERT_TRUE(run.hosts[0]->apply(run.world));
+  ASSERT_TRUE(run.hosts[2]->apply(run.world));
+  ASSERT_TRUE(run.exchange());
+  EXPECT_EQ(run.reports[kHost].step, run.reports[0].step);
+  for (int k = 0; k < 40; ++k) ASSERT_TRUE(run.advance());
+  for (std::uint32_t r = kHost; r < kRobots; r += 3) {
+    moving += run.world.vx_mps[r] != 0 || run.world.wz_radps[r] != 0 ? 1U : 0U;
+  }
+  EXPECT_GT(moving, 5U);
+}
+
 TEST(Split, AResetOfAllBeginsTheSameRun) {
   SplitRun run([] { return scene(2); }, interleaved(3));
   for (int k = 0; k < 150; ++k) ASSERT_TRUE(run.advance());

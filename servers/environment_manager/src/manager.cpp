@@ -51,6 +51,7 @@ class Run {
   Status hear(const bus::HostReport& message);
   Status sit_down(Seat& seat, const bus::HostReport& message);
   void lose(Seat& seat, std::string_view why);
+  void miss_steps(Seat& seat);
   void look_at_clock(Clock::time_point since);
   Status take_over();
   Status make_step();
@@ -147,16 +148,22 @@ void Run::lose(Seat& seat, std::string_view why) {
   const bool for_good = options_.on_lost_host == LostHost::kDrop;
   seat.state = for_good ? SeatState::kDropped : SeatState::kLost;
   claims_.release(seat.writer);
+  seat.last_writer = seat.writer;
   seat.writer = 0;
-  lost_any_ = true;
   constexpr std::string_view kThen[] = {"all wait until it is back",
                                         "its robots stand from this step on",
                                         "its robots stand until it is back"};
   std::string text = fmt::format("host `{}` {} in step {}; {}", seat.name, why, step_,
                                  kThen[static_cast<std::size_t>(options_.on_lost_host)]);
   log(LogLevel::kError, "{}", text);
-  problems_.push_back(std::move(text));
+  seat.loss = std::move(text);
   next_tell_ = {};
+}
+
+/// The run is not what it would have been with this host all the time.
+void Run::miss_steps(Seat& seat) {
+  lost_any_ = true;
+  if (!seat.loss.empty()) problems_.push_back(std::exchange(seat.loss, {}));
 }
 
 /// A report of one who sits in this seat, or wants to.
@@ -173,6 +180,9 @@ Status Run::sit_down(Seat& seat, const bus::HostReport& message) {
     return fail(ErrorCode::kState, "host `{}` was dropped from this run", seat.name);
   }
   RAVE_TRY(claims_.claim(message.host, message.writer));
+  // A process that was cut off and is in its step still has missed nothing.
+  const bool same = seat.last_writer == message.writer && message.step + 1 >= step_;
+  if (begun_ && !same) miss_steps(seat);
   log(LogLevel::kInfo, "host `{}` is {}, with {} robots", seat.name,
       seat.state == SeatState::kLost ? fmt::format("back in step {}", step_) : "here", seat.robots);
   seat.writer = message.writer;
@@ -324,7 +334,10 @@ Status Run::make_step() {
   std::vector<const sim::HostReport*> reports;
   for (std::size_t h = 0; h < seats_.size(); ++h) {
     Seat& seat = seats_[h];
-    if (!seat.reported) authority_->speak_for(static_cast<std::uint32_t>(h), seat.report);
+    if (!seat.reported) {
+      authority_->speak_for(static_cast<std::uint32_t>(h), seat.report);
+      miss_steps(seat);
+    }
     reports.push_back(&seat.report);
   }
   RAVE_TRY(authority_->step(reports, world_));
@@ -398,6 +411,9 @@ ManagerOutcome Run::outcome() {
   outcome.steps = authority_->steps_done();
   outcome.contacts = contacts_;
   outcome.wall_s = begun_ ? seconds(ended_ - began_) : 0;
+  for (Seat& seat : seats_) {
+    if (seat.state == SeatState::kLost && begun_) miss_steps(seat);
+  }
   outcome.problems = problems_;
   outcome.whole = begun_ && world_.last && problems_.empty();
   if (begun_ && world_.last && !lost_any_) {

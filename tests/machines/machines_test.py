@@ -1,0 +1,169 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""One world over several machines, each a network namespace with an address of its own.
+
+    tests/machines/machines_test.py path/to/rave
+
+Needs root, iproute2 and nftables; exits with 77 (skipped) for others, and says so.
+"""
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+RAVE = ""
+ALONE = ""
+SPAN = ["--duration", "6", "--processes", "2"]
+PATIENCE_S = 120
+
+
+def call(*words):
+    subprocess.run(words, check=True, stdout=subprocess.DEVNULL)
+
+
+class Lab:
+    """Machines on one network: a bridge in a namespace of its own, and a cable to each."""
+
+    def __init__(self, names):
+        self.prefix = f"rave-{os.getpid()}"
+        self.names = names
+        self.hub = f"{self.prefix}-hub"
+        self.processes = []
+
+    def __enter__(self):
+        call("ip", "netns", "add", self.hub)
+        call("ip", "-n", self.hub, "link", "add", "bridge", "type", "bridge",
+             "mcast_snooping", "0")
+        call("ip", "-n", self.hub, "link", "set", "bridge", "up")
+        for number, name in enumerate(self.names, 1):
+            space = self.space(name)
+            call("ip", "netns", "add", space)
+            call("ip", "link", "add", "eth0", "netns", space, "type", "veth",
+                 "peer", "name", f"port{number}", "netns", self.hub)
+            call("ip", "-n", self.hub, "link", "set", f"port{number}", "master", "bridge", "up")
+            call("ip", "-n", space, "addr", "add", f"{self.address(name)}/24", "dev", "eth0")
+            call("ip", "-n", space, "link", "set", "eth0", "up")
+            call("ip", "-n", space, "link", "set", "lo", "up")
+        return self
+
+    def __exit__(self, *_):
+        for process in self.processes:
+            process.kill()
+            process.wait()
+        for space in [self.hub, *map(self.space, self.names)]:
+            subprocess.run(["ip", "netns", "del", space], check=False)
+
+    def space(self, name):
+        return f"{self.prefix}-{name}"
+
+    def address(self, name):
+        return f"10.77.3.{self.names.index(name) + 1}"
+
+    def start(self, name, words):
+        process = subprocess.Popen(["ip", "netns", "exec", self.space(name), RAVE, *words],
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.processes.append(process)
+        return process
+
+    def cable(self, name, state):
+        number = self.names.index(name) + 1
+        call("ip", "-n", self.hub, "link", "set", f"port{number}", state)
+
+    def lose_packets(self, name, percent):
+        rules = ("table inet loss { chain in { type filter hook input priority 0; "
+                 f'iifname "eth0" numgen random mod 100 < {percent} drop; }} }}')
+        subprocess.run(["ip", "netns", "exec", self.space(name), "nft", "-f", "-"],
+                       input=rules, text=True, check=True)
+
+
+def hash_alone():
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([RAVE, "run", "flock", *SPAN[:2], "--no-record", "--no-picture", "--quiet",
+                        "--pace", "max", "--output", folder], check=True)
+        return json.loads(pathlib.Path(folder, "result.json").read_text())["hash"]
+
+
+class Machines(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="rave-machines-"))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def words(self, lab, name, what, more):
+        words = [what, "flock", "--output", str(self.folder / name), "--run", "machines",
+                 "--interface", lab.address(name), *SPAN, *more]
+        return words + (["--host", name] if what == "robot" else [])
+
+    def start(self, lab, more):
+        return {name: lab.start(name, self.words(lab, name, what, more))
+                for name, what in [("host-1", "robot"), ("env", "env"), ("host-2", "robot")]}
+
+    def expect_the_same_run(self, processes):
+        for name, process in processes.items():
+            self.assertEqual(process.wait(PATIENCE_S), 0, name + "\n" + self.console(name))
+        result = json.loads((self.folder / "env" / "result.json").read_text())
+        self.assertTrue(result["whole"], result)
+        self.assertEqual(result["hash"], ALONE)
+
+    def console(self, name):
+        file = self.folder / name / "console.log"
+        return file.read_text() if file.exists() else ""
+
+    def wait_for_line(self, name, text):
+        end = time.monotonic() + PATIENCE_S
+        while text not in self.console(name):
+            self.assertLess(time.monotonic(), end, f"{name} never said: {text}\n"
+                            + self.console(name))
+            time.sleep(0.02)
+
+    def peers(self, lab):
+        return [word for name in lab.names for word in ("--peer", lab.address(name))]
+
+    def test_found_by_a_list_of_addresses(self):
+        with Lab(["env", "host-1", "host-2"]) as lab:
+            self.expect_the_same_run(self.start(lab, self.peers(lab)))
+
+    def test_found_and_served_by_multicast(self):
+        with Lab(["env", "host-1", "host-2"]) as lab:
+            for name in lab.names:
+                call("ip", "-n", lab.space(name), "route", "add", "224.0.0.0/4", "dev", "eth0")
+            self.expect_the_same_run(self.start(lab, ["--multicast", "on"]))
+
+    def test_ten_percent_of_all_packets_are_lost(self):
+        with Lab(["env", "host-1", "host-2"]) as lab:
+            for name in lab.names:
+                lab.lose_packets(name, 10)
+            self.expect_the_same_run(self.start(lab, self.peers(lab)))
+
+    def test_a_cable_is_cut_and_mended(self):
+        with Lab(["env", "host-1", "host-2"]) as lab:
+            processes = self.start(lab, self.peers(lab) + ["--pace", "2x"])
+            self.wait_for_line("env", "host `host-2` is here")
+            self.wait_for_line("env", "host `host-1` is here")
+            lab.cable("host-1", "down")
+            self.wait_for_line("env", "host `host-1` is gone")
+            self.wait_for_line("host-1", "the environment manager is gone")
+            lab.cable("host-1", "up")
+            self.wait_for_line("env", "host `host-1` is back")
+            self.expect_the_same_run(processes)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    RAVE = str(pathlib.Path(sys.argv.pop(1)).resolve())
+    if os.geteuid() != 0 or not shutil.which("ip") or not shutil.which("nft"):
+        print("skipped: needs root, iproute2 (ip) and nftables (nft), to make machines of network "
+              "namespaces")
+        sys.exit(77)
+    if subprocess.run(["ip", "netns", "add", f"rave-{os.getpid()}-try"], check=False,
+                      stderr=subprocess.DEVNULL).returncode != 0:
+        print("skipped: this system does not allow network namespaces")
+        sys.exit(77)
+    call("ip", "netns", "del", f"rave-{os.getpid()}-try")
+    ALONE = hash_alone()
+    unittest.main(verbosity=2)

@@ -9,6 +9,7 @@ Needs root, iproute2 and nftables; exits with 77 (skipped) for others, and says 
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -29,9 +30,10 @@ def call(*words):
 class Lab:
     """Machines on one network: a bridge in a namespace of its own, and a cable to each."""
 
-    def __init__(self, names):
+    def __init__(self, names, network="10.77.3."):
         self.prefix = f"rave-{os.getpid()}"
         self.names = names
+        self.network = network
         self.hub = f"{self.prefix}-hub"
         self.processes = []
 
@@ -59,10 +61,11 @@ class Lab:
             subprocess.run(["ip", "netns", "del", space], check=False)
 
     def space(self, name):
-        return f"{self.prefix}-{name}"
+        return f"{self.prefix}-{name.rsplit('.', 1)[-1]}"
 
     def address(self, name):
-        return f"10.77.3.{self.names.index(name) + 1}"
+        return name if name.startswith(self.network) else (
+            self.network + str(self.names.index(name) + 1))
 
     def start(self, name, words):
         process = subprocess.Popen(["ip", "netns", "exec", self.space(name), RAVE, *words],
@@ -79,6 +82,12 @@ class Lab:
                  f'iifname "eth0" numgen random mod 100 < {percent} drop; }} }}')
         subprocess.run(["ip", "netns", "exec", self.space(name), "nft", "-f", "-"],
                        input=rules, text=True, check=True)
+
+
+def blocks_of(page):
+    """What a tutorial does on which machine: address, whether after the others, commands."""
+    return [(on, bool(after), text) for on, after, text in
+            re.findall(r"```sh on=(\S+)( after)?\n(.*?)```", page.read_text(), re.DOTALL)]
 
 
 def hash_alone():
@@ -138,6 +147,34 @@ class Machines(unittest.TestCase):
             for name in lab.names:
                 lab.lose_packets(name, 10)
             self.expect_the_same_run(self.start(lab, self.peers(lab)))
+
+    def test_the_tutorial_of_three_computers(self):
+        page = pathlib.Path(__file__).resolve().parents[2] / "docs/tutorials/three-computers.md"
+        blocks = blocks_of(page)
+        names = sorted({on for on, _, _ in blocks})
+        self.assertEqual(len(names), 3)
+        with Lab(names, "192.168.1.") as lab:
+            def start(on, text):
+                folder = self.folder / on
+                folder.mkdir(exist_ok=True)
+                path = f"{pathlib.Path(RAVE).parent}:{os.environ['PATH']}"
+                process = subprocess.Popen(
+                    ["ip", "netns", "exec", lab.space(on), "sh", "-ec", text], cwd=folder,
+                    env={**os.environ, "PATH": path}, text=True, stdout=subprocess.PIPE,
+                    stderr=subprocess.DEVNULL)
+                lab.processes.append(process)
+                return process
+
+            for process in [start(on, text) for on, after, text in blocks if not after]:
+                out, _ = process.communicate(timeout=PATIENCE_S)
+                self.assertEqual(process.returncode, 0, out)
+                self.assertIn("done", out)
+            [last] = [start(on, text) for on, after, text in blocks if after]
+            out, _ = last.communicate(timeout=PATIENCE_S)
+            self.assertEqual(last.returncode, 0, out)
+            shown = re.findall(r'"hash": "([0-9a-f]{16})"', out)
+            self.assertEqual(len(shown), 2, out)
+            self.assertEqual(shown[0], shown[1])
 
     def test_a_cable_is_cut_and_mended(self):
         with Lab(["env", "host-1", "host-2"]) as lab:

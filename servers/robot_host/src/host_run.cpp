@@ -209,7 +209,7 @@ std::uint64_t interface_stamp() {
 }
 
 Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::Catalogue& catalogue,
-                             const HostOptions& options) {
+                             HostOptions options) {
   RAVE_TRY_ASSIGN(Seat seat, find_seat(scenario, options.host));
   const RunOptions& run = options.run;
   const std::string expanded = config::write_expanded(scenario);
@@ -217,8 +217,9 @@ Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::C
   ConsoleTee console(run.log);
   BuildOptions how{run.program_runner, &console};
   how.local = seat.robots;
-  how.others = options.others;
+  how.others = options.others.get();
   RAVE_TRY_ASSIGN(BuiltScenario built, build(scenario, catalogue, how));
+  options.others.reset();
   if (!built.live_reason.empty()) {
     return fail(ErrorCode::kInvalidArgument,
                 "hosts share a world in lock-step, which nothing by the wall clock can: {}",

@@ -52,8 +52,10 @@ bool judge(const keys::KeyInfo& key, const Terminal& terminal) {
     put(stderr, fmt::format("{}{}: {}\n", terminal.red("rave: "), key.name, problem));
   }
   if (!key.fingerprint.empty() && days >= 0 && days < kSoon_days) {
-    put(stderr, fmt::format("{}{} expires in {} days, on {}\n", terminal.yellow("warning: "),
-                            key.name, days, keys::date_text(key.until_s)));
+    const std::string left =
+        days == 0 ? "less than a day" : fmt::format("{} day{}", days, days == 1 ? "" : "s");
+    put(stderr, fmt::format("{}{} expires in {}, on {}\n", terminal.yellow("warning: "), key.name,
+                            left, keys::date_text(key.until_s)));
   }
   return problems.empty();
 }

@@ -17,7 +17,6 @@ namespace fs = std::filesystem;
 
 constexpr ErrorCode kBad = ErrorCode::kInvalidArgument;
 constexpr std::size_t kLongestName = 64;
-constexpr std::int64_t kDay_s = 86'400;
 
 Status check_members(const std::vector<std::string>& members) {
   if (members.empty()) return fail(kBad, "no member is named; each process or machine is one");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 
 #include "rave/base/result.hpp"
@@ -20,6 +21,8 @@ inline constexpr const char* kIdentityKey = "identity_key.pem";
 inline constexpr const char* kPermissionsCa = "permissions_ca.pem";
 inline constexpr const char* kGovernance = "governance.p7s";
 inline constexpr const char* kPermissions = "permissions.p7s";
+
+inline constexpr std::int64_t kDay_s = 86'400;
 
 /// No file of a set is larger.
 inline constexpr std::size_t kLargestFile = std::size_t{1} << 20;

@@ -14,7 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kDay_s = 86'400;
 constexpr auto kMemberFiles = {kIdentityCa,    kIdentity,   kIdentityKey,
                                kPermissionsCa, kGovernance, kPermissions};
 

@@ -10,6 +10,7 @@
 
 #include "bench_arguments.hpp"
 #include "error_text.hpp"
+#include "keys_arguments.hpp"
 #include "rave/base/names.hpp"
 #include "rave/base/result.hpp"
 
@@ -37,6 +38,7 @@ struct Everything {
   HoldCommand hold;
   BenchSwarmCommand bench_swarm;
   BenchCompareCommand bench_compare;
+  KeysCommands keys;
 };
 
 void add_plugins(CLI::App& app, std::vector<std::string>& folders) {
@@ -83,7 +85,8 @@ void add_bus_options(CLI::App& app, BusOptions& c) {
       ->allow_extra_args(false);
   app.add_option("--multicast", c.multicast, "off, discovery (to find one another) or on")
       ->type_name("USE");
-  app.add_option("--security", c.security, "Folder with the certificates of this process")
+  app.add_option("--security", c.security,
+                 "Folder with the certificates of this process, as `rave keys` makes them")
       ->type_name("DIR");
   // Not for people: keeps tests on one machine apart.
   app.add_option("--bus-tag", c.tag)->group("");
@@ -386,7 +389,13 @@ Finished usage_error(const CLI::App& root, const CLI::ParseError& e) {
   const CLI::App& app = chosen_app(root);
   std::string message = e.what();
   const std::vector<std::string> extras = app.remaining();
-  if (dynamic_cast<const CLI::ExtrasError*>(&e) != nullptr && !extras.empty()) {
+  std::vector<std::string> below;
+  const std::vector<std::string_view> subcommands = subcommands_of(app, below);
+  if (!subcommands.empty() && !extras.empty() && !extras.front().starts_with("-")) {
+    // Of `rave keys shwo`; the first word of all has been looked at before.
+    message = fmt::format("there is no subcommand `{} {}`{}", app.get_name(), extras.front(),
+                          suggestion(extras.front(), subcommands));
+  } else if (dynamic_cast<const CLI::ExtrasError*>(&e) != nullptr && !extras.empty()) {
     std::vector<std::string> names;
     for (const CLI::Option* option : app.get_options()) {
       for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
@@ -426,6 +435,12 @@ Command chosen_command(const CLI::App& root, const Everything& all) {
     if (chosen_app(root).get_name() == "swarm") return all.bench_swarm;
     return all.bench_compare;
   }
+  if (name == "keys") {
+    const std::string what = chosen_app(root).get_name();
+    if (what == "new") return all.keys.make;
+    if (what == "add") return all.keys.add;
+    return all.keys.show;
+  }
   HoldCommand hold = all.hold;
   if (name == "pause") return hold;
   if (name == "resume" || name == "step") {
@@ -456,6 +471,7 @@ Command parse_arguments(int argc, const char* const* argv) {
   add_report(root, all.gap);
   add_control(root, all);
   add_bench(root, all.bench_swarm, all.bench_compare);
+  add_keys_commands(root, all.keys);
   root.add_subcommand("version", "What this build is, and which plug-ins fit it");
   root.footer(
       "Examples:\n"

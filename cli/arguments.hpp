@@ -10,6 +10,7 @@
 #include "commands/drivers.hpp"
 #include "commands/hosts.hpp"
 #include "commands/info.hpp"
+#include "commands/keys.hpp"
 #include "commands/new.hpp"
 #include "commands/play.hpp"
 #include "commands/report.hpp"
@@ -30,7 +31,8 @@ using Command =
     std::variant<Finished, RunCommand, RobotCommand, EnvCommand, CheckCommand, DriversCommand,
                  DescribeCommand, NewCommand, SchemaCommand, InfoCommand, VerifyCommand,
                  PlayCommand, GapCommand, PsCommand, StopCommand, ArmCommand, SetCommand,
-                 HoldCommand, BenchSwarmCommand, BenchCompareCommand, VersionCommand>;
+                 HoldCommand, BenchSwarmCommand, BenchCompareCommand, KeysNewCommand,
+                 KeysAddCommand, KeysShowCommand, VersionCommand>;
 
 /// Reads the command line. Prints help and complaints itself.
 [[nodiscard]] Command parse_arguments(int argc, const char* const* argv);

@@ -30,6 +30,9 @@ struct Dispatch {
   int operator()(const HoldCommand& options) const { return hold_run(options); }
   int operator()(const BenchSwarmCommand& options) const { return bench_swarm(options); }
   int operator()(const BenchCompareCommand& options) const { return bench_compare(options); }
+  int operator()(const KeysNewCommand& options) const { return new_keys(options); }
+  int operator()(const KeysAddCommand& options) const { return add_keys(options); }
+  int operator()(const KeysShowCommand& options) const { return show_keys(options); }
   int operator()(const VersionCommand& /*options*/) const { return version(); }
 };
 

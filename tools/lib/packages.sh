@@ -7,7 +7,7 @@ rave_tools_of_group() {
   case "$1" in
     build) echo "g++ cmake ninja ccache pkg-config git python3" ;;
     library) echo "idlc" ;;
-    check) echo "clang-format-16 readelf nm openssl ip nft" ;;
+    check) echo "clang-format-16 readelf nm ip nft" ;;
     full) echo "clang++-16 clang-tidy-16 node npm" ;;
   esac
 }

@@ -129,8 +129,10 @@ Status check_certificates(const std::filesystem::path& folder) {
                                  "permissions_ca.pem", "governance.p7s", "permissions.p7s"}) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(folder / name, error)) {
-      return fail(ErrorCode::kInvalidArgument, "security: there is no {}",
-                  (folder / name).string());
+      const bool set = std::filesystem::is_directory(folder / "ca", error);
+      return fail(ErrorCode::kInvalidArgument, "security: there is no {}{}",
+                  (folder / name).string(),
+                  set ? "; this is a set of keys, name the folder of one member in it" : "");
     }
   }
   return {};

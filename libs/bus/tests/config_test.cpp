@@ -111,7 +111,11 @@ TEST(BusConfig, LooksForEachCertificate) {
   const auto folder = std::filesystem::temp_directory_path() / ("rave-" + config.run.text());
   std::filesystem::create_directory(folder);
   config.security = folder;
-  EXPECT_EQ(reason(config), "security: there is no " + (folder / "identity_ca.pem").string());
+  const std::string missing = "security: there is no " + (folder / "identity_ca.pem").string();
+  EXPECT_EQ(reason(config), missing);
+  std::filesystem::create_directory(folder / "ca");
+  EXPECT_EQ(reason(config),
+            missing + "; this is a set of keys, name the folder of one member in it");
   for (const char* const name : {"identity_ca.pem", "identity.pem", "identity_key.pem",
                                  "permissions_ca.pem", "governance.p7s", "permissions.p7s"}) {
     std::ofstream(folder / name) << "x";

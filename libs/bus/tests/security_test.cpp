@@ -1,84 +1,142 @@
 // SPDX-License-Identifier: Apache-2.0
-// With certificates: those who have them talk, the others get nothing.
+// With certificates: those who have them of the same set talk, the others get nothing.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 
 #include "peer_process.hpp"
 #include "rave/bus/reader.hpp"
+#include "rave/keys/key_set.hpp"
 
 namespace rave::bus::testing {
 namespace {
 
-/// A folder with fresh certificates.
-class Certificates {
- public:
-  Certificates() {
+constexpr std::int64_t kDay_s = 86'400;
+
+/// Sets of keys in a folder of their own.
+class Security : public ::testing::Test {
+ protected:
+  Security() {
     std::string name = std::filesystem::temp_directory_path() / "rave-bus-XXXXXX";
-    if (::mkdtemp(name.data()) == nullptr) return;
-    folder_ = name;
-    const std::string command = RAVE_SOURCE_DIR "/libs/bus/tests/make_certificates.sh " + name;
-    made_ = std::system(command.c_str()) == 0;
+    if (::mkdtemp(name.data()) != nullptr) folder_ = name;
   }
-  Certificates(const Certificates&) = delete;
-  Certificates& operator=(const Certificates&) = delete;
-  ~Certificates() {
+  ~Security() override {
     std::error_code ignored;
     std::filesystem::remove_all(folder_, ignored);
   }
-  [[nodiscard]] bool made() const { return made_; }
-  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
 
- private:
-  std::filesystem::path folder_;
-  bool made_ = false;
-};
-
-TEST(Security, ThoseWithCertificatesTalkAndTheOthersGetNothing) {
-  const Certificates certificates;
-  ASSERT_TRUE(certificates.made()) << "make_certificates.sh failed; it needs the program openssl";
-  const TestDomain domain;
-  PeerProcess member(domain, "furnish", "member",
-                     {"count=2", "security=" + certificates.folder().string()});
-  PeerProcess outsider(domain, "furnish", "outsider", {"count=5"});
-  ASSERT_EQ(member.line(), "ready");
-  ASSERT_EQ(outsider.line(), "ready");
-  BusConfig config = domain.config();
-  config.security = certificates.folder();
-  std::size_t heard = 0;
-  {
-    const auto bus = Bus::open(config);
+  /// Two members, `left` and `right`, for ten days from `now_s` on.
+  void make_set(const std::string& name, std::int64_t now_s = std::time(nullptr)) {
+    const Status made = keys::make_key_set({folder_ / name, "lab", 10, {"left", "right"}, now_s});
+    ASSERT_TRUE(made) << made.error().text();
+  }
+  /// Ready to join with the keys of `set/right`; without any if it is empty.
+  [[nodiscard]] BusConfig config(const std::string& set) const {
+    BusConfig config = domain_.config();
+    if (!set.empty()) config.security = folder_ / set / "right";
+    return config;
+  }
+  /// Another process that shows `count` obstacles, with the keys of `set/left`.
+  [[nodiscard]] std::unique_ptr<PeerProcess> furnish(const std::string& set, int count) const {
+    std::vector<std::string> words = {"count=" + std::to_string(count)};
+    if (!set.empty()) words.push_back("security=" + (folder_ / set / "left").string());
+    return std::make_unique<PeerProcess>(domain_, "furnish", "peer-" + set, words);
+  }
+  /// Joins, and expects all obstacles of the one writer that has `count`, and none of others.
+  void expect_only(const std::string& set, std::uint32_t count) const {
+    const auto bus = Bus::open(config(set));
     ASSERT_TRUE(bus) << bus.error().text();
     auto reader = Reader<Obstacle>::create(**bus);
+    std::size_t heard = 0;
     EXPECT_TRUE(eventually([&] {
-      heard += reader->take([](const Obstacle& obstacle) { EXPECT_LT(obstacle.id, 2U); });
-      return heard >= 2;
-    }));
-    EXPECT_EQ(reader->writers(), 1U);
+      heard += reader->take([&](const Obstacle& obstacle) { EXPECT_LT(obstacle.id, count); });
+      return heard >= count;
+    })) << set;
+    EXPECT_EQ(heard, count) << set;
+    EXPECT_EQ(reader->writers(), 1U) << set;
   }
-  // And the other way round: without certificates one hears the outsider only.
-  const auto bus = Bus::open(domain.config());
-  ASSERT_TRUE(bus) << bus.error().text();
-  auto reader = Reader<Obstacle>::create(**bus);
-  heard = 0;
-  EXPECT_TRUE(eventually([&] {
-    heard += reader->take([](const Obstacle&) {});
-    return heard >= 5;
-  }));
-  EXPECT_EQ(reader->writers(), 1U);
+  [[nodiscard]] std::string refusal(const std::string& set) const {
+    const auto bus = Bus::open(config(set));
+    return bus ? "none" : bus.error().message;
+  }
+
+  TestDomain domain_;
+  std::filesystem::path folder_;
+};
+
+TEST_F(Security, MembersOfASetTalkAndTheOthersGetNothing) {
+  make_set("ours");
+  make_set("theirs");
+  const auto outsider = furnish("", 7);
+  const auto foreigner = furnish("theirs", 5);
+  const auto member = furnish("ours", 2);
+  for (PeerProcess* peer : {outsider.get(), foreigner.get(), member.get()}) {
+    ASSERT_EQ(peer->line(), "ready");
+  }
+  expect_only("ours", 2);
+  expect_only("theirs", 5);
+  expect_only("", 7);
 }
 
-TEST(Security, CertificatesThatDoNotFitAreNamed) {
-  const Certificates certificates;
-  ASSERT_TRUE(certificates.made()) << "make_certificates.sh failed; it needs the program openssl";
-  std::ofstream(certificates.folder() / "governance.p7s") << "nothing";
-  BusConfig config = TestDomain().config();
-  config.security = certificates.folder();
-  const auto bus = Bus::open(config);
-  ASSERT_FALSE(bus);
-  EXPECT_NE(bus.error().message.find("permissions"), std::string::npos) << bus.error().message;
+TEST_F(Security, AMemberThatWasAddedTakesPart) {
+  make_set("ours");
+  ASSERT_TRUE(keys::add_members(folder_ / "ours", {"late"}, 0, std::time(nullptr)));
+  const auto member = furnish("ours", 3);
+  ASSERT_EQ(member->line(), "ready");
+  std::filesystem::remove_all(folder_ / "ours/right");
+  std::filesystem::rename(folder_ / "ours/late", folder_ / "ours/right");
+  expect_only("ours", 3);
+}
+
+TEST_F(Security, WhoseCertificateHasExpiredIsTold) {
+  make_set("old", std::time(nullptr) - 11 * kDay_s);
+  const std::string reason = refusal("old");
+  EXPECT_NE(reason.find("certificate has expired"), std::string::npos) << reason;
+  EXPECT_NE(reason.find("right"), std::string::npos) << reason;
+}
+
+TEST_F(Security, WhoseCertificateIsNotYetValidIsTold) {
+  make_set("early", std::time(nullptr) + 3 * kDay_s);
+  const std::string reason = refusal("early");
+  EXPECT_NE(reason.find("certificate is not yet valid"), std::string::npos) << reason;
+}
+
+TEST_F(Security, DocumentsThatDoNotFitAreNamed) {
+  make_set("ours");
+  std::ofstream(folder_ / "ours/right/governance.p7s") << "nothing";
+  const std::string reason = refusal("ours");
+  EXPECT_NE(reason.find("permissions"), std::string::npos) << reason;
+}
+
+/// What a member may do is in its permissions, which only the authority can sign.
+TEST_F(Security, MembersHaveTheTopicsOfRaveAndRosAndNoOthers) {
+  make_set("ours");
+  const BusConfig config = this->config("ours");
+  const dds_entity_t domain = dds_create_domain(config.domain, cyclone_xml(config).c_str());
+  ASSERT_GT(domain, 0);
+  const dds_entity_t participant = dds_create_participant(config.domain, nullptr, nullptr);
+  ASSERT_GT(participant, 0);
+  /// Whether one can write a topic in a partition, or in none.
+  const auto can_write = [&](const char* topic_name, const char* partition) {
+    const dds_entity_t topic =
+        dds_create_topic(participant, topic_of<Obstacle>().type, topic_name, nullptr, nullptr);
+    if (topic < 0) return false;
+    const Qos qos(dds_create_qos());
+    if (partition != nullptr) dds_qset_partition1(qos.get(), partition);
+    const dds_entity_t publisher = dds_create_publisher(participant, qos.get(), nullptr);
+    return dds_create_writer(publisher, topic, nullptr, nullptr) > 0;
+  };
+  EXPECT_TRUE(can_write("rave/obstacle", "rave/0123"));
+  EXPECT_TRUE(can_write("rt/scan", nullptr));
+  EXPECT_TRUE(can_write("rt/cart/scan", "cart"));
+  EXPECT_TRUE(can_write("ros_discovery_info", nullptr));
+  EXPECT_FALSE(can_write("rave/obstacle", nullptr));
+  EXPECT_FALSE(can_write("rave/obstacle", "elsewhere"));
+  EXPECT_FALSE(can_write("chatter", nullptr));
+  dds_delete(domain);
 }
 
 }  // namespace

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/keys.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "error_text.hpp"
+#include "rave/keys/key_set.hpp"
+
+namespace rave::cli {
+namespace {
+
+/// Who has less than this left is warned of.
+constexpr std::int64_t kSoon_days = 30;
+
+std::int64_t now_s() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::seconds>(now).count();
+}
+
+std::string list_of(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+/// `lab-keys/` and `lab-keys` in the same way.
+std::string plain(std::string folder) {
+  while (folder.size() > 1 && folder.ends_with('/')) folder.pop_back();
+  return folder;
+}
+
+std::string row_of(const keys::KeyInfo& key, std::size_t width) {
+  if (key.fingerprint.empty()) return fmt::format("{:{}}  unreadable\n", key.name, width);
+  return fmt::format("{:{}}  {}  {}  {:>9}  {}\n", key.name, width, keys::date_text(key.from_s),
+                     keys::date_text(key.until_s), key.days_left(now_s()), key.fingerprint);
+}
+
+/// Complains of what is wrong with a key and warns of what soon will be. Whether it can be used.
+bool judge(const keys::KeyInfo& key, const Terminal& terminal) {
+  std::vector<std::string> problems = key.problems;
+  const std::int64_t days = key.days_left(now_s());
+  if (!key.fingerprint.empty() && days < 0) {
+    problems.push_back("expired on " + keys::date_text(key.until_s));
+  }
+  if (!key.fingerprint.empty() && key.from_s > now_s()) {
+    problems.push_back("not valid before " + keys::date_text(key.from_s));
+  }
+  for (const std::string& problem : problems) {
+    put(stderr, fmt::format("{}{}: {}\n", terminal.red("rave: "), key.name, problem));
+  }
+  if (!key.fingerprint.empty() && days >= 0 && days < kSoon_days) {
+    const std::string left =
+        days == 0 ? "less than a day" : fmt::format("{} day{}", days, days == 1 ? "" : "s");
+    put(stderr, fmt::format("{}{} expires in {}, on {}\n", terminal.yellow("warning: "), key.name,
+                            left, keys::date_text(key.until_s)));
+  }
+  return problems.empty();
+}
+
+}  // namespace
+
+int new_keys(const KeysNewCommand& options) {
+  const std::string folder = plain(options.folder);
+  const Status made =
+      keys::make_key_set({folder, options.lab, options.days, options.members, now_s()});
+  if (!made) return complain(made.error());
+  put(stdout, fmt::format("made {0} for {1}; valid for {2} days\n"
+                          "next: copy {0}/{3} to where {3} runs, and start it there with\n"
+                          "  --security {3}\n"
+                          "Whoever has {0}/ca can make members: keep it to yourself.\n",
+                          folder, list_of(options.members), options.days, options.members.front()));
+  return kGood;
+}
+
+int add_keys(const KeysAddCommand& options) {
+  const std::string folder = plain(options.folder);
+  const Status added = keys::add_members(folder, options.members, options.days, now_s());
+  if (!added) return complain(added.error());
+  put(stdout, fmt::format("added {} to {}\n", list_of(options.members), folder));
+  return kGood;
+}
+
+int show_keys(const KeysShowCommand& options) {
+  const auto set = keys::read_key_set(plain(options.folder));
+  if (!set) return complain(set.error());
+  std::size_t width = set->authority.name.size();
+  for (const keys::KeyInfo& member : set->members) width = std::max(width, member.name.size());
+  std::string table = fmt::format("lab {}\n{:{}}  from        until       days left  SHA-256\n",
+                                  set->lab, "", width);
+  table += row_of(set->authority, width);
+  for (const keys::KeyInfo& member : set->members) table += row_of(member, width);
+  put(stdout, table);
+  const Terminal terminal = terminal_of(stderr);
+  bool usable = judge(set->authority, terminal);
+  for (const keys::KeyInfo& member : set->members) usable = judge(member, terminal) && usable;
+  return usable ? kGood : kNotGood;
+}
+
+}  // namespace rave::cli

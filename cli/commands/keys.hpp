@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace rave::cli {
+
+/// `rave keys new`.
+struct KeysNewCommand {
+  std::string folder;
+  std::string lab = "rave";
+  int days = 3650;
+  std::vector<std::string> members;
+};
+
+/// `rave keys add`.
+struct KeysAddCommand {
+  std::string folder;
+  int days = 0;  ///< 0: as long as the authority.
+  std::vector<std::string> members;
+};
+
+/// `rave keys show`.
+struct KeysShowCommand {
+  std::string folder;
+};
+
+// Each prints what was done, and never a private key. Returns 0; 2 for bad input; `keys show` 1 if
+// something cannot be used.
+[[nodiscard]] int new_keys(const KeysNewCommand& options);
+[[nodiscard]] int add_keys(const KeysAddCommand& options);
+[[nodiscard]] int show_keys(const KeysShowCommand& options);
+
+}  // namespace rave::cli

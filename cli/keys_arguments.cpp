@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "keys_arguments.hpp"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+namespace rave::cli {
+namespace {
+
+void add_members(CLI::App& app, std::vector<std::string>& members) {
+  app.add_option("members", members, "A name for each process or machine")
+      ->required()
+      ->type_name("MEMBER");
+}
+
+void add_folder(CLI::App& app, std::string& folder, const char* what) {
+  app.add_option("folder", folder, what)->required()->type_name("DIR");
+}
+
+void add_new(CLI::App& parent, KeysNewCommand& c) {
+  CLI::App& app = *parent.add_subcommand("new", "Make a set of certificates");
+  add_folder(app, c.folder, "Where; it must not be there yet");
+  add_members(app, c.members);
+  app.add_option("--name", c.lab, "Of the lab; stands in all certificates [rave]")
+      ->type_name("LAB");
+  app.add_option("--days", c.days, "How long they are valid [3650]")->type_name("N");
+  app.footer(
+      "Makes DIR/ca, with which members are made, and a folder for each member. Copy these to\n"
+      "where they are used, and keep DIR/ca to yourself.\n\n"
+      "Example:\n"
+      "  rave keys new lab-keys env left right\n"
+      "  rave env lab --security lab-keys/env");
+}
+
+void add_add(CLI::App& parent, KeysAddCommand& c) {
+  CLI::App& app = *parent.add_subcommand("add", "Add members to a set");
+  add_folder(app, c.folder, "The set, with its ca");
+  add_members(app, c.members);
+  app.add_option("--days", c.days, "How long they are valid [as long as the ca]")->type_name("N");
+  app.footer("Example:\n  rave keys add lab-keys gui");
+}
+
+void add_show(CLI::App& parent, KeysShowCommand& c) {
+  CLI::App& app =
+      *parent.add_subcommand("show", "Say who is in a set, how long, and what is wrong");
+  add_folder(app, c.folder, "A set, or the folder of one member");
+  app.footer(
+      "Exit code: 0 if all can be used, 1 if not, 2 if there are no keys.\n\n"
+      "Example:\n"
+      "  rave keys show lab-keys");
+}
+
+}  // namespace
+
+void add_keys_commands(CLI::App& root, KeysCommands& commands) {
+  CLI::App& parent =
+      *root.add_subcommand("keys", "Make the certificates with which processes talk in secret");
+  parent.require_subcommand(1);
+  parent.footer("Example:\n  rave keys new lab-keys env left right");
+  add_new(parent, commands.make);
+  add_add(parent, commands.add);
+  add_show(parent, commands.show);
+}
+
+}  // namespace rave::cli

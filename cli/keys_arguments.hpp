@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "commands/keys.hpp"
+
+namespace CLI {  // its own name. NOLINT(readability-identifier-naming)
+class App;
+}
+
+namespace rave::cli {
+
+/// What the subcommands of `keys` are given.
+struct KeysCommands {
+  KeysNewCommand make;
+  KeysAddCommand add;
+  KeysShowCommand show;
+};
+
+/// Adds `keys new`, `keys add` and `keys show`, which write what they are given to `commands`.
+void add_keys_commands(CLI::App& root, KeysCommands& commands);
+
+}  // namespace rave::cli

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certificate.hpp"
+
+#include <openssl/bn.h>
+#include <openssl/err.h>
+#include <openssl/evp.h>
+#include <openssl/pem.h>
+#include <openssl/pkcs7.h>
+#include <openssl/x509.h>
+#include <openssl/x509v3.h>
+
+#include <ctime>
+#include <memory>
+
+namespace rave::keys {
+namespace {
+
+template <auto kFree>
+struct Freer {
+  template <class T>
+  void operator()(T* object) const noexcept {
+    kFree(object);
+  }
+};
+using Key = std::unique_ptr<EVP_PKEY, Freer<EVP_PKEY_free>>;
+using Certificate = std::unique_ptr<X509, Freer<X509_free>>;
+using Name = std::unique_ptr<X509_NAME, Freer<X509_NAME_free>>;
+using Extension = std::unique_ptr<X509_EXTENSION, Freer<X509_EXTENSION_free>>;
+using Number = std::unique_ptr<BIGNUM, Freer<BN_free>>;
+using Stream = std::unique_ptr<BIO, Freer<BIO_free_all>>;
+using Signed = std::unique_ptr<PKCS7, Freer<PKCS7_free>>;
+
+struct StackFree {
+  /// The certificates in it belong to others.
+  void operator()(STACK_OF(X509) * stack) const noexcept { sk_X509_free(stack); }
+};
+using Certificates = std::unique_ptr<STACK_OF(X509), StackFree>;
+
+/// `what` and the reasons that libcrypto has left.
+tl::unexpected<Error> failed(ErrorCode code, std::string_view what) {
+  std::string reasons;
+  while (const unsigned long number = ERR_get_error()) {
+    const char* const reason = ERR_reason_error_string(number);
+    reasons += reasons.empty() ? ": " : ", ";
+    reasons += reason == nullptr ? fmt::format("error {:x}", number) : reason;
+  }
+  return fail(code, "{}{}", what, reasons);
+}
+
+/// A stream to read a text from, which must outlive it.
+Stream reading(const std::string& text) {
+  return Stream(BIO_new_mem_buf(text.data(), static_cast<int>(text.size())));
+}
+
+Stream writing() { return Stream(BIO_new(BIO_s_mem())); }
+
+std::string content_of(BIO* stream) {
+  std::string content;
+  char buffer[4096];
+  int count = 0;
+  while ((count = BIO_read(stream, buffer, sizeof buffer)) > 0) {
+    content.append(buffer, static_cast<std::size_t>(count));
+  }
+  return content;
+}
+
+/// Without this libcrypto would ask at the terminal.
+int no_passphrase(char* /*buffer*/, int /*size*/, int /*writing*/, void* /*user*/) { return -1; }
+
+Result<Certificate> parse_certificate(const std::string& text) {
+  ERR_clear_error();
+  const Stream stream = reading(text);
+  Certificate certificate(PEM_read_bio_X509(stream.get(), nullptr, no_passphrase, nullptr));
+  if (!certificate) return failed(ErrorCode::kParse, "it is no certificate");
+  return certificate;
+}
+
+Result<Key> parse_key(const std::string& text) {
+  ERR_clear_error();
+  const Stream stream = reading(text);
+  Key key(PEM_read_bio_PrivateKey(stream.get(), nullptr, no_passphrase, nullptr));
+  if (!key) return failed(ErrorCode::kParse, "it is no private key");
+  return key;
+}
+
+bool add_entry(X509_NAME* name, const char* field, const std::string& value) {
+  const auto* const bytes = reinterpret_cast<const unsigned char*>(value.data());
+  return X509_NAME_add_entry_by_txt(name, field, MBSTRING_ASC, bytes,
+                                    static_cast<int>(value.size()), -1, 0) == 1;
+}
+
+/// `O` before `CN`, which RFC 2253 writes the other way round.
+Name make_name(const std::string& common, const std::string& lab) {
+  Name name(X509_NAME_new());
+  if (!add_entry(name.get(), "O", lab) || !add_entry(name.get(), "CN", common)) return nullptr;
+  return name;
+}
+
+/// Nobody can guess it, and no two are the same.
+bool set_serial(X509* certificate) {
+  const Number serial(BN_new());
+  constexpr int kBits = 159;
+  return BN_rand(serial.get(), kBits, BN_RAND_TOP_ANY, BN_RAND_BOTTOM_ANY) == 1 &&
+         BN_to_ASN1_INTEGER(serial.get(), X509_get_serialNumber(certificate)) != nullptr;
+}
+
+bool set_validity(X509* certificate, const Validity& validity) {
+  return ASN1_TIME_set(X509_getm_notBefore(certificate), validity.from_s) != nullptr &&
+         ASN1_TIME_set(X509_getm_notAfter(certificate), validity.until_s) != nullptr;
+}
+
+bool add_extension(X509* issuer, X509* certificate, int kind, const char* value) {
+  X509V3_CTX context;
+  X509V3_set_ctx(&context, issuer, certificate, nullptr, nullptr, 0);
+  context.db = nullptr;
+  const Extension extension(X509V3_EXT_conf_nid(nullptr, &context, kind, value));
+  return extension && X509_add_ext(certificate, extension.get(), -1) == 1;
+}
+
+/// What the key may be used for. Only an authority makes members and signs permissions.
+bool add_extensions(X509* issuer, X509* certificate) {
+  const bool authority = issuer == certificate;
+  return add_extension(issuer, certificate, NID_basic_constraints,
+                       authority ? "critical,CA:TRUE,pathlen:0" : "critical,CA:FALSE") &&
+         add_extension(
+             issuer, certificate, NID_key_usage,
+             authority ? "critical,keyCertSign,digitalSignature" : "critical,digitalSignature") &&
+         add_extension(issuer, certificate, NID_subject_key_identifier, "hash") &&
+         (authority ||
+          add_extension(issuer, certificate, NID_authority_key_identifier, "keyid:always"));
+}
+
+Result<std::string> text_of(const Key& key) {
+  const Stream stream = writing();
+  if (PEM_write_bio_PKCS8PrivateKey(stream.get(), key.get(), nullptr, nullptr, 0, nullptr,
+                                    nullptr) != 1) {
+    return failed(ErrorCode::kIo, "cannot write a private key");
+  }
+  return content_of(stream.get());
+}
+
+/// A fresh key with a certificate. Without an issuer it signs itself.
+Result<Credential> make_credential(const Name& name, const Validity& validity, X509* issuer,
+                                   EVP_PKEY* issuer_key) {
+  const Key key(EVP_PKEY_Q_keygen(nullptr, nullptr, "EC", "P-256"));
+  const Certificate certificate(X509_new());
+  if (!key || !certificate || !name) return failed(ErrorCode::kIo, "cannot make a key");
+  X509* const made = certificate.get();
+  if (issuer == nullptr) issuer = made;
+  const bool filled = X509_set_version(made, X509_VERSION_3) == 1 && set_serial(made) &&
+                      X509_set_subject_name(made, name.get()) == 1 &&
+                      X509_set_issuer_name(made, X509_get_subject_name(issuer)) == 1 &&
+                      set_validity(made, validity) && X509_set_pubkey(made, key.get()) == 1 &&
+                      add_extensions(issuer, made);
+  EVP_PKEY* const signer = issuer_key == nullptr ? key.get() : issuer_key;
+  const Stream stream = writing();
+  if (!filled || X509_sign(made, signer, EVP_sha256()) == 0 ||
+      PEM_write_bio_X509(stream.get(), made) != 1) {
+    return failed(ErrorCode::kIo, "cannot make a certificate");
+  }
+  RAVE_TRY_ASSIGN(std::string key_text, text_of(key));
+  return Credential{content_of(stream.get()), std::move(key_text)};
+}
+
+/// An entry of a name, with nothing in it that could steer a terminal.
+std::string entry_of(const X509_NAME* name, int field) {
+  const int place = X509_NAME_get_index_by_NID(name, field, -1);
+  if (place < 0) return "?";
+  const ASN1_STRING* const value = X509_NAME_ENTRY_get_data(X509_NAME_get_entry(name, place));
+  const auto* const bytes = reinterpret_cast<const char*>(ASN1_STRING_get0_data(value));
+  std::string text(bytes, static_cast<std::size_t>(ASN1_STRING_length(value)));
+  for (char& c : text) {
+    if (c < ' ' || c > '~') c = '?';
+  }
+  return text;
+}
+
+Result<std::int64_t> moment_of(const ASN1_TIME* time) {
+  std::tm fields{};
+  if (ASN1_TIME_to_tm(time, &fields) != 1) {
+    return failed(ErrorCode::kParse, "its certificate has no dates");
+  }
+  return ::timegm(&fields);
+}
+
+std::string fingerprint_of(const X509* certificate) {
+  unsigned char digest[EVP_MAX_MD_SIZE];
+  unsigned int size = 0;
+  if (X509_digest(certificate, EVP_sha256(), digest, &size) != 1) return "?";
+  std::string text;
+  for (unsigned int i = 0; i < size; ++i) {
+    text += fmt::format("{}{:02X}", i == 0 ? "" : ":", digest[i]);
+  }
+  return text;
+}
+
+}  // namespace
+
+Result<Credential> make_authority(const std::string& lab, const Validity& validity) {
+  ERR_clear_error();
+  // No member can have that name: there is a blank in it.
+  return make_credential(make_name("RAVE authority", lab), validity, nullptr, nullptr);
+}
+
+Result<Credential> make_member(const Credential& authority, const std::string& name,
+                               const std::string& lab, const Validity& validity) {
+  RAVE_TRY_ASSIGN(const Certificate issuer, parse_certificate(authority.certificate));
+  RAVE_TRY_ASSIGN(const Key issuer_key, parse_key(authority.key));
+  return make_credential(make_name(name, lab), validity, issuer.get(), issuer_key.get());
+}
+
+Result<std::string> sign(const Credential& signer, const std::string& text) {
+  RAVE_TRY_ASSIGN(const Certificate certificate, parse_certificate(signer.certificate));
+  RAVE_TRY_ASSIGN(const Key key, parse_key(signer.key));
+  const Stream in = reading(text);
+  const Stream out = writing();
+  constexpr int kFlags = PKCS7_DETACHED | PKCS7_TEXT | PKCS7_STREAM;
+  const Signed document(PKCS7_sign(certificate.get(), key.get(), nullptr, in.get(), kFlags));
+  if (!document || SMIME_write_PKCS7(out.get(), document.get(), in.get(), kFlags) != 1) {
+    return failed(ErrorCode::kIo, "cannot sign");
+  }
+  return content_of(out.get());
+}
+
+Result<std::string> signed_text(const std::string& certificate, const std::string& document) {
+  RAVE_TRY_ASSIGN(const Certificate signer, parse_certificate(certificate));
+  const Stream in = reading(document);
+  BIO* raw_content = nullptr;
+  const Signed parsed(SMIME_read_PKCS7(in.get(), &raw_content));
+  const Stream content(raw_content);
+  if (!parsed) return failed(ErrorCode::kParse, "it is no signed document");
+  const Certificates signers(sk_X509_new_null());
+  const Stream out = writing();
+  if (!signers || sk_X509_push(signers.get(), signer.get()) == 0) {
+    return failed(ErrorCode::kIo, "cannot check a signature");
+  }
+  // As DDS Security does it: the signer is this very certificate, whatever the document brings.
+  if (PKCS7_verify(parsed.get(), signers.get(), nullptr, content.get(), out.get(),
+                   PKCS7_TEXT | PKCS7_NOVERIFY | PKCS7_NOINTERN) != 1) {
+    return failed(ErrorCode::kState, "its signature is not that of the authority");
+  }
+  return content_of(out.get());
+}
+
+Result<CertificateFacts> read_certificate(const std::string& certificate) {
+  RAVE_TRY_ASSIGN(const Certificate parsed, parse_certificate(certificate));
+  const X509_NAME* const name = X509_get_subject_name(parsed.get());
+  CertificateFacts facts;
+  facts.name = entry_of(name, NID_commonName);
+  facts.lab = entry_of(name, NID_organizationName);
+  const Stream subject = writing();
+  X509_NAME_print_ex(subject.get(), name, 0, XN_FLAG_RFC2253);
+  facts.subject = content_of(subject.get());
+  RAVE_TRY_ASSIGN(facts.validity.from_s, moment_of(X509_get0_notBefore(parsed.get())));
+  RAVE_TRY_ASSIGN(facts.validity.until_s, moment_of(X509_get0_notAfter(parsed.get())));
+  facts.fingerprint = fingerprint_of(parsed.get());
+  facts.authority = X509_check_ca(parsed.get()) == 1;
+  return facts;
+}
+
+Status check_issued(const std::string& issuer, const std::string& certificate) {
+  RAVE_TRY_ASSIGN(const Certificate parsed_issuer, parse_certificate(issuer));
+  RAVE_TRY_ASSIGN(const Certificate parsed, parse_certificate(certificate));
+  EVP_PKEY* const key = X509_get0_pubkey(parsed_issuer.get());
+  if (key == nullptr || X509_verify(parsed.get(), key) != 1) {
+    return failed(ErrorCode::kState, "the authority has not signed it");
+  }
+  return {};
+}
+
+Status check_pair(const Credential& credential) {
+  RAVE_TRY_ASSIGN(const Certificate certificate, parse_certificate(credential.certificate));
+  RAVE_TRY_ASSIGN(const Key key, parse_key(credential.key));
+  if (X509_check_private_key(certificate.get(), key.get()) != 1) {
+    return failed(ErrorCode::kState, "certificate and key do not belong together");
+  }
+  return {};
+}
+
+}  // namespace rave::keys

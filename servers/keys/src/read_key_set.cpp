@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <ctime>
+
+#include "certificate.hpp"
+#include "layout.hpp"
+#include "rave/base/file.hpp"
+#include "rave/keys/key_set.hpp"
+
+namespace rave::keys {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr auto kMemberFiles = {kIdentityCa,    kIdentity,   kIdentityKey,
+                               kPermissionsCa, kGovernance, kPermissions};
+
+KeyInfo info_of(const CertificateFacts& facts) {
+  KeyInfo info;
+  info.name = facts.name;
+  info.from_s = facts.validity.from_s;
+  info.until_s = facts.validity.until_s;
+  info.fingerprint = facts.fingerprint;
+  return info;
+}
+
+/// Whoever reads a private key can act as its owner.
+void check_mode(const fs::path& key, KeyInfo& info) {
+  struct stat status {};
+  if (::stat(key.c_str(), &status) != 0 || (status.st_mode & 077U) == 0) return;
+  info.problems.push_back(fmt::format("{} is open to others (mode {:04o}); `chmod 600` closes it",
+                                      key.filename().string(), status.st_mode & 07777U));
+}
+
+/// Adds what is wrong to the problems of a member, with the file that it is about.
+class Findings {
+ public:
+  Findings(fs::path folder, KeyInfo& info) : folder_(std::move(folder)), info_(&info) {}
+
+  /// The content of a file; empty if it cannot be read.
+  std::string read(const char* file) {
+    auto content = read_file(folder_ / file, kLargestFile);
+    if (content) return *std::move(content);
+    add(file, content.error());
+    return {};
+  }
+  void add(const char* file, const Error& error) {
+    info_->problems.push_back(error.code == ErrorCode::kNotFound
+                                  ? fmt::format("{} is missing", file)
+                                  : fmt::format("{}: {}", file, error.message));
+  }
+  void add(const char* file, const Status& status) {
+    if (!status) add(file, status.error());
+  }
+
+ private:
+  fs::path folder_;
+  KeyInfo* info_;
+};
+
+bool are_all_there(const fs::path& folder, KeyInfo& info) {
+  std::error_code error;
+  for (const char* const file : kMemberFiles) {
+    if (!fs::is_regular_file(folder / file, error)) {
+      info.problems.push_back(fmt::format("{} is missing", file));
+    }
+  }
+  return info.problems.empty();
+}
+
+/// Whether the documents are those of the authority, and the permissions those of this member.
+void check_documents(const std::string& authority, const CertificateFacts& facts,
+                     Findings& findings) {
+  const auto governance = signed_text(authority, findings.read(kGovernance));
+  if (!governance) findings.add(kGovernance, governance.error());
+  const auto permissions = signed_text(authority, findings.read(kPermissions));
+  if (!permissions) {
+    findings.add(kPermissions, permissions.error());
+  } else if (permissions->find("<subject_name>" + facts.subject + "</subject_name>") ==
+             std::string::npos) {
+    findings.add(kPermissions, Error{ErrorCode::kState, "it is for another member", {}});
+  }
+}
+
+/// Other folders may lie beside those of members.
+bool has_some(const fs::path& folder) {
+  return std::ranges::any_of(kMemberFiles, [&](const char* file) {
+    std::error_code error;
+    return fs::exists(folder / file, error);
+  });
+}
+
+KeyInfo read_member(const fs::path& folder, const std::string& authority) {
+  KeyInfo info;
+  info.name = without_slash(folder).filename();
+  if (!are_all_there(folder, info)) return info;
+  Findings findings(folder, info);
+  const std::string certificate = findings.read(kIdentity);
+  const auto facts = read_certificate(certificate);
+  if (!facts) {
+    findings.add(kIdentity, facts.error());
+    return info;
+  }
+  info = info_of(*facts);
+  findings.add(kIdentity, check_issued(authority, certificate));
+  for (const char* const file : {kIdentityCa, kPermissionsCa}) {
+    if (findings.read(file) != authority) {
+      findings.add(file, Error{ErrorCode::kState, "it is not the authority of this set", {}});
+    }
+  }
+  findings.add(kIdentityKey, check_pair({certificate, findings.read(kIdentityKey)}));
+  check_documents(authority, *facts, findings);
+  check_mode(folder / kIdentityKey, info);
+  return info;
+}
+
+Result<KeyInfo> read_authority_info(const fs::path& file, const std::string& certificate,
+                                    std::string& lab) {
+  const auto facts = read_certificate(certificate);
+  const Status whole = facts ? check_issued(certificate, certificate) : Status{};
+  if (!facts || !whole) {
+    return fail(ErrorCode::kState, "{}: {}", file.string(),
+                facts ? whole.error().message : facts.error().message);
+  }
+  lab = facts->lab;
+  KeyInfo info = info_of(*facts);
+  info.name = "authority";
+  return info;
+}
+
+/// The folders of members in a set, by name.
+Result<std::vector<fs::path>> member_folders(const fs::path& folder) {
+  std::vector<fs::path> folders;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename();
+    if (check_name(name) && has_some(entry->path())) folders.push_back(entry->path());
+  }
+  if (error) {
+    return fail(ErrorCode::kIo, "cannot read `{}`: {}", folder.string(), error.message());
+  }
+  std::ranges::sort(folders);
+  return folders;
+}
+
+}  // namespace
+
+std::int64_t KeyInfo::days_left(std::int64_t now_s) const noexcept {
+  const std::int64_t left_s = until_s - now_s;
+  return left_s >= 0 ? left_s / kDay_s : -1 - (-1 - left_s) / kDay_s;
+}
+
+Result<KeySetInfo> read_key_set(const fs::path& folder) {
+  std::error_code error;
+  const bool one = fs::is_regular_file(folder / kIdentity, error);
+  if (!one) RAVE_TRY(check_set(folder));
+  const fs::path file = one ? folder / kIdentityCa : folder / kCaFolder / kAuthority;
+  RAVE_TRY_ASSIGN(const std::string certificate, read_file(file, kLargestFile));
+  KeySetInfo info;
+  RAVE_TRY_ASSIGN(info.authority, read_authority_info(file, certificate, info.lab));
+  if (one) {
+    info.members.push_back(read_member(folder, certificate));
+    return info;
+  }
+  check_mode(folder / kCaFolder / kAuthorityKey, info.authority);
+  RAVE_TRY_ASSIGN(const std::vector<fs::path> folders, member_folders(folder));
+  for (const fs::path& member : folders) {
+    info.members.push_back(read_member(member, certificate));
+    KeyInfo& read = info.members.back();
+    const std::string name = member.filename();
+    if (read.name == name) continue;
+    read.problems.push_back(fmt::format("they are the keys of `{}`", read.name));
+    read.name = name;
+  }
+  return info;
+}
+
+std::string date_text(std::int64_t moment_s) {
+  const std::time_t moment = moment_s;
+  std::tm fields{};
+  ::gmtime_r(&moment, &fields);
+  char text[32] = {};
+  std::strftime(text, sizeof text, "%Y-%m-%d", &fields);
+  return text;
+}
+
+}  // namespace rave::keys

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "process.hpp"
+
+namespace rave::cli_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Keys : public ::testing::Test {
+ protected:
+  [[nodiscard]] std::string path(const std::string& name) const { return folder_.path() / name; }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Keys, MadeAddedToAndShown) {
+  const Ended made = run_rave({"keys", "new", path("lab-keys/"), "env", "left", "--name", "lab"});
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_TRUE(made.out.starts_with("made " + path("lab-keys") + " for env, left; valid for 3650 "))
+      << made.out;
+  const Ended added = run_rave({"keys", "add", path("lab-keys"), "gui", "--days", "12"});
+  EXPECT_EQ(added.exit_code, 0) << added.err;
+  EXPECT_EQ(added.out, "added gui to " + path("lab-keys") + "\n");
+
+  const Ended shown = run_rave({"keys", "show", path("lab-keys")});
+  EXPECT_EQ(shown.exit_code, 0) << shown.err;
+  EXPECT_TRUE(shown.out.starts_with("lab lab\n")) << shown.out;
+  for (const char* const name : {"\nauthority  2", "\nenv        2", "\ngui        2"}) {
+    EXPECT_NE(shown.out.find(name), std::string::npos) << shown.out;
+  }
+  EXPECT_TRUE(shown.err.starts_with("warning: gui expires in 1")) << shown.err;
+  for (const Ended& ended : {made, added, shown}) {
+    EXPECT_EQ((ended.out + ended.err).find("PRIVATE KEY"), std::string::npos);
+  }
+}
+
+TEST_F(Keys, TroubleIsShownWithItsPlace) {
+  ASSERT_EQ(run_rave({"keys", "new", path("set"), "left"}).exit_code, 0);
+  fs::remove(path("set/left/permissions.p7s"));
+  const Ended shown = run_rave({"keys", "show", path("set")});
+  EXPECT_EQ(shown.exit_code, 1);
+  EXPECT_EQ(shown.err, "rave: left: permissions.p7s is missing\n");
+}
+
+TEST_F(Keys, BadInput) {
+  ASSERT_EQ(run_rave({"keys", "new", path("set"), "left"}).exit_code, 0);
+  const Ended again = run_rave({"keys", "new", path("set"), "right"});
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_NE(again.err.find("is there already, with keys of `left`"), std::string::npos)
+      << again.err;
+  const Ended near = run_rave({"keys", "show", path("sett")});
+  EXPECT_EQ(near.exit_code, 2);
+  EXPECT_NE(near.err.find("did you mean `set`?"), std::string::npos) << near.err;
+  const Ended typo = run_rave({"keys", "shwo", path("set")});
+  EXPECT_EQ(typo.exit_code, 2);
+  EXPECT_EQ(typo.err,
+            "rave: there is no subcommand `keys shwo`; did you mean `show`?\n"
+            "`rave keys --help` says how it is used\n");
+  const Ended nobody = run_rave({"keys", "new", path("other")});
+  EXPECT_EQ(nobody.exit_code, 2);
+  EXPECT_FALSE(fs::exists(path("other")));
+}
+
+}  // namespace
+}  // namespace rave::cli_test

@@ -36,9 +36,10 @@ class WorldAuthority {
   /// failed). After an error nothing has changed, and it may be tried again.
   Status step(std::span<const HostReport* const> reports, WorldStep& world);
 
-  /// Asks something of robots, from the next step on; returns its number. That it cannot be done is
-  /// known two steps later at the latest, see refusals(). Errors: kInvalidArgument (no such robot,
-  /// nothing to change, or a change of the body together with other parts).
+  /// Asks something of robots or obstacles, from the next step on; returns its number. That it
+  /// cannot be done is known two steps later at the latest, see refusals(). Errors:
+  /// kInvalidArgument (no such robot, nothing to change, a change of the body together with other
+  /// parts, what check_obstacle_change() says).
   Result<std::uint64_t> ask(WorldInput input);
   /// What hosts and authority said in the last step to inputs that came by hand.
   [[nodiscard]] std::span<const InputRefusal> refusals() const noexcept;
@@ -51,11 +52,13 @@ class WorldAuthority {
   [[nodiscard]] std::uint64_t steps_done() const noexcept;
   /// True pose of a simulated, reported pose of a real robot, as the last WorldStep shows it.
   [[nodiscard]] Pose2 pose(RobotId robot) const noexcept;
-  /// Contacts, pins and changes of bodies of the last step that is done, ordered by robot.
+  /// Contacts, pins, changes of bodies and obstacles of the last step that is done, by robot.
   [[nodiscard]] std::span<const Event> events() const noexcept;
-  /// Of poses, contacts, pins and changes of bodies in the steps that are done.
+  /// Of poses, contacts, pins, changes of bodies and obstacles in the steps that are done.
   [[nodiscard]] RunHash hash() const noexcept;
   [[nodiscard]] std::uint32_t host_count() const noexcept;
+  /// All bodies; obstacles as the last WorldStep shows them.
+  [[nodiscard]] const world::WorldModel& world() const noexcept;
 
  private:
   struct Impl;

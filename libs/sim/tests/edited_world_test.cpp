@@ -103,6 +103,17 @@ struct Scene {
     return hit;
   }
 
+  /// How many bodies that are somewhere carry a code.
+  [[nodiscard]] std::size_t coded() const {
+    std::size_t count = 0;
+    for (std::uint32_t id = 0; id < model.body_count(); ++id) {
+      const world::Obstacle* const obstacle = model.obstacle(id);
+      const bool there = obstacle == nullptr || !obstacle->removed;
+      count += there && model.body(id).code ? 1 : 0;
+    }
+    return count;
+  }
+
   RandomStream random;
   world::WorldModel model;
   std::vector<Pose2> poses;
@@ -190,6 +201,7 @@ TEST(EditedWorld, LandmarksAndPiecesFollow) {
       world::Snapshot anew(scene.model);
       scene.place(anew);
       ASSERT_EQ(scene.live->landmarks().size(), anew.landmarks().size());
+      ASSERT_EQ(scene.live->landmarks().size(), scene.coded());
       for (std::size_t i = 0; i < anew.landmarks().size(); ++i) {
         EXPECT_EQ(scene.live->landmarks()[i].body, anew.landmarks()[i].body);
         EXPECT_EQ(scene.live->landmarks()[i].p_WL, anew.landmarks()[i].p_WL);

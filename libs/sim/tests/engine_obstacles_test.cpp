@@ -396,7 +396,13 @@ TEST(EngineObstacles, ChangesOfTheScenarioBelongToTheRun) {
       EXPECT_EQ(events, k == 10 ? 2U : k == 40 ? 1U : 0U) << k;
     }
     EXPECT_EQ(engine->inputs_by_hand(), 0U);
-    return engine->hash();
+    const RunHash first = engine->hash();
+    if (author == Author::kRun) {
+      EXPECT_TRUE(engine->reset());
+      run(*engine, 60);
+      EXPECT_EQ(engine->hash(), first);
+    }
+    return first;
   };
   const RunHash hash = go(1, Author::kRun);
   EXPECT_EQ(go(3, Author::kRun), hash);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint32_t kRobots = 30;
 constexpr std::uint64_t kSteps = 320;
-constexpr std::uint64_t kHandStep = 200;
+constexpr std::uint64_t kHandStep = 198;  // when a scan is taken, too
 constexpr RobotId kStoppedByHand(2);
 constexpr RobotId kChangedByHand(4);
 constexpr RobotId kFailing(24);
@@ -124,9 +124,9 @@ void add_obstacle_changes(EngineSpec& spec) {
   spec.obstacle_changes = {{5, obstacle(Kind::kAdd, "post", {0.9, 0.9, 0.3})},
                            {5, obstacle(Kind::kAdd, "hopper", {2.1, 0.9, 0})},
                            {6, obstacle(Kind::kAdd, "third", {2.1, 2.1, 0.7})},
-      {7, obstacle(Kind::kAdd, "fourth", {0.3, 1.5, 0})},
-      {7, obstacle(Kind::kAdd, "fifth", {1.5, 0.3, 0})},
-      {8, obstacle(Kind::kAdd, "sixth", {2.7, 1.5, 0})},
+                           {7, obstacle(Kind::kAdd, "fourth", {0.3, 1.5, 0})},
+                           {7, obstacle(Kind::kAdd, "fifth", {1.5, 0.3, 0})},
+                           {8, obstacle(Kind::kAdd, "sixth", {2.7, 1.5, 0})},
                            {60, obstacle(Kind::kMove, "hopper", {5, 5, 0})},
                            {70, obstacle(Kind::kAdd, "giant", {1.5, 1.5, 0}, 3)},  // refused
                            {120, obstacle(Kind::kRemove, "post", {})},

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "console_tee.hpp"
+#include "event_words.hpp"
 #include "goal_checks.hpp"
 #include "outcome.hpp"
 #include "rave/base/file.hpp"
@@ -49,6 +50,7 @@ struct Observers {
   }
 
   void after_step(sim::Engine& engine) {
+    kinds.learn(engine.spec().world);
     tracks.after_step(engine);
     encounters.after_step(engine);
     hits.after_step(engine);
@@ -72,6 +74,9 @@ LogLevel level_of(sim::EventKind kind) {
     case sim::EventKind::kArmed:
     case sim::EventKind::kChanged:
     case sim::EventKind::kCaptured:
+    case sim::EventKind::kObstacleAdded:
+    case sim::EventKind::kObstacleMoved:
+    case sim::EventKind::kObstacleRemoved:
       return LogLevel::kInfo;
     default:
       return LogLevel::kWarning;
@@ -85,7 +90,9 @@ void tell_events(const sim::Engine& engine, std::span<const sim::Event> events, 
     all.push_back(event);
     // Contacts are daily bread in a crowd; the rest somebody should read now.
     if (log == nullptr || event.kind == sim::EventKind::kContact) continue;
-    log->write(level_of(event.kind), fmt::format("robot {}", spec.robots[event.robot.value()].name),
+    const std::string who =
+        fmt::format("{}{}", event.robot.valid() ? "robot " : "", subject_of(spec, event));
+    log->write(level_of(event.kind), who,
                fmt::format("{:.2f} s: {}: {}", engine.time().seconds(), to_string(event.kind),
                            event.text));
   }
@@ -95,13 +102,10 @@ std::string events_log(const sim::Engine& engine, const BodyKinds& kinds,
                        const std::vector<sim::Event>& events) {
   std::string text;
   for (const sim::Event& event : events) {
-    text +=
-        fmt::format("{:10.3f} s  {:<16} {:<14} {}{}\n",
-                    static_cast<double>(event.step) * engine.spec().step.seconds(),
-                    engine.spec().robots[event.robot.value()].name, to_string(event.kind),
-                    event.other.valid() ? fmt::format("with {} ", kinds.name(event.other.value()))
-                                        : std::string(),
-                    event.text);
+    text += fmt::format("{:10.3f} s  {:<16} {:<14} {}{}\n",
+                        static_cast<double>(event.step) * engine.spec().step.seconds(),
+                        subject_of(engine.spec(), event), to_string(event.kind),
+                        with_whom(kinds, event), event.text);
   }
   return text;
 }
@@ -156,7 +160,8 @@ void serve_requests(Journey& journey) {
   journey.options.control->serve(
       [&engine, record](const RunRequest& request) {
         auto answer = serve_request(engine, request);
-        if (answer && record != nullptr) record->keep(request, engine);
+        const bool asks = request.kind == RunRequest::Kind::kList;
+        if (answer && !asks && record != nullptr) record->keep(request, engine);
         return answer;
       },
       [&engine](RunStatus& status) { refresh_status(engine, status); });

@@ -8,6 +8,7 @@
 #include "commands/control.hpp"
 #include "commands/describe.hpp"
 #include "commands/drivers.hpp"
+#include "commands/edit.hpp"
 #include "commands/info.hpp"
 #include "commands/new.hpp"
 #include "commands/play.hpp"
@@ -25,10 +26,11 @@ struct Finished {
   int exit_code = 0;
 };
 
-using Command = std::variant<Finished, RunCommand, CheckCommand, DriversCommand, DescribeCommand,
-                             NewCommand, SchemaCommand, InfoCommand, VerifyCommand, PlayCommand,
-                             GapCommand, PsCommand, StopCommand, ArmCommand, SetCommand,
-                             HoldCommand, BenchSwarmCommand, BenchCompareCommand, VersionCommand>;
+using Command =
+    std::variant<Finished, RunCommand, CheckCommand, DriversCommand, DescribeCommand, NewCommand,
+                 SchemaCommand, InfoCommand, VerifyCommand, PlayCommand, GapCommand, PsCommand,
+                 StopCommand, ArmCommand, SetCommand, EditCommand, HoldCommand, BenchSwarmCommand,
+                 BenchCompareCommand, VersionCommand>;
 
 /// Reads the command line. Prints help and complaints itself.
 [[nodiscard]] Command parse_arguments(int argc, const char* const* argv);

@@ -130,7 +130,7 @@ TEST_F(Control, EditsTheWorldAndVerifyDoesItAgain) {
   const Ended added = rave({"edit", "add", "box", "--name", "crate", "--at", "40,2,30", "--size",
                             "0.5x0.3", "--height", "0,0.8"});
   EXPECT_EQ(added.exit_code, 0) << added.err;
-  EXPECT_NE(added.out.find("add `crate` at (40, 2)"), std::string::npos) << added.out;
+  EXPECT_NE(added.out.find("added `crate` at (40, 2)"), std::string::npos) << added.out;
   EXPECT_NE(added.out.find("counts from step "), std::string::npos) << added.out;
   EXPECT_NE(added.out.find(" ms after it was asked)"), std::string::npos) << added.out;
   const Ended listed = rave({"edit", "list"});

@@ -109,7 +109,7 @@ struct Scene {
     for (std::uint32_t id = 0; id < model.body_count(); ++id) {
       const world::Obstacle* const obstacle = model.obstacle(id);
       const bool there = obstacle == nullptr || !obstacle->removed;
-      count += there && model.body(id).code ? 1 : 0;
+      if (there && model.body(id).code) ++count;
     }
     return count;
   }

@@ -65,8 +65,12 @@ Result<std::string> edit(sim::Engine& engine, const RunRequest& request) {
   RAVE_TRY_ASSIGN(const sim::ObstacleChange change, asked_change(request));
   RAVE_TRY_ASSIGN(const sim::ChangedObstacle made, engine.change_obstacle(change));
   const double from_s = static_cast<double>(made.step) * engine.spec().step.seconds();
-  return fmt::format("{} {}; counts from step {} on, at {:.3f} s", to_string(request.kind),
-                     made.text, made.step, from_s);
+  using Kind = sim::ObstacleChange::Kind;
+  const std::string_view done = change.kind == Kind::kAdd    ? "added"
+                                : change.kind == Kind::kMove ? "moved"
+                                                             : "removed";
+  return fmt::format("{} {}; counts from step {} on, at {:.3f} s", done, made.text, made.step,
+                     from_s);
 }
 
 }  // namespace

@@ -164,9 +164,9 @@ TEST(Requests, AreServedBetweenStepsAlsoWhilePaused) {
             ErrorCode::kInvalidArgument);
   using Kind = RunRequest::Kind;
   EXPECT_EQ(ask(Kind::kAdd, "", "", "{name: crate, box_m: [1, 2], x_m: 5, y_m: 0.5}").value(),
-            "add `crate` at (5, 0.5), yaw 0 rad (by hand); counts from step 0 on, at 0.000 s");
+            "added `crate` at (5, 0.5), yaw 0 rad (by hand); counts from step 0 on, at 0.000 s");
   EXPECT_EQ(ask(Kind::kMove, "", "", "{name: crate, x_m: 6}").value(),
-            "move `crate` at (6, 0), yaw 0 rad (by hand); counts from step 0 on, at 0.000 s");
+            "moved `crate` at (6, 0), yaw 0 rad (by hand); counts from step 0 on, at 0.000 s");
   EXPECT_EQ(ask(Kind::kAdd, "", "", "{name: crate}").error().code, ErrorCode::kParse);
   EXPECT_EQ(ask(Kind::kAdd, "", "", "[").error().code, ErrorCode::kParse);
   EXPECT_EQ(ask(Kind::kMove, "", "", "{name: crte, x_m: 6}").error().message,

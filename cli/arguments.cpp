@@ -35,6 +35,7 @@ struct Everything {
   StopCommand stop;
   ArmCommand arm;
   SetCommand set;
+  EditCommand edit;
   HoldCommand hold;
   BenchSwarmCommand bench_swarm;
   BenchCompareCommand bench_compare;
@@ -105,7 +106,7 @@ void add_run(CLI::App& root, RunCommand& c) {
   app.footer(
       "Exit code: 0 if the run was whole and its checks hold, 1 if not, 2 for bad input.\n"
       "Ctrl-C ends a run early and still writes its results; a second one kills it.\n"
-      "`rave stop`, `arm`, `set`, `pause` and `ps` work from another terminal.\n\n"
+      "`rave stop`, `arm`, `set`, `edit`, `pause` and `ps` work from another terminal.\n\n"
       "Examples:\n"
       "  rave run mixed-reality --pace 10x\n"
       "  rave run my/scenario.yaml --seed 7 --duration 30 --output results");
@@ -349,6 +350,56 @@ void add_control(CLI::App& root, Everything& all) {
       ->check(CLI::Range(1, 1'000'000'000));
 }
 
+void add_name(CLI::App& app, std::string& name) {
+  app.add_option("name", name, "Of the obstacle; `rave edit list` has them all")
+      ->required()
+      ->type_name("NAME");
+}
+
+void add_place(CLI::App& app, std::string& at) {
+  app.add_option("--at", at, "X,Y or X,Y,DEG in metres and degrees; without DEG it is not turned")
+      ->required()
+      ->type_name("PLACE");
+}
+
+void add_edit(CLI::App& root, EditCommand& c) {
+  CLI::App& app =
+      *root.add_subcommand("edit", "Add, move and remove obstacles of a run while it goes");
+  add_run_name(app, c.run);
+  app.require_subcommand(1);
+  CLI::App& add = *app.add_subcommand("add", "Put an obstacle somewhere");
+  add.add_option("shape", c.shape, "box, disc or polygon")
+      ->required()
+      ->check(CLI::IsMember({"box", "disc", "polygon"}))
+      ->type_name("SHAPE");
+  add.add_option("--name", c.name, "What no other obstacle is called")
+      ->required()
+      ->type_name("NAME");
+  add_place(add, c.at);
+  add.add_option("--size", c.size, "LxW of a box, the radius of a disc, in metres")
+      ->type_name("SIZE");
+  add.add_option("--corners", c.corners, "Of a polygon, such as \"0,0 1,0 0.5,1\"")
+      ->type_name("PLACES");
+  add.add_option("--height", c.height, "LOW,HIGH above the floor [0,0.5]")->type_name("HEIGHT");
+  add.add_option("--layer", c.layer, "virtual_obstacles or mapped_real [virtual_obstacles]")
+      ->type_name("LAYER");
+  add.add_option("--colour", c.colour, "For pictures, #rrggbb")->type_name("COLOUR");
+  add.add_option("--barcode", c.barcode, "What landmark cameras read on it [none]")->type_name("N");
+  CLI::App& move = *app.add_subcommand("move", "Put an obstacle elsewhere");
+  add_name(move, c.name);
+  add_place(move, c.at);
+  add_name(*app.add_subcommand("remove", "Take an obstacle away"), c.name);
+  app.add_subcommand("list", "Say which obstacles stand where");
+  app.footer(
+      "A change counts from the next step on; the answer says which that is. What would overlap a\n"
+      "simulated robot is refused. Exit code: 0 if it was done, 1 if the run refuses, 2 for bad "
+      "input.\n\n"
+      "Examples:\n"
+      "  rave edit add box --name crate --at 1,2,30 --size 0.5x0.3\n"
+      "  rave edit move crate --at 2,2\n"
+      "  rave edit predator-prey remove crate");
+}
+
 std::vector<std::string_view> subcommands_of(const CLI::App& root,
                                              std::vector<std::string>& names) {
   for (const CLI::App* app : root.get_subcommands(nullptr)) names.push_back(app->get_name());
@@ -413,6 +464,15 @@ Finished usage_error(const CLI::App& root, const CLI::ParseError& e) {
   return {kBadInput};
 }
 
+EditCommand chosen_edit(const std::string& name, EditCommand edit) {
+  using What = EditCommand::What;
+  edit.what = name == "add"      ? What::kAdd
+              : name == "move"   ? What::kMove
+              : name == "remove" ? What::kRemove
+                                 : What::kList;
+  return edit;
+}
+
 Command chosen_command(const CLI::App& root, const Everything& all) {
   const std::string name = root.get_subcommands().front()->get_name();
   if (name == "run") return all.run;
@@ -441,6 +501,7 @@ Command chosen_command(const CLI::App& root, const Everything& all) {
     if (what == "add") return all.keys.add;
     return all.keys.show;
   }
+  if (name == "edit") return chosen_edit(chosen_app(root).get_name(), all.edit);
   HoldCommand hold = all.hold;
   if (name == "pause") return hold;
   if (name == "resume" || name == "step") {
@@ -470,6 +531,7 @@ Command parse_arguments(int argc, const char* const* argv) {
   add_play(root, all.play);
   add_report(root, all.gap);
   add_control(root, all);
+  add_edit(root, all.edit);
   add_bench(root, all.bench_swarm, all.bench_compare);
   add_keys_commands(root, all.keys);
   root.add_subcommand("version", "What this build is, and which plug-ins fit it");

@@ -8,6 +8,7 @@
 #include "commands/control.hpp"
 #include "commands/describe.hpp"
 #include "commands/drivers.hpp"
+#include "commands/edit.hpp"
 #include "commands/hosts.hpp"
 #include "commands/info.hpp"
 #include "commands/keys.hpp"
@@ -31,7 +32,7 @@ using Command =
     std::variant<Finished, RunCommand, RobotCommand, EnvCommand, CheckCommand, DriversCommand,
                  DescribeCommand, NewCommand, SchemaCommand, InfoCommand, VerifyCommand,
                  PlayCommand, GapCommand, PsCommand, StopCommand, ArmCommand, SetCommand,
-                 HoldCommand, BenchSwarmCommand, BenchCompareCommand, KeysNewCommand,
+                 EditCommand, HoldCommand, BenchSwarmCommand, BenchCompareCommand, KeysNewCommand,
                  KeysAddCommand, KeysShowCommand, VersionCommand>;
 
 /// Reads the command line. Prints help and complaints itself.

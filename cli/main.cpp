@@ -27,6 +27,7 @@ struct Dispatch {
   int operator()(const StopCommand& options) const { return stop_robots(options); }
   int operator()(const ArmCommand& options) const { return arm_robots(options); }
   int operator()(const SetCommand& options) const { return set_parameter(options); }
+  int operator()(const EditCommand& options) const { return edit_world(options); }
   int operator()(const HoldCommand& options) const { return hold_run(options); }
   int operator()(const BenchSwarmCommand& options) const { return bench_swarm(options); }
   int operator()(const BenchCompareCommand& options) const { return bench_compare(options); }

@@ -25,11 +25,7 @@ Result<sim::EngineSpec> world_of(const ManagedRun& run) {
   how.local.emplace();
   how.others = &catalogue;
   RAVE_TRY_ASSIGN(auto built, robot_host::build(run.scenario, catalogue, how));
-  if (!built.live_reason.empty()) {
-    return fail(ErrorCode::kInvalidArgument,
-                "hosts share a world in lock-step, which nothing by the wall clock can: {}",
-                built.live_reason);
-  }
+  RAVE_TRY(robot_host::check_can_be_shared(built));
   return std::move(built.spec);
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "played_obstacles.hpp"
 #include "rave/base/file.hpp"
 #include "rave/base/names.hpp"
 #include "rave/config/expanded_scenario.hpp"
@@ -279,6 +280,10 @@ class Playing {
     root.append("step_s", RawNode::number(step_s));
     root.append("seed", RawNode::unsigned_integer(run_.seed));
     root.append("robots", std::move(robots));
+    if (!wish_.world) {
+      RAVE_TRY_ASSIGN(RawNode changes, played_obstacles(reader_, run_, wish_.start_s));
+      if (changes.size() > 0) root.append("changes", std::move(changes));
+    }
     RawNode picture = RawNode::mapping();
     picture.append("title", RawNode::text(played_.name));
     root.append("picture", std::move(picture));

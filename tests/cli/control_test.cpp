@@ -125,6 +125,75 @@ TEST_F(Control, WhatWasDoneByHandIsDoneAgainByVerify) {
   EXPECT_NE(ended.out.find("the same: "), std::string::npos) << ended.out;
 }
 
+TEST_F(Control, EditsTheWorldAndVerifyDoesItAgain) {
+  start("good_scenario.yaml");
+  const Ended added = rave({"edit", "add", "box", "--name", "crate", "--at", "40,2,30", "--size",
+                            "0.5x0.3", "--height", "0,0.8"});
+  EXPECT_EQ(added.exit_code, 0) << added.err;
+  EXPECT_NE(added.out.find("added `crate` at (40, 2)"), std::string::npos) << added.out;
+  EXPECT_NE(added.out.find("counts from step "), std::string::npos) << added.out;
+  EXPECT_NE(added.out.find(" ms after it was asked)"), std::string::npos) << added.out;
+  const Ended listed = rave({"edit", "list"});
+  EXPECT_NE(listed.out.find("crate"), std::string::npos) << listed.out;
+  EXPECT_NE(listed.out.find("(40.000, 2.000) m, 30.0 deg"), std::string::npos) << listed.out;
+  EXPECT_EQ(rave({"edit", "small", "move", "crate", "--at", "-40,1"}).exit_code, 0);
+  EXPECT_EQ(rave({"edit", "add", "disc", "--name", "tube", "--at", "30,0", "--size", "0.25",
+                  "--layer", "mapped_real", "--barcode", "7"})
+                .exit_code,
+            0);
+  EXPECT_EQ(rave({"edit", "add", "polygon", "--name", "wedge", "--at", "30,9", "--corners",
+                  "0,0 1,0 0.5,1"})
+                .exit_code,
+            0);
+  EXPECT_EQ(rave({"edit", "remove", "tube"}).exit_code, 0);
+  const Ended again = rave({"edit", "list"});
+  EXPECT_EQ(again.out.find("tube"), std::string::npos) << again.out;
+  EXPECT_NE(again.out.find("(-40.000, 1.000) m"), std::string::npos) << again.out;
+  end();
+  EXPECT_NE(events().find("obstacle added `crate`"), std::string::npos) << events();
+  EXPECT_NE(events().find("obstacle removed `tube` (by hand)"), std::string::npos) << events();
+  const Ended ended = rave({"verify", output()});
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("the same: "), std::string::npos) << ended.out;
+  // Who plays the record has the same world.
+  const std::string played = folder_.path() / "played";
+  ASSERT_EQ(rave({"play", output(), "--write", played}).exit_code, 0);
+  EXPECT_NE(content_of(played + "/scenario.yaml").find("move_obstacle"), std::string::npos);
+  const std::string again_in = folder_.path() / "again";
+  const Ended run_again = rave({"run", played + "/scenario.yaml", "--output", again_in, "--quiet",
+                                "--no-picture", "--pace", "max"});
+  EXPECT_EQ(run_again.exit_code, 0) << run_again.err;
+  EXPECT_NE(content_of(again_in + "/events.log").find("obstacle removed `tube`"),
+            std::string::npos);
+}
+
+TEST_F(Control, EditsThatCannotBeDoneSayWhy) {
+  start("good_scenario.yaml");
+  const auto refused = [&](std::vector<std::string> words, int exit_code, const std::string& why) {
+    words.insert(words.begin(), "edit");
+    const Ended ended = rave(words);
+    EXPECT_EQ(ended.exit_code, exit_code) << why;
+    EXPECT_NE(ended.err.find(why), std::string::npos) << ended.err;
+  };
+  ASSERT_EQ(rave({"pause"}).exit_code, 0);
+  ASSERT_EQ(
+      rave({"edit", "add", "disc", "--name", "tube", "--at", "30,0", "--size", "1"}).exit_code, 0);
+  refused({"remove", "tub"}, 1, "there is no obstacle `tub`; did you mean `tube`?");
+  refused({"add", "disc", "--name", "tube", "--at", "30,9", "--size", "1"}, 1,
+          "there is an obstacle `tube` already");
+  refused({"add", "disc", "--name", "lid", "--at", "0,0", "--size", "90"}, 1,
+          "would overlap the robot `anna`");
+  refused({"add", "box", "--name", "flat", "--at", "30,9", "--size", "0x1"}, 1, "box_m");
+  refused({"add", "box", "--name", "a b", "--at", "30,9", "--size", "1x1"}, 1, "name");
+  refused({"add", "box", "--name", "far", "--at", "1e9,9", "--size", "1x1"}, 1, "x_m");
+  refused({"add", "box", "--name", "crate", "--at", "30,9", "--size", "1"}, 2, "such as 0.5x0.3");
+  refused({"add", "disc", "--name", "crate", "--at", "30", "--size", "1"}, 2, "X,Y or X,Y,DEG");
+  refused({"add", "cone", "--name", "crate", "--at", "30,9"}, 2, "cone");
+  refused({"move", "tube"}, 2, "--at");
+  refused({"other-run", "list"}, 2, "other-run");
+  end();
+}
+
 TEST_F(Control, AKilledRunLeavesNothingBehind) {
   start("good_scenario.yaml");
   ASSERT_EQ(::kill(process_, SIGKILL), 0);

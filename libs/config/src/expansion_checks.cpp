@@ -26,7 +26,7 @@ class Checks {
     for (const ArrivalCheckFile& check : scenario_.checks.arrivals) (void)groups_of(check.robot);
     odometry();
     for (const ChangeFile& change : scenario_.changes) {
-      robots_exist("robot", change.robot);
+      if (change.robot) robots_exist("robot", *change.robot);
       multiple_of_step("at_s", change.at_s);
     }
     if (auto hosts = plan_hosts(expanded_); !hosts) diagnostics_.add(std::move(hosts).error());

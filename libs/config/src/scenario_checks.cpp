@@ -46,10 +46,21 @@ void validate(const RobotEntry& c, CheckContext& check) {
 }
 
 void validate(const ChangeFile& c, CheckContext& check) {
-  if (!c.set.is_mapping() || c.set.size() == 0) {
-    check.error("set", "`set`: found {}, expected keys such as `program.speed_mps` with new values",
-                c.set.found_text());
+  const int kinds = int{c.robot || c.set} + int{c.add_obstacle.has_value()} +
+                    int{c.move_obstacle.has_value()} + int{c.remove_obstacle.has_value()};
+  if (kinds != 1) {
+    check.error("",
+                "a change has {} of `robot` with `set`, `add_obstacle`, `move_obstacle` and "
+                "`remove_obstacle`; expected one",
+                kinds);
+    return;
   }
+  if (!c.robot && !c.set) return;
+  if (!c.robot) check.error("set", "`set` needs `robot`, which says whose parameters change");
+  if (c.set && c.set->is_mapping() && c.set->size() > 0) return;
+  check.error(c.set ? "set" : "robot",
+              "`set`: found {}, expected keys such as `program.speed_mps` with new values",
+              c.set ? c.set->found_text() : "nothing");
 }
 
 void validate(const HostFile& c, CheckContext& check) { check_name("name", *c.name, check); }

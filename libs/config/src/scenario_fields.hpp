@@ -116,10 +116,14 @@ template <class V>
 void describe(V& v, ChangeFile& c) {
   v.required("at_s", c.at_s,
              {.doc = "When, a multiple of the step.", .min = 0, .max = 1e9, .unit = "s"});
-  v.required("robot", c.robot, {.doc = "The robot, or the entry of robots, that changes."});
-  v.required("set", c.set,
-             {.doc = "New values by key: program.PARAM, controller.NAME.PARAM, "
-                     "actuator.NAME.PARAM, body.scale."});
+  v.field("robot", c.robot, {.doc = "The robot, or the entry of robots, that changes."});
+  v.field("set", c.set,
+          {.doc = "New values by key: program.PARAM, controller.NAME.PARAM, "
+                  "actuator.NAME.PARAM, body.scale."});
+  v.field("add_obstacle", c.add_obstacle,
+          {.doc = "An obstacle that comes; its name is not that of one that stands then."});
+  v.field("move_obstacle", c.move_obstacle, {.doc = "An obstacle that stands elsewhere."});
+  v.field("remove_obstacle", c.remove_obstacle, {.doc = "The name of an obstacle that goes."});
 }
 
 void validate(const ChangeFile& c, CheckContext& check);
@@ -201,8 +205,9 @@ void describe(V& v, ScenarioFile& c) {
   v.required(
       "robots", c.robots,
       {.doc = "At least one.", .min_items = 1, .max_items = static_cast<std::size_t>(kMaxRobots)});
-  v.field("changes", c.changes,
-          {.doc = "Parameters that change while the run goes.", .max_items = 100'000});
+  v.field(
+      "changes", c.changes,
+      {.doc = "Parameters and obstacles that change while the run goes.", .max_items = 100'000});
   v.field("checks", c.checks, {.doc = "What must hold for the run to count as good."});
   v.field("picture", c.picture, {.doc = "Settings of the picture of the run; null: the usual."});
 }

@@ -29,6 +29,14 @@ inline void validate(const ObstacleFile& c, CheckContext& check) {
 }
 
 template <class V>
+void describe(V& v, MoveObstacleFile& c) {
+  v.required("name", c.name, {.doc = "An obstacle that stands then."});
+  v.field("x_m", c.x_m, length_m("Where the outline's origin stands from then on."));
+  v.field("y_m", c.y_m, length_m("Where the outline's origin stands from then on."));
+  v.field("yaw_deg", c.yaw_deg, angle_deg("Turn of the outline about its origin."));
+}
+
+template <class V>
 void describe(V& v, MapFile& c) {
   v.required("file", c.file,
              {.doc = "The YAML of a ROS map_server map, relative to this file.", .min_items = 1});

@@ -9,6 +9,14 @@ Result<WorldFile> read_world_text(std::string_view text, std::string_view file_n
   return read_text<WorldFile>(text, file_name);
 }
 
+Result<ObstacleFile> read_obstacle_text(std::string_view text, std::string_view file_name) {
+  return read_text<ObstacleFile>(text, file_name);
+}
+
+Result<MoveObstacleFile> read_move_text(std::string_view text, std::string_view file_name) {
+  return read_text<MoveObstacleFile>(text, file_name);
+}
+
 Result<WorldFile> read_world_file(const std::filesystem::path& path) {
   return read_file<WorldFile>(path);
 }

@@ -103,6 +103,12 @@ std::string_view to_string(EventKind kind) noexcept {
       return "changed";
     case EventKind::kChangeRefused:
       return "change refused";
+    case EventKind::kObstacleAdded:
+      return "obstacle added";
+    case EventKind::kObstacleMoved:
+      return "obstacle moved";
+    case EventKind::kObstacleRemoved:
+      return "obstacle removed";
     case EventKind::kCaptured:
       return "captured";
   }
@@ -191,6 +197,7 @@ Status Engine::Impl::make() {
 Status Engine::Impl::reset() {
   tell_complaints();
   halt();
+  restore_obstacles();
   restore_bodies();
   radio->close();
   radio->clear();
@@ -217,6 +224,7 @@ void Engine::Impl::set_initial_state() {
   pending.clear();
   by_hand = 0;
   next_change = 0;
+  next_obstacle = 0;
   world_age = {};
   set_up_guards();
   history.clear();

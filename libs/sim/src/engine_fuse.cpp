@@ -60,6 +60,7 @@ void Engine::Impl::show_past(SimTime stamp) {
     past_world.world.set_robot(robot, state);
     past_world.world.set_touch(robot, a.touch[r]);
   }
+  truth.journal.show(past_world.world, past_world.obstacles, truth.journal.revision_at(stamp));
   past_world.world.set_time(stamp);
   past_world.world.rebuild();
   past_world.valid = true;

@@ -56,8 +56,9 @@ struct GuardState {
 struct FusionWorld {
   explicit FusionWorld(const world::WorldModel& model) : world(model) {}
   world::Snapshot world;
-  bool valid = false;         ///< Still shows what is known of its time.
-  std::vector<Mover> movers;  ///< The poses in `world`.
+  bool valid = false;           ///< Still shows what is known of its time.
+  std::uint64_t obstacles = 0;  ///< The revision of the obstacles that it shows.
+  std::vector<Mover> movers;    ///< The poses in `world`.
   std::vector<ContactNote> notes;
   FanScratch scratch;
 };
@@ -167,6 +168,11 @@ struct Engine::Impl {
   void release(RobotId robot, Author author);
   void arm(RobotId robot, Author author);
   Status change(RobotId robot, std::span<const ParameterChange> changes, Author author);
+  Result<ChangedObstacle> change_obstacle(const ObstacleChange& change, Author author);
+  void make_obstacle_changes();
+  /// The same for the snapshots of the past.
+  void obstacle_changed(const ObstacleChange& change);
+  void restore_obstacles();
   /// One of several hosts: what may be changed without the authority.
   [[nodiscard]] Status check_own(RobotId robot, std::span<const ParameterChange> changes) const;
   void body_changed(RobotId robot);
@@ -214,6 +220,7 @@ struct Engine::Impl {
   std::uint64_t step = 0;
   SimTime now;
   std::unique_ptr<world::Snapshot> past;  ///< For sample_at(); made when it is first asked.
+  std::uint64_t past_obstacles = 0;       ///< The revision of the obstacles that it shows.
   bool past_valid = false;                ///< Still shows what is known of its time.
   HistoryRing history;
   std::vector<ReportedPose> reported;
@@ -227,6 +234,7 @@ struct Engine::Impl {
   Duration world_age;
   std::uint64_t by_hand = 0;
   std::size_t next_change = 0;
+  std::size_t next_obstacle = 0;  ///< Of spec.obstacle_changes.
   RunHash hash;
   PhaseTimes phase_times;
   FanScratch past_scratch;

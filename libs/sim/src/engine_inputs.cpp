@@ -145,6 +145,7 @@ void Engine::Impl::note_input(RobotId robot, EventKind kind, std::string text, A
 }
 
 void Engine::Impl::make_changes() {
+  make_obstacle_changes();
   while (next_change < spec.changes.size() && spec.changes[next_change].step <= step) {
     make_change(spec.changes[next_change++]);
   }
@@ -235,6 +236,38 @@ void Engine::Impl::tell_program_of_body(RobotId robot) {
   if (target) static_cast<void>(target->update(target->present));
 }
 
+Result<ChangedObstacle> Engine::Impl::change_obstacle(const ObstacleChange& change, Author author) {
+  std::string note;
+  RAVE_TRY_ASSIGN(const ObstacleChange made, truth.change_obstacle(change, step_time(step), note));
+  obstacle_changed(made);
+  if (author == Author::kHand) ++by_hand;
+  pending.push_back(noted_obstacle(step, made, note, author, hash));
+  return ChangedObstacle{made.id, step, pending.back().text};
+}
+
+void Engine::Impl::make_obstacle_changes() {
+  for (; next_obstacle < spec.obstacle_changes.size() &&
+         spec.obstacle_changes[next_obstacle].step <= step;
+       ++next_obstacle) {
+    const auto made = change_obstacle(spec.obstacle_changes[next_obstacle].change, Author::kRun);
+    if (made) continue;
+    note_input(RobotId(), EventKind::kChangeRefused, made.error().text(), Author::kRun);
+  }
+}
+
+void Engine::Impl::obstacle_changed(const ObstacleChange& change) {
+  // Where it was and is, they find in the journal.
+  if (change.kind != ObstacleChange::Kind::kAdd) return;
+  if (past) past->obstacle_added();
+  if (fusion_world) fusion_world->world.obstacle_added();
+}
+
+void Engine::Impl::restore_obstacles() {
+  if (!truth.restore_obstacles()) return;
+  past.reset();
+  if (fusion_world) fusion_world = std::make_unique<FusionWorld>(spec.world);
+}
+
 void Engine::Impl::restore_bodies() {
   for (const RobotId robot : truth.restore_bodies()) body_changed(robot);
 }
@@ -296,6 +329,13 @@ Status Engine::set_parameters(RobotId robot, std::span<const ParameterChange> ch
   if (changes.empty()) return fail(ErrorCode::kInvalidArgument, "nothing to change");
   if (impl_->host) RAVE_TRY(impl_->check_own(robot, changes));
   return impl_->change(robot, changes, author);
+}
+
+Result<ChangedObstacle> Engine::change_obstacle(const ObstacleChange& change, Author author) {
+  if (impl_->host) {
+    return fail(ErrorCode::kState, "obstacles are the authority's to change");
+  }
+  return impl_->change_obstacle(change, author);
 }
 
 std::string Engine::parameter(RobotId robot, ParameterChange::Part part, std::uint32_t index,

@@ -19,6 +19,7 @@ void Engine::Impl::look_back(SimTime stamp) {
     past->set_robot(RobotId(r), state);
     past->set_touch(RobotId(r), frame->touch[r]);
   }
+  truth.journal.show(*past, past_obstacles, truth.journal.revision_at(stamp));
   past->set_time(stamp);
   past->rebuild();
   past_valid = true;
@@ -63,7 +64,10 @@ Result<SampleHeader> Engine::sample_at(RobotId robot, std::uint32_t sensor, SimT
     return fail(ErrorCode::kInvalidArgument, "sensor `{}` is not virtual", slots.spec->name);
   }
   RAVE_TRY_ASSIGN(const Pose2 X_WR, pose_at(robot, stamp));
-  if (!engine.past) engine.past = std::make_unique<world::Snapshot>(engine.spec.world);
+  if (!engine.past) {
+    engine.past = std::make_unique<world::Snapshot>(engine.spec.world);
+    engine.past_obstacles = engine.truth.journal.revision();
+  }
   if (!engine.past_valid || engine.past->time() != stamp) {
     for (std::uint32_t r = 0; r < engine.truth.movers.size(); ++r) {
       const auto pose = pose_at(RobotId(r), stamp);

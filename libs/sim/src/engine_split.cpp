@@ -154,6 +154,10 @@ Status Engine::Impl::make_changes(const WorldStep& world) {
     body_changed(resized.robot);
     tell_program_of_body(resized.robot);
   }
+  for (const ObstacleChange& change : world.obstacles) {
+    truth.put_obstacle(change, step_time(step));
+    obstacle_changed(change);
+  }
   for (const WorldInput& input : world.inputs) do_input(input);
   for (; next_change < spec.changes.size() && spec.changes[next_change].step <= step;
        ++next_change) {
@@ -175,6 +179,8 @@ void Engine::Impl::do_input(const WorldInput& input) {
     case WorldInput::Kind::kArm:
       arm(input.robot, input.author);
       return;
+    case WorldInput::Kind::kObstacle:
+      return;  // the authority has done it
     case WorldInput::Kind::kChange:
       break;
   }

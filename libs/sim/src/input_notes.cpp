@@ -14,6 +14,53 @@ Event noted_input(std::uint64_t step, RobotId robot, EventKind kind, std::string
   return {step, robot, kind, BodyId(), std::move(text)};
 }
 
+namespace {
+
+void add_shape(ItemHash& item, const world::Shape& shape) {
+  item.add(static_cast<std::uint64_t>(shape.kind));
+  item.add_bytes(std::as_bytes(shape.vertices()));
+  for (const double number :
+       {shape.centre.x, shape.centre.y, shape.radius_m, shape.z0_m, shape.z1_m}) {
+    item.add(number);
+  }
+}
+
+void add_body(ItemHash& item, const world::Body& body) {
+  item.add(static_cast<std::uint64_t>(body.layer));
+  item.add(body.code ? std::uint64_t{1} + static_cast<std::uint32_t>(*body.code) : 0);
+  item.add(body.code_z0_m);
+  item.add(body.code_z1_m);
+  for (const world::Shape& shape : body.shapes) add_shape(item, shape);
+}
+
+EventKind kind_of(ObstacleChange::Kind kind) noexcept {
+  if (kind == ObstacleChange::Kind::kAdd) return EventKind::kObstacleAdded;
+  return kind == ObstacleChange::Kind::kMove ? EventKind::kObstacleMoved
+                                             : EventKind::kObstacleRemoved;
+}
+
+}  // namespace
+
+Event noted_obstacle(std::uint64_t step, const ObstacleChange& change, std::string_view note,
+                     Author author, RunHash& hash) {
+  const Pose2& X_WB = change.X_WB;
+  const bool placed = change.kind != ObstacleChange::Kind::kRemove;
+  std::string text = fmt::format("`{}`", change.name);
+  if (placed) text += fmt::format(" at ({}, {}), yaw {} rad", X_WB.x, X_WB.y, X_WB.yaw);
+  text += note;
+  if (author == Author::kHand) text += " (by hand)";
+  const EventKind kind = kind_of(change.kind);
+  ItemHash item(step, RobotId::kNone, HashChannel::kInput, static_cast<std::uint32_t>(kind));
+  item.add(std::uint64_t{change.id.value()});
+  item.add_bytes(std::as_bytes(std::span(text)));
+  if (placed) {
+    for (const double number : {X_WB.x, X_WB.y, X_WB.yaw}) item.add(number);
+  }
+  if (change.kind == ObstacleChange::Kind::kAdd) add_body(item, change.body);
+  hash.add(item);
+  return {step, RobotId(), kind, change.id, std::move(text)};
+}
+
 Status check_body_change(const ParameterChange& change) {
   const ParameterChange* const one[] = {&change};
   const auto checked = with_changes(body_params(), {}, one);

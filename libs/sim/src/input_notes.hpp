@@ -6,6 +6,7 @@
 
 #include "rave/base/hash.hpp"
 #include "rave/sim/engine.hpp"
+#include "rave/sim/obstacle_change.hpp"
 
 /// How inputs of a run are written down, the same whoever carries them out.
 namespace rave::sim {
@@ -13,6 +14,11 @@ namespace rave::sim {
 /// The event of an input that counts from `step` on; adds it to the hash.
 [[nodiscard]] Event noted_input(std::uint64_t step, RobotId robot, EventKind kind, std::string text,
                                 Author author, RunHash& hash);
+
+/// The event of a change of an obstacle that was made, and counts from `step` on; adds it to the
+/// hash, with all its numbers. `note`: what else is worth telling.
+[[nodiscard]] Event noted_obstacle(std::uint64_t step, const ObstacleChange& change,
+                                   std::string_view note, Author author, RunHash& hash);
 
 /// Whether the change of a body names what bodies have, with a value that it may have. Errors:
 /// kNotFound, kInvalidArgument.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <tuple>
 
 namespace rave::sim {
@@ -187,6 +188,31 @@ Status check_inputs(const EngineSpec& spec, const WorldStep& world) {
   return {};
 }
 
+/// One after the other, as they will be made.
+Status check_obstacles(const EngineSpec& spec, const WorldStep& world) {
+  std::uint32_t next = spec.world.body_count();
+  std::set<BodyId> removed;
+  for (const ObstacleChange& change : world.obstacles) {
+    RAVE_TRY(check_obstacle_change(change));
+    const BodyId id = change.id;
+    const auto wrong_id = [&](std::string_view what) {
+      return fail(ErrorCode::kInvalidArgument, "obstacle `{}`, number {}: {}", change.name,
+                  id.value(), what);
+    };
+    if (change.kind == ObstacleChange::Kind::kAdd) {
+      if (id.value() != next) return wrong_id(fmt::format("added, but number {} comes next", next));
+      ++next;
+      continue;
+    }
+    const world::Obstacle* const obstacle = spec.world.obstacle(id.value());
+    const bool comes = id.value() >= spec.world.body_count() && id.value() < next;
+    const bool stands = comes || (obstacle != nullptr && !obstacle->removed);
+    if (!stands || removed.contains(id)) return wrong_id("changed, but there is no such obstacle");
+    if (change.kind == ObstacleChange::Kind::kRemove) removed.insert(id);
+  }
+  return {};
+}
+
 }  // namespace
 
 Status check_report(const EngineSpec& spec, const HostRobots& own,
@@ -223,6 +249,7 @@ Status check_world_step(const EngineSpec& spec, const WorldStep& world) {
     if (resized.robot.value() < count && std::isfinite(resized.scale)) continue;
     return wrong(spec, resized.robot.value(), "a size that no body can have");
   }
+  RAVE_TRY(check_obstacles(spec, world));
   RAVE_TRY(check_inputs(spec, world));
   RAVE_TRY(check_samples(spec, world.step, world.samples, is_any));
   return check_sent(spec, world.step, world.sent, is_any);

@@ -22,28 +22,29 @@ Motion2 scaled(const Motion2& motion, double s) noexcept {
 }  // namespace
 
 Resolver::Resolver(const world::WorldModel& model) : model_(&model) {
-  for (std::uint32_t body = 0; body < model.body_count(); ++body) {
-    radius_m_.push_back(model.body(body).radius_m());
+  for (const world::Obstacle& obstacle : model.obstacles) {
+    radius_m_.push_back(obstacle.body.radius_m());
   }
+  for (const world::Body& robot : model.robots) radius_m_.push_back(robot.radius_m());
 }
 
 void Resolver::body_changed(std::uint32_t id) {
   radius_m_[model_->obstacles.size() + id] = model_->robots[id].radius_m();
 }
 
-Pose2 Resolver::pose_of(std::uint32_t body, std::span<const Mover> movers) const {
-  const std::size_t obstacles = model_->obstacles.size();
-  return body < obstacles ? model_->obstacles[body].X_WB : movers[body - obstacles].X_WR;
+Pose2 Resolver::pose_of(std::uint32_t body, const world::Snapshot& snapshot,
+                        std::span<const Mover> movers) const {
+  if (!model_->is_robot(body)) return snapshot.obstacle_pose(BodyId(body));
+  return movers[body - model_->obstacles.size()].X_WR;
 }
 
 Pose2 Resolver::pose_in_turn(std::uint32_t body, std::uint32_t id,
                              std::span<const Mover> movers) const {
   const auto robot = static_cast<std::uint32_t>(body - model_->obstacles.size());
-  if (!ahead_.empty() && body >= model_->obstacles.size() && robot > id &&
-      ahead_[robot] == kAhead) {
+  if (!ahead_.empty() && model_->is_robot(body) && robot > id && ahead_[robot] == kAhead) {
     return snapshot_->robot(RobotId(robot)).X_WR;
   }
-  return pose_of(body, movers);
+  return pose_of(body, *snapshot_, movers);
 }
 
 void Resolver::find_near(std::uint32_t id, Vec2 p_W, double reach_m,
@@ -66,8 +67,7 @@ bool Resolver::advance_until_hit(std::uint32_t id, const Motion2& motion, std::s
   for (const std::uint32_t body : near_) {
     if (body == ignored_) continue;
     const Pose2 X_WB = pose_in_turn(body, id, movers);
-    const bool standing = body < model_->obstacles.size();
-    if (!standing) {
+    if (model_->is_robot(body)) {
       const double reach = length_m + radius_m_[self] + radius_m_[body] + kPassOver_m;
       if (squared_norm(X_WB.position() - mover.X_WR.position()) > reach * reach) continue;
     }
@@ -143,11 +143,12 @@ bool Resolver::push_out(std::uint32_t real, std::uint32_t id, std::span<Mover> m
 double Resolver::make_way(std::uint32_t id, const world::Snapshot& snapshot, double slack_m,
                           std::span<Mover> movers, std::vector<ContactNote>& notes) {
   ahead_ = {};
+  snapshot_ = &snapshot;
   const auto obstacles = static_cast<std::uint32_t>(model_->obstacles.size());
   find_near(id, movers[id].X_WR.position(), radius_m_[obstacles + id] + slack_m + 1e-3, snapshot);
   crowd_.clear();
   for (const std::uint32_t body : near_) {
-    if (body >= obstacles && movers[body - obstacles].simulated) {
+    if (model_->is_robot(body) && movers[body - obstacles].simulated) {
       crowd_.push_back(body - obstacles);
     }
   }
@@ -182,7 +183,7 @@ void Resolver::probe(std::uint32_t id, const world::Snapshot& snapshot, double s
   for (const std::uint32_t body : near_) {
     if (!contains(layers, model_->body(body).layer)) continue;
     const Separation gap = world::separation(model_->robots[id], movers[id].X_WR,
-                                             model_->body(body), pose_of(body, movers));
+                                             model_->body(body), pose_of(body, snapshot, movers));
     if (gap.distance_m < least.distance_m) {
       least = gap;
       nearest = body;

@@ -75,14 +75,16 @@ class Resolver {
   /// Moves until something stops it; true if something did, which is then described in `impact_`
   /// and `obstacle_`.
   bool advance_until_hit(std::uint32_t id, const Motion2& motion, std::span<Mover> movers);
-  [[nodiscard]] Pose2 pose_of(std::uint32_t body, std::span<const Mover> movers) const;
+  /// Of obstacles as the snapshot shows them, which may be one of the past.
+  [[nodiscard]] Pose2 pose_of(std::uint32_t body, const world::Snapshot& snapshot,
+                              std::span<const Mover> movers) const;
   /// The same while robot `id` moves.
   [[nodiscard]] Pose2 pose_in_turn(std::uint32_t body, std::uint32_t id,
                                    std::span<const Mover> movers) const;
   bool push_out(std::uint32_t real, std::uint32_t id, std::span<Mover> movers);
 
   const world::WorldModel* model_;
-  std::vector<double> radius_m_;  ///< Per body, about its origin.
+  std::vector<double> radius_m_;  ///< Per body of the start, about its origin.
   std::vector<std::uint32_t> found_;
   std::vector<std::uint32_t> near_;   ///< Bodies that may be met.
   std::vector<std::uint32_t> crowd_;  ///< Simulated robots near a real one.
@@ -90,7 +92,7 @@ class Resolver {
   Impact impact_;
   std::uint32_t obstacle_ = 0;
   std::span<const std::uint8_t> ahead_;        ///< During move() alone.
-  const world::Snapshot* snapshot_ = nullptr;  ///< The same.
+  const world::Snapshot* snapshot_ = nullptr;  ///< During move() and make_way().
 };
 
 }  // namespace rave::sim

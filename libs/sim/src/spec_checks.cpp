@@ -35,6 +35,13 @@ Status check_world(const EngineSpec& spec) {
                   "robot `{}` is real, so something must say where it is: `pose_from`", robot.name);
     }
   }
+  if (!spec.world.added.empty()) {
+    return fail(ErrorCode::kInvalidArgument,
+                "the world of a run begins without obstacles that came later");
+  }
+  for (const ScheduledObstacle& scheduled : spec.obstacle_changes) {
+    RAVE_TRY(check_obstacle_change(scheduled.change));
+  }
   return {};
 }
 

@@ -42,6 +42,8 @@ struct WorldAuthority::Impl {
   void do_input(WorldInput& input, WorldStep& world);
   Status change_body(RobotId robot, std::span<const ParameterChange> changes, Author author,
                      WorldStep& world);
+  Status change_obstacle(const ObstacleChange& change, Author author, WorldStep& world);
+  void make_obstacle_changes(WorldStep& world);
   void place_real_robots();
   void write_poses(WorldStep& world) const;
   void write_contacts(WorldStep& world);
@@ -62,6 +64,7 @@ struct WorldAuthority::Impl {
   std::vector<WorldInput> asked;  ///< For the next step.
   std::uint64_t inputs = 0;
   std::size_t next_change = 0;
+  std::size_t next_obstacle = 0;  ///< Of spec.obstacle_changes.
   std::vector<InputRefusal> refusals;
   std::vector<std::pair<const SentPacket*, const SentPackets*>> sent;  ///< During step() alone.
   std::vector<std::uint32_t> seen;  ///< Robots that were pushed, with repetition.
@@ -83,6 +86,7 @@ WorldAuthority::Impl::Impl(EngineSpec s, std::vector<std::uint32_t> h)
 }
 
 void WorldAuthority::Impl::begin() {
+  static_cast<void>(truth.restore_obstacles());
   static_cast<void>(truth.restore_bodies());
   truth.begin();
   step = 0;
@@ -93,6 +97,7 @@ void WorldAuthority::Impl::begin() {
   asked.clear();
   inputs = 0;
   next_change = 0;
+  next_obstacle = 0;
   refusals.clear();
 }
 
@@ -154,6 +159,7 @@ void WorldAuthority::Impl::finish_step() {
 void WorldAuthority::Impl::make_changes(WorldStep& world) {
   for (WorldInput& input : asked) do_input(input, world);
   asked.clear();
+  make_obstacle_changes(world);
   for (; next_change < spec.changes.size() && spec.changes[next_change].step <= step;
        ++next_change) {
     const ScheduledChange& scheduled = spec.changes[next_change];
@@ -165,7 +171,34 @@ void WorldAuthority::Impl::make_changes(WorldStep& world) {
   }
 }
 
+void WorldAuthority::Impl::make_obstacle_changes(WorldStep& world) {
+  for (; next_obstacle < spec.obstacle_changes.size() &&
+         spec.obstacle_changes[next_obstacle].step <= step;
+       ++next_obstacle) {
+    const Status status =
+        change_obstacle(spec.obstacle_changes[next_obstacle].change, Author::kRun, world);
+    if (status) continue;
+    events.push_back(noted_input(step, RobotId(), EventKind::kChangeRefused, status.error().text(),
+                                 Author::kRun, hash));
+  }
+}
+
+Status WorldAuthority::Impl::change_obstacle(const ObstacleChange& change, Author author,
+                                             WorldStep& world) {
+  std::string note;
+  const SimTime from{static_cast<std::int64_t>(step) * spec.step.ns};
+  RAVE_TRY_ASSIGN(ObstacleChange made, truth.change_obstacle(change, from, note));
+  events.push_back(noted_obstacle(step, made, note, author, hash));
+  world.obstacles.push_back(std::move(made));
+  return {};
+}
+
 void WorldAuthority::Impl::do_input(WorldInput& input, WorldStep& world) {
+  if (input.kind == WorldInput::Kind::kObstacle) {
+    const Status status = change_obstacle(*input.obstacle, input.author, world);
+    if (!status) refusals.push_back({input.sequence, status.error().text()});
+    return;
+  }
   const bool here = input.kind == WorldInput::Kind::kChange && is_of_body(input.changes.front());
   if (!here) {
     world.inputs.push_back(std::move(input));
@@ -373,6 +406,10 @@ void WorldAuthority::speak_for(std::uint32_t host, HostReport& report) const {
 
 Result<std::uint64_t> WorldAuthority::ask(WorldInput input) {
   Impl& authority = *impl_;
+  if (input.kind == WorldInput::Kind::kObstacle) {
+    if (!input.obstacle) return fail(ErrorCode::kInvalidArgument, "nothing to change");
+    RAVE_TRY(check_obstacle_change(*input.obstacle));
+  }
   const bool change = input.kind == WorldInput::Kind::kChange;
   if ((input.robot.valid() || change) && input.robot.value() >= authority.spec.robots.size()) {
     return fail(ErrorCode::kInvalidArgument, "there is no robot {}", input.robot.value());
@@ -403,6 +440,7 @@ Pose2 WorldAuthority::pose(RobotId robot) const noexcept {
 }
 std::span<const Event> WorldAuthority::events() const noexcept { return impl_->done_events; }
 RunHash WorldAuthority::hash() const noexcept { return impl_->done_hash; }
+const world::WorldModel& WorldAuthority::world() const noexcept { return impl_->spec.world; }
 std::uint32_t WorldAuthority::host_count() const noexcept {
   return static_cast<std::uint32_t>(impl_->hosts.size());
 }

@@ -138,9 +138,8 @@ void WorldTruth::resolve(std::uint64_t step, std::vector<Event>& events) {
   slack_m_ = motion.slack_m();
   for (const ContactNote& contact : notes) {
     touch[contact.robot] = {true, contact.direction_W};
-    const auto obstacles = static_cast<std::uint32_t>(spec.world.obstacles.size());
-    if (contact.other.value() < obstacles) continue;
-    const std::uint32_t other = contact.other.value() - obstacles;
+    if (!spec.world.is_robot(contact.other.value())) continue;
+    const std::size_t other = contact.other.value() - spec.world.obstacles.size();
     if (movers[other].simulated) touch[other] = {true, -contact.direction_W};
   }
   for (const ContactNote& contact : notes) {
@@ -198,9 +197,10 @@ Status WorldTruth::check_room(RobotId robot, const world::Body& body, double sca
   const auto own = static_cast<std::uint32_t>(spec.world.obstacles.size()) + r;
   for (std::uint32_t other = 0; other < spec.world.body_count(); ++other) {
     const std::uint32_t other_robot = other - (own - r);
-    const bool is_robot = other >= own - r;
-    if (other == own || (is_robot && !movers[other_robot].present)) continue;
-    const Pose2 X_WB = is_robot ? movers[other_robot].X_WR : spec.world.obstacles[other].X_WB;
+    const world::Obstacle* const obstacle = spec.world.obstacle(other);
+    const bool is_robot = obstacle == nullptr;
+    if (other == own || (is_robot ? !movers[other_robot].present : obstacle->removed)) continue;
+    const Pose2 X_WB = is_robot ? movers[other_robot].X_WR : obstacle->X_WB;
     const world::Body& theirs = spec.world.body(other);
     const double gap_m = world::separation(body, movers[r].X_WR, theirs, X_WB).distance_m;
     if (gap_m >= kApart_m) continue;

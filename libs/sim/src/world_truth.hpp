@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "motion_phase.hpp"
+#include "obstacle_journal.hpp"
 #include "rave/base/hash.hpp"
 #include "rave/sim/engine.hpp"
+#include "rave/sim/obstacle_change.hpp"
 #include "rave/sim/thread_pool.hpp"
 #include "resolver.hpp"
 
@@ -19,7 +21,8 @@ namespace rave::sim {
 /// An Engine with a part of the robots fills in what its authority says, and calls show() alone.
 /// Vectors are by robot. Belongs to one thread; uses the pool inside its phases.
 struct WorldTruth {
-  /// Keeps references to both, which must outlive it. Bodies in `spec` change with resize().
+  /// Keeps references to both, which must outlive it. Bodies in `spec` change with resize(), its
+  /// obstacles with change_obstacle().
   WorldTruth(EngineSpec& spec, ThreadPool& pool);
   WorldTruth(const WorldTruth&) = delete;
   WorldTruth& operator=(const WorldTruth&) = delete;
@@ -57,6 +60,16 @@ struct WorldTruth {
   /// Gives all robots back the bodies that they had, and returns whose changed.
   [[nodiscard]] std::vector<RobotId> restore_bodies();
 
+  /// Adds, moves or removes an obstacle, which counts from the time `from` on; between resolve()
+  /// and make_way(). Returns the change with id and name, and appends to `note` what is worth
+  /// telling. Errors: kInvalidArgument (what check_obstacle_change() says, a name that is taken,
+  /// too many, it would overlap a simulated robot), kNotFound; then everything is as it was.
+  Result<ObstacleChange> change_obstacle(ObstacleChange change, SimTime from, std::string& note);
+  /// The same without a look at what is around: somebody else has looked, and given the id.
+  void put_obstacle(const ObstacleChange& change, SimTime from);
+  /// Puts the obstacles of the start back, and forgets all others; false if nothing had changed.
+  bool restore_obstacles();
+
   /// Robots in the order of their ids, by blocks, whatever their groups.
   static constexpr std::size_t kRobotBlock = 256;
   [[nodiscard]] std::size_t robot_blocks() const noexcept {
@@ -78,6 +91,7 @@ struct WorldTruth {
   std::vector<TouchState> touch;
   std::vector<ContactNote> notes;  ///< Of the last phase.
   std::vector<double> radius_m;    ///< Of each robot's body about its origin.
+  ObstacleJournal journal;
 
  private:
   double place_block(std::uint32_t first, std::uint32_t last);
@@ -85,6 +99,10 @@ struct WorldTruth {
   void put_body(RobotId robot, const world::Body& body);
   [[nodiscard]] Result<world::Body> body_at(RobotId robot, double scale) const;
   Status check_room(RobotId robot, const world::Body& body, double scale) const;
+  [[nodiscard]] Result<BodyId> find_obstacle(const ObstacleChange& change) const;
+  Status check_new_obstacle(const ObstacleChange& change) const;
+  Status check_room_for(const ObstacleChange& change, const world::Body& body,
+                        std::string& note) const;
 
   std::vector<std::uint8_t> touching_before_;
   std::vector<std::uint8_t> pinned_before_;
@@ -94,6 +112,7 @@ struct WorldTruth {
   ThreadPool::Effort place_effort_, hash_effort_;
   std::map<std::uint32_t, world::Body> original_bodies_;  ///< Of robots that were resized.
   std::map<std::uint32_t, double> scales_;                ///< Of the same.
+  std::map<std::uint32_t, Pose2> original_places_;        ///< Of obstacles that have changed.
 };
 
 /// Puts the events of a step in order, whoever noted them first, and adds them to the hash.

@@ -288,6 +288,70 @@ TEST(SplitRefusal, InputsThatCannotBeCarriedOut) {
             "the body of robot `r0` is the authority's to change");
 }
 
+ObstacleChange crate(const Pose2& X_WB) {
+  ObstacleChange change;
+  change.name = "crate";
+  change.X_WB = X_WB;
+  change.body = box({}, 0.2, 0.2).body;
+  return change;
+}
+
+TEST(SplitRefusal, ObstaclesOfAWorldThatCannotBe) {
+  // No obstacle, four robots: the next body is number 4.
+  const auto with = [](std::vector<ObstacleChange> changes) {
+    return world_refusal([&](WorldStep& world) { world.obstacles = std::move(changes); });
+  };
+  ObstacleChange next = crate({9, 9, 0});
+  next.id = BodyId(4);
+  ObstacleChange gap = next;
+  gap.id = BodyId(5);
+  EXPECT_EQ(with({gap}), "obstacle `crate`, number 5: added, but number 4 comes next");
+  EXPECT_EQ(with({next, next}), "obstacle `crate`, number 4: added, but number 5 comes next");
+  ObstacleChange nowhere = next;
+  nowhere.X_WB.x = kNan;
+  EXPECT_EQ(with({nowhere}), "obstacle `crate`: x is nan; expected within +-10000000 m");
+  ObstacleChange gone = next;
+  gone.kind = ObstacleChange::Kind::kRemove;
+  EXPECT_EQ(with({next, gone, gone}),
+            "obstacle `crate`, number 4: changed, but there is no such obstacle");
+  gone.id = BodyId(0);
+  EXPECT_EQ(with({gone}), "obstacle `crate`, number 0: changed, but there is no such obstacle");
+  EXPECT_EQ(world_refusal([](WorldStep& world) {
+              WorldInput input;
+              input.kind = WorldInput::Kind::kObstacle;
+              world.inputs.push_back(input);
+            }),
+            "robot `number 4294967295`: an input that cannot be");
+}
+
+TEST(SplitRefusal, ObstaclesThatNobodyCanHave) {
+  SplitRun run(four, kFourOn);
+  WorldInput input;
+  input.kind = WorldInput::Kind::kObstacle;
+  EXPECT_EQ(run.authority->ask(input).error().text(), "nothing to change");
+  input.obstacle = crate({kNan, 0, 0});
+  EXPECT_FALSE(run.authority->ask(input));
+  input.obstacle = crate({0.1, 0, 0});
+  ASSERT_EQ(run.authority->ask(input), 1U);
+  input.obstacle = crate({5, 5, 0});
+  ASSERT_EQ(run.authority->ask(input), 2U);
+  ASSERT_EQ(run.authority->ask(input), 3U);
+  ASSERT_TRUE(run.advance());
+  ASSERT_EQ(run.authority->refusals().size(), 2U);
+  EXPECT_EQ(run.authority->refusals()[0].sequence, 1U);
+  EXPECT_NE(run.authority->refusals()[0].text.find("overlap the robot `r0`"), std::string::npos);
+  EXPECT_NE(run.authority->refusals()[1].text.find("there is an obstacle `crate` already"),
+            std::string::npos);
+  ASSERT_EQ(run.world.obstacles.size(), 1U);
+  EXPECT_EQ(run.world.obstacles[0].id, BodyId(4));
+  ASSERT_TRUE(run.advance());
+  EXPECT_TRUE(run.world.obstacles.empty());
+  EXPECT_EQ(run.hosts[1]->spec().world.added.at(0).body.name, "crate");
+  EXPECT_EQ(run.authority->world().added.size(), 1U);
+  EXPECT_EQ(run.hosts[0]->change_obstacle(crate({6, 6, 0})).error().text(),
+            "obstacles are the authority's to change");
+}
+
 TEST(SplitHost, HasNoInstancesForRobotsOfOtherHosts) {
   static constexpr VirtualActuatorOps kCounted = detail::virtual_actuator_ops<Counted>();
   EngineSpec spec;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint32_t kRobots = 30;
 constexpr std::uint64_t kSteps = 320;
-constexpr std::uint64_t kHandStep = 200;
+constexpr std::uint64_t kHandStep = 198;  // when a scan is taken, too
 constexpr RobotId kStoppedByHand(2);
 constexpr RobotId kChangedByHand(4);
 constexpr RobotId kFailing(24);
@@ -108,6 +108,33 @@ void add_changes(EngineSpec& spec) {
   spec.changes.push_back({140, RobotId(26), {larger}});      // real: the same
 }
 
+ObstacleChange obstacle(ObstacleChange::Kind kind, const std::string& name, const Pose2& X_WB,
+                        double side_m = 0.1) {
+  ObstacleChange change;
+  change.kind = kind;
+  change.name = name;
+  change.X_WB = X_WB;
+  if (kind == ObstacleChange::Kind::kAdd) change.body = box({}, side_m, side_m).body;
+  return change;
+}
+
+/// Posts between robots, one that hops over the wall and back, and what cannot be done.
+void add_obstacle_changes(EngineSpec& spec) {
+  using Kind = ObstacleChange::Kind;
+  spec.obstacle_changes = {{5, obstacle(Kind::kAdd, "post", {0.9, 0.9, 0.3})},
+                           {5, obstacle(Kind::kAdd, "hopper", {2.1, 0.9, 0})},
+                           {6, obstacle(Kind::kAdd, "third", {2.1, 2.1, 0.7})},
+                           {7, obstacle(Kind::kAdd, "fourth", {0.3, 1.5, 0})},
+                           {7, obstacle(Kind::kAdd, "fifth", {1.5, 0.3, 0})},
+                           {8, obstacle(Kind::kAdd, "sixth", {2.7, 1.5, 0})},
+                           {60, obstacle(Kind::kMove, "hopper", {5, 5, 0})},
+                           {70, obstacle(Kind::kAdd, "giant", {1.5, 1.5, 0}, 3)},  // refused
+                           {120, obstacle(Kind::kRemove, "post", {})},
+                           {125, obstacle(Kind::kRemove, "post", {})},  // refused
+                           {260, obstacle(Kind::kMove, "third", {-2, 0, 0})},
+                           {261, obstacle(Kind::kAdd, "post", {-3, 0, 0})}};
+}
+
 /// A crowded room with all that can pass between hosts.
 EngineSpec scene(unsigned threads, std::uint64_t seed = 11) {
   EngineSpec spec;
@@ -140,6 +167,7 @@ EngineSpec scene(unsigned threads, std::uint64_t seed = 11) {
     if (r % 5 != 4) spec.robots[r].team = r % 2 == 0 ? "red" : "blue";
   }
   add_changes(spec);
+  add_obstacle_changes(spec);
   return spec;
 }
 
@@ -156,6 +184,13 @@ std::vector<std::uint32_t> interleaved(std::uint32_t hosts) {
   return host_of;
 }
 
+/// The box in the middle goes.
+ObstacleChange removed_by_hand() {
+  ObstacleChange change;
+  change.kind = ObstacleChange::Kind::kRemove;
+  change.id = BodyId(4);
+  return change;
+}
 ParameterChange speed_by_hand() { return {ParameterChange::Part::kProgram, 0, "v", 1.0}; }
 
 /// What happened in a run of one engine, and its hash after each step.
@@ -173,6 +208,7 @@ Track alone(unsigned threads) {
       engine->stop(kStoppedByHand);
       const ParameterChange changes[] = {speed_by_hand()};
       EXPECT_TRUE(engine->set_parameters(kChangedByHand, changes));
+      EXPECT_TRUE(engine->change_obstacle(removed_by_hand()));
     }
     track.events.push_back(run(*engine, 1));
     track.hashes.push_back(engine->hash());
@@ -206,6 +242,10 @@ void ask_by_hand(WorldAuthority& authority) {
   change.robot = kChangedByHand;
   change.changes = {speed_by_hand()};
   ASSERT_TRUE(authority.ask(change));
+  WorldInput obstacle;
+  obstacle.kind = WorldInput::Kind::kObstacle;
+  obstacle.obstacle = removed_by_hand();
+  ASSERT_TRUE(authority.ask(obstacle));
 }
 
 /// Runs the scene on these hosts and compares each step with one engine.
@@ -234,7 +274,15 @@ TEST(Split, TheSceneIsAsBusyAsItIsMeantToBe) {
   EXPECT_EQ(of_kind(all, EventKind::kProgramFailed).size(), 1U);
   EXPECT_EQ(of_kind(all, EventKind::kProgramFailed)[0].robot, kFailing);
   EXPECT_EQ(of_kind(all, EventKind::kChanged).size(), 4U);
-  EXPECT_EQ(of_kind(all, EventKind::kChangeRefused).size(), 3U);
+  EXPECT_EQ(of_kind(all, EventKind::kChangeRefused).size(), 5U);
+  EXPECT_EQ(of_kind(all, EventKind::kObstacleAdded).size(), 7U);
+  EXPECT_EQ(of_kind(all, EventKind::kObstacleMoved).size(), 2U);
+  EXPECT_EQ(of_kind(all, EventKind::kObstacleRemoved).size(), 2U);
+  const auto contacts = of_kind(all, EventKind::kContact);
+  const auto with_new = std::count_if(contacts.begin(), contacts.end(), [](const Event& event) {
+    return event.other.value() >= 5 + kRobots;
+  });
+  EXPECT_GE(with_new, 4) << "robots run into what has come";
   EXPECT_EQ(of_kind(all, EventKind::kStopped).size(), 1U);
   EXPECT_GE(of_kind(all, EventKind::kPoseStale).size(), 4U);
   EXPECT_GE(of_kind(all, EventKind::kPoseBack).size(), 4U);
@@ -296,6 +344,10 @@ TEST(Split, TheMessageToTheHostsDoesNotDependOnTheSplit) {
     ASSERT_EQ(one.world.sent.packets.size(), three.world.sent.packets.size());
     ASSERT_EQ(one.world.touches.size(), three.world.touches.size());
     ASSERT_EQ(one.world.samples.size(), three.world.samples.size());
+    ASSERT_EQ(one.world.obstacles.size(), three.world.obstacles.size());
+    for (std::size_t i = 0; i < one.world.obstacles.size(); ++i) {
+      ASSERT_EQ(one.world.obstacles[i].id, three.world.obstacles[i].id);
+    }
   }
 }
 

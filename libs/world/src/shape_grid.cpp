@@ -106,7 +106,10 @@ bool ShapeGrid::lay_cells(std::span<const ShapePiece> pieces, double cell_m) {
 }
 
 void ShapeGrid::build(std::span<const ShapePiece> pieces, double cell_m) {
-  if (!lay_cells(pieces, cell_m)) return;
+  if (!lay_cells(pieces, cell_m)) {
+    sorted_.clear();
+    return;
+  }
   begin_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) + 1, 0);
   slots_.resize(pieces.size());
   for (std::size_t i = 0; i < pieces.size(); ++i) {

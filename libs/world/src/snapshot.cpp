@@ -35,17 +35,33 @@ Snapshot::Snapshot(const WorldModel& model)
   for (std::uint32_t body = 0; body < model.body_count(); ++body) {
     add_shapes(body, model.body(body));
   }
-  first_shape_.push_back(static_cast<std::uint32_t>(shapes_.size()));
-  first_disc_.push_back(static_cast<std::uint32_t>(cover_.size()));
-  vertices_.resize(vertices_.size() + kVertexPadding);
-  normals_.resize(vertices_.size());
+  end_shapes();
   make_pieces();
+  for (std::size_t i = 0; i < model.obstacle_count(); ++i) {
+    const Obstacle& obstacle = *model.obstacle(model.obstacle_id(i));
+    standing_.push_back({obstacle.X_WB, !obstacle.removed});
+    place_obstacle(model.obstacle_id(i));
+  }
   index_obstacles();
   for (const Body& body : model.robots) {
     largest_robot_m_ = std::max(largest_robot_m_, body.radius_m());
   }
   find_codes();
   rebuild();
+}
+
+void Snapshot::end_shapes() {
+  first_shape_.push_back(static_cast<std::uint32_t>(shapes_.size()));
+  first_disc_.push_back(static_cast<std::uint32_t>(cover_.size()));
+  vertices_.resize(vertices_.size() + kVertexPadding);
+  normals_.resize(vertices_.size());
+}
+
+void Snapshot::reopen_shapes() {
+  first_shape_.pop_back();
+  first_disc_.pop_back();
+  vertices_.resize(vertices_.size() - kVertexPadding);
+  normals_.resize(vertices_.size());
 }
 
 void Snapshot::add_shapes(std::uint32_t body, const Body& description) {
@@ -93,17 +109,64 @@ void Snapshot::make_pieces() {
   }
 }
 
+void Snapshot::place_obstacle(std::uint32_t body) {
+  const auto& [X_WB, present] = standing_[place_of(body)];
+  place(body, model_->body(body), X_WB.position(), sincos(X_WB.yaw), present);
+}
+
+void Snapshot::set_obstacle(BodyId obstacle, const Pose2& X_WB, bool present) {
+  standing_[place_of(obstacle.value())] = {X_WB, present};
+  place_obstacle(obstacle.value());
+}
+
+void Snapshot::obstacle_added() {
+  const std::uint32_t body = first_added() + static_cast<std::uint32_t>(model_->added.size()) - 1;
+  reopen_shapes();
+  add_shapes(body, model_->body(body));
+  end_shapes();
+  make_pieces();
+  standing_.push_back({model_->added.back().X_WB, false});
+  place_obstacle(body);
+}
+
+void Snapshot::added_dropped() {
+  const std::uint32_t shapes = first_shape_[first_added()];
+  reopen_shapes();
+  if (shapes < shapes_.size()) {
+    vertices_.resize(shapes_[shapes].first_vertex);
+    cover_.resize(first_disc_[shapes]);
+    first_disc_.resize(shapes);
+    shapes_.resize(shapes);
+    whole_.resize(shapes);
+  }
+  first_shape_.resize(first_added());
+  end_shapes();
+  make_pieces();
+  standing_.resize(model_->obstacles.size());
+}
+
 void Snapshot::index_obstacles() {
-  const auto count = static_cast<std::uint32_t>(model_->obstacles.size());
-  for (std::uint32_t body = 0; body < count; ++body) {
-    const auto& [description, X_WB] = model_->obstacles[body];
-    place(body, description, X_WB.position(), sincos(X_WB.yaw), true);
-    if (!description.code) continue;
-    landmarks_.push_back({BodyId(body), *description.code, X_WB.position(), description.code_z0_m,
-                          description.code_z1_m, RobotId(), description.radius_m()});
+  landmarks_.clear();
+  for (std::size_t i = 0; i < standing_.size(); ++i) {
+    const std::uint32_t body = model_->obstacle_id(i);
+    const Body& description = model_->body(body);
+    if (!description.code || !standing_[i].present) continue;
+    landmarks_.push_back({BodyId(body), *description.code, standing_[i].X_WB.position(),
+                          description.code_z0_m, description.code_z1_m, RobotId(),
+                          description.radius_m()});
   }
   fixed_landmarks_ = landmarks_.size();
-  fixed_.build(std::span(pieces_).first(first_disc_[first_shape_[count]]), kCellSize_m);
+  rebuild_landmarks();
+  const auto of_start = std::span(pieces_).first(first_disc_[first_shape_[first_robot()]]);
+  if (standing_.size() == model_->obstacles.size()) {
+    fixed_.build(of_start, kCellSize_m);
+  } else {
+    const auto later = std::span(pieces_).subspan(first_disc_[first_shape_[first_added()]]);
+    standing_pieces_.assign(of_start.begin(), of_start.end());
+    standing_pieces_.insert(standing_pieces_.end(), later.begin(), later.end());
+    fixed_.build(standing_pieces_, kCellSize_m);
+  }
+  ++generation_;
 }
 
 void Snapshot::find_codes() {
@@ -177,6 +240,13 @@ void Snapshot::body_changed(RobotId robot) {
   }
   make_pieces();
   ++generation_;
+  if (!model_->added.empty()) {
+    // What comes behind the robots has other numbers now.
+    for (std::size_t i = model_->obstacles.size(); i < standing_.size(); ++i) {
+      place_obstacle(model_->obstacle_id(i));
+    }
+    index_obstacles();
+  }
   // Never smaller: it only says how far a query has to look.
   largest_robot_m_ = std::max(largest_robot_m_, body.radius_m());
 }
@@ -200,8 +270,9 @@ void Snapshot::index_robots(double farthest_m) {
   } else {
     ++generation_;
   }
-  const std::uint32_t first = first_disc_[first_shape_[model_->obstacles.size()]];
-  moving_.build(std::span(pieces_).subspan(first), kCellSize_m);
+  const std::uint32_t first = first_disc_[first_shape_[first_robot()]];
+  const std::uint32_t last = first_disc_[first_shape_[first_added()]];
+  moving_.build(std::span(pieces_).subspan(first, last - first), kCellSize_m);
   rebuild_landmarks();
 }
 

@@ -283,6 +283,10 @@ Result<bus::LastWorld*> WorldMessage::fill(const sim::WorldStep& world,
   fill_sizes(world.resized, resized_, message_.resized);
   fill_parts(world, parts_, message_);
   fill_authority(authority);
+  if (!world.obstacles.empty()) {
+    return fail(ErrorCode::kInvalidArgument,
+                "obstacles cannot come and go in a run of several processes yet");
+  }
   RAVE_TRY(fill_inputs(world));
   return &message_;
 }

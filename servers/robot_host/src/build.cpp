@@ -6,6 +6,7 @@
 
 #include "devices.hpp"
 #include "guards.hpp"
+#include "obstacles.hpp"
 #include "places.hpp"
 #include "rave/config/map_image.hpp"
 #include "rave/math/scalar.hpp"
@@ -14,57 +15,6 @@
 
 namespace rave::robot_host {
 namespace {
-
-std::vector<Vec2> corners_of(const config::Outline& outline) {
-  std::vector<Vec2> corners;
-  if (outline.box_m) {
-    const double x = (*outline.box_m)[0] / 2;
-    const double y = (*outline.box_m)[1] / 2;
-    corners = {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
-  } else if (outline.polygon_m) {
-    for (const auto& [x, y] : *outline.polygon_m) corners.push_back({x, y});
-  }
-  return corners;
-}
-
-/// The shapes of one outline, placed at X_BO in its body.
-Result<std::vector<world::Shape>> shapes_of(const config::Outline& outline, const Pose2& X_BO,
-                                            const config::HeightRange& z_m) {
-  if (outline.disc_radius_m) {
-    RAVE_TRY_ASSIGN(auto disc,
-                    world::make_disc(X_BO.position(), *outline.disc_radius_m, z_m[0], z_m[1]));
-    return std::vector<world::Shape>{std::move(disc)};
-  }
-  std::vector<Vec2> corners = corners_of(outline);
-  for (Vec2& corner : corners) corner = transform(X_BO, corner);
-  return world::make_prisms(corners, z_m[0], z_m[1]);
-}
-
-Layer layer_of(config::ObstacleLayer layer) {
-  return layer == config::ObstacleLayer::kMappedReal ? Layer::kMappedReal
-                                                     : Layer::kVirtualObstacles;
-}
-
-Result<world::Obstacle> make_obstacle(const config::ObstacleFile& file) {
-  world::Obstacle obstacle;
-  obstacle.body.name = file.name.value;
-  obstacle.body.layer = layer_of(file.layer);
-  obstacle.body.colour = file.colour.value_or("");
-  obstacle.X_WB = {file.x_m, file.y_m, wrap_angle(deg_to_rad(file.yaw_deg))};
-  auto shapes = shapes_of(file.outline, {}, file.z_m);
-  if (!shapes) {
-    return fail_at(file.name.where, ErrorCode::kInvalidArgument, "obstacle `{}`: {}",
-                   file.name.value, shapes.error().message);
-  }
-  obstacle.body.shapes = *std::move(shapes);
-  if (file.barcode) {
-    const config::HeightRange code_z_m = file.barcode_z_m.value_or(file.z_m);
-    obstacle.body.code = *file.barcode;
-    obstacle.body.code_z0_m = code_z_m[0];
-    obstacle.body.code_z1_m = code_z_m[1];
-  }
-  return obstacle;
-}
 
 /// The walls of a map: one box for each rectangle of occupied cells.
 Status add_map(const config::MapFile& file, world::WorldModel& world) {
@@ -227,6 +177,7 @@ Result<BuiltScenario> build(const config::ExpandedScenario& scenario, plugin::Ca
   }
   RAVE_TRY(put_down_robots(scenario, spec));
   RAVE_TRY(add_changes(scenario, spec));
+  RAVE_TRY(add_obstacle_changes(scenario, spec));
   spec.local = options.local;
   if (options.others == nullptr) return built;
   const std::vector<std::uint8_t> here = groups_here(scenario, options);

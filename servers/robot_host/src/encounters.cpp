@@ -26,6 +26,10 @@ Encounters::Encounters(const BodyKinds& kinds, const sim::EngineSpec& spec)
 void Encounters::after_step(sim::Engine& engine) {
   if ((engine.steps_done() - 1) % every_ != 0) return;
   const auto count = static_cast<std::uint32_t>(engine.spec().robots.size());
+  const world::WorldModel& model = engine.spec().world;
+  while (radius_m_.size() < model.body_count()) {
+    radius_m_.push_back(model.body(static_cast<std::uint32_t>(radius_m_.size())).radius_m());
+  }
   for (std::uint32_t r = 0; r < count; ++r) {
     if (engine.snapshot().robot(RobotId(r)).present) look_around(engine, RobotId(r));
   }
@@ -47,7 +51,7 @@ void Encounters::look_around(const sim::Engine& engine, RobotId robot) {
     const bool other_robot = kinds_->is_robot(body);
     if (other_robot && body < self) continue;  // each pair once
     const Pose2 X_WB =
-        other_robot ? world.pose(RobotId(body - obstacles)) : model.obstacles[body].X_WB;
+        other_robot ? world.pose(RobotId(body - obstacles)) : world.obstacle_pose(BodyId(body));
     const double centres_m = std::sqrt(squared_norm(X_WB.position() - X_WR.position()));
     // Real robots come first in a name, so that each kind of pair has one.
     const bool swap = other_robot && kinds_->word(self) > kinds_->word(body);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "event_words.hpp"
 #include "requests.hpp"
 
 namespace rave::robot_host {
@@ -18,6 +19,9 @@ LogLevel level_of(sim::EventKind kind) {
     case sim::EventKind::kArmed:
     case sim::EventKind::kChanged:
     case sim::EventKind::kCaptured:
+    case sim::EventKind::kObstacleAdded:
+    case sim::EventKind::kObstacleMoved:
+    case sim::EventKind::kObstacleRemoved:
       return LogLevel::kInfo;
     default:
       return LogLevel::kWarning;
@@ -33,7 +37,9 @@ void tell_events(const sim::Engine& engine, std::span<const sim::Event> events, 
     all.push_back(event);
     // Contacts are daily bread in a crowd; the rest somebody should read now.
     if (log == nullptr || event.kind == sim::EventKind::kContact) continue;
-    log->write(level_of(event.kind), fmt::format("robot {}", spec.robots[event.robot.value()].name),
+    const std::string who =
+        fmt::format("{}{}", event.robot.valid() ? "robot " : "", subject_of(spec, event));
+    log->write(level_of(event.kind), who,
                fmt::format("{:.2f} s: {}: {}", engine.time().seconds(), to_string(event.kind),
                            event.text));
   }
@@ -43,13 +49,10 @@ std::string events_log(const sim::Engine& engine, const BodyKinds& kinds,
                        const std::vector<sim::Event>& events) {
   std::string text;
   for (const sim::Event& event : events) {
-    text +=
-        fmt::format("{:10.3f} s  {:<16} {:<14} {}{}\n",
-                    static_cast<double>(event.step) * engine.spec().step.seconds(),
-                    engine.spec().robots[event.robot.value()].name, to_string(event.kind),
-                    event.other.valid() ? fmt::format("with {} ", kinds.name(event.other.value()))
-                                        : std::string(),
-                    event.text);
+    text += fmt::format("{:10.3f} s  {:<16} {:<14} {}{}\n",
+                        static_cast<double>(event.step) * engine.spec().step.seconds(),
+                        subject_of(engine.spec(), event), to_string(event.kind),
+                        with_whom(kinds, event), event.text);
   }
   return text;
 }

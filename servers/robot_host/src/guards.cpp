@@ -53,13 +53,14 @@ Result<std::optional<sim::GuardSpec>> guard_spec(const config::RobotGroup& group
 Status add_changes(const config::ExpandedScenario& scenario, sim::EngineSpec& spec) {
   const double step_s = scenario.scenario.step_s.value;
   for (const config::ChangeFile& file : scenario.scenario.changes) {
-    for (const std::size_t r : config::robots_named(scenario, file.robot.value)) {
+    if (!file.robot) continue;
+    for (const std::size_t r : config::robots_named(scenario, file.robot->value)) {
       sim::ScheduledChange change;
       change.step = static_cast<std::uint64_t>(std::llround(file.at_s.value / step_s));
       change.robot = RobotId(static_cast<std::uint32_t>(r));
-      for (std::size_t i = 0; i < file.set.size(); ++i) {
-        RAVE_TRY_ASSIGN(auto parsed, parse_change(spec.types[spec.robots[r].type], file.set.key(i),
-                                                  file.set.child(i)));
+      for (std::size_t i = 0; i < file.set->size(); ++i) {
+        RAVE_TRY_ASSIGN(auto parsed, parse_change(spec.types[spec.robots[r].type], file.set->key(i),
+                                                  file.set->child(i)));
         change.changes.push_back(std::move(parsed));
       }
       spec.changes.push_back(std::move(change));

@@ -204,6 +204,20 @@ std::uint64_t shared_number(const config::ExpandedScenario& scenario) {
   return lock_step::scenario_number(config::write_expanded(shared));
 }
 
+Status check_can_be_shared(const BuiltScenario& built) {
+  if (!built.live_reason.empty()) {
+    return fail(ErrorCode::kInvalidArgument,
+                "hosts share a world in lock-step, which nothing by the wall clock can: {}",
+                built.live_reason);
+  }
+  if (!built.spec.obstacle_changes.empty()) {
+    return fail(ErrorCode::kInvalidArgument,
+                "the scenario changes obstacles while it runs, which hosts that share a world "
+                "cannot yet; run it in one process");
+  }
+  return {};
+}
+
 std::uint64_t interface_stamp() {
   return mix64(robot_interface_hash() ^ mix64(virtual_interface_hash()));
 }
@@ -220,11 +234,7 @@ Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::C
   how.others = options.others.get();
   RAVE_TRY_ASSIGN(BuiltScenario built, build(scenario, catalogue, how));
   options.others.reset();
-  if (!built.live_reason.empty()) {
-    return fail(ErrorCode::kInvalidArgument,
-                "hosts share a world in lock-step, which nothing by the wall clock can: {}",
-                built.live_reason);
-  }
+  RAVE_TRY(check_can_be_shared(built));
   for (const std::string& note : built.notes) console.warn("scenario", "{}", note);
   RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(built.spec)));
   RAVE_TRY_ASSIGN(const auto port, HostPort::open(options.bus,

@@ -6,14 +6,7 @@ namespace rave::robot_host {
 BodyKinds::BodyKinds(const sim::EngineSpec& spec, const std::vector<std::string>& robot_words)
     : first_robot_(static_cast<std::uint32_t>(spec.world.obstacles.size())) {
   for (const world::Obstacle& obstacle : spec.world.obstacles) {
-    const bool real = obstacle.body.layer == Layer::kMappedReal;
-    const bool landmark = real && obstacle.body.code.has_value();
-    words_.emplace_back(landmark ? "landmark" : (real ? "mapped_wall" : "virtual_obstacle"));
-    kinds_.push_back(landmark
-                         ? report::Kind::kLandmark
-                         : (real ? report::Kind::kMappedWall : report::Kind::kVirtualObstacle));
-    colours_.push_back(obstacle.body.colour);
-    names_.push_back(obstacle.body.name);
+    add(obstacle.body);
   }
   std::size_t real_robots = 0;
   for (std::size_t r = 0; r < spec.robots.size(); ++r) {
@@ -29,6 +22,21 @@ BodyKinds::BodyKinds(const sim::EngineSpec& spec, const std::vector<std::string>
     colours_.push_back(std::move(colour));
     names_.push_back(spec.robots[r].name);
   }
+  first_added_ = count();
+}
+
+void BodyKinds::add(const world::Body& obstacle) {
+  const bool real = obstacle.layer == Layer::kMappedReal;
+  const bool landmark = real && obstacle.code.has_value();
+  words_.emplace_back(landmark ? "landmark" : (real ? "mapped_wall" : "virtual_obstacle"));
+  kinds_.push_back(landmark ? report::Kind::kLandmark
+                            : (real ? report::Kind::kMappedWall : report::Kind::kVirtualObstacle));
+  colours_.push_back(obstacle.colour);
+  names_.push_back(obstacle.name);
+}
+
+void BodyKinds::learn(const world::WorldModel& world) {
+  while (count() < world.body_count()) add(world.body(count()));
 }
 
 }  // namespace rave::robot_host

@@ -10,11 +10,14 @@
 
 namespace rave::robot_host {
 
-/// What the bodies of a run are called and how they look. Fixed when the run starts.
+/// What the bodies of a run are called and how they look. Those of the start are fixed then.
 class BodyKinds {
  public:
   /// `robot_words`: the free word of each robot, such as `hunter`; empty for none.
   BodyKinds(const sim::EngineSpec& spec, const std::vector<std::string>& robot_words);
+
+  /// Obstacles that came since; call it before asking for them.
+  void learn(const world::WorldModel& world);
 
   /// `real`, `simulated`, `landmark`, `mapped_wall` or `virtual_obstacle`.
   [[nodiscard]] std::string_view word(std::uint32_t body) const { return words_[body]; }
@@ -24,13 +27,18 @@ class BodyKinds {
   [[nodiscard]] std::uint32_t body_of(RobotId robot) const noexcept {
     return first_robot_ + robot.value();
   }
-  [[nodiscard]] bool is_robot(std::uint32_t body) const noexcept { return body >= first_robot_; }
+  [[nodiscard]] bool is_robot(std::uint32_t body) const noexcept {
+    return body >= first_robot_ && body < first_added_;
+  }
   [[nodiscard]] std::uint32_t count() const noexcept {
     return static_cast<std::uint32_t>(words_.size());
   }
 
  private:
+  void add(const world::Body& obstacle);
+
   std::uint32_t first_robot_ = 0;
+  std::uint32_t first_added_ = 0;  ///< Behind the robots.
   std::vector<std::string_view> words_;
   std::vector<report::Kind> kinds_;
   std::vector<std::string> colours_;

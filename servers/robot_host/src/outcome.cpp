@@ -6,6 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "event_words.hpp"
 #include "radio_report.hpp"
 #include "rave/base/names.hpp"
 #include "rave/report/table.hpp"
@@ -139,7 +140,9 @@ Json events_json(const Findings& findings) {
         sim::EventKind::kPoseBack, sim::EventKind::kProgramFailed, sim::EventKind::kDriverFailed,
         sim::EventKind::kDriverBack, sim::EventKind::kGuardSlowed, sim::EventKind::kGuardStopped,
         sim::EventKind::kStopped, sim::EventKind::kReleased, sim::EventKind::kArmed,
-        sim::EventKind::kChanged, sim::EventKind::kChangeRefused, sim::EventKind::kCaptured}) {
+        sim::EventKind::kChanged, sim::EventKind::kChangeRefused, sim::EventKind::kObstacleAdded,
+        sim::EventKind::kObstacleMoved, sim::EventKind::kObstacleRemoved,
+        sim::EventKind::kCaptured}) {
     std::string name(to_string(kind));
     std::replace(name.begin(), name.end(), ' ', '_');
     json[name] = count_events(findings, kind);
@@ -212,12 +215,13 @@ Json changes_json(const Findings& findings) {
   Json json = Json::array();
   const sim::EngineSpec& spec = findings.engine.spec();
   for (const sim::Event& event : findings.events) {
-    if (event.kind != sim::EventKind::kChanged && event.kind != sim::EventKind::kChangeRefused) {
+    if (event.kind != sim::EventKind::kChanged && event.kind != sim::EventKind::kChangeRefused &&
+        !is_of_obstacle(event.kind)) {
       continue;
     }
     json.push_back({{"time_s", static_cast<double>(event.step) * spec.step.seconds()},
-                    {"robot", spec.robots[event.robot.value()].name},
-                    {"made", event.kind == sim::EventKind::kChanged},
+                    {"robot", event.robot.valid() ? Json(subject_of(spec, event)) : Json()},
+                    {"made", event.kind != sim::EventKind::kChangeRefused},
                     {"what", event.text}});
   }
   return json;
@@ -424,8 +428,10 @@ report::Picture make_picture(const Findings& findings, const RunOutcome& outcome
   }
   if (!outcome.hash.empty()) picture.caption.push_back("Run hash " + outcome.hash);
   const world::WorldModel& world = findings.engine.spec().world;
-  for (std::uint32_t body = 0; body < world.obstacles.size(); ++body) {
-    const world::Obstacle& obstacle = world.obstacles[body];
+  for (std::size_t number = 0; number < world.obstacle_count(); ++number) {
+    const std::uint32_t body = world.obstacle_id(number);
+    const world::Obstacle& obstacle = *world.obstacle(body);
+    if (obstacle.removed) continue;
     for (std::size_t i = 0; i < obstacle.body.shapes.size(); ++i) {
       report::PictureBody shown;
       shown.outline_W = outline_of(obstacle.body.shapes[i], obstacle.X_WB);

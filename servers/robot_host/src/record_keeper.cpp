@@ -6,6 +6,7 @@
 #include <chrono>
 #include <ctime>
 
+#include "event_words.hpp"
 #include "radio_report.hpp"
 
 namespace rave::robot_host {
@@ -152,9 +153,10 @@ void RecordKeeper::keep(std::span<const sim::Event> events) {
     record::RunEvent recorded;
     recorded.robot = event.robot;
     recorded.kind = to_string(event.kind);
-    recorded.text = event.other.valid()
-                        ? fmt::format("with {} {}", kinds_->name(event.other.value()), event.text)
-                        : event.text;
+    recorded.text = with_whom(*kinds_, event) + event.text;
+    // Names of obstacles may be used again, numbers are not.
+    if (is_of_obstacle(event.kind))
+      recorded.values.push_back(static_cast<double>(event.other.value()));
     static_cast<void>(recorder_.event(recorded));
   }
 }

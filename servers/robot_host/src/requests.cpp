@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "obstacles.hpp"
 #include "rave/base/names.hpp"
 #include "rave/config/diagnostics.hpp"
 #include "rave/config/yaml.hpp"
@@ -61,6 +62,18 @@ Result<std::string> set(sim::Engine& engine, RobotId robot, const RunRequest& re
                      engine.parameter(robot, change->part, change->index, change->name));
 }
 
+Result<std::string> edit(sim::Engine& engine, const RunRequest& request) {
+  RAVE_TRY_ASSIGN(const sim::ObstacleChange change, asked_change(request));
+  RAVE_TRY_ASSIGN(const sim::ChangedObstacle made, engine.change_obstacle(change));
+  const double from_s = static_cast<double>(made.step) * engine.spec().step.seconds();
+  using Kind = sim::ObstacleChange::Kind;
+  const std::string_view done = change.kind == Kind::kAdd    ? "added"
+                                : change.kind == Kind::kMove ? "moved"
+                                                             : "removed";
+  return fmt::format("{} {}; counts from step {} on, at {:.3f} s", done, made.text, made.step,
+                     from_s);
+}
+
 }  // namespace
 
 Result<std::string> serve_request(sim::Engine& engine, const RunRequest& request) {
@@ -87,6 +100,12 @@ Result<std::string> serve_request(sim::Engine& engine, const RunRequest& request
       return arm(engine, robot);
     case RunRequest::Kind::kSet:
       return set(engine, robot, request);
+    case RunRequest::Kind::kAdd:
+    case RunRequest::Kind::kMove:
+    case RunRequest::Kind::kRemove:
+      return edit(engine, request);
+    case RunRequest::Kind::kList:
+      return list_obstacles(engine.spec().world);
   }
   return fail(ErrorCode::kInvalidArgument, "unknown request");
 }

@@ -6,6 +6,7 @@
 
 #include "console_tee.hpp"
 #include "event_log.hpp"
+#include "event_words.hpp"
 #include "goal_checks.hpp"
 #include "outcome.hpp"
 #include "rave/base/file.hpp"
@@ -50,6 +51,7 @@ struct Observers {
   }
 
   void after_step(sim::Engine& engine) {
+    kinds.learn(engine.spec().world);
     tracks.after_step(engine);
     encounters.after_step(engine);
     hits.after_step(engine);
@@ -99,7 +101,8 @@ void serve_requests(Journey& journey) {
   journey.options.control->serve(
       [&engine, record](const RunRequest& request) {
         auto answer = serve_request(engine, request);
-        if (answer && record != nullptr) record->keep(request, engine);
+        const bool asks = request.kind == RunRequest::Kind::kList;
+        if (answer && !asks && record != nullptr) record->keep(request, engine);
         return answer;
       },
       [&engine](RunStatus& status) { refresh_status(engine, status); });

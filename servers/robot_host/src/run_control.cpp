@@ -9,7 +9,9 @@ namespace {
 using Kind = RunRequest::Kind;
 
 constexpr std::pair<Kind, std::string_view> kWords[] = {
-    {Kind::kStop, "stop"}, {Kind::kRelease, "release"}, {Kind::kArm, "arm"}, {Kind::kSet, "set"}};
+    {Kind::kStop, "stop"},     {Kind::kRelease, "release"}, {Kind::kArm, "arm"},
+    {Kind::kSet, "set"},       {Kind::kAdd, "add"},         {Kind::kMove, "move"},
+    {Kind::kRemove, "remove"}, {Kind::kList, "list"}};
 
 }  // namespace
 

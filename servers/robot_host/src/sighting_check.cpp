@@ -37,6 +37,10 @@ SightingCheck::SightingCheck(const config::SightingsCheckFile& file, const sim::
 }
 
 void SightingCheck::after_step(sim::Engine& engine) {
+  const auto& added = engine.spec().world.added;
+  for (; known_added_ < added.size(); ++known_added_) {
+    if (added[known_added_].body.code) known_codes_.insert(*added[known_added_].body.code);
+  }
   for (Pair& pair : pairs_) {
     const sim::SensorSample sample = engine.sensor(pair.robot, pair.real);
     if (sample.header->sequence == pair.seen_sequence) continue;

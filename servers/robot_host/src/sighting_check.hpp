@@ -57,7 +57,8 @@ class SightingCheck final : public Observer {
   config::SightingsCheckFile limits_;
   std::vector<Pair> pairs_;
   std::set<std::int32_t> known_codes_;
-  std::vector<Sighting> twin_;  ///< What the virtual camera reads, reused.
+  std::size_t known_added_ = 0;  ///< Of the obstacles that came while the run went.
+  std::vector<Sighting> twin_;   ///< What the virtual camera reads, reused.
   SightingTally all_;
   std::map<std::string, SightingTally> by_robot_;
   std::map<std::int32_t, std::uint64_t> unknown_codes_;

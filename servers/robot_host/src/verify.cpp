@@ -165,7 +165,7 @@ Result<config::ExpandedScenario> scenario_of(const record::RunInfo& run, const f
 
 /// Steps until the recorded run ended, or one step beyond the first whose hash differs: what a step
 /// resolves is seen in the poses of the next.
-Status run_again(sim::Engine& engine, RecordKeeper& keeper, InputReplay inputs,
+Status run_again(sim::Engine& engine, RecordKeeper& keeper, BodyKinds& kinds, InputReplay inputs,
                  const std::vector<std::uint64_t>& hashes, const VerifyOptions& options,
                  VerifyOutcome& outcome) {
   StallWatch watch(options.log);
@@ -182,6 +182,7 @@ Status run_again(sim::Engine& engine, RecordKeeper& keeper, InputReplay inputs,
     watch.step_begins(outcome.steps);
     RAVE_TRY(engine.step());
     watch.step_ends();
+    kinds.learn(engine.spec().world);
     keeper.after_step(engine);
     ++outcome.steps;
     if (differs) return {};
@@ -234,7 +235,7 @@ Result<VerifyOutcome> verify(const fs::path& record, plugin::Catalogue& catalogu
   if (!outcome.live_reason.empty()) return outcome;
   RAVE_TRY(note_length(reader, run, end, outcome));
   built.spec.live_clock = nullptr;
-  const BodyKinds kinds(built.spec, built.robot_kinds);
+  BodyKinds kinds(built.spec, built.robot_kinds);
   RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(built.spec)));
   compare_versions(run, versions_of(engine->spec(), catalogue), outcome);
   RAVE_TRY_ASSIGN(const auto hashes, read_hashes(reader));
@@ -243,7 +244,8 @@ Result<VerifyOutcome> verify(const fs::path& record, plugin::Catalogue& catalogu
                   RecordKeeper::begin(scratch.file(), *engine, kinds,
                                       {run.scenario, "", {}, {}, true}, options.log));
   RAVE_TRY_ASSIGN(auto inputs, read_inputs(reader));
-  RAVE_TRY(run_again(*engine, *keeper, InputReplay(std::move(inputs)), hashes, options, outcome));
+  RAVE_TRY(
+      run_again(*engine, *keeper, kinds, InputReplay(std::move(inputs)), hashes, options, outcome));
   RAVE_TRY(keeper->end(engine->hash().value()));
   RAVE_TRY_ASSIGN(const auto again, record::McapReader::open(scratch.file()));
   RAVE_TRY_ASSIGN(const RecordMatch match, match_records(reader, again, run, !end));

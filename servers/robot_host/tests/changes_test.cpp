@@ -64,6 +64,57 @@ TEST(Changes, SurviveTheExpandedScenario) {
   EXPECT_EQ(again->scenario.changes, scenario->scenario.changes);
 }
 
+TEST(Changes, OfObstaclesBecomePartOfTheEngine) {
+  Host host;
+  const std::string changes =
+      "obstacles: [{name: post, disc_radius_m: 0.1, x_m: 9}]\nchanges:\n"
+      "  - {at_s: 0.5, remove_obstacle: crate}\n"
+      "  - {at_s: 0.2, add_obstacle: {name: crate, box_m: [0.5, 0.3], x_m: 1, y_m: 2, yaw_deg: "
+      "90}}\n"
+      "  - {at_s: 0.3, robot: anna, set: {body.scale: 1.2}}\n"
+      "  - {at_s: 0.3, move_obstacle: {name: post, x_m: 7}}\n";
+  const auto built = host.build_text(with(changes));
+  ASSERT_TRUE(built) << built.error().text();
+  EXPECT_EQ(built->spec.changes.size(), 1U);
+  const auto& all = built->spec.obstacle_changes;
+  ASSERT_EQ(all.size(), 3U);
+  EXPECT_EQ(all[0].step, 20U);
+  EXPECT_EQ(all[0].change.kind, sim::ObstacleChange::Kind::kAdd);
+  EXPECT_EQ(all[0].change.name, "crate");
+  EXPECT_NEAR(all[0].change.X_WB.yaw, 1.5707963, 1e-6);
+  EXPECT_EQ(all[0].change.body.shapes.size(), 1U);
+  EXPECT_EQ(all[1].step, 30U);
+  EXPECT_EQ(all[1].change.X_WB, (Pose2{7, 0, 0}));
+  EXPECT_EQ(all[2].step, 50U);
+  EXPECT_EQ(all[2].change.kind, sim::ObstacleChange::Kind::kRemove);
+  const auto scenario = host.expand(with(changes));
+  ASSERT_TRUE(scenario);
+  const auto again = host.expand(config::write_expanded(*scenario));
+  ASSERT_TRUE(again) << again.error().text();
+  EXPECT_EQ(again->scenario.changes, scenario->scenario.changes);
+}
+
+TEST(Changes, OfObstaclesThatCannotBeAreErrorsOfTheFile) {
+  Host host;
+  const auto error = [&](const std::string& change) {
+    return host.error_of(with(
+        "obstacles: [{name: post, disc_radius_m: 0.1, x_m: 9}]\nchanges:\n  - {" + change + "}\n"));
+  };
+  EXPECT_EQ(error("at_s: 0, remove_obstacle: pst"),
+            "s.yaml:5:32: there is no obstacle `pst`; did you mean `post`?");
+  EXPECT_NE(error("at_s: 0").find("a change has 0 of `robot`"), std::string::npos);
+  EXPECT_NE(error("at_s: 0, robot: anna, set: {body.scale: 2}, remove_obstacle: post")
+                .find("a change has 2 of `robot`"),
+            std::string::npos);
+  EXPECT_NE(error("at_s: 0, set: {body.scale: 2}").find("`set` needs `robot`"), std::string::npos);
+  EXPECT_NE(error("at_s: 0, robot: anna").find("found nothing, expected keys"), std::string::npos);
+  EXPECT_NE(error("at_s: 0, add_obstacle: {name: crate}").find("disc_radius_m"), std::string::npos);
+  EXPECT_NE(error("at_s: 0, move_obstacle: {name: post, x_m: .nan}").find("`x_m`"),
+            std::string::npos);
+  EXPECT_NE(error("at_s: 0.005, remove_obstacle: post").find("a multiple of the scenario's step"),
+            std::string::npos);
+}
+
 TEST(Guards, AreReadAndChecked) {
   Host host;
   const auto built = host.build_text(
@@ -111,6 +162,19 @@ TEST(Requests, AreServedBetweenStepsAlsoWhilePaused) {
             ErrorCode::kParse);
   EXPECT_EQ(ask(RunRequest::Kind::kSet, "", "body.scale", "1").error().code,
             ErrorCode::kInvalidArgument);
+  using Kind = RunRequest::Kind;
+  EXPECT_EQ(ask(Kind::kAdd, "", "", "{name: crate, box_m: [1, 2], x_m: 5, y_m: 0.5}").value(),
+            "added `crate` at (5, 0.5), yaw 0 rad (by hand); counts from step 0 on, at 0.000 s");
+  EXPECT_EQ(ask(Kind::kMove, "", "", "{name: crate, x_m: 6}").value(),
+            "moved `crate` at (6, 0), yaw 0 rad (by hand); counts from step 0 on, at 0.000 s");
+  EXPECT_EQ(ask(Kind::kAdd, "", "", "{name: crate}").error().code, ErrorCode::kParse);
+  EXPECT_EQ(ask(Kind::kAdd, "", "", "[").error().code, ErrorCode::kParse);
+  EXPECT_EQ(ask(Kind::kMove, "", "", "{name: crte, x_m: 6}").error().message,
+            "there is no obstacle `crte`; did you mean `crate`?");
+  EXPECT_EQ(ask(Kind::kAdd, "", "", "{name: lid, disc_radius_m: 1}").error().code,
+            ErrorCode::kInvalidArgument);
+  const std::string listed = ask(Kind::kList, "").value();
+  EXPECT_TRUE(listed.starts_with("1 obstacle\n     1  crate ")) << listed;
   control.resume();
   const auto ended = outcome.get();
   ASSERT_TRUE(ended) << ended.error().text();

@@ -24,7 +24,9 @@ constexpr std::array kWords = {
     Word{"status", Request::What::kStatus},   Word{"stop", Request::What::kStop},
     Word{"release", Request::What::kRelease}, Word{"arm", Request::What::kArm},
     Word{"set", Request::What::kSet},         Word{"pause", Request::What::kPause},
-    Word{"resume", Request::What::kResume},   Word{"step", Request::What::kStep}};
+    Word{"resume", Request::What::kResume},   Word{"step", Request::What::kStep},
+    Word{"add", Request::What::kAdd},         Word{"move", Request::What::kMove},
+    Word{"remove", Request::What::kRemove},   Word{"list", Request::What::kList}};
 
 /// An object without repeated keys; discarded for anything else.
 Json parse_object(std::string_view line) {
@@ -84,6 +86,11 @@ bool take_details(Json& json, Request& request) {
              !request.key.empty() && !request.value.empty();
     case Request::What::kStep:
       return take_count(json, request.count);
+    case Request::What::kAdd:
+    case Request::What::kMove:
+      return take_text(json, "value", request.value) && !request.value.empty();
+    case Request::What::kRemove:
+      return take_text(json, "key", request.key) && !request.key.empty();
     default:
       return true;
   }

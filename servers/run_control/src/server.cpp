@@ -36,9 +36,24 @@ Answer answer_of(const Result<std::string>& result) {
 }
 
 Kind kind_of(What what) {
-  if (what == What::kRelease) return Kind::kRelease;
-  if (what == What::kArm) return Kind::kArm;
-  return what == What::kSet ? Kind::kSet : Kind::kStop;
+  switch (what) {
+    case What::kRelease:
+      return Kind::kRelease;
+    case What::kArm:
+      return Kind::kArm;
+    case What::kSet:
+      return Kind::kSet;
+    case What::kAdd:
+      return Kind::kAdd;
+    case What::kMove:
+      return Kind::kMove;
+    case What::kRemove:
+      return Kind::kRemove;
+    case What::kList:
+      return Kind::kList;
+    default:
+      return Kind::kStop;
+  }
 }
 
 /// Pause, resume and step: what a live run cannot do.

@@ -14,7 +14,10 @@ TEST(Protocol, RequestsComeBackAsTheyWere) {
         Request{What::kStop, "a \"robot\"\n", "", "", 1}, Request{What::kArm, "b", "", "", 1},
         Request{What::kRelease, "b", "", "", 1},
         Request{What::kSet, "prey", "body.scale", "1.5", 1}, Request{What::kPause, "", "", "", 1},
-        Request{What::kStep, "", "", "", 12}}) {
+        Request{What::kStep, "", "", "", 12},
+        Request{What::kAdd, "", "", "{name: a, disc_radius_m: 0.2}", 1},
+        Request{What::kMove, "", "", "{name: a, x_m: 1}", 1},
+        Request{What::kRemove, "", "a", "", 1}, Request{What::kList, "", "", "", 1}}) {
     std::string line = write_request(request);
     ASSERT_EQ(line.back(), '\n');
     line.pop_back();
@@ -46,6 +49,13 @@ TEST(Protocol, RefusesWhatIsNotExactlyARequest) {
                                  R"({"rave":1,"do":"step","count":-1})",
                                  R"({"rave":1,"do":"step","count":1.5})",
                                  R"({"rave":1,"do":"stop"} x)",
+                                 R"({"rave":1,"do":"add"})",
+                                 R"({"rave":1,"do":"add","value":{"name":"a"}})",
+                                 R"({"rave":1,"do":"add","value":""})",
+                                 R"({"rave":1,"do":"move","key":"a"})",
+                                 R"({"rave":1,"do":"remove","value":"a"})",
+                                 R"({"rave":1,"do":"remove","key":7})",
+                                 R"({"rave":1,"do":"list","robot":"a"})",
                                  R"({"rave":1,"do":"stop","robot":"a\u0000b"})"}) {
     const auto read = parse_request(line);
     EXPECT_FALSE(read) << line;

@@ -91,11 +91,16 @@ struct ChecksFile {
   bool operator==(const ChecksFile&) const = default;
 };
 
-/// Parameters that change while the run goes; part of the run, as if the programs had known.
+/// What changes while the run goes; part of the run, as if the programs had known. Either `robot`
+/// and `set` or one of the others is given.
 struct ChangeFile {
   Located<double> at_s = 0.0;  ///< A multiple of the step.
-  Located<std::string> robot;  ///< A robot, or an entry of `robots:` that stands for several.
-  RawNode set;                 ///< A mapping from keys such as `program.speed_mps` to values.
+  /// A robot, or an entry of `robots:` that stands for several.
+  std::optional<Located<std::string>> robot;
+  std::optional<RawNode> set;  ///< A mapping from keys such as `program.speed_mps` to values.
+  std::optional<ObstacleFile> add_obstacle;
+  std::optional<MoveObstacleFile> move_obstacle;
+  std::optional<Located<std::string>> remove_obstacle;
   bool operator==(const ChangeFile&) const = default;
 };
 

@@ -28,6 +28,15 @@ struct ObstacleFile {
   bool operator==(const ObstacleFile&) const = default;
 };
 
+/// Another place for an obstacle.
+struct MoveObstacleFile {
+  Located<std::string> name;
+  double x_m = 0;
+  double y_m = 0;
+  double yaw_deg = 0;
+  bool operator==(const MoveObstacleFile&) const = default;
+};
+
 /// A ROS map_server map whose occupied cells become walls; read it with read_map.
 struct MapFile {
   Located<std::string> file;  ///< As written; absolute after expand_scenario.
@@ -48,6 +57,13 @@ struct WorldFile {
 [[nodiscard]] Result<WorldFile> read_world_file(const std::filesystem::path& path);
 /// The same for a text; `file_name` is for messages.
 [[nodiscard]] Result<WorldFile> read_world_text(std::string_view text, std::string_view file_name);
+
+/// Reads one entry of `obstacles:`, a mapping; for who adds an obstacle to a running world.
+/// `file_name` is for messages. Errors: kParse.
+[[nodiscard]] Result<ObstacleFile> read_obstacle_text(std::string_view text,
+                                                      std::string_view file_name);
+[[nodiscard]] Result<MoveObstacleFile> read_move_text(std::string_view text,
+                                                      std::string_view file_name);
 
 /// YAML with all defaults that read_world_text reads back as an equal value.
 [[nodiscard]] std::string write_world(const WorldFile& world);

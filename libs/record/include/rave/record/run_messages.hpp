@@ -133,10 +133,10 @@ struct RunEvent {
 /// What somebody asked of the run between two steps, and was done: enough to ask for it again.
 struct RunInput {
   std::uint64_t step = 0;  ///< The step that comes next.
-  std::string kind;        ///< `stop`, `release`, `arm` or `set`.
-  std::string robot;       ///< Empty: all of them.
-  std::string key;         ///< Of `set`: such as `program.max_speed_mps`.
-  std::string value;       ///< Of `set`: as in a file.
+  std::string kind;   ///< `stop`, `release`, `arm`, `set`; of obstacles `add`, `move`, `remove`.
+  std::string robot;  ///< Empty: all of them.
+  std::string key;    ///< Of `set`: such as `program.max_speed_mps`; of `remove`: which one.
+  std::string value;  ///< Of `set`, `add` and `move`: as in a file.
 
   friend bool operator==(const RunInput&, const RunInput&) = default;
 };

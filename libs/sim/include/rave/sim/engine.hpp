@@ -32,16 +32,19 @@ enum class EventKind : std::uint32_t {
   kArmed = 24,          ///< Somebody armed a robot.
   kChanged = 25,        ///< Parameters of a robot were changed.
   kChangeRefused = 26,  ///< A change of the scenario that could not be made.
-  kCaptured = 30,       ///< The host saw that a robot caught another; no part of the hash.
+  kObstacleAdded = 27,  ///< `other` has come; no robot is concerned.
+  kObstacleMoved = 28,
+  kObstacleRemoved = 29,
+  kCaptured = 30,  ///< The host saw that a robot caught another; no part of the hash.
 };
 [[nodiscard]] std::string_view to_string(EventKind kind) noexcept;
 
-/// Something that happened to a robot in one step.
+/// Something that happened to a robot in one step, or to the world.
 struct Event {
   std::uint64_t step = 0;
-  RobotId robot;
+  RobotId robot;  ///< None: it concerns the world.
   EventKind kind = EventKind::kContact;
-  BodyId other;              ///< Contacts and pins: with whom.
+  BodyId other;              ///< Contacts and pins: with whom. Of obstacles: which one.
   std::string text;          ///< For people. Not part of the run hash.
   std::uint32_t detail = 0;  ///< Guard: the GuardLimit.
 };
@@ -171,7 +174,7 @@ class Engine {
   /// Messages that were sent or delivered in the last step, in the order in which they were.
   [[nodiscard]] std::span<const RadioTrace> radio() const noexcept;
   /// Events of the last step, ordered by robot. One of several hosts has those of its robots but
-  /// contacts, pins and changes of bodies, which the authority has.
+  /// contacts, pins and changes of bodies and obstacles, which the authority has.
   [[nodiscard]] std::span<const Event> events() const noexcept;
   /// Of the steps that are done. One of several hosts: percepts, commands, messages and events of
   /// its robots.
@@ -211,6 +214,12 @@ class Engine {
   /// changes); then everything is as it was.
   Status set_parameters(RobotId robot, std::span<const ParameterChange> changes,
                         Author author = Author::kHand);
+  /// Adds, moves or removes an obstacle. From the call on spec().world and snapshot() have it; what
+  /// looks back does not see it before the next step. Errors: kInvalidArgument and kNotFound (see
+  /// ObstacleChange; it would overlap a simulated robot), kState (one of several hosts: it is the
+  /// authority's to change); then everything is as it was.
+  Result<ChangedObstacle> change_obstacle(const ObstacleChange& change,
+                                          Author author = Author::kHand);
   /// The present value of a parameter; empty if there is none of this name.
   [[nodiscard]] std::string parameter(RobotId robot, ParameterChange::Part part,
                                       std::uint32_t index, std::string_view name) const;

@@ -20,6 +20,7 @@
 #include "rave/robot/program.hpp"
 #include "rave/robot/sample_queue.hpp"
 #include "rave/sim/guard.hpp"
+#include "rave/sim/obstacle_change.hpp"
 #include "rave/sim/parameter_change.hpp"
 #include "rave/sim/phase_clock.hpp"
 #include "rave/sim/radio.hpp"
@@ -176,6 +177,8 @@ struct EngineSpec {
   std::chrono::milliseconds host_timeout{10'000};
   /// Changes of parameters that belong to the run, by step.
   std::vector<ScheduledChange> changes;
+  /// Obstacles that come, move and go as a part of the run, by step.
+  std::vector<ScheduledObstacle> obstacle_changes;
   /// Not owned; outlives the engine.
   LogSink* log = nullptr;
   /// Set: phase_times() tells what the phases took. No part of any result.

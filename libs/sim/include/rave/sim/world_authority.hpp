@@ -56,9 +56,10 @@ class WorldAuthority {
   /// another spec); then nothing has changed.
   Status resume(const WorldStep& world, const AuthorityState& state);
 
-  /// Asks something of robots, from the next step on; returns its number. That it cannot be done is
-  /// known two steps later at the latest, see refusals(). Errors: kInvalidArgument (no such robot,
-  /// nothing to change, or a change of the body together with other parts).
+  /// Asks something of robots or obstacles, from the next step on; returns its number. That it
+  /// cannot be done is known two steps later at the latest, see refusals(). Errors:
+  /// kInvalidArgument (no such robot, nothing to change, a change of the body together with other
+  /// parts, what check_obstacle_change() says).
   Result<std::uint64_t> ask(WorldInput input);
   /// What hosts and authority said in the last step to inputs that came by hand.
   [[nodiscard]] std::span<const InputRefusal> refusals() const noexcept;
@@ -71,14 +72,16 @@ class WorldAuthority {
   [[nodiscard]] std::uint64_t steps_done() const noexcept;
   /// True pose of a simulated, reported pose of a real robot, as the last WorldStep shows it.
   [[nodiscard]] Pose2 pose(RobotId robot) const noexcept;
-  /// Contacts, pins and changes of bodies of the last step that is done, ordered by robot.
+  /// Contacts, pins, changes of bodies and obstacles of the last step that is done, by robot.
   [[nodiscard]] std::span<const Event> events() const noexcept;
-  /// Of poses, contacts, pins and changes of bodies in the steps that are done.
+  /// Of poses, contacts, pins, changes of bodies and obstacles in the steps that are done.
   [[nodiscard]] RunHash hash() const noexcept;
   [[nodiscard]] std::uint32_t host_count() const noexcept;
   /// The report of a host that is gone: of the next step, its simulated robots want to stand, its
   /// real ones are where they were last reported, which is old by now. `report` keeps its memory.
   void speak_for(std::uint32_t host, HostReport& report) const;
+  /// All bodies; obstacles as the last WorldStep shows them.
+  [[nodiscard]] const world::WorldModel& world() const noexcept;
 
  private:
   struct Impl;

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "rave/base/ids.hpp"
+#include "rave/sim/obstacle_change.hpp"
 #include "rave/sim/parameter_change.hpp"
 
 namespace rave::sim {
@@ -16,15 +18,17 @@ enum class Author : std::uint8_t {
   kHand,  ///< Somebody, while it goes: the run is not the scenario's any more.
 };
 
-/// Something asked of the robots of a run between two steps, wherever they run.
+/// Something asked of a run between two steps, of its robots wherever they run or of its obstacles.
 struct WorldInput {
-  enum class Kind : std::uint8_t { kStop, kRelease, kArm, kChange };
+  /// kObstacle is the authority's own: it never reaches a host, see WorldStep::obstacles.
+  enum class Kind : std::uint8_t { kStop, kRelease, kArm, kChange, kObstacle };
   /// Counts all inputs of a run from 1; given by the WorldAuthority.
   std::uint64_t sequence = 0;
   Kind kind = Kind::kStop;
   Author author = Author::kHand;
-  RobotId robot;                         ///< None: all robots; kChange needs one.
-  std::vector<ParameterChange> changes;  ///< Of kChange: all of them, or none.
+  RobotId robot;                           ///< None: all robots; kChange needs one.
+  std::vector<ParameterChange> changes;    ///< Of kChange: all of them, or none.
+  std::optional<ObstacleChange> obstacle;  ///< Of kObstacle, which needs it.
 };
 
 /// Why an input was not carried out.

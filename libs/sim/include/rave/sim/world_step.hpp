@@ -55,6 +55,9 @@ struct WorldStep {
   std::vector<PoseReport> poses;      ///< All robots with a source of their pose.
   std::vector<PoseSample> samples;    ///< Of real robots; by (robot, stamp).
   std::vector<ResizedRobot> resized;  ///< In the order in which it happened.
+  /// Obstacles that come, move or go with this step, in that order, each with its id: new ones have
+  /// the numbers that follow those of all bodies so far.
+  std::vector<ObstacleChange> obstacles;
 
   /// Messages that left their robots in the step before.
   SentPackets sent;
@@ -74,6 +77,7 @@ struct WorldStep {
     poses.clear();
     samples.clear();
     resized.clear();
+    obstacles.clear();
     sent.clear();
     inputs.clear();
   }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "rave/base/ids.hpp"
@@ -65,19 +66,43 @@ struct Body {
 struct Obstacle {
   Body body;
   Pose2 X_WB;
+  bool removed = false;  ///< Stands nowhere any more; its number stays taken.
 };
 
-/// Everything that is fixed while a run goes: which bodies there are. Poses of robots live in
-/// Snapshot. Robots are in the order of their RobotId. Body ids: obstacles first, then robots.
+/// Which bodies there are, and where obstacles stand now. Poses of robots live in Snapshot. Robots
+/// are in the order of their RobotId. Body ids: the obstacles of the start first, then the robots,
+/// then obstacles that came while the run went. So an id stays what it is whatever is added or
+/// removed, and none is given twice in a run.
 struct WorldModel {
-  std::vector<Obstacle> obstacles;
+  std::vector<Obstacle> obstacles;  ///< Of the start; as many as ever while a run goes.
   std::vector<Body> robots;
+  std::vector<Obstacle> added;  ///< Later, in the order in which they came.
 
   [[nodiscard]] std::uint32_t body_count() const noexcept {
-    return static_cast<std::uint32_t>(obstacles.size() + robots.size());
+    return static_cast<std::uint32_t>(obstacles.size() + robots.size() + added.size());
   }
   [[nodiscard]] const Body& body(std::uint32_t id) const noexcept {
-    return id < obstacles.size() ? obstacles[id].body : robots[id - obstacles.size()];
+    const Obstacle* const standing = obstacle(id);
+    return standing != nullptr ? standing->body : robots[id - obstacles.size()];
+  }
+  [[nodiscard]] bool is_robot(std::uint32_t id) const noexcept {
+    return id >= obstacles.size() && id - obstacles.size() < robots.size();
+  }
+  /// The obstacle of this id, a removed one too; null if it is a robot or nothing.
+  [[nodiscard]] const Obstacle* obstacle(std::uint32_t id) const noexcept {
+    if (id < obstacles.size()) return &obstacles[id];
+    const std::size_t later = std::size_t{id} - obstacles.size() - robots.size();  // modulo 2^64
+    return is_robot(id) || later >= added.size() ? nullptr : &added[later];
+  }
+  [[nodiscard]] Obstacle* obstacle(std::uint32_t id) noexcept {
+    return const_cast<Obstacle*>(std::as_const(*this).obstacle(id));
+  }
+  /// The id of obstacle number `index`, those of the start first.
+  [[nodiscard]] std::uint32_t obstacle_id(std::size_t index) const noexcept {
+    return static_cast<std::uint32_t>(index < obstacles.size() ? index : index + robots.size());
+  }
+  [[nodiscard]] std::size_t obstacle_count() const noexcept {
+    return obstacles.size() + added.size();
   }
 };
 

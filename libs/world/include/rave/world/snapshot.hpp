@@ -23,7 +23,9 @@ struct RobotState {
 
 /// The world at one instant, ready for queries. Set the robots, then rebuild(), then look at it
 /// from as many threads as you like until the next set_robot(). No allocation after the first
-/// rebuild() of a world. Keeps a pointer to the model, which must outlive it.
+/// rebuild() of a world, unless its obstacles change. Keeps a pointer to the model, which must
+/// outlive it. Obstacles begin where the model has them; from then on they are where set_obstacle()
+/// puts them, so that a snapshot of the past can show them where they stood.
 class Snapshot final : public WorldView {
  public:
   explicit Snapshot(const WorldModel& model);
@@ -36,6 +38,22 @@ class Snapshot final : public WorldView {
   /// The model has another body of this robot, with as many shapes and corners as before; it counts
   /// from the next rebuild() on.
   void body_changed(RobotId robot);
+  /// The model has one more obstacle, the last of WorldModel::added. It is nowhere yet.
+  void obstacle_added();
+  /// The model has none but the obstacles of the start any more; these stay where they are.
+  void added_dropped();
+  /// An obstacle is at another place, or nowhere: seen from the next index_obstacles() on.
+  void set_obstacle(BodyId obstacle, const Pose2& X_WB, bool present);
+  /// Sorts what stands into its grid; generation() changes. As rebuild(), not while others look.
+  void index_obstacles();
+  /// Where an obstacle is, or was before it went.
+  [[nodiscard]] Pose2 obstacle_pose(BodyId obstacle) const noexcept {
+    return standing_[place_of(obstacle.value())].X_WB;
+  }
+  [[nodiscard]] bool obstacle_present(BodyId obstacle) const noexcept {
+    return standing_[place_of(obstacle.value())].present;
+  }
+
   /// Moves all shapes of robots to their places and sorts them into the grid.
   void rebuild();
   /// rebuild() in parts: moves the shapes of robots [first, last) to their places and returns how
@@ -47,7 +65,8 @@ class Snapshot final : public WorldView {
 
   /// For who keeps what it found near for later: since then no piece of a robot has moved by more
   /// than what drift_m() has grown by, if generation() is the same. The generation changes when a
-  /// robot appears, vanishes, jumps by more than a metre, or gets another body.
+  /// robot appears, vanishes, jumps by more than a metre, or gets another body, and when obstacles
+  /// change.
   [[nodiscard]] double drift_m() const noexcept { return drift_m_; }
   [[nodiscard]] std::uint64_t generation() const noexcept { return generation_; }
 
@@ -116,15 +135,33 @@ class Snapshot final : public WorldView {
   [[nodiscard]] TouchState touch(RobotId robot) const noexcept override;
 
  private:
+  struct Standing {
+    Pose2 X_WB;
+    bool present = true;
+  };
+
   /// Moves the shapes of a body and its pieces; returns the square of how far the farthest went,
   /// infinite if that is no number.
   double place(std::uint32_t body, const Body& description, Vec2 p_WB, SinCos turn, bool present);
   void place_outline(const PlacedShape& placed, const ConvexPolygon& polygon, Vec2 p_WB,
                      SinCos turn, bool present);
   void add_shapes(std::uint32_t body, const Body& description);
+  /// What ends the lists of shapes, and goes away while shapes are added.
+  void end_shapes();
+  void reopen_shapes();
   /// The pieces as far as they do not change with the place.
   void make_pieces();
-  void index_obstacles();
+  void place_obstacle(std::uint32_t body);
+  [[nodiscard]] std::uint32_t first_robot() const noexcept {
+    return static_cast<std::uint32_t>(model_->obstacles.size());
+  }
+  [[nodiscard]] std::uint32_t first_added() const noexcept {
+    return first_robot() + static_cast<std::uint32_t>(robots_.size());
+  }
+  /// The index of an obstacle in standing_.
+  [[nodiscard]] std::size_t place_of(std::uint32_t body) const noexcept {
+    return body < model_->obstacles.size() ? body : body - robots_.size();
+  }
   void find_codes();
   void rebuild_landmarks();
   [[nodiscard]] RayHit nearest(Vec2 p_W, Vec2 direction, double z_m, double range_max_m,
@@ -136,7 +173,9 @@ class Snapshot final : public WorldView {
   std::vector<Vec2> vertices_;
   std::vector<std::uint32_t> first_shape_;  ///< Per body; one more at the end.
   std::vector<RobotState> robots_;
-  std::vector<SinCos> turns_;  ///< Per robot.
+  std::vector<SinCos> turns_;                ///< Per robot.
+  std::vector<Standing> standing_;           ///< Per obstacle.
+  std::vector<ShapePiece> standing_pieces_;  ///< To be sorted, if some were added.
   std::vector<TouchState> touch_;
   std::vector<Landmark> landmarks_;   ///< Those of obstacles first.
   std::size_t fixed_landmarks_ = 0;   ///< How many those are.

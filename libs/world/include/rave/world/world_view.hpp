@@ -12,7 +12,9 @@
 
 namespace rave {
 
-/// A body of the world: obstacles first, in the order of the world file, then robots.
+/// A body of the world: obstacles first, in the order of the world file, then robots, then
+/// obstacles that came while the run went. Never the number of another body, not even of one that
+/// was removed.
 using BodyId = Id<struct BodyTag>;
 
 /// Something with a code on it that a landmark camera can read.

@@ -9,6 +9,7 @@
 #include "rave/bus/config.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/plugin/catalogue.hpp"
+#include "rave/robot_host/build.hpp"
 #include "rave/robot_host/run.hpp"
 
 namespace rave::robot_host {
@@ -43,6 +44,10 @@ struct HostOutcome {
 /// A number of what the processes of a run must agree on: of all that the scenario says but its
 /// pace, its threads and what to do about lost hosts.
 [[nodiscard]] std::uint64_t shared_number(const config::ExpandedScenario& scenario);
+
+/// Whether a world can be shared by hosts in lock-step. Errors: kInvalidArgument says what cannot
+/// be: drivers by the wall clock, obstacles that come and go.
+[[nodiscard]] Status check_can_be_shared(const BuiltScenario& built);
 
 /// What else they must have in common: the interface of plug-ins.
 [[nodiscard]] std::uint64_t interface_stamp();

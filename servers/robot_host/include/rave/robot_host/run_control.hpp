@@ -20,14 +20,26 @@ namespace rave::robot_host {
 
 /// What somebody asks of a run between two of its steps.
 struct RunRequest {
-  enum class Kind : std::uint8_t { kStop, kRelease, kArm, kSet };
+  enum class Kind : std::uint8_t {
+    kStop,
+    kRelease,
+    kArm,
+    kSet,
+    kAdd,     ///< An obstacle.
+    kMove,    ///< The same.
+    kRemove,  ///< The same.
+    kList,    ///< Which obstacles there are; changes nothing.
+  };
   Kind kind = Kind::kStop;
   std::string robot;  ///< Empty: all of them.
-  std::string key;    ///< kSet: such as `program.max_speed_mps`.
-  std::string value;  ///< kSet: as in a file.
+  /// kSet: such as `program.max_speed_mps`. kRemove: the name of the obstacle.
+  std::string key;
+  /// kSet: as in a file. kAdd, kMove: YAML, an entry of `obstacles:`, or of `move_obstacle:`.
+  std::string value;
 };
 
-/// `stop`, `release`, `arm` or `set`; and back, nothing for any other word.
+/// `stop`, `release`, `arm`, `set`, `add`, `move`, `remove` or `list`; and back, nothing for any
+/// other word.
 [[nodiscard]] std::string_view to_string(RunRequest::Kind kind) noexcept;
 [[nodiscard]] std::optional<RunRequest::Kind> request_kind(std::string_view word) noexcept;
 
@@ -64,7 +76,8 @@ class RunControl {
   [[nodiscard]] bool stopping() const noexcept { return stop_.load(); }
   [[nodiscard]] bool paused() const;
 
-  /// Makes robots stand until they are released; lets them go; arms them; changes a parameter.
+  /// Makes robots stand until they are released; lets them go; arms them; changes a parameter or
+  /// an obstacle.
   /// Waits until the run has done it, which is before its next step, also while it is paused.
   /// Returns what was done, for people. Errors: kNotFound and kInvalidArgument (what the run says),
   /// kState (no run is under way), kTimeout (it has not come to it in `patience`; it will).

@@ -26,11 +26,15 @@ struct Request {
     kPause,
     kResume,
     kStep,
+    kAdd,
+    kMove,
+    kRemove,
+    kList,
   };
   What what = What::kStatus;
   std::string robot;        ///< kStop, kRelease, kArm: empty: all; kSet.
-  std::string key;          ///< kSet.
-  std::string value;        ///< kSet.
+  std::string key;          ///< kSet; kRemove: the name of an obstacle.
+  std::string value;        ///< kSet; kAdd and kMove: YAML, see robot_host::RunRequest.
   std::uint64_t count = 1;  ///< kStep: 1 to 1e9.
   friend bool operator==(const Request&, const Request&) = default;
 };

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "rave/base/result.hpp"
+
+// What one terminal changes in the world of a run that goes in another.
+namespace rave::cli {
+
+/// `rave edit`.
+struct EditCommand {
+  enum class What : std::uint8_t { kAdd, kMove, kRemove, kList };
+  What what = What::kList;
+  std::string run;             ///< Empty: the only one.
+  std::string name;            ///< Of the obstacle.
+  std::string shape;           ///< kAdd: `box`, `disc` or `polygon`.
+  std::string at;              ///< kAdd and kMove: X,Y or X,Y,DEG.
+  std::string size;            ///< kAdd: LxW of a box, the radius of a disc.
+  std::string corners;         ///< kAdd: X,Y of each corner of a polygon, between spaces.
+  std::string height;          ///< kAdd: LOW,HIGH; empty: as in files.
+  std::string layer;           ///< kAdd; empty: as in files.
+  std::string colour;          ///< kAdd: `#rrggbb`; empty: none.
+  std::optional<int> barcode;  ///< kAdd.
+};
+
+/// Prints what was done and how long the run took to do it. Returns 0; 1 if the run refuses; 2 for
+/// bad input, or if there is no such run.
+[[nodiscard]] int edit_world(const EditCommand& options);
+
+/// What a run is told: the obstacle as a file has it, in one line. Errors: kInvalidArgument.
+[[nodiscard]] Result<std::string> obstacle_yaml(const EditCommand& options);
+
+}  // namespace rave::cli

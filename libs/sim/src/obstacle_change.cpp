@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/sim/obstacle_change.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rave::sim {
+namespace {
+
+using Kind = ObstacleChange::Kind;
+
+Status check_name(const ObstacleChange& change) {
+  const std::string& name = change.name;
+  // Of what is changed, the number is enough.
+  if (name.empty() && change.kind != Kind::kAdd && change.id.valid()) return {};
+  if (name.empty()) return fail(ErrorCode::kInvalidArgument, "an obstacle needs a name");
+  if (name.size() > ObstacleChange::kMostNameBytes) {
+    return fail(ErrorCode::kInvalidArgument,
+                "the name of an obstacle has {} bytes; expected at most {}", name.size(),
+                ObstacleChange::kMostNameBytes);
+  }
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+  if (std::any_of(name.begin(), name.end(), is_control)) {
+    return fail(ErrorCode::kInvalidArgument, "the name of an obstacle has a control character");
+  }
+  return {};
+}
+
+Status check_number(const ObstacleChange& change, std::string_view what, double value, double most,
+                    std::string_view unit) {
+  if (std::abs(value) <= most) return {};
+  return fail(ErrorCode::kInvalidArgument, "obstacle `{}`: {} is {}; expected within +-{} {}",
+              change.name, what, value, most, unit);
+}
+
+Status check_pose(const ObstacleChange& change) {
+  const Pose2& X_WB = change.X_WB;
+  RAVE_TRY(check_number(change, "x", X_WB.x, ObstacleChange::kFarthest_m, "m"));
+  RAVE_TRY(check_number(change, "y", X_WB.y, ObstacleChange::kFarthest_m, "m"));
+  return check_number(change, "yaw", X_WB.yaw, ObstacleChange::kMostTurn_rad, "rad");
+}
+
+Status check_shape(const ObstacleChange& change, const world::Shape& shape) {
+  const auto wrong = [&change](std::string_view what) {
+    return fail(ErrorCode::kInvalidArgument, "obstacle `{}`: {}", change.name, what);
+  };
+  if (!(std::isfinite(shape.z0_m) && std::isfinite(shape.z1_m) && shape.z0_m < shape.z1_m)) {
+    return wrong("a height range that does not go from low to high");
+  }
+  // A polygon that exists is convex, and all its numbers are finite.
+  if (shape.kind == world::ShapeKind::kPolygon) {
+    return shape.polygon ? Status{} : wrong("a polygon without corners");
+  }
+  if (shape.kind != world::ShapeKind::kDisc || shape.polygon) return wrong("an unknown shape");
+  if (!(std::isfinite(shape.centre.x) && std::isfinite(shape.centre.y) &&
+        std::isfinite(shape.radius_m) && shape.radius_m > 0)) {
+    return wrong("a disc that needs a finite centre and a radius above 0");
+  }
+  return {};
+}
+
+Status check_body(const ObstacleChange& change) {
+  const world::Body& body = change.body;
+  const auto wrong = [&change](std::string_view what) {
+    return fail(ErrorCode::kInvalidArgument, "obstacle `{}`: {}", change.name, what);
+  };
+  if (body.shapes.empty() || body.shapes.size() > ObstacleChange::kMostShapes) {
+    return fail(ErrorCode::kInvalidArgument, "obstacle `{}` has {} convex shapes; expected 1 to {}",
+                change.name, body.shapes.size(), ObstacleChange::kMostShapes);
+  }
+  for (const world::Shape& shape : body.shapes) RAVE_TRY(check_shape(change, shape));
+  if (!(body.radius_m() <= ObstacleChange::kLargest_m)) {
+    return fail(ErrorCode::kInvalidArgument,
+                "obstacle `{}` reaches {} m from its origin; expected at most {} m", change.name,
+                body.radius_m(), ObstacleChange::kLargest_m);
+  }
+  if (body.layer != Layer::kVirtualObstacles && body.layer != Layer::kMappedReal) {
+    return wrong("its layer is one of robots; expected `virtual_obstacles` or `mapped_real`");
+  }
+  if (body.colour.size() > ObstacleChange::kMostColourBytes) return wrong("an unknown colour");
+  if (body.code && !(std::isfinite(body.code_z0_m) && std::isfinite(body.code_z1_m))) {
+    return wrong("a code at a height that is not a number");
+  }
+  return {};
+}
+
+}  // namespace
+
+Status check_obstacle_change(const ObstacleChange& change) {
+  if (change.kind > Kind::kRemove) {
+    return fail(ErrorCode::kInvalidArgument, "an unknown change of an obstacle");
+  }
+  RAVE_TRY(check_name(change));
+  if (change.kind == Kind::kRemove) return {};
+  RAVE_TRY(check_pose(change));
+  return change.kind == Kind::kAdd ? check_body(change) : Status{};
+}
+
+}  // namespace rave::sim

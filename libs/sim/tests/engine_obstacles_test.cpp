@@ -1,0 +1,447 @@
+// SPDX-License-Identifier: Apache-2.0
+// Obstacles that come, move and go while a run goes.
+#include <cmath>
+#include <limits>
+
+#include "fuse_drivers.hpp"
+
+namespace rave::sim::testing {
+namespace {
+
+using Kind = ObstacleChange::Kind;
+constexpr float kNothing = std::numeric_limits<float>::infinity();
+
+ObstacleChange add(const std::string& name, const Pose2& X_WB, double length_m = 0.2,
+                   double width_m = 1) {
+  ObstacleChange change;
+  change.name = name;
+  change.X_WB = X_WB;
+  change.body = box({}, length_m, width_m).body;
+  return change;
+}
+ObstacleChange move(const std::string& name, const Pose2& X_WB) {
+  ObstacleChange change;
+  change.kind = Kind::kMove;
+  change.name = name;
+  change.X_WB = X_WB;
+  return change;
+}
+ObstacleChange take_away(const std::string& name) {
+  ObstacleChange change;
+  change.kind = Kind::kRemove;
+  change.name = name;
+  return change;
+}
+
+/// One robot that looks ahead and stands, one that drives ahead beside it.
+EngineSpec looker_and_driver() {
+  EngineSpec spec;
+  spec.history = from_seconds(0.2);
+  spec.world.obstacles.push_back(box({8, 0, 0}, 0.2, 1, 1, "post"));
+  RobotType looker = simulated_type();
+  looker.sensors.push_back(laser(1, 0, 5));
+  add_robot(spec, std::move(looker));
+  RobotType driver = simulated_type();
+  driver.program = program<Drive>({{"v", 0.5}});
+  add_robot(spec, std::move(driver), {0, 5, 0});
+  return spec;
+}
+constexpr RobotId kLooker(0);
+constexpr RobotId kDriver(1);
+
+std::uint32_t seen(const Engine& engine) { return engine.sensor(kLooker, 0).bodies[0]; }
+
+TEST(EngineObstacles, AreSeenFromTheStatedStepOn) {
+  const auto engine = make_engine(looker_and_driver());
+  run(*engine, 20);
+  EXPECT_EQ(range(*engine, kLooker, 0), kNothing);
+  const auto crate = engine->change_obstacle(add("crate", {2, 0, 0}));
+  ASSERT_TRUE(crate) << crate.error().text();
+  EXPECT_EQ(crate->id, BodyId(3)) << "behind the post and two robots";
+  EXPECT_EQ(crate->step, 20U);
+  EXPECT_EQ(crate->text, "`crate` at (2, 0), yaw 0 rad (by hand)");
+  const auto events = run(*engine, 1);
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].kind, EventKind::kObstacleAdded);
+  EXPECT_EQ(events[0].step, 20U);
+  EXPECT_FALSE(events[0].robot.valid());
+  EXPECT_EQ(events[0].other, crate->id);
+  EXPECT_EQ(events[0].text, crate->text);
+  EXPECT_FLOAT_EQ(range(*engine, kLooker, 0), 1.9F);
+  EXPECT_EQ(seen(*engine), 3U);
+  run(*engine, 10);
+  ASSERT_TRUE(engine->change_obstacle(move("crate", {3, 0, 0})));
+  EXPECT_EQ(run(*engine, 1).at(0).kind, EventKind::kObstacleMoved);
+  EXPECT_FLOAT_EQ(range(*engine, kLooker, 0), 2.9F);
+  run(*engine, 10);
+  ASSERT_TRUE(engine->change_obstacle(move("post", {2.5, 0, 0}))) << "those of the start, too";
+  run(*engine, 1);
+  EXPECT_FLOAT_EQ(range(*engine, kLooker, 0), 2.4F);
+  EXPECT_EQ(seen(*engine), 0U);
+  ASSERT_TRUE(engine->change_obstacle(take_away("post")));
+  EXPECT_EQ(run(*engine, 1).at(0).kind, EventKind::kObstacleRemoved);
+  EXPECT_FLOAT_EQ(range(*engine, kLooker, 0), 2.9F);
+  EXPECT_EQ(seen(*engine), 3U) << "numbers of others stay";
+  ASSERT_TRUE(engine->change_obstacle(take_away("crate")));
+  run(*engine, 1);
+  EXPECT_EQ(range(*engine, kLooker, 0), kNothing);
+  const auto again = engine->change_obstacle(add("crate", {2, 0, 0}));
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->id, BodyId(4)) << "no number is used twice";
+  EXPECT_EQ(engine->inputs_by_hand(), 6U);
+}
+
+TEST(EngineObstacles, StopRobotsAndLetThemGo) {
+  const auto engine = make_engine(looker_and_driver());
+  run(*engine, 40);
+  const double x_m = engine->true_pose(kDriver).x;
+  ASSERT_TRUE(engine->change_obstacle(add("gate", {x_m + 0.15 + 0.12, 5, 0})));
+  const auto events = run(*engine, 50);
+  EXPECT_NEAR(engine->true_pose(kDriver).x, x_m + 0.02, 1e-3);
+  const auto contacts = of_kind(events, EventKind::kContact);
+  ASSERT_EQ(contacts.size(), 1U);
+  EXPECT_EQ(contacts[0].other, BodyId(3));
+  ASSERT_TRUE(engine->change_obstacle(move("gate", {x_m + 1, 5, 0})));
+  run(*engine, 100);
+  EXPECT_NEAR(engine->true_pose(kDriver).x, x_m + 0.52, 1e-2);
+  ASSERT_TRUE(engine->change_obstacle(take_away("gate")));
+  run(*engine, 200);
+  EXPECT_NEAR(engine->true_pose(kDriver).x, x_m + 1.52, 1e-2);
+}
+
+TEST(EngineObstacles, AreResetToThoseOfTheStart) {
+  const auto engine = make_engine(looker_and_driver());
+  run(*engine, 60);
+  const RunHash plain = engine->hash();
+  RunHash edited;
+  for (int round = 0; round < 2; ++round) {
+    ASSERT_TRUE(engine->reset());
+    EXPECT_EQ(engine->spec().world.body_count(), 3U);
+    run(*engine, 60);
+    EXPECT_EQ(engine->hash(), plain);
+    ASSERT_TRUE(engine->reset());
+    run(*engine, 10);
+    ASSERT_TRUE(engine->change_obstacle(add("crate", {2, 0, 0})));
+    ASSERT_TRUE(engine->change_obstacle(take_away("post")));
+    run(*engine, 10);
+    float reading = 0;
+    ASSERT_TRUE(engine->sample_at(kLooker, 0, {from_seconds(0.15).ns}, &reading));
+    EXPECT_FLOAT_EQ(reading, 1.9F);
+    run(*engine, 40);
+    if (round == 1) {
+      EXPECT_EQ(engine->hash(), edited);
+    }
+    edited = engine->hash();
+    EXPECT_NE(edited, plain);
+  }
+  ASSERT_TRUE(engine->reset());
+  EXPECT_EQ(engine->inputs_by_hand(), 0U);
+  ASSERT_TRUE(engine->change_obstacle(move("post", {2, 0, 0})));
+  run(*engine, 1);
+  EXPECT_EQ(seen(*engine), 0U);
+}
+
+TEST(EngineObstacles, ARefusedChangeLeavesEverythingAsItWas) {
+  const auto after = [](auto&& spoil) {
+    const auto engine = make_engine(looker_and_driver());
+    run(*engine, 10);
+    spoil(*engine);
+    EXPECT_EQ(engine->inputs_by_hand(), 0U);
+    run(*engine, 50);
+    return engine->hash();
+  };
+  const RunHash plain = after([](Engine&) {});
+  const auto refused = [&](const std::string& why, const ObstacleChange& change) {
+    const auto ask = [&](Engine& engine) {
+      const auto answer = engine.change_obstacle(change);
+      ASSERT_FALSE(answer) << why;
+      EXPECT_NE(answer.error().text().find(why), std::string::npos) << answer.error().text();
+    };
+    EXPECT_EQ(after(ask), plain) << why;
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  refused("there is no obstacle `pst`; did you mean `post`?", take_away("pst"));
+  refused("there is an obstacle `post` already (number 0)", add("post", {3, 0, 0}));
+  refused("x is nan; expected within +-10000000 m", add("crate", {nan, 0, 0}));
+  refused("y is -inf", move("post", {0, -std::numeric_limits<double>::infinity(), 0}));
+  refused("x is 20000000", move("post", {2e7, 0, 0}));
+  refused("yaw is nan", move("post", {0, 0, nan}));
+  refused("needs a name", add("", {3, 0, 0}));
+  refused("a control character", add("a\nb", {3, 0, 0}));
+  refused("has 65 bytes", add(std::string(65, 'x'), {3, 0, 0}));
+  refused("overlap the robot `r0` at (0.000, 0.000)", add("crate", {0.2, 0, 0}));
+  refused("overlap the robot `r0`", move("post", {0.2, 0, 0}));
+  ObstacleChange strange = add("crate", {3, 0, 0});
+  strange.body.shapes.clear();
+  refused("has 0 convex shapes; expected 1 to 64", strange);
+  strange = add("crate", {3, 0, 0});
+  strange.body.shapes.resize(65, strange.body.shapes[0]);
+  refused("has 65 convex shapes", strange);
+  strange = add("crate", {3, 0, 0});
+  strange.body.shapes[0].z1_m = nan;
+  refused("a height range", strange);
+  strange.body.shapes[0] = world::make_disc({}, 1, 0, 1).value();
+  strange.body.shapes[0].radius_m = -1;
+  refused("a radius above 0", strange);
+  strange.body.shapes[0].radius_m = 2e6;
+  refused("reaches 2000000 m from its origin", strange);
+  strange = add("crate", {3, 0, 0});
+  strange.body.layer = Layer::kSimulatedRobots;
+  refused("its layer is one of robots", strange);
+  ObstacleChange by_number = take_away("");
+  by_number.id = BodyId(1);  // a robot
+  refused("there is no obstacle 1", by_number);
+  by_number.id = BodyId(77);
+  refused("there is no obstacle 77", by_number);
+  by_number.kind = Kind{7};
+  refused("unknown change", by_number);
+}
+
+TEST(EngineObstacles, WhatHasGoneCannotBeChangedAndWhatHasTwoNamesNeedsANumber) {
+  EngineSpec spec = looker_and_driver();
+  spec.world.obstacles.push_back(box({9, 9, 0}, 0.2, 1, 1, "post"));
+  const auto engine = make_engine(std::move(spec));
+  EXPECT_EQ(engine->change_obstacle(take_away("post")).error().text(),
+            "`post` is the name of 2 obstacles; expected a number");
+  ObstacleChange change = take_away("");
+  change.id = BodyId(0);
+  ASSERT_TRUE(engine->change_obstacle(change));
+  EXPECT_EQ(engine->change_obstacle(change).error().text(),
+            "there is no obstacle 0; `post` has been removed");
+  EXPECT_TRUE(engine->change_obstacle(take_away("post"))) << "one is left";
+  EXPECT_TRUE(engine->change_obstacle(add("post", {3, 0, 0}))) << "the name is free again";
+}
+
+TEST(EngineObstacles, WhatOverlapsAlreadyMayOnlyGetLess) {
+  EngineSpec spec = looker_and_driver();
+  spec.world.obstacles.push_back(box({0.2, 0, 0}, 0.2, 0.2, 1, "intruder"));
+  const auto engine = make_engine(std::move(spec));
+  EXPECT_FALSE(engine->change_obstacle(move("intruder", {0.18, 0, 0})));
+  EXPECT_TRUE(engine->change_obstacle(move("intruder", {0.22, 0, 0})));
+  EXPECT_TRUE(engine->change_obstacle(move("intruder", {2, 0, 0})));
+}
+
+TEST(EngineObstacles, MayBePutOverRealRobotsWhichAreTold) {
+  EngineSpec spec = looker_and_driver();
+  const RobotId real = add_robot(spec, real_type({{"x", -3}}));
+  const auto engine = make_engine(std::move(spec));
+  run(*engine, 5);
+  const auto put = engine->change_obstacle(add("crate", {-3, 0, 0}));
+  ASSERT_TRUE(put) << put.error().text();
+  EXPECT_EQ(put->text, "`crate` at (-3, 0), yaw 0 rad, over the real robot `r2` (by hand)");
+  const auto events = run(*engine, 3);
+  ASSERT_EQ(of_kind(events, EventKind::kContact).size(), 1U);
+  EXPECT_EQ(of_kind(events, EventKind::kContact)[0].robot, real);
+  EXPECT_DOUBLE_EQ(engine->true_pose(real).x, -3);
+}
+
+TEST(EngineObstacles, AboveARobotThereIsRoom) {
+  const auto engine = make_engine(looker_and_driver());
+  ObstacleChange bridge = add("bridge", {0, 0, 0}, 4, 4);
+  for (world::Shape& shape : bridge.body.shapes) {
+    shape.z0_m = 0.5;
+    shape.z1_m = 1;
+  }
+  EXPECT_TRUE(engine->change_obstacle(bridge));
+}
+
+TEST(EngineObstacles, ARobotGrowsAsFarAsThoseThatCameLetIt) {
+  const auto engine = make_engine(looker_and_driver());
+  ASSERT_TRUE(engine->change_obstacle(add("crate", {0.4, 0, 0})));
+  const ParameterChange scale[] = {{ParameterChange::Part::kBody, 0, "scale", 3.0}};
+  const Status status = engine->set_parameters(kLooker, scale);
+  ASSERT_FALSE(status);
+  EXPECT_NE(status.error().text().find("overlap `crate`"), std::string::npos);
+  ASSERT_TRUE(engine->change_obstacle(take_away("crate")));
+  EXPECT_TRUE(engine->set_parameters(kLooker, scale));
+}
+
+TEST(EngineObstacles, AreSeenRightAfterABodyHasChanged) {
+  EngineSpec spec = looker_and_driver();
+  // So long that the index cuts it into pieces, more of them the larger it gets.
+  const RobotId bus = add_twin(spec, {0, 9, 0});
+  const std::vector<Vec2> outline = {{-0.8, -0.1}, {0.8, -0.1}, {0.8, 0.1}, {-0.8, 0.1}};
+  spec.world.robots[bus.value()].shapes = world::make_prisms(outline, 0, 0.3).value();
+  const auto engine = make_engine(std::move(spec));
+  ASSERT_TRUE(engine->change_obstacle(add("far", {4, 0, 0})));
+  ASSERT_TRUE(engine->change_obstacle(add("near", {2, 0, 0})));
+  run(*engine, 10);
+  const ParameterChange scale[] = {{ParameterChange::Part::kBody, 0, "scale", 4.0}};
+  ASSERT_TRUE(engine->set_parameters(bus, scale));
+  run(*engine, 10);
+  EXPECT_FLOAT_EQ(range(*engine, kLooker, 0), 1.9F);
+  EXPECT_EQ(seen(*engine), 5U);
+  ASSERT_TRUE(engine->change_obstacle(take_away("near")));
+  run(*engine, 10);
+  EXPECT_FLOAT_EQ(range(*engine, kLooker, 0), 3.9F);
+}
+
+TEST(EngineObstacles, ThePastShowsThemAsTheyWere) {
+  const auto engine = make_engine(looker_and_driver());
+  const auto seen_at = [&](double t_s) {
+    float reading = -1;
+    const auto header = engine->sample_at(kLooker, 0, {from_seconds(t_s).ns}, &reading);
+    EXPECT_TRUE(header) << t_s;
+    return reading;
+  };
+  run(*engine, 30);  // shows 0.29 s
+  ASSERT_TRUE(engine->change_obstacle(add("crate", {2, 0, 0})));
+  EXPECT_EQ(seen_at(0.29), kNothing) << "it counts from the next step on";
+  run(*engine, 5);
+  ASSERT_TRUE(engine->change_obstacle(move("crate", {3, 0, 0})));
+  run(*engine, 5);
+  ASSERT_TRUE(engine->change_obstacle(take_away("crate")));
+  ASSERT_TRUE(engine->change_obstacle(move("post", {4, 0, 0})));
+  run(*engine, 5);  // shows 0.44 s
+  for (int round = 0; round < 2; ++round) {
+    EXPECT_FLOAT_EQ(seen_at(0.3), 1.9F);
+    EXPECT_EQ(seen_at(0.299), kNothing);
+    EXPECT_FLOAT_EQ(seen_at(0.349), 1.9F);
+    EXPECT_FLOAT_EQ(seen_at(0.35), 2.9F);
+    EXPECT_FLOAT_EQ(seen_at(0.40), 3.9F);
+    EXPECT_FLOAT_EQ(seen_at(0.44), 3.9F);
+    EXPECT_FLOAT_EQ(seen_at(0.395), 2.9F);
+  }
+  // So many changes that the snapshot of the past has missed some that are forgotten by now.
+  for (int k = 0; k < 60; ++k) {
+    ASSERT_TRUE(engine->change_obstacle(add("c" + std::to_string(k), {1 + 0.05 * k, 0, 0})));
+    if (k >= 3) {
+      ASSERT_TRUE(engine->change_obstacle(take_away("c" + std::to_string(k - 3))));
+    }
+    run(*engine, 1);
+  }
+  // It shows 1.04 s, when c57, c58 and c59 stood; c(k) came at 0.45 s + k steps.
+  EXPECT_FLOAT_EQ(seen_at(1.04), static_cast<float>(1 + 0.05 * 57 - 0.1));
+  EXPECT_FLOAT_EQ(seen_at(0.901), static_cast<float>(1 + 0.05 * 43 - 0.1));
+  EXPECT_FLOAT_EQ(seen_at(1.02), static_cast<float>(1 + 0.05 * 55 - 0.1));
+}
+
+TEST(EngineObstacles, AHybridSeesThemAsTheyWereAtTheStamp) {
+  EngineSpec spec;
+  spec.world.obstacles.push_back(box({6, 0, 0}, 0.2, 1, 1, "wall"));
+  RobotType type = real_type({});
+  type.sensors[0] = real_sensor<HandFedPose>("mocap", {{"port", 0}});
+  type.sensors.push_back(hybrid<HandFedLaser, Laser, Nearest>({{"port", 1}, {"rays", 1}},
+                                                              {{"rays", 1}, {"range_m", 9}}));
+  type.sensors.push_back(
+      hybrid<HandFedBumper, Bumper, JustVirtual<ContactReading>>({{"port", 2}}, {}));
+  const RobotId robot = add_robot(spec, std::move(type));
+  const auto engine = make_engine(std::move(spec));
+  struct Seen {
+    float range_m = 0;
+    bool touching = false;
+  };
+  // A stamp lies between two steps; the sample comes with the later one.
+  const auto step = [&](int k) -> Seen {
+    const double t_s = 0.01 * k;
+    const double stamp_s = t_s - 0.0037;
+    feed_pose(0, t_s, {});
+    if (stamp_s >= 0) {
+      feed_ranges(1, stamp_s, {8});
+      const ContactReading nothing{};
+      HandFedBumper::port(2)->publish(at(stamp_s), &nothing, 1);
+    }
+    complete<HandFedPose>(0, t_s);
+    complete<HandFedLaser>(1, t_s);
+    complete<HandFedBumper>(2, t_s);
+    const Status status = engine->step();
+    EXPECT_TRUE(status) << status.error().text();
+    const auto* const touch = static_cast<const ContactReading*>(engine->sensor(robot, 2).records);
+    return {range(*engine, robot, 1), touch->touching != 0};
+  };
+  for (int k = 0; k < 50; ++k) {
+    if (k == 10) {
+      ASSERT_TRUE(engine->change_obstacle(add("crate", {2, 0, 0})));
+    }
+    if (k == 20) {  // over it
+      ASSERT_TRUE(engine->change_obstacle(move("wall", {0.2, 0, 0})));
+    }
+    if (k == 30) {
+      ASSERT_TRUE(engine->change_obstacle(move("wall", {6, 0, 0})));
+    }
+    if (k == 40) {
+      ASSERT_TRUE(engine->change_obstacle(take_away("crate")));
+    }
+    const Seen seen = step(k);
+    if (k < 1) continue;
+    const int shown = k - 1;  // the step whose world the stamp falls into
+    const float expected_m = shown < 10 || shown >= 40   ? 5.9F
+                             : shown < 20 || shown >= 30 ? 1.9F
+                                                         : 0.1F;
+    EXPECT_FLOAT_EQ(seen.range_m, expected_m) << k;
+    EXPECT_EQ(seen.touching, shown >= 20 && shown < 30) << k;
+  }
+}
+
+TEST(EngineObstacles, ChangesOfTheScenarioBelongToTheRun) {
+  const auto go = [](unsigned threads, Author author, double x_m = 2) {
+    EngineSpec spec = looker_and_driver();
+    spec.threads = threads;
+    spec.share_always = threads > 1;
+    const ObstacleChange changes[] = {add("crate", {x_m, 0, 0}), move("post", {3, 5, 0}),
+                                      take_away("crate")};
+    if (author == Author::kRun) {
+      spec.obstacle_changes = {{10, changes[0]}, {10, changes[1]}, {40, changes[2]}};
+    }
+    const auto engine = make_engine(std::move(spec));
+    for (int k = 0; k < 60; ++k) {
+      if (author == Author::kHand && k == 10) {
+        EXPECT_TRUE(engine->change_obstacle(changes[0], Author::kRun));
+        EXPECT_TRUE(engine->change_obstacle(changes[1], Author::kRun));
+      }
+      if (author == Author::kHand && k == 40) {
+        EXPECT_TRUE(engine->change_obstacle(changes[2], Author::kRun));
+      }
+      const std::size_t events = run(*engine, 1).size();
+      EXPECT_EQ(events, k == 10 ? 2U : k == 40 ? 1U : 0U) << k;
+    }
+    EXPECT_EQ(engine->inputs_by_hand(), 0U);
+    const RunHash first = engine->hash();
+    if (author == Author::kRun) {
+      EXPECT_TRUE(engine->reset());
+      run(*engine, 60);
+      EXPECT_EQ(engine->hash(), first);
+    }
+    return first;
+  };
+  const RunHash hash = go(1, Author::kRun);
+  EXPECT_EQ(go(3, Author::kRun), hash);
+  EXPECT_EQ(go(1, Author::kHand), hash);
+  EXPECT_NE(go(1, Author::kRun, std::nextafter(2.0, 3.0)), hash);
+}
+
+TEST(EngineObstacles, AChangeOfTheScenarioThatCannotBeMadeIsAnEvent) {
+  EngineSpec spec = looker_and_driver();
+  spec.obstacle_changes = {{10, add("crate", {0, 0, 0})}};
+  const auto engine = make_engine(std::move(spec));
+  const auto events = run(*engine, 20);
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].kind, EventKind::kChangeRefused);
+  EXPECT_EQ(events[0].step, 10U);
+  EXPECT_FALSE(events[0].robot.valid());
+  EXPECT_NE(events[0].text.find("overlap the robot `r0`"), std::string::npos);
+  EngineSpec wrong = looker_and_driver();
+  wrong.obstacle_changes = {{10, add("", {0, 0, 0})}};
+  EXPECT_FALSE(Engine::create(std::move(wrong)));
+}
+
+TEST(EngineObstacles, TheHashHoldsWhatNobodySees) {
+  const auto hash = [](auto&& change) {
+    const auto engine = make_engine(looker_and_driver());
+    ObstacleChange crate = add("crate", {-20, 0, 0});
+    change(crate);
+    EXPECT_TRUE(engine->change_obstacle(crate));
+    run(*engine, 1);
+    return engine->hash();
+  };
+  const RunHash plain = hash([](ObstacleChange&) {});
+  EXPECT_EQ(hash([](ObstacleChange& crate) { crate.body.colour = "#112233"; }), plain);
+  EXPECT_NE(hash([](ObstacleChange& crate) { crate.name = "crete"; }), plain);
+  EXPECT_NE(hash([](ObstacleChange& crate) { crate.body.shapes[0].z1_m = 1.5; }), plain);
+  EXPECT_NE(hash([](ObstacleChange& crate) { crate.body.code = 0; }), plain);
+  EXPECT_NE(hash([](ObstacleChange& crate) { crate.body.layer = Layer::kMappedReal; }), plain);
+  EXPECT_NE(hash([](ObstacleChange& crate) { crate.body = box({}, 0.2, 1.1).body; }), plain);
+}
+
+}  // namespace
+}  // namespace rave::sim::testing

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "kinds.hpp"
+
+/// How events are told to people.
+namespace rave::robot_host {
+
+/// Whether it is one of an obstacle that came, moved or went; its text names the obstacle.
+[[nodiscard]] inline bool is_of_obstacle(sim::EventKind kind) noexcept {
+  return kind == sim::EventKind::kObstacleAdded || kind == sim::EventKind::kObstacleMoved ||
+         kind == sim::EventKind::kObstacleRemoved;
+}
+
+/// The robot that it concerns, or `world`.
+[[nodiscard]] inline std::string_view subject_of(const sim::EngineSpec& spec,
+                                                 const sim::Event& event) noexcept {
+  return event.robot.valid() ? std::string_view(spec.robots[event.robot.value()].name) : "world";
+}
+
+/// `with NAME `, if there is somebody else.
+[[nodiscard]] inline std::string with_whom(const BodyKinds& kinds, const sim::Event& event) {
+  if (!event.other.valid() || is_of_obstacle(event.kind)) return {};
+  return fmt::format("with {} ", kinds.name(event.other.value()));
+}
+
+}  // namespace rave::robot_host

@@ -127,16 +127,16 @@ TEST_F(Control, WhatWasDoneByHandIsDoneAgainByVerify) {
 
 TEST_F(Control, EditsTheWorldAndVerifyDoesItAgain) {
   start("good_scenario.yaml");
-  const Ended added = rave({"edit", "add", "box", "--name", "crate", "--at", "40,2,30", "--size",
+  const Ended added = rave({"edit", "add", "box", "--name", "bale", "--at", "40,2,30", "--size",
                             "0.5x0.3", "--height", "0,0.8"});
   EXPECT_EQ(added.exit_code, 0) << added.err;
-  EXPECT_NE(added.out.find("added `crate` at (40, 2)"), std::string::npos) << added.out;
+  EXPECT_NE(added.out.find("added `bale` at (40, 2)"), std::string::npos) << added.out;
   EXPECT_NE(added.out.find("counts from step "), std::string::npos) << added.out;
   EXPECT_NE(added.out.find(" ms after it was asked)"), std::string::npos) << added.out;
   const Ended listed = rave({"edit", "list"});
-  EXPECT_NE(listed.out.find("crate"), std::string::npos) << listed.out;
+  EXPECT_NE(listed.out.find("bale"), std::string::npos) << listed.out;
   EXPECT_NE(listed.out.find("(40.000, 2.000) m, 30.0 deg"), std::string::npos) << listed.out;
-  EXPECT_EQ(rave({"edit", "small", "move", "crate", "--at", "-40,1"}).exit_code, 0);
+  EXPECT_EQ(rave({"edit", "small", "move", "bale", "--at", "-40,1"}).exit_code, 0);
   EXPECT_EQ(rave({"edit", "add", "disc", "--name", "tube", "--at", "30,0", "--size", "0.25",
                   "--layer", "mapped_real", "--barcode", "7"})
                 .exit_code,
@@ -150,7 +150,7 @@ TEST_F(Control, EditsTheWorldAndVerifyDoesItAgain) {
   EXPECT_EQ(again.out.find("tube"), std::string::npos) << again.out;
   EXPECT_NE(again.out.find("(-40.000, 1.000) m"), std::string::npos) << again.out;
   end();
-  EXPECT_NE(events().find("obstacle added `crate`"), std::string::npos) << events();
+  EXPECT_NE(events().find("obstacle added `bale`"), std::string::npos) << events();
   EXPECT_NE(events().find("obstacle removed `tube` (by hand)"), std::string::npos) << events();
   const Ended ended = rave({"verify", output()});
   EXPECT_EQ(ended.exit_code, 0) << ended.err;

@@ -14,7 +14,7 @@ import common
 TABLE = "docs/design/layers.md"
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]')
 CALL = re.compile(r"\b(\w+)\s*\(([^()]*(?:\([^()]*\)[^()]*)*)\)")
-RAVE_NAME = re.compile(r"^rave(?:::|_)([a-z_]+)$")
+RAVE_NAME = re.compile(r"^rave(?:::|_)([a-z0-9_]+)$")
 # Third-party packages by the start of an include and by the name in a link line.
 PACKAGE_INCLUDES = {"fmt/": "fmt", "tl/": "expected", "yaml-cpp/": "yaml-cpp", "png.h": "png",
                     "cairo": "cairo", "spdlog/": "spdlog", "CLI/": "cli11", "zlib.h": "zlib",
@@ -28,7 +28,7 @@ PACKAGE_LINKS = {"fmt::": "fmt", "tl::": "expected", "yaml-cpp": "yaml-cpp", "PN
                  "${backtrace": "backtrace", "GTest::": "gtest", "benchmark::": "benchmark",
                  "Eigen3::": "eigen", "${ZSTD_": "zstd", "Boost::": "boost", "${CMAKE_DL_LIBS}": "dl",
                  "hwy::": "hwy", "CycloneDDS::": "dds", "rave::wire": "wire",
-                 "OpenSSL::": "openssl"}
+                 "OpenSSL::": "openssl", "rave::ros2_wire": "wire"}
 
 
 def read_table(tree):
@@ -40,7 +40,7 @@ def read_table(tree):
             continue
         uses = [None if "any" in cell.split() else set(re.findall(r"[a-z][a-z0-9_-]*", cell))
                 for cell in cells[1:3]]
-        for owner in re.findall(r"`([a-z ]+)`", cells[0]):
+        for owner in re.findall(r"`([a-z0-9 ]+)`", cells[0]):
             rules[owner] = tuple(uses)
     return rules
 

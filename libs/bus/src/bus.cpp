@@ -6,8 +6,9 @@
 #include <cstring>
 #include <utility>
 
-#include "cyclone_log.hpp"
 #include "participants.hpp"
+#include "rave/bus/cyclone_log.hpp"
+#include "rave/bus/endpoint.hpp"
 
 namespace rave::bus {
 namespace {
@@ -169,26 +170,9 @@ void Bus::collect_matches(Endpoint& endpoint) {
 }
 
 void Bus::collect_incompatible(const Endpoint& endpoint) {
-  std::uint32_t policy = 0;
-  std::int32_t fresh = 0;
-  if (endpoint.reads) {
-    dds_requested_incompatible_qos_status_t status{};
-    dds_get_requested_incompatible_qos_status(endpoint.entity, &status);
-    policy = status.last_policy_id;
-    fresh = status.total_count_change;
-  } else {
-    dds_offered_incompatible_qos_status_t status{};
-    dds_get_offered_incompatible_qos_status(endpoint.entity, &status);
-    policy = status.last_policy_id;
-    fresh = status.total_count_change;
+  if (auto text = take_mismatch(endpoint.entity, endpoint.reads)) {
+    events_.push_back({EventKind::kIncompatible, endpoint.topic, "", 0, *std::move(text)});
   }
-  if (fresh == 0) return;
-  const PolicyAdvice advice = advice_for_policy(policy);
-  events_.push_back(
-      {EventKind::kIncompatible, endpoint.topic, "", 0,
-       fmt::format("a {} gets nothing {} us: {} does not match; {}",
-                   endpoint.reads ? "writer" : "reader", endpoint.reads ? "through to" : "from",
-                   advice.name, advice.remedy)});
 }
 
 void Bus::note_foreign(const std::string& topic) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cyclone_log.hpp"
+#include "rave/bus/cyclone_log.hpp"
 
 #include <string_view>
 #include <utility>

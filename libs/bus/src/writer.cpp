@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/bus/writer.hpp"
 
+#include "rave/bus/endpoint.hpp"
+
 namespace rave::bus {
 
 Result<WriterCore> WriterCore::create(Bus& bus, const TopicSpec& topic) {
@@ -32,9 +34,6 @@ Status WriterCore::dispose(const void* key) {
   return fail(ErrorCode::kState, "{}: cannot dispose: {}", topic_, dds_strretcode(code));
 }
 
-std::size_t WriterCore::readers() const {
-  const dds_return_t count = dds_get_matched_subscriptions(writer_, nullptr, 0);
-  return count < 0 ? 0 : static_cast<std::size_t>(count);
-}
+std::size_t WriterCore::readers() const { return matched_ends(writer_, false); }
 
 }  // namespace rave::bus

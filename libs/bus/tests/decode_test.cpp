@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "rave/bus/sequence.hpp"
-#include "rave/bus/testing/cdr.hpp"
+#include "rave/bus_testing/messages.hpp"
 #include "rave/bus/validate.hpp"
 #include "sample_messages.hpp"
 

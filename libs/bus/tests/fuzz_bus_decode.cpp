@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "rave/bus/testing/cdr.hpp"
+#include "rave/bus_testing/messages.hpp"
 #include "rave/bus/validate.hpp"
 
 namespace {

@@ -261,6 +261,9 @@ void describe(V& v, RobotFile& c) {
            .min = 0,
            .max = kLongest_s,
            .unit = "s"});
+  v.field("ros2", c.ros2,
+          {.doc = "Whether ROS 2 sees it: its readings, transforms and description; the scenario's "
+                  "`ros2` says on which network."});
   v.field("devices", c.devices,
           {.doc = "Hardware that several sensors and actuators share.", .max_items = 1000});
   v.field("sensors", c.sensors, {.doc = "Each with its processing chain.", .max_items = 1000});

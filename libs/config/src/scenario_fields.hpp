@@ -180,6 +180,25 @@ void describe_hosts(V& v, ScenarioFile& c) {
            .unit = "s"});
 }
 
+constexpr auto enum_names(EnumTag<Ros2Multicast> /*tag*/) {
+  return std::array{EnumName{Ros2Multicast::kNone, "none"},
+                    EnumName{Ros2Multicast::kDiscovery, "discovery"},
+                    EnumName{Ros2Multicast::kData, "data"}};
+}
+
+template <class V>
+void describe(V& v, Ros2File& c) {
+  v.field("domain", c.domain, {.doc = "That of ROS_DOMAIN_ID.", .min = 0, .max = 230});
+  v.field("interface", c.interface,
+          {.doc = "Network interface, by address or name; the default is this machine.",
+           .min_items = 1});
+  v.field("peers", c.peers, {.doc = "Addresses to look for others at.", .max_items = 100});
+  v.field("multicast", c.multicast,
+          {.doc = "What is sent by multicast: nothing, what finds others, or data as well."});
+  v.field("period_s", c.period_s,
+          {.doc = "Time between two transforms.", .min = 0.001, .max = 60, .unit = "s"});
+}
+
 template <class V>
 void describe_run(V& v, ScenarioFile& c) {
   v.field("seed", c.seed, {.doc = "Of all chance in the run."});
@@ -210,6 +229,7 @@ void describe(V& v, ScenarioFile& c) {
       {.doc = "Parameters and obstacles that change while the run goes.", .max_items = 100'000});
   v.field("checks", c.checks, {.doc = "What must hold for the run to count as good."});
   v.field("picture", c.picture, {.doc = "Settings of the picture of the run; null: the usual."});
+  v.field("ros2", c.ros2, {.doc = "Where robots with `ros2: true` show themselves."});
 }
 
 void validate(const ScenarioFile& c, CheckContext& check);

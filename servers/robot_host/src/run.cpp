@@ -13,6 +13,7 @@
 #include "rave/robot_host/provenance.hpp"
 #include "record_keeper.hpp"
 #include "requests.hpp"
+#include "ros2_face.hpp"
 #include "stall_watch.hpp"
 #include "wall_pace.hpp"
 
@@ -32,6 +33,7 @@ struct Observers {
   std::optional<InstantKeeper> instant;
   std::optional<CaptureWatch> capture;
   std::unique_ptr<RecordKeeper> record;
+  std::unique_ptr<Ros2Face> ros2;
 
   Observers(const config::ExpandedScenario& expanded, const config::ScenarioFile& scenario,
             const BuiltScenario& built, const sim::EngineSpec& spec)
@@ -59,6 +61,7 @@ struct Observers {
     if (sightings) sightings->after_step(engine);
     if (instant) instant->after_step(engine);
     if (capture) capture->after_step(engine);
+    if (ros2) ros2->after_step(engine);
     if (!record) return;
     record->after_step(engine);
     if (capture) record->keep(capture->events());
@@ -226,6 +229,7 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
   RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(built.spec)));
 
   Observers observers(adjusted, file, built, engine->spec());
+  RAVE_TRY_ASSIGN(observers.ros2, Ros2Face::open(adjusted, *engine));
   if (options.record) {
     RAVE_TRY_ASSIGN(
         observers.record,

@@ -1,37 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "rave/bus/bus.hpp"
+#include "rave/bus/endpoint.hpp"
 #include "rave/bus/validate.hpp"
 
 namespace rave::bus {
 
-/// What readers of all types share: it takes samples on loan. Owner: a Reader.
+/// What readers of all types share. Owner: a Reader.
 class ReaderCore {
  public:
-  static constexpr std::size_t kBatch = 8;
   /// A sender that never stops must not keep the receiver from everything else.
   static constexpr std::size_t kMostAtOnce = 4096;
-  struct Loan {
-    std::array<void*, kBatch> samples{};
-    std::array<dds_sample_info_t, kBatch> infos;
-    std::size_t size = 0;
-  };
 
   [[nodiscard]] static Result<ReaderCore> create(Bus& bus, const TopicSpec& topic);
   ReaderCore(ReaderCore&& other) noexcept;
   ReaderCore& operator=(ReaderCore&&) = delete;
   ~ReaderCore();
 
-  /// Up to kBatch samples in `loan`; give_back() before the next call.
-  void take(Loan& loan);
-  void give_back(Loan& loan) noexcept;
   void note_foreign() { bus_->note_foreign(topic_); }
   void refuse(std::uint64_t writer, std::string why);
   [[nodiscard]] std::size_t writers() const;
@@ -65,15 +56,15 @@ class Reader {
   template <class Visit, class Gone>
   std::size_t take(Visit&& visit, Gone&& gone) {
     std::size_t visited = 0;
-    ReaderCore::Loan loan;
-    for (std::size_t taken = 0; taken < ReaderCore::kMostAtOnce; taken += ReaderCore::kBatch) {
-      core_.take(loan);
+    Loan loan;
+    for (std::size_t taken = 0; taken < ReaderCore::kMostAtOnce; taken += Loan::kBatch) {
+      bus::take(handle(), loan);
       for (std::size_t i = 0; i < loan.size; ++i) {
         const auto& sample = *static_cast<const Message*>(loan.samples[i]);
         visited += hand_over(sample, loan.infos[i], visit, gone);
       }
-      const bool more = loan.size == ReaderCore::kBatch;
-      core_.give_back(loan);
+      const bool more = loan.size == Loan::kBatch;
+      give_back(handle(), loan);
       if (!more) break;
     }
     return visited;

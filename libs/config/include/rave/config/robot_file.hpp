@@ -35,6 +35,7 @@ struct RobotFile {
   std::optional<Located<std::string>> pose_from;  ///< A sensor; unset: the truth.
   PoseFile source_frame;  ///< X_WM: pose in the world of the frame that pose_from reports in.
   double staleness_s = 0.5;
+  bool ros2 = false;  ///< It shows itself to ROS 2; ScenarioFile::ros2 says where.
   std::vector<DeviceFile> devices;
   std::vector<SensorFile> sensors;
   std::vector<ActuatorFile> actuators;

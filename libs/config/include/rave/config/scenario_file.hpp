@@ -129,6 +129,18 @@ enum class LostHost : std::uint8_t {
   kRestart,  ///< The same, and it may come back: its robots go on from where they stand.
 };
 
+enum class Ros2Multicast { kNone, kDiscovery, kData };
+
+/// Where robots with `ros2: true` show themselves.
+struct Ros2File {
+  int domain = 0;                       ///< ROS_DOMAIN_ID, 0 to 230.
+  std::string interface = "127.0.0.1";  ///< By address or name.
+  std::vector<std::string> peers;       ///< Addresses to look for others at.
+  Ros2Multicast multicast = Ros2Multicast::kNone;
+  double period_s = 0.05;  ///< Of transforms, and of poses that no odometry gives.
+  bool operator==(const Ros2File&) const = default;
+};
+
 struct ScenarioFile {
   Located<std::string> name;
   std::string description;
@@ -150,6 +162,7 @@ struct ScenarioFile {
   std::vector<ChangeFile> changes;
   ChecksFile checks;
   std::optional<PictureFile> picture;
+  Ros2File ros2;
   bool operator==(const ScenarioFile&) const = default;
 };
 

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ros2/readings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "rave/bus/sequence.hpp"
+#include "rave/ros2/convert.hpp"
+
+namespace rave::ros2_driver {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr float kNothing = std::numeric_limits<float>::infinity();
+
+/// Places of x, y and the heading in a covariance of six by six.
+constexpr std::size_t kXX = 0;
+constexpr std::size_t kYY = 7;
+constexpr std::size_t kYawYaw = 35;
+
+/// Many nodes leave the covariance at zero, which is what no sensor has.
+Doubt doubt_of(std::span<const double, 36> covariance, const Doubt& otherwise) {
+  // One number stands for both axes: the larger, which promises no more than the sender does.
+  const double xy = std::max(covariance[kXX], covariance[kYY]);
+  return {xy > 0 ? xy : otherwise.variance_xy_m2,
+          covariance[kYawYaw] > 0 ? covariance[kYawYaw] : otherwise.variance_yaw_rad2};
+}
+
+PoseReading reading(const Pose2& pose, const Doubt& doubt) {
+  return {pose.x, pose.y, pose.yaw, doubt.variance_xy_m2, doubt.variance_yaw_rad2};
+}
+
+}  // namespace
+
+Fan fan_of(const ros2::LaserScan& scan) noexcept {
+  return {scan.ranges._length, scan.angle_min, scan.angle_increment, scan.range_min,
+          scan.range_max};
+}
+
+std::vector<double> bearings_of(const Fan& fan) {
+  std::vector<double> bearings_rad;
+  for (std::uint32_t i = 0; i < fan.rays; ++i) {
+    bearings_rad.push_back(fan.first_rad + fan.step_rad * i);
+  }
+  return bearings_rad;
+}
+
+float range_of(float range, double min_m, double max_m) noexcept {
+  if (range == -kNothing) return static_cast<float>(min_m);
+  // NaN compares false with everything.
+  return range >= min_m && range <= max_m ? range : kNothing;
+}
+
+Status ranges_of(const ros2::LaserScan& scan, const Fan& fan, std::span<float> ranges_m) {
+  const Fan here = fan_of(scan);
+  if (!(here == fan)) {
+    return fail(
+        ErrorCode::kInvalidArgument,
+        "the scanner has changed: {} rays from {:.4f} rad each {:.5f} rad instead of {} from "
+        "{:.4f} rad each {:.5f} rad; start the run anew",
+        here.rays, here.first_rad, here.step_rad, fan.rays, fan.first_rad, fan.step_rad);
+  }
+  std::ranges::transform(bus::elements(scan.ranges), ranges_m.begin(), [&](float range) {
+    return range_of(range, fan.range_min_m, fan.range_max_m);
+  });
+  return {};
+}
+
+Result<OdometryReading> odometry_of(const ros2::Odometry& message, const Doubt& doubt) {
+  RAVE_TRY_ASSIGN(const Pose2 pose, ros2::planar(message.pose.pose));
+  const Doubt said = doubt_of(message.pose.covariance, doubt);
+  return OdometryReading{pose.x,
+                         pose.y,
+                         pose.yaw,
+                         message.twist.twist.linear.x,
+                         message.twist.twist.angular.z,
+                         said.variance_xy_m2,
+                         said.variance_yaw_rad2};
+}
+
+Result<PoseReading> pose_of(const ros2::Odometry& message, const Doubt& doubt) {
+  RAVE_TRY_ASSIGN(const Pose2 pose, ros2::planar(message.pose.pose));
+  return reading(pose, doubt_of(message.pose.covariance, doubt));
+}
+
+Result<PoseReading> pose_of(const ros2::PoseStamped& message, const Doubt& doubt) {
+  RAVE_TRY_ASSIGN(const Pose2 pose, ros2::planar(message.pose));
+  return reading(pose, doubt);
+}
+
+std::array<double, 10> imu_values(const ros2::Imu& message) noexcept {
+  std::array<double, 10> values{};
+  values.fill(kUnknown);
+  if (message.orientation_covariance[0] != -1) {
+    const ros2::Quaternion& q = message.orientation;
+    std::ranges::copy(std::array{q.x, q.y, q.z, q.w}, values.begin());
+  }
+  if (message.angular_velocity_covariance[0] != -1) {
+    const ros2::Vector3& v = message.angular_velocity;
+    std::ranges::copy(std::array{v.x, v.y, v.z}, values.begin() + 4);
+  }
+  if (message.linear_acceleration_covariance[0] != -1) {
+    const ros2::Vector3& v = message.linear_acceleration;
+    std::ranges::copy(std::array{v.x, v.y, v.z}, values.begin() + 7);
+  }
+  return values;
+}
+
+std::array<double, 6> battery_values(const ros2::BatteryState& message) noexcept {
+  return {message.percentage, message.voltage,  message.current,
+          message.charge,     message.capacity, message.temperature};
+}
+
+}  // namespace rave::ros2_driver

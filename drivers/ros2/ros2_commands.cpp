@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ros2/ros2_commands.hpp"
+
+#include "rave/ros2/convert.hpp"
+#include "ros2/readings.hpp"
+
+namespace rave::ros2_driver {
+
+Status Ros2Command::prepare(const Params& params, HardwareDeclaration& /*declaration*/) {
+  allow_silence();
+  RAVE_TRY_ASSIGN(const std::string name, device().topic(params.text("topic")));
+  const ros2::Participant& participant = device().participant();
+  if (params.text("message") == "twist_stamped") {
+    using Stamped = ros2::Reader<ros2::TwistStamped>;
+    RAVE_TRY_ASSIGN(auto reader, Stamped::create(participant, name, ros2::kReadNewest));
+    stamped_.emplace(std::move(reader));
+  } else {
+    using Plain = ros2::Reader<ros2::Twist>;
+    RAVE_TRY_ASSIGN(auto reader, Plain::create(participant, name, ros2::kReadNewest));
+    plain_.emplace(std::move(reader));
+  }
+  return {};
+}
+
+void Ros2Command::take(const ros2::Twist& twist, std::int64_t stamp_ns) {
+  const VelocityReading reading{twist.linear.x, twist.angular.z};
+  publish(stamp_ns, &reading, 1);
+}
+
+void Ros2Command::drain() {
+  if (plain_) plain_->take([this](const ros2::Twist& message) { take(message, 0); });
+  // A command counts from when it came: the clock of who gives it may be any.
+  if (stamped_) stamped_->take([this](const ros2::TwistStamped& m) { take(m.twist, 0); });
+}
+
+void Ros2Command::look_after(TopicState& state) {
+  const auto look = [&](auto& reader) {
+    state.refused = reader.refused();
+    if (!reader.trouble().empty()) state.trouble = reader.trouble();
+    if (auto text = reader.take_mismatch()) {
+      warn(fmt::format("`{}`: {}", reader.topic(), *text), state);
+    }
+  };
+  if (plain_) look(*plain_);
+  if (stamped_) look(*stamped_);
+}
+
+std::string Ros2Command::explain_silence() const {
+  return plain_ ? plain_->explain_silence() : stamped_->explain_silence();
+}
+
+std::vector<dds_entity_t> Ros2Command::readers() const {
+  return {plain_ ? plain_->handle() : stamped_->handle()};
+}
+
+const std::string& Ros2Command::topic() const {
+  return plain_ ? plain_->topic() : stamped_->topic();
+}
+
+Status Ros2Goal::prepare(const Params& params, HardwareDeclaration& /*declaration*/) {
+  allow_silence();
+  return make_reader(params);
+}
+
+Status Ros2Goal::take(const ros2::PoseStamped& message) {
+  RAVE_TRY_ASSIGN(const PoseReading reading, pose_of(message, {}));
+  publish(0, &reading, 1);
+  return {};
+}
+
+}  // namespace rave::ros2_driver

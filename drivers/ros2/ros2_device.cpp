@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ros2/ros2_device.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "rave/ros2/names.hpp"
+
+namespace rave::ros2_driver {
+
+Status Ros2Device::configure(const HardwareDeviceSetup& setup) {
+  RAVE_TRY_ASSIGN(options_, read_options(setup.parameters(), setup.robot.name));
+  host_ = setup.host;
+  // Here and not in open(), so that sensors can ask the robot what they are.
+  RAVE_TRY_ASSIGN(participant_, ros2::Participant::open(options_.network));
+  RAVE_TRY_ASSIGN(ros2::Waiter waiter, ros2::Waiter::create(*participant_));
+  waiter_.emplace(std::move(waiter));
+  return {};
+}
+
+Status Ros2Device::open() {
+  if (!participant_) return fail(ErrorCode::kState, "opened before it was configured");
+  if (thread_.joinable()) return fail(ErrorCode::kState, "opened twice; close it first");
+  away_ = false;
+  try {
+    thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+  } catch (const std::system_error& e) {
+    return fail(ErrorCode::kIo, "cannot start the thread of the robot: {}", e.what());
+  }
+  return {};
+}
+
+void Ros2Device::close() { stop_thread(); }
+
+void Ros2Device::stop_thread() {
+  if (!thread_.joinable()) return;
+  thread_.request_stop();
+  ring();
+  thread_.join();
+}
+
+Result<std::string> Ros2Device::topic(std::string_view name) const {
+  return ros2::whole_name(options_.name_space, name);
+}
+
+void Ros2Device::attach(TopicUser& user) {
+  const std::lock_guard lock(users_mutex_);
+  users_.push_back(&user);
+}
+
+void Ros2Device::detach(TopicUser& user) {
+  const std::lock_guard lock(users_mutex_);
+  std::erase(users_, &user);
+}
+
+void Ros2Device::log(LogLevel level, std::string_view text) const { host_.write(level, text); }
+
+Status Ros2Device::no_message(std::string_view topic, std::string_view why,
+                              std::string_view refused) const {
+  if (!refused.empty()) {
+    return fail(ErrorCode::kTimeout, "no message on `{}` within {} s could be used: {}", topic,
+                options_.start_timeout_s, refused);
+  }
+  return fail(ErrorCode::kTimeout, "no message came on `{}` within {} s: {}", topic,
+              options_.start_timeout_s, why);
+}
+
+void Ros2Device::run(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    const line::HostTime now = line::host_now();
+    line::HostTime due = now + kLook;
+    {
+      const std::lock_guard lock(users_mutex_);
+      for (TopicUser* const user : users_) due = std::min(due, user->attend(now));
+    }
+    waiter_->wait(Duration{line::until(due).count() * 1'000'000});
+  }
+}
+
+std::string Ros2Device::report() const {
+  if (!participant_) return "{}";
+  nlohmann::ordered_json json;
+  json["domain"] = options_.network.domain;
+  json["interface"] = options_.network.interface;
+  json["namespace"] = options_.name_space;
+  json["others"] = participant_->others_here();
+  json["away"] = away_.load();
+  return json.dump();
+}
+
+}  // namespace rave::ros2_driver

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "line/host_clock.hpp"
+#include "rave/robot/device.hpp"
+#include "rave/ros2/reader.hpp"
+#include "rave/ros2/waiter.hpp"
+#include "ros2/ros2_options.hpp"
+
+namespace rave::ros2_driver {
+
+/// A part of this plug-in that lives on topics of a device. Called from the device's thread, one
+/// call at a time, between attach() and the return of detach(), while the device is open.
+class TopicUser {
+ public:
+  /// Takes what has come and does what is due. Returns when it must be called again at the latest.
+  virtual line::HostTime attend(line::HostTime now) = 0;
+
+ protected:
+  ~TopicUser() = default;
+};
+
+/// A robot that speaks ROS 2, on the network. Its thread waits for messages and hands it to the
+/// sensors and actuators of this plug-in that live on it.
+class Ros2Device final : public HardwareDevice {
+ public:
+  Status configure(const HardwareDeviceSetup& setup) override;
+  Status open() override;
+  void close() override;
+  [[nodiscard]] std::string report() const override;
+
+  // For the parts, after configure().
+  [[nodiscard]] const ros2::Participant& participant() const noexcept { return *participant_; }
+  [[nodiscard]] const DeviceOptions& options() const noexcept { return options_; }
+  /// The whole name of a topic of this robot. Errors: those of ros2::whole_name().
+  [[nodiscard]] Result<std::string> topic(std::string_view name) const;
+  /// Wakes the device's thread when something comes to one of the readers of its users.
+  [[nodiscard]] const ros2::Waiter& waiter() const noexcept { return *waiter_; }
+  void attach(TopicUser& user);
+  void detach(TopicUser& user);
+  /// The device's thread attends to all its users now. Any thread.
+  void ring() const noexcept { waiter_->ring(); }
+  /// A sensor had a message of the robot, or has heard nothing for too long. Device's thread.
+  void heard(bool message) noexcept { away_ = !message; }
+  /// Whether the robot's sensors are silent.
+  [[nodiscard]] bool away() const noexcept { return away_; }
+  void log(LogLevel level, std::string_view text) const;
+
+  /// Waits until `reader` has a message for which `suits(const Message&)` holds, at most until the
+  /// start of a run may take no longer. Error kTimeout says why none came. Host's thread.
+  template <class Message, class Suits>
+  [[nodiscard]] Status await(ros2::Reader<Message>& reader, Suits&& suits) const {
+    RAVE_TRY_ASSIGN(const ros2::Waiter waiter, ros2::Waiter::create(participant()));
+    RAVE_TRY(waiter.watch(reader.handle()));
+    const line::HostTime end = line::after_seconds(line::host_now(), options_.start_timeout_s);
+    std::optional<std::string> mismatch;
+    while (true) {
+      bool found = false;
+      reader.take([&](const Message& message) { found = found || suits(message); });
+      if (found) return {};
+      if (auto text = reader.take_mismatch()) mismatch = std::move(text);
+      const line::Wait left = line::until(end);
+      if (left == line::Wait::zero()) {
+        return no_message(reader.topic(), mismatch.value_or(reader.explain_silence()),
+                          reader.trouble());
+      }
+      waiter.wait(Duration{std::min(left, kLook).count() * 1'000'000});
+    }
+  }
+
+ private:
+  /// How often somebody looks after what wakes nobody up.
+  static constexpr line::Wait kLook{50};
+
+  [[nodiscard]] Status no_message(std::string_view topic, std::string_view why,
+                                  std::string_view refused) const;
+  void run(const std::stop_token& stop);
+  void stop_thread();
+
+  DeviceOptions options_;
+  HostServices host_;
+  std::unique_ptr<ros2::Participant> participant_;
+  std::optional<ros2::Waiter> waiter_;
+  std::atomic<bool> away_{false};
+
+  std::mutex users_mutex_;  // guards users_; held while they are called
+  std::vector<TopicUser*> users_;
+  std::jthread thread_;  // last: it ends before what it uses is gone
+};
+
+}  // namespace rave::ros2_driver

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "rave/plugin/params.hpp"
+#include "rave/ros2/participant.hpp"
+
+namespace rave::ros2_driver {
+
+inline constexpr std::array<const char*, 3> kMulticasts{"none", "discovery", "data"};
+inline constexpr std::array<const char*, 3> kVelocityMessages{"auto", "twist", "twist_stamped"};
+inline constexpr std::array<const char*, 2> kCommandMessages{"twist", "twist_stamped"};
+
+inline constexpr std::array<ParamSpec, 8> kDeviceParams{
+    integer_param("domain", 0, 0, 230, "Domain of the robot: its ROS_DOMAIN_ID."),
+    text_param("namespace", "", "Namespace of the robot's topics, such as `/cart`."),
+    text_param("interface", "127.0.0.1",
+               "Network interface to the robot, by address or name; the default is this machine."),
+    text_param("peers", "", "Addresses to look for the robot at, between commas."),
+    choice_param("multicast", "none", kMulticasts,
+                 "What is sent by multicast: nothing, what finds the robot, or data as well."),
+    number_param("latency_s", "s", 0, 0, 1,
+                 "Known smallest time from the stamp of a message to its arrival."),
+    number_param("start_timeout_s", "s", 5, 0.1, 600,
+                 "How long the start of a run waits for the first message of each topic."),
+    number_param("lost_after_s", "s", 1, 0.1, 600,
+                 "A topic that is silent for longer is reported as gone."),
+};
+
+/// The parameter that every sensor has, with its own default.
+constexpr ParamSpec topic_param(const char* topic) noexcept {
+  return text_param("topic", topic,
+                    "Topic to read, in the device's namespace unless it begins with a slash.");
+}
+
+inline constexpr ParamSpec kPositionSigma =
+    number_param("position_sigma_m", "m", 0.02, 0, 10,
+                 "Standard deviation of x and y where messages do not have it.");
+inline constexpr ParamSpec kHeadingSigma =
+    number_param("heading_sigma_deg", "deg", 1, 0, 180,
+                 "Standard deviation of the heading where messages do not have it.");
+
+inline constexpr std::array<ParamSpec, 1> kLaserParams{topic_param("scan")};
+inline constexpr std::array<ParamSpec, 1> kRangeParams{topic_param("range")};
+inline constexpr std::array<ParamSpec, 1> kImuParams{topic_param("imu")};
+inline constexpr std::array<ParamSpec, 1> kBatteryParams{topic_param("battery_state")};
+inline constexpr std::array<ParamSpec, 2> kCommandParams{
+    topic_param("cmd_vel"),
+    choice_param("message", "twist", kCommandMessages, "Twist or TwistStamped."),
+};
+inline constexpr std::array<ParamSpec, 1> kGoalParams{topic_param("goal_pose")};
+inline constexpr std::array<ParamSpec, 3> kOdometryParams{topic_param("odom"), kPositionSigma,
+                                                          kHeadingSigma};
+inline constexpr std::array<ParamSpec, 3> kPoseParams{topic_param("pose"), kPositionSigma,
+                                                      kHeadingSigma};
+inline constexpr std::array<ParamSpec, 6> kTfPoseParams{
+    text_param("topic", "/tf", "Topic of the transforms that change."),
+    text_param("static_topic", "/tf_static", "Topic of those that never change."),
+    text_param("map_frame", "map", "Frame that the pose is in."),
+    text_param("base_frame", "base_link", "Frame of the robot's body."),
+    kPositionSigma,
+    kHeadingSigma,
+};
+inline constexpr std::array<ParamSpec, 6> kVelocityParams{
+    text_param("topic", "cmd_vel",
+               "Topic to write, in the device's namespace unless it begins with a slash."),
+    choice_param("message", "auto", kVelocityMessages,
+                 "Twist or TwistStamped; `auto`: whichever the robot reads."),
+    number_param("watchdog_s", "s", 0.25, 0.02, 10,
+                 "The robot is told to stand when no command came for so long."),
+    number_param("refresh_s", "s", 0.05, 0.01, 1, "How often the command is repeated."),
+    number_param("max_v_mps", "m/s", 1, 0.01, 50, "Largest speed, forward and backward."),
+    number_param("max_w_radps", "rad/s", 3, 0.01, 50, "Largest rate of turn."),
+};
+
+/// The parameters of the device, read and checked.
+struct DeviceOptions {
+  ros2::Network network;
+  std::string name_space;
+  double latency_s = 0;
+  double start_timeout_s = 0;
+  double lost_after_s = 0;
+};
+
+/// Errors: those of ros2::whole_name() for the namespace.
+[[nodiscard]] Result<DeviceOptions> read_options(const Params& params, const char* robot);
+
+/// Variances of a pose whose message has none.
+struct Doubt {
+  double variance_xy_m2 = 0;
+  double variance_yaw_rad2 = 0;
+};
+[[nodiscard]] Doubt read_doubt(const Params& params);
+
+}  // namespace rave::ros2_driver

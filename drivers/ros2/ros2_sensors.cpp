@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ros2/ros2_sensors.hpp"
+
+#include <algorithm>
+
+#include "rave/ros2/convert.hpp"
+
+namespace rave::ros2_driver {
+namespace {
+
+/// For sensors that need no more of the first message than that it comes.
+constexpr auto kAny = [](const auto& /*message*/) { return true; };
+
+}  // namespace
+
+Status Ros2Laser::prepare(const Params& params, HardwareDeclaration& declaration) {
+  RAVE_TRY(begin_reading(params, [this](const ros2::LaserScan& scan) {
+    fan_ = fan_of(scan);
+    return true;
+  }));
+  bearings_rad_ = bearings_of(fan_);
+  ranges_m_.resize(fan_.rays);
+  declaration.capacity = fan_.rays;
+  declaration.range_min_m = fan_.range_min_m;
+  declaration.range_max_m = fan_.range_max_m;
+  declaration.bearings_rad = bearings_rad_.data();
+  return {};
+}
+
+Status Ros2Laser::take(const ros2::LaserScan& message) {
+  RAVE_TRY(ranges_of(message, fan_, ranges_m_));
+  publish(ros2::nanoseconds(message.header.stamp), ranges_m_.data(), fan_.rays);
+  return {};
+}
+
+Status Ros2Range::prepare(const Params& params, HardwareDeclaration& declaration) {
+  RAVE_TRY(begin_reading(params, [&](const ros2::RangeReading& message) {
+    declaration.range_min_m = message.min_range;
+    declaration.range_max_m = message.max_range;
+    declaration.cone_rad = message.field_of_view;
+    return true;
+  }));
+  declaration.capacity = 1;
+  declaration.bearings_rad = &bearing_rad_;
+  return {};
+}
+
+Status Ros2Range::take(const ros2::RangeReading& message) {
+  const float range_m = range_of(message.range, message.min_range, message.max_range);
+  publish(ros2::nanoseconds(message.header.stamp), &range_m, 1);
+  return {};
+}
+
+Status Ros2Odometry::prepare(const Params& params, HardwareDeclaration& /*declaration*/) {
+  doubt_ = read_doubt(params);
+  return begin_reading(params, kAny);
+}
+
+Status Ros2Odometry::take(const ros2::Odometry& message) {
+  RAVE_TRY_ASSIGN(const OdometryReading reading, odometry_of(message, doubt_));
+  publish(ros2::nanoseconds(message.header.stamp), &reading, 1);
+  return {};
+}
+
+Status Ros2Pose::prepare(const Params& params, HardwareDeclaration& /*declaration*/) {
+  doubt_ = read_doubt(params);
+  return begin_reading(params, kAny);
+}
+
+Status Ros2Pose::take(const ros2::PoseStamped& message) {
+  RAVE_TRY_ASSIGN(const PoseReading reading, pose_of(message, doubt_));
+  publish(ros2::nanoseconds(message.header.stamp), &reading, 1);
+  return {};
+}
+
+Status Ros2OdometryPose::prepare(const Params& params, HardwareDeclaration& /*declaration*/) {
+  doubt_ = read_doubt(params);
+  return begin_reading(params, kAny);
+}
+
+Status Ros2OdometryPose::take(const ros2::Odometry& message) {
+  RAVE_TRY_ASSIGN(const PoseReading reading, pose_of(message, doubt_));
+  publish(ros2::nanoseconds(message.header.stamp), &reading, 1);
+  return {};
+}
+
+Status Ros2Imu::prepare(const Params& params, HardwareDeclaration& declaration) {
+  declaration.capacity = 10;
+  return begin_reading(params, kAny);
+}
+
+Status Ros2Imu::take(const ros2::Imu& message) {
+  const auto values = imu_values(message);
+  publish(ros2::nanoseconds(message.header.stamp), values.data(), values.size());
+  return {};
+}
+
+Status Ros2Battery::prepare(const Params& params, HardwareDeclaration& declaration) {
+  declaration.capacity = 6;
+  return begin_reading(params, kAny);
+}
+
+Status Ros2Battery::take(const ros2::BatteryState& message) {
+  const auto values = battery_values(message);
+  publish(ros2::nanoseconds(message.header.stamp), values.data(), values.size());
+  return {};
+}
+
+Status Ros2TfPose::prepare(const Params& params, HardwareDeclaration& /*declaration*/) {
+  doubt_ = read_doubt(params);
+  map_frame_ = params.text("map_frame");
+  base_frame_ = params.text("base_frame");
+  const ros2::Participant& participant = device().participant();
+  RAVE_TRY_ASSIGN(const std::string name, device().topic(params.text("topic")));
+  RAVE_TRY_ASSIGN(const std::string static_name, device().topic(params.text("static_topic")));
+  using Tf = ros2::Reader<ros2::TfMessage>;
+  RAVE_TRY_ASSIGN(auto moving, Tf::create(participant, name, ros2::kReadMany));
+  RAVE_TRY_ASSIGN(auto constant, Tf::create(participant, static_name, ros2::kReadKept));
+  moving_.emplace(std::move(moving));
+  static_.emplace(std::move(constant));
+  return await_chain();
+}
+
+Status Ros2TfPose::await_chain() {
+  std::string missing;
+  Status heard = device().await(*moving_, [this, &missing](const ros2::TfMessage& message) {
+    add(*static_, true);
+    if (!tree_.add(message, false)) return false;
+    const auto found = tree_.find(map_frame_, base_frame_);
+    missing = found ? "" : found.error().message;
+    return found.has_value();
+  });
+  if (heard || missing.empty()) return heard;
+  return fail(ErrorCode::kTimeout, "`{}` has no pose of the robot: {}", topic(), missing);
+}
+
+void Ros2TfPose::add(ros2::Reader<ros2::TfMessage>& reader, bool is_static) {
+  reader.take([&](const ros2::TfMessage& message) {
+    Status added = tree_.add(message, is_static);
+    if (!added) reader.refuse(std::move(added).error());
+  });
+}
+
+void Ros2TfPose::drain() {
+  add(*static_, true);
+  // After each message, so that a burst gives each of its poses.
+  moving_->take([this](const ros2::TfMessage& message) {
+    Status added = tree_.add(message, false);
+    auto found = tree_.find(map_frame_, base_frame_);
+    if (!added || !found) {
+      moving_->refuse(added ? std::move(found).error() : std::move(added).error());
+      return;
+    }
+    // Most messages are of other frames.
+    if (found->stamp_ns == newest_ns_ && newest_ns_ != 0) return;
+    newest_ns_ = found->stamp_ns;
+    const PoseReading reading{found->X_AB.x, found->X_AB.y, found->X_AB.yaw, doubt_.variance_xy_m2,
+                              doubt_.variance_yaw_rad2};
+    publish(found->stamp_ns, &reading, 1);
+  });
+}
+
+void Ros2TfPose::look_after(TopicState& state) {
+  state.refused = moving_->refused() + static_->refused();
+  for (auto* const reader : {&*moving_, &*static_}) {
+    if (!reader->trouble().empty()) state.trouble = reader->trouble();
+    if (auto text = reader->take_mismatch()) {
+      warn(fmt::format("`{}`: {}", reader->topic(), *text), state);
+    }
+  }
+}
+
+std::string Ros2TfPose::explain_silence() const {
+  const auto found = tree_.find(map_frame_, base_frame_);
+  return found ? moving_->explain_silence() : found.error().message;
+}
+
+}  // namespace rave::ros2_driver

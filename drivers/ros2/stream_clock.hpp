@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "line/clock_offset.hpp"
+
+namespace rave::ros2_driver {
+
+/// Puts the stamps of one topic on the host's clock, whatever clock they are from: that of another
+/// machine, or of a simulation. Pure: no clock is read. Not for several threads at once.
+class StreamClock {
+ public:
+  struct Taken {
+    bool good = false;  ///< False: not newer than what came before.
+    double host_s = 0;  ///< When the message was true, by the host's clock, least delay included.
+  };
+  /// A message with this stamp came at `arrived_s`. A stamp of 0 is none: it was true on arrival.
+  [[nodiscard]] Taken take(std::int64_t stamp_ns, double arrived_s);
+  /// What came before says nothing of what comes.
+  void restart();
+
+  [[nodiscard]] std::uint64_t old() const noexcept { return old_; }
+  [[nodiscard]] std::uint64_t restarts() const noexcept { return restarts_; }
+  [[nodiscard]] double drift_ppm() const noexcept { return clock_.drift_ppm(); }
+
+ private:
+  line::ClockOffset clock_;
+  bool any_ = false;
+  std::int64_t origin_ns_ = 0;
+  std::int64_t newest_ns_ = 0;
+  std::int64_t previous_old_ns_ = 0;
+  int old_in_a_row_ = 0;
+  std::uint64_t old_ = 0;
+  std::uint64_t restarts_ = 0;
+};
+
+}  // namespace rave::ros2_driver

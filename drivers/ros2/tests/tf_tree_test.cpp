@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ros2/tf_tree.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "rave/bus/sequence.hpp"
+#include "rave/math/scalar.hpp"
+#include "rave/ros2/convert.hpp"
+
+namespace rave::ros2_driver {
+namespace {
+
+/// Messages of one transform each, whose texts live here.
+class Transforms {
+ public:
+  explicit Transforms(TfTree& tree) : tree_(tree) {}
+  Status put(std::string parent, std::string child, const Pose2& pose, std::int32_t sec,
+             bool is_static = false) {
+    std::vector<ros2::TransformStamped> one(1);
+    one[0].header.frame_id = parent.data();
+    one[0].header.stamp.sec = sec;
+    one[0].child_frame_id = child.data();
+    one[0].transform.translation = {pose.x, pose.y, 0};
+    one[0].transform.rotation = leaning_ ? ros2::Quaternion{std::sqrt(0.5), 0, 0, std::sqrt(0.5)}
+                                         : ros2::quaternion_of(pose.yaw);
+    ros2::TfMessage message{};
+    bus::borrow(message.transforms, one);
+    return tree_.add(message, is_static);
+  }
+  bool leaning_ = false;
+
+ private:
+  TfTree& tree_;
+};
+
+TEST(Ros2TfTree, ComposesTheChain) {
+  TfTree tree;
+  Transforms tf(tree);
+  ASSERT_TRUE(tf.put("map", "odom", {1, 2, kPi / 2}, 5));
+  ASSERT_TRUE(tf.put("odom", "base_footprint", {3, 0, 0}, 7));
+  ASSERT_TRUE(tf.put("/base_footprint", "/base_link", {0, 0.5, 0}, 9, true));
+  const auto found = tree.find("map", "base_link");
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_NEAR(found->X_AB.x, 0.5, 1e-12);
+  EXPECT_NEAR(found->X_AB.y, 5, 1e-12);
+  EXPECT_NEAR(found->X_AB.yaw, kPi / 2, 1e-12);
+  EXPECT_EQ(found->stamp_ns, 7'000'000'000) << "a static transform has no time";
+  ASSERT_TRUE(tf.put("odom", "base_footprint", {4, 0, 0}, 8));
+  EXPECT_NEAR(tree.find("map", "base_link")->X_AB.y, 6, 1e-12) << "the newest counts";
+}
+
+TEST(Ros2TfTree, SaysWhereTheChainEnds) {
+  TfTree tree;
+  Transforms tf(tree);
+  ASSERT_TRUE(tf.put("odom", "base_link", {}, 1));
+  EXPECT_EQ(tree.find("map", "base_link").error().message,
+            "no transform leads from `map` to `base_link`: `odom` has no parent");
+  ASSERT_TRUE(tf.put("base_link", "odom", {}, 1));
+  EXPECT_EQ(tree.find("map", "base_link").error().message,
+            "the transforms above `base_link` go round in a circle");
+}
+
+TEST(Ros2TfTree, WhatLeansMattersToItsUsersOnly) {
+  TfTree tree;
+  Transforms tf(tree);
+  ASSERT_TRUE(tf.put("map", "base_link", {1, 0, 0}, 1));
+  tf.leaning_ = true;
+  ASSERT_TRUE(tf.put("base_link", "camera", {}, 1));
+  EXPECT_TRUE(tree.find("map", "base_link"));
+  EXPECT_EQ(tree.find("map", "camera").error().message,
+            "camera leans by 90 degrees; RAVE's robots stay level");
+}
+
+TEST(Ros2TfTree, MadeUpFramesDoNotFillTheMemory) {
+  TfTree tree;
+  Transforms tf(tree);
+  for (std::size_t i = 0; i < TfTree::kMostFrames; ++i) {
+    ASSERT_TRUE(tf.put("map", "f" + std::to_string(i), {}, 1));
+  }
+  EXPECT_EQ(tf.put("map", "one more", {}, 1).error().message, "more than 4096 frames");
+}
+
+}  // namespace
+}  // namespace rave::ros2_driver

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ros2/tf_tree.hpp"
+
+#include <algorithm>
+
+#include "rave/bus/sequence.hpp"
+#include "rave/math/transform.hpp"
+#include "rave/ros2/convert.hpp"
+
+namespace rave::ros2_driver {
+namespace {
+
+/// Frames had a slash in front before tf2, and some nodes still write it.
+std::string_view frame(const char* text) {
+  std::string_view name(text == nullptr ? "" : text);
+  if (name.starts_with('/')) name.remove_prefix(1);
+  return name;
+}
+
+}  // namespace
+
+Status TfTree::add(const ros2::TfMessage& message, bool is_static) {
+  for (const ros2::TransformStamped& each : bus::elements(message.transforms)) {
+    const std::string_view child = frame(each.child_frame_id);
+    const std::string_view parent = frame(each.header.frame_id);
+    const std::int64_t stamp_ns = ros2::nanoseconds(each.header.stamp);
+    auto found = links_.find(child);
+    if (found == links_.end()) {
+      if (links_.size() >= kMostFrames) {
+        return fail(ErrorCode::kInvalidArgument, "more than {} frames", kMostFrames);
+      }
+      found = links_.emplace(std::string(child), Link{}).first;
+    }
+    found->second = {std::string(parent), ros2::planar(each), stamp_ns, is_static};
+  }
+  return {};
+}
+
+Result<TfTree::Found> TfTree::find(std::string_view root, std::string_view leaf) const {
+  Found found;
+  std::string_view at = leaf;
+  for (int steps = 0; at != root; ++steps) {
+    const auto link = links_.find(at);
+    if (link == links_.end()) {
+      return fail(ErrorCode::kNotFound, "no transform leads from `{}` to `{}`: `{}` has no parent",
+                  root, leaf, at);
+    }
+    if (steps >= kLongestChain) {
+      return fail(ErrorCode::kNotFound, "the transforms above `{}` go round in a circle", leaf);
+    }
+    if (!link->second.X_PC) return tl::unexpected(link->second.X_PC.error());
+    found.X_AB = steps == 0 ? *link->second.X_PC : compose(*link->second.X_PC, found.X_AB);
+    if (!link->second.is_static) found.stamp_ns = std::max(found.stamp_ns, link->second.stamp_ns);
+    at = link->second.parent;
+  }
+  return found;
+}
+
+}  // namespace rave::ros2_driver

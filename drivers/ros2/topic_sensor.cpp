@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ros2/topic_sensor.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+namespace rave::ros2_driver {
+
+Status TopicSensor::configure(const HardwareSetup& setup, HardwareDeclaration& declaration) {
+  device_ = static_cast<Ros2Device*>(setup.device);
+  if (device_ == nullptr) return fail(ErrorCode::kState, "belongs to no device");
+  declaration.clock = DriverClock::kLive;
+  RAVE_TRY(prepare(setup.parameters(), declaration));
+  ready_ = true;
+  return {};
+}
+
+Status TopicSensor::open(SampleSink& sink) {
+  if (!ready_) return fail(ErrorCode::kState, "opened before it was configured");
+  if (sink_ != nullptr) return fail(ErrorCode::kState, "opened twice; close it first");
+  {
+    const std::lock_guard lock(mutex_);
+    // What waited since configure() is old, and its arrival says nothing of the clock.
+    drain();
+    sink_ = &sink;
+    state_ = {};
+    clock_.restart();
+    last_ = line::host_now();
+    last_stamp_ns_ = std::numeric_limits<std::int64_t>::min();
+    lost_ = false;
+  }
+  for (const dds_entity_t reader : readers()) {
+    RAVE_TRY_ASSIGN(const dds_entity_t condition, device_->waiter().watch(reader));
+    watched_.push_back(condition);
+  }
+  device_->attach(*this);
+  return {};
+}
+
+void TopicSensor::close() {
+  if (sink_ == nullptr) return;
+  device_->detach(*this);
+  for (const dds_entity_t condition : watched_) device_->waiter().forget(condition);
+  watched_.clear();
+  const std::lock_guard lock(mutex_);
+  sink_ = nullptr;
+}
+
+line::HostTime TopicSensor::attend(line::HostTime now) {
+  const std::lock_guard lock(mutex_);
+  const std::uint64_t before = state_.samples;
+  drain();
+  look_after(state_);
+  if (may_be_silent_) return line::HostTime::max();
+  if (state_.samples != before) {
+    device_->heard(true);
+    if (lost_) sink_->recover();
+    lost_ = false;
+    return line::HostTime::max();
+  }
+  const line::HostTime lost_at = line::after_seconds(last_, device_->options().lost_after_s);
+  if (lost_ || now < lost_at) return lost_ ? line::HostTime::max() : lost_at;
+  lost_ = true;
+  ++state_.losses;
+  device_->heard(false);
+  state_.trouble = fmt::format("no message has come on `{}` for {} s: {}", topic(),
+                               device_->options().lost_after_s, explain_silence());
+  sink_->fail(state_.trouble.data(), state_.trouble.size());
+  return line::HostTime::max();
+}
+
+void TopicSensor::publish(std::int64_t stamp_ns, const void* records, std::uint32_t count) {
+  if (sink_ == nullptr) return;
+  const line::HostTime now = line::host_now();
+  const StreamClock::Taken taken = clock_.take(stamp_ns, line::host_seconds(now));
+  if (!taken.good) return;
+  last_ = now;
+  if (state_.samples++ == 0) {
+    first_ = now;
+  } else if (now > first_) {
+    state_.rate_hz = static_cast<double>(state_.samples - 1) /
+                     std::chrono::duration<double>(now - first_).count();
+  }
+  // Moments do not step back, but a better estimate of the clock may say so.
+  const SimTime moment = line::run_stamp(*sink_, taken.host_s - device_->options().latency_s);
+  last_stamp_ns_ = std::max(moment.ns, last_stamp_ns_);
+  (void)sink_->publish(SimTime{last_stamp_ns_}, records, count);
+}
+
+void TopicSensor::warn(std::string text, TopicState& state) const {
+  device_->log(LogLevel::kWarning, text);
+  state.trouble = std::move(text);
+}
+
+std::string TopicSensor::report() const {
+  if (!ready_) return "{}";
+  const std::lock_guard lock(mutex_);
+  nlohmann::ordered_json json;
+  json["topic"] = topic();
+  json["samples"] = state_.samples;
+  json["rate_hz"] = state_.rate_hz;
+  json["refused"] = state_.refused;
+  json["old"] = clock_.old();
+  json["restarts"] = clock_.restarts();
+  json["losses"] = state_.losses;
+  json["clock_drift_ppm"] = clock_.drift_ppm();
+  json["trouble"] = state_.trouble;
+  // Others' texts may be no UTF-8, which JSON cannot hold.
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+}  // namespace rave::ros2_driver

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ros2/ros2_device.hpp"
+#include "ros2/stream_clock.hpp"
+
+namespace rave::ros2_driver {
+
+/// What one sensor's stream was like, for the report. A plain value.
+struct TopicState {
+  std::uint64_t samples = 0;
+  std::uint64_t refused = 0;  ///< Messages that could not be used.
+  std::uint64_t losses = 0;   ///< Times that it was silent for too long.
+  double rate_hz = 0;         ///< Of samples, by the host's clock.
+  std::string trouble;        ///< The last one; empty if there was none.
+};
+
+/// What the sensors of this plug-in have in common, whatever they read. configure(), open(),
+/// close() and report() belong to the host's thread, attend() and what it calls to the device's
+/// own; they share what `mutex_` guards.
+class TopicSensor : public HardwareSensor, public TopicUser {
+ public:
+  TopicSensor() = default;
+  TopicSensor(const TopicSensor&) = delete;
+  TopicSensor& operator=(const TopicSensor&) = delete;
+  ~TopicSensor() override = default;
+
+  Status configure(const HardwareSetup& setup, HardwareDeclaration& declaration) final;
+  Status open(SampleSink& sink) final;
+  void close() final;
+  [[nodiscard]] std::string report() const final;
+  line::HostTime attend(line::HostTime now) final;
+
+ protected:
+  /// Makes the readers, waits for the first message, and says what it is.
+  virtual Status prepare(const Params& params, HardwareDeclaration& declaration) = 0;
+  /// Takes all messages that have come, and calls publish() for each that it can use.
+  virtual void drain() = 0;
+  /// Takes what is to be told of the readers into the state, and why nothing comes.
+  virtual void look_after(TopicState& state) = 0;
+  [[nodiscard]] virtual std::string explain_silence() const = 0;
+  [[nodiscard]] virtual std::vector<dds_entity_t> readers() const = 0;
+  [[nodiscard]] virtual const std::string& topic() const = 0;
+
+  /// Of a topic that is silent as long as nobody has anything to say.
+  void allow_silence() noexcept { may_be_silent_ = true; }
+  [[nodiscard]] Ros2Device& device() const noexcept { return *device_; }
+  /// From drain(): records of a message with this stamp. Old ones are dropped.
+  void publish(std::int64_t stamp_ns, const void* records, std::uint32_t count);
+  /// From look_after(): something that a user should know.
+  void warn(std::string text, TopicState& state) const;
+
+ private:
+  Ros2Device* device_ = nullptr;
+  bool ready_ = false;
+  bool may_be_silent_ = false;
+  std::vector<dds_entity_t> watched_;
+
+  mutable std::mutex mutex_;  // guards what follows
+  SampleSink* sink_ = nullptr;
+  TopicState state_;
+  StreamClock clock_;
+  line::HostTime first_{};
+  line::HostTime last_{};
+  std::int64_t last_stamp_ns_ = 0;
+  bool lost_ = false;
+};
+
+/// A sensor that reads one topic.
+template <class Message>
+class OneTopicSensor : public TopicSensor {
+ protected:
+  Status make_reader(const Params& params) {
+    RAVE_TRY_ASSIGN(const std::string name, device().topic(params.text("topic")));
+    RAVE_TRY_ASSIGN(auto reader,
+                    ros2::Reader<Message>::create(device().participant(), name, ros2::kReadNewest));
+    reader_.emplace(std::move(reader));
+    return {};
+  }
+  /// Makes the reader and waits for a message that suits.
+  template <class Suits>
+  Status begin_reading(const Params& params, Suits&& suits) {
+    RAVE_TRY(make_reader(params));
+    return device().await(*reader_, suits);
+  }
+
+  /// What the message means. An error refuses it.
+  virtual Status take(const Message& message) = 0;
+
+  void drain() final {
+    reader_->take([this](const Message& message) {
+      Status taken = take(message);
+      if (!taken) reader_->refuse(std::move(taken).error());
+    });
+  }
+  void look_after(TopicState& state) final {
+    state.refused = reader_->refused();
+    if (!reader_->trouble().empty()) state.trouble = reader_->trouble();
+    if (auto text = reader_->take_mismatch()) {
+      warn(fmt::format("`{}`: {}", topic(), *text), state);
+    }
+  }
+  [[nodiscard]] std::string explain_silence() const final { return reader_->explain_silence(); }
+  [[nodiscard]] const std::string& topic() const final { return reader_->topic(); }
+  [[nodiscard]] std::vector<dds_entity_t> readers() const final { return {reader_->handle()}; }
+
+ private:
+  std::optional<ros2::Reader<Message>> reader_;
+};
+
+}  // namespace rave::ros2_driver

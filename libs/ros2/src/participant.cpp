@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/ros2/participant.hpp"
+
+#include <arpa/inet.h>
+#include <ifaddrs.h>
+
+#include <algorithm>
+#include <array>
+
+#include "rave/base/names.hpp"
+#include "rave/ros2/names.hpp"
+
+namespace rave::ros2 {
+namespace {
+
+/// Domains of Cyclone DDS within this process that are ours; those of the bus are 0 to 230.
+constexpr std::uint32_t kFirstDomain = 1000;
+constexpr std::uint32_t kMostDomains = 1000;
+/// As nodes of ROS 2 on Cyclone DDS have it: a network may pause for a while. Who is silent shows
+/// by its topics.
+constexpr Duration kLease{10'000'000'000};
+/// What is named to a user at most.
+constexpr std::size_t kMostNamed = 5;
+
+/// Addresses and names of the interfaces of this machine.
+std::vector<std::string> interfaces_here() {
+  std::vector<std::string> found;
+  ifaddrs* list = nullptr;
+  if (::getifaddrs(&list) != 0) return found;
+  for (const ifaddrs* each = list; each != nullptr; each = each->ifa_next) {
+    if (each->ifa_addr == nullptr || each->ifa_addr->sa_family != AF_INET) continue;
+    char text[INET_ADDRSTRLEN] = {};
+    const auto* const address = reinterpret_cast<const sockaddr_in*>(each->ifa_addr);
+    if (::inet_ntop(AF_INET, &address->sin_addr, text, sizeof text) != nullptr) {
+      found.emplace_back(text);
+    }
+    found.emplace_back(each->ifa_name);
+  }
+  ::freeifaddrs(list);
+  return found;
+}
+
+Status check_interface(const Network& network) {
+  const std::vector<std::string> here = interfaces_here();
+  // Any address of the loopback network is one of this machine.
+  if (here.empty() || network.interface.empty() || network.interface.starts_with("127.")) return {};
+  if (std::ranges::find(here, network.interface) != here.end()) return {};
+  const std::vector<std::string_view> names(here.begin(), here.end());
+  return fail(ErrorCode::kInvalidArgument, "interface: this machine has no `{}`{}",
+              network.interface, suggestion(network.interface, names));
+}
+
+bus::BusConfig config_of(const Network& network) {
+  bus::BusConfig config;
+  config.participant = network.name;
+  config.run = bus::RunId::random();  // none of ROS 2's business, but its check wants one
+  config.domain = network.domain;
+  config.interface = network.interface;
+  config.peers = network.peers;
+  config.multicast = network.multicast;
+  config.lease = kLease;
+  // The number of the domain in this process says nothing to others; this one does.
+  config.cyclone_settings = fmt::format(
+      "<CycloneDDS><Domain Id=\"any\"><Discovery><ExternalDomainId>{}</ExternalDomainId>"
+      "<SPDPInterval>2s</SPDPInterval></Discovery></Domain></CycloneDDS>",
+      network.domain);
+  return config;
+}
+
+/// Whether a domain of Cyclone DDS exists in this process: whose owner has its log, too.
+bool has_domains() { return dds_get_children(DDS_CYCLONEDDS_HANDLE, nullptr, 0) > 0; }
+
+/// Calls `visit(const Sample&)` for all samples of a built-in topic that are alive.
+template <class Sample, class Visit>
+void look_at(dds_entity_t reader, Visit&& visit) {
+  constexpr std::size_t kMost = 1000;
+  std::vector<void*> samples(kMost, nullptr);
+  std::vector<dds_sample_info_t> infos(kMost);
+  const dds_return_t count =
+      dds_read_mask(reader, samples.data(), infos.data(), kMost, std::uint32_t{kMost},
+                    DDS_ANY_SAMPLE_STATE | DDS_ANY_VIEW_STATE | DDS_ALIVE_INSTANCE_STATE);
+  if (count <= 0) return;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    if (infos[i].valid_data) visit(*static_cast<const Sample*>(samples[i]));
+  }
+  dds_return_loan(reader, samples.data(), count);
+}
+
+std::string named(const std::vector<std::string>& names) {
+  const std::vector<std::string_view> first(
+      names.begin(),
+      names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), kMostNamed)));
+  return join_names(first);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Participant>> Participant::open(const Network& network) {
+  RAVE_TRY(check_interface(network));
+  RAVE_TRY(bus::validate(config_of(network)));
+  std::unique_ptr<Participant> participant(new Participant(network));
+  RAVE_TRY(participant->join());
+  return participant;
+}
+
+Status Participant::join() {
+  if (!has_domains()) log_ = std::make_unique<bus::CycloneLog>();
+  const std::string settings = bus::cyclone_xml(config_of(network_));
+  std::uint32_t number = kFirstDomain;
+  do {
+    domain_ = dds_create_domain(number, settings.c_str());
+  } while (domain_ == DDS_RETCODE_PRECONDITION_NOT_MET && ++number < kFirstDomain + kMostDomains);
+  const auto refused = [this](dds_return_t code) {
+    std::string reason(dds_strretcode(code));
+    for (const std::string& line : log_ ? log_->take() : std::vector<std::string>()) {
+      reason += "; " + line;
+    }
+    return fail(ErrorCode::kIo, "cannot join domain {} of ROS 2 at {}: {}", network_.domain,
+                network_.interface, reason);
+  };
+  if (domain_ < 0) return refused(domain_);
+  const bus::Qos qos(dds_create_qos());
+  dds_qset_entity_name(qos.get(), network_.name.c_str());
+  participant_ = dds_create_participant(number, qos.get(), nullptr);
+  if (participant_ < 0) return refused(participant_);
+  const auto builtin = [this](dds_entity_t topic) {
+    return dds_create_reader(participant_, topic, nullptr, nullptr);
+  };
+  seen_participants_ = builtin(DDS_BUILTIN_TOPIC_DCPSPARTICIPANT);
+  seen_writers_ = builtin(DDS_BUILTIN_TOPIC_DCPSPUBLICATION);
+  seen_readers_ = builtin(DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION);
+  const dds_entity_t worst = std::min({seen_participants_, seen_writers_, seen_readers_});
+  if (worst < 0) return refused(worst);
+  return {};
+}
+
+Participant::~Participant() {
+  // Deleting a domain deletes all that is in it.
+  if (domain_ > 0) dds_delete(domain_);
+}
+
+Result<dds_entity_t> Participant::add_end(const dds_topic_descriptor_t& type,
+                                          std::string_view topic, const bus::QosProfile& profile,
+                                          bool reads) const {
+  const std::string name = wire_topic(topic);
+  const bus::Qos qos = bus::make_qos(profile);
+  const dds_entity_t handle = dds_create_topic(participant_, &type, name.c_str(), nullptr, nullptr);
+  if (handle < 0) {
+    return fail(ErrorCode::kState, "topic `{}`: {}", topic, dds_strretcode(handle));
+  }
+  const dds_entity_t entity = reads ? dds_create_reader(participant_, handle, qos.get(), nullptr)
+                                    : dds_create_writer(participant_, handle, qos.get(), nullptr);
+  // The reader or writer keeps the topic alive.
+  dds_delete(handle);
+  if (entity < 0) {
+    return fail(ErrorCode::kIo, "cannot {} `{}`: {}", reads ? "read" : "write", topic,
+                dds_strretcode(entity));
+  }
+  return entity;
+}
+
+std::vector<RemoteEnd> Participant::others(bool writers) const {
+  dds_guid_t self{};
+  dds_get_guid(participant_, &self);
+  std::vector<RemoteEnd> ends;
+  look_at<dds_builtintopic_endpoint_t>(
+      writers ? seen_writers_ : seen_readers_, [&](const dds_builtintopic_endpoint_t& end) {
+        if (std::ranges::equal(end.participant_key.v, self.v)) return;
+        ends.push_back({topic_of_wire(end.topic_name), type_of_wire(end.type_name)});
+      });
+  return ends;
+}
+
+std::size_t Participant::others_here() const {
+  std::size_t count = 0;
+  look_at<dds_builtintopic_participant_t>(seen_participants_,
+                                          [&](const dds_builtintopic_participant_t&) { ++count; });
+  return count > 0 ? count - 1 : 0;  // we see ourselves
+}
+
+std::string Participant::explain_silence(std::string_view topic, std::string_view type,
+                                         bool writers) const {
+  const std::string wanted = type_of_wire(type);
+  const char* const does = writers ? "writes" : "reads";
+  if (others_here() == 0) {
+    return fmt::format(
+        "nobody else is in domain {} at {}; compare ROS_DOMAIN_ID, `interface`, `multicast` and "
+        "`peers`",
+        network_.domain, network_.interface);
+  }
+  std::vector<std::string> elsewhere;
+  for (const RemoteEnd& end : others(writers)) {
+    if (end.topic == topic && end.type == wanted) {
+      return fmt::format("somebody {} `{}`, but nothing came", does, topic);
+    }
+    if (end.topic == topic) {
+      return fmt::format("`{}` is there with the type {} instead of {}", topic, end.type, wanted);
+    }
+    const bool told = std::ranges::find(elsewhere, end.topic) != elsewhere.end();
+    if (end.type == wanted && !told) elsewhere.push_back(end.topic);
+  }
+  if (!elsewhere.empty()) {
+    return fmt::format("nobody {} `{}`; the type {} is at {}", does, topic, wanted,
+                       named(elsewhere));
+  }
+  return fmt::format("nobody {} `{}`, nor the type {} elsewhere", does, topic, wanted);
+}
+
+}  // namespace rave::ros2

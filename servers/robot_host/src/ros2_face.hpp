@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "observer.hpp"
+#include "rave/config/expanded_scenario.hpp"
+#include "rave/ros2/writer.hpp"
+#include "ros2_messages.hpp"
+
+namespace rave::robot_host {
+
+/// Shows the robots whose file says `ros2: true` to ROS 2, with one participant for all of them:
+/// their readings, transforms, description, and the time of the run, which all stamps are of.
+/// docs/design/ros2.md has the table of topics.
+class Ros2Face final : public Observer {
+ public:
+  /// Null if no robot wants it. Errors: those of ros2::Participant::open().
+  [[nodiscard]] static Result<std::unique_ptr<Ros2Face>> open(
+      const config::ExpandedScenario& scenario, const sim::Engine& engine);
+
+  void after_step(sim::Engine& engine) override;
+
+ private:
+  using AnyWriter = std::variant<ros2::Writer<ros2::LaserScan>, ros2::Writer<ros2::Range>,
+                                 ros2::Writer<ros2::Odometry>, ros2::Writer<ros2::Imu>,
+                                 ros2::Writer<ros2::BatteryState>>;
+
+  struct Sensor {
+    std::uint32_t index = 0;    ///< Of the robot's type.
+    std::uint32_t written = 0;  ///< Sequence of the newest sample that has gone out.
+    Ros2Reading reading;
+    AnyWriter writer;
+  };
+  struct Robot {
+    RobotId id;
+    std::string prefix;  ///< Of its frames: its name and a slash.
+    std::string odom_frame;
+    std::string base_frame;
+    std::vector<Sensor> sensors;
+    std::optional<std::uint32_t> odometry;  ///< The first sensor of that kind.
+    Ros2Reading own;  ///< Odometry out of its reported pose, if it has no such sensor.
+    std::optional<ros2::Writer<ros2::Odometry>> own_writer;
+    std::optional<ros2::Writer<ros2::String>> description;
+  };
+
+  explicit Ros2Face(std::unique_ptr<ros2::Participant> participant)
+      : participant_(std::move(participant)) {}
+  [[nodiscard]] Status add(const sim::Engine& engine, RobotId id);
+  [[nodiscard]] Status add_sensors(const sim::Engine& engine, Robot& robot);
+  [[nodiscard]] Result<AnyWriter> writer_for(Ros2Kind kind, const std::string& topic) const;
+  [[nodiscard]] Status begin(const sim::Engine& engine);
+  void write_static(const sim::Engine& engine);
+  void write_sensor(Sensor& sensor, const sim::SensorSample& sample) const;
+  void write_transforms(const sim::Engine& engine);
+
+  std::unique_ptr<ros2::Participant> participant_;
+  std::optional<ros2::Writer<ros2::Clock>> clock_;
+  std::optional<ros2::Writer<ros2::TfMessage>> tf_;
+  std::optional<ros2::Writer<ros2::TfMessage>> tf_static_;
+  std::vector<Robot> robots_;
+  std::string map_frame_ = "map";
+  std::int64_t period_ns_ = 0;
+  std::int64_t due_ns_ = 0;
+};
+
+}  // namespace rave::robot_host

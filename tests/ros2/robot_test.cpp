@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// A robot of ROS 2 as a real robot of ours.
+#include <cmath>
+
+#include "ros2_run.hpp"
+
+namespace rave::tests {
+namespace {
+
+using Json = nlohmann::json;
+
+bool drives(const Json& s) { return std::abs(s["left_mps"].get<double>()) > 0.05; }
+bool stands(const Json& s) { return s["left_mps"] == 0.0 && s["right_mps"] == 0.0; }
+
+/// robots/ros2-cart.yaml in the empty room of the peer, 6 m by 3 m, where a wall stands at x = 3 m
+/// that is virtual.
+class CartRun : public Ros2Run {
+ public:
+  void start(double duration_s) {
+    write("room", "3 1.5 0 6 3\n");
+    start_peer("peer_ros2", {"--room", file("room"), "--pose", "1,1.5,0"});
+    std::ifstream stream(RAVE_SOURCE_DIR "/robots/ros2-cart.yaml");
+    std::ostringstream cart;
+    cart << stream.rdbuf();
+    std::string robot = cart.str();
+    const std::string guard = "guard:\n";
+    const auto at = robot.find(guard);
+    ASSERT_NE(at, std::string::npos);
+    robot.insert(at + guard.size(), "  arm: false\n");
+    write("cart.yaml", robot);
+    Ros2Run::start(
+        "name: cart\nduration_s: " + std::to_string(duration_s) +
+        "\nhistory_s: 1\nobstacles:\n  - {name: wall, box_m: [0.1, 3], x_m: 3.05, y_m: 1.5}\n"
+        "robots:\n  - name: cart\n    file: cart.yaml\n    variables: {domain: " +
+        std::to_string(ros2_domain()) + ", namespace: /cart}\n");
+  }
+};
+
+TEST(Ros2Robot, DrivesByItsProgramAndFeelsAVirtualWall) {
+  CartRun run;
+  ASSERT_NO_FATAL_FAILURE(run.start(12));
+  EXPECT_EQ(run.rave->wait(), 0);
+  const Json result = run.result();
+  ASSERT_TRUE(result.is_object());
+  EXPECT_TRUE(result["whole"]) << result["problems"].dump();
+  const Json& robot = result["robots"][0];
+  EXPECT_EQ(robot["reality"], "real");
+  EXPECT_TRUE(robot["obeys"]);
+  EXPECT_GT(robot["way_m"], 1);
+  EXPECT_EQ(result["devices"][0]["driver"], "ros2");
+  const Json truth = run.await_state(stands);
+  EXPECT_GT(truth["farthest_x"], 2.2) << "it drove up to the wall";
+  EXPECT_LT(truth["farthest_x"], 3.0 - 0.174) << "and not into it, though the real laser saw none";
+  EXPECT_EQ(truth["touches"], 0);
+  EXPECT_EQ(truth["bad_commands"], 0);
+  EXPECT_EQ(result["events"]["contact"], 0);
+  EXPECT_NEAR(robot["final_pose"]["x_m"].get<double>(), truth["x"].get<double>(), 0.1);
+}
+
+TEST(Ros2Robot, ARobotThatIsKilledIsMarkedAndTheRunGoesOn) {
+  CartRun run;
+  ASSERT_NO_FATAL_FAILURE(run.start(600));
+  run.await_state(drives);
+  run.peer->tell("die");
+  // The pose is stale after 0.5 s, and what reads a topic says so after 1 s.
+  std::this_thread::sleep_for(std::chrono::milliseconds(2500));
+  run.rave->interrupt();
+  EXPECT_EQ(run.rave->wait(), 1) << "a loss is a problem of the run";
+  const Json result = run.result();
+  ASSERT_TRUE(result.is_object());
+  // Position, odometry, laser and wheels.
+  EXPECT_EQ(result["events"]["driver_failed"], 4);
+  EXPECT_GE(result["events"]["pose_stale"], 1);
+}
+
+TEST(Ros2Robot, ARobotWhoseHostIsKilledStopsByItself) {
+  CartRun run;
+  ASSERT_NO_FATAL_FAILURE(run.start(600));
+  run.await_state(drives);
+  run.rave->kill();
+  const Json now = run.await_state(stands);
+  EXPECT_GE(now["watchdog_stops"], 1);
+}
+
+TEST(Ros2Robot, ARobotThatIsNotThereIsAnErrorOfTheStart) {
+  CartRun run;
+  ASSERT_NO_FATAL_FAILURE(run.start(5));
+  run.peer->tell("mute");
+  run.rave->kill();
+  run.rave = std::make_unique<RaveRun>(run.file("scenario.yaml"), run.file("out"));
+  EXPECT_EQ(run.rave->wait(), 2);
+}
+
+}  // namespace
+}  // namespace rave::tests

@@ -12,8 +12,8 @@
 /// What the validations of several topics share.
 namespace rave::bus {
 
-/// A century: no run is longer.
-inline constexpr std::int64_t kMaxTime_ns = 3'155'760'000'000'000'000;
+/// Half a century: no run is longer, and no machine has been up for longer.
+inline constexpr std::int64_t kMaxTime_ns = 1'577'880'000'000'000'000;
 
 /// Angles may have been wound up by turning, but not for ever.
 inline constexpr double kMaxAngle_rad = 2e6 * std::numbers::pi;

@@ -223,7 +223,8 @@ Status validate(const ClockPing& sample) {
   RAVE_TRY(check_writer(sample));
   if (sample.target == 0) return invalid("target is 0");
   RAVE_TRY(check_time("run_ns", sample.run_ns));
-  return {};
+  RAVE_TRY(check_time("offset_ns", sample.offset_ns));
+  return check_time("bound_ns", sample.bound_ns);
 }
 
 Status validate(const ClockPong& sample) {
@@ -232,7 +233,10 @@ Status validate(const ClockPong& sample) {
   if (sample.pong_sent_ns < sample.ping_received_ns) {
     return invalid("a pong was sent before its ping came");
   }
-  return {};
+  RAVE_TRY(check_time("ping_sent_ns", sample.ping_sent_ns));
+  RAVE_TRY(check_time("ping_received_ns", sample.ping_received_ns));
+  RAVE_TRY(check_time("pong_sent_ns", sample.pong_sent_ns));
+  return check_time("zero_ns", sample.zero_ns);
 }
 
 Status check_step(std::uint64_t step, std::uint64_t now, std::uint64_t behind,

@@ -35,6 +35,9 @@ struct RobotFile {
   std::optional<Located<std::string>> pose_from;  ///< A sensor; unset: the truth.
   PoseFile source_frame;  ///< X_WM: pose in the world of the frame that pose_from reports in.
   double staleness_s = 0.5;
+  /// How often its host says where it is, in real time; a multiple of the step. Unset: 0.1 s, or
+  /// the next multiple.
+  std::optional<Located<double>> report_period_s;
   std::vector<DeviceFile> devices;
   std::vector<SensorFile> sensors;
   std::vector<ActuatorFile> actuators;

@@ -124,6 +124,13 @@ enum class LostHost : std::uint8_t {
   kRestart,  ///< The same, and it may come back: its robots go on from where they stand.
 };
 
+/// What a run keeps to.
+enum class RunClockMode : std::uint8_t {
+  kLockStep,  ///< Steps, of which each waits for all; in real time all the same if a driver is
+              ///< live.
+  kRealTime,  ///< The clock on the wall.
+};
+
 struct ScenarioFile {
   Located<std::string> name;
   std::string description;
@@ -141,6 +148,8 @@ struct ScenarioFile {
   std::vector<HostFile> hosts;
   LostHost on_lost_host = LostHost::kWait;
   double host_timeout_s = 10;  ///< A host that has not answered for so long counts as late.
+  RunClockMode clock = RunClockMode::kLockStep;
+  double world_period_s = 0.1;  ///< At which hosts are told where all robots are, in real time.
   std::vector<RobotEntry> robots;
   std::vector<ChangeFile> changes;
   ChecksFile checks;

@@ -56,7 +56,7 @@ Status Console::open_file(const std::filesystem::path& path) {
   }
   file_->set_pattern("%Y-%m-%dT%H:%M:%S.%e%z %l %v");
   file_->set_level(spdlog::level::debug);
-  file_->flush_on(spdlog::level::warn);
+  file_->flush_on(spdlog::level::info);
   return {};
 }
 

@@ -46,7 +46,7 @@ int robot(const RobotCommand& options) {
   const std::string name = fmt::format("{}-{}", scenario->scenario.name.value, options.host);
   robot_host::HostOptions how;
   how.host = options.host;
-  how.others = others.get();
+  how.others = std::move(others);
   auto bus = bus_config(run.bus, options.host, robot_host::shared_number(*scenario));
   if (!bus) return complain(bus.error());
   how.bus = *bus;
@@ -68,7 +68,7 @@ int robot(const RobotCommand& options) {
   if (!server) {
     console.warn("host", "no other terminal can control this host: {}", server.error().message);
   }
-  const auto outcome = robot_host::run_host(*scenario, catalogue, how);
+  const auto outcome = robot_host::run_host(*scenario, catalogue, std::move(how));
   if (!outcome) return complain(outcome.error());
   return tell(run, outcome->whole, fmt::format("host {}: {} steps\n", options.host, outcome->steps),
               outcome->problems, folder->path());

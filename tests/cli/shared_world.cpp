@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <iostream>
 #include <random>
 #include <thread>
 
@@ -78,7 +79,8 @@ void SharedWorld::wait_until(const std::function<bool()>& holds, const std::stri
 
 void SharedWorld::wait_for_line(const std::string& name, const std::string& text) {
   wait_until([&] { return console(name).find(text) != std::string::npos; },
-             name + ": " + text + "\n" + console(name));
+             name + ": " + text);
+  if (HasFailure()) std::cerr << console(name);
 }
 
 std::string hash_alone(const std::string& scenario, const std::vector<std::string>& more) {

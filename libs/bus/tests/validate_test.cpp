@@ -82,7 +82,7 @@ TEST(Validate, RefusesListsThatDoNotFit) {
   EXPECT_EQ(none.judge(), "robots.id: a robot without a number");
   SampleWorld many;
   many.robots = RobotArrays(rave_wire_kMaxRobots + 1, 0);
-  EXPECT_EQ(many.judge(), "robots has 65537 robots, more than 65536");
+  EXPECT_EQ(many.judge(), "robots has 131073 robots, more than 131072");
 }
 
 TEST(Validate, RefusesInputsOutOfOrder) {

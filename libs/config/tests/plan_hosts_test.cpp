@@ -6,7 +6,7 @@
 namespace rave::config {
 namespace {
 
-constexpr std::string_view kRobots = R"(
+constexpr std::string_view kFiveRobots = R"(
 name: lab
 robots:
   - name: a
@@ -16,27 +16,27 @@ robots:
   - {name: c, robot: *robot, pose: {x_m: 4}}
 )";
 
-Result<std::vector<PlannedHost>> planned(const std::string& more) {
+Result<std::vector<PlannedHost>> plan_of(const std::string& more) {
   RAVE_TRY_ASSIGN(const auto scenario,
-                  expand_scenario_text(std::string(kRobots) + more, "lab.yaml"));
+                  expand_scenario_text(std::string(kFiveRobots) + more, "lab.yaml"));
   return plan_hosts(scenario);
 }
 
-std::string error_of(const std::string& more) {
-  const auto hosts = planned(more);
+std::string plan_error(const std::string& more) {
+  const auto hosts = plan_of(more);
   return hosts ? "none" : hosts.error().text();
 }
 
 using Robots = std::vector<std::size_t>;
 
 TEST(PlanHosts, NobodyUnlessAsked) {
-  const auto hosts = planned("");
+  const auto hosts = plan_of("");
   ASSERT_TRUE(hosts) << hosts.error().text();
   EXPECT_TRUE(hosts->empty());
 }
 
 TEST(PlanHosts, ProcessesShareEvenlyInOrder) {
-  const auto hosts = planned("processes: 2\n");
+  const auto hosts = plan_of("processes: 2\n");
   ASSERT_TRUE(hosts) << hosts.error().text();
   ASSERT_EQ(hosts->size(), 2U);
   EXPECT_EQ((*hosts)[0], (PlannedHost{"host-1", {0, 1}, false}));
@@ -44,7 +44,7 @@ TEST(PlanHosts, ProcessesShareEvenlyInOrder) {
 }
 
 TEST(PlanHosts, ByNameOfRobotAndOfEntry) {
-  const auto hosts = planned(
+  const auto hosts = plan_of(
       "hosts:\n"
       "  - {name: rest, elsewhere: true}\n"
       "  - {name: one, robots: [a-2, c]}\n"
@@ -56,38 +56,39 @@ TEST(PlanHosts, ByNameOfRobotAndOfEntry) {
 }
 
 TEST(PlanHosts, TheWholeEntry) {
-  const auto hosts = planned("hosts: [{name: one, robots: [a]}, {name: two, robots: [b, c]}]\n");
+  const auto hosts = plan_of("hosts: [{name: one, robots: [a]}, {name: two, robots: [b, c]}]\n");
   ASSERT_TRUE(hosts) << hosts.error().text();
   EXPECT_EQ((*hosts)[0].robots, (Robots{0, 1, 2}));
 }
 
 TEST(PlanHosts, BadInputNamesItsPlace) {
-  EXPECT_EQ(error_of("hosts: [{name: one, robots: [d]}]\n"),
-            "lab.yaml:9:30: there is no robot `d`; there are a, b, c, a-1, a-2, a-3, b and c");
-  EXPECT_EQ(error_of("hosts: [{name: one, robots: [a]}, {name: two, robots: [a-1]}]\n"),
+  EXPECT_EQ(plan_error("hosts: [{name: one, robots: [d]}]\n"),
+            "lab.yaml:9:30: there is no robot `d`; did you mean `a`?");
+  EXPECT_EQ(plan_error("hosts: [{name: one, robots: [a]}, {name: two, robots: [a-1]}]\n"),
             "lab.yaml:9:56: robot `a-1` is given to host `two`, but `one` has it already");
-  EXPECT_EQ(error_of("hosts: [{name: one, robots: [a]}]\n"),
+  EXPECT_EQ(plan_error("hosts: [{name: one, robots: [a]}]\n"),
             "lab.yaml:9:16: no host has robot `b`; a host without `robots` gets all that no other "
             "has");
-  EXPECT_EQ(error_of("hosts: [{name: one}, {name: two}]\n"),
+  EXPECT_EQ(plan_error("hosts: [{name: one}, {name: two}]\n"),
             "lab.yaml:9:29: the hosts `one` and `two` name no robots; one may, and gets the rest");
-  EXPECT_EQ(error_of("hosts: [{name: one, robots: [a, b, c]}, {name: two}]\n"),
+  EXPECT_EQ(plan_error("hosts: [{name: one, robots: [a, b, c]}, {name: two}]\n"),
             "lab.yaml:9:48: host `two` has no robot: the others have them all");
-  EXPECT_EQ(error_of("processes: 6\n"),
+  EXPECT_EQ(plan_error("processes: 6\n"),
             "lab.yaml:9:12: `processes`: found 6, expected at most one per robot, of which there "
             "are 5");
-  EXPECT_EQ(error_of("processes: 2\nhosts: [{name: one}]\n"),
+  EXPECT_EQ(plan_error("processes: 2\nhosts: [{name: one}]\n"),
             "lab.yaml:9:12: `processes` and `hosts` both say who runs the robots; one can");
-  EXPECT_EQ(error_of("on_lost_host: weit\n"),
-            "lab.yaml:9:15: `on_lost_host`: found \"weit\", expected one of `wait`, `drop` and "
-            "`restart`; did you mean `wait`?");
+  EXPECT_EQ(plan_error("on_lost_host: weit\n"),
+            "lab.yaml:9:15: `on_lost_host`: found the text \"weit\", expected one of wait, drop and "
+            "restart; did you mean `wait`?");
 }
 
 TEST(PlanHosts, WhatIsWrittenBackGivesTheSame) {
-  const auto scenario = expand_scenario_text(
-      std::string(kRobots) + "hosts: [{name: one, robots: [a]}, {name: two, elsewhere: true}]\n" +
-          "on_lost_host: restart\nhost_timeout_s: 2.5\n",
-      "lab.yaml");
+  const auto scenario =
+      expand_scenario_text(std::string(kFiveRobots) +
+                               "hosts: [{name: one, robots: [a]}, {name: two, elsewhere: true}]\n" +
+                               "on_lost_host: restart\nhost_timeout_s: 2.5\n",
+                           "lab.yaml");
   ASSERT_TRUE(scenario) << scenario.error().text();
   const auto again = expand_scenario_text(write_expanded(*scenario), "other.yaml");
   ASSERT_TRUE(again) << again.error().text();

@@ -120,7 +120,7 @@ std::uint64_t interface_stamp() {
 }
 
 Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::Catalogue& catalogue,
-                             const HostOptions& options) {
+                             HostOptions options) {
   RAVE_TRY_ASSIGN(Seat seat, find_seat(scenario, options.host));
   const RunOptions& run = options.run;
   const std::string expanded = config::write_expanded(scenario);
@@ -128,10 +128,11 @@ Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::C
   ConsoleTee console(run.log);
   BuildOptions how{run.program_runner, &console};
   how.local = seat.robots;
-  how.others = options.others;
+  how.others = options.others.get();
   WallPace pace(1);
   how.live_clock = &pace;
   RAVE_TRY_ASSIGN(BuiltScenario built, build(scenario, catalogue, how));
+  options.others.reset();
   if (!built.live_reason.empty()) {
     return run_live_host({scenario, expanded, catalogue, options, seat, console, pace},
                          std::move(built));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -17,9 +18,9 @@ struct HostOptions {
   RunOptions run;  ///< `picture` and `on_progress` do not count.
   bus::BusConfig bus;
   std::string host;  ///< Its name in the scenario.
-  /// Where the drivers of the other hosts' robots are looked up while the scenario is built; not
-  /// needed afterwards. Null: in the catalogue of the run.
-  plugin::Catalogue* others = nullptr;
+  /// Where the drivers of the other hosts' robots are looked up while the scenario is built;
+  /// unloaded afterwards. Null: in the catalogue of the run.
+  std::unique_ptr<plugin::Catalogue> others;
 };
 
 /// How it ended for this host. It leaves result.json, events.log, scenario.yaml and run.mcap, whose
@@ -47,8 +48,7 @@ struct HostOutcome {
 /// Errors: kNotFound (no such host in the scenario), what keeps a run from starting, what HostPort
 /// and HostLink say, and what ends a run.
 [[nodiscard]] Result<HostOutcome> run_host(const config::ExpandedScenario& scenario,
-                                           plugin::Catalogue& catalogue,
-                                           const HostOptions& options);
+                                           plugin::Catalogue& catalogue, HostOptions options);
 
 /// A number of what the processes of a run must agree on: of all that the scenario says but its
 /// pace, its threads and what to do about lost hosts.

@@ -20,6 +20,7 @@ constexpr milliseconds kTell{500};
 /// Between the decision that a run begins and its time 0: hosts hear of it and start together.
 constexpr milliseconds kLead{300};
 constexpr std::size_t kMostNames = 5;
+constexpr Duration kDeparture = from_seconds(0.2);
 
 std::int64_t ns_of(Clock::time_point when) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(when.time_since_epoch()).count();
@@ -129,7 +130,9 @@ Status LiveRun::listen() {
   board_->take_states();
   if (Clock::now() < next_look_) return {};
   next_look_ = Clock::now() + kLook;
-  RAVE_TRY(board_->look_at_processes(begun_ && !ended_));
+  // Towards the end each host goes when it is done.
+  const bool over = ended_ || (begun_ && options_.duration - Duration{now().ns} < kDeparture);
+  RAVE_TRY(board_->look_at_processes(begun_ && !over));
   if (board_->take_news()) next_tell_ = {};
   return {};
 }

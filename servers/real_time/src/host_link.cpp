@@ -134,6 +134,7 @@ void HostLink::Impl::meet(const bus::HostInfo& info) {
   if (info.host == rave_wire_kNone) {
     if (!options.managed) return;
     if (auto fits = lock_step::check_fits(options.self, info); !fits) {
+      if (started) tell_once(LogLevel::kError, "refused: " + fits.error().message);
       unfit = std::move(fits).error();
       return;
     }

@@ -20,6 +20,9 @@ using Clock = std::chrono::steady_clock;
 using real_time::HostLink;
 using real_time::LiveWorld;
 
+/// Who begins so soon has missed nothing that anybody would miss.
+constexpr std::int64_t kInTime_ns = 1'000'000'000;
+
 /// Local robots that say where they are in the same steps.
 struct ReportGroup {
   std::uint32_t period_steps = 1;
@@ -114,13 +117,17 @@ Status go_through(LiveJourney& journey) {
     return {};
   }
   RAVE_TRY(journey.live.begin_at(journey.first, journey.link.starts(), journey.report));
-  if (now_ns > 0) {
-    journey.console.info("host", "begins at {:.2f} s of the run",
-                         static_cast<double>(now_ns) * 1e-9);
+  if (now_ns > kInTime_ns) {
+    std::string text =
+        fmt::format("begins at {:.2f} s of the run", static_cast<double>(now_ns) * 1e-9);
+    journey.console.info("host", "{}", text);
+    journey.problems.push_back("it " + std::move(text));
   }
   while (journey.report.step < journey.steps && wait_for_turn(journey)) {
     RAVE_TRY(make_step(journey));
   }
+  // The last step takes its time, too.
+  if (!journey.stopped && !journey.ended) static_cast<void>(wait_for_turn(journey));
   return {};
 }
 

@@ -247,6 +247,18 @@ TEST_F(LiveHosts, WhoLooksAtNobodyNeedsNoManager) {
   EXPECT_NE(env.err.find("needs no environment manager"), std::string::npos) << env.err;
 }
 
+TEST_F(LiveHosts, WhoLooksAtNobodyIsNotSentTheWorld) {
+  start("run", "run", "half.yaml");
+  EXPECT_EQ(end_of("run"), 0) << console("run");
+  EXPECT_EQ(result("run/hosts/one")["worlds"], 0);
+  EXPECT_TRUE(result("run/hosts/one")["clock_bound_s"].is_number());
+  EXPECT_GT(result("run/hosts/two")["worlds"], 5);
+  const std::vector<float> seen = ahead("run/hosts/two", "eye");
+  ASSERT_GT(seen.size(), 50U);
+  // It drives towards the stone, of which it sees the near side.
+  EXPECT_LT(*std::min_element(seen.begin(), seen.end()), 1.9F);
+}
+
 TEST_F(LiveHosts, ASecondProcessForAHostIsNotLetIn) {
   begin_all();
   begin("one", "second");

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "../cli/recorded_run.hpp"
 #include "create_run.hpp"
+#include "recorded_run.hpp"
 
 namespace rave::tests {
 namespace {

@@ -201,8 +201,8 @@ Status validate(const Packet& sample) {
   RAVE_TRY(check_number("y_m", sample.y_m, kMaxPosition_m));
   RAVE_TRY(check_number("antenna_z_m", sample.antenna_z_m, kMaxPosition_m));
   if (!(sample.range_m >= 0 && sample.range_m <= kMaxPosition_m)) {
-    return invalid(fmt::format("range_m is {}, not within 0 and {}", sample.range_m,
-                               kMaxPosition_m));
+    return invalid(
+        fmt::format("range_m is {}, not within 0 and {}", sample.range_m, kMaxPosition_m));
   }
   return {};
 }

@@ -2,8 +2,8 @@
 // What the deserialiser of the bus does with bytes.
 #include <gtest/gtest.h>
 
-#include "rave/bus/testing/cdr.hpp"
 #include "rave/bus/sequence.hpp"
+#include "rave/bus/testing/cdr.hpp"
 #include "rave/bus/validate.hpp"
 #include "sample_messages.hpp"
 

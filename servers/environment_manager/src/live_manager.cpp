@@ -112,7 +112,10 @@ void LiveRun::begin_if_ready() {
 
 void LiveRun::hear(const bus::ClockPing& ping) {
   const std::int64_t received_ns = ns_of(Clock::now());
-  if (!board_->sit_down(ping)) return;
+  if (!board_->sit_down(ping)) {
+    next_look_ = {};  // it may have introduced itself just now
+    return;
+  }
   if (!begun_ && ping.run_ns >= 0) take_over(ping.run_ns);
   bus::ClockPong pong{};
   pong.target = ping.writer;

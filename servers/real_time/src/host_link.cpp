@@ -50,7 +50,7 @@ struct HostLink::Impl {
   std::optional<bus::Writer<bus::ClockPing>> pings{};
   std::optional<bus::Reader<bus::ClockPong>> pongs{};
   std::optional<bus::Reader<bus::RunState>> runs{};
-  std::optional<bus::Reader<bus::World>> worlds{};       // if it sees
+  std::optional<bus::Reader<bus::World>> worlds{};        // if it sees
   std::optional<bus::Writer<bus::Packet>> packets_out{};  // if it talks
   std::optional<bus::Reader<bus::Packet>> packets_in{};
   std::optional<bus::WaitSet> waits{};  // behind all that it waits for
@@ -61,8 +61,9 @@ struct HostLink::Impl {
   std::optional<Ending> ending{};
   std::string told{};
   bool started = false;
-  std::int64_t zero_ns = 0;  ///< Of this process; stands once it has started.
-  std::uint64_t pings_sent = 0;
+  std::int64_t zero_ns = 0;       ///< Of this process; stands once it has started.
+  std::uint64_t pings_sent = 0;   ///< To this manager.
+  std::uint64_t pongs_heard = 0;  ///< From it.
   Clock::time_point ping_at{};
   std::vector<RobotSight> starts{};
   std::uint64_t world_count = 0;
@@ -140,6 +141,7 @@ void HostLink::Impl::meet(const bus::HostInfo& info) {
     }
     manager = info.writer;
     pings_sent = 0;
+    pongs_heard = 0;
     ping_at = {};
     tell_once(LogLevel::kInfo,
               fmt::format("the environment manager is `{}` on {}", info.name, machine));
@@ -168,6 +170,7 @@ void HostLink::Impl::take_pongs() {
         pong.writer, {pong.ping_sent_ns, pong.ping_received_ns, pong.pong_sent_ns, heard_ns},
         pong.begun, pong.zero_ns);
     if (!heard) pongs->refuse(pong, heard.error().message);
+    ++pongs_heard;
     // A manager that took over may be a little off, and stamps must not seem to stand still.
     if (was_known && std::abs(before - time.zero_ns()) > kJump_ns) live.clock_changed();
   });
@@ -248,8 +251,10 @@ void HostLink::Impl::take() {
 
 void HostLink::Impl::ping() {
   if (!pings || manager == 0 || Clock::now() < ping_at) return;
-  const bool hurry = pings_sent < kFirstReadings;
-  const auto wait = hurry ? kHurry : (time.known() ? kLeisure : kLook);
+  // Before the manager knows this process it does not answer.
+  const std::uint64_t done = pongs_heard > 0 ? pongs_heard : pings_sent;
+  const bool knows_it = pongs_heard > 0 && time.known();
+  const auto wait = done < kFirstReadings ? kHurry : (knows_it ? kLeisure : kLook);
   bus::ClockPing message{};
   message.target = manager;
   message.number = ++pings_sent;
@@ -268,7 +273,7 @@ void HostLink::Impl::ping() {
 
 bool HostLink::Impl::ready() const {
   if (!options.managed) return true;
-  if (!time.known() || time.answers() < kFirstReadings / 2) return false;
+  if (!time.known() || pongs_heard < kFirstReadings / 2) return false;
   return !worlds || world_count > 0;
 }
 
@@ -395,9 +400,7 @@ Duration HostLink::world_age() const {
   return {std::chrono::nanoseconds(Clock::now() - link.last_world).count()};
 }
 
-std::optional<bus::ClockReading> HostLink::clock() const {
-  return impl_->time.reading(local_ns());
-}
+std::optional<bus::ClockReading> HostLink::clock() const { return impl_->time.reading(local_ns()); }
 const std::optional<HostLink::Ending>& HostLink::ending() const noexcept { return impl_->ending; }
 std::uint64_t HostLink::worlds() const noexcept { return impl_->world_count; }
 std::uint64_t HostLink::losses() const noexcept { return impl_->losses; }

@@ -115,7 +115,8 @@ bool LiveWorld::see(const RobotSight& sight) {
   other.known = true;
   other.any_stamp = false;
   // A clock that is far ahead must not fill the memory here.
-  if (other.real && samples_.size() < kMostPackets) samples_.push_back({sight.robot, sight.stamp, sight.X_WR});
+  if (other.real && samples_.size() < kMostPackets)
+    samples_.push_back({sight.robot, sight.stamp, sight.X_WR});
   return true;
 }
 
@@ -235,8 +236,8 @@ void LiveWorld::report_packets(std::uint64_t step) {
   };
   // Of two with one number, from two starts of a host, the later one is left out.
   std::stable_sort(order_.begin(), order_.end(), [&](auto a, auto b) { return key(a) < key(b); });
-  const auto end = std::unique(order_.begin(), order_.end(),
-                               [&](auto a, auto b) { return key(a) == key(b); });
+  const auto end =
+      std::unique(order_.begin(), order_.end(), [&](auto a, auto b) { return key(a) == key(b); });
   for (auto it = order_.begin(); it != end; ++it) {
     sim::SentPacket packet = heard_.packets[*it];
     const std::span<const std::byte> bytes = heard_.bytes_of(packet);

@@ -29,8 +29,8 @@ class HostLink {
     /// The run has an environment manager, whose clock is that of the run. Without one the time of
     /// each host is its own.
     bool managed = true;
-    bool sees = true;   ///< A robot here has use of where the others are.
-    bool talks = true;  ///< A robot here has communicators.
+    bool sees = true;                           ///< A robot here has use of where the others are.
+    bool talks = true;                          ///< A robot here has communicators.
     Duration world_period = from_seconds(0.1);  ///< At which worlds should come.
     LogSink* log = nullptr;                     ///< Not owned; may be null.
   };

@@ -89,12 +89,12 @@ class LiveWorld {
   void report_packets(std::uint64_t step);
 
   std::unique_ptr<sim::WorldAuthority> authority_;
-  std::vector<std::uint8_t> local_;        ///< By robot: it runs here.
-  std::vector<RobotId> simulated_;         ///< That run here; ascending.
-  std::vector<Other> others_;              ///< By robot, ascending.
-  std::vector<std::uint32_t> other_of_;    ///< By robot: its place in `others_`.
-  std::vector<sim::PoseSample> samples_;   ///< Of real ones, for the steps to come.
-  sim::SentPackets heard_;                 ///< For the next step.
+  std::vector<std::uint8_t> local_;       ///< By robot: it runs here.
+  std::vector<RobotId> simulated_;        ///< That run here; ascending.
+  std::vector<Other> others_;             ///< By robot, ascending.
+  std::vector<std::uint32_t> other_of_;   ///< By robot: its place in `others_`.
+  std::vector<sim::PoseSample> samples_;  ///< Of real ones, for the steps to come.
+  sim::SentPackets heard_;                ///< For the next step.
   std::map<std::pair<std::uint32_t, std::uint32_t>, Counted> newest_;  ///< By robot, communicator.
   sim::HostReport others_report_;
   std::vector<std::uint32_t> order_;  ///< Of `heard_`.

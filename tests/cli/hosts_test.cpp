@@ -240,11 +240,14 @@ TEST_F(Hosts, WhoDoesNotFitIsToldSo) {
 
 TEST_F(Hosts, ASecondProcessForAHostIsRefusedAndTheFirstGoesOn) {
   start_crowd({});
-  start("second", "robot", "crowd.yaml", {"--host", "one", "--duration", "100000"});
-  wait_for_line("env", "host 0 is served by process");
+  Words words = {"robot",      "crowd.yaml", "--host",   "one",
+                 "--duration", "100000",     "--output", folder("second")};
+  for (const std::string& word : apart()) words.push_back(word);
+  const Ended second = run_rave(words);
+  EXPECT_EQ(second.exit_code, 2);
+  EXPECT_NE(second.err.find("host `one` of this run is served already"), std::string::npos)
+      << second.err;
   wait_for_more("one");
-  signal("second", SIGTERM);
-  EXPECT_NE(end_of("second"), 0);
   signal("env", SIGINT);
   EXPECT_EQ(end_of("env"), 1);
   EXPECT_EQ(end_of("one"), 0);

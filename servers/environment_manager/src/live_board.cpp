@@ -61,15 +61,24 @@ Result<std::unique_ptr<LiveBoard>> LiveBoard::open(const LiveManagerOptions& opt
   RAVE_TRY(waits.add(board->pings_));
   RAVE_TRY(waits.add(board->states_));
   board->waits_.emplace(std::move(waits));
-  bus::HostInfo info = lock_step::introduction(options.identity);
-  RAVE_TRY(board->own_info_.write(info));
+  board->introduced_ = lock_step::introduction(options.identity);
+  RAVE_TRY(board->own_info_.write(board->introduced_));
   return board;
 }
 
 Status LiveBoard::look_at_processes(bool goes) {
   bool second = false;
   infos_.take([&](const bus::HostInfo& info) {
-    second = second || info.host == rave_wire_kNone;
+    if (info.host == rave_wire_kNone) {
+      const bool stays = goes || !lock_step::gives_way(introduced_, info);
+      second = second || !stays;
+      if (stays && options_.log != nullptr) {
+        options_.log->warn(kSource,
+                           "another one, on {}, was started after this one and is not listened to",
+                           info.machine);
+      }
+      return;
+    }
     const Status fits = lock_step::check_fits(options_.identity, info);
     if (fits) {
       host_of_[info.writer] = info.host;

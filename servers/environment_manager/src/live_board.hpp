@@ -81,6 +81,7 @@ class LiveBoard {
   bus::Reader<bus::ClockPing> pings_;
   bus::Reader<bus::HostState> states_;
   std::optional<bus::WaitSet> waits_;
+  bus::HostInfo introduced_{};  ///< What the others were told of this process.
   std::vector<LiveSeat> seats_;
   bus::HostClaims claims_;
   std::map<std::uint64_t, std::uint32_t> host_of_;  ///< Of processes that fit.

@@ -250,13 +250,13 @@ void Run::miss(std::uint64_t writer) {
 
 /// What can wait until nothing else is to be done.
 Status Run::look() {
-  RAVE_TRY_ASSIGN(const auto gone, board_->look_at_processes());
+  RAVE_TRY_ASSIGN(const auto gone, board_->look_at_processes(begun_));
   if (!begun_) handed_over_ = board_->take_last_world(world_, state_, handed_over_) || handed_over_;
   for (const std::uint64_t writer : gone) miss(writer);
   if (asked_again_ && Clock::now() >= resend_at_) {
     asked_again_ = false;
     resend_at_ = Clock::now() + kAgain;
-    board_->resend();
+    board_->resend(seats_);
   }
   return {};
 }
@@ -327,7 +327,7 @@ Status Run::take_over() {
   RAVE_TRY(authority_->resume(world_, state_));
   log(LogLevel::kWarning, "takes over from a manager that is gone, at step {}", step_);
   for (Seat& seat : seats_) seat.reported = seat.reported && seat.report.step == step_;
-  return board_->send(world_, state_);
+  return board_->send(world_, state_, seats_);
 }
 
 Status Run::make_step() {
@@ -345,7 +345,7 @@ Status Run::make_step() {
     contacts_ += event.kind == sim::EventKind::kContact ? 1U : 0U;
   }
   world_.last = world_.last || ending_ || step_ >= options_.steps;
-  RAVE_TRY(board_->send(world_, authority_->state()));
+  RAVE_TRY(board_->send(world_, authority_->state(), seats_));
   for (Seat& seat : seats_) seat.reported = false;
   ++step_;
   return {};

@@ -17,6 +17,7 @@ struct Switchboard::Parts {
   bus::Reader<bus::LastWorld> last_worlds;
   bus::Reader<bus::HostInfo> infos;
   bus::WaitSet waits;
+  bus::HostInfo introduced;
 };
 
 Switchboard::Switchboard(Parts parts)
@@ -30,6 +31,7 @@ Switchboard::Switchboard(Parts parts)
       last_worlds_(std::move(parts.last_worlds)),
       infos_(std::move(parts.infos)),
       waits_(std::move(parts.waits)),
+      introduced_(parts.introduced),
       epoch_(bus::random_writer_id()) {}
 
 Result<std::unique_ptr<Switchboard>> Switchboard::open(const bus::BusConfig& config,
@@ -51,13 +53,23 @@ Result<std::unique_ptr<Switchboard>> Switchboard::open(const bus::BusConfig& con
   return std::unique_ptr<Switchboard>(
       new Switchboard({std::move(identity), log, std::move(bus), std::move(worlds),
                        std::move(states), std::move(own_info), std::move(reports),
-                       std::move(last_worlds), std::move(infos), std::move(waits)}));
+                       std::move(last_worlds), std::move(infos), std::move(waits), info}));
 }
 
-Result<std::vector<std::uint64_t>> Switchboard::look_at_processes() {
+Result<std::vector<std::uint64_t>> Switchboard::look_at_processes(bool begun) {
   bool second = false;
   infos_.take([&](const bus::HostInfo& info) {
-    second = second || info.host == rave_wire_kNone;
+    if (info.host == rave_wire_kNone) {
+      const bool goes = !begun && lock_step::gives_way(introduced_, info);
+      second = second || goes;
+      if (!goes && log_ != nullptr) {
+        log_->warn("environment manager",
+                   "another one, on {}, was started after this one and is "
+                   "not listened to",
+                   info.machine);
+      }
+      return;
+    }
     const Status fits = check_fits(identity_, info);
     if (fits) {
       fitting_.insert(info.writer);
@@ -102,13 +114,21 @@ bool Switchboard::take_last_world(sim::WorldStep& world, sim::AuthorityState& au
   return newer;
 }
 
-Status Switchboard::send(const sim::WorldStep& world, const sim::AuthorityState& authority) {
+Status Switchboard::send(const sim::WorldStep& world, const sim::AuthorityState& authority,
+                         const std::vector<Seat>& seats) {
   RAVE_TRY_ASSIGN(sent_, message_.fill(world, authority, epoch_));
+  return write(seats);
+}
+
+Status Switchboard::write(const std::vector<Seat>& seats) {
+  writers_.clear();
+  for (const Seat& seat : seats) writers_.push_back(seat.writer);
+  message_.address(writers_);
   return worlds_.write(*sent_);
 }
 
-void Switchboard::resend() {
-  if (sent_ != nullptr) static_cast<void>(worlds_.write(*sent_));
+void Switchboard::resend(const std::vector<Seat>& seats) {
+  if (sent_ != nullptr) static_cast<void>(write(seats));
 }
 
 }  // namespace rave::environment_manager

@@ -27,8 +27,9 @@ class Switchboard {
 
   /// Sleeps until something has come or the time is over.
   void wait(Duration timeout) { static_cast<void>(waits_.wait(timeout)); }
-  /// Learns who is there; returns the processes that are gone. Errors: kState (another manager).
-  [[nodiscard]] Result<std::vector<std::uint64_t>> look_at_processes();
+  /// Learns who is there; returns the processes that are gone. Errors: kState (there is a manager
+  /// that started earlier, and this one has not `begun`).
+  [[nodiscard]] Result<std::vector<std::uint64_t>> look_at_processes(bool begun);
   /// Whether a process said who it is, and fits.
   [[nodiscard]] bool knows(std::uint64_t writer) const { return fitting_.contains(writer); }
 
@@ -44,13 +45,15 @@ class Switchboard {
 
   /// Sends a step of the world, and remembers it for resend(). Errors: kInvalidArgument (larger
   /// than the bus carries).
-  Status send(const sim::WorldStep& world, const sim::AuthorityState& authority);
+  Status send(const sim::WorldStep& world, const sim::AuthorityState& authority,
+              const std::vector<Seat>& seats);
   /// Sends the last one again, for a host that has not got it.
-  void resend();
+  void resend(const std::vector<Seat>& seats);
   void publish(bus::RunState& state) { static_cast<void>(states_.write(state)); }
 
  private:
   struct Parts;
+  Status write(const std::vector<Seat>& seats);
   explicit Switchboard(Parts parts);
 
   lock_step::Identity identity_;
@@ -63,8 +66,10 @@ class Switchboard {
   bus::Reader<bus::LastWorld> last_worlds_;
   bus::Reader<bus::HostInfo> infos_;
   bus::WaitSet waits_;
+  bus::HostInfo introduced_;  ///< What the others were told of this process.
   lock_step::WorldMessage message_;
   bus::LastWorld* sent_ = nullptr;  ///< In `message_`.
+  std::vector<std::uint64_t> writers_;
   std::uint64_t epoch_;
   std::set<std::uint64_t> fitting_;
 };

@@ -41,6 +41,7 @@ struct HostPort::Impl {
   bus::Reader<bus::RunState> states;
   bus::Reader<bus::HostInfo> infos;
   bus::WaitSet waits;
+  bus::HostInfo introduced;  ///< What the others were told of this process.
   ReportMessage message{};
   WorldMessage last_message{};
   sim::AuthorityState authority{};  ///< Of the last world.
@@ -77,8 +78,8 @@ void HostPort::Impl::meet(const bus::HostInfo& info) {
                                       *info.machine != '\0' ? info.machine : "this machine"));
     return;
   }
-  // Of two that start at once, one stays; who is in the run already stays anyway.
-  if (info.host != self.host || epoch != 0 || info.writer > bus->writer()) return;
+  // Who is in the run already stays.
+  if (info.host != self.host || epoch != 0 || !gives_way(introduced, info)) return;
   unfit = Error{ErrorCode::kState,
                 fmt::format("host `{}` of this run is served already, by a process on {}; end that "
                             "one first, or choose another host",
@@ -88,6 +89,11 @@ void HostPort::Impl::meet(const bus::HostInfo& info) {
 
 void HostPort::Impl::hear(const bus::RunState& state) {
   if (manager == 0) manager = state.writer;
+  for (const auto& host : bus::elements(state.hosts)) {
+    if (host.host != self.host || host.phase != rave_wire_HOST_DROPPED) continue;
+    ended_ = true;
+    ending = {false, "it went on without this host, which was late or gone"};
+  }
   switch (state.phase) {
     case rave_wire_RUN_GOES:
       told.clear();
@@ -142,6 +148,8 @@ bool HostPort::Impl::take_world(const sim::HostReport& report, sim::WorldStep& w
       return;
     }
     if (sample.step < report.step) return;  // sent again for somebody else
+    const auto hosts = bus::elements(sample.hosts);
+    if (self.host >= hosts.size() || hosts[self.host] != bus->writer()) return;  // not for us
     if (auto status = read(sample, world, authority); !status) {
       worlds.refuse(sample, status.error().message);
       return;
@@ -173,10 +181,10 @@ Result<std::unique_ptr<HostPort>> HostPort::open(const bus::BusConfig& config, I
   RAVE_TRY(waits.add_events());
   bus::HostInfo info = introduction(identity);
   RAVE_TRY(own_info.write(info));
-  return std::unique_ptr<HostPort>(new HostPort(
-      std::unique_ptr<Impl>(new Impl{std::move(identity), log, std::move(bus), std::move(reports),
-                                     std::move(own_info), std::move(last_worlds), std::move(worlds),
-                                     std::move(states), std::move(infos), std::move(waits)})));
+  return std::unique_ptr<HostPort>(new HostPort(std::unique_ptr<Impl>(
+      new Impl{std::move(identity), log, std::move(bus), std::move(reports), std::move(own_info),
+               std::move(last_worlds), std::move(worlds), std::move(states), std::move(infos),
+               std::move(waits), info})));
 }
 
 Result<HostPort::Answer> HostPort::exchange(const sim::HostReport& report, std::uint64_t hash,

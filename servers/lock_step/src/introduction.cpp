@@ -4,7 +4,9 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <span>
+#include <tuple>
 
 #include "rave/base/hash.hpp"
 #include "rave/bus/sequence.hpp"
@@ -28,7 +30,15 @@ bus::HostInfo introduction(const Identity& self) {
   info.scenario = self.scenario;
   info.clock = self.real_time ? rave_wire_CLOCK_REAL_TIME : rave_wire_CLOCK_LOCK_STEP;
   info.robots = self.robots;
+  const auto today = std::chrono::system_clock::now().time_since_epoch();
+  info.started_ns = self.started_ns != 0
+                        ? self.started_ns
+                        : std::chrono::duration_cast<std::chrono::nanoseconds>(today).count();
   return info;
+}
+
+bool gives_way(const bus::HostInfo& self, const bus::HostInfo& other) noexcept {
+  return std::tie(self.started_ns, self.writer) > std::tie(other.started_ns, other.writer);
 }
 
 Status check_fits(const Identity& self, const bus::HostInfo& other) {

@@ -287,6 +287,11 @@ Result<bus::LastWorld*> WorldMessage::fill(const sim::WorldStep& world,
   return &message_;
 }
 
+void WorldMessage::address(std::span<const std::uint64_t> hosts) {
+  hosts_.assign(hosts.begin(), hosts.end());
+  borrow(message_.hosts, hosts_);
+}
+
 void WorldMessage::fill_authority(const sim::AuthorityState& authority) {
   message_.authority.hash = authority.hash.value();
   message_.authority.inputs = authority.inputs;

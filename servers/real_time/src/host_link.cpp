@@ -46,6 +46,7 @@ struct HostLink::Impl {
   bus::Writer<bus::HostInfo> own_info;
   bus::Reader<bus::HostInfo> infos;
   bus::Writer<bus::HostState> states;
+  bus::HostInfo introduced{};  ///< What the others were told of this process.
   // Of a managed run.
   std::optional<bus::Writer<bus::ClockPing>> pings{};
   std::optional<bus::Reader<bus::ClockPong>> pongs{};
@@ -126,8 +127,8 @@ Status HostLink::Impl::open_endpoints() {
   }
   RAVE_TRY(set.add_events());
   waits.emplace(std::move(set));
-  bus::HostInfo info = lock_step::introduction(options.self);
-  return own_info.write(info);
+  introduced = lock_step::introduction(options.self);
+  return own_info.write(introduced);
 }
 
 void HostLink::Impl::meet(const bus::HostInfo& info) {
@@ -147,8 +148,8 @@ void HostLink::Impl::meet(const bus::HostInfo& info) {
               fmt::format("the environment manager is `{}` on {}", info.name, machine));
     return;
   }
-  // Of two that start at once, one stays; who is in the run already stays anyway.
-  if (info.host != options.self.host || started || info.writer > bus->writer()) return;
+  // Who is in the run already stays.
+  if (info.host != options.self.host || started || !lock_step::gives_way(introduced, info)) return;
   unfit = Error{ErrorCode::kState,
                 fmt::format("host `{}` of this run is served already, by a process on {}; end that "
                             "one first, or choose another host",

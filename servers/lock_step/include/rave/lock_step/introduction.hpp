@@ -19,6 +19,8 @@ struct Identity {
   std::uint64_t scenario = 0;  ///< See scenario_number().
   std::uint64_t interface_stamp = 0;
   bool real_time = false;  ///< Instead of lock-step; on this, too.
+  /// When it started, nanoseconds since 1970 by its own clock; 0: introduction() reads the clock.
+  std::int64_t started_ns = 0;
 };
 
 /// A number of what an expanded scenario says; equal scenarios have the same in every process.
@@ -26,6 +28,10 @@ struct Identity {
 
 /// What a process tells the others of itself.
 [[nodiscard]] bus::HostInfo introduction(const Identity& self);
+
+/// Of two processes for one task, neither of which is in the run yet, whether the other one stays:
+/// the one that started first.
+[[nodiscard]] bool gives_way(const bus::HostInfo& self, const bus::HostInfo& other) noexcept;
 
 /// Whether a process that says so of itself can be in one run with this one. Error kState says what
 /// differs.

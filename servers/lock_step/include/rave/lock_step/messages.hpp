@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "rave/base/result.hpp"
@@ -42,6 +43,8 @@ class WorldMessage {
   [[nodiscard]] Result<bus::LastWorld*> fill(const sim::WorldStep& world,
                                              const sim::AuthorityState& authority,
                                              std::uint64_t epoch);
+  /// Says for whom the message is: by number of the host the process that runs it, 0 for nobody.
+  void address(std::span<const std::uint64_t> hosts);
 
  private:
   Status fill_inputs(const sim::WorldStep& world);
@@ -55,6 +58,7 @@ class WorldMessage {
   std::vector<rave_wire_ResizedRobot> scales_;
   std::vector<rave_wire_NotedEvent> events_;
   std::vector<std::uint32_t> pinned_;
+  std::vector<std::uint64_t> hosts_;
   std::vector<rave_wire_WorldInput> inputs_;
   std::vector<std::vector<rave_wire_ParameterChange>> changes_;
 };

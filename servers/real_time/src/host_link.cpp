@@ -57,7 +57,8 @@ struct HostLink::Impl {
   std::optional<bus::WaitSet> waits{};  // behind all that it waits for
 
   SharedTime time{};
-  std::uint64_t manager = 0;  ///< Its process; 0: nobody.
+  std::vector<bus::HostInfo> managers{};  ///< That are there; the first is listened to.
+  std::uint64_t manager = 0;              ///< Its process; 0: nobody.
   std::optional<Error> unfit{};
   std::optional<Ending> ending{};
   std::string told{};
@@ -87,7 +88,8 @@ struct HostLink::Impl {
   void take_packets();
   void hear(const bus::RunState& state);
   void look();
-  void lose_manager();
+  void listen_to_first();
+  void lose(std::uint64_t writer);
   void ping();
   void start_clock();
   [[nodiscard]] bool ready() const;
@@ -140,12 +142,10 @@ void HostLink::Impl::meet(const bus::HostInfo& info) {
       unfit = std::move(fits).error();
       return;
     }
-    manager = info.writer;
-    pings_sent = 0;
-    pongs_heard = 0;
-    ping_at = {};
-    tell_once(LogLevel::kInfo,
-              fmt::format("the environment manager is `{}` on {}", info.name, machine));
+    const auto same = [&](const auto& known) { return known.writer == info.writer; };
+    if (std::any_of(managers.begin(), managers.end(), same)) return;
+    managers.push_back(info);
+    if (managers.size() == 1) listen_to_first();
     return;
   }
   // Who is in the run already stays.
@@ -218,13 +218,29 @@ void HostLink::Impl::hear(const bus::RunState& state) {
   }
 }
 
-void HostLink::Impl::lose_manager() {
+void HostLink::Impl::listen_to_first() {
+  manager = managers.front().writer;
+  pings_sent = 0;
+  pongs_heard = 0;
+  ping_at = {};
+  const char* const machine = managers.front().machine;
+  tell_once(LogLevel::kInfo,
+            fmt::format("the environment manager is `{}` on {}", managers.front().name,
+                        *machine != '\0' ? machine : "this machine"));
+}
+
+void HostLink::Impl::lose(std::uint64_t writer) {
+  std::erase_if(managers, [&](const auto& info) { return info.writer == writer; });
+  if (writer != manager) return;
   manager = 0;
-  if (ending) return;
-  tell_once(LogLevel::kError,
-            started ? "the environment manager is gone; this host goes on without the others until "
-                      "one is back"
-                    : "the environment manager is gone");
+  if (!ending) {
+    tell_once(LogLevel::kError,
+              started ? "the environment manager is gone; this host goes on without the others "
+                        "until one is back"
+                      : "the environment manager is gone");
+  }
+  // The next one may have come before this one was missed.
+  if (!managers.empty()) listen_to_first();
 }
 
 /// What can wait until nothing else is to be done.
@@ -233,8 +249,8 @@ void HostLink::Impl::look() {
   if (runs) runs->take([this](const bus::RunState& state) { hear(state); });
   for (const bus::BusEvent& event : bus->take_events()) {
     using enum bus::EventKind;
-    if (event.kind == kParticipantLost && event.writer != 0 && event.writer == manager) {
-      lose_manager();
+    if (event.kind == kParticipantLost && event.writer != 0) {
+      lose(event.writer);
       continue;
     }
     const bool worth = event.kind == kRefused || event.kind == kIncompatible ||

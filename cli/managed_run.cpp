@@ -159,7 +159,8 @@ Result<ManagedEnd> manage_time(const ManagedRun& run, const robot_host::BuiltSce
   how.scenario = file.name.value;
   how.hosts = std::move(hosts);
   for (const sim::RobotSpec& robot : built.spec.robots) {
-    how.robots.push_back({robot.name, built.spec.types[robot.type].staleness});
+    const sim::RobotType& type = built.spec.types[robot.type];
+    how.robots.push_back({robot.name, type.staleness, type.simulated});
   }
   how.step = built.spec.step;
   how.duration = from_seconds(file.duration_s);

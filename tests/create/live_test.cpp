@@ -56,6 +56,10 @@ TEST(LiveCreate, ASimulatedRobotOfAnotherHostSeesItWhereItIs) {
   EXPECT_TRUE(result["whole"]) << result.dump();
   EXPECT_NE(result["no_hash_because"].get<std::string>().find("by the wall clock"),
             std::string::npos);
+  std::ifstream stream(run.file("out/console.log"));
+  const std::string log{std::istreambuf_iterator<char>(stream), {}};
+  EXPECT_NE(log.find("host `lab` is here, with 1 real and 0 simulated robots"), std::string::npos);
+  EXPECT_NE(log.find("host `desk` is here, with 0 real and 1 simulated robots"), std::string::npos);
   const Json truth = run.await_state([](const Json& s) { return s["left_mps"] == 0.0; });
   EXPECT_GT(truth["path_m"], 0.2);
 

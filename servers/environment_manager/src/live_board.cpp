@@ -41,7 +41,10 @@ LiveBoard::LiveBoard(const LiveManagerOptions& options, Parts parts)
     LiveSeat& seat = seats_.emplace_back();
     seat.name = host.name;
     seat.robots = static_cast<std::uint32_t>(host.robots.size());
-    for (const std::size_t robot : host.robots) seat_of_[robot] = h;
+    for (const std::size_t robot : host.robots) {
+      seat_of_[robot] = h;
+      seat.real += options.robots[robot].simulated ? 0U : 1U;
+    }
   }
 }
 
@@ -138,8 +141,9 @@ bool LiveBoard::sit_down(const bus::ClockPing& ping) {
     seat.writer = ping.writer;
     news_ = true;
     if (options_.log != nullptr) {
-      options_.log->info(kSource, "host `{}` is {}, with {} robots", seat.name,
-                         seat.heard ? "back" : "here", seat.robots);
+      options_.log->info(kSource, "host `{}` is {}, with {} real and {} simulated robots",
+                         seat.name, seat.heard ? "back" : "here", seat.real,
+                         seat.robots - seat.real);
     }
     seat.heard = true;
   }

@@ -21,6 +21,7 @@ namespace rave::environment_manager {
 struct LiveSeat {
   std::string name;
   std::uint32_t robots = 0;
+  std::uint32_t real = 0;    ///< Of these.
   std::uint64_t writer = 0;  ///< The process; 0: nobody.
   bool heard = false;        ///< Somebody was there.
   std::uint64_t losses = 0;

@@ -2,6 +2,8 @@
 #include "rave/real_time/host_link.hpp"
 
 #include <algorithm>
+#include <cstdlib>
+#include <vector>
 
 #include "rave/bus/sequence.hpp"
 #include "rave/bus/wait_set.hpp"

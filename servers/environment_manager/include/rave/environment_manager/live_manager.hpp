@@ -25,6 +25,7 @@ struct LiveManagerOptions {
   struct Robot {
     std::string name;
     Duration staleness;  ///< After which a robot that is not heard of counts as stale.
+    bool simulated = true;
   };
   std::vector<Robot> robots;
   Duration step;          ///< Of the hosts; for who looks on.

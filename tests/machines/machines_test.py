@@ -78,8 +78,8 @@ class Lab:
         call("ip", "-n", self.hub, "link", "set", f"port{number}", state)
 
     def lose_packets(self, name, percent):
-        rules = ("table inet loss { chain in { type filter hook input priority 0; "
-                 f'iifname "eth0" numgen random mod 100 < {percent} drop; }} }}')
+        rules = ("table inet loss {\n chain in {\n  type filter hook input priority 0;\n"
+                 f'  iifname "eth0" numgen random mod 100 < {percent} drop\n }}\n}}\n')
         subprocess.run(["ip", "netns", "exec", self.space(name), "nft", "-f", "-"],
                        input=rules, text=True, check=True)
 

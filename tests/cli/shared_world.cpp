@@ -78,8 +78,7 @@ void SharedWorld::wait_until(const std::function<bool()>& holds, const std::stri
 }
 
 void SharedWorld::wait_for_line(const std::string& name, const std::string& text) {
-  wait_until([&] { return console(name).find(text) != std::string::npos; },
-             name + ": " + text);
+  wait_until([&] { return console(name).find(text) != std::string::npos; }, name + ": " + text);
   if (HasFailure()) std::cerr << console(name);
 }
 

@@ -78,9 +78,10 @@ TEST(PlanHosts, BadInputNamesItsPlace) {
             "are 5");
   EXPECT_EQ(plan_error("processes: 2\nhosts: [{name: one}]\n"),
             "lab.yaml:9:12: `processes` and `hosts` both say who runs the robots; one can");
-  EXPECT_EQ(plan_error("on_lost_host: weit\n"),
-            "lab.yaml:9:15: `on_lost_host`: found the text \"weit\", expected one of wait, drop and "
-            "restart; did you mean `wait`?");
+  EXPECT_EQ(
+      plan_error("on_lost_host: weit\n"),
+      "lab.yaml:9:15: `on_lost_host`: found the text \"weit\", expected one of wait, drop and "
+      "restart; did you mean `wait`?");
 }
 
 TEST(PlanHosts, WhatIsWrittenBackGivesTheSame) {

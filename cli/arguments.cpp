@@ -128,7 +128,8 @@ void add_hosts(CLI::App& root, Everything& all) {
   add_bus_options(host, robot.bus);
   host.footer(
       "It waits for the environment manager of the run (`rave env`, or `rave run` of the same\n"
-      "scenario), however late that comes, and goes on with the next one if it is lost.\n"
+      "scenario), however late that comes, and goes on with the next one if it is lost; in real\n"
+      "time also without one.\n"
       "Exit code: 0 if it took part from the first step to the last, 1 if not, 2 for bad input.\n\n"
       "Examples:\n"
       "  rave robot lab --host left\n"

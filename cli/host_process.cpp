@@ -66,6 +66,10 @@ std::optional<int> HostProcess::wait(double longest_s) {
   return code;
 }
 
+void HostProcess::interrupt() const noexcept {
+  if (process_ > 0) ::kill(process_, SIGINT);
+}
+
 void HostProcess::end() noexcept {
   constexpr double kPatience_s = 2;
   if (ended()) return;

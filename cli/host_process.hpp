@@ -25,6 +25,8 @@ class HostProcess {
   [[nodiscard]] std::optional<int> ended();
   /// Waits for its end for as long as told.
   [[nodiscard]] std::optional<int> wait(double longest_s);
+  /// Asks it to end, as Ctrl-C does.
+  void interrupt() const noexcept;
   [[nodiscard]] ::pid_t id() const noexcept { return process_; }
 
  private:

@@ -4,11 +4,13 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "commands/run.hpp"
 #include "console.hpp"
+#include "rave/base/result.hpp"
 #include "rave/bus/config.hpp"
-#include "rave/environment_manager/manager.hpp"
+#include "rave/config/expanded_scenario.hpp"
 
 namespace rave::cli {
 
@@ -20,14 +22,23 @@ struct ManagedRun {
   std::filesystem::path folder;  ///< Gets scenario.yaml and result.json.
   Console& console;
   std::function<bool()> stopping;
+  /// Set: the hosts belong to this process; whether all of them have ended.
+  std::function<bool()> hosts_ended;
 };
 
-/// Builds the world, waits for the hosts and manages the run to its end. No plug-in stays loaded
-/// while it goes. Errors: those of robot_host::build() and environment_manager::manage().
-[[nodiscard]] Result<environment_manager::ManagerOutcome> manage_run(const ManagedRun& run);
+/// How it ended.
+struct ManagedEnd {
+  bool whole = false;
+  bool live = false;  ///< It was in real time.
+  std::vector<std::string> problems;
+  std::string summary;  ///< A few lines for people.
+};
 
-/// A few lines for people: steps, speed, contacts, hash.
-[[nodiscard]] std::string summary_of(const config::ExpandedScenario& scenario,
-                                     const environment_manager::ManagerOutcome& outcome);
+/// Builds the world, waits for the hosts and manages the run to its end, in lock-step or in real
+/// time. No plug-in stays loaded while it goes. A run in real time in which nobody looks at others
+/// is not managed: with hosts of this process it waits for their end. Errors: kInvalidArgument (not
+/// managed, and no hosts here), those of robot_host::build(), environment_manager::manage() and
+/// environment_manager::manage_live().
+[[nodiscard]] Result<ManagedEnd> manage_run(const ManagedRun& run);
 
 }  // namespace rave::cli

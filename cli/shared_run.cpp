@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "console.hpp"
@@ -60,6 +61,19 @@ class Crew {
       if (member.process || member.code == kGood) return false;
     }
     return true;
+  }
+
+  /// Nobody runs any more.
+  [[nodiscard]] bool all_ended() const {
+    return std::none_of(members_.begin(), members_.end(),
+                        [](const Member& member) { return member.process.has_value(); });
+  }
+
+  /// Asks all to end.
+  void interrupt() {
+    for (const Member& member : members_) {
+      if (member.process) member.process->interrupt();
+    }
   }
 
   /// Waits for their ends. What went wrong, one sentence each.
@@ -131,12 +145,11 @@ std::string invitation(const config::ExpandedScenario& scenario, const config::P
                      scenario.scenario.name.value, host.name, words);
 }
 
-int report(const RunCommand& options, const config::ExpandedScenario& scenario,
-           const environment_manager::ManagerOutcome& outcome,
+int report(const RunCommand& options, const ManagedEnd& outcome,
            const std::vector<std::string>& problems, const std::filesystem::path& folder) {
   const Terminal errors = terminal_of(stderr);
   if (!options.quiet) {
-    put(stdout, summary_of(scenario, outcome));
+    put(stdout, outcome.summary);
     put(stdout, fmt::format("{}: result.json, scenario.yaml, hosts/\n", folder.string()));
   }
   for (const auto* const list : {&outcome.problems, &problems}) {
@@ -187,14 +200,18 @@ int run_shared(const RunCommand& options, const config::ExpandedScenario& scenar
     if (auto started = crew.start(host); !started) return complain(started.error());
   }
   robot_host::RunControl& control = ended_by_signals();
-  const auto outcome = manage_run({scenario, options, *bus, folder->path(), console, [&] {
-                                     crew.look_after();
-                                     return control.stopping() || crew.all_dead();
-                                   }});
+  const auto stopping = [&] {
+    crew.look_after();
+    return control.stopping() || crew.all_dead();
+  };
+  const auto outcome = manage_run({scenario, options, *bus, folder->path(), console, stopping,
+                                   [&crew] { return crew.all_ended(); }});
+  // In lock-step the last step tells them.
+  if (outcome && outcome->live && control.stopping()) crew.interrupt();
   const std::vector<std::string> problems = crew.part();
   console.clear();
   if (!outcome) return complain(outcome.error());
-  return report(options, scenario, *outcome, problems, folder->path());
+  return report(options, *outcome, problems, folder->path());
 }
 
 }  // namespace rave::cli

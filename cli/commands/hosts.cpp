@@ -87,12 +87,16 @@ int env(const EnvCommand& options) {
     return complain(opened.error());
   }
   robot_host::RunControl& control = ended_by_signals();
-  const auto outcome = manage_run(
-      {*scenario, run, *bus, folder->path(), console, [&control] { return control.stopping(); }});
+  const auto outcome = manage_run({*scenario,
+                                   run,
+                                   *bus,
+                                   folder->path(),
+                                   console,
+                                   [&control] { return control.stopping(); },
+                                   {}});
   console.clear();
   if (!outcome) return complain(outcome.error());
-  return tell(run, outcome->whole, summary_of(*scenario, *outcome), outcome->problems,
-              folder->path());
+  return tell(run, outcome->whole, outcome->summary, outcome->problems, folder->path());
 }
 
 }  // namespace rave::cli

@@ -69,8 +69,10 @@ class RaveRun {
 /// The robot as a peer, and a scenario that it takes part in.
 class CreateRun {
  public:
-  /// `robot`: create or create-simulated.
-  CreateRun(const std::string& robot, double duration_s, std::vector<std::string> options = {})
+  /// `robot`: create or create-simulated. `others`: more entries of `robots`, and `keys`: more keys
+  /// of the scenario, as text.
+  CreateRun(const std::string& robot, double duration_s, std::vector<std::string> options = {},
+            const std::string& others = "", const std::string& keys = "")
       : folder_(std::filesystem::temp_directory_path() /
                 ("create_run_" + std::to_string(::getpid()) + "_" +
                  ::testing::UnitTest::GetInstance()->current_test_info()->name())) {
@@ -88,7 +90,9 @@ class CreateRun {
         << "\nrobots:\n  - name: rosie\n    file: " RAVE_SOURCE_DIR "/robots/" << robot
         << ".yaml\n    pose: {x_m: 1, y_m: 1, yaw_deg: 22.9}\n    variables: {base: '"
         << file("base") << "', laser: '" << file("laser") << "', mocap_port: " << port
-        << ", mocap_body: create}\nworld: world.yaml\n";
+        << ", mocap_body: create}\n"
+        << others << "world: world.yaml\n"
+        << keys;
   }
   ~CreateRun() {
     rave.reset();

@@ -12,6 +12,9 @@
 /// What the validations of several topics share.
 namespace rave::bus {
 
+/// Half a century: no run is longer, and no machine has been up for longer.
+inline constexpr std::int64_t kMaxTime_ns = 1'577'880'000'000'000'000;
+
 /// Angles may have been wound up by turning, but not for ever.
 inline constexpr double kMaxAngle_rad = 2e6 * std::numbers::pi;
 
@@ -43,8 +46,9 @@ Status check_numbers(std::string_view list, std::string_view field, const Sequen
   return {};
 }
 
+/// Numbers of robots, ascending; `entries` is where they stand in `list`.
 template <class Sequence>
-Status check_ids(std::string_view list, const Sequence& ids) {
+Status check_robot_numbers(std::string_view list, std::string_view entries, const Sequence& ids) {
   const auto values = elements(ids);
   if (values.size() > rave_wire_kMaxRobots) {
     return invalid(
@@ -53,13 +57,17 @@ Status check_ids(std::string_view list, const Sequence& ids) {
   for (std::size_t i = 1; i < values.size(); ++i) {
     if (values[i - 1] >= values[i]) {
       return invalid(
-          fmt::format("{}.id[{}] is {} after {}; ids ascend", list, i, values[i], values[i - 1]));
+          fmt::format("{}[{}] is {} after {}; ids ascend", entries, i, values[i], values[i - 1]));
     }
   }
   if (!values.empty() && values.back() == rave_wire_kNone) {
-    return invalid(fmt::format("{}.id: a robot without a number", list));
+    return invalid(fmt::format("{}: a robot without a number", entries));
   }
   return {};
+}
+template <class Sequence>
+Status check_ids(std::string_view list, const Sequence& ids) {
+  return check_robot_numbers(list, std::string(list) + ".id", ids);
 }
 
 inline Status check_twists(std::string_view list, const rave_wire_PlanarTwists& twists) {

@@ -8,6 +8,13 @@
 namespace rave::bus {
 namespace {
 
+/// Sums and differences of times of a run must not overflow.
+template <class Field>
+Status check_time(const Field& field, std::int64_t time_ns) {
+  if (time_ns >= -kMaxTime_ns && time_ns <= kMaxTime_ns) return {};
+  return invalid(fmt::format("{} is {}, not within +-{}", field, time_ns, kMaxTime_ns));
+}
+
 Status check_robots(std::string_view list, const rave_wire_PlanarRobots& robots) {
   RAVE_TRY(check_ids(list, robots.id));
   const std::size_t size = robots.id._length;
@@ -16,7 +23,16 @@ Status check_robots(std::string_view list, const rave_wire_PlanarRobots& robots)
   RAVE_TRY(check_numbers(list, "yaw_rad", robots.yaw_rad, size, kMaxAngle_rad));
   RAVE_TRY(check_numbers(list, "vx_mps", robots.vx_mps, size, kMaxSpeed_mps));
   RAVE_TRY(check_numbers(list, "vy_mps", robots.vy_mps, size, kMaxSpeed_mps));
-  return check_numbers(list, "wz_radps", robots.wz_radps, size, kMaxTurn_radps);
+  RAVE_TRY(check_numbers(list, "wz_radps", robots.wz_radps, size, kMaxTurn_radps));
+  const auto stamps = elements(robots.stamp_ns);
+  if (stamps.size() != size) {
+    return invalid(
+        fmt::format("{}.stamp_ns has {} entries for {} robots", list, stamps.size(), size));
+  }
+  for (std::size_t i = 0; i < size; ++i) {
+    RAVE_TRY(check_time(fmt::format("{}.stamp_ns[{}]", list, i), stamps[i]));
+  }
+  return {};
 }
 
 /// Inputs are in the order in which everybody applies them, and none is there twice.
@@ -112,7 +128,9 @@ Status validate(const HostState& sample) {
 
 Status validate(const World& sample) {
   RAVE_TRY(check_writer(sample));
+  RAVE_TRY(check_time("time_ns", sample.time_ns));
   RAVE_TRY(check_robots("robots", sample.robots));
+  RAVE_TRY(check_robot_numbers("stale", "stale", sample.stale));
   return check_inputs("inputs", sample.inputs);
 }
 
@@ -175,7 +193,18 @@ Status validate(const Command& sample) {
 
 Status validate(const Packet& sample) {
   RAVE_TRY(check_writer(sample));
-  return check_id("from_robot", sample.from_robot);
+  RAVE_TRY(check_id("from_robot", sample.from_robot));
+  if (sample.to_kind > rave_wire_TO_TEAM) return invalid("to_kind is unknown");
+  if (sample.to_kind == rave_wire_TO_ROBOT) RAVE_TRY(check_id("to_robot", sample.to_robot));
+  RAVE_TRY(check_time("sent_ns", sample.sent_ns));
+  RAVE_TRY(check_number("x_m", sample.x_m, kMaxPosition_m));
+  RAVE_TRY(check_number("y_m", sample.y_m, kMaxPosition_m));
+  RAVE_TRY(check_number("antenna_z_m", sample.antenna_z_m, kMaxPosition_m));
+  if (!(sample.range_m >= 0 && sample.range_m <= kMaxPosition_m)) {
+    return invalid(
+        fmt::format("range_m is {}, not within 0 and {}", sample.range_m, kMaxPosition_m));
+  }
+  return {};
 }
 
 Status validate(const HostInfo& sample) {
@@ -193,7 +222,9 @@ Status validate(const HostInfo& sample) {
 Status validate(const ClockPing& sample) {
   RAVE_TRY(check_writer(sample));
   if (sample.target == 0) return invalid("target is 0");
-  return {};
+  RAVE_TRY(check_time("run_ns", sample.run_ns));
+  RAVE_TRY(check_time("offset_ns", sample.offset_ns));
+  return check_time("bound_ns", sample.bound_ns);
 }
 
 Status validate(const ClockPong& sample) {
@@ -202,7 +233,10 @@ Status validate(const ClockPong& sample) {
   if (sample.pong_sent_ns < sample.ping_received_ns) {
     return invalid("a pong was sent before its ping came");
   }
-  return {};
+  RAVE_TRY(check_time("ping_sent_ns", sample.ping_sent_ns));
+  RAVE_TRY(check_time("ping_received_ns", sample.ping_received_ns));
+  RAVE_TRY(check_time("pong_sent_ns", sample.pong_sent_ns));
+  return check_time("zero_ns", sample.zero_ns);
 }
 
 Status check_step(std::uint64_t step, std::uint64_t now, std::uint64_t behind,

@@ -128,6 +128,9 @@ Status validate(const RunState& sample) {
   for (const auto& host : elements(sample.hosts)) {
     RAVE_TRY(check_label("hosts.name", host.name, true));
     if (host.phase > rave_wire_HOST_DROPPED) return invalid("hosts.phase is unknown");
+    if (!std::isfinite(host.offset_s) || !std::isfinite(host.bound_s)) {
+      return invalid("hosts.offset_s is not a number");
+    }
   }
   return {};
 }

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "rave/bus_testing/messages.hpp"
 #include "rave/bus/validate.hpp"
+#include "rave/bus_testing/messages.hpp"
 
 namespace {
 

@@ -63,7 +63,7 @@ TEST(Processes, APeerOfAListIsFoundWithoutMulticast) {
   EXPECT_EQ(round_trip(**bus), std::string(64, 'r'));
 }
 
-TEST(Processes, TwoHostsAreBothHeardAlthoughOneSampleIsKept) {
+TEST(Processes, TwoHostsAreBothHeardAlthoughFewSamplesAreKept) {
   const TestDomain domain;
   const auto bus = Bus::open(domain.config());
   ASSERT_TRUE(bus) << bus.error().text();

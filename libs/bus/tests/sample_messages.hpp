@@ -13,6 +13,7 @@ namespace rave::bus::testing {
 struct RobotArrays {
   std::vector<std::uint32_t> id;
   std::vector<double> x, y, yaw, vx, vy, wz;
+  std::vector<std::int64_t> stamp_ns;
 
   RobotArrays(std::uint32_t count, std::uint64_t step, std::uint32_t first = 0) {
     for (std::uint32_t i = first; i < first + count; ++i) {
@@ -23,6 +24,7 @@ struct RobotArrays {
       vx.push_back(1.5);
       vy.push_back(-0.5);
       wz.push_back(0.25);
+      stamp_ns.push_back(static_cast<std::int64_t>(step) * 10'000'000);
     }
   }
   void lend(rave_wire_PlanarRobots& robots) {
@@ -33,6 +35,7 @@ struct RobotArrays {
     borrow(robots.vx_mps, vx);
     borrow(robots.vy_mps, vy);
     borrow(robots.wz_radps, wz);
+    borrow(robots.stamp_ns, stamp_ns);
   }
   void lend(rave_wire_PlanarTwists& twists) {
     borrow(twists.id, id);

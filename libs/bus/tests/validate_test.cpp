@@ -64,6 +64,16 @@ TEST(Validate, RefusesListsThatDoNotFit) {
   SampleWorld world;
   world.robots.wz.pop_back();
   EXPECT_EQ(world.judge(), "robots.wz_radps has 2 entries for 3 robots");
+  SampleWorld timeless;
+  timeless.robots.stamp_ns.pop_back();
+  EXPECT_EQ(timeless.judge(), "robots.stamp_ns has 2 entries for 3 robots");
+  SampleWorld endless;
+  endless.robots.stamp_ns[1] = INT64_MIN;
+  EXPECT_TRUE(endless.judge().starts_with("robots.stamp_ns[1] is -9223372036854775808"));
+  std::vector<std::uint32_t> stale = {2, 1};
+  SampleWorld silent;
+  borrow(silent.sample.stale, stale);
+  EXPECT_EQ(silent.judge(), "stale[1] is 1 after 2; ids ascend");
   SampleWorld twice;
   twice.robots.id = {0, 4, 4};
   EXPECT_EQ(twice.judge(), "robots.id[2] is 4 after 4; ids ascend");
@@ -226,6 +236,24 @@ TEST(Validate, HostsAndClocks) {
   packet.writer = 1;
   packet.from_robot = rave_wire_kNone;
   EXPECT_EQ(reason(packet), "from_robot is none");
+}
+
+TEST(Validate, PacketsSayWhoTheyAreForAndFromWhere) {
+  Packet packet{};
+  packet.writer = 1;
+  EXPECT_EQ(reason(packet), "accepted");
+  packet.to_kind = rave_wire_TO_ROBOT;
+  packet.to_robot = rave_wire_kNone;
+  EXPECT_EQ(reason(packet), "to_robot is none");
+  packet.to_robot = 3;
+  packet.x_m = kNaN;
+  EXPECT_TRUE(reason(packet).starts_with("x_m is nan"));
+  packet.x_m = 0;
+  packet.range_m = -1;
+  EXPECT_EQ(reason(packet), "range_m is -1, not within 0 and 10000000");
+  packet.range_m = 0;
+  packet.sent_ns = INT64_MAX;
+  EXPECT_TRUE(reason(packet).starts_with("sent_ns is 9223372036854775807"));
 }
 
 TEST(CheckStep, LetsThroughWhatIsNear) {

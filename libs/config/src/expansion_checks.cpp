@@ -62,6 +62,7 @@ class Checks {
   void timing(const RobotFile& robot) {
     for (const SensorFile& sensor : robot.sensors) timing(sensor.period_s, sensor.phase_s);
     if (robot.program) timing(robot.program->period_s, robot.program->phase_s);
+    if (robot.report_period_s) multiple_of_step("report_period_s", *robot.report_period_s);
   }
 
   void timing(const std::optional<Located<double>>& period_s, const Located<double>& phase_s) {

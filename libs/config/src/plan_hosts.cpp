@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <optional>
 
 #include "rave/base/names.hpp"
+#include "rave/base/time.hpp"
 #include "rave/config/diagnostics.hpp"
 #include "rave/config/expanded_scenario.hpp"
 
@@ -81,6 +83,14 @@ Result<std::vector<std::size_t>> share(const ExpandedScenario& scenario) {
 }
 
 }  // namespace
+
+std::uint32_t report_period_steps(const ExpandedScenario& scenario, const ExpandedRobot& robot) {
+  constexpr double kUsual_s = 0.1;
+  const auto& period_s = scenario.group_of(robot).robot.report_period_s;
+  const std::int64_t step_ns = from_seconds(*scenario.scenario.step_s).ns;
+  const std::int64_t period_ns = from_seconds(period_s ? **period_s : kUsual_s).ns;
+  return static_cast<std::uint32_t>(std::max<std::int64_t>(1, (period_ns + step_ns - 1) / step_ns));
+}
 
 Result<std::vector<PlannedHost>> plan_hosts(const ExpandedScenario& scenario) {
   if (scenario.scenario.processes) return equal_parts(scenario);

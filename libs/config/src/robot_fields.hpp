@@ -256,9 +256,16 @@ void describe(V& v, RobotFile& c) {
           {.doc = "The sensor that says where it is; null: the truth (simulated robots only)."});
   v.field("source_frame", c.source_frame,
           {.doc = "Pose in the world of the frame that pose_from reports in."});
-  v.field("staleness_s", c.staleness_s,
-          {.doc = "Age after which a reported pose counts as lost.",
+  v.field(
+      "staleness_s", c.staleness_s,
+      {.doc = "Age after which a reported pose, or what another host says of it, counts as lost.",
+       .min = 0,
+       .max = kLongest_s,
+       .unit = "s"});
+  v.field("report_period_s", c.report_period_s,
+          {.doc = "How often its host tells others where it is, in real time; null: every 0.1 s.",
            .min = 0,
+           .exclusive_min = true,
            .max = kLongest_s,
            .unit = "s"});
   v.field("ros2", c.ros2,

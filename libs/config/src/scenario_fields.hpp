@@ -151,6 +151,11 @@ constexpr auto enum_names(EnumTag<LostHost> /*tag*/) {
                     EnumName{LostHost::kRestart, "restart"}};
 }
 
+constexpr auto enum_names(EnumTag<RunClockMode> /*tag*/) {
+  return std::array{EnumName{RunClockMode::kLockStep, "lock_step"},
+                    EnumName{RunClockMode::kRealTime, "real_time"}};
+}
+
 template <class V>
 void describe(V& v, HostFile& c) {
   v.required("name", c.name, {.doc = "Letters, digits, - and _; what `rave robot` is told."});
@@ -177,6 +182,14 @@ void describe_hosts(V& v, ScenarioFile& c) {
           {.doc = "Wall time after which a host that does not answer counts as late.",
            .min = 0.1,
            .max = 3600,
+           .unit = "s"});
+  v.field("clock", c.clock,
+          {.doc = "Whether hosts wait for one another in each step or keep to the clock on the "
+                  "wall; a live driver makes any run one in real time."});
+  v.field("world_period_s", c.world_period_s,
+          {.doc = "How often hosts are told where all robots are, in real time.",
+           .min = 1e-3,
+           .max = 10,
            .unit = "s"});
 }
 

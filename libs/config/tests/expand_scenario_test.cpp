@@ -129,6 +129,28 @@ TEST(ExpandBadInput, PeriodsThatAreNoMultiplesOfTheStep) {
   EXPECT_EQ(error_of(with_phase("period_s: 0.1, phase_s: 0.05")), "none");
 }
 
+/// Of a robot with these keys in a scenario with that step.
+std::string report_steps(std::string_view keys, double step_s) {
+  const auto expanded = expand_scenario_text(
+      fmt::format("name: a\nstep_s: {}\nrobots:\n  - name: r\n    robot:\n"
+                  "      body: {{shapes: [{{disc_radius_m: 0.1, z_m: [0, 0.1]}}]}}\n"
+                  "      {}\n",
+                  step_s, keys),
+      "s.yaml");
+  if (!expanded) return expanded.error().text();
+  return fmt::format("{}", report_period_steps(*expanded, expanded->robots[0]));
+}
+
+TEST(Expand, ReportsComeEachTenthOfASecondOrAsTold) {
+  EXPECT_EQ(report_steps("", 0.01), "10");
+  EXPECT_EQ(report_steps("", 0.03), "4") << "the next multiple";
+  EXPECT_EQ(report_steps("", 0.25), "1");
+  EXPECT_EQ(report_steps("report_period_s: 0.5", 0.01), "50");
+  EXPECT_EQ(report_steps("report_period_s: 0.05", 0.02),
+            "s.yaml:7:24: `report_period_s`: found 0.05, expected a multiple of the scenario's "
+            "step (0.02 s)");
+}
+
 TEST(ExpandBadInput, SensorsOfChecksAndPicture) {
   EXPECT_EQ(error_of("name: a\n" WALKER "checks: {sightings: {real: lasre, twin: laser}}\n"),
             "scenarios/s.yaml:3:28: `real`: no robot has a sensor `lasre`; did you mean `laser`?");

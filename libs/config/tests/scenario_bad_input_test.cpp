@@ -167,6 +167,12 @@ const FileCase kScenarios[] = {
     {"Pace", "name: a\npace: 0x\nrobots: [{name: r, file: r.yaml}]\n",
      "s.yaml:2:7: `pace`: found the text \"0x\", expected `max`, `realtime` or a positive number "
      "followed by `x`, such as `10x`"},
+    {"Clock", "name: a\nclock: realtime\nrobots: [{name: r, file: r.yaml}]\n",
+     "s.yaml:2:8: `clock`: found the text \"realtime\", expected one of lock_step and "
+     "real_time; did you mean `real_time`?"},
+    {"WorldPeriod", "name: a\nworld_period_s: 0\nrobots: [{name: r, file: r.yaml}]\n",
+     "s.yaml:2:17: `world_period_s`: found the number 0, expected a number (from 0.001 to 10, in "
+     "seconds)"},
     {"PaceAsNumber", "name: a\npace: 10\nrobots: [{name: r, file: r.yaml}]\n",
      "s.yaml:2:7: `pace`: found the number 10, expected `max`, `realtime` or a positive number "
      "followed by `x`, such as `10x`"},

@@ -188,6 +188,7 @@ struct Engine::Impl {
   Status make_changes(const WorldStep& world);
   void do_input(const WorldInput& input);
   void adopt(const WorldStep& world);
+  Status take_newer_samples();
   [[nodiscard]] bool is_local(std::uint32_t robot) const noexcept { return local[robot] != 0; }
 
   void note(Event event) { events.push_back(std::move(event)); }

@@ -112,13 +112,19 @@ Status Engine::join(const WorldStep& world) {
   PhaseTimer phase(engine.spec.phase_clock, engine.phase_times);
   engine.step = world.step;
   engine.now = engine.step_time(world.step);
-  RAVE_TRY(engine.ingest_sensors(false));
-  for (const Block& block : engine.blocks) {
-    if (engine.groups[block.group].type->pose_from) engine.refresh_told(block, engine.workers[0]);
-  }
+  RAVE_TRY(engine.take_newer_samples());
   // The authority has had what it needs of that time from nobody, and needs it no more.
   engine.host->samples.clear();
   return engine.apply(world, false, phase);
+}
+
+/// What hardware has said since the step was proposed.
+Status Engine::Impl::take_newer_samples() {
+  RAVE_TRY(ingest_sensors(false));
+  for (const Block& block : blocks) {
+    if (groups[block.group].type->pose_from) refresh_told(block, workers[0]);
+  }
+  return {};
 }
 
 Status Engine::Impl::check(const WorldStep& world) const {
@@ -142,6 +148,7 @@ Status Engine::Impl::apply(const WorldStep& world, bool was_there, PhaseTimer& p
   phase.ends(Phase::kRadio);
   RAVE_TRY(make_changes(world));
   adopt(world);
+  if (spec.own_authority && was_there) RAVE_TRY(take_newer_samples());
   show_world();
   if (fusion_world) RAVE_TRY(ingest_sensors(true));
   phase.ends(Phase::kIngest);

@@ -184,7 +184,7 @@ Status Radio::configure_line(RadioLine& line) {
     return line.spec->ops->configure(line.instance.at(0), &setup, &line.declaration, error);
   }));
   if (line.declaration.in_process != 0) return {};
-  if (spec_.local) {
+  if (spec_.local && !spec_.own_authority) {
     return fail(ErrorCode::kInvalidArgument,
                 "is a device, which keeps to the clock on the wall; robots of several hosts in "
                 "lock-step need transmitters that work in process");

@@ -222,6 +222,11 @@ TEST(SplitRefusal, AtCreation) {
   HandClock clock;
   EXPECT_EQ(error_of([&](EngineSpec& spec) { spec.live_clock = &clock; }),
             "a live run cannot be shared by hosts in lock-step: its drivers do not wait");
+  EXPECT_EQ(error_of([&](EngineSpec& spec) {
+              spec.live_clock = &clock;
+              spec.own_authority = true;
+            }),
+            "");
   const auto mixed = [](EngineSpec& spec) {
     const ParameterChange body{ParameterChange::Part::kBody, 0, "scale", 1.1};
     const ParameterChange speed{ParameterChange::Part::kProgram, 0, "v", 1.0};

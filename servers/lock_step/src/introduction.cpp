@@ -28,7 +28,7 @@ bus::HostInfo introduction(const Identity& self) {
   bus::put_text(info.version, RAVE_VERSION);
   info.interface_stamp = self.interface_stamp;
   info.scenario = self.scenario;
-  info.clock = rave_wire_CLOCK_LOCK_STEP;
+  info.clock = self.real_time ? rave_wire_CLOCK_REAL_TIME : rave_wire_CLOCK_LOCK_STEP;
   info.robots = self.robots;
   const auto today = std::chrono::system_clock::now().time_since_epoch();
   info.started_ns = self.started_ns != 0
@@ -53,6 +53,12 @@ Status check_fits(const Identity& self, const bus::HostInfo& other) {
                 "`{}` has another scenario: its files and options (seed, duration) must say the "
                 "same as here",
                 other.name);
+  }
+  if ((other.clock == rave_wire_CLOCK_REAL_TIME) != self.real_time) {
+    return fail(ErrorCode::kState,
+                "`{}` runs {}, and this process {}: a driver is by the wall clock here or there",
+                other.name, self.real_time ? "in lock-step" : "in real time",
+                self.real_time ? "in real time" : "in lock-step");
   }
   return {};
 }

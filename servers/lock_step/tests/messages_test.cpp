@@ -233,6 +233,11 @@ TEST(Introduction, ProcessesThatDifferAreTold) {
   const Status build = check_fits(self, introduction({1, "right", 4, 11, 23}));
   ASSERT_FALSE(build);
   EXPECT_NE(build.error().message.find("another build of RAVE"), std::string::npos);
+  const Status clock = check_fits(self, introduction({1, "right", 4, 11, 22, true}));
+  ASSERT_FALSE(clock);
+  EXPECT_NE(clock.error().message.find("`right` runs in real time, and this process in lock-step"),
+            std::string::npos)
+      << clock.error().message;
 }
 
 }  // namespace

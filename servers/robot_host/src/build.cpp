@@ -122,6 +122,15 @@ void let_go_of_plugins(sim::RobotType& type) {
   type.program->isolate = nullptr;
 }
 
+/// Whether it matters to a robot where others are.
+bool sees_others(const sim::RobotType& type) {
+  const auto looks = [](const sim::SensorSpec& sensor) {
+    return sensor.virtual_ops != nullptr || sensor.hybrid.has_value();
+  };
+  return std::any_of(type.sensors.begin(), type.sensors.end(), looks) ||
+         (type.guard && type.guard->separation_m >= 0);
+}
+
 Status add_groups(const config::ExpandedScenario& scenario, plugin::Catalogue& catalogue,
                   const BuildOptions& options, BuiltScenario& built,
                   std::vector<world::Body>& bodies) {
@@ -139,12 +148,17 @@ Status add_groups(const config::ExpandedScenario& scenario, plugin::Catalogue& c
     body.layer = type.simulated ? Layer::kSimulatedRobots : Layer::kRealRobots;
     note_oddities(group, body, built);
     bodies.push_back(std::move(body));
+    built.sees.push_back(sees_others(type) ? 1 : 0);
     built.spec.types.push_back(std::move(type));
   }
   return {};
 }
 
 }  // namespace
+
+bool needs_manager(const BuiltScenario& built) {
+  return std::any_of(built.sees.begin(), built.sees.end(), [](auto sees) { return sees != 0; });
+}
 
 plugin::Stamp host_stamp() {
   return plugin::make_stamp(robot_interface_hash(), virtual_interface_hash(), "");
@@ -167,6 +181,9 @@ Result<BuiltScenario> build(const config::ExpandedScenario& scenario, plugin::Ca
   for (const config::MapFile& map : scenario.world.maps) RAVE_TRY(add_map(map, spec.world));
   std::vector<world::Body> bodies;
   RAVE_TRY(add_groups(scenario, catalogue, options, built, bodies));
+  if (built.live_reason.empty() && scenario.scenario.clock == config::RunClockMode::kRealTime) {
+    built.live_reason = "the scenario says `clock: real_time`";
+  }
   for (const config::ExpandedRobot& robot : scenario.robots) {
     world::Body body = bodies[robot.group];
     body.name = robot.name;

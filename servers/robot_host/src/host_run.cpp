@@ -6,93 +6,28 @@
 
 #include "console_tee.hpp"
 #include "event_log.hpp"
+#include "host_journey.hpp"
 #include "rave/base/file.hpp"
-#include "rave/base/names.hpp"
 #include "rave/lock_step/host_port.hpp"
 #include "rave/robot/interface_hash.hpp"
 #include "rave/robot_host/build.hpp"
 #include "rave/robot_host/provenance.hpp"
 #include "record_keeper.hpp"
-#include "requests.hpp"
+#include "wall_pace.hpp"
 
 namespace rave::robot_host {
 namespace {
 
 using lock_step::HostPort;
 
-/// The number and the robots of a host that is named.
-struct Seat {
-  std::uint32_t number = 0;
-  std::vector<RobotId> robots;
-};
+/// A host on its way through a run in lock-step.
+struct Journey : HostJourney {
+  Journey(HostJourney host, HostPort& to) : HostJourney(std::move(host)), port(to) {}
 
-Result<Seat> find_seat(const config::ExpandedScenario& scenario, const std::string& name) {
-  RAVE_TRY_ASSIGN(const auto hosts, config::plan_hosts(scenario));
-  std::vector<std::string_view> names;
-  for (std::uint32_t h = 0; h < hosts.size(); ++h) {
-    names.emplace_back(hosts[h].name);
-    if (hosts[h].name != name) continue;
-    Seat seat{h, {}};
-    for (const std::size_t robot : hosts[h].robots) {
-      seat.robots.emplace_back(static_cast<std::uint32_t>(robot));
-    }
-    return seat;
-  }
-  if (hosts.empty()) {
-    return fail(ErrorCode::kNotFound,
-                "the scenario `{}` has no hosts: expected `hosts:` with names and robots, or "
-                "`processes:` with a number",
-                scenario.scenario.name.value);
-  }
-  return fail(ErrorCode::kNotFound, "the scenario `{}` has no host `{}`{}",
-              scenario.scenario.name.value, name, suggestion(name, names));
-}
-
-/// A host on its way through a run.
-struct Journey {
-  sim::Engine& engine;
   HostPort& port;
-  RecordKeeper* record;
-  const HostOptions& options;
-  ConsoleTee& console;
-  std::vector<sim::Event> events;
   sim::HostReport report;
   sim::WorldStep world;
-  std::vector<std::string> problems;
-  bool stopped = false;
-  bool ended = false;  ///< By the manager.
 };
-
-void serve_requests(Journey& journey) {
-  RunControl* const control = journey.options.run.control;
-  if (control == nullptr) return;
-  control->serve(
-      [&journey](const RunRequest& request) {
-        auto answer = serve_request(journey.engine, request);
-        if (answer && journey.record != nullptr) journey.record->keep(request, journey.engine);
-        return answer;
-      },
-      [&journey](RunStatus& status) { refresh_status(journey.engine, status); });
-}
-
-/// A step is done: the report of the next one is there.
-void look_back(Journey& journey) {
-  sim::Engine& engine = journey.engine;
-  if (engine.steps_done() == 0) return;
-  RunControl* const control = journey.options.run.control;
-  if (control != nullptr) control->set_time(engine.time().seconds());
-  if (journey.record != nullptr) journey.record->after_step(engine);
-  tell_events(engine, engine.events(), &journey.console, journey.events);
-  for (const sim::Event& event : engine.events()) {
-    if (event.kind != sim::EventKind::kProgramFailed &&
-        event.kind != sim::EventKind::kDriverFailed) {
-      continue;
-    }
-    journey.problems.push_back(fmt::format(
-        "robot `{}`: {} at {:.2f} s: {}", engine.spec().robots[event.robot.value()].name,
-        to_string(event.kind), engine.time().seconds(), event.text));
-  }
-}
 
 Status propose(Journey& journey) {
   const Status status = journey.engine.propose(journey.report);
@@ -103,9 +38,7 @@ Status propose(Journey& journey) {
 
 /// Takes the next step of the world in; false: there is none for this host.
 Result<bool> take_step(Journey& journey) {
-  RunControl* const control = journey.options.run.control;
-  const auto stopping = [control] { return control != nullptr && control->stopping(); };
-  if (stopping()) {
+  if (journey.stopping()) {
     journey.stopped = true;
     return false;
   }
@@ -113,7 +46,7 @@ Result<bool> take_step(Journey& journey) {
       const HostPort::Answer answer,
       journey.port.exchange(journey.report, journey.engine.hash().value(), journey.world, [&] {
         serve_requests(journey);
-        return stopping();
+        return journey.stopping();
       }));
   journey.stopped = answer == HostPort::Answer::kStopped;
   journey.ended = answer == HostPort::Answer::kEnded;
@@ -140,28 +73,6 @@ Status go_through(Journey& journey) {
     look_back(journey);
   }
 }
-
-class Controlled {
- public:
-  Controlled(const sim::Engine& engine, const config::ScenarioFile& file, RunControl* control)
-      : control_(control) {
-    if (control_ == nullptr) return;
-    RunStatus status;
-    status.scenario = file.name.value;
-    status.duration_s = file.duration_s;
-    status.pace = file.pace.factor;
-    refresh_status(engine, status);
-    control_->begin(std::move(status));
-  }
-  Controlled(const Controlled&) = delete;
-  Controlled& operator=(const Controlled&) = delete;
-  ~Controlled() {
-    if (control_ != nullptr) control_->end();
-  }
-
- private:
-  RunControl* control_;
-};
 
 Status write_results(const Journey& journey, const BodyKinds& kinds, const HostOutcome& outcome) {
   const std::filesystem::path& folder = journey.options.run.output;
@@ -205,17 +116,10 @@ std::uint64_t shared_number(const config::ExpandedScenario& scenario) {
 }
 
 Status check_can_be_shared(const BuiltScenario& built) {
-  if (!built.live_reason.empty()) {
-    return fail(ErrorCode::kInvalidArgument,
-                "hosts share a world in lock-step, which nothing by the wall clock can: {}",
-                built.live_reason);
-  }
-  if (!built.spec.obstacle_changes.empty()) {
-    return fail(ErrorCode::kInvalidArgument,
-                "the scenario changes obstacles while it runs, which hosts that share a world "
-                "cannot yet; run it in one process");
-  }
-  return {};
+  if (built.spec.obstacle_changes.empty()) return {};
+  return fail(ErrorCode::kInvalidArgument,
+              "the scenario changes obstacles while it runs, which hosts in lock-step cannot yet; "
+              "run it in one process");
 }
 
 std::uint64_t interface_stamp() {
@@ -232,8 +136,15 @@ Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::C
   BuildOptions how{run.program_runner, &console};
   how.local = seat.robots;
   how.others = options.others.get();
+  WallPace pace(1);
+  how.live_clock = &pace;
   RAVE_TRY_ASSIGN(BuiltScenario built, build(scenario, catalogue, how));
   options.others.reset();
+  if (!built.live_reason.empty()) {
+    return run_live_host({scenario, expanded, catalogue, options, seat, console, pace},
+                         std::move(built));
+  }
+  built.spec.live_clock = nullptr;
   RAVE_TRY(check_can_be_shared(built));
   for (const std::string& note : built.notes) console.warn("scenario", "{}", note);
   RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(built.spec)));
@@ -252,9 +163,9 @@ Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::C
                                                 run.log));
   }
   const RecordedConsole recorded(console, record ? &record->recorder() : nullptr);
-  Journey journey{*engine, *port, record.get(), options, console, {}, {}, {}, {}};
+  Journey journey({*engine, record.get(), options, console}, *port);
   journey.report.host = seat.number;
-  const Controlled controlled(*engine, scenario.scenario, run.control);
+  const ControlledHost controlled(*engine, scenario.scenario, run.control, false);
   tell_who_waits(*engine, run, console);
   const Status went = go_through(journey);
   engine->halt();

@@ -24,6 +24,8 @@ class WallPace final : public RunClock {
 
   void set_factor(double factor) noexcept { factor_ = factor; }
   void start() noexcept { begin_.store(Clock::now()); }
+  /// Simulation time is 0 at `begin`, which may be past or to come.
+  void start_at(Clock::time_point begin) noexcept { begin_.store(begin); }
 
   [[nodiscard]] SimTime now() const noexcept override {
     const auto elapsed = std::chrono::duration<double>(Clock::now() - begin_.load());

@@ -119,6 +119,28 @@ TEST(Build, ATransmitterOfTheRealWorldMakesTheRunLive) {
   EXPECT_NE(built->live_reason.find("`wlan`"), std::string::npos) << built->live_reason;
 }
 
+TEST(Build, KnowsWhoLooksAtOthers) {
+  Host host;
+  const auto sees = [&](const std::string& devices) {
+    const auto built = host.build_text(one(devices));
+    EXPECT_TRUE(built.has_value()) << built.error().text();
+    if (!built) return -1;
+    EXPECT_EQ(needs_manager(*built), built->sees.at(0) != 0);
+    return int{built->sees.at(0)};
+  };
+  EXPECT_EQ(sees(kWheels), 0);
+  EXPECT_EQ(sees("sensors: [{name: eye, driver: virtual_laser}], " + kWheels), 1);
+  EXPECT_EQ(sees("guard: {max_speed_mps: 1}, " + kWheels), 0);
+  EXPECT_EQ(sees("guard: {separation_m: 0.1}, " + kWheels), 1);
+}
+
+TEST(Build, AScenarioMayWantRealTime) {
+  Host host;
+  const auto built = host.build_text(one(kWheels) + "clock: real_time\n");
+  ASSERT_TRUE(built.has_value()) << built.error().text();
+  EXPECT_EQ(built->live_reason, "the scenario says `clock: real_time`");
+}
+
 TEST(BuildErrors, ARadioThatIsWrongPointsAtItsPlace) {
   Host host;
   const auto error_of = [&](const std::string& devices) {

@@ -24,6 +24,8 @@ struct QosProfile {
 inline constexpr QosProfile kNewest{};
 /// The newest of each instance, also for those who come later.
 inline constexpr QosProfile kDurable{.durable = true};
+/// The last few of each instance: what is left out of one is in another one.
+inline constexpr QosProfile kLately{.depth = 8};
 /// Everything, in order. A writer waits when 4096 samples are not confirmed, and then fails.
 inline constexpr QosProfile kEverything{.depth = 0, .max_samples = 4096};
 /// The last few of each instance: bursts get through, a stuck reader holds nobody up.

@@ -57,7 +57,7 @@ inline TopicSpec topic_of<RunState>() {
 }
 template <>
 inline TopicSpec topic_of<HostState>() {
-  return {"rave/host_state", &rave_wire_HostState_desc, kNewest};
+  return {"rave/host_state", &rave_wire_HostState_desc, kLately};
 }
 template <>
 inline TopicSpec topic_of<World>() {

@@ -68,6 +68,10 @@ struct PlannedHost {
 /// host without robots, more processes than robots).
 [[nodiscard]] Result<std::vector<PlannedHost>> plan_hosts(const ExpandedScenario& scenario);
 
+/// After how many steps the host of a robot says again where it is; at least 1.
+[[nodiscard]] std::uint32_t report_period_steps(const ExpandedScenario& scenario,
+                                                const ExpandedRobot& robot);
+
 /// Reads a scenario and the files it names (a robot file once per entry) and checks them together:
 /// names, periods that are multiples of the step, sensors that checks and picture name, files that
 /// do not exist (error at the line that names them). Errors: kNotFound, kIo, kParse.

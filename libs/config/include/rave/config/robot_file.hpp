@@ -36,6 +36,9 @@ struct RobotFile {
   PoseFile source_frame;  ///< X_WM: pose in the world of the frame that pose_from reports in.
   double staleness_s = 0.5;
   bool ros2 = false;  ///< It shows itself to ROS 2; ScenarioFile::ros2 says where.
+  /// How often its host says where it is, in real time; a multiple of the step. Unset: 0.1 s, or
+  /// the next multiple.
+  std::optional<Located<double>> report_period_s;
   std::vector<DeviceFile> devices;
   std::vector<SensorFile> sensors;
   std::vector<ActuatorFile> actuators;

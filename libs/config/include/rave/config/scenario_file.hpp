@@ -141,6 +141,13 @@ struct Ros2File {
   bool operator==(const Ros2File&) const = default;
 };
 
+/// What a run keeps to.
+enum class RunClockMode : std::uint8_t {
+  kLockStep,  ///< Steps, of which each waits for all; in real time all the same if a driver is
+              ///< live.
+  kRealTime,  ///< The clock on the wall.
+};
+
 struct ScenarioFile {
   Located<std::string> name;
   std::string description;
@@ -158,6 +165,8 @@ struct ScenarioFile {
   std::vector<HostFile> hosts;
   LostHost on_lost_host = LostHost::kWait;
   double host_timeout_s = 10;  ///< A host that has not answered for so long counts as late.
+  RunClockMode clock = RunClockMode::kLockStep;
+  double world_period_s = 0.1;  ///< At which hosts are told where all robots are, in real time.
   std::vector<RobotEntry> robots;
   std::vector<ChangeFile> changes;
   ChecksFile checks;

@@ -187,9 +187,13 @@ struct EngineSpec {
   /// of what threads must not change.
   bool share_always = false;
   /// Set: the engine is one of several hosts of a world and runs these robots alone (at least one,
-  /// each once). Types that no local robot is of need no function tables. Such a run is stepped,
-  /// and transmitters work in process. Not set: all robots.
+  /// each once). Types that no local robot is of need no function tables. Unless it is its own
+  /// authority, such a run is stepped, and transmitters work in process. Not set: all robots.
   std::optional<std::vector<RobotId>> local;
+  /// With `local`: whoever calls propose() and apply() has a WorldAuthority of his own, in which
+  /// the robots of other hosts are put where they are said to be, so nobody waits for anybody. Such
+  /// a run may be live, and apply() takes in what hardware has said since propose().
+  bool own_authority = false;
 };
 
 }  // namespace rave::sim

@@ -15,9 +15,10 @@ struct Identity {
   std::uint32_t host = 0;  ///< Number of the host in the scenario; kNone: the environment manager.
   std::string name;        ///< 1 to 64 bytes.
   std::uint32_t robots = 0;
-  /// All processes of a run must agree on these two.
+  /// All processes of a run must agree on these.
   std::uint64_t scenario = 0;  ///< See scenario_number().
   std::uint64_t interface_stamp = 0;
+  bool real_time = false;  ///< Instead of lock-step; on this, too.
   /// When it started, nanoseconds since 1970 by its own clock; 0: introduction() reads the clock.
   std::int64_t started_ns = 0;
 };

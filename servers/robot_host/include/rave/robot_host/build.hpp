@@ -31,7 +31,10 @@ struct BuildOptions {
 struct BuiltScenario {
   sim::EngineSpec spec;
   std::vector<std::string> robot_kinds;  ///< The free word of each robot; empty for none.
-  std::string live_reason;         ///< Which driver makes the run live; empty if it is stepped.
+  std::string live_reason;  ///< What makes the run one in real time; empty if it is stepped.
+  /// By type: a robot of it has use of where others are, since it has virtual sensors or keeps a
+  /// distance. Known of the types of other hosts, too.
+  std::vector<std::uint8_t> sees;
   std::vector<std::string> notes;  ///< What a careful person would be told, such as odd mountings.
 };
 
@@ -40,6 +43,10 @@ struct BuiltScenario {
 [[nodiscard]] Result<BuiltScenario> build(const config::ExpandedScenario& scenario,
                                           plugin::Catalogue& catalogue,
                                           const BuildOptions& options);
+
+/// Whether a run in real time that several hosts share needs an environment manager: a robot of any
+/// of them has use of where others are.
+[[nodiscard]] bool needs_manager(const BuiltScenario& built);
 
 /// The stamp that plug-ins of this build must match.
 [[nodiscard]] plugin::Stamp host_stamp();

@@ -27,17 +27,27 @@ struct HostOptions {
 /// How it ended for this host. It leaves result.json, events.log, scenario.yaml and run.mcap, whose
 /// percepts and commands are of its robots, and whose poses are of all.
 struct HostOutcome {
-  bool whole = false;  ///< It took part from the first step to the last, and lost no driver.
+  bool whole = false;       ///< It took part from the first step to the last, and lost no driver.
+  std::string live_reason;  ///< Why the run was in real time; empty in lock-step.
   std::uint64_t steps = 0;
   std::string ending;                 ///< What the environment manager says of the run.
   std::vector<std::string> problems;  ///< One sentence each.
 };
 
-/// Runs the robots of one host in lock-step with the other hosts of the run, until its environment
-/// manager says that it is over, in the calling thread. It waits for the manager, and if that is
-/// lost for one that takes its place; in a run that went on without it its robots go on where they
-/// stand. Errors: kNotFound (no such host in the scenario), what keeps a run from starting, what
-/// HostPort says, and what ends a run.
+/// Runs the robots of one host in the calling thread.
+///
+/// In lock-step with the other hosts of the run, until its environment manager says that it is
+/// over. It waits for the manager, and if that is lost for one that takes its place; in a run that
+/// went on without it its robots go on where they stand.
+///
+/// In real time, if a driver of any robot is live or the scenario says so, until the time of the
+/// run is over. It waits for the manager before it starts and for nobody afterwards. A host that
+/// comes late begins in the middle of the run; its simulated robots stand where the world shows
+/// them. A run in which nobody looks at others has no manager; then each host has a time of its
+/// own.
+///
+/// Errors: kNotFound (no such host in the scenario), what keeps a run from starting, what HostPort
+/// and HostLink say, and what ends a run.
 [[nodiscard]] Result<HostOutcome> run_host(const config::ExpandedScenario& scenario,
                                            plugin::Catalogue& catalogue, HostOptions options);
 

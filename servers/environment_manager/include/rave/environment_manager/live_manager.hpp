@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "rave/base/log.hpp"
+#include "rave/base/result.hpp"
+#include "rave/base/time.hpp"
+#include "rave/bus/config.hpp"
+#include "rave/config/expanded_scenario.hpp"
+#include "rave/lock_step/introduction.hpp"
+
+namespace rave::environment_manager {
+
+/// How a manager serves a run in real time.
+struct LiveManagerOptions {
+  bus::BusConfig bus;
+  lock_step::Identity identity;  ///< `host` is kNone, `real_time` is set.
+  std::string scenario;          ///< Its name, for people.
+  std::vector<config::PlannedHost> hosts;
+  /// All robots, by id.
+  struct Robot {
+    std::string name;
+    Duration staleness;  ///< After which a robot that is not heard of counts as stale.
+    bool simulated = true;
+  };
+  std::vector<Robot> robots;
+  Duration step;          ///< Of the hosts; for who looks on.
+  Duration duration;      ///< Of the run.
+  Duration world_period;  ///< Above 0.
+  /// How long the run waits for hosts that are not there, from when the first came.
+  Duration host_timeout = from_seconds(10);
+  /// The hosts belong to this process: when it is stopped, they are told to end.
+  bool ends_hosts = false;
+  LogSink* log = nullptr;  ///< Not owned; may be null.
+  /// Asked about ten times a second whether to end; may be empty.
+  std::function<bool()> stopping;
+  /// Told about ten times a second, in the calling thread: time of the run, and for whom it waits;
+  /// may be empty.
+  std::function<void(SimTime, const std::string&)> on_progress;
+};
+
+/// What came of a run.
+struct LiveManagerOutcome {
+  bool whole = false;  ///< It went to its end here, with all hosts.
+  SimTime end;         ///< Time of the run when this manager ended.
+  std::uint64_t worlds = 0;
+  std::uint64_t states = 0;  ///< Of hosts, that were taken in.
+  struct Host {
+    std::string name;
+    bool heard = false;   ///< It was there at some time.
+    double offset_s = 0;  ///< Clock of this process minus that of the host, as the host found.
+    double bound_s = -1;  ///< Give or take this; below 0: not known.
+    std::uint64_t losses = 0;
+  };
+  std::vector<Host> hosts;
+  std::vector<std::string> problems;  ///< One sentence each; empty if all is well.
+};
+
+/// Serves a run in real time, in the calling thread: gives it its time, which is that of this
+/// process since all hosts were there, gathers what hosts say of their robots, and tells all of
+/// them each `world_period`. It resolves nothing and keeps nothing that hosts do not say again, so
+/// it may be ended and started anew at any time: it then goes on with the time that the hosts have.
+/// Whoever becomes late, lost or stale is in the log once and, for all processes, in the topics
+/// `rave/world` and `rave/run`. Errors: the bus cannot be opened; kState (there is a manager of
+/// this run already).
+[[nodiscard]] Result<LiveManagerOutcome> manage_live(const LiveManagerOptions& options);
+
+}  // namespace rave::environment_manager

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "live_board.hpp"
+
+#include "rave/bus/sequence.hpp"
+
+namespace rave::environment_manager {
+namespace {
+
+constexpr std::string_view kSource = "environment manager";
+
+}  // namespace
+
+struct LiveBoard::Parts {
+  std::unique_ptr<bus::Bus> bus;
+  bus::Writer<bus::HostInfo> own_info;
+  bus::Writer<bus::World> worlds;
+  bus::Writer<bus::RunState> runs;
+  bus::Writer<bus::ClockPong> pongs;
+  bus::Reader<bus::HostInfo> infos;
+  bus::Reader<bus::ClockPing> pings;
+  bus::Reader<bus::HostState> states;
+};
+
+LiveBoard::LiveBoard(const LiveManagerOptions& options, Parts parts)
+    : options_(options),
+      bus_(std::move(parts.bus)),
+      own_info_(std::move(parts.own_info)),
+      worlds_(std::move(parts.worlds)),
+      runs_(std::move(parts.runs)),
+      pongs_(std::move(parts.pongs)),
+      infos_(std::move(parts.infos)),
+      pings_(std::move(parts.pings)),
+      states_(std::move(parts.states)),
+      claims_(static_cast<std::uint32_t>(options.hosts.size())),
+      seat_of_(options.robots.size()),
+      robots_(options.robots.size()),
+      known_(options.robots.size()),
+      said_by_(options.robots.size()) {
+  for (std::uint32_t h = 0; h < options.hosts.size(); ++h) {
+    const config::PlannedHost& host = options.hosts[h];
+    LiveSeat& seat = seats_.emplace_back();
+    seat.name = host.name;
+    seat.robots = static_cast<std::uint32_t>(host.robots.size());
+    for (const std::size_t robot : host.robots) {
+      seat_of_[robot] = h;
+      seat.real += options.robots[robot].simulated ? 0U : 1U;
+    }
+  }
+}
+
+Result<std::unique_ptr<LiveBoard>> LiveBoard::open(const LiveManagerOptions& options) {
+  RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(options.bus));
+  RAVE_TRY_ASSIGN(auto own_info, bus::Writer<bus::HostInfo>::create(*bus));
+  RAVE_TRY_ASSIGN(auto worlds, bus::Writer<bus::World>::create(*bus));
+  RAVE_TRY_ASSIGN(auto runs, bus::Writer<bus::RunState>::create(*bus));
+  RAVE_TRY_ASSIGN(auto pongs, bus::Writer<bus::ClockPong>::create(*bus));
+  RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
+  RAVE_TRY_ASSIGN(auto pings, bus::Reader<bus::ClockPing>::create(*bus));
+  RAVE_TRY_ASSIGN(auto states, bus::Reader<bus::HostState>::create(*bus));
+  std::unique_ptr<LiveBoard> board(new LiveBoard(
+      options, {std::move(bus), std::move(own_info), std::move(worlds), std::move(runs),
+                std::move(pongs), std::move(infos), std::move(pings), std::move(states)}));
+  RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(*board->bus_));
+  RAVE_TRY(waits.add(board->pings_));
+  RAVE_TRY(waits.add(board->states_));
+  board->waits_.emplace(std::move(waits));
+  board->introduced_ = lock_step::introduction(options.identity);
+  RAVE_TRY(board->own_info_.write(board->introduced_));
+  return board;
+}
+
+Status LiveBoard::look_at_processes(bool goes) {
+  bool second = false;
+  infos_.take([&](const bus::HostInfo& info) {
+    if (info.host == rave_wire_kNone) {
+      const bool stays = goes || !lock_step::gives_way(introduced_, info);
+      second = second || !stays;
+      if (stays && options_.log != nullptr) {
+        options_.log->warn(kSource,
+                           "another one, on {}, was started after this one and is not listened to",
+                           info.machine);
+      }
+      return;
+    }
+    const Status fits = lock_step::check_fits(options_.identity, info);
+    if (fits) {
+      host_of_[info.writer] = info.host;
+    } else if (options_.log != nullptr) {
+      options_.log->error(kSource, "refused: {}", fits.error().message);
+    }
+  });
+  if (second) {
+    return fail(ErrorCode::kState,
+                "this run has an environment manager already; to start another run of the same "
+                "scenario beside it, give both a name of their own with --run");
+  }
+  for (const bus::BusEvent& event : bus_->take_events()) {
+    using enum bus::EventKind;
+    if (event.kind == kParticipantLost && event.writer != 0) {
+      lose(event.writer, goes);
+      continue;
+    }
+    const bool worth = event.kind == kRefused || event.kind == kIncompatible ||
+                       event.kind == kForeignRun || event.kind == kNotice;
+    if (worth && options_.log != nullptr) options_.log->warn("bus", "{}", event.line());
+  }
+  return {};
+}
+
+void LiveBoard::lose(std::uint64_t writer, bool goes) {
+  host_of_.erase(writer);
+  refused_.erase(writer);
+  claims_.release(writer);
+  for (LiveSeat& seat : seats_) {
+    if (seat.writer != writer) continue;
+    seat.writer = 0;
+    seat.bound_ns = -1;
+    news_ = true;
+    if (!goes) continue;
+    ++seat.losses;
+    if (options_.log != nullptr) {
+      options_.log->error(kSource, "host `{}` is gone; the others go on", seat.name);
+    }
+  }
+}
+
+bool LiveBoard::sit_down(const bus::ClockPing& ping) {
+  if (ping.target != bus_->writer()) return false;
+  const auto host = host_of_.find(ping.writer);
+  if (host == host_of_.end() || host->second >= seats_.size()) return false;
+  LiveSeat& seat = seats_[host->second];
+  if (seat.writer != ping.writer) {
+    const Status claimed = claims_.claim(host->second, ping.writer);
+    if (!claimed) {
+      const bool again = std::exchange(refused_[ping.writer], true);
+      if (!again && options_.log != nullptr) {
+        options_.log->error(kSource, "refused: {}", claimed.error().message);
+      }
+      return false;
+    }
+    seat.writer = ping.writer;
+    news_ = true;
+    if (options_.log != nullptr) {
+      options_.log->info(kSource, "host `{}` is {}, with {} real and {} simulated robots",
+                         seat.name, seat.heard ? "back" : "here", seat.real,
+                         seat.robots - seat.real);
+    }
+    seat.heard = true;
+  }
+  seat.offset_ns = ping.offset_ns;
+  seat.bound_ns = ping.bound_ns;
+  return true;
+}
+
+void LiveBoard::take_states() {
+  states_.take([this](const bus::HostState& state) { take_in(state); });
+}
+
+void LiveBoard::take_in(const bus::HostState& state) {
+  if (state.host >= seats_.size() || !host_of_.contains(state.writer)) return;
+  LiveSeat& seat = seats_[state.host];
+  if (seat.writer != 0 && seat.writer != state.writer) {
+    states_.refuse(state, fmt::format("host `{}` is served by another process", seat.name));
+    return;
+  }
+  seat.last_step = state.step;
+  ++states_taken_;
+  for (std::size_t i = 0; i < state.resolved.id._length; ++i) {
+    const real_time::RobotSight sight = real_time::read_robot(state.resolved, i, {});
+    const std::uint32_t robot = sight.robot.value();
+    if (robot >= robots_.size() || seat_of_[robot] != state.host) {
+      states_.refuse(state, fmt::format("robot {} does not run on host `{}`", robot, seat.name));
+      return;
+    }
+    // A host that was started anew may be a little behind the one before.
+    const bool same = said_by_[robot] == state.writer;
+    if (known_[robot] && same && sight.stamp <= robots_[robot].stamp) continue;
+    robots_[robot] = sight;
+    known_[robot] = true;
+    said_by_[robot] = state.writer;
+  }
+}
+
+void LiveBoard::send_world(std::uint64_t number, SimTime now, std::span<const std::uint8_t> stale) {
+  columns_.clear();
+  stale_.clear();
+  for (std::uint32_t r = 0; r < robots_.size(); ++r) {
+    if (!known_[r]) continue;
+    columns_.add(robots_[r]);
+    if (stale[r] != 0) stale_.push_back(r);
+  }
+  bus::World world{};
+  world.epoch = bus_->writer();
+  world.step = number;
+  world.time_ns = now.ns;
+  columns_.lend(world.robots);
+  bus::borrow(world.stale, stale_);
+  static_cast<void>(worlds_.write(world));
+}
+
+void LiveBoard::publish(bus::RunState& state) {
+  std::vector<rave_wire_HostSight> hosts(seats_.size());
+  for (std::size_t i = 0; i < seats_.size(); ++i) {
+    const LiveSeat& seat = seats_[i];
+    hosts[i].host = static_cast<std::uint32_t>(i);
+    bus::put_text(hosts[i].name, seat.name);
+    hosts[i].phase = seat.writer != 0 ? rave_wire_HOST_RUNS
+                                      : (seat.heard ? rave_wire_HOST_LOST : rave_wire_HOST_MISSING);
+    hosts[i].robots = seat.robots;
+    hosts[i].step = seat.last_step;
+    hosts[i].offset_s = static_cast<double>(seat.offset_ns) * 1e-9;
+    hosts[i].bound_s = seat.bound_ns < 0 ? -1 : static_cast<double>(seat.bound_ns) * 1e-9;
+  }
+  bus::borrow(state.hosts, hosts);
+  static_cast<void>(runs_.write(state));
+}
+
+}  // namespace rave::environment_manager

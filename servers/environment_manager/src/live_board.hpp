@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "rave/bus/host_claims.hpp"
+#include "rave/bus/wait_set.hpp"
+#include "rave/bus/writer.hpp"
+#include "rave/environment_manager/live_manager.hpp"
+#include "rave/real_time/messages.hpp"
+
+namespace rave::environment_manager {
+
+/// The place of one host of a run in real time, whoever sits in it.
+struct LiveSeat {
+  std::string name;
+  std::uint32_t robots = 0;
+  std::uint32_t real = 0;    ///< Of these.
+  std::uint64_t writer = 0;  ///< The process; 0: nobody.
+  bool heard = false;        ///< Somebody was there.
+  std::uint64_t losses = 0;
+  std::uint64_t last_step = 0;
+  std::int64_t offset_ns = 0;  ///< Our clock minus its own, as it says.
+  std::int64_t bound_ns = -1;
+};
+
+/// What a manager in real time knows of hosts and robots, and its end of the bus. Belongs to one
+/// thread.
+class LiveBoard {
+ public:
+  /// `options` must outlive it. Errors: those of bus::Bus::open().
+  [[nodiscard]] static Result<std::unique_ptr<LiveBoard>> open(const LiveManagerOptions& options);
+
+  void wait(Duration timeout) { static_cast<void>(waits_->wait(timeout)); }
+  /// Learns who is there and who is gone; that counts as a loss if the run `goes`. Errors: kState
+  /// (another manager).
+  Status look_at_processes(bool goes);
+  template <class Visit>
+  void take_pings(Visit&& visit) {
+    pings_.take(std::forward<Visit>(visit));
+  }
+  /// Whether a process that asks for the time sits in its host's place, as it does now if that was
+  /// free.
+  bool sit_down(const bus::ClockPing& ping);
+  void answer(bus::ClockPong& pong) { static_cast<void>(pongs_.write(pong)); }
+  /// Takes in what hosts say of their robots.
+  void take_states();
+  /// Sends where all robots are that were heard of. `stale`: by robot.
+  void send_world(std::uint64_t number, SimTime now, std::span<const std::uint8_t> stale);
+  /// Fills in how it stands with the hosts, and sends it.
+  void publish(bus::RunState& state);
+
+  [[nodiscard]] const std::vector<LiveSeat>& seats() const noexcept { return seats_; }
+  /// When a robot was where it was said to be last; nothing before it was heard of.
+  [[nodiscard]] std::optional<SimTime> stamp_of(std::size_t robot) const noexcept {
+    if (!known_[robot]) return std::nullopt;
+    return robots_[robot].stamp;
+  }
+  [[nodiscard]] std::uint64_t states() const noexcept { return states_taken_; }
+  /// Whether a host has come or gone since the last call.
+  [[nodiscard]] bool take_news() noexcept { return std::exchange(news_, false); }
+
+ private:
+  struct Parts;
+  LiveBoard(const LiveManagerOptions& options, Parts parts);
+  void lose(std::uint64_t writer, bool goes);
+  void take_in(const bus::HostState& state);
+
+  const LiveManagerOptions& options_;
+  std::unique_ptr<bus::Bus> bus_;
+  bus::Writer<bus::HostInfo> own_info_;
+  bus::Writer<bus::World> worlds_;
+  bus::Writer<bus::RunState> runs_;
+  bus::Writer<bus::ClockPong> pongs_;
+  bus::Reader<bus::HostInfo> infos_;
+  bus::Reader<bus::ClockPing> pings_;
+  bus::Reader<bus::HostState> states_;
+  std::optional<bus::WaitSet> waits_;
+  bus::HostInfo introduced_{};  ///< What the others were told of this process.
+  std::vector<LiveSeat> seats_;
+  bus::HostClaims claims_;
+  std::map<std::uint64_t, std::uint32_t> host_of_;  ///< Of processes that fit.
+  std::map<std::uint64_t, bool> refused_;           ///< Processes whose place is taken; told once.
+  std::vector<std::uint32_t> seat_of_;              ///< By robot.
+  std::vector<real_time::RobotSight> robots_;       ///< By robot, as heard last.
+  std::vector<bool> known_;
+  std::vector<std::uint64_t> said_by_;  ///< By robot: the process that spoke of it last.
+  real_time::RobotColumns columns_;
+  std::vector<std::uint32_t> stale_;
+  std::uint64_t states_taken_ = 0;
+  bool news_ = false;
+};
+
+}  // namespace rave::environment_manager

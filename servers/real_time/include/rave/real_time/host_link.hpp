@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "rave/base/log.hpp"
+#include "rave/base/result.hpp"
+#include "rave/bus/clock_offset.hpp"
+#include "rave/bus/config.hpp"
+#include "rave/lock_step/introduction.hpp"
+#include "rave/real_time/live_world.hpp"
+#include "rave/sim/engine.hpp"
+
+namespace rave::real_time {
+
+/// A host's end of a run in real time: it tells where its robots are and what they say, hears of
+/// the robots of others, and shares the time of the run. Belongs to one thread.
+class HostLink {
+ public:
+  struct Options {
+    bus::BusConfig bus;
+    lock_step::Identity self;
+    /// The run has an environment manager, whose clock is that of the run. Without one the time of
+    /// each host is its own.
+    bool managed = true;
+    bool sees = true;                           ///< A robot here has use of where the others are.
+    bool talks = true;                          ///< A robot here has communicators.
+    Duration world_period = from_seconds(0.1);  ///< At which worlds should come.
+    LogSink* log = nullptr;                     ///< Not owned; may be null.
+  };
+  /// Goes on the bus. `world` hears of other robots and what they say, inside the calls of this
+  /// object; not owned. Errors: those of bus::Bus::open().
+  [[nodiscard]] static Result<std::unique_ptr<HostLink>> open(Options options, LiveWorld& world);
+  HostLink(const HostLink&) = delete;
+  HostLink& operator=(const HostLink&) = delete;
+  ~HostLink();
+
+  /// Waits until the run has a time and, if it sees, a first world; from then on zero() stands.
+  /// `stopping` is asked ten times a second. False: somebody wants to stop. The log is told for
+  /// whom it waits. Errors: kState (this host is served by another process, or the manager does not
+  /// fit).
+  [[nodiscard]] Result<bool> await_start(const std::function<bool()>& stopping);
+  /// When the run is 0, by the clock of this process. It does not change any more: what is learned
+  /// of the manager's clock later is put on the stamps of messages alone.
+  [[nodiscard]] std::chrono::steady_clock::time_point zero() const noexcept;
+  /// Where worlds before the start showed robots that run here: an earlier process of this host
+  /// left them there.
+  [[nodiscard]] std::span<const RobotSight> starts() const noexcept;
+
+  /// Sleeps until `due`, hearing what comes meanwhile; at least once, also if that is past. Returns
+  /// early if the run has ended.
+  void listen_until(std::chrono::steady_clock::time_point due);
+  /// Tells where robots of this engine are, as its last step sensed; those without a pose are left
+  /// out. Nothing for an empty list.
+  void tell(const sim::Engine& engine, std::span<const RobotId> robots);
+  /// Sends what robots here said in a step.
+  void send(const sim::SentPackets& sent);
+
+  /// For how long no world has come; 0 if it does not see.
+  [[nodiscard]] Duration world_age() const;
+  /// What of the manager's clock is known: that clock minus the one here.
+  [[nodiscard]] std::optional<bus::ClockReading> clock() const;
+  /// What the manager says of the end of the run; nothing before.
+  struct Ending {
+    bool good = false;
+    std::string text;
+  };
+  [[nodiscard]] const std::optional<Ending>& ending() const noexcept;
+  /// How many worlds have come, and how often they failed to for longer than three periods and half
+  /// a second.
+  [[nodiscard]] std::uint64_t worlds() const noexcept;
+  [[nodiscard]] std::uint64_t losses() const noexcept;
+
+ private:
+  struct Impl;
+  explicit HostLink(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace rave::real_time

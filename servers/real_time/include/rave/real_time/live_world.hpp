@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "rave/base/result.hpp"
+#include "rave/sim/world_authority.hpp"
+
+namespace rave::real_time {
+
+/// Where a robot was, as its own host said.
+struct RobotSight {
+  RobotId robot;
+  SimTime stamp;    ///< By the clock of the engine that shall know it.
+  Pose2 X_WR;       ///< Finite.
+  Twist2 velocity;  ///< Body frame; finite.
+};
+
+/// The world of one host in real time. It is the authority for the robots that run here and knows
+/// all others only by what their hosts say, when that arrives: they are where their last velocity
+/// has brought them since, for at most the `staleness` of their type, after which they stay there
+/// and count as stale. They are placed and never moved, so the robots that run here make way for
+/// them as for real ones. A robot that nobody has spoken of is not in the world.
+///
+/// Stands between propose() and apply() of an engine with EngineSpec::own_authority. One owner
+/// thread; uses others inside step().
+class LiveWorld {
+ public:
+  /// `spec`: that of the engine, with `local`; nothing of it is kept but a copy. Errors:
+  /// kInvalidArgument.
+  [[nodiscard]] static Result<std::unique_ptr<LiveWorld>> create(const sim::EngineSpec& spec);
+
+  /// Takes in where a robot of another host was. False, and nothing has changed: it runs here, does
+  /// not exist, or more recent things are known of it.
+  bool see(const RobotSight& sight);
+  /// The clock by which others stamp is another one now: what is heard next is the most recent.
+  void clock_changed();
+  /// Takes in a message of a robot of another host, for the next step; when it was sent counts only
+  /// if that is not in the future. `writer`: the process, whose messages arrive in their order.
+  /// False: it was heard before, or nobody here can make anything of it.
+  bool hear(std::uint64_t writer, const sim::SentPacket& packet, std::span<const std::byte> bytes);
+
+  /// A host that comes late begins with a later step than 0: makes `own`, its report of step 0, one
+  /// of `step`, in which its simulated robots stand at their start or at a place of `starts`. To be
+  /// followed by step() and Engine::join(). Errors: kInvalidArgument.
+  Status begin_at(std::uint64_t step, std::span<const RobotSight> starts, sim::HostReport& own);
+
+  /// The world of the step that `own`, the report of this host with the number 0, is for. Errors:
+  /// those of WorldAuthority::step().
+  Status step(const sim::HostReport& own, sim::WorldStep& world);
+
+  /// Of the last step: contacts, pins and changes of bodies of the robots that run here, and who of
+  /// the others became stale (kPoseStale) or was heard of again (kPoseBack).
+  [[nodiscard]] std::span<const sim::Event> events() const noexcept { return events_; }
+  /// How many messages of others were dropped because there were too many in one step.
+  [[nodiscard]] std::uint64_t dropped_packets() const noexcept { return dropped_packets_; }
+  /// How many robots others run.
+  [[nodiscard]] std::size_t others() const noexcept { return others_.size(); }
+
+  /// Most messages of others, and bytes of them, in one step.
+  static constexpr std::size_t kMostPackets = 65'536;
+  static constexpr std::size_t kMostBytes = 4'194'304;
+
+ private:
+  struct Other {
+    RobotSight last;
+    Duration staleness;
+    bool real = false;
+    bool known = false;
+    bool stale = false;
+    bool any_stamp = true;       ///< The next sight counts whatever its stamp.
+    std::int64_t sample_ns = 0;  ///< Of the last sample that was handed on.
+  };
+  struct Counted {
+    std::uint64_t writer = 0;
+    std::uint32_t sequence = 0;
+  };
+
+  LiveWorld(const sim::EngineSpec& spec, std::unique_ptr<sim::WorldAuthority> authority);
+  [[nodiscard]] SimTime time_of(std::uint64_t step) const noexcept;
+  void report_others(std::uint64_t step);
+  void report_place(Other& other, std::uint64_t step);
+  void report_samples(SimTime now);
+  void report_packets(std::uint64_t step);
+
+  std::unique_ptr<sim::WorldAuthority> authority_;
+  std::vector<std::uint8_t> local_;       ///< By robot: it runs here.
+  std::vector<RobotId> simulated_;        ///< That run here; ascending.
+  std::vector<Other> others_;             ///< By robot, ascending.
+  std::vector<std::uint32_t> other_of_;   ///< By robot: its place in `others_`.
+  std::vector<sim::PoseSample> samples_;  ///< Of real ones, for the steps to come.
+  sim::SentPackets heard_;                ///< For the next step.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Counted> newest_;  ///< By robot, communicator.
+  sim::HostReport others_report_;
+  std::vector<std::uint32_t> order_;  ///< Of `heard_`.
+  std::vector<sim::Event> events_;
+  std::uint64_t dropped_packets_ = 0;
+};
+
+}  // namespace rave::real_time

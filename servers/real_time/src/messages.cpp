@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/real_time/messages.hpp"
+
+#include "rave/bus/sequence.hpp"
+#include "rave/math/transform.hpp"
+
+namespace rave::real_time {
+
+void RobotColumns::clear() noexcept {
+  id_.clear();
+  for (auto* const column : {&x_m_, &y_m_, &yaw_rad_, &vx_mps_, &vy_mps_, &wz_radps_}) {
+    column->clear();
+  }
+  stamp_ns_.clear();
+}
+
+void RobotColumns::add(const RobotSight& sight) {
+  const Vec2 v_W = rotate(sight.X_WR.yaw, {sight.velocity.vx, sight.velocity.vy});
+  id_.push_back(sight.robot.value());
+  x_m_.push_back(sight.X_WR.x);
+  y_m_.push_back(sight.X_WR.y);
+  yaw_rad_.push_back(sight.X_WR.yaw);
+  vx_mps_.push_back(v_W.x);
+  vy_mps_.push_back(v_W.y);
+  wz_radps_.push_back(sight.velocity.wz);
+  stamp_ns_.push_back(sight.stamp.ns);
+}
+
+void RobotColumns::lend(rave_wire_PlanarRobots& robots) noexcept {
+  bus::borrow(robots.id, id_);
+  bus::borrow(robots.x_m, x_m_);
+  bus::borrow(robots.y_m, y_m_);
+  bus::borrow(robots.yaw_rad, yaw_rad_);
+  bus::borrow(robots.vx_mps, vx_mps_);
+  bus::borrow(robots.vy_mps, vy_mps_);
+  bus::borrow(robots.wz_radps, wz_radps_);
+  bus::borrow(robots.stamp_ns, stamp_ns_);
+}
+
+RobotSight read_robot(const rave_wire_PlanarRobots& robots, std::size_t index, Duration shift) {
+  RobotSight sight;
+  sight.robot = RobotId(bus::elements(robots.id)[index]);
+  sight.stamp = SimTime{bus::elements(robots.stamp_ns)[index]} + shift;
+  sight.X_WR = {bus::elements(robots.x_m)[index], bus::elements(robots.y_m)[index],
+                wrap_angle(bus::elements(robots.yaw_rad)[index])};
+  const Vec2 v_W{bus::elements(robots.vx_mps)[index], bus::elements(robots.vy_mps)[index]};
+  const Vec2 v_B = rotate(-sight.X_WR.yaw, v_W);
+  sight.velocity = {v_B.x, v_B.y, bus::elements(robots.wz_radps)[index]};
+  return sight;
+}
+
+bus::Packet packet_of(const sim::SentPacket& sent, std::span<const std::byte> bytes,
+                      std::uint64_t number, Duration shift) {
+  bus::Packet packet{};
+  packet.number = number;
+  packet.from_robot = sent.robot.value();
+  packet.communicator = sent.communicator;
+  packet.sequence_number = sent.sequence;
+  packet.to_kind = static_cast<rave_wire_RecipientKind>(sent.to.kind);
+  packet.to_robot = sent.to.robot;
+  packet.sent_ns = sent.stamp_ns + shift.ns;
+  packet.x_m = sent.x_m;
+  packet.y_m = sent.y_m;
+  packet.range_m = sent.range_m;
+  packet.antenna_z_m = sent.antenna_z_m;
+  packet.located = sent.located != 0;
+  packet.line_of_sight = sent.line_of_sight != 0;
+  // Cyclone DDS writes through no pointer of a sample that it sends.
+  packet.payload._buffer =
+      const_cast<std::uint8_t*>(reinterpret_cast<const std::uint8_t*>(bytes.data()));
+  packet.payload._length = static_cast<std::uint32_t>(bytes.size());
+  packet.payload._maximum = packet.payload._length;
+  packet.payload._release = false;
+  return packet;
+}
+
+sim::SentPacket read_packet(const bus::Packet& packet, Duration shift) {
+  sim::SentPacket sent;
+  sent.robot = RobotId(packet.from_robot);
+  sent.communicator = packet.communicator;
+  sent.sequence = packet.sequence_number;
+  sent.to = {static_cast<RecipientKind>(packet.to_kind), packet.to_robot};
+  sent.stamp_ns = packet.sent_ns + shift.ns;
+  sent.complete_ns = sent.stamp_ns;
+  sent.x_m = packet.x_m;
+  sent.y_m = packet.y_m;
+  sent.range_m = packet.range_m;
+  sent.antenna_z_m = packet.antenna_z_m;
+  sent.located = packet.located ? 1 : 0;
+  sent.line_of_sight = packet.line_of_sight ? 1 : 0;
+  return sent;
+}
+
+std::span<const std::byte> payload_of(const bus::Packet& packet) noexcept {
+  return std::as_bytes(bus::elements(packet.payload));
+}
+
+}  // namespace rave::real_time

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "event_log.hpp"
+#include "host_journey.hpp"
+#include "rave/base/file.hpp"
+#include "rave/real_time/host_link.hpp"
+#include "rave/robot_host/build.hpp"
+#include "rave/robot_host/provenance.hpp"
+#include "stall_watch.hpp"
+#include "wall_pace.hpp"
+
+namespace rave::robot_host {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using real_time::HostLink;
+using real_time::LiveWorld;
+
+/// Who begins so soon has missed nothing that anybody would miss.
+constexpr std::int64_t kInTime_ns = 1'000'000'000;
+
+/// Local robots that say where they are in the same steps.
+struct ReportGroup {
+  std::uint32_t period_steps = 1;
+  std::vector<RobotId> robots;  ///< Ascending.
+};
+
+std::vector<ReportGroup> report_groups(const config::ExpandedScenario& scenario, const Seat& seat) {
+  std::vector<ReportGroup> groups;
+  for (const RobotId robot : seat.robots) {
+    const std::uint32_t period =
+        config::report_period_steps(scenario, scenario.robots[robot.value()]);
+    auto found = std::find_if(groups.begin(), groups.end(), [&](const ReportGroup& group) {
+      return group.period_steps == period;
+    });
+    if (found == groups.end()) found = groups.insert(found, {period, {}});
+    found->robots.push_back(robot);
+  }
+  return groups;
+}
+
+struct LiveJourney : HostJourney {
+  LiveJourney(HostJourney host, HostLink& to, LiveWorld& around, WallPace& clock,
+              std::vector<ReportGroup> groups)
+      : HostJourney(std::move(host)),
+        link(to),
+        live(around),
+        pace(clock),
+        reports(std::move(groups)),
+        watch(&console) {}
+
+  HostLink& link;
+  LiveWorld& live;
+  WallPace& pace;
+  std::vector<ReportGroup> reports;
+  StallWatch watch;
+  std::uint64_t steps = 0;  ///< In all.
+  std::uint64_t first = 0;  ///< The one that this host began with.
+  sim::HostReport report;
+  sim::WorldStep world;
+  std::vector<RobotId> due;
+};
+
+/// Tells the others where robots are whose turn it is.
+void tell_places(LiveJourney& journey) {
+  journey.due.clear();
+  for (const ReportGroup& group : journey.reports) {
+    if (journey.report.step % group.period_steps != 0) continue;
+    journey.due.insert(journey.due.end(), group.robots.begin(), group.robots.end());
+  }
+  std::sort(journey.due.begin(), journey.due.end());
+  journey.link.tell(journey.engine, journey.due);
+}
+
+/// Until the next step is due; false: there is none for this host.
+bool wait_for_turn(LiveJourney& journey) {
+  const sim::Engine& engine = journey.engine;
+  const auto next = static_cast<std::int64_t>(journey.report.step);
+  const auto due = journey.pace.wall_time_of(SimTime{next * engine.spec().step.ns});
+  auto now = Clock::now();
+  do {
+    journey.link.listen_until(std::min(due, now + kProgressInterval));
+    serve_requests(journey);
+    journey.stopped = journey.stopping();
+    journey.ended = journey.link.ending().has_value();
+    if (journey.stopped || journey.ended) return false;
+    now = Clock::now();
+  } while (now < due);
+  return true;
+}
+
+Status make_step(LiveJourney& journey) {
+  sim::Engine& engine = journey.engine;
+  journey.watch.step_begins(journey.report.step);
+  engine.set_world_age(journey.link.world_age());
+  RAVE_TRY(journey.live.step(journey.report, journey.world));
+  RAVE_TRY(engine.join(journey.world));
+  tell_places(journey);
+  RAVE_TRY(engine.propose(journey.report));
+  journey.link.send(journey.report.sent);
+  journey.watch.step_ends();
+  look_back(journey, journey.live.events());
+  return {};
+}
+
+Status go_through(LiveJourney& journey) {
+  RAVE_TRY(journey.engine.propose(journey.report));
+  const std::int64_t step_ns = journey.engine.spec().step.ns;
+  const std::int64_t now_ns = std::max<std::int64_t>(0, journey.pace.now().ns);
+  journey.first = static_cast<std::uint64_t>((now_ns + step_ns - 1) / step_ns);
+  if (journey.first >= journey.steps) {
+    journey.problems.emplace_back("came when the run was over");
+    return {};
+  }
+  RAVE_TRY(journey.live.begin_at(journey.first, journey.link.starts(), journey.report));
+  if (now_ns > kInTime_ns) {
+    std::string text =
+        fmt::format("begins at {:.2f} s of the run", static_cast<double>(now_ns) * 1e-9);
+    journey.console.info("host", "{}", text);
+    journey.problems.push_back("it " + std::move(text));
+  }
+  while (journey.report.step < journey.steps && wait_for_turn(journey)) {
+    RAVE_TRY(make_step(journey));
+  }
+  // The last step takes its time, too.
+  if (!journey.stopped && !journey.ended) static_cast<void>(wait_for_turn(journey));
+  return {};
+}
+
+HostOutcome judge(const LiveJourney& journey, const std::string& live_reason) {
+  HostOutcome outcome;
+  outcome.live_reason = live_reason;
+  outcome.steps =
+      journey.engine.steps_done() - std::min(journey.first, journey.engine.steps_done());
+  outcome.problems = journey.problems;
+  if (journey.stopped) outcome.problems.emplace_back("stopped before the run was over");
+  if (journey.ended) {
+    outcome.ending = journey.link.ending()->text;
+    if (!journey.link.ending()->good) {
+      outcome.problems.push_back("the run ended: " + outcome.ending);
+    }
+  }
+  outcome.whole = outcome.problems.empty();
+  return outcome;
+}
+
+Status write_results(const LiveJourney& journey, const BodyKinds& kinds,
+                     const HostOutcome& outcome) {
+  const std::filesystem::path& folder = journey.options.run.output;
+  nlohmann::ordered_json json;
+  json["host"] = journey.options.host;
+  json["whole"] = outcome.whole;
+  json["first_step"] = journey.first;
+  json["steps"] = outcome.steps;
+  json["hash"] = nullptr;
+  json["no_hash_because"] = outcome.live_reason;
+  const auto clock = journey.link.clock();
+  json["clock_offset_s"] = clock ? nlohmann::ordered_json(clock->offset.seconds()) : nullptr;
+  json["clock_bound_s"] = clock ? nlohmann::ordered_json(clock->bound.seconds()) : nullptr;
+  json["worlds"] = journey.link.worlds();
+  json["world_losses"] = journey.link.losses();
+  json["dropped_packets"] = journey.live.dropped_packets();
+  json["events"] = journey.events.size();
+  json["ending"] = outcome.ending;
+  json["problems"] = outcome.problems;
+  RAVE_TRY(write_file_atomically(folder / "events.log",
+                                 events_log(journey.engine, kinds, journey.events)));
+  return write_file_atomically(folder / "result.json", json.dump(2) + "\n");
+}
+
+HostLink::Options link_options(const LiveHost& host, const BuiltScenario& built) {
+  HostLink::Options options;
+  options.bus = host.options.bus;
+  options.self = {host.seat.number,
+                  host.options.host,
+                  static_cast<std::uint32_t>(host.seat.robots.size()),
+                  shared_number(host.scenario),
+                  interface_stamp(),
+                  true};
+  options.managed = needs_manager(built);
+  options.sees = false;
+  options.talks = false;
+  for (const RobotId robot : host.seat.robots) {
+    const std::uint32_t type = built.spec.robots[robot.value()].type;
+    options.sees = options.sees || built.sees[type] != 0;
+    options.talks = options.talks || !built.spec.types[type].communicators.empty();
+  }
+  options.world_period = from_seconds(host.scenario.scenario.world_period_s);
+  options.log = &host.console;
+  return options;
+}
+
+/// What is left to do when all is there.
+Result<HostOutcome> go(const LiveHost& host, sim::Engine& engine, HostLink& link, LiveWorld& live,
+                       const BuiltScenario& built, bool begun) {
+  const RunOptions& run = host.options.run;
+  const BodyKinds kinds(engine.spec(), built.robot_kinds);
+  std::unique_ptr<RecordKeeper> record;
+  if (run.record) {
+    RAVE_TRY_ASSIGN(record, RecordKeeper::begin(run.output / "run.mcap", engine, kinds,
+                                                {host.scenario.scenario.name.value, host.expanded,
+                                                 versions_of(engine.spec(), host.catalogue),
+                                                 input_files(host.scenario, engine), false},
+                                                run.log));
+  }
+  const RecordedConsole recorded(host.console, record ? &record->recorder() : nullptr);
+  const config::ScenarioFile& file = host.scenario.scenario;
+  LiveJourney journey({engine, record.get(), host.options, host.console}, link, live, host.pace,
+                      report_groups(host.scenario, host.seat));
+  journey.steps = static_cast<std::uint64_t>(std::llround(file.duration_s / file.step_s.value));
+  const ControlledHost controlled(engine, file, run.control, true);
+  tell_who_waits(engine, run, host.console);
+  Status went;
+  if (begun) {
+    went = go_through(journey);
+  } else {
+    journey.stopped = journey.stopping();
+    journey.ended = link.ending().has_value();
+  }
+  engine.halt();
+  host.console.attach(nullptr);
+  HostOutcome outcome = judge(journey, built.live_reason);
+  if (record) {
+    const Status written = record->end(std::nullopt);
+    if (!written) outcome.problems.push_back("the record is not whole: " + written.error().text());
+  }
+  outcome.whole = outcome.whole && outcome.problems.empty();
+  RAVE_TRY(write_results(journey, kinds, outcome));
+  if (!went) return tl::unexpected(went.error());
+  return outcome;
+}
+
+}  // namespace
+
+Result<HostOutcome> run_live_host(const LiveHost& host, BuiltScenario built) {
+  host.console.warn("run", "the run goes at real time, because {}", built.live_reason);
+  for (const std::string& note : built.notes) host.console.warn("scenario", "{}", note);
+  built.spec.own_authority = true;
+  RAVE_TRY_ASSIGN(const auto live, LiveWorld::create(built.spec));
+  RAVE_TRY_ASSIGN(const auto link, HostLink::open(link_options(host, built), *live));
+  // The run starts when all devices are open here, and everywhere.
+  RunControl* const control = host.options.run.control;
+  Result<bool> begun = false;
+  built.spec.on_ready = [&] {
+    begun = link->await_start([control] { return control != nullptr && control->stopping(); });
+    host.pace.start_at(link->zero());
+  };
+  RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(built.spec)));
+  if (!begun) return tl::unexpected(begun.error());
+  return go(host, *engine, *link, *live, built, *begun);
+}
+
+}  // namespace rave::robot_host

@@ -15,8 +15,8 @@
 namespace rave::sim::testing {
 namespace {
 
-constexpr double kSide_m = 12;
-constexpr std::uint32_t kRobots = 12;
+constexpr double kEditedSide_m = 12;
+constexpr std::uint32_t kEditedRobots = 12;
 
 world::Body body_of(RandomStream& random) {
   world::Body body;
@@ -35,14 +35,15 @@ world::Body body_of(RandomStream& random) {
 }
 
 Pose2 pose_of(RandomStream& random) {
-  return {random.uniform(0, kSide_m), random.uniform(0, kSide_m), random.uniform(-3, 3)};
+  return {random.uniform(0, kEditedSide_m), random.uniform(0, kEditedSide_m),
+          random.uniform(-3, 3)};
 }
 
 /// A world that changes, and a snapshot that follows it.
 struct Scene {
   explicit Scene(std::uint32_t number) : random(41, number, 0, 0) {
     for (int i = 0; i < 8; ++i) model.obstacles.push_back({body_of(random), pose_of(random)});
-    for (std::uint32_t r = 0; r < kRobots; ++r) {
+    for (std::uint32_t r = 0; r < kEditedRobots; ++r) {
       model.robots.push_back(body_of(random));
       model.robots.back().layer = Layer::kSimulatedRobots;
       poses.push_back(pose_of(random));
@@ -52,7 +53,8 @@ struct Scene {
   }
 
   void place(world::Snapshot& world) const {
-    for (std::uint32_t r = 0; r < kRobots; ++r) world.set_robot(RobotId(r), {poses[r], {}, true});
+    for (std::uint32_t r = 0; r < kEditedRobots; ++r)
+      world.set_robot(RobotId(r), {poses[r], {}, true});
     world.rebuild();
   }
 
@@ -71,7 +73,7 @@ struct Scene {
       if (what != 3) obstacle.X_WB = pose_of(random);
       live->set_obstacle(BodyId(id), obstacle.X_WB, !obstacle.removed);
     } else {
-      const std::uint32_t r = random.bits() % kRobots;
+      const std::uint32_t r = random.bits() % kEditedRobots;
       model.robots[r] = world::scaled(model.robots[r], random.uniform(0.6, 1.6)).value();
       live->body_changed(RobotId(r));
     }
@@ -146,7 +148,7 @@ TEST(EditedWorld, RangesAreThoseOfAWorldMadeAnew) {
     std::vector<RobotId> owners;
     std::vector<SensorPlace> places;
     std::vector<Vec2> places_W;
-    for (std::uint32_t r = 0; r < kRobots; ++r) {
+    for (std::uint32_t r = 0; r < kEditedRobots; ++r) {
       owners.emplace_back(r);
       places.push_back(sensor_place(scene.poses[r], {0.1, 0, 0.2}));
       places_W.push_back(places.back().p_WS);
@@ -159,7 +161,7 @@ TEST(EditedWorld, RangesAreThoseOfAWorldMadeAnew) {
       if (!lists.hold(*scene.live, places_W)) {
         list_near(*scene.live, fan, 0.2, owners, places_W, 0.4, scratch, lists);
       }
-      for (std::uint32_t r = 0; r < kRobots; ++r) {
+      for (std::uint32_t r = 0; r < kEditedRobots; ++r) {
         const BodyId own = anew.body_of(RobotId(r));
         Readings kept, live, fresh;
         cast_fan(*scene.live, fan, places[r], lists, r, scratch, kept.ranges_m, kept.bodies);
@@ -180,7 +182,7 @@ TEST(EditedWorld, RaysMeetWhatALoopOverAllBodiesFinds) {
       scene.place(*scene.live);
       for (int i = 0; i < 20; ++i) {
         const Pose2 from = pose_of(scene.random);
-        const BodyId own = scene.live->body_of(RobotId(scene.random.bits() % kRobots));
+        const BodyId own = scene.live->body_of(RobotId(scene.random.bits() % kEditedRobots));
         const RayHit hit = scene.live->cast(from.position(), 0.5, from.yaw, 100, kAllLayers, own);
         const RayHit expected = scene.nearest(from.position(), from.yaw, own.value());
         ASSERT_EQ(hit.range_m, expected.range_m) << "world " << number << ", change " << k;

@@ -7,9 +7,11 @@
 
 #include "console_tee.hpp"
 #include "rave/config/expanded_scenario.hpp"
+#include "rave/robot_host/build.hpp"
 #include "rave/robot_host/host_run.hpp"
 #include "rave/sim/engine.hpp"
 #include "record_keeper.hpp"
+#include "wall_pace.hpp"
 
 namespace rave::robot_host {
 
@@ -67,10 +69,10 @@ struct LiveHost {
   const HostOptions& options;
   const Seat& seat;
   ConsoleTee& console;
-  class WallPace& pace;  ///< The clock of its live drivers; started here.
+  WallPace& pace;  ///< The clock of its live drivers; started here.
 };
 
 /// run_host() of a run in real time.
-[[nodiscard]] Result<HostOutcome> run_live_host(const LiveHost& host, struct BuiltScenario built);
+[[nodiscard]] Result<HostOutcome> run_live_host(const LiveHost& host, BuiltScenario built);
 
 }  // namespace rave::robot_host

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "console.hpp"
 #include "error_text.hpp"
 #include "interrupt.hpp"
@@ -69,6 +71,9 @@ int robot(const RobotCommand& options) {
     console.warn("host", "no other terminal can control this host: {}", server.error().message);
   }
   const auto outcome = robot_host::run_host(*scenario, catalogue, std::move(how));
+  // What a run left that broke off tells why.
+  std::error_code error;
+  if (!outcome && !std::filesystem::exists(folder->path() / "run.mcap", error)) folder->discard();
   if (!outcome) return complain(outcome.error());
   return tell(run, outcome->whole, fmt::format("host {}: {} steps\n", options.host, outcome->steps),
               outcome->problems, folder->path());
@@ -87,14 +92,19 @@ int env(const EnvCommand& options) {
     return complain(opened.error());
   }
   robot_host::RunControl& control = ended_by_signals();
+  bool started = false;
   const auto outcome = manage_run({*scenario,
                                    run,
                                    *bus,
                                    folder->path(),
                                    console,
-                                   [&control] { return control.stopping(); },
+                                   [&] {
+                                     started = true;
+                                     return control.stopping();
+                                   },
                                    {}});
   console.clear();
+  if (!outcome && !started) folder->discard();
   if (!outcome) return complain(outcome.error());
   return tell(run, outcome->whole, outcome->summary, outcome->problems, folder->path());
 }

@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "live_board.hpp"
+#include "manager_habits.hpp"
 #include "rave/base/names.hpp"
 #include "rave/bus/sequence.hpp"
 
@@ -14,9 +15,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-constexpr std::string_view kSource = "environment manager";
-constexpr milliseconds kLook{100};
-constexpr milliseconds kTell{500};
 /// Between the decision that a run begins and its time 0: hosts hear of it and start together.
 constexpr milliseconds kLead{300};
 constexpr std::size_t kMostNames = 5;

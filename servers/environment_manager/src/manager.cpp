@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "manager_habits.hpp"
 #include "rave/base/names.hpp"
 #include "rave/bus/sequence.hpp"
 #include "rave/sim/world_authority.hpp"
@@ -17,9 +18,6 @@ using Clock = std::chrono::steady_clock;
 using config::LostHost;
 using std::chrono::milliseconds;
 
-constexpr std::string_view kSource = "environment manager";
-constexpr milliseconds kLook{100};
-constexpr milliseconds kTell{500};
 /// A host that has not got a step is sent it again, but not more often than this.
 constexpr milliseconds kAgain{20};
 

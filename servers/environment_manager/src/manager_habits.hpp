@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <string_view>
+
+/// What managers in lock-step and in real time have in common.
+namespace rave::environment_manager {
+
+inline constexpr std::string_view kSource = "environment manager";  ///< In the log.
+/// How often they look whether they are to stop, and show how far the run is.
+inline constexpr std::chrono::milliseconds kLook{100};
+/// How often all processes are told how the run goes.
+inline constexpr std::chrono::milliseconds kTell{500};
+
+}  // namespace rave::environment_manager

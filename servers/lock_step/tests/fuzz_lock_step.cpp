@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "rave/bus/testing/cdr.hpp"
 #include "rave/bus/validate.hpp"
+#include "rave/bus_testing/messages.hpp"
 #include "rave/lock_step/messages.hpp"
 
 namespace {

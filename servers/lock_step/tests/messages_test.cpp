@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "example_messages.hpp"
-#include "rave/bus/testing/cdr.hpp"
 #include "rave/bus/validate.hpp"
+#include "rave/bus_testing/messages.hpp"
 #include "rave/lock_step/introduction.hpp"
 
 namespace rave::lock_step::testing {

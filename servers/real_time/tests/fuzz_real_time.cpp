@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <span>
 
-#include "rave/bus/testing/cdr.hpp"
 #include "rave/bus/validate.hpp"
+#include "rave/bus_testing/messages.hpp"
 #include "rave/real_time/live_world.hpp"
 #include "rave/real_time/messages.hpp"
 

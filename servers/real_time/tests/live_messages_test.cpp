@@ -2,8 +2,8 @@
 // Robots and messages in real time through the bytes that other processes get.
 #include <gtest/gtest.h>
 
-#include "rave/bus/testing/cdr.hpp"
 #include "rave/bus/validate.hpp"
+#include "rave/bus_testing/messages.hpp"
 #include "rave/real_time/messages.hpp"
 
 namespace rave::real_time {

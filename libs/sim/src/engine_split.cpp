@@ -104,14 +104,17 @@ Status Engine::apply(const WorldStep& world) {
   return engine.apply(world, true, phase);
 }
 
-Status Engine::join(const WorldStep& world) {
+Status Engine::join(const WorldStep& world, std::span<const ObstacleChange> obstacles) {
   Impl& engine = *impl_;
   const bool later = engine.host && engine.host->proposed && world.step > engine.step;
   if (!later) return apply(world);
-  RAVE_TRY(check_world_step(engine.spec, world));
   PhaseTimer phase(engine.spec.phase_clock, engine.phase_times);
   engine.step = world.step;
   engine.now = engine.step_time(world.step);
+  while (engine.host->obstacle_changes + world.obstacles.size() < obstacles.size()) {
+    engine.put_obstacle(obstacles[engine.host->obstacle_changes]);
+  }
+  RAVE_TRY(check_world_step(engine.spec, world));
   RAVE_TRY(engine.take_newer_samples());
   // The authority has had what it needs of that time from nobody, and needs it no more.
   engine.host->samples.clear();
@@ -162,8 +165,7 @@ Status Engine::Impl::make_changes(const WorldStep& world) {
     tell_program_of_body(resized.robot);
   }
   for (const ObstacleChange& change : world.obstacles) {
-    truth.put_obstacle(change, step_time(step));
-    obstacle_changed(change);
+    put_obstacle(change);
   }
   for (const WorldInput& input : world.inputs) do_input(input);
   for (; next_change < spec.changes.size() && spec.changes[next_change].step <= step;
@@ -173,6 +175,12 @@ Status Engine::Impl::make_changes(const WorldStep& world) {
     make_change(scheduled);
   }
   return {};
+}
+
+void Engine::Impl::put_obstacle(const ObstacleChange& change) {
+  truth.put_obstacle(change, step_time(step));
+  obstacle_changed(change);
+  ++host->obstacle_changes;
 }
 
 void Engine::Impl::do_input(const WorldInput& input) {

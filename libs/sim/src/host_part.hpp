@@ -32,6 +32,7 @@ struct HostPart {
     sent.clear();
     samples.clear();
     refusals.clear();
+    obstacle_changes = 0;
   }
 
   // Robots that run here, ascending:
@@ -49,6 +50,7 @@ struct HostPart {
   SentPackets sent;                    ///< Of the step.
   std::vector<PoseSample> samples;     ///< Since the last report.
   std::vector<InputRefusal> refusals;  ///< The same.
+  std::size_t obstacle_changes = 0;    ///< How many have been made here.
 };
 
 }  // namespace rave::sim

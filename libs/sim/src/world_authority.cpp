@@ -64,7 +64,8 @@ struct WorldAuthority::Impl {
   std::vector<WorldInput> asked;  ///< For the next step.
   std::uint64_t inputs = 0;
   std::size_t next_change = 0;
-  std::size_t next_obstacle = 0;  ///< Of spec.obstacle_changes.
+  std::size_t next_obstacle = 0;                 ///< Of spec.obstacle_changes.
+  std::vector<ObstacleChange> obstacle_changes;  ///< That were made so far.
   std::vector<InputRefusal> refusals;
   std::vector<std::pair<const SentPacket*, const SentPackets*>> sent;  ///< During step() alone.
   std::vector<std::uint32_t> seen;  ///< Robots that were pushed, with repetition.
@@ -98,6 +99,7 @@ void WorldAuthority::Impl::begin() {
   inputs = 0;
   next_change = 0;
   next_obstacle = 0;
+  obstacle_changes.clear();
   refusals.clear();
 }
 
@@ -189,6 +191,7 @@ Status WorldAuthority::Impl::change_obstacle(const ObstacleChange& change, Autho
   const SimTime from{static_cast<std::int64_t>(step) * spec.step.ns};
   RAVE_TRY_ASSIGN(ObstacleChange made, truth.change_obstacle(change, from, note));
   events.push_back(noted_obstacle(step, made, note, author, hash));
+  obstacle_changes.push_back(made);
   world.obstacles.push_back(std::move(made));
   return {};
 }
@@ -331,12 +334,16 @@ AuthorityState WorldAuthority::state() const {
     state.scales.push_back({RobotId(robot), scale});
   }
   state.inputs = authority.inputs;
+  state.obstacles = authority.obstacle_changes;
   return state;
 }
 
 Status WorldAuthority::resume(const WorldStep& world, const AuthorityState& state) {
   Impl& authority = *impl_;
-  RAVE_TRY(check_world_step(authority.spec, world));
+  // Its obstacles are among those of the state.
+  WorldStep bare = world;
+  bare.obstacles.clear();
+  RAVE_TRY(check_world_step(authority.spec, bare));
   const std::size_t robots = authority.spec.robots.size();
   const auto is_there = [robots](RobotId robot) { return robot.value() < robots; };
   if (!std::all_of(state.pinned.begin(), state.pinned.end(), is_there) ||
@@ -348,6 +355,9 @@ Status WorldAuthority::resume(const WorldStep& world, const AuthorityState& stat
   for (const ResizedRobot& resized : state.scales) {
     RAVE_TRY(authority.truth.put_scale(resized.robot, resized.scale));
   }
+  const SimTime now{static_cast<std::int64_t>(world.step) * authority.spec.step.ns};
+  for (const ObstacleChange& change : state.obstacles) authority.truth.put_obstacle(change, now);
+  authority.obstacle_changes = state.obstacles;
   authority.take_over(world);
   authority.truth.take_over(SimTime{static_cast<std::int64_t>(world.step) * authority.spec.step.ns},
                             state.pinned);
@@ -360,6 +370,11 @@ Status WorldAuthority::resume(const WorldStep& world, const AuthorityState& stat
   while (authority.next_change < changes.size() &&
          changes[authority.next_change].step <= world.step) {
     ++authority.next_change;
+  }
+  const auto& obstacles = authority.spec.obstacle_changes;
+  while (authority.next_obstacle < obstacles.size() &&
+         obstacles[authority.next_obstacle].step <= world.step) {
+    ++authority.next_obstacle;
   }
   return {};
 }

@@ -417,7 +417,7 @@ TEST(Split, TheOthersGoOnWithoutAHostAndItComesBack) {
   run.hosts[kHost] = make_engine(std::move(spec));
   ASSERT_TRUE(run.hosts[kHost]->propose(run.reports[kHost]));
   EXPECT_EQ(run.reports[kHost].step, 0U);
-  const Status joined = run.hosts[kHost]->join(run.world);
+  const Status joined = run.hosts[kHost]->join(run.world, run.authority->state().obstacles);
   ASSERT_TRUE(joined) << joined.error().text();
   ASSERT_TRUE(run.hosts[0]->apply(run.world));
   ASSERT_TRUE(run.hosts[2]->apply(run.world));

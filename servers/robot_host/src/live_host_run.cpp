@@ -98,7 +98,7 @@ Status make_step(LiveJourney& journey) {
   journey.watch.step_begins(journey.report.step);
   engine.set_world_age(journey.link.world_age());
   RAVE_TRY(journey.live.step(journey.report, journey.world));
-  RAVE_TRY(engine.join(journey.world));
+  RAVE_TRY(engine.join(journey.world, {}));
   tell_places(journey);
   RAVE_TRY(engine.propose(journey.report));
   journey.link.send(journey.report.sent);

@@ -116,7 +116,8 @@ class Engine {
   /// As apply(), but the world may be of a later step than the one that was proposed: the others
   /// went on while this host was away. Its robots go on from where the world says they stand, with
   /// programs and controllers as they are here; messages of the time between are lost to them.
-  Status join(const WorldStep& world);
+  /// `obstacles`: as in AuthorityState.
+  Status join(const WorldStep& world, std::span<const ObstacleChange> obstacles);
   /// Whether this engine runs the robot.
   [[nodiscard]] bool is_local(RobotId robot) const noexcept;
 

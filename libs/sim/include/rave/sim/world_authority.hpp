@@ -21,6 +21,8 @@ struct AuthorityState {
   std::vector<RobotId> pinned;       ///< Who could not get out of a real robot's way; ascending.
   std::vector<ResizedRobot> scales;  ///< Of all bodies that are not as the spec says; ascending.
   std::uint64_t inputs = 0;          ///< How many have been asked for so far.
+  /// All changes of obstacles so far, in their order; those of the world are the last of them.
+  std::vector<ObstacleChange> obstacles;
 };
 
 /// Holds a world whose robots run on several hosts in lock-step: knows where all robots are, limits

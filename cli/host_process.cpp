@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host_process.hpp"
 
+#include <poll.h>
 #include <spawn.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstring>
-#include <thread>
 #include <utility>
 
 extern char** environ;
@@ -57,13 +60,21 @@ std::optional<int> HostProcess::ended() {
 }
 
 std::optional<int> HostProcess::wait(double longest_s) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(longest_s);
-  auto code = ended();
-  while (!code && std::chrono::steady_clock::now() < end) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    code = ended();
-  }
-  return code;
+  if (process_ < 0) return code_;
+  using Clock = std::chrono::steady_clock;
+  using Milliseconds = std::chrono::duration<double, std::milli>;
+  const auto end = Clock::now() + std::chrono::duration<double>(longest_s);
+  const int handle = static_cast<int>(::syscall(SYS_pidfd_open, process_, 0));
+  if (handle < 0) return ended();
+  ::pollfd gone{handle, POLLIN, 0};
+  int ready = 0;
+  // A signal of this process cuts the waiting short.
+  do {
+    const double left_ms = Milliseconds(end - Clock::now()).count();
+    ready = ::poll(&gone, 1, static_cast<int>(std::max(0.0, std::ceil(left_ms))));
+  } while (ready < 0 && errno == EINTR);
+  ::close(handle);
+  return ended();
 }
 
 void HostProcess::interrupt() const noexcept {

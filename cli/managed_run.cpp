@@ -137,6 +137,8 @@ Result<ManagedEnd> wait_for_hosts(const ManagedRun& run, const std::string& live
   }
   run.console.info("run", "no robot looks at others, so the hosts go by themselves");
   LiveManagerOutcome outcome;
+  // A look now and then: ends of processes, their restarts and a person's signal come by no one
+  // way.
   while (!run.stopping() && !run.hosts_ended()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }

@@ -15,8 +15,9 @@ function(rave_add_plugin name)
   endif()
   add_library(${name} MODULE ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE rave::robot $<$<BOOL:${ARG_VIRTUAL}>:rave::sim> ${ARG_DEPS})
-  # Line tables, so that a message about a crash can name the line.
-  target_compile_options(${name} PRIVATE -g1)
+  # Line tables, so that a message about a crash can name the line; and no symbols that keep the
+  # plug-in from being unloaded.
+  target_compile_options(${name} PRIVATE -g1 $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>)
   if(rave_SANITIZE)
     target_compile_options(${name} PRIVATE -fsanitize=${rave_SANITIZE})
     target_link_options(${name} PRIVATE -fsanitize=${rave_SANITIZE})

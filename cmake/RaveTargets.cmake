@@ -21,6 +21,8 @@ target_compile_options(rave_build_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
   -Wnon-virtual-dtor -Woverloaded-virtual -Wimplicit-fallthrough
   $<$<BOOL:${RAVE_WERROR}>:-Werror>
+  # A plug-in with a symbol of that kind is never unloaded.
+  $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>
   -ffile-prefix-map=${CMAKE_SOURCE_DIR}/=
   # ccache with a base folder (see tools/lib/build.sh) hands the compiler relative paths.
   -ffile-prefix-map=${rave_source_from_build}=)

@@ -63,7 +63,7 @@ TEST(Ros2Robot, ARobotThatIsKilledIsMarkedAndTheRunGoesOn) {
   run.await_state(drives);
   run.peer->tell("die");
   // The pose is stale after 0.5 s, and what reads a topic says so after 1 s.
-  std::this_thread::sleep_for(std::chrono::milliseconds(2500));
+  run.await_console("driver failed", 4);
   run.rave->interrupt();
   EXPECT_EQ(run.rave->wait(), 1) << "a loss is a problem of the run";
   const Json result = run.result();

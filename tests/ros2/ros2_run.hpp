@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -57,6 +58,14 @@ class Ros2Run {
     EXPECT_TRUE(wanted(now)) << now.dump();
     return now;
   }
+  /// Until the console has said something so many times.
+  void await_console(const std::string& text, int times) const {
+    const auto end = std::chrono::steady_clock::now() + testing::kLong;
+    while (said(text) < times && std::chrono::steady_clock::now() < end) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    EXPECT_GE(said(text), times) << text;
+  }
   [[nodiscard]] std::string file(const std::string& name) const {
     return (folder_ / name).string();
   }
@@ -65,6 +74,14 @@ class Ros2Run {
   std::unique_ptr<RaveRun> rave;
 
  private:
+  [[nodiscard]] int said(const std::string& text) const {
+    std::ifstream stream(file("out/console.log"));
+    const std::string log{std::istreambuf_iterator<char>(stream), {}};
+    int times = 0;
+    for (auto at = log.find(text); at != std::string::npos; at = log.find(text, at + 1)) ++times;
+    return times;
+  }
+
   std::filesystem::path folder_;
 };
 

@@ -186,6 +186,7 @@ struct Engine::Impl {
   Status apply(const WorldStep& world, bool was_there, PhaseTimer& phase);
   [[nodiscard]] Status check(const WorldStep& world) const;
   Status make_changes(const WorldStep& world);
+  Status catch_up(const WorldStep& world, const AuthorityState& state);
   void put_obstacle(const ObstacleChange& change);
   void do_input(const WorldInput& input);
   void adopt(const WorldStep& world);

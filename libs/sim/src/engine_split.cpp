@@ -104,21 +104,33 @@ Status Engine::apply(const WorldStep& world) {
   return engine.apply(world, true, phase);
 }
 
-Status Engine::join(const WorldStep& world, std::span<const ObstacleChange> obstacles) {
+Status Engine::join(const WorldStep& world, const AuthorityState& state) {
   Impl& engine = *impl_;
   const bool later = engine.host && engine.host->proposed && world.step > engine.step;
   if (!later) return apply(world);
+  RAVE_TRY(check_taken_over(engine.spec, world, state));
   PhaseTimer phase(engine.spec.phase_clock, engine.phase_times);
   engine.step = world.step;
   engine.now = engine.step_time(world.step);
-  while (engine.host->obstacle_changes + world.obstacles.size() < obstacles.size()) {
-    engine.put_obstacle(obstacles[engine.host->obstacle_changes]);
-  }
-  RAVE_TRY(check_world_step(engine.spec, world));
+  RAVE_TRY(engine.catch_up(world, state));
   RAVE_TRY(engine.take_newer_samples());
   // The authority has had what it needs of that time from nobody, and needs it no more.
   engine.host->samples.clear();
   return engine.apply(world, false, phase);
+}
+
+/// Makes the changes that this host was not there for; those of the world itself come with it.
+Status Engine::Impl::catch_up(const WorldStep& world, const AuthorityState& state) {
+  while (host->obstacle_changes + world.obstacles.size() < state.obstacles.size()) {
+    put_obstacle(state.obstacles[host->obstacle_changes]);
+  }
+  for (const ResizedRobot& resized : state.scales) {
+    if (truth.scale_of(resized.robot) == resized.scale) continue;
+    RAVE_TRY(truth.put_scale(resized.robot, resized.scale));
+    body_changed(resized.robot);
+    tell_program_of_body(resized.robot);
+  }
+  return check_world_step(spec, world);
 }
 
 /// What hardware has said since the step was proposed.

@@ -255,4 +255,19 @@ Status check_world_step(const EngineSpec& spec, const WorldStep& world) {
   return check_sent(spec, world.step, world.sent, is_any);
 }
 
+Status check_taken_over(const EngineSpec& spec, const WorldStep& world,
+                        const AuthorityState& state) {
+  WorldStep bare = world;
+  bare.obstacles.clear();
+  RAVE_TRY(check_world_step(spec, bare));
+  const std::size_t robots = spec.robots.size();
+  const bool pinned = std::all_of(state.pinned.begin(), state.pinned.end(),
+                                  [&](RobotId robot) { return robot.value() < robots; });
+  const bool sizes = std::all_of(state.scales.begin(), state.scales.end(), [&](const auto& robot) {
+    return robot.robot.value() < robots && std::isfinite(robot.scale);
+  });
+  if (pinned && sizes) return {};
+  return fail(ErrorCode::kInvalidArgument, "a state with robots that do not exist");
+}
+
 }  // namespace rave::sim

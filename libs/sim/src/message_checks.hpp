@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "rave/sim/authority_state.hpp"
 #include "rave/sim/engine_spec.hpp"
 #include "rave/sim/host_report.hpp"
 #include "rave/sim/world_step.hpp"
@@ -24,5 +25,10 @@ Status check_report(const EngineSpec& spec, const HostRobots& own,
 
 /// The same of the authority's message.
 Status check_world_step(const EngineSpec& spec, const WorldStep& world);
+
+/// The same of what somebody takes over who was not there before: the obstacles of the world are
+/// left out, since they follow those of the state.
+Status check_taken_over(const EngineSpec& spec, const WorldStep& world,
+                        const AuthorityState& state);
 
 }  // namespace rave::sim

@@ -340,17 +340,7 @@ AuthorityState WorldAuthority::state() const {
 
 Status WorldAuthority::resume(const WorldStep& world, const AuthorityState& state) {
   Impl& authority = *impl_;
-  // Its obstacles are among those of the state.
-  WorldStep bare = world;
-  bare.obstacles.clear();
-  RAVE_TRY(check_world_step(authority.spec, bare));
-  const std::size_t robots = authority.spec.robots.size();
-  const auto is_there = [robots](RobotId robot) { return robot.value() < robots; };
-  if (!std::all_of(state.pinned.begin(), state.pinned.end(), is_there) ||
-      !std::all_of(state.scales.begin(), state.scales.end(),
-                   [&](const ResizedRobot& robot) { return is_there(robot.robot); })) {
-    return fail(ErrorCode::kInvalidArgument, "a state with robots that do not exist");
-  }
+  RAVE_TRY(check_taken_over(authority.spec, world, state));
   authority.begin();
   for (const ResizedRobot& resized : state.scales) {
     RAVE_TRY(authority.truth.put_scale(resized.robot, resized.scale));

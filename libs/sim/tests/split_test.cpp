@@ -417,8 +417,12 @@ TEST(Split, TheOthersGoOnWithoutAHostAndItComesBack) {
   run.hosts[kHost] = make_engine(std::move(spec));
   ASSERT_TRUE(run.hosts[kHost]->propose(run.reports[kHost]));
   EXPECT_EQ(run.reports[kHost].step, 0U);
-  const Status joined = run.hosts[kHost]->join(run.world, run.authority->state().obstacles);
+  const Status joined = run.hosts[kHost]->join(run.world, run.authority->state());
   ASSERT_TRUE(joined) << joined.error().text();
+  // It grew before this host was there.
+  EXPECT_NE(scene(1).world.robots[kGrowing.value()].radius_m(),
+            run.hosts[0]->body_radius_m(kGrowing));
+  EXPECT_EQ(run.hosts[kHost]->body_radius_m(kGrowing), run.hosts[0]->body_radius_m(kGrowing));
   ASSERT_TRUE(run.hosts[0]->apply(run.world));
   ASSERT_TRUE(run.hosts[2]->apply(run.world));
   ASSERT_TRUE(run.exchange());

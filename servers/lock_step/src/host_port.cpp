@@ -212,6 +212,7 @@ Result<HostPort::Answer> HostPort::exchange(const sim::HostReport& report, std::
   }
 }
 
+const sim::AuthorityState& HostPort::authority() const noexcept { return impl_->authority; }
 const HostPort::Ending& HostPort::ending() const noexcept { return impl_->ending; }
 
 void HostPort::farewell(const sim::HostReport& report, std::uint64_t hash) {

@@ -59,7 +59,7 @@ Result<bool> take_step(Journey& journey) {
     journey.problems.push_back(std::move(text));
   }
   if (journey.world.last) return false;
-  RAVE_TRY(journey.engine.join(journey.world, {}));
+  RAVE_TRY(journey.engine.join(journey.world, journey.port.authority()));
   return true;
 }
 

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "rave/base/hash.hpp"
+#include "rave/sim/authority_state.hpp"
 #include "rave/sim/engine_spec.hpp"
+#include "rave/sim/event.hpp"
 #include "rave/sim/host_report.hpp"
 #include "rave/sim/reported_pose.hpp"
 #include "rave/sim/world_input.hpp"
@@ -16,38 +18,6 @@
 #include "rave/world/snapshot.hpp"
 
 namespace rave::sim {
-
-enum class EventKind : std::uint32_t {
-  kContact = 1,         ///< A robot began to touch something.
-  kPinned = 2,          ///< A simulated robot cannot get out of a real robot's way.
-  kPoseStale = 3,       ///< A reported pose is older than its limit.
-  kPoseBack = 4,        ///< ... and came again.
-  kProgramFailed = 5,   ///< A program threw, crashed or hung; its robot stops.
-  kDriverFailed = 6,    ///< A driver threw or lost its device.
-  kDriverBack = 7,      ///< ... and its device works again.
-  kGuardSlowed = 20,    ///< The guard began to slow a robot down.
-  kGuardStopped = 21,   ///< The guard began to make a robot stand that was told to move.
-  kStopped = 22,        ///< Somebody stopped a robot; latched.
-  kReleased = 23,       ///< ... and let it go again.
-  kArmed = 24,          ///< Somebody armed a robot.
-  kChanged = 25,        ///< Parameters of a robot were changed.
-  kChangeRefused = 26,  ///< A change of the scenario that could not be made.
-  kObstacleAdded = 27,  ///< `other` has come; no robot is concerned.
-  kObstacleMoved = 28,
-  kObstacleRemoved = 29,
-  kCaptured = 30,  ///< The host saw that a robot caught another; no part of the hash.
-};
-[[nodiscard]] std::string_view to_string(EventKind kind) noexcept;
-
-/// Something that happened to a robot in one step, or to the world.
-struct Event {
-  std::uint64_t step = 0;
-  RobotId robot;  ///< None: it concerns the world.
-  EventKind kind = EventKind::kContact;
-  BodyId other;              ///< Contacts and pins: with whom. Of obstacles: which one.
-  std::string text;          ///< For people. Not part of the run hash.
-  std::uint32_t detail = 0;  ///< Guard: the GuardLimit.
-};
 
 /// The latest sample of one sensor of one robot, for observers and records. Views into the engine.
 struct SensorSample {
@@ -116,8 +86,9 @@ class Engine {
   /// As apply(), but the world may be of a later step than the one that was proposed: the others
   /// went on while this host was away. Its robots go on from where the world says they stand, with
   /// programs and controllers as they are here; messages of the time between are lost to them.
-  /// `obstacles`: as in AuthorityState.
-  Status join(const WorldStep& world, std::span<const ObstacleChange> obstacles);
+  /// `state`: what the authority knew beside that world; sizes and obstacles count. Errors as of
+  /// apply().
+  Status join(const WorldStep& world, const AuthorityState& state);
   /// Whether this engine runs the robot.
   [[nodiscard]] bool is_local(RobotId robot) const noexcept;
 

@@ -7,23 +7,12 @@
 #include <vector>
 
 #include "rave/base/hash.hpp"
+#include "rave/sim/authority_state.hpp"
 #include "rave/sim/engine.hpp"
 #include "rave/sim/host_report.hpp"
 #include "rave/sim/world_step.hpp"
 
 namespace rave::sim {
-
-/// What an authority knows beside the last WorldStep that it made. With both another one can go on
-/// in its place, to the bit.
-struct AuthorityState {
-  RunHash hash;                      ///< With what has been noted in the step of the world.
-  std::vector<Event> events;         ///< Noted so far in that step; their texts do not matter.
-  std::vector<RobotId> pinned;       ///< Who could not get out of a real robot's way; ascending.
-  std::vector<ResizedRobot> scales;  ///< Of all bodies that are not as the spec says; ascending.
-  std::uint64_t inputs = 0;          ///< How many have been asked for so far.
-  /// All changes of obstacles so far, in their order; those of the world are the last of them.
-  std::vector<ObstacleChange> obstacles;
-};
 
 /// Holds a world whose robots run on several hosts in lock-step: knows where all robots are, limits
 /// their motion as the engine of a one-process run does, and passes on what they send. It runs no

@@ -10,6 +10,7 @@
 #include "rave/base/result.hpp"
 #include "rave/bus/bus.hpp"
 #include "rave/lock_step/introduction.hpp"
+#include "rave/sim/authority_state.hpp"
 #include "rave/sim/host_report.hpp"
 #include "rave/sim/world_step.hpp"
 
@@ -41,6 +42,8 @@ class HostPort {
   [[nodiscard]] Result<Answer> exchange(const sim::HostReport& report, std::uint64_t hash,
                                         sim::WorldStep& world,
                                         const std::function<bool()>& stopping);
+  /// What the authority knew beside the last world.
+  [[nodiscard]] const sim::AuthorityState& authority() const noexcept;
   /// After kEnded: whether the run ended as it should, and what its manager says of it.
   struct Ending {
     bool good = false;

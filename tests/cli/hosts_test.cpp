@@ -3,8 +3,10 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 #include "shared_world.hpp"
+#include "wrong_host.hpp"
 
 namespace rave::cli_test {
 namespace {
@@ -236,6 +238,40 @@ TEST_F(Hosts, WhoDoesNotFitIsToldSo) {
   const Ended second = run_rave(words);
   EXPECT_EQ(second.exit_code, 2);
   EXPECT_NE(second.err.find("has an environment manager already"), std::string::npos) << second.err;
+}
+
+TEST_F(Hosts, WhatNobodyCanUseIsRefusedAndTheRunDoesNotEnd) {
+  const std::string alone = hash_alone("crowd.yaml", {});
+  const bus::RunId run = bus::RunId::random();
+  const Words words = {"--run", run.text()};
+  start("env", "env", "crowd.yaml", words);
+  auto wrong = WrongHost::open(run, apart(), 1);
+  ASSERT_TRUE(wrong) << wrong.error().text();
+  wait_until([&] { return (*wrong)->introduce(); }, "the manager is there");
+  sim::HostReport report;
+  report.host = 1;
+  report.poses.push_back({RobotId(0), {}});
+  const auto say_until = [&](const std::string& answer) {
+    wait_until(
+        [&] {
+          EXPECT_TRUE((*wrong)->say(report));
+          return console("env").find(answer) != std::string::npos;
+        },
+        answer);
+  };
+  say_until("host 1: robot 0");
+  report.poses.clear();
+  report.step = 1;
+  report.proposals = {{20}, {std::numeric_limits<double>::quiet_NaN()}, {0}, {0}};
+  say_until("vx_mps[0] is nan");
+  start_host("one", "crowd.yaml", words);
+  wait_for_line("env", "host `one` is here");
+  EXPECT_EQ(console("env").find("the run"), std::string::npos) << console("env");
+  wrong->reset();
+  wait_for_line("env", "host `two` is gone before the run began");
+  start_host("two", "crowd.yaml", words);
+  EXPECT_EQ(end_of("env"), 0) << console("env");
+  EXPECT_EQ(result("env")["hash"], alone);
 }
 
 TEST_F(Hosts, ASecondProcessForAHostIsRefusedAndTheFirstGoesOn) {

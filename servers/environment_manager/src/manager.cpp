@@ -95,8 +95,10 @@ class Run {
 
 std::string Run::waited_for() const {
   const bool all = options_.on_lost_host == LostHost::kWait;
-  return join_names(
-      names_of(seats_, [all](const Seat& seat) { return seat.needed(all) && !seat.reported; }));
+  const auto names =
+      names_of(seats_, [all](const Seat& seat) { return seat.needed(all) && !seat.reported; });
+  if (!names.empty() || complete()) return join_names(names);
+  return fmt::format("somebody who knows the world of step {}", newest_report_ - 1);
 }
 
 bool Run::complete() const {
@@ -217,6 +219,13 @@ Status Run::hear(const bus::HostReport& message) {
   }
   if (seat.reported && begun_) return {};  // it was sent twice
   lock_step::read(message, seat.report);
+  // What the authority cannot use is no reason to end the run of the others. Before the run begins
+  // it does not know yet which step comes next.
+  if (const Status usable = begun_ || message.step == 0 ? authority_->check(seat.report) : Status{};
+      !usable) {
+    board_->refuse(message, usable.error().text());
+    return {};
+  }
   seat.hash = message.hash;
   seat.reported = true;
   return {};
@@ -324,7 +333,7 @@ Status Run::take_over() {
   step_ = world_.step + 1;
   RAVE_TRY(authority_->resume(world_, state_));
   log(LogLevel::kWarning, "takes over from a manager that is gone, at step {}", step_);
-  for (Seat& seat : seats_) seat.reported = seat.reported && seat.report.step == step_;
+  for (Seat& seat : seats_) seat.reported = seat.reported && authority_->check(seat.report);
   return board_->send(world_, state_, seats_);
 }
 

@@ -93,7 +93,7 @@ TEST_F(Gps, WhatIsNoFixOrNotOfThisWorldIsRefused) {
   message.latitude = 0;
   message.longitude = 0;
   EXPECT_EQ(track.take(message).error().message,
-            "the fix at latitude 0 and longitude 0 is 4744 km from `geo_origin`");
+            "the fix at latitude 0 and longitude 0 is 4716 km from `geo_origin`");
 }
 
 TEST_F(Gps, UnknownCovarianceAndAltitudeAreNoHindrance) {

@@ -60,8 +60,9 @@ void Graph::note(const Info& info) {
   std::string all;
   for (const auto& node : info.node_entities_info_seq()) {
     all += all.empty() ? "" : ",";
-    all += "{\"participant\":\"" + participant + "\",\"namespace\":\"" + node.node_namespace() +
-           "\",\"name\":\"" + node.node_name() + "\",\"readers\":" + list(node.reader_gid_seq()) +
+    all += "{\"participant\":\"" + participant + "\",\"namespace\":\"" +
+           std::string(node.node_namespace().c_str()) + "\",\"name\":\"" +
+           node.node_name().c_str() + "\",\"readers\":" + list(node.reader_gid_seq()) +
            ",\"writers\":" + list(node.writer_gid_seq()) + "}";
   }
   const std::lock_guard lock(mutex_);

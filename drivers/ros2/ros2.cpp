@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/robot/plugin_entry.hpp"
 #include "ros2/ros2_commands.hpp"
+#include "ros2/ros2_gps.hpp"
 #include "ros2/ros2_sensors.hpp"
 #include "ros2/ros2_velocity.hpp"
 
@@ -19,8 +20,8 @@ Description describe(const char* name, const char* summary, std::span<const Para
 }  // namespace rave::ros2_driver
 
 RAVE_PLUGIN(
-    "ros2 ros2_laser ros2_range ros2_odometry ros2_pose ros2_tf_pose ros2_odometry_pose ros2_imu "
-    "ros2_battery ros2_command ros2_goal ros2_velocity") {
+    "ros2 ros2_laser ros2_range ros2_odometry ros2_pose ros2_tf_pose ros2_odometry_pose ros2_gps "
+    "ros2_imu ros2_battery ros2_command ros2_goal ros2_velocity") {
   using namespace rave::ros2_driver;
   rave::Description device =
       describe("ros2", "A robot that speaks ROS 2, on a network of DDS.", kDeviceParams);
@@ -50,6 +51,11 @@ RAVE_PLUGIN(
       registry,
       describe("ros2_odometry_pose", "The pose of a robot out of its odometry (nav_msgs/Odometry).",
                kOdometryParams));
+  rave::add_sensor<Ros2Gps>(
+      registry,
+      describe("ros2_gps",
+               "The pose of a robot out of its satellite navigation (sensor_msgs/NavSatFix).",
+               kGpsParams));
   rave::add_sensor<Ros2Imu>(
       registry, describe("ros2_imu",
                          "Attitude, rates of turn and accelerations of a robot (sensor_msgs/Imu).",

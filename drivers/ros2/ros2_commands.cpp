@@ -8,18 +8,9 @@ namespace rave::ros2_driver {
 
 Status Ros2Command::prepare(const Params& params, HardwareDeclaration& /*declaration*/) {
   allow_silence();
-  RAVE_TRY_ASSIGN(const std::string name, device().topic(params.text("topic")));
-  const ros2::Participant& participant = device().participant();
-  if (params.text("message") == "twist_stamped") {
-    using Stamped = ros2::Reader<ros2::TwistStamped>;
-    RAVE_TRY_ASSIGN(auto reader, Stamped::create(participant, name, ros2::kReadNewest));
-    stamped_.emplace(std::move(reader));
-  } else {
-    using Plain = ros2::Reader<ros2::Twist>;
-    RAVE_TRY_ASSIGN(auto reader, Plain::create(participant, name, ros2::kReadNewest));
-    plain_.emplace(std::move(reader));
-  }
-  return {};
+  const std::string_view topic = params.text("topic");
+  return params.text("message") == "twist_stamped" ? make_reader(topic, stamped_)
+                                                   : make_reader(topic, plain_);
 }
 
 void Ros2Command::take(const ros2::Twist& twist, std::int64_t stamp_ns) {
@@ -34,15 +25,8 @@ void Ros2Command::drain() {
 }
 
 void Ros2Command::look_after(TopicState& state) {
-  const auto look = [&](auto& reader) {
-    state.refused = reader.refused();
-    if (!reader.trouble().empty()) state.trouble = reader.trouble();
-    if (auto text = reader.take_mismatch()) {
-      warn(fmt::format("`{}`: {}", reader.topic(), *text), state);
-    }
-  };
-  if (plain_) look(*plain_);
-  if (stamped_) look(*stamped_);
+  if (plain_) look_at(*plain_, state);
+  if (stamped_) look_at(*stamped_, state);
 }
 
 std::string Ros2Command::explain_silence() const {

@@ -74,6 +74,7 @@ void Ros2Device::run(const std::stop_token& stop) {
       const std::lock_guard lock(users_mutex_);
       for (TopicUser* const user : users_) due = std::min(due, user->attend(now));
     }
+    participant_->announce();
     waiter_->wait(Duration{line::until(due).count() * 1'000'000});
   }
 }

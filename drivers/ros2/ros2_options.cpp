@@ -24,6 +24,11 @@ bus::Multicast multicast_of(std::string_view word) {
   return word == "discovery" ? bus::Multicast::kDiscovery : bus::Multicast::kOff;
 }
 
+ros2::NodeForm form_of(std::string_view word) {
+  if (word == "humble") return ros2::NodeForm::kHumble;
+  return word == "iron" ? ros2::NodeForm::kIron : ros2::NodeForm::kNone;
+}
+
 }  // namespace
 
 Result<DeviceOptions> read_options(const Params& params, const char* robot) {
@@ -33,7 +38,9 @@ Result<DeviceOptions> read_options(const Params& params, const char* robot) {
   options.network.interface = params.text("interface");
   options.network.peers = split(params.text("peers"));
   options.network.multicast = multicast_of(params.text("multicast"));
+  options.network.nodes = form_of(params.text("nodes"));
   options.name_space = params.text("namespace");
+  options.network.node_namespace = options.name_space;
   options.latency_s = params.number("latency_s");
   options.start_timeout_s = params.number("start_timeout_s");
   options.lost_after_s = params.number("lost_after_s");

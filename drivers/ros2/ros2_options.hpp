@@ -13,7 +13,9 @@ inline constexpr std::array<const char*, 3> kMulticasts{"none", "discovery", "da
 inline constexpr std::array<const char*, 3> kVelocityMessages{"auto", "twist", "twist_stamped"};
 inline constexpr std::array<const char*, 2> kCommandMessages{"twist", "twist_stamped"};
 
-inline constexpr std::array<ParamSpec, 8> kDeviceParams{
+inline constexpr std::array<const char*, 3> kNodeForms{"none", "humble", "iron"};
+
+inline constexpr std::array<ParamSpec, 9> kDeviceParams{
     integer_param("domain", 0, 0, 230, "Domain of the robot: its ROS_DOMAIN_ID."),
     text_param("namespace", "", "Namespace of the robot's topics, such as `/cart`."),
     text_param("interface", "127.0.0.1",
@@ -21,6 +23,9 @@ inline constexpr std::array<ParamSpec, 8> kDeviceParams{
     text_param("peers", "", "Addresses to look for the robot at, between commas."),
     choice_param("multicast", "none", kMulticasts,
                  "What is sent by multicast: nothing, what finds the robot, or data as well."),
+    choice_param("nodes", "iron", kNodeForms,
+                 "How nodes of ROS 2 learn of this one: as of Iron (2023) and later, as of Humble "
+                 "and before, or not at all."),
     number_param("latency_s", "s", 0, 0, 1,
                  "Known smallest time from the stamp of a message to its arrival."),
     number_param("start_timeout_s", "s", 5, 0.1, 600,
@@ -55,6 +60,23 @@ inline constexpr std::array<ParamSpec, 3> kOdometryParams{topic_param("odom"), k
                                                           kHeadingSigma};
 inline constexpr std::array<ParamSpec, 3> kPoseParams{topic_param("pose"), kPositionSigma,
                                                       kHeadingSigma};
+inline constexpr std::array<ParamSpec, 8> kGpsParams{
+    topic_param("fix"),
+    text_param("imu_topic", "",
+               "Topic of an inertial unit whose orientation is the heading, 0 in the east; empty: "
+               "the heading is that of the way."),
+    numbers_param(
+        "geo_origin", "", -360, 1e5,
+        "Of the world: latitude, longitude (deg), altitude (m), yaw of x from east (deg); "
+        "without it that of the scenario."),
+    number_param("position_sigma_m", "m", 2.5, 0, 1000,
+                 "Standard deviation of x and y where messages do not have it."),
+    kHeadingSigma,
+    number_param("course_distance_m", "m", 0.5, 0.01, 1000,
+                 "Without `imu_topic`: way between two fixes from which a heading follows."),
+    number_param("antenna_x_m", "m", 0, -100, 100, "Where the antenna is on the body, ahead."),
+    number_param("antenna_y_m", "m", 0, -100, 100, "The same, to the left."),
+};
 inline constexpr std::array<ParamSpec, 6> kTfPoseParams{
     text_param("topic", "/tf", "Topic of the transforms that change."),
     text_param("static_topic", "/tf_static", "Topic of those that never change."),

@@ -6,12 +6,6 @@
 #include "rave/ros2/convert.hpp"
 
 namespace rave::ros2_driver {
-namespace {
-
-/// For sensors that need no more of the first message than that it comes.
-constexpr auto kAny = [](const auto& /*message*/) { return true; };
-
-}  // namespace
 
 Status Ros2Laser::prepare(const Params& params, HardwareDeclaration& declaration) {
   RAVE_TRY(begin_reading(params, [this](const ros2::LaserScan& scan) {
@@ -51,73 +45,12 @@ Status Ros2Range::take(const ros2::RangeReading& message) {
   return {};
 }
 
-Status Ros2Odometry::prepare(const Params& params, HardwareDeclaration& /*declaration*/) {
-  doubt_ = read_doubt(params);
-  return begin_reading(params, kAny);
-}
-
-Status Ros2Odometry::take(const ros2::Odometry& message) {
-  RAVE_TRY_ASSIGN(const OdometryReading reading, odometry_of(message, doubt_));
-  publish(ros2::nanoseconds(message.header.stamp), &reading, 1);
-  return {};
-}
-
-Status Ros2Pose::prepare(const Params& params, HardwareDeclaration& /*declaration*/) {
-  doubt_ = read_doubt(params);
-  return begin_reading(params, kAny);
-}
-
-Status Ros2Pose::take(const ros2::PoseStamped& message) {
-  RAVE_TRY_ASSIGN(const PoseReading reading, pose_of(message, doubt_));
-  publish(ros2::nanoseconds(message.header.stamp), &reading, 1);
-  return {};
-}
-
-Status Ros2OdometryPose::prepare(const Params& params, HardwareDeclaration& /*declaration*/) {
-  doubt_ = read_doubt(params);
-  return begin_reading(params, kAny);
-}
-
-Status Ros2OdometryPose::take(const ros2::Odometry& message) {
-  RAVE_TRY_ASSIGN(const PoseReading reading, pose_of(message, doubt_));
-  publish(ros2::nanoseconds(message.header.stamp), &reading, 1);
-  return {};
-}
-
-Status Ros2Imu::prepare(const Params& params, HardwareDeclaration& declaration) {
-  declaration.capacity = 10;
-  return begin_reading(params, kAny);
-}
-
-Status Ros2Imu::take(const ros2::Imu& message) {
-  const auto values = imu_values(message);
-  publish(ros2::nanoseconds(message.header.stamp), values.data(), values.size());
-  return {};
-}
-
-Status Ros2Battery::prepare(const Params& params, HardwareDeclaration& declaration) {
-  declaration.capacity = 6;
-  return begin_reading(params, kAny);
-}
-
-Status Ros2Battery::take(const ros2::BatteryState& message) {
-  const auto values = battery_values(message);
-  publish(ros2::nanoseconds(message.header.stamp), values.data(), values.size());
-  return {};
-}
-
 Status Ros2TfPose::prepare(const Params& params, HardwareDeclaration& /*declaration*/) {
   doubt_ = read_doubt(params);
   map_frame_ = params.text("map_frame");
   base_frame_ = params.text("base_frame");
-  const ros2::Participant& participant = device().participant();
-  RAVE_TRY_ASSIGN(const std::string name, device().topic(params.text("topic")));
-  RAVE_TRY_ASSIGN(const std::string static_name, device().topic(params.text("static_topic")));
-  using Tf = ros2::Reader<ros2::TfMessage>;
-  RAVE_TRY_ASSIGN(auto moving, Tf::create(participant, name, ros2::kReadMany));
-  RAVE_TRY_ASSIGN(auto constant, Tf::create(participant, static_name, ros2::kReadKept));
-  moving_.emplace(std::move(moving));
-  static_.emplace(std::move(constant));
+  RAVE_TRY(make_reader(params.text("topic"), moving_, ros2::kReadMany));
+  RAVE_TRY(make_reader(params.text("static_topic"), static_, ros2::kReadKept));
   return await_chain();
 }
 
@@ -161,13 +94,8 @@ void Ros2TfPose::drain() {
 }
 
 void Ros2TfPose::look_after(TopicState& state) {
-  state.refused = moving_->refused() + static_->refused();
-  for (auto* const reader : {&*moving_, &*static_}) {
-    if (!reader->trouble().empty()) state.trouble = reader->trouble();
-    if (auto text = reader->take_mismatch()) {
-      warn(fmt::format("`{}`: {}", reader->topic(), *text), state);
-    }
-  }
+  look_at(*moving_, state);
+  look_at(*static_, state);
 }
 
 std::string Ros2TfPose::explain_silence() const {

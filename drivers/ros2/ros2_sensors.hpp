@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "rave/ros2/convert.hpp"
 #include "ros2/readings.hpp"
 #include "ros2/tf_tree.hpp"
 #include "ros2/topic_sensor.hpp"
@@ -35,40 +36,59 @@ class Ros2Range final : public OneTopicSensor<ros2::RangeReading> {
   double bearing_rad_ = 0;
 };
 
-class Ros2Odometry final : public OneTopicSensor<ros2::Odometry> {
+/// A message that is one reading, whose uncertainty is in the parameters where it has none itself.
+template <ReadingKind kKind, class Message, class Reading,
+          Result<Reading> (*kConvert)(const Message&, const Doubt&)>
+class Ros2State final : public OneTopicSensor<Message> {
  public:
-  static constexpr ReadingKind kReading = ReadingKind::kOdometry;
+  static constexpr ReadingKind kReading = kKind;
 
  private:
-  Status prepare(const Params& params, HardwareDeclaration& declaration) override;
-  Status take(const ros2::Odometry& message) override;
+  Status prepare(const Params& params, HardwareDeclaration& /*declaration*/) override {
+    doubt_ = read_doubt(params);
+    return this->begin_reading(params);
+  }
+  Status take(const Message& message) override {
+    RAVE_TRY_ASSIGN(const Reading reading, kConvert(message, doubt_));
+    this->publish(ros2::nanoseconds(message.header.stamp), &reading, 1);
+    return {};
+  }
 
   Doubt doubt_;
 };
 
+using Ros2Odometry =
+    Ros2State<ReadingKind::kOdometry, ros2::Odometry, OdometryReading, odometry_of>;
 /// The pose that a motion capture or a localisation writes.
-class Ros2Pose final : public OneTopicSensor<ros2::PoseStamped> {
- public:
-  static constexpr ReadingKind kReading = ReadingKind::kPose;
-
- private:
-  Status prepare(const Params& params, HardwareDeclaration& declaration) override;
-  Status take(const ros2::PoseStamped& message) override;
-
-  Doubt doubt_;
-};
-
+using Ros2Pose = Ros2State<ReadingKind::kPose, ros2::PoseStamped, PoseReading, pose_of>;
 /// The pose out of odometry, for robots that have nothing better.
-class Ros2OdometryPose final : public OneTopicSensor<ros2::Odometry> {
+using Ros2OdometryPose = Ros2State<ReadingKind::kPose, ros2::Odometry, PoseReading, pose_of>;
+
+/// A message that is so many values.
+template <class Message, std::size_t kCount,
+          std::array<double, kCount> (*kConvert)(const Message&) noexcept>
+class Ros2Values final : public OneTopicSensor<Message> {
  public:
-  static constexpr ReadingKind kReading = ReadingKind::kPose;
+  static constexpr ReadingKind kReading = ReadingKind::kValues;
 
  private:
-  Status prepare(const Params& params, HardwareDeclaration& declaration) override;
-  Status take(const ros2::Odometry& message) override;
-
-  Doubt doubt_;
+  Status prepare(const Params& params, HardwareDeclaration& declaration) override {
+    declaration.capacity = kCount;
+    return this->begin_reading(params);
+  }
+  Status take(const Message& message) override {
+    const auto values = kConvert(message);
+    this->publish(ros2::nanoseconds(message.header.stamp), values.data(), kCount);
+    return {};
+  }
 };
+
+/// Ten values: orientation x, y, z, w; rate of turn about x, y, z (rad/s); acceleration along them
+/// (m/s^2, gravity included). NaN: not measured.
+using Ros2Imu = Ros2Values<ros2::Imu, 10, imu_values>;
+/// Six values: charge 0 to 1, V, A (negative: discharging), Ah, Ah of capacity, degrees Celsius.
+/// NaN: not measured.
+using Ros2Battery = Ros2Values<ros2::BatteryState, 6, battery_values>;
 
 /// The pose as the chain of transforms from the map to the robot's body.
 class Ros2TfPose final : public TopicSensor {
@@ -94,28 +114,6 @@ class Ros2TfPose final : public TopicSensor {
   std::optional<ros2::Reader<ros2::TfMessage>> static_;
   TfTree tree_;
   std::int64_t newest_ns_ = 0;
-};
-
-/// Ten values: orientation x, y, z, w; rate of turn about x, y, z (rad/s); acceleration along them
-/// (m/s^2, gravity included). NaN: not measured.
-class Ros2Imu final : public OneTopicSensor<ros2::Imu> {
- public:
-  static constexpr ReadingKind kReading = ReadingKind::kValues;
-
- private:
-  Status prepare(const Params& params, HardwareDeclaration& declaration) override;
-  Status take(const ros2::Imu& message) override;
-};
-
-/// Six values: charge 0 to 1, V, A (negative: discharging), Ah, Ah of capacity, degrees Celsius.
-/// NaN: not measured.
-class Ros2Battery final : public OneTopicSensor<ros2::BatteryState> {
- public:
-  static constexpr ReadingKind kReading = ReadingKind::kValues;
-
- private:
-  Status prepare(const Params& params, HardwareDeclaration& declaration) override;
-  Status take(const ros2::BatteryState& message) override;
 };
 
 }  // namespace rave::ros2_driver

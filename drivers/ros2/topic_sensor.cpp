@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace rave::ros2_driver {
 
@@ -29,6 +30,7 @@ Status TopicSensor::open(SampleSink& sink) {
     last_ = line::host_now();
     last_stamp_ns_ = std::numeric_limits<std::int64_t>::min();
     lost_ = false;
+    alive_ = false;
   }
   for (const dds_entity_t reader : readers()) {
     RAVE_TRY_ASSIGN(const dds_entity_t condition, device_->waiter().watch(reader));
@@ -49,11 +51,11 @@ void TopicSensor::close() {
 
 line::HostTime TopicSensor::attend(line::HostTime now) {
   const std::lock_guard lock(mutex_);
-  const std::uint64_t before = state_.samples;
   drain();
+  state_.refused = 0;
   look_after(state_);
   if (may_be_silent_) return line::HostTime::max();
-  if (state_.samples != before) {
+  if (std::exchange(alive_, false)) {
     device_->heard(true);
     if (lost_) sink_->recover();
     lost_ = false;
@@ -76,6 +78,7 @@ void TopicSensor::publish(std::int64_t stamp_ns, const void* records, std::uint3
   const StreamClock::Taken taken = clock_.take(stamp_ns, line::host_seconds(now));
   if (!taken.good) return;
   last_ = now;
+  alive_ = true;
   if (state_.samples++ == 0) {
     first_ = now;
   } else if (now > first_) {
@@ -86,6 +89,11 @@ void TopicSensor::publish(std::int64_t stamp_ns, const void* records, std::uint3
   const SimTime moment = line::run_stamp(*sink_, taken.host_s - device_->options().latency_s);
   last_stamp_ns_ = std::max(moment.ns, last_stamp_ns_);
   (void)sink_->publish(SimTime{last_stamp_ns_}, records, count);
+}
+
+void TopicSensor::note_alive() {
+  last_ = line::host_now();
+  alive_ = true;
 }
 
 void TopicSensor::warn(std::string text, TopicState& state) const {

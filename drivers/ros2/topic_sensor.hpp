@@ -52,6 +52,28 @@ class TopicSensor : public HardwareSensor, public TopicUser {
   [[nodiscard]] Ros2Device& device() const noexcept { return *device_; }
   /// From drain(): records of a message with this stamp. Old ones are dropped.
   void publish(std::int64_t stamp_ns, const void* records, std::uint32_t count);
+  /// From drain(): something came that is no reading, but nobody is lost either.
+  void note_alive();
+  /// Makes a reader of a topic in the device's namespace. Errors: those of Ros2Device::topic() and
+  /// ros2::Reader::create().
+  template <class Message>
+  Status make_reader(std::string_view topic, std::optional<ros2::Reader<Message>>& reader,
+                     const bus::QosProfile& profile = ros2::kReadNewest) const {
+    RAVE_TRY_ASSIGN(const std::string name, device().topic(topic));
+    RAVE_TRY_ASSIGN(auto made,
+                    ros2::Reader<Message>::create(device().participant(), name, profile));
+    reader.emplace(std::move(made));
+    return {};
+  }
+  /// From look_after(): what one reader has to tell.
+  template <class Message>
+  void look_at(ros2::Reader<Message>& reader, TopicState& state) const {
+    state.refused += reader.refused();
+    if (!reader.trouble().empty()) state.trouble = reader.trouble();
+    if (auto text = reader.take_mismatch()) {
+      warn(fmt::format("`{}`: {}", reader.topic(), *text), state);
+    }
+  }
   /// From look_after(): something that a user should know.
   void warn(std::string text, TopicState& state) const;
 
@@ -69,6 +91,7 @@ class TopicSensor : public HardwareSensor, public TopicUser {
   line::HostTime last_{};
   std::int64_t last_stamp_ns_ = 0;
   bool lost_ = false;
+  bool alive_ = false;  // something came since the last look
 };
 
 /// A sensor that reads one topic.
@@ -76,17 +99,17 @@ template <class Message>
 class OneTopicSensor : public TopicSensor {
  protected:
   Status make_reader(const Params& params) {
-    RAVE_TRY_ASSIGN(const std::string name, device().topic(params.text("topic")));
-    RAVE_TRY_ASSIGN(auto reader,
-                    ros2::Reader<Message>::create(device().participant(), name, ros2::kReadNewest));
-    reader_.emplace(std::move(reader));
-    return {};
+    return TopicSensor::make_reader(params.text("topic"), reader_);
   }
   /// Makes the reader and waits for a message that suits.
   template <class Suits>
   Status begin_reading(const Params& params, Suits&& suits) {
     RAVE_TRY(make_reader(params));
     return device().await(*reader_, suits);
+  }
+  /// The same for those that need no more of the first message than that it comes.
+  Status begin_reading(const Params& params) {
+    return begin_reading(params, [](const Message& /*message*/) { return true; });
   }
 
   /// What the message means. An error refuses it.
@@ -98,13 +121,7 @@ class OneTopicSensor : public TopicSensor {
       if (!taken) reader_->refuse(std::move(taken).error());
     });
   }
-  void look_after(TopicState& state) final {
-    state.refused = reader_->refused();
-    if (!reader_->trouble().empty()) state.trouble = reader_->trouble();
-    if (auto text = reader_->take_mismatch()) {
-      warn(fmt::format("`{}`: {}", topic(), *text), state);
-    }
-  }
+  void look_after(TopicState& state) final { look_at(*reader_, state); }
   [[nodiscard]] std::string explain_silence() const final { return reader_->explain_silence(); }
   [[nodiscard]] const std::string& topic() const final { return reader_->topic(); }
   [[nodiscard]] std::vector<dds_entity_t> readers() const final { return {reader_->handle()}; }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A robot of ours as ROS 2 sees it.
+#include <algorithm>
 #include <cmath>
 
 #include "ros2_run.hpp"
@@ -15,6 +16,7 @@ std::string robot(const std::string& sensors, const std::string& rest) {
          "ros2: {domain: " +
          std::to_string(ros2_domain()) +
          "}\n"
+         "geo_origin: {latitude_deg: 47.3769, longitude_deg: 8.5417, altitude_m: 408}\n"
          "robots:\n  - name: cart-1\n    pose: {x_m: 1, y_m: 0}\n    robot:\n"
          "      ros2: true\n"
          "      body: {shapes: [{disc_radius_m: 0.15, z_m: [0, 0.2]}, {box_m: [0.1, 0.1], z_m: "
@@ -24,13 +26,16 @@ std::string robot(const std::string& sensors, const std::string& rest) {
          "        - {name: odometry, driver: virtual_odometry}\n"
          "        - {name: laser, driver: virtual_laser, period_s: 0.05, mount: {x_m: 0.1, z_m: "
          "0.15}, params: {rays: 91, fov_deg: 180, range_max_m: 8}}\n"
+         "        - {name: indoor, driver: indoor_positioning, period_s: 0.1}\n"
          "        - {name: rear, driver: virtual_sonar, mount: {yaw_deg: 180, z_m: 0.1}}\n" +
          sensors + rest;
 }
 
 std::int64_t total(const Json& state, const char* what) {
   std::int64_t sum = 0;
-  for (const Json& kind : state) sum += kind[what].get<std::int64_t>();
+  for (const Json& kind : state) {
+    if (kind.contains("count")) sum += kind[what].get<std::int64_t>();
+  }
   return sum;
 }
 
@@ -60,10 +65,58 @@ TEST(Ros2Face, TenThousandMessagesWithoutABadOne) {
   EXPECT_EQ(seen["tf"]["said"], Json::array({"map>cart_1/odom", "cart_1/odom>cart_1/base_link"}));
   EXPECT_EQ(seen["tf_static"]["said"],
             Json::array({"cart_1/base_link>cart_1/odometry", "cart_1/base_link>cart_1/laser",
-                         "cart_1/base_link>cart_1/rear"}));
+                         "cart_1/base_link>cart_1/indoor", "cart_1/base_link>cart_1/rear"}));
   EXPECT_EQ(seen["description"]["count"], 1);
   EXPECT_GT(seen["clock"]["said"], 1'000'000'000);
+  const Json& fix = seen["fix"]["said"];
+  EXPECT_GT(seen["fix"]["count"], 10);
+  EXPECT_EQ(fix["status"], 0);
+  EXPECT_EQ(fix["frame"], "cart_1/base_link");
+  // It drives in circles about 1 m from the origin; a degree of latitude is 111 km.
+  EXPECT_NEAR(fix["latitude"].get<double>(), 47.3769, 1e-4);
+  EXPECT_NEAR(fix["longitude"].get<double>(), 8.5417, 1e-4);
+  EXPECT_NE(fix["longitude"], 8.5417);
+  EXPECT_NEAR(fix["altitude"].get<double>(), 408, 1e-3);
+  EXPECT_NEAR(fix["variance"].get<double>(), 0.0004, 1e-9);
 }
+
+/// All that one message of each kind came from, whose hash is of 64 digits.
+void expect_nodes(const std::string& form, const std::string& gid_bytes) {
+  Ros2Run run;
+  run.start_peer("peer_ros2_listener", {"--namespace", "/cart_1", "--gid-bytes", gid_bytes});
+  std::string scenario = robot("", "duration_s: 200\npace: realtime\n");
+  scenario.replace(scenario.find("ros2: {"), 7, "ros2: {nodes: " + form + ", ");
+  run.start(scenario);
+  const std::string zeros(gid_bytes == "24" ? 16 : 0, '0');
+  const auto writers = [](const Json& s) {
+    return s["nodes"].empty() ? Json::array() : s["nodes"][0]["writers"];
+  };
+  const auto listed = [&](const Json& s, const char* kind) {
+    if (!s.contains(kind)) return false;
+    const auto is_listed = [&](const Json& from) {
+      const Json all = writers(s);
+      return std::find(all.begin(), all.end(), from.get<std::string>() + zeros) != all.end();
+    };
+    return std::all_of(s[kind]["from"].begin(), s[kind]["from"].end(), is_listed);
+  };
+  const Json seen = run.await_state([&](const Json& s) {
+    return listed(s, "odom") && listed(s, "scan") && listed(s, "fix") && listed(s, "clock") &&
+           listed(s, "tf") && listed(s, "tf_static") && listed(s, "description");
+  });
+  ASSERT_EQ(seen["nodes"].size(), 1U) << seen["nodes"].dump();
+  const Json& node = seen["nodes"][0];
+  EXPECT_EQ(node["namespace"], "/");
+  EXPECT_EQ(node["name"], "rave_face");
+  EXPECT_EQ(node["writers"].size(), 8U) << "three of the run and five of the robot";
+  const std::string participant = node["participant"].get<std::string>().substr(0, 32);
+  EXPECT_EQ(seen["enclaves"][participant], "enclave=/;");
+  EXPECT_EQ(seen["hashes"]["rt/clock"],
+            "typehash=RIHS01_692f7a66e93a3c83e71765d033b60349ba68023a8c689a79e48078bcb5c58564;");
+  expect_ends_well(run);
+}
+
+TEST(Ros2Face, IsANodeWithItsWritersAsIronReadsIt) { expect_nodes("iron", "16"); }
+TEST(Ros2Face, IsANodeWithItsWritersAsHumbleReadsIt) { expect_nodes("humble", "24"); }
 
 void expect_obeys(const std::string& stamped) {
   Ros2Run run;

@@ -24,6 +24,14 @@ std::string reason(const Message& sample) {
   return status ? "accepted" : status.error().message;
 }
 
+/// A message of a writer, otherwise empty.
+template <class Message>
+Message written() {
+  Message message{};
+  message.writer = 1;
+  return message;
+}
+
 /// A world of three robots and two inputs.
 struct SampleWorld {
   RobotArrays robots{3, 1};
@@ -43,8 +51,7 @@ struct SampleWorld {
 
 TEST(Validate, AcceptsAWorld) {
   EXPECT_EQ(SampleWorld().judge(), "accepted");
-  World empty{};
-  empty.writer = 1;
+  auto empty = written<World>();
   EXPECT_EQ(reason(empty), "accepted");
 }
 
@@ -104,8 +111,7 @@ TEST(Validate, NeedsAWriter) {
 TEST(Validate, LooksAtBothListsOfAHost) {
   RobotArrays robots(2, 0);
   RobotArrays wishes(2, 0);
-  HostState state{};
-  state.writer = 1;
+  auto state = written<HostState>();
   robots.lend(state.resolved);
   wishes.lend(state.proposal);
   EXPECT_EQ(reason(state), "accepted");
@@ -117,8 +123,7 @@ TEST(Validate, LooksAtBothListsOfAHost) {
 
 /// Obstacles with the body that a test makes.
 std::string judge_body(Box& box) {
-  Obstacle obstacle{};
-  obstacle.writer = 1;
+  auto obstacle = written<Obstacle>();
   box.lend(obstacle.body);
   return reason(obstacle);
 }
@@ -167,8 +172,7 @@ TEST(Validate, WantsBodiesWithHeightAndCorners) {
 }
 
 TEST(Validate, AnObstacleThatIsGoneNeedsNoBody) {
-  Obstacle obstacle{};
-  obstacle.writer = 1;
+  auto obstacle = written<Obstacle>();
   EXPECT_EQ(reason(obstacle), "body is empty");
   obstacle.removed = true;
   EXPECT_EQ(reason(obstacle), "accepted");
@@ -176,8 +180,7 @@ TEST(Validate, AnObstacleThatIsGoneNeedsNoBody) {
 
 TEST(Validate, RosterEntriesHaveNamesThatCanBeShown) {
   Box box;
-  RosterEntry entry{};
-  entry.writer = 1;
+  auto entry = written<RosterEntry>();
   box.lend(entry.body);
   EXPECT_EQ(reason(entry), "name is empty");
   put_text(entry.name, "ann\x1b[2J");
@@ -187,8 +190,7 @@ TEST(Validate, RosterEntriesHaveNamesThatCanBeShown) {
 }
 
 TEST(Validate, Edits) {
-  Edit edit{};
-  edit.writer = 1;
+  auto edit = written<Edit>();
   put_text(edit.author, "bob");
   edit.action = rave_wire_EDIT_MOVE;
   EXPECT_EQ(reason(edit), "accepted");
@@ -202,8 +204,7 @@ TEST(Validate, Edits) {
 }
 
 TEST(Validate, Commands) {
-  Command command{};
-  command.writer = 1;
+  auto command = written<Command>();
   EXPECT_EQ(reason(command), "author is empty");
   put_text(command.author, "bob");
   EXPECT_EQ(reason(command), "accepted");
@@ -219,28 +220,23 @@ TEST(Validate, Commands) {
 }
 
 TEST(Validate, HostsAndClocks) {
-  HostInfo host{};
-  host.writer = 1;
+  auto host = written<HostInfo>();
   EXPECT_EQ(reason(host), "name is empty");
   put_text(host.name, "lab");
   EXPECT_EQ(reason(host), "accepted");
-  ClockPing ping{};
-  ping.writer = 1;
+  auto ping = written<ClockPing>();
   EXPECT_EQ(reason(ping), "target is 0");
-  ClockPong pong{};
-  pong.writer = 1;
+  auto pong = written<ClockPong>();
   pong.target = 2;
   pong.ping_received_ns = 5;
   EXPECT_EQ(reason(pong), "a pong was sent before its ping came");
-  Packet packet{};
-  packet.writer = 1;
+  auto packet = written<Packet>();
   packet.from_robot = rave_wire_kNone;
   EXPECT_EQ(reason(packet), "from_robot is none");
 }
 
 TEST(Validate, PacketsSayWhoTheyAreForAndFromWhere) {
-  Packet packet{};
-  packet.writer = 1;
+  auto packet = written<Packet>();
   EXPECT_EQ(reason(packet), "accepted");
   packet.to_kind = rave_wire_TO_ROBOT;
   packet.to_robot = rave_wire_kNone;

@@ -199,6 +199,29 @@ constexpr auto enum_names(EnumTag<Ros2Multicast> /*tag*/) {
                     EnumName{Ros2Multicast::kData, "data"}};
 }
 
+constexpr auto enum_names(EnumTag<Ros2Nodes> /*tag*/) {
+  return std::array{EnumName{Ros2Nodes::kNone, "none"}, EnumName{Ros2Nodes::kHumble, "humble"},
+                    EnumName{Ros2Nodes::kIron, "iron"}};
+}
+
+template <class V>
+void describe(V& v, GeoOriginFile& c) {
+  v.required("latitude_deg", c.latitude_deg,
+             {.doc = "Positive in the north (WGS 84).", .min = -90, .max = 90, .unit = "deg"});
+  v.required("longitude_deg", c.longitude_deg,
+             {.doc = "Positive in the east.", .min = -180, .max = 180, .unit = "deg"});
+  v.field("altitude_m", c.altitude_m,
+          {.doc = "Above the ellipsoid, not above the sea.",
+           .min = -10'000,
+           .max = 100'000,
+           .unit = "m"});
+  v.field("yaw_deg", c.yaw_deg,
+          {.doc = "Of the world's x axis, from east towards north; 0: y is north.",
+           .min = -360,
+           .max = 360,
+           .unit = "deg"});
+}
+
 template <class V>
 void describe(V& v, Ros2File& c) {
   v.field("domain", c.domain, {.doc = "That of ROS_DOMAIN_ID.", .min = 0, .max = 230});
@@ -208,6 +231,10 @@ void describe(V& v, Ros2File& c) {
   v.field("peers", c.peers, {.doc = "Addresses to look for others at.", .max_items = 100});
   v.field("multicast", c.multicast,
           {.doc = "What is sent by multicast: nothing, what finds others, or data as well."});
+  v.field(
+      "nodes", c.nodes,
+      {.doc = "How `ros2 node list` learns of the run: as of Iron (2023) and later, as of Humble "
+              "and before, or not at all. All of a domain must be of one kind."});
   v.field("period_s", c.period_s,
           {.doc = "Time between two transforms.", .min = 0.001, .max = 60, .unit = "s"});
 }
@@ -242,6 +269,10 @@ void describe(V& v, ScenarioFile& c) {
       {.doc = "Parameters and obstacles that change while the run goes.", .max_items = 100'000});
   v.field("checks", c.checks, {.doc = "What must hold for the run to count as good."});
   v.field("picture", c.picture, {.doc = "Settings of the picture of the run; null: the usual."});
+  v.field(
+      "geo_origin", c.geo_origin,
+      {.doc = "Where the origin of the world lies on the earth, for satellite navigation; null: "
+              "nobody knows."});
   v.field("ros2", c.ros2, {.doc = "Where robots with `ros2: true` show themselves."});
 }
 

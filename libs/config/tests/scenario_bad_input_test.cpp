@@ -189,6 +189,19 @@ const FileCase kScenarios[] = {
      "name: a\nrobots:\n  - name: r\n    variables: {x: 1}\n    robot: {"
      "}\n",
      "s.yaml:4:20: unknown variable `x`; the robot file declares none"},
+    {"GeoOrigin",
+     "name: a\ngeo_origin: {latitude_deg: 91, longitude_deg: 8}\nrobots: [{name: r, file: "
+     "r.yaml}]\n",
+     "s.yaml:2:28: `latitude_deg`: found the number 91, expected a number (from -90 to 90, in "
+     "degrees)"},
+    {"GeoOriginKey",
+     "name: a\ngeo_origin: {lattitude_deg: 47, longitude_deg: 8}\nrobots: [{name: r, file: "
+     "r.yaml}]\n",
+     "s.yaml:2:14: unknown key `lattitude_deg`; did you mean `latitude_deg`?"},
+    {"Ros2Nodes", "name: a\nros2: {nodes: humbel}\nrobots: [{name: r, file: r.yaml}]\n",
+     "s.yaml:2:15: `nodes`: found the text \"humbel\", expected one of none, humble and iron; did "
+     "you "
+     "mean `humble`?"},
     {"Instant",
      "name: a\nduration_s: 10\nrobots: [{name: r, file: r.yaml}]\n"
      "picture: {instant_s: 11}\n",

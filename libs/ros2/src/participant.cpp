@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 
+#include "make_end.hpp"
 #include "rave/base/names.hpp"
 #include "rave/ros2/names.hpp"
 
@@ -19,6 +20,8 @@ constexpr std::uint32_t kMostDomains = 1000;
 /// As nodes of ROS 2 on Cyclone DDS have it: a network may pause for a while. Who is silent shows
 /// by its topics.
 constexpr Duration kLease{10'000'000'000};
+/// As of a participant of ROS 2 without security.
+constexpr std::string_view kEnclave = "enclave=/;";
 /// What is named to a user at most.
 constexpr std::size_t kMostNamed = 5;
 
@@ -121,6 +124,8 @@ Status Participant::join() {
   if (domain_ < 0) return refused(domain_);
   const bus::Qos qos(dds_create_qos());
   dds_qset_entity_name(qos.get(), network_.name.c_str());
+  // By this ROS 2 knows one of its own from any other participant of DDS.
+  dds_qset_userdata(qos.get(), kEnclave.data(), kEnclave.size());
   participant_ = dds_create_participant(number, qos.get(), nullptr);
   if (participant_ < 0) return refused(participant_);
   const auto builtin = [this](dds_entity_t topic) {
@@ -131,10 +136,17 @@ Status Participant::join() {
   seen_readers_ = builtin(DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION);
   const dds_entity_t worst = std::min({seen_participants_, seen_writers_, seen_readers_});
   if (worst < 0) return refused(worst);
+  if (network_.nodes == NodeForm::kNone) return {};
+  RAVE_TRY_ASSIGN(const std::string home, whole_name(network_.node_namespace, network_.node));
+  std::string above = home.substr(0, home.rfind('/'));
+  if (above.empty()) above = "/";
+  RAVE_TRY_ASSIGN(nodes_, NodeList::open(participant_, network_.nodes,
+                                         home.substr(home.rfind('/') + 1), std::move(above)));
   return {};
 }
 
 Participant::~Participant() {
+  nodes_.reset();
   // Deleting a domain deletes all that is in it.
   if (domain_ > 0) dds_delete(domain_);
 }
@@ -142,21 +154,19 @@ Participant::~Participant() {
 Result<dds_entity_t> Participant::add_end(const dds_topic_descriptor_t& type,
                                           std::string_view topic, const bus::QosProfile& profile,
                                           bool reads) const {
-  const std::string name = wire_topic(topic);
-  const bus::Qos qos = bus::make_qos(profile);
-  const dds_entity_t handle = dds_create_topic(participant_, &type, name.c_str(), nullptr, nullptr);
-  if (handle < 0) {
-    return fail(ErrorCode::kState, "topic `{}`: {}", topic, dds_strretcode(handle));
-  }
-  const dds_entity_t entity = reads ? dds_create_reader(participant_, handle, qos.get(), nullptr)
-                                    : dds_create_writer(participant_, handle, qos.get(), nullptr);
-  // The reader or writer keeps the topic alive.
-  dds_delete(handle);
-  if (entity < 0) {
-    return fail(ErrorCode::kIo, "cannot {} `{}`: {}", reads ? "read" : "write", topic,
-                dds_strretcode(entity));
-  }
-  return entity;
+  RAVE_TRY_ASSIGN(const dds_entity_t end,
+                  make_end(participant_, type, wire_topic(topic), profile, reads));
+  if (nodes_) nodes_->add(end, reads);
+  return end;
+}
+
+void Participant::remove_end(dds_entity_t end) const {
+  if (nodes_) nodes_->remove(end);
+  dds_delete(end);
+}
+
+void Participant::announce() const {
+  if (nodes_) nodes_->announce();
 }
 
 std::vector<RemoteEnd> Participant::others(bool writers) const {

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "rave/bus_testing/cdr.hpp"
+#include "rave/math/geodesy.hpp"
 #include "rave/ros2/convert.hpp"
 #include "rave/ros2/validate.hpp"
 
@@ -20,6 +21,11 @@ void use(const TfMessage& message) {
   for (std::uint32_t i = 0; i < message.transforms._length; ++i) {
     static_cast<void>(planar(message.transforms._buffer[i]));
   }
+}
+void use(const NavSatFix& message) {
+  static const rave::GeoFrame kFrame({47, 8, 400});
+  if (message.status.status < 0) return;
+  static_cast<void>(kFrame.world_point({message.latitude, message.longitude, message.altitude}));
 }
 void use(const auto& /*message*/) {}
 

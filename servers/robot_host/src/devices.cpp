@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -38,6 +39,24 @@ Result<plugin::ParamSet> read_params(const Driver& driver, const config::RawNode
     std::visit(AddValue{set, param.name}, param.value);
   }
   return set;
+}
+
+Result<plugin::ParamSet> read_sensor_params(const DeviceContext& context, const Driver& driver,
+                                            const config::RawNode& params) {
+  constexpr std::string_view kOrigin = "geo_origin";
+  const auto& origin = context.scenario.scenario.geo_origin;
+  const auto specs = driver.info.param_specs();
+  const bool wants = std::any_of(specs.begin(), specs.end(),
+                                 [&](const ParamSpec& spec) { return spec.name == kOrigin; });
+  if (!wants || !origin || params.find(kOrigin) != nullptr) return read_params(driver, params);
+  config::RawNode numbers = config::RawNode::sequence();
+  for (const double number :
+       {origin->latitude_deg, origin->longitude_deg, origin->altitude_m, origin->yaw_deg}) {
+    numbers.push_back(config::RawNode::number(number));
+  }
+  config::RawNode all = params.is_mapping() ? params : config::RawNode::mapping();
+  all.append(std::string(kOrigin), std::move(numbers));
+  return read_params(driver, all);
 }
 
 Result<const Driver*> find_driver(const DeviceContext& context, std::span<const DriverKind> kinds,
@@ -158,7 +177,7 @@ Status set_plain(const DeviceContext& context, const config::RobotGroup& group,
     }
   }
   RAVE_TRY_ASSIGN(sensor.device, shared_device(context, *driver, file.driver, file.device, type));
-  RAVE_TRY_ASSIGN(sensor.params, read_params(*driver, file.params));
+  RAVE_TRY_ASSIGN(sensor.params, read_sensor_params(context, *driver, file.params));
   note_clock(context, group, sensor.name, driver->info, sensor.params);
   if (file.senses) sensor.layers = layer_mask(file.senses->value);
   return {};

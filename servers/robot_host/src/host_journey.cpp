@@ -46,6 +46,7 @@ void look_back(HostJourney& journey, std::span<const sim::Event> beside) {
   if (engine.steps_done() == 0) return;
   RunControl* const control = journey.options.run.control;
   if (control != nullptr) control->set_time(engine.time().seconds());
+  if (journey.ros2 != nullptr) journey.ros2->after_step(engine);
   if (journey.record != nullptr) {
     journey.record->after_step(engine);
     journey.record->keep(beside);

@@ -11,6 +11,7 @@
 #include "rave/robot_host/host_run.hpp"
 #include "rave/sim/engine.hpp"
 #include "record_keeper.hpp"
+#include "ros2_face.hpp"
 #include "wall_pace.hpp"
 
 namespace rave::robot_host {
@@ -29,6 +30,7 @@ struct Seat {
 struct HostJourney {
   sim::Engine& engine;
   RecordKeeper* record;  ///< May be null.
+  Ros2Face* ros2;        ///< May be null.
   const HostOptions& options;
   ConsoleTee& console;
   std::vector<sim::Event> events{};

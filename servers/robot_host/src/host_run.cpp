@@ -154,6 +154,7 @@ Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::C
                                                    shared_number(scenario), interface_stamp()},
                                                   &console));
   const BodyKinds kinds(engine->spec(), built.robot_kinds);
+  RAVE_TRY_ASSIGN(const auto ros2, Ros2Face::open(scenario, *engine, options.host));
   std::unique_ptr<RecordKeeper> record;
   if (run.record) {
     RAVE_TRY_ASSIGN(record, RecordKeeper::begin(run.output / "run.mcap", *engine, kinds,
@@ -163,7 +164,7 @@ Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::C
                                                 run.log));
   }
   const RecordedConsole recorded(console, record ? &record->recorder() : nullptr);
-  Journey journey({*engine, record.get(), options, console}, *port);
+  Journey journey({*engine, record.get(), ros2.get(), options, console}, *port);
   journey.report.host = seat.number;
   const ControlledHost controlled(*engine, scenario.scenario, run.control, false);
   tell_who_waits(*engine, run, console);

@@ -48,7 +48,7 @@ Status set_hybrid(const DeviceContext& context, const config::RobotGroup& group,
   sensor.hardware_ops = static_cast<const HardwareSensorOps*>(real->ops);
   RAVE_TRY_ASSIGN(sensor.device,
                   shared_device(context, *real, file.real->driver, file.real->device, type));
-  RAVE_TRY_ASSIGN(sensor.params, read_params(*real, file.real->params));
+  RAVE_TRY_ASSIGN(sensor.params, read_sensor_params(context, *real, file.real->params));
   sim::HybridSpec hybrid;
   hybrid.ops = static_cast<const HybridSensorOps*>(fusing->ops);
   RAVE_TRY_ASSIGN(hybrid.params, read_params(*fusing, file.params));

@@ -199,6 +199,7 @@ Result<HostOutcome> go(const LiveHost& host, sim::Engine& engine, HostLink& link
                        const BuiltScenario& built, bool begun) {
   const RunOptions& run = host.options.run;
   const BodyKinds kinds(engine.spec(), built.robot_kinds);
+  RAVE_TRY_ASSIGN(const auto ros2, Ros2Face::open(host.scenario, engine, host.options.host));
   std::unique_ptr<RecordKeeper> record;
   if (run.record) {
     RAVE_TRY_ASSIGN(record, RecordKeeper::begin(run.output / "run.mcap", engine, kinds,
@@ -209,8 +210,8 @@ Result<HostOutcome> go(const LiveHost& host, sim::Engine& engine, HostLink& link
   }
   const RecordedConsole recorded(host.console, record ? &record->recorder() : nullptr);
   const config::ScenarioFile& file = host.scenario.scenario;
-  LiveJourney journey({engine, record.get(), host.options, host.console}, link, live, host.pace,
-                      report_groups(host.scenario, host.seat));
+  LiveJourney journey({engine, record.get(), ros2.get(), host.options, host.console}, link, live,
+                      host.pace, report_groups(host.scenario, host.seat));
   journey.steps = static_cast<std::uint64_t>(std::llround(file.duration_s / file.step_s.value));
   const ControlledHost controlled(engine, file, run.control, true);
   tell_who_waits(engine, run, host.console);

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "rave/bus/sequence.hpp"
+#include "rave/math/scalar.hpp"
 #include "rave/math/transform.hpp"
 #include "rave/ros2/names.hpp"
 
@@ -24,10 +25,36 @@ bus::Multicast multicast_of(config::Ros2Multicast multicast) {
   return bus::Multicast::kOff;
 }
 
-ros2::Network network_of(const config::ScenarioFile& scenario) {
+ros2::NodeForm form_of(config::Ros2Nodes nodes) {
+  switch (nodes) {
+    case config::Ros2Nodes::kHumble:
+      return ros2::NodeForm::kHumble;
+    case config::Ros2Nodes::kIron:
+      return ros2::NodeForm::kIron;
+    case config::Ros2Nodes::kNone:
+      break;
+  }
+  return ros2::NodeForm::kNone;
+}
+
+ros2::Network network_of(const config::ScenarioFile& scenario, const std::string& host) {
   const config::Ros2File& file = scenario.ros2;
-  return {"rave/" + scenario.name.value.substr(0, 50), static_cast<std::uint32_t>(file.domain),
-          file.interface, file.peers, multicast_of(file.multicast)};
+  const std::string run = scenario.name.value.substr(0, 50);
+  ros2::Network network;
+  network.name = "rave/" + run + (host.empty() ? "" : "/" + host.substr(0, 50));
+  network.domain = static_cast<std::uint32_t>(file.domain);
+  network.interface = file.interface;
+  network.peers = file.peers;
+  network.multicast = multicast_of(file.multicast);
+  network.nodes = form_of(file.nodes);
+  network.node = ros2::word_of(network.name);
+  return network;
+}
+
+std::optional<GeoFrame> earth_of(const std::optional<config::GeoOriginFile>& file) {
+  if (!file) return std::nullopt;
+  return GeoFrame({file->latitude_deg, file->longitude_deg, file->altitude_m},
+                  deg_to_rad(file->yaw_deg));
 }
 
 /// Texts and transforms of one message.
@@ -55,31 +82,38 @@ class Transforms {
 }  // namespace
 
 Result<std::unique_ptr<Ros2Face>> Ros2Face::open(const config::ExpandedScenario& scenario,
-                                                 const sim::Engine& engine) {
-  const auto wants = [&](const sim::RobotSpec& robot) {
-    return scenario.groups[robot.type].robot.ros2;
-  };
+                                                 const sim::Engine& engine,
+                                                 const std::string& host) {
+  std::vector<RobotId> shown;
   const auto& robots = engine.spec().robots;
-  if (std::ranges::none_of(robots, wants)) return nullptr;
-  RAVE_TRY_ASSIGN(auto participant, ros2::Participant::open(network_of(scenario.scenario)));
+  for (std::uint32_t r = 0; r < robots.size(); ++r) {
+    if (scenario.groups[robots[r].type].robot.ros2) shown.emplace_back(r);
+  }
+  const auto here = [&](RobotId robot) { return engine.is_local(robot); };
+  if (std::ranges::none_of(shown, here)) return nullptr;
+  RAVE_TRY_ASSIGN(auto participant, ros2::Participant::open(network_of(scenario.scenario, host)));
   std::unique_ptr<Ros2Face> face(new Ros2Face(std::move(participant)));
   face->period_ns_ = from_seconds(scenario.scenario.ros2.period_s).ns;
-  for (std::uint32_t r = 0; r < robots.size(); ++r) {
-    if (wants(robots[r]) && engine.is_local(RobotId(r))) RAVE_TRY(face->add(engine, RobotId(r)));
+  face->earth_ = earth_of(scenario.scenario.geo_origin);
+  for (const RobotId robot : shown) {
+    if (here(robot)) RAVE_TRY(face->add(engine, robot));
   }
-  RAVE_TRY(face->begin(engine));
+  RAVE_TRY(face->begin(engine, here(shown.front())));
   return face;
 }
 
-Status Ros2Face::begin(const sim::Engine& engine) {
-  RAVE_TRY_ASSIGN(auto clock, ros2::Writer<ros2::Clock>::create(*participant_, "/clock"));
+Status Ros2Face::begin(const sim::Engine& engine, bool keeps_time) {
+  if (keeps_time) {
+    RAVE_TRY_ASSIGN(auto clock, ros2::Writer<ros2::Clock>::create(*participant_, "/clock"));
+    clock_.emplace(std::move(clock));
+  }
   RAVE_TRY_ASSIGN(auto tf, ros2::Writer<ros2::TfMessage>::create(*participant_, "/tf"));
   RAVE_TRY_ASSIGN(auto fixed, ros2::Writer<ros2::TfMessage>::create(*participant_, "/tf_static",
                                                                     ros2::kWriteKept));
-  clock_.emplace(std::move(clock));
   tf_.emplace(std::move(tf));
   tf_static_.emplace(std::move(fixed));
   write_static(engine);
+  participant_->announce();
   return {};
 }
 
@@ -117,7 +151,9 @@ Status Ros2Face::add_sensors(const sim::Engine& engine, Robot& robot) {
   const sim::RobotSpec& spec = engine.spec().robots[robot.id.value()];
   const sim::RobotType& type = engine.spec().types[spec.type];
   const auto kind_of = [&](std::uint32_t index) {
-    return ros2_kind(*engine.sensor(robot.id, index).info, type.sensors[index].driver);
+    const Ros2Kind kind =
+        ros2_kind(*engine.sensor(robot.id, index).info, type.sensors[index].driver);
+    return kind == Ros2Kind::kFix && !earth_ ? Ros2Kind::kNone : kind;
   };
   std::map<Ros2Kind, int> count;
   for (std::uint32_t s = 0; s < type.sensors.size(); ++s) ++count[kind_of(s)];
@@ -131,10 +167,12 @@ Status Ros2Face::add_sensors(const sim::Engine& engine, Robot& robot) {
     std::string topic = fmt::format("/{}{}", robot.prefix, ros2_topic(kind));
     if (count[kind] > 1 && !first_odometry) topic += "/" + sensor;
     RAVE_TRY_ASSIGN(auto writer, writer_for(kind, topic));
-    const bool odometry = kind == Ros2Kind::kOdometry;
+    std::string frame = robot.prefix + sensor;
+    if (kind == Ros2Kind::kOdometry) frame = robot.odom_frame;
+    if (kind == Ros2Kind::kFix) frame = robot.base_frame;  // a pose is that of the body
+    const Pose2 X_WM = type.pose_from == s ? type.X_WM.value_or(Pose2{}) : Pose2{};
     robot.sensors.push_back(
-        {s, 0, Ros2Reading(odometry ? robot.odom_frame : robot.prefix + sensor, robot.base_frame),
-         std::move(writer)});
+        {s, 0, Ros2Reading(std::move(frame), robot.base_frame), std::move(writer), X_WM});
   }
   return {};
 }
@@ -155,6 +193,8 @@ Result<Ros2Face::AnyWriter> Ros2Face::writer_for(Ros2Kind kind, const std::strin
       return make(ros2::Imu{});
     case Ros2Kind::kBattery:
       return make(ros2::BatteryState{});
+    case Ros2Kind::kFix:
+      return make(ros2::NavSatFix{});
     case Ros2Kind::kNone:
       break;
   }
@@ -176,20 +216,27 @@ void Ros2Face::write_static(const sim::Engine& engine) {
 
 // A message that could not be written is no reason to end a run: the next one follows.
 void Ros2Face::after_step(sim::Engine& engine) {
-  ros2::Clock now{};
-  now.clock = ros2::time_of(engine.time().ns);
-  (void)clock_->write(now);
-  for (Robot& robot : robots_) {
-    for (Sensor& sensor : robot.sensors) {
-      const sim::SensorSample sample = engine.sensor(robot.id, sensor.index);
-      if (sample.header->sequence == sensor.written || sample.header->count == 0) continue;
-      sensor.written = sample.header->sequence;
-      write_sensor(sensor, sample);
-    }
+  if (clock_) {
+    ros2::Clock now{};
+    now.clock = ros2::time_of(engine.time().ns);
+    (void)clock_->write(now);
   }
+  for (Robot& robot : robots_) write_new(engine, robot);
   if (engine.time().ns < due_ns_) return;
   due_ns_ = engine.time().ns + period_ns_;
   write_transforms(engine);
+}
+
+void Ros2Face::write_new(const sim::Engine& engine, Robot& robot) {
+  for (Sensor& sensor : robot.sensors) {
+    const sim::SensorSample sample = engine.sensor(robot.id, sensor.index);
+    if (sample.header->sequence == sensor.written) continue;
+    // A receiver that has no fix says so; others have nothing to say.
+    const bool fix = std::holds_alternative<ros2::Writer<ros2::NavSatFix>>(sensor.writer);
+    if (sample.header->count == 0 && !fix) continue;
+    sensor.written = sample.header->sequence;
+    write_sensor(sensor, sample);
+  }
 }
 
 void Ros2Face::write_sensor(Sensor& sensor, const sim::SensorSample& sample) const {
@@ -207,6 +254,8 @@ void Ros2Face::write_sensor(Sensor& sensor, const sim::SensorSample& sample) con
     (void)imu->write(reading.imu(sample));
   } else if (auto* const battery = std::get_if<ros2::Writer<ros2::BatteryState>>(&sensor.writer)) {
     (void)battery->write(reading.battery(sample));
+  } else if (auto* const fix = std::get_if<ros2::Writer<ros2::NavSatFix>>(&sensor.writer)) {
+    (void)fix->write(reading.fix(sample, *earth_, sensor.X_WM));
   }
 }
 

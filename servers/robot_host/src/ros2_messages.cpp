@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "rave/bus/sequence.hpp"
 #include "rave/math/scalar.hpp"
+#include "rave/math/transform.hpp"
 #include "rave/ros2/names.hpp"
 
 namespace rave::robot_host {
@@ -18,6 +20,12 @@ constexpr std::uint32_t kImuValues = 10;
 constexpr std::size_t kXX = 0;
 constexpr std::size_t kYY = 7;
 constexpr std::size_t kYawYaw = 35;
+// Of sensor_msgs/NavSatStatus and NavSatFix.
+constexpr std::int8_t kNoFix = -1;
+constexpr std::uint16_t kServiceGps = 1;
+constexpr std::uint8_t kApproximated = 1;
+/// Places of east, north and up in a covariance of three by three.
+constexpr std::array<std::size_t, 3> kEastNorthUp{0, 4, 8};
 
 template <class Record>
 std::span<const Record> records_of(const sim::SensorSample& sample) {
@@ -63,6 +71,9 @@ Ros2Kind ros2_kind(const SensorInfo& info, std::string_view driver) noexcept {
         return Ros2Kind::kBattery;
       }
       return Ros2Kind::kNone;
+    case ReadingKind::kPose:
+      // A goal is where the robot is not.
+      return driver == "ros2_goal" ? Ros2Kind::kNone : Ros2Kind::kFix;
     default:
       return Ros2Kind::kNone;
   }
@@ -80,6 +91,8 @@ std::string_view ros2_topic(Ros2Kind kind) noexcept {
       return "imu";
     case Ros2Kind::kBattery:
       return "battery_state";
+    case Ros2Kind::kFix:
+      return "fix";
     case Ros2Kind::kNone:
       break;
   }
@@ -175,6 +188,32 @@ ros2::BatteryState Ros2Reading::battery(const sim::SensorSample& sample) {
   message.temperature = static_cast<float>(values[5]);
   message.design_capacity = std::numeric_limits<float>::quiet_NaN();
   message.present = true;
+  return message;
+}
+
+ros2::NavSatFix Ros2Reading::fix(const sim::SensorSample& sample, const GeoFrame& earth,
+                                 const Pose2& X_WM) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  ros2::NavSatFix message{};
+  message.header = header({sample.header->stamp_ns});
+  message.status.service = kServiceGps;
+  const auto readings = records_of<PoseReading>(sample);
+  if (readings.empty()) {
+    message.status.status = kNoFix;
+    message.latitude = message.longitude = message.altitude = kUnknown;
+    return message;
+  }
+  const PoseReading& reading = readings.back();
+  const Vec2 p_W = transform(X_WM, {reading.x_m, reading.y_m});
+  const GeoPoint place = earth.place({p_W.x, p_W.y, 0});
+  message.latitude = place.latitude_deg;
+  message.longitude = place.longitude_deg;
+  message.altitude = place.altitude_m;
+  // Robots stay on the plane, so of the height no more is known than of the rest.
+  for (const std::size_t axis : kEastNorthUp) {
+    message.position_covariance[axis] = reading.variance_xy_m2;
+  }
+  message.position_covariance_type = kApproximated;
   return message;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "rave/math/geodesy.hpp"
 #include "rave/ros2/convert.hpp"
 #include "rave/sim/engine.hpp"
 
@@ -14,7 +15,7 @@
 namespace rave::robot_host {
 
 /// Which message a sensor's readings make, if any.
-enum class Ros2Kind : std::uint8_t { kNone, kScan, kRange, kOdometry, kImu, kBattery };
+enum class Ros2Kind : std::uint8_t { kNone, kScan, kRange, kOdometry, kImu, kBattery, kFix };
 [[nodiscard]] Ros2Kind ros2_kind(const SensorInfo& info, std::string_view driver) noexcept;
 /// The usual name of its topic; empty for kNone.
 [[nodiscard]] std::string_view ros2_topic(Ros2Kind kind) noexcept;
@@ -34,6 +35,9 @@ class Ros2Reading {
   [[nodiscard]] ros2::Odometry odometry(const OdometryReading& reading, SimTime stamp);
   [[nodiscard]] ros2::Imu imu(const sim::SensorSample& sample);
   [[nodiscard]] ros2::BatteryState battery(const sim::SensorSample& sample);
+  /// Of a pose in the frame M, which is at X_WM in the world; a sample without one is no fix.
+  [[nodiscard]] ros2::NavSatFix fix(const sim::SensorSample& sample, const GeoFrame& earth,
+                                    const Pose2& X_WM);
 
  private:
   [[nodiscard]] ros2::Header header(SimTime stamp);

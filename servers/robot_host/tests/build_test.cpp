@@ -68,6 +68,24 @@ TEST(Build, PartsOfADeviceNameIt) {
   EXPECT_NE(built->live_reason.find("`base`"), std::string::npos) << built->live_reason;
 }
 
+TEST(Build, ADriverLearnsWhereTheWorldLiesUnlessItsFileSaysSo) {
+  const auto origin_of = [](const std::string& params) {
+    Host host;
+    const auto built = host.build_text(
+        one("devices: [{name: base, driver: ros2}], pose_from: gps, sensors: [{name: gps, driver: "
+            "ros2_gps, device: base" +
+            params + "}]") +
+        "geo_origin: {latitude_deg: 47.5, longitude_deg: 8.5, yaw_deg: 30}\n");
+    EXPECT_TRUE(built.has_value()) << built.error().text();
+    const auto numbers =
+        Params(built->spec.types.at(0).sensors.at(0).params.values()).numbers("geo_origin");
+    return std::vector<double>(numbers.begin(), numbers.end());
+  };
+  EXPECT_EQ(origin_of(""), (std::vector<double>{47.5, 8.5, 0, 30}));
+  EXPECT_EQ(origin_of(", params: {antenna_x_m: 0.5}"), (std::vector<double>{47.5, 8.5, 0, 30}));
+  EXPECT_EQ(origin_of(", params: {geo_origin: [1, 2]}"), (std::vector<double>{1, 2}));
+}
+
 TEST(BuildErrors, APartOfADeviceNeedsOneOfItsDriver) {
   Host host;
   EXPECT_EQ(host.error_of(one("sensors: [{name: wheels, driver: create_odometry}]")),

@@ -48,6 +48,9 @@ TEST(Ros2Messages, KindsFollowFromTheReadings) {
   EXPECT_EQ(ros2_kind(info, "create_cliff"), Ros2Kind::kNone);
   info.capacity = 10;
   EXPECT_EQ(ros2_kind(info, "ros2_imu"), Ros2Kind::kImu);
+  info.kind = ReadingKind::kPose;
+  EXPECT_EQ(ros2_kind(info, "indoor_positioning"), Ros2Kind::kFix);
+  EXPECT_EQ(ros2_kind(info, "ros2_goal"), Ros2Kind::kNone) << "where the robot is not";
   info.kind = ReadingKind::kContact;
   EXPECT_EQ(ros2_kind(info, "virtual_contact"), Ros2Kind::kNone);
 }
@@ -97,6 +100,28 @@ TEST(Ros2Messages, ABatteryAndOdometry) {
   EXPECT_NEAR(odometry.pose.pose.orientation.z, std::sqrt(0.5), 1e-12);
   EXPECT_EQ(odometry.pose.covariance[7], 0.01);
   EXPECT_EQ(odometry.pose.covariance[35], 0.02);
+}
+
+TEST(Ros2Messages, APoseIsAFixWhereTheWorldLies) {
+  const GeoFrame earth({47.3769, 8.5417, 408}, kPi / 2);
+  Sample<PoseReading> sample;
+  sample.records = {{2, 0, 1, 0.04, 0.1}};
+  Ros2Reading reading("cart/base_link", "");
+  // 2 m along an axis that stands at (10, 5) and looks along y, in a world whose x is north.
+  const ros2::NavSatFix fix = reading.fix(sample.view(), earth, {10, 5, kPi / 2});
+  EXPECT_TRUE(ros2::validate(fix));
+  const Point3 there = earth.world_point({fix.latitude, fix.longitude, fix.altitude});
+  EXPECT_NEAR(there.x, 10, 1e-6);
+  EXPECT_NEAR(there.y, 7, 1e-6);
+  EXPECT_GT(fix.latitude, 47.3769);
+  EXPECT_LT(fix.longitude, 8.5417);
+  EXPECT_EQ(fix.position_covariance[4], 0.04);
+  EXPECT_EQ(fix.status.status, 0);
+  sample.records.clear();
+  const ros2::NavSatFix none = reading.fix(sample.view(), earth, {});
+  EXPECT_EQ(none.status.status, -1);
+  EXPECT_TRUE(std::isnan(none.latitude));
+  EXPECT_TRUE(ros2::validate(none));
 }
 
 TEST(Ros2Messages, TheDescriptionHasBodyAndSensors) {

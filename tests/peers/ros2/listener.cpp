@@ -36,14 +36,17 @@ bool is_turn(const Quaternion_& q) {
 template <class Message, class PubSub>
 void Ros2Listener::listen(const std::string& topic, const std::string& kind,
                           const Delivery& delivery) {
-  auto ear =
-      std::make_unique<Ear<Message>>([this, kind](const Message& message) { hear(kind, message); });
+  auto ear = std::make_unique<Ear<Message>>([this, kind](const Message& message, const auto& from) {
+    hear(kind, message);
+    const std::lock_guard lock(mutex_);
+    kinds_[kind].from.insert(digits_of(from));
+  });
   (void)node_.reader(topic, dds::TypeSupport(new PubSub()), delivery, ear.get());
   ears_.push_back(std::move(ear));
 }
 
 Ros2Listener::Ros2Listener(const Arguments& given)
-    : node_("listener", static_cast<std::uint32_t>(given.number("domain", 0))),
+    : node_("listener", static_cast<std::uint32_t>(given.number("domain", 0)), &graph_),
       stamped_(given.number("stamped", 0) != 0) {
   const std::string robot = given.text("namespace", "/cart");
   const Delivery sensor{.reliable = false};
@@ -54,6 +57,7 @@ Ros2Listener::Ros2Listener(const Arguments& given)
                                                                                    "odom", plain);
   listen<LaserScan_, LaserScan_PubSubType>(robot + "/scan", "scan", sensor);
   listen<Range_, Range_PubSubType>(robot + "/range", "range", sensor);
+  listen<NavSatFix_, NavSatFix_PubSubType>(robot + "/fix", "fix", sensor);
   listen<BatteryState_, BatteryState_PubSubType>(robot + "/battery_state", "battery", plain);
   listen<tf2_msgs::msg::dds_::TFMessage_, tf2_msgs::msg::dds_::TFMessage_PubSubType>("/tf", "tf",
                                                                                      plain);
@@ -63,11 +67,30 @@ Ros2Listener::Ros2Listener(const Arguments& given)
       "/clock", "clock", sensor);
   listen<std_msgs::msg::dds_::String_, std_msgs::msg::dds_::String_PubSubType>(
       robot + "/robot_description", "description", kept);
+  listen_to_nodes(given.number("gid-bytes", 16));
   drive_ =
       stamped_
           ? node_.writer(robot + "/cmd_vel", dds::TypeSupport(new TwistStamped_PubSubType()), plain)
           : node_.writer(robot + "/cmd_vel", dds::TypeSupport(new Twist_PubSubType()), plain);
   goal_ = node_.writer(robot + "/goal_pose", dds::TypeSupport(new PoseStamped_PubSubType()), plain);
+}
+
+void Ros2Listener::listen_to_nodes(double gid_bytes) {
+  using namespace rmw_dds_common::msg::dds_;  // NOLINT
+  const Delivery kept{.keeps = true, .depth = 100};
+  const auto add = [&]<class Message, class PubSub>(Message* /*kind*/, PubSub* type) {
+    auto ear = std::make_unique<Ear<Message>>(
+        [this](const Message& message, const auto& /*from*/) { graph_.hear(message); });
+    node_.raw_reader("ros_discovery_info", "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_",
+                     dds::TypeSupport(type), kept, ear.get());
+    ears_.push_back(std::move(ear));
+  };
+  if (gid_bytes == 24) {
+    add(static_cast<ParticipantEntitiesInfoBefore2023_*>(nullptr),
+        new ParticipantEntitiesInfoBefore2023_PubSubType());
+  } else {
+    add(static_cast<ParticipantEntitiesInfo_*>(nullptr), new ParticipantEntitiesInfo_PubSubType());
+  }
 }
 
 void Ros2Listener::note(const std::string& kind, std::int64_t stamp_ns, bool good,
@@ -117,6 +140,18 @@ void Ros2Listener::hear(const std::string& kind, const sensor_msgs::msg::dds_::B
        text("{\"percentage\":%.6f}", static_cast<double>(m.percentage())));
 }
 
+void Ros2Listener::hear(const std::string& kind, const sensor_msgs::msg::dds_::NavSatFix_& m) {
+  const bool fixed = m.status().status() >= 0;
+  const bool good = fixed ? std::abs(m.latitude()) <= 90 && std::abs(m.longitude()) <= 180 &&
+                                m.position_covariance()[0] >= 0
+                          : std::isnan(m.latitude());
+  note(kind, ns_of(m.header().stamp()), good,
+       text("{\"status\":%d,\"latitude\":%.12f,\"longitude\":%.12f,\"altitude\":%.6f,"
+            "\"variance\":%.9f,\"frame\":\"%s\"}",
+            int{m.status().status()}, fixed ? m.latitude() : 0.0, fixed ? m.longitude() : 0.0,
+            fixed ? m.altitude() : 0.0, m.position_covariance()[0], m.header().frame_id().c_str()));
+}
+
 void Ros2Listener::hear(const std::string& kind, const tf2_msgs::msg::dds_::TFMessage_& m) {
   bool good = !m.transforms().empty();
   std::string frames;
@@ -164,12 +199,15 @@ std::string Ros2Listener::state() {
   const std::lock_guard lock(mutex_);
   std::string all = "{";
   for (const auto& [name, kind] : kinds_) {
-    all += text("%s\"%s\":{\"count\":%lld,\"bad\":%lld,\"stamp_ns\":%lld,\"said\":",
-                all.size() > 1 ? "," : "", name.c_str(), static_cast<long long>(kind.count),
-                static_cast<long long>(kind.bad), static_cast<long long>(kind.newest_ns)) +
-           kind.said + "}";
+    std::string from;
+    for (const std::string& writer : kind.from)
+      from += (from.empty() ? "\"" : ",\"") + writer + "\"";
+    all += text("\"%s\":{\"count\":%lld,\"bad\":%lld,\"stamp_ns\":%lld,\"said\":", name.c_str(),
+                static_cast<long long>(kind.count), static_cast<long long>(kind.bad),
+                static_cast<long long>(kind.newest_ns)) +
+           kind.said + ",\"from\":[" + from + "]},";
   }
-  return all + "}";
+  return all + graph_.json() + "}";
 }
 
 }  // namespace peer

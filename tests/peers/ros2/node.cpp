@@ -30,7 +30,8 @@ void deliver(Qos& qos, const Delivery& delivery) {
 
 }  // namespace
 
-Node::Node(const std::string& name, std::uint32_t domain) {
+Node::Node(const std::string& name, std::uint32_t domain,
+           dds::DomainParticipantListener* listener) {
   dds::DomainParticipantQos qos = dds::PARTICIPANT_QOS_DEFAULT;
   qos.name(name.c_str());
   qos.transport().use_builtin_transports = false;
@@ -40,8 +41,8 @@ Node::Node(const std::string& name, std::uint32_t domain) {
   rtps::Locator_t here;
   rtps::IPLocator::setIPv4(here, 127, 0, 0, 1);
   qos.wire_protocol().builtin.initialPeersList.push_back(here);
-  participant_ =
-      dds::DomainParticipantFactory::get_instance()->create_participant(domain, qos, nullptr);
+  participant_ = dds::DomainParticipantFactory::get_instance()->create_participant(
+      domain, qos, listener, dds::StatusMask::none());
   if (participant_ == nullptr) give_up("no participant in domain " + std::to_string(domain));
   publisher_ = participant_->create_publisher(dds::PUBLISHER_QOS_DEFAULT, nullptr);
   subscriber_ = participant_->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT, nullptr);
@@ -72,6 +73,19 @@ dds::DataReader* Node::reader(const std::string& name, dds::TypeSupport type,
   dds::DataReaderQos qos = dds::DATAREADER_QOS_DEFAULT;
   deliver(qos, delivery);
   return subscriber_->create_datareader(topic(name, type), qos, listener);
+}
+
+void Node::raw_reader(const std::string& wire_topic, const std::string& type_name,
+                      dds::TypeSupport type, const Delivery& delivery,
+                      dds::DataReaderListener* listener) {
+  type.register_type(participant_, type_name);
+  dds::Topic* const made =
+      participant_->create_topic(wire_topic, type_name, dds::TOPIC_QOS_DEFAULT);
+  dds::DataReaderQos qos = dds::DATAREADER_QOS_DEFAULT;
+  deliver(qos, delivery);
+  if (made == nullptr || subscriber_->create_datareader(made, qos, listener) == nullptr) {
+    give_up("no topic " + wire_topic);
+  }
 }
 
 }  // namespace peer

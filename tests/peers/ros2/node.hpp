@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantListener.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
@@ -29,7 +30,9 @@ struct Delivery {
 /// learns from DDS that it was killed.
 class Node {
  public:
-  Node(const std::string& name, std::uint32_t domain);
+  /// Of others it tells the listener, which must outlive it.
+  Node(const std::string& name, std::uint32_t domain,
+       eprosima::fastdds::dds::DomainParticipantListener* listener = nullptr);
   Node(const Node&) = delete;
   Node& operator=(const Node&) = delete;
   ~Node();
@@ -41,6 +44,10 @@ class Node {
   [[nodiscard]] eprosima::fastdds::dds::DataReader* reader(
       const std::string& topic, eprosima::fastdds::dds::TypeSupport type, const Delivery& delivery,
       eprosima::fastdds::dds::DataReaderListener* listener);
+  /// The same of a topic by its name on the wire, whose type goes by another name than here.
+  void raw_reader(const std::string& wire_topic, const std::string& type_name,
+                  eprosima::fastdds::dds::TypeSupport type, const Delivery& delivery,
+                  eprosima::fastdds::dds::DataReaderListener* listener);
 
  private:
   eprosima::fastdds::dds::Topic* topic(const std::string& name,
@@ -51,23 +58,24 @@ class Node {
   eprosima::fastdds::dds::Subscriber* subscriber_ = nullptr;
 };
 
-/// Calls `visit(const Message&)` on a thread of Fast DDS for each message that comes.
+/// Calls `visit(message, writer)` on a thread of Fast DDS for each message that comes.
 template <class Message>
 class Ear final : public eprosima::fastdds::dds::DataReaderListener {
  public:
-  explicit Ear(std::function<void(const Message&)> visit) : visit_(std::move(visit)) {}
+  using Visit = std::function<void(const Message&, const eprosima::fastrtps::rtps::GUID_t&)>;
+  explicit Ear(Visit visit) : visit_(std::move(visit)) {}
 
   void on_data_available(eprosima::fastdds::dds::DataReader* reader) override {
     Message message;
     eprosima::fastdds::dds::SampleInfo info;
     while (reader->take_next_sample(&message, &info) ==
            eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK) {
-      if (info.valid_data) visit_(message);
+      if (info.valid_data) visit_(message, info.sample_identity.writer_guid());
     }
   }
 
  private:
-  std::function<void(const Message&)> visit_;
+  Visit visit_;
 };
 
 }  // namespace peer

@@ -22,6 +22,8 @@ bool obey(const std::vector<std::string>& command, Console& console, Ros2Robot& 
   if (name == "state") console.say("state " + robot.state());
   if (name == "mute") robot.set_mute(true);
   if (name == "speak") robot.set_mute(false);
+  if (name == "lose-fix") robot.set_fix(false);
+  if (name == "find-fix") robot.set_fix(true);
   if (name == "pattern") robot.set_pattern(true);
   if (name == "garbage" && command.size() > 1) robot.write_garbage(std::atoi(command[1].c_str()));
   console.say("ok " + name);
@@ -53,6 +55,8 @@ int main(int argc, char** argv) {
                          "range-hz",
                          "imu-hz",
                          "battery-hz",
+                         "fix-hz",
+                         "origin",
                          "pose-hz",
                          "map-hz"});
   Console console;

@@ -39,7 +39,7 @@ bool obey(const std::vector<std::string>& command, Console& console, Ros2Listene
 }  // namespace
 
 int main(int argc, char** argv) {
-  const Arguments given(argc, argv, {"domain", "namespace", "stamped"});
+  const Arguments given(argc, argv, {"domain", "namespace", "stamped", "gid-bytes"});
   Console console;
   Ros2Listener listener(given);
   Joystick joystick;

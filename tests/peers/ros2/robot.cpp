@@ -75,12 +75,16 @@ Ros2Robot::Ros2Robot(const Arguments& given)
       watchdog_ns_(std::llround(given.number("watchdog-ms", 500) * 1e6)),
       rays_(static_cast<std::size_t>(given.number("rays", 181))),
       moved_ns_(true_ns()),
-      plain_ear_([this](const Twist_& m) { hear(m.linear().x(), m.angular().z()); }),
-      stamped_ear_([this](const TwistStamped_& m) {
+      plain_ear_([this](const Twist_& m, const auto& /*writer*/) {
+        hear(m.linear().x(), m.angular().z());
+      }),
+      stamped_ear_([this](const TwistStamped_& m, const auto& /*writer*/) {
         hear(m.twist().linear().x(), m.twist().angular().z());
       }),
       node_("cart", static_cast<std::uint32_t>(given.number("domain", 0))) {
   start_ = {plant_.x(), plant_.y(), plant_.yaw()};
+  const auto origin = given.numbers("origin", {47.3769, 8.5417, 408});
+  std::copy(origin.begin(), origin.end(), origin_.begin());
   const Delivery plain;
   const Delivery sensor{.reliable = given.number("reliable-sensors", 0) != 0};
   const auto type = [](auto* made) { return dds::TypeSupport(made); };
@@ -92,6 +96,7 @@ Ros2Robot::Ros2Robot(const Arguments& given)
       node_.writer(within(given, "battery_state"), type(new BatteryState_PubSubType()), plain);
   odometry_ = node_.writer(within(given, "odom"),
                            type(new nav_msgs::msg::dds_::Odometry_PubSubType()), plain);
+  fix_ = node_.writer(within(given, "fix"), type(new NavSatFix_PubSubType()), sensor);
   pose_ = node_.writer(within(given, "pose"), type(new PoseStamped_PubSubType()), sensor);
   tf_ = node_.writer("/tf", type(new tf2_msgs::msg::dds_::TFMessage_PubSubType()), plain);
   // One that does not keep is what a reader of /tf_static cannot use.
@@ -111,6 +116,7 @@ Ros2Robot::Ros2Robot(const Arguments& given)
              {period("range-hz", 10), moved_ns_, &Ros2Robot::write_range},
              {period("imu-hz", 50), moved_ns_, &Ros2Robot::write_imu},
              {period("battery-hz", 2), moved_ns_, &Ros2Robot::write_battery},
+             {period("fix-hz", 10), moved_ns_, &Ros2Robot::write_fix},
              {period("pose-hz", 50), moved_ns_, &Ros2Robot::write_pose},
              {period("map-hz", 10), moved_ns_, &Ros2Robot::write_map}}};
   write_static(wall_ns());
@@ -269,6 +275,31 @@ void Ros2Robot::write_pose(std::int64_t stamp_ns) {
   message.header(header(stamp_ns, "map"));
   message.pose(placed(plant_.x(), plant_.y(), plant_.yaw()));
   pose_->write(&message);
+}
+
+/// The radii of the earth's curvature say how many metres a degree has here; for a room that is
+/// good to less than a millimetre.
+void Ros2Robot::write_fix(std::int64_t stamp_ns) {
+  ++written_;
+  constexpr double kEquator_m = 6378137.0;
+  constexpr double kEccentricity2 = 6.69437999014e-3;
+  constexpr double kDegree = std::numbers::pi / 180;
+  const double sine = std::sin(origin_[0] * kDegree);
+  const double root = std::sqrt(1 - kEccentricity2 * sine * sine);
+  const double meridian_m = kEquator_m * (1 - kEccentricity2) / (root * root * root) + origin_[2];
+  const double circle_m = (kEquator_m / root + origin_[2]) * std::cos(origin_[0] * kDegree);
+  sensor_msgs::msg::dds_::NavSatFix_ message;
+  message.header(header(stamp_ns, "gps"));
+  message.status().status(has_fix_ ? 0 : -1);
+  message.status().service(1);
+  message.latitude(has_fix_ ? origin_[0] + plant_.y() / meridian_m / kDegree : NAN);
+  message.longitude(has_fix_ ? origin_[1] + plant_.x() / circle_m / kDegree : NAN);
+  message.altitude(has_fix_ ? origin_[2] : NAN);
+  message.position_covariance()[0] = 1e-4;
+  message.position_covariance()[4] = 4e-4;
+  message.position_covariance()[8] = 9e-4;
+  message.position_covariance_type(2);
+  fix_->write(&message);
 }
 
 /// What a localisation says: where the odometry began.

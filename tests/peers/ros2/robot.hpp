@@ -15,8 +15,8 @@
 namespace peer {
 
 /// A small robot with two wheels and a laser as its nodes of ROS 2 show it: it obeys cmd_vel and
-/// writes odom, scan, range, imu, battery_state, pose (a motion capture), tf and tf_static. One
-/// thread, but commands come on those of Fast DDS.
+/// writes odom, scan, range, imu, fix, battery_state, pose (a motion capture), tf and tf_static.
+/// One thread, but commands come on those of Fast DDS.
 class Ros2Robot {
  public:
   explicit Ros2Robot(const Arguments& given);
@@ -27,6 +27,8 @@ class Ros2Robot {
   /// From now on what it writes follows a rule instead of physics: see README.md.
   void set_pattern(bool pattern) { pattern_ = pattern; }
   void set_mute(bool mute) { mute_ = mute; }
+  /// Whether its satellite navigation knows where it is.
+  void set_fix(bool fix) { has_fix_ = fix; }
   /// Writes messages that nobody can use, `count` of each kind.
   void write_garbage(int count);
   /// One JSON object.
@@ -54,6 +56,7 @@ class Ros2Robot {
   void write_range(std::int64_t stamp_ns);
   void write_imu(std::int64_t stamp_ns);
   void write_battery(std::int64_t stamp_ns);
+  void write_fix(std::int64_t stamp_ns);
   void write_pose(std::int64_t stamp_ns);
   void write_map(std::int64_t stamp_ns);
   void write_static(std::int64_t stamp_ns);
@@ -66,6 +69,8 @@ class Ros2Robot {
   std::size_t rays_;
   bool mute_ = false;
   bool pattern_ = false;
+  bool has_fix_ = true;
+  std::array<double, 3> origin_{};  ///< Latitude, longitude, altitude of the room's origin.
   std::int64_t moved_ns_;
   std::int64_t watchdog_stops_ = 0;
   bool moving_ = false;
@@ -83,10 +88,11 @@ class Ros2Robot {
   eprosima::fastdds::dds::DataWriter* range_;
   eprosima::fastdds::dds::DataWriter* imu_;
   eprosima::fastdds::dds::DataWriter* battery_;
+  eprosima::fastdds::dds::DataWriter* fix_;
   eprosima::fastdds::dds::DataWriter* pose_;
   eprosima::fastdds::dds::DataWriter* tf_;
   eprosima::fastdds::dds::DataWriter* tf_static_;
-  std::array<Task, 7> tasks_;
+  std::array<Task, 8> tasks_;
 };
 
 }  // namespace peer

@@ -29,6 +29,18 @@ TEST(Ros2Errors, WhoIsNotThereIsLookedForAndNamed) {
             "has no parent");
 }
 
+TEST(Ros2Errors, SatelliteNavigationNeedsAPlaceOfTheWorldAndAFix) {
+  Ros2Bench bench;
+  bench.given["start_timeout_s"] = 2.0;
+  ASSERT_EQ(bench.device.configure(bench.given, bench.host()), "");
+  LiveSensor gps(bench.plugin, "ros2_gps");
+  EXPECT_EQ(gps.configure({}, bench.device.base()).substr(0, 57),
+            "`geo_origin` has 0 numbers; expected that of the scenario");
+  bench.peer->tell("lose-fix");
+  EXPECT_EQ(gps.configure({{"geo_origin", std::vector<double>{47, 8}}}, bench.device.base()),
+            "no message on `/cart/fix` within 2 s could be used: the receiver has no fix");
+}
+
 TEST(Ros2Errors, AMismatchIsToldWithItsRemedy) {
   Ros2Bench bench({"--forgets-static", "1"});
   bench.given["start_timeout_s"] = 2.0;

@@ -122,5 +122,68 @@ TEST(Ros2Sensors, TheOtherKinds) {
   }
 }
 
+/// The room's corner is the peer's origin, and x is east.
+const testing::Given kGps{{"geo_origin", std::vector<double>{47.3769, 8.5417, 408}}};
+
+TEST(Ros2Sensors, SatelliteNavigationIsAPose) {
+  Ros2Bench bench;
+  ASSERT_NO_FATAL_FAILURE(bench.start());
+  LiveSensor gps(bench.plugin, "ros2_gps");
+  LiveSensor steered(bench.plugin, "ros2_gps");
+  ASSERT_EQ(gps.configure(kGps, bench.device.base()), "");
+  testing::Given with_imu = kGps;
+  with_imu["imu_topic"] = "imu";
+  ASSERT_EQ(steered.configure(with_imu, bench.device.base()), "");
+  LiveSink<PoseReading> places(ReadingKind::kPose, 1);
+  LiveSink<PoseReading> poses(ReadingKind::kPose, 1);
+  ASSERT_EQ(gps.open(places), "");
+  ASSERT_EQ(steered.open(poses), "");
+  places.await_more(2);
+  const PoseReading first = places.samples().back().records.front();
+  EXPECT_NEAR(first.x_m, 1, 1e-3);
+  EXPECT_NEAR(first.y_m, 1.5, 1e-3);
+  EXPECT_NEAR(first.variance_xy_m2, 4e-4, 1e-12);
+  EXPECT_GT(first.variance_yaw_rad2, 9) << "it has not moved";
+  bench.keep_driving(0.4, 0);
+  places.await_record([](const PoseReading& r) { return r.x_m > 2 && r.variance_yaw_rad2 < 1; });
+  bench.keep_driving(0.1, 1.2);
+  poses.await_record([](const PoseReading& r) { return r.yaw_rad > 1.5; });
+  bench.stop_driving();
+  const auto now = bench.await_standstill();
+  poses.await_more(3);
+  const PoseReading last = poses.samples().back().records.front();
+  EXPECT_NEAR(last.x_m, now["x"].get<double>(), 1e-3);
+  EXPECT_NEAR(last.y_m, now["y"].get<double>(), 1e-3);
+  EXPECT_NEAR(last.yaw_rad, now["yaw"].get<double>(), 1e-3);
+  gps.close();
+  steered.close();
+}
+
+TEST(Ros2Sensors, AReceiverWithoutAFixIsThereButGivesNoPose) {
+  Ros2Bench bench;
+  bench.given["lost_after_s"] = 0.3;
+  ASSERT_NO_FATAL_FAILURE(bench.start());
+  LiveSensor gps(bench.plugin, "ros2_gps");
+  ASSERT_EQ(gps.configure(kGps, bench.device.base()), "");
+  LiveSink<PoseReading> places(ReadingKind::kPose, 1);
+  ASSERT_EQ(gps.open(places), "");
+  places.await_more(2);
+  bench.peer->tell("lose-fix");
+  const auto refused = [&] { return gps.report(); };
+  testing::await_answer(refused, [](const nlohmann::json& r) { return r["refused"] > 0; });
+  const std::size_t before = places.samples().size();
+  // Longer than a silence that would be a loss.
+  testing::await_answer(refused, [](const nlohmann::json& r) { return r["refused"] > 5; });
+  EXPECT_EQ(places.samples().size(), before);
+  EXPECT_EQ(gps.report()["losses"], 0);
+  EXPECT_EQ(gps.report()["trouble"], "the receiver has no fix");
+  EXPECT_EQ(places.queue().failure(), "");
+  bench.peer->tell("find-fix");
+  places.await_more(2);
+  bench.peer->tell("mute");
+  EXPECT_NE(places.await_failure().find("no message has come on `/cart/fix`"), std::string::npos);
+  gps.close();
+}
+
 }  // namespace
 }  // namespace rave::ros2_driver

@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "rave/plugin/param_set.hpp"
 #include "rave/robot/actuator.hpp"
@@ -19,7 +20,7 @@
 namespace rave::testing {
 
 /// Values of parameters that differ from the default.
-using Given = std::map<std::string, std::variant<double, std::string>>;
+using Given = std::map<std::string, std::variant<double, std::string, std::vector<double>>>;
 
 /// In the order of the specs, defaults filled in.
 [[nodiscard]] inline plugin::ParamSet values_of(const DriverInfo& info, const Given& given) {
@@ -31,6 +32,9 @@ using Given = std::map<std::string, std::variant<double, std::string>>;
     used += there ? 1U : 0U;
     if (spec.type == ParamType::kText || spec.type == ParamType::kChoice) {
       set.add_text(spec.name, there ? std::get<std::string>(found->second) : spec.default_text);
+    } else if (spec.type == ParamType::kNumbers) {
+      set.add_list(spec.name,
+                   there ? std::get<std::vector<double>>(found->second) : std::vector<double>());
     } else {
       set.add_number(spec.name, there ? std::get<double>(found->second) : spec.default_number);
     }

@@ -129,7 +129,18 @@ enum class LostHost : std::uint8_t {
   kRestart,  ///< The same, and it may come back: its robots go on from where they stand.
 };
 
+/// Where the origin of the world lies on the earth (WGS 84).
+struct GeoOriginFile {
+  double latitude_deg = 0;   ///< -90 to 90, positive in the north.
+  double longitude_deg = 0;  ///< -180 to 180, positive in the east.
+  double altitude_m = 0;     ///< Above the ellipsoid.
+  double yaw_deg = 0;        ///< Of the world's x axis, from east towards north.
+  bool operator==(const GeoOriginFile&) const = default;
+};
+
 enum class Ros2Multicast { kNone, kDiscovery, kData };
+/// The form in which nodes are announced: as of Iron (2023) and later, or of Humble and before.
+enum class Ros2Nodes { kNone, kHumble, kIron };
 
 /// Where robots with `ros2: true` show themselves.
 struct Ros2File {
@@ -137,6 +148,7 @@ struct Ros2File {
   std::string interface = "127.0.0.1";  ///< By address or name.
   std::vector<std::string> peers;       ///< Addresses to look for others at.
   Ros2Multicast multicast = Ros2Multicast::kNone;
+  Ros2Nodes nodes = Ros2Nodes::kIron;
   double period_s = 0.05;  ///< Of transforms, and of poses that no odometry gives.
   bool operator==(const Ros2File&) const = default;
 };
@@ -171,6 +183,7 @@ struct ScenarioFile {
   std::vector<ChangeFile> changes;
   ChecksFile checks;
   std::optional<PictureFile> picture;
+  std::optional<GeoOriginFile> geo_origin;  ///< Unset: nobody knows where the world lies.
   Ros2File ros2;
   bool operator==(const ScenarioFile&) const = default;
 };

@@ -12,6 +12,7 @@
 #include "rave/bus/config.hpp"
 #include "rave/bus/cyclone_log.hpp"
 #include "rave/bus/qos.hpp"
+#include "rave/ros2/node_list.hpp"
 
 namespace rave::ros2 {
 
@@ -24,6 +25,10 @@ struct Network {
   std::string interface = "127.0.0.1";  ///< As of bus::BusConfig, like the next two.
   std::vector<std::string> peers;
   bus::Multicast multicast = bus::Multicast::kOff;
+  NodeForm nodes = NodeForm::kIron;
+  /// The node that others see: a word, and a namespace such as `/cart`, or empty.
+  std::string node = "rave";
+  std::string node_namespace;
 };
 
 /// Somebody else's reader or writer, by the names of ROS 2.
@@ -62,6 +67,11 @@ class Participant {
   [[nodiscard]] Result<dds_entity_t> add_end(const dds_topic_descriptor_t& type,
                                              std::string_view topic, const bus::QosProfile& profile,
                                              bool reads) const;
+  /// Deletes an end that add_end() made.
+  void remove_end(dds_entity_t end) const;
+  /// Tells others which ends there are, if they have changed; at the latest a moment after the last
+  /// of them was made, so that the tools of ROS 2 find all. Costs nothing otherwise.
+  void announce() const;
 
   /// What others write, or read, now.
   [[nodiscard]] std::vector<RemoteEnd> others(bool writers) const;
@@ -82,6 +92,7 @@ class Participant {
 
   Network network_;
   std::unique_ptr<bus::CycloneLog> log_;
+  std::unique_ptr<NodeList> nodes_;  ///< Null: nobody is told.
   dds_entity_t domain_ = 0;
   dds_entity_t participant_ = 0;
   dds_entity_t seen_participants_ = 0;

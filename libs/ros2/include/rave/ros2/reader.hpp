@@ -8,55 +8,25 @@
 #include <utility>
 
 #include "rave/bus/endpoint.hpp"
+#include "rave/ros2/end.hpp"
 #include "rave/ros2/messages.hpp"
-#include "rave/ros2/participant.hpp"
 #include "rave/ros2/validate.hpp"
 
 namespace rave::ros2 {
-
-/// What readers of all types share. Owner: a Reader.
-class ReaderCore {
- public:
-  /// A sender that never stops must not keep the receiver from everything else.
-  static constexpr std::size_t kMostAtOnce = 1024;
-
-  [[nodiscard]] static Result<ReaderCore> create(const Participant& participant,
-                                                 const dds_topic_descriptor_t& type,
-                                                 std::string_view topic,
-                                                 const bus::QosProfile& profile);
-  ReaderCore(ReaderCore&& other) noexcept;
-  ReaderCore& operator=(ReaderCore&& other) noexcept;
-  ~ReaderCore();
-
-  void refuse(Error why);
-  [[nodiscard]] dds_entity_t handle() const noexcept { return reader_; }
-  [[nodiscard]] const std::string& topic() const noexcept { return topic_; }
-  [[nodiscard]] std::uint64_t refused() const noexcept { return refused_; }
-  [[nodiscard]] const std::string& trouble() const noexcept { return trouble_; }
-  [[nodiscard]] std::string explain_silence() const;
-
- private:
-  ReaderCore(const Participant& participant, std::string_view type, std::string_view topic)
-      : participant_(&participant), type_(type), topic_(topic) {}
-
-  const Participant* participant_;
-  std::string type_;
-  std::string topic_;
-  dds_entity_t reader_ = 0;
-  std::uint64_t refused_ = 0;
-  std::string trouble_;
-};
 
 /// Reads one topic of ROS 2. Must be gone before its participant. One thread at a time.
 template <class Message>
 class Reader {
  public:
+  /// A sender that never stops must not keep the receiver from everything else.
+  static constexpr std::size_t kMostAtOnce = 1024;
+
   /// `topic` is whole: `/cart/scan`. Errors: those of Participant::add_end().
   [[nodiscard]] static Result<Reader> create(const Participant& participant, std::string_view topic,
                                              const bus::QosProfile& profile) {
-    RAVE_TRY_ASSIGN(ReaderCore core,
-                    ReaderCore::create(participant, descriptor_of<Message>(), topic, profile));
-    return Reader(std::move(core));
+    RAVE_TRY_ASSIGN(End end,
+                    End::create(participant, descriptor_of<Message>(), topic, profile, true));
+    return Reader(std::move(end));
   }
 
   /// Calls `visit(const Message&)` for every sample that has come, oldest first. Samples are on
@@ -66,7 +36,7 @@ class Reader {
   std::size_t take(Visit&& visit) {
     std::size_t visited = 0;
     bus::Loan loan;
-    for (std::size_t taken = 0; taken < ReaderCore::kMostAtOnce; taken += bus::Loan::kBatch) {
+    for (std::size_t taken = 0; taken < kMostAtOnce; taken += bus::Loan::kBatch) {
       bus::take(handle(), loan);
       for (std::size_t i = 0; i < loan.size; ++i) {
         // A writer that ends says so by a sample without values.
@@ -74,7 +44,7 @@ class Reader {
         const auto& sample = *static_cast<const Message*>(loan.samples[i]);
         Status status = validate(sample);
         if (!status) {
-          core_.refuse(std::move(status).error());
+          refuse(std::move(status).error());
           continue;
         }
         visit(sample);
@@ -88,26 +58,29 @@ class Reader {
   }
 
   /// Refuses a sample for a reason that only the caller can know.
-  void refuse(Error why) { core_.refuse(std::move(why)); }
-  /// How many samples were refused, and why the last of them was.
-  [[nodiscard]] std::uint64_t refused() const noexcept { return core_.refused(); }
-  [[nodiscard]] const std::string& trouble() const noexcept { return core_.trouble(); }
-  /// How many writers are known now.
-  [[nodiscard]] std::size_t writers() const { return bus::matched_ends(handle(), true); }
-  /// As of bus::take_mismatch().
-  [[nodiscard]] std::optional<std::string> take_mismatch() {
-    return bus::take_mismatch(handle(), true);
+  void refuse(Error why) {
+    ++refused_;
+    trouble_ = std::move(why.message);
   }
+  /// How many samples were refused, and why the last of them was.
+  [[nodiscard]] std::uint64_t refused() const noexcept { return refused_; }
+  [[nodiscard]] const std::string& trouble() const noexcept { return trouble_; }
+  /// How many writers are known now.
+  [[nodiscard]] std::size_t writers() const { return end_.matched(); }
+  /// As of bus::take_mismatch().
+  [[nodiscard]] std::optional<std::string> take_mismatch() { return end_.take_mismatch(); }
   /// As of Participant::explain_silence().
-  [[nodiscard]] std::string explain_silence() const { return core_.explain_silence(); }
-  [[nodiscard]] const std::string& topic() const noexcept { return core_.topic(); }
+  [[nodiscard]] std::string explain_silence() const { return end_.explain_silence(); }
+  [[nodiscard]] const std::string& topic() const noexcept { return end_.topic(); }
   /// For a Waiter; the entity stays its own.
-  [[nodiscard]] dds_entity_t handle() const noexcept { return core_.handle(); }
+  [[nodiscard]] dds_entity_t handle() const noexcept { return end_.handle(); }
 
  private:
-  explicit Reader(ReaderCore core) : core_(std::move(core)) {}
+  explicit Reader(End end) : end_(std::move(end)) {}
 
-  ReaderCore core_;
+  End end_;
+  std::uint64_t refused_ = 0;
+  std::string trouble_;
 };
 
 }  // namespace rave::ros2

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+
+#include "rave/live_testing/peer_process.hpp"
+
+namespace rave::testing {
+
+/// A folder of this test alone, removed with this object.
+class Scratch {
+ public:
+  explicit Scratch(const std::string& prefix)
+      : folder_(std::filesystem::temp_directory_path() /
+                (prefix + "_" + std::to_string(::getpid()) + "_" +
+                 ::testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    std::filesystem::create_directories(folder_);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  ~Scratch() { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] std::string file(const std::string& name) const {
+    return (folder_ / name).string();
+  }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(file(name)) << text;
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+/// Asks until the answer is as wanted; gives the last one.
+template <class Ask, class Wanted>
+nlohmann::json await_answer(Ask&& ask, Wanted&& wanted) {
+  const auto end = std::chrono::steady_clock::now() + kLong;
+  nlohmann::json now = ask();
+  while (!wanted(now) && std::chrono::steady_clock::now() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    now = ask();
+  }
+  EXPECT_TRUE(wanted(now)) << now.dump();
+  return now;
+}
+
+/// What a peer says of itself.
+[[nodiscard]] inline nlohmann::json state_of(PeerProcess& peer) {
+  return nlohmann::json::parse(peer.ask("state"));
+}
+
+}  // namespace rave::testing

@@ -53,8 +53,7 @@ class UdpTransmitter final : public Transmitter {
                                                   group ? &*group : nullptr));
     declaration.max_packet_bytes = kMaxPacket;
     declaration.network = radio_name_hash(params.text("network"));
-    const auto ticks = line::host_now().time_since_epoch().count();
-    declaration.boot = static_cast<std::uint32_t>(mix64(static_cast<std::uint64_t>(ticks)));
+    declaration.boot = line::boot_number();
     return {};
   }
 

@@ -104,6 +104,10 @@ std::size_t encode(const RadioPacket& packet, std::span<std::byte> room) noexcep
   return size;
 }
 
+std::uint32_t sender_of(std::span<const std::byte> bytes) noexcept {
+  return bytes.size() < kRadioPacketOverhead ? 0 : get<std::uint32_t>(bytes.data() + 8);
+}
+
 std::optional<RadioPacket> decode_radio_packet(std::span<const std::byte> bytes) noexcept {
   const std::byte* const at = bytes.data();
   if (bytes.size() < kRadioPacketOverhead || !std::equal(kMagic, kMagic + 2, at) ||

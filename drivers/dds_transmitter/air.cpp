@@ -159,8 +159,7 @@ void Air::write_waiting() {
 }
 
 void Air::take() {
-  const std::size_t taken =
-      reader_->take([this](const bus::Packet& sample) { hand_out(sample); });
+  const std::size_t taken = reader_->take([this](const bus::Packet& sample) { hand_out(sample); });
   if (taken == 0) return;
   const std::lock_guard lock(queue_mutex_);
   counts_.received += taken;

@@ -10,7 +10,8 @@ namespace rave::dds_transmitter {
 namespace {
 
 constexpr ParamSpec kParams[] = {
-    text_param("network", "rave", "Robots whose transmitters name the same network are in one air."),
+    text_param("network", "rave",
+               "Robots whose transmitters name the same network are in one air."),
     text_param("run", "", "32 hexadecimal digits in place of those made of `network`."),
     integer_param("domain", 0, 0, 230, "Domain of DDS: chooses the UDP ports."),
     text_param("interface", "127.0.0.1",

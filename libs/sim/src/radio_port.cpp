@@ -64,8 +64,8 @@ void RadioPort::receive(const std::byte* packet, std::uint64_t size) noexcept {
 
 /// Of the sender that has most in the queue the oldest: whoever floods pushes out its own.
 void RadioPort::drop_one() {
-  const auto most = std::max_element(held_.begin(), held_.end(),
-                                     [](const auto& a, const auto& b) { return a.count < b.count; });
+  const auto most = std::max_element(
+      held_.begin(), held_.end(), [](const auto& a, const auto& b) { return a.count < b.count; });
   const std::uint32_t sender = most->sender;
   const auto oldest = std::find_if(queue_.begin(), queue_.end(), [&](std::uint16_t slot) {
     return slots_[slot].sender == sender;

@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
 #include <functional>
+#include <thread>
 
 #include "rave/live_testing/live_transmitter.hpp"
 #include "rave/robot/radio_packet.hpp"
@@ -14,21 +16,19 @@
 namespace {
 
 using namespace rave;
-using testing::LiveTransmitter;
+using rave::testing::LiveTransmitter;
 using std::string_literals::operator""s;
 
 /// Calls a function for each packet.
 class Hearer final : public PacketSink {
  public:
-  explicit Hearer(std::function<void(std::string_view)> heard) : heard_(std::move(heard)) {}
-  void receive(const std::byte* packet, std::uint64_t size) noexcept override {
-    heard_({reinterpret_cast<const char*>(packet), size});
-  }
+  explicit Hearer(std::function<void()> heard) : heard_(std::move(heard)) {}
+  void receive(const std::byte*, std::uint64_t) noexcept override { heard_(); }
   void fail(const char*, std::uint64_t) noexcept override {}
   void recover() noexcept override {}
 
  private:
-  std::function<void(std::string_view)> heard_;
+  std::function<void()> heard_;
 };
 
 /// Counts what comes back.
@@ -42,7 +42,7 @@ class Counter {
   /// False: what is waited for was lost.
   bool wait_for(std::uint64_t count) {
     std::unique_lock lock(mutex_);
-    return changed_.wait_for(lock, std::chrono::seconds(5), [&] { return count_ >= count; });
+    return changed_.wait_for(lock, std::chrono::seconds(1), [&] { return count_ >= count; });
   }
 
  private:
@@ -99,15 +99,25 @@ std::string connect(LiveTransmitter& a, LiveTransmitter& b, const std::string& d
 void transmitter(benchmark::State& state, const std::string& driver, std::uint64_t window) {
   LiveTransmitter a(driver);
   LiveTransmitter b(driver);
+  const std::string packet = example_packet();
+  Counter there;
   Counter back;
-  Hearer at_a([&](std::string_view) { back.add(); });
-  Hearer at_b([&](std::string_view packet) { b.send(packet); });
+  Hearer at_a([&] { back.add(); });
+  Hearer at_b([&] { there.add(); });
   const std::string error = connect(a, b, driver, at_a, at_b);
   if (!error.empty()) {
     state.SkipWithError(error.c_str());
     return;
   }
-  const std::string packet = example_packet();
+  // A thread answers, since no host sends while it is handed a packet.
+  const std::jthread answerer([&](const std::stop_token& stop) {
+    for (std::uint64_t answered = 0; !stop.stop_requested();) {
+      if (there.wait_for(answered + 1)) {
+        b.send(packet);
+        ++answered;
+      }
+    }
+  });
   std::uint64_t sent = 0;
   for (auto _ : state) {
     a.send(packet);

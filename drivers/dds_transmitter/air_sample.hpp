@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "rave/base/result.hpp"
 #include "rave/bus/topics.hpp"
 #include "rave/robot/radio_packet.hpp"
 

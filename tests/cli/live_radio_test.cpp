@@ -6,6 +6,7 @@
 #include <cstring>
 #include <numeric>
 
+#include "live_listener.hpp"
 #include "rave/record/mcap_reader.hpp"
 #include "rave/record/run_messages.hpp"
 #include "rave/record/run_reader.hpp"
@@ -114,7 +115,8 @@ TEST_F(LiveRadio, TenThousandMessagesReachAllHostsOnceAndInTheirOrder) {
 }
 
 TEST_F(LiveRadio, WhenAHostIsKilledTheOthersHearEachOther) {
-  const std::vector<std::string> run = {"--run", "killed", "--duration", "6"};
+  const bus::RunId id = bus::RunId::random();
+  const std::vector<std::string> run = {"--run", id.text(), "--duration", "6"};
   const auto with = [&](const std::string& host) {
     std::vector<std::string> words = run;
     words.insert(words.end(), {"--host", host});
@@ -122,7 +124,15 @@ TEST_F(LiveRadio, WhenAHostIsKilledTheOthersHearEachOther) {
   };
   begin("env", "talk.yaml", run);
   for (const char* const host : {"one", "two", "three"}) begin(host, "talk.yaml", with(host));
-  wait_for_line("env", "all hosts are there");
+  const auto listener = LiveListener::open(id, apart());
+  ASSERT_TRUE(listener) << listener.error().text();
+  wait_until(
+      [&] {
+        (*listener)->listen();
+        const auto& worlds = (*listener)->worlds;
+        return !worlds.empty() && worlds.back().time_ns > 2'500'000'000;
+      },
+      "they have talked for a while");
   signal("two", SIGKILL);
   EXPECT_EQ(end_of("two"), -1);
   wait_for_line("env", "host `two` is gone");

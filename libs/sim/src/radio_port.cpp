@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "rave/robot/radio_packet.hpp"
+#include "rave/robot/radio_sender.hpp"
 
 namespace rave::sim {
 namespace {
@@ -47,7 +47,7 @@ RadioPort::RadioPort(std::uint32_t max_packet_bytes) : slots_(kDepth) {
 
 void RadioPort::receive(const std::byte* packet, std::uint64_t size) noexcept {
   const std::lock_guard lock(mutex_);
-  const std::uint32_t sender = sender_of({packet, size});
+  const std::uint32_t sender = radio_sender({packet, size});
   if (size > slots_[0].bytes.size()) {
     note_lost(sender);
     return;

@@ -48,9 +48,6 @@ inline constexpr std::size_t kRadioPacketOverhead = 56;
 /// Writes the packet into `room`; returns its size, or 0 if there is too little room.
 [[nodiscard]] std::size_t encode(const RadioPacket& packet, std::span<std::byte> room) noexcept;
 
-/// The sender that a packet names, unchecked; 0 if there are too few bytes for one.
-[[nodiscard]] std::uint32_t sender_of(std::span<const std::byte> bytes) noexcept;
-
 /// Reads one packet; `payload` points into `bytes`. Nothing if it is not exactly one whole packet
 /// of version 1 with the right checksum.
 [[nodiscard]] std::optional<RadioPacket> decode_radio_packet(

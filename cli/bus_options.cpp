@@ -1,21 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bus_options.hpp"
 
-#include <bit>
-
 #include "rave/base/hash.hpp"
 #include "rave/base/names.hpp"
 
 namespace rave::cli {
 namespace {
-
-/// The same for all who know the name: a number for a run that people can say to one another.
-bus::RunId run_of_name(std::uint64_t name) {
-  bus::RunId run;
-  const std::array<std::uint64_t, 2> halves = {mix64(name), mix64(~name)};
-  run.bytes = std::bit_cast<std::array<std::uint8_t, 16>>(halves);
-  return run;
-}
 
 Result<bus::Multicast> multicast_of(const std::string& word) {
   if (word == "off") return bus::Multicast::kOff;
@@ -45,7 +35,7 @@ Result<bus::BusConfig> bus_config(const BusOptions& options, std::string partici
     config.run = *digits;
   } else {
     const auto name = std::as_bytes(std::span(options.run.data(), options.run.size()));
-    config.run = run_of_name(options.run.empty() ? scenario : content_hash(name));
+    config.run = bus::RunId::of(options.run.empty() ? scenario : content_hash(name));
   }
   RAVE_TRY(bus::validate(config));
   return config;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 
+#include "rave/base/hash.hpp"
 #include "rave/robot/hardware_sensor.hpp"
 
 namespace rave::line {
@@ -13,6 +15,12 @@ using HostTime = HostClock::time_point;
 using Wait = std::chrono::milliseconds;
 
 [[nodiscard]] inline HostTime host_now() noexcept { return HostClock::now(); }
+
+/// Another number each time a program is started, for TransmitterDeclaration::boot.
+[[nodiscard]] inline std::uint32_t boot_number() noexcept {
+  const auto ticks = host_now().time_since_epoch().count();
+  return static_cast<std::uint32_t>(mix64(static_cast<std::uint64_t>(ticks)));
+}
 
 /// Seconds since the clock's own start.
 [[nodiscard]] inline double host_seconds(HostTime t) noexcept {

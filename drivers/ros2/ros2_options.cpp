@@ -7,23 +7,6 @@
 namespace rave::ros2_driver {
 namespace {
 
-std::vector<std::string> split(std::string_view text) {
-  std::vector<std::string> parts;
-  while (!text.empty()) {
-    std::string_view part = text.substr(0, text.find(','));
-    text.remove_prefix(std::min(part.size() + 1, text.size()));
-    while (part.starts_with(' ')) part.remove_prefix(1);
-    while (part.ends_with(' ')) part.remove_suffix(1);
-    if (!part.empty()) parts.emplace_back(part);
-  }
-  return parts;
-}
-
-bus::Multicast multicast_of(std::string_view word) {
-  if (word == "data") return bus::Multicast::kOn;
-  return word == "discovery" ? bus::Multicast::kDiscovery : bus::Multicast::kOff;
-}
-
 ros2::NodeForm form_of(std::string_view word) {
   if (word == "humble") return ros2::NodeForm::kHumble;
   return word == "iron" ? ros2::NodeForm::kIron : ros2::NodeForm::kNone;
@@ -36,8 +19,8 @@ Result<DeviceOptions> read_options(const Params& params, const char* robot) {
   options.network.name = "rave/" + std::string(robot).substr(0, 50);
   options.network.domain = static_cast<std::uint32_t>(params.integer("domain"));
   options.network.interface = params.text("interface");
-  options.network.peers = split(params.text("peers"));
-  options.network.multicast = multicast_of(params.text("multicast"));
+  options.network.peers = dds_network::split_peers(params.text("peers"));
+  options.network.multicast = dds_network::multicast_of(params.text("multicast"));
   options.network.nodes = form_of(params.text("nodes"));
   options.name_space = params.text("namespace");
   options.network.node_namespace = options.name_space;

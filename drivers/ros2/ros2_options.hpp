@@ -4,12 +4,12 @@
 #include <array>
 #include <string>
 
+#include "dds_network/network_words.hpp"
 #include "rave/plugin/params.hpp"
 #include "rave/ros2/participant.hpp"
 
 namespace rave::ros2_driver {
 
-inline constexpr std::array<const char*, 3> kMulticasts{"none", "discovery", "data"};
 inline constexpr std::array<const char*, 3> kVelocityMessages{"auto", "twist", "twist_stamped"};
 inline constexpr std::array<const char*, 2> kCommandMessages{"twist", "twist_stamped"};
 
@@ -21,7 +21,7 @@ inline constexpr std::array<ParamSpec, 9> kDeviceParams{
     text_param("interface", "127.0.0.1",
                "Network interface to the robot, by address or name; the default is this machine."),
     text_param("peers", "", "Addresses to look for the robot at, between commas."),
-    choice_param("multicast", "none", kMulticasts,
+    choice_param("multicast", "none", dds_network::kMulticasts,
                  "What is sent by multicast: nothing, what finds the robot, or data as well."),
     choice_param("nodes", "iron", kNodeForms,
                  "How nodes of ROS 2 learn of this one: as of Iron (2023) and later, as of Humble "

@@ -101,8 +101,7 @@ Status SerialTransmitter::configure(const HardwareSetup& setup,
   decoder_.emplace(max_packet_bytes_);
   declaration.max_packet_bytes = static_cast<std::uint32_t>(max_packet_bytes_);
   declaration.network = radio_name_hash(params.text("network"));
-  const auto ticks = line::host_now().time_since_epoch().count();
-  declaration.boot = static_cast<std::uint32_t>(mix64(static_cast<std::uint64_t>(ticks)));
+  declaration.boot = line::boot_number();
   return {};
 }
 

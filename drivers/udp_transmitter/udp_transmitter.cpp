@@ -22,6 +22,8 @@ constexpr ParamSpec kParams[] = {
     text_param("peers", "", "Whom to send to: `127.0.0.1:4711 10.0.0.2:4711`, numeric."),
     text_param("group", "", "A multicast group to send to and to hear, such as 239.255.7.1:4711."),
     text_param("network", "rave", "Only packets of the same network are taken."),
+    number_param("byte_rate", "B/s", 0, 0, 1e12,
+                 "Bytes a second of all communicators that share it; 0: no limit."),
 };
 
 /// Packets as datagrams. configure(), open(), send(), close() and report() belong to the host's
@@ -52,9 +54,9 @@ class UdpTransmitter final : public Transmitter {
     RAVE_TRY_ASSIGN(socket_, DatagramSocket::open(std::string(params.text("listen")), port,
                                                   group ? &*group : nullptr));
     declaration.max_packet_bytes = kMaxPacket;
+    declaration.byte_rate = params.number("byte_rate");
     declaration.network = radio_name_hash(params.text("network"));
-    const auto ticks = line::host_now().time_since_epoch().count();
-    declaration.boot = static_cast<std::uint32_t>(mix64(static_cast<std::uint64_t>(ticks)));
+    declaration.boot = line::boot_number();
     return {};
   }
 

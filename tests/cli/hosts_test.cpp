@@ -95,6 +95,13 @@ TEST_F(Hosts, AnySplitAndAnyOrderOfStartGiveTheSame) {
   }
 }
 
+TEST_F(Hosts, AFlockOfTwoProcessesIsThatOfOne) {
+  const std::string alone = hash_alone("flock", {"--duration", "4"});
+  start("run", "run", "flock", {"--duration", "4", "--processes", "2"});
+  EXPECT_EQ(end_of("run"), 0) << console("run");
+  EXPECT_EQ(result("run")["hash"], alone);
+}
+
 TEST_F(Hosts, RecordedRealRobotsAndSimulatedOnesOnDifferentHosts) {
   const Words span = {"--duration", "4"};
   const std::string alone = hash_alone("mixed-reality", span);

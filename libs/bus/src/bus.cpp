@@ -13,6 +13,10 @@
 namespace rave::bus {
 namespace {
 
+/// Numbers that domains of buses beside others have within this process; those of ROS 2 end before.
+constexpr std::uint32_t kFirstBeside = 2000;
+constexpr std::uint32_t kMostBeside = 1000;
+
 constexpr std::uint32_t kReaderStatus =
     DDS_SUBSCRIPTION_MATCHED_STATUS | DDS_REQUESTED_INCOMPATIBLE_QOS_STATUS;
 constexpr std::uint32_t kWriterStatus =
@@ -48,26 +52,41 @@ dds_guid_t participant_of(dds_entity_t entity, bool reads, dds_instance_handle_t
   return guid;
 }
 
+/// Whether there is a domain in this process, whose owner catches the log of Cyclone DDS.
+bool has_domains() { return dds_get_children(DDS_CYCLONEDDS_HANDLE, nullptr, 0) > 0; }
+
 }  // namespace
 
 Bus::Bus(BusConfig config)
-    : config_(std::move(config)),
-      writer_(random_writer_id()),
-      log_(std::make_unique<CycloneLog>()) {}
+    : config_(std::move(config)), writer_(random_writer_id()), number_(config_.domain) {
+  if (!config_.beside || !has_domains()) log_ = std::make_unique<CycloneLog>();
+}
 
 Result<std::unique_ptr<Bus>> Bus::open(const BusConfig& config) {
   RAVE_TRY(validate(config));
   std::unique_ptr<Bus> bus(new Bus(config));
-  bus->domain_ = dds_create_domain(config.domain, cyclone_xml(config).c_str());
-  if (bus->domain_ < 0) return bus->refused(bus->domain_);
+  RAVE_TRY(bus->open_domain());
   RAVE_TRY(bus->open_participant());
   return bus;
+}
+
+Status Bus::open_domain() {
+  const std::string settings = cyclone_xml(config_);
+  // The plain number is left to the bus of the host, which may come later.
+  if (config_.beside) number_ = kFirstBeside;
+  domain_ = dds_create_domain(number_, settings.c_str());
+  while (config_.beside && domain_ == DDS_RETCODE_PRECONDITION_NOT_MET &&
+         ++number_ < kFirstBeside + kMostBeside) {
+    domain_ = dds_create_domain(number_, settings.c_str());
+  }
+  if (domain_ < 0) return refused(domain_);
+  return {};
 }
 
 Status Bus::open_participant() {
   const Qos qos(dds_create_qos());
   write_identity({config_.participant, config_.run, writer_}, qos.get());
-  participant_ = dds_create_participant(config_.domain, qos.get(), nullptr);
+  participant_ = dds_create_participant(number_, qos.get(), nullptr);
   if (participant_ < 0) return refused(participant_);
   const Qos partition = partition_of(config_.run);
   publisher_ = dds_create_publisher(participant_, partition.get(), nullptr);
@@ -84,7 +103,9 @@ tl::unexpected<Error> Bus::refused(dds_return_t code) {
     return fail(ErrorCode::kState, "this process has a bus in domain {} already", config_.domain);
   }
   std::string reason(dds_strretcode(code));
-  for (const std::string& line : log_->take()) reason += "; " + line;
+  if (log_) {
+    for (const std::string& line : log_->take()) reason += "; " + line;
+  }
   return fail(ErrorCode::kIo, "cannot join domain {} at {}: {}", config_.domain, config_.interface,
               reason);
 }
@@ -130,8 +151,10 @@ void Bus::remove_endpoint(dds_entity_t entity) {
 }
 
 std::vector<BusEvent> Bus::take_events() {
-  for (std::string& line : log_->take()) {
-    events_.push_back({EventKind::kNotice, "", "", 0, std::move(line)});
+  if (log_) {
+    for (std::string& line : log_->take()) {
+      events_.push_back({EventKind::kNotice, "", "", 0, std::move(line)});
+    }
   }
   participants_->collect(events_);
   for (Endpoint& endpoint : endpoints_) {

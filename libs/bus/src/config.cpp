@@ -83,6 +83,8 @@ std::string discovery(const BusConfig& config) {
       "<MaxAutoParticipantIndex>{}</MaxAutoParticipantIndex>"
       "<LeaseDuration>{}ms</LeaseDuration>",
       config.max_processes - 1, config.lease.ns / 1'000'000);
+  // The number that its domain has within this process is another one then.
+  if (config.beside) xml += fmt::format("<ExternalDomainId>{}</ExternalDomainId>", config.domain);
   if (!config.tag.empty()) xml += fmt::format("<Tag>{}</Tag>", escape(config.tag));
   if (!peers.empty()) {
     xml += "<Peers>";

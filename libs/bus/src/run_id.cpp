@@ -3,8 +3,11 @@
 
 #include <fmt/ranges.h>
 
+#include <bit>
 #include <charconv>
 #include <random>
+
+#include "rave/base/hash.hpp"
 
 namespace rave::bus {
 
@@ -15,6 +18,13 @@ RunId RunId::random() {
     const std::uint32_t bits = chance();
     std::memcpy(id.bytes.data() + i, &bits, sizeof bits);
   }
+  return id;
+}
+
+RunId RunId::of(std::uint64_t number) {
+  RunId id;
+  const std::array<std::uint64_t, 2> halves = {mix64(number), mix64(~number)};
+  id.bytes = std::bit_cast<std::array<std::uint8_t, 16>>(halves);
   return id;
 }
 

@@ -20,9 +20,10 @@ Result<WaitSet> WaitSet::create(Bus& bus) {
   WaitSet set(bus);
   set.set_ = dds_create_waitset(bus.participant_);
   set.stop_ = dds_create_guardcondition(bus.participant_);
-  RAVE_TRY(done(set.set_));
-  RAVE_TRY(done(set.stop_));
+  set.bell_ = dds_create_guardcondition(bus.participant_);
+  for (const dds_entity_t entity : {set.set_, set.stop_, set.bell_}) RAVE_TRY(done(entity));
   RAVE_TRY(set.attach(set.stop_));
+  RAVE_TRY(set.attach(set.bell_));
   return set;
 }
 
@@ -30,11 +31,13 @@ WaitSet::WaitSet(WaitSet&& other) noexcept
     : bus_(other.bus_),
       set_(std::exchange(other.set_, 0)),
       stop_(std::exchange(other.stop_, 0)),
+      bell_(std::exchange(other.bell_, 0)),
       conditions_(std::exchange(other.conditions_, {})) {}
 
 WaitSet::~WaitSet() {
   if (set_ > 0) dds_delete(set_);
   if (stop_ > 0) dds_delete(stop_);
+  if (bell_ > 0) dds_delete(bell_);
   for (const dds_entity_t condition : conditions_) dds_delete(condition);
 }
 
@@ -55,12 +58,17 @@ Status WaitSet::add_events() {
   return {};
 }
 
+void WaitSet::ring() const noexcept { dds_set_guardcondition(bell_, true); }
+
 Woken WaitSet::wait(Duration timeout, const std::stop_token& stop) {
   dds_set_guardcondition(stop_, false);
   const std::stop_callback wake(stop, [this] { dds_set_guardcondition(stop_, true); });
   std::array<dds_attach_t, 1> woken{};
   const dds_return_t count = dds_waitset_wait(set_, woken.data(), woken.size(),
                                               timeout.ns < 0 ? DDS_INFINITY : timeout.ns);
+  // Whoever rings after this has done what it rings for before the caller looks again.
+  bool rung = false;
+  static_cast<void>(dds_take_guardcondition(bell_, &rung));
   if (stop.stop_requested()) return Woken::kStopped;
   return count > 0 ? Woken::kReady : Woken::kTimeout;
 }

@@ -63,6 +63,14 @@ TEST(BusConfig, SaysWhatMulticastIsFor) {
   EXPECT_TRUE(has(cyclone_xml(config), "<NetworkInterface name=\"lo\" multicast=\"true\"/>"));
 }
 
+TEST(BusConfig, NamesItsDomainWhereItsNumberInTheProcessIsAnother) {
+  BusConfig config = good();
+  config.domain = 17;
+  EXPECT_FALSE(has(cyclone_xml(config), "ExternalDomainId"));
+  config.beside = true;
+  EXPECT_TRUE(has(cyclone_xml(config), "<ExternalDomainId>17</ExternalDomainId>"));
+}
+
 TEST(BusConfig, WritesTextsSoThatTheyStayTexts) {
   BusConfig config = good();
   config.tag = "a<b>&\"c\"";

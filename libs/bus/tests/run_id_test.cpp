@@ -21,6 +21,12 @@ TEST(RunId, IsAnotherEachTime) {
   EXPECT_NE(random_writer_id(), random_writer_id());
 }
 
+TEST(RunId, OfANumberIsTheSameForAllWhoKnowIt) {
+  EXPECT_EQ(RunId::of(7), RunId::of(7));
+  EXPECT_NE(RunId::of(7), RunId::of(8));
+  EXPECT_FALSE(RunId::of(0).none());
+}
+
 TEST(RunId, RefusesOtherText) {
   EXPECT_EQ(RunId::parse("12").error().message,
             "a run id has 32 hexadecimal digits, not 2 characters");

@@ -7,6 +7,8 @@
 #include <cstring>
 #include <limits>
 
+#include "rave/robot/radio_sender.hpp"
+
 namespace rave {
 namespace {
 
@@ -102,6 +104,10 @@ std::size_t encode(const RadioPacket& packet, std::span<std::byte> room) noexcep
   }
   put(at + size - 4, crc32({at, size - 4}));
   return size;
+}
+
+std::uint32_t radio_sender(std::span<const std::byte> packet) noexcept {
+  return packet.size() < kRadioPacketOverhead ? 0 : get<std::uint32_t>(packet.data() + 8);
 }
 
 std::optional<RadioPacket> decode_radio_packet(std::span<const std::byte> bytes) noexcept {

@@ -51,7 +51,14 @@ void Radio::deliver(const RadioMoment& moment) {
 
 void Radio::hand_over(const RadioMoment& moment, Endpoint& to, MessageHead head,
                       std::uint32_t packet) {
-  const bool fits = to.in.put(head, packets_.bytes_of(packet));
+  const std::span<const std::byte> bytes = packets_.bytes_of(packet);
+  if (live_) {
+    const std::uint32_t pushed_out = to.shares.make_room(to.in, head.from, bytes.size());
+    counts_.delivered -= pushed_out;
+    counts_.lost_mailbox += pushed_out;
+  }
+  const bool fits = to.in.put(head, bytes);
+  if (live_ && fits) to.shares.add(head.from);
   ++(fits ? counts_.delivered : counts_.lost_mailbox);
   ItemHash item(moment.step, to.robot, HashChannel::kRadio, to.device);
   item.add(order_of(head.from, head.sequence));
@@ -88,6 +95,7 @@ void Radio::collect(const RadioMoment& moment, RobotId robot, bool accepted) {
        ++e) {
     Endpoint& endpoint = endpoints_[e];
     endpoint.in.clear();
+    endpoint.shares.clear();
     if (accepted) {
       counts_.refused += endpoint.out.dropped;
       for (std::uint32_t i = 0; i < endpoint.out.count; ++i) {

@@ -33,7 +33,7 @@ class Radio {
   /// is known that they have communicators, no more; what they send comes through receive().
   Radio(const EngineSpec& spec, const std::vector<std::uint8_t>& local, std::vector<RobotLog>& logs,
         ThreadPool& pool)
-      : spec_(spec), local_(local), logs_(logs), pool_(pool) {}
+      : spec_(spec), local_(local), logs_(logs), pool_(pool), live_(spec.own_authority) {}
   Radio(const Radio&) = delete;
   Radio& operator=(const Radio&) = delete;
   ~Radio() { close(); }
@@ -121,6 +121,8 @@ class Radio {
   void hear_packet(const RadioMoment& moment, RadioLine& line, const RadioPacket& packet);
   [[nodiscard]] bool in_reach(const RadioMoment& moment, const Endpoint& to,
                               const RadioPacket& packet, std::uint32_t from);
+  void note_flood(RadioLine& line);
+  [[nodiscard]] std::uint32_t sending_device(std::uint32_t from, const RadioPacket& packet) const;
   void note_device(const RadioMoment& moment, RadioLine& line);
   void transmit(const RadioMoment& moment, RadioLine& line, std::uint32_t packet);
   [[nodiscard]] std::uint32_t robot_of_hash(std::uint32_t hash);
@@ -130,6 +132,7 @@ class Radio {
   std::vector<RobotLog>& logs_;
   ThreadPool& pool_;
   ThreadPool::Effort effort_;
+  bool live_;  ///< Messages come from other processes, and not in lock-step.
   std::vector<RadioModel> models_;
   std::vector<std::vector<std::uint32_t>> models_of_;  ///< By type and communicator.
   std::vector<std::vector<CommunicatorInfo>> infos_;   ///< By type.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "radio.hpp"
 
@@ -9,6 +10,16 @@ namespace {
 
 /// Senders beyond the robots of the scenario that get a number; anybody may send.
 constexpr std::size_t kMaxForeign = 4096;
+/// So many senders are complained of at each transmitter.
+constexpr std::size_t kMostFlooders = 64;
+
+/// Where the sender says it is; if it does not know, where this host knows it to be.
+std::optional<Vec2> position_of(const RadioMoment& moment, const RadioPacket& packet,
+                                std::uint32_t from) {
+  if (packet.position) return Vec2{packet.position->x_m, packet.position->y_m};
+  if (from >= moment.reported.size() || !moment.reported[from].known) return std::nullopt;
+  return Vec2{moment.reported[from].pose.x_m, moment.reported[from].pose.y_m};
+}
 
 }  // namespace
 
@@ -16,7 +27,7 @@ void Radio::hear(const RadioMoment& moment) {
   for (RadioLine& line : lines_) {
     if (!line.port) continue;
     note_device(moment, line);
-    counts_.overrun += line.port->take_overruns();
+    note_flood(line);
     std::span<const std::byte> bytes;
     while (line.port->next(bytes)) {
       const auto packet = decode_radio_packet(bytes);
@@ -38,6 +49,37 @@ void Radio::note_device(const RadioMoment& moment, RadioLine& line) {
                             BodyId(),
                             fmt::format("transmitter `{}`: {}", line.spec->name,
                                         line.failed ? failure : "works again")});
+}
+
+/// Counts what was lost since the last step, and names who sent too much, once.
+void Radio::note_flood(RadioLine& line) {
+  const RadioPort::Overruns overruns = line.port->take_overruns();
+  counts_.overrun += overruns.count;
+  if (overruns.sender == 0 || line.flooders.size() >= kMostFlooders ||
+      std::ranges::find(line.flooders, overruns.sender) != line.flooders.end()) {
+    return;
+  }
+  line.flooders.push_back(overruns.sender);
+  const auto known = by_hash_.find(overruns.sender);
+  const bool robot = known != by_hash_.end() && known->second < spec_.robots.size();
+  const std::string who =
+      robot ? fmt::format("robot `{}`", spec_.robots[known->second].name)
+            : fmt::format("a sender that is no robot here (hash {:08x})", overruns.sender);
+  services_of(logs_[line.robot])
+      .write(LogLevel::kWarning,
+             fmt::format("transmitter `{}`: {} sends more than can be taken in; what is too much "
+                         "of it is dropped, {} packets in this step",
+                         line.spec->name, who, overruns.count));
+}
+
+/// Of the sender's communicators that by which the message was sent, as its own host counts them,
+/// so that chance treats it as if it had been carried in process.
+std::uint32_t Radio::sending_device(std::uint32_t from, const RadioPacket& packet) const {
+  if (from >= spec_.robots.size()) return packet.channel % LinkQuery::kRadioDevice;
+  const auto& all = spec_.types[spec_.robots[from].type].communicators;
+  std::uint32_t device = 0;
+  while (device < all.size() && radio_name_hash(all[device].name) != packet.channel) ++device;
+  return device;
 }
 
 std::uint32_t Radio::robot_of_hash(std::uint32_t hash) {
@@ -95,11 +137,12 @@ bool Radio::in_reach(const RadioMoment& moment, const Endpoint& to, const RadioP
   const RadioDeclaration& receiver = models_[to.model].declaration;
   const ReportedPose& there = moment.reported[to.robot];
   const bool sight = packet.line_of_sight || receiver.line_of_sight != 0;
+  const std::optional<Vec2> said = position_of(moment, packet, from);
   LinkQuery query;
   Vec2 p_from;
   const Vec2 p_to{there.pose.x_m, there.pose.y_m};
-  if (packet.position && there.known) {
-    p_from = {packet.position->x_m, packet.position->y_m};
+  if (said && there.known) {
+    p_from = *said;
     query.distance_m = std::sqrt(squared_norm(p_to - p_from));
   } else if (sight || packet.range_m > 0 || receiver.range_m > 0) {
     ++counts_.lost_range;
@@ -120,10 +163,11 @@ bool Radio::in_reach(const RadioMoment& moment, const Endpoint& to, const RadioP
             : 1;
   }
   query.bytes = static_cast<std::uint32_t>(packet.payload.size());
-  query.from = from;
+  // The number of a stranger depends on who else was heard before, its name does not.
+  query.from = from < spec_.robots.size() ? from : packet.sender;
   query.to = to.robot;
   query.sequence = packet.sequence;
-  query.device = LinkQuery::kRadioDevice;
+  query.device = LinkQuery::kRadioDevice | sending_device(from, packet);
   query.seed = spec_.seed;
   Reach asked;
   const LinkAnswer answer = ask(to.model, query, asked);

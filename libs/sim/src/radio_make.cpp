@@ -146,6 +146,7 @@ void Radio::lay_out_mailboxes() {
 void Radio::clear() {
   for (Endpoint& endpoint : endpoints_) {
     endpoint.in.clear();
+    endpoint.shares.clear();
     endpoint.out.clear();
     endpoint.sequence = 0;
     endpoint.waiting.clear();
@@ -159,6 +160,7 @@ void Radio::clear() {
     line.under_way = 0;
     line.failed = false;
     line.repeats.clear();
+    line.flooders.clear();
     if (line.port) line.port->clear();
   }
   for (RadioModel& model : models_) model.failed = false;
@@ -189,7 +191,11 @@ Status Radio::configure_line(RadioLine& line) {
                 "is a device, which keeps to the clock on the wall; robots of several hosts in "
                 "lock-step need transmitters that work in process");
   }
+  if (!(line.declaration.byte_rate >= 0)) {
+    return fail(ErrorCode::kPlugin, "declared {} B/s", line.declaration.byte_rate);
+  }
   RAVE_TRY(check_packet_sizes(line));
+  live_ = true;
   line.port = std::make_unique<RadioPort>(line.declaration.max_packet_bytes);
   encoded_.resize(std::max<std::size_t>(encoded_.size(), line.declaration.max_packet_bytes));
   return {};

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "inbox_shares.hpp"
 #include "instances.hpp"
 #include "packet_store.hpp"
 #include "radio_port.hpp"
@@ -34,6 +35,7 @@ struct Endpoint {
   std::uint32_t team = kNobody;  ///< None: it has no team.
   Mailbox in;
   Mailbox out;
+  InboxShares shares;  ///< Of `in`; in a live run.
   std::uint32_t sequence = 0;
   // Sending:
   std::vector<std::uint32_t> waiting;  ///< Packets, oldest first, from `first_waiting` on.
@@ -70,6 +72,7 @@ struct RadioLine {
   InstanceArray instance;
   std::unique_ptr<RadioPort> port;
   RepeatFilter repeats;
+  std::vector<std::uint32_t> flooders;  ///< Hashes of senders that were complained of.
   bool open = false;
   bool failed = false;
 };
@@ -90,7 +93,7 @@ struct Channel {
 
 /// Sends what a line has, up to (not including) `until_ns`: of the communicators that share it the
 /// one that may begin first, among equals the one of the lowest number. Each goes no faster than
-/// its own rate and all together no faster than that of the line. Packets whose last byte leaves by
+/// its own rate and all together no faster than the line's own. Packets whose last byte leaves by
 /// `until_ns` are added to `complete`, in the order in which they do.
 void send_waiting(RadioLine& line, std::vector<Endpoint>& endpoints,
                   const std::vector<RadioModel>& models, PacketStore& packets,

@@ -1,30 +1,84 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "radio_port.hpp"
 
+#include <algorithm>
 #include <cstring>
+#include <numeric>
 #include <utility>
 
+#include "rave/robot/radio_sender.hpp"
+
 namespace rave::sim {
+namespace {
+
+template <class Shares>
+auto share_of(Shares& shares, std::uint32_t sender) {
+  return std::find_if(shares.begin(), shares.end(),
+                      [&](const auto& share) { return share.sender == sender; });
+}
+
+template <class Shares>
+void count_one(Shares& shares, std::uint32_t sender) {
+  const auto found = share_of(shares, sender);
+  if (found != shares.end()) {
+    ++found->count;
+  } else {
+    shares.push_back({sender, 1});
+  }
+}
+
+template <class Shares>
+void uncount_one(Shares& shares, std::uint32_t sender) {
+  const auto found = share_of(shares, sender);
+  if (--found->count == 0) shares.erase(found);
+}
+
+}  // namespace
 
 RadioPort::RadioPort(std::uint32_t max_packet_bytes) : slots_(kDepth) {
   for (Slot& slot : slots_) slot.bytes.resize(max_packet_bytes);
   taken_.bytes.resize(max_packet_bytes);
+  queue_.reserve(kDepth);
+  free_.reserve(kDepth);
+  held_.reserve(kDepth);
+  lost_.reserve(kDepth);
+  clear();
 }
 
 void RadioPort::receive(const std::byte* packet, std::uint64_t size) noexcept {
   const std::lock_guard lock(mutex_);
+  const std::uint32_t sender = radio_sender({packet, size});
   if (size > slots_[0].bytes.size()) {
-    ++overruns_;
+    note_lost(sender);
     return;
   }
-  if (count_ == kDepth) {
-    first_ = (first_ + 1) % kDepth;
-    --count_;
-    ++overruns_;
-  }
-  Slot& slot = slots_[(first_ + count_++) % kDepth];
+  if (free_.empty()) drop_one();
+  Slot& slot = slots_[free_.back()];
   slot.size = size;
+  slot.sender = sender;
   if (size > 0) std::memcpy(slot.bytes.data(), packet, size);
+  queue_.push_back(free_.back());
+  free_.pop_back();
+  count_one(held_, sender);
+}
+
+/// Of the sender that has most in the queue the oldest: whoever floods pushes out its own.
+void RadioPort::drop_one() {
+  const auto most = std::max_element(
+      held_.begin(), held_.end(), [](const auto& a, const auto& b) { return a.count < b.count; });
+  const std::uint32_t sender = most->sender;
+  const auto oldest = std::find_if(queue_.begin(), queue_.end(), [&](std::uint16_t slot) {
+    return slots_[slot].sender == sender;
+  });
+  free_.push_back(*oldest);
+  queue_.erase(oldest);
+  uncount_one(held_, sender);
+  note_lost(sender);
+}
+
+void RadioPort::note_lost(std::uint32_t sender) {
+  ++overruns_;
+  if (lost_.size() < kDepth) count_one(lost_, sender);
 }
 
 void RadioPort::fail(const char* text, std::uint64_t size) noexcept {
@@ -40,17 +94,27 @@ void RadioPort::recover() noexcept {
 
 bool RadioPort::next(std::span<const std::byte>& packet) {
   const std::lock_guard lock(mutex_);
-  if (count_ == 0) return false;
-  std::swap(taken_, slots_[first_]);
-  first_ = (first_ + 1) % kDepth;
-  --count_;
+  if (queue_.empty()) return false;
+  const std::uint16_t oldest = queue_.front();
+  queue_.erase(queue_.begin());
+  free_.push_back(oldest);
+  uncount_one(held_, slots_[oldest].sender);
+  std::swap(taken_, slots_[oldest]);
   packet = std::span(taken_.bytes).first(taken_.size);
   return true;
 }
 
-std::uint64_t RadioPort::take_overruns() {
+RadioPort::Overruns RadioPort::take_overruns() {
   const std::lock_guard lock(mutex_);
-  return std::exchange(overruns_, 0);
+  Overruns taken{std::exchange(overruns_, 0), 0};
+  std::uint64_t most = 0;
+  for (const Share& share : lost_) {
+    if (share.sender == 0 || share.count <= most) continue;
+    taken.sender = share.sender;
+    most = share.count;
+  }
+  lost_.clear();
+  return taken;
 }
 
 std::string RadioPort::failure() const {
@@ -60,7 +124,11 @@ std::string RadioPort::failure() const {
 
 void RadioPort::clear() {
   const std::lock_guard lock(mutex_);
-  first_ = count_ = 0;
+  queue_.clear();
+  free_.resize(kDepth);
+  std::iota(free_.begin(), free_.end(), std::uint16_t{0});
+  held_.clear();
+  lost_.clear();
   overruns_ = 0;
   failure_.clear();
 }

@@ -25,8 +25,13 @@ class RadioPort final : public PacketSink {
 
   /// Takes the oldest packet; valid until the next call. False: there is none.
   bool next(std::span<const std::byte>& packet);
-  /// Packets that were lost because nobody took them, or because they were too long; counted once.
-  [[nodiscard]] std::uint64_t take_overruns();
+  /// Packets that were lost because nobody took them, or because they were too long.
+  struct Overruns {
+    std::uint64_t count = 0;
+    std::uint32_t sender = 0;  ///< Hash of the name of who lost most of them; 0: nobody is known.
+  };
+  /// Those since the last call.
+  [[nodiscard]] Overruns take_overruns();
   /// Why the device is gone; empty if it works.
   [[nodiscard]] std::string failure() const;
   void clear();
@@ -35,13 +40,24 @@ class RadioPort final : public PacketSink {
   static constexpr std::size_t kDepth = 256;
   struct Slot {
     std::size_t size = 0;
+    std::uint32_t sender = 0;
     std::vector<std::byte> bytes;
   };
+  /// Who has how many packets in the queue, or has lost how many.
+  struct Share {
+    std::uint32_t sender = 0;
+    std::uint64_t count = 0;
+  };
+
+  void drop_one();
+  void note_lost(std::uint32_t sender);
 
   mutable std::mutex mutex_;  // guards all but taken_
   std::vector<Slot> slots_;
-  std::size_t first_ = 0;
-  std::size_t count_ = 0;
+  std::vector<std::uint16_t> queue_;  ///< Slots in use, oldest first.
+  std::vector<std::uint16_t> free_;   ///< The others.
+  std::vector<Share> held_;           ///< By sender, none with 0.
+  std::vector<Share> lost_;           ///< By sender; those beyond kDepth of them are not named.
   std::uint64_t overruns_ = 0;
   std::string failure_;
   Slot taken_;

@@ -38,8 +38,7 @@ void send_waiting(RadioLine& line, std::vector<Endpoint>& endpoints,
                   const std::vector<RadioModel>& models, PacketStore& packets,
                   std::int64_t until_ns, std::vector<std::uint32_t>& complete) {
   if (line.under_way == 0) return;
-  // In process the host keeps to the rate of the line; a device does by itself.
-  const double line_rate = line.declaration.in_process != 0 ? line.declaration.byte_rate : 0;
+  const double line_rate = line.declaration.byte_rate;
   const auto ends_earlier = [&](std::uint32_t a, std::uint32_t b) {
     return packets[a].complete_ns < packets[b].complete_ns;
   };

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine_drivers.hpp"
+#include "rave/base/log.hpp"
 #include "rave/sim/engine.hpp"
 
 /// Builds small worlds for tests of the engine.
@@ -22,6 +23,15 @@ inline plugin::ParamSet numbers(Numbers values) {
   for (const auto& [name, value] : values) set.add_number(name, value);
   return set;
 }
+
+/// Keeps what it is told.
+class Ears final : public LogSink {
+ public:
+  void write(LogLevel, std::string_view source, std::string_view message) override {
+    heard += fmt::format("{}: {}\n", source, message);
+  }
+  std::string heard;
+};
 
 inline world::Body disc_body(Layer layer, double radius_m = 0.15, double z1_m = 0.3) {
   world::Body body;

@@ -75,15 +75,6 @@ TEST(EngineHardware, AStalePoseIsToldAndSoIsItsReturn) {
   EXPECT_NEAR(engine->reported(real).velocity.vx, 0.1, 1e-9);
 }
 
-/// Keeps what it is told.
-class Ears final : public LogSink {
- public:
-  void write(LogLevel, std::string_view source, std::string_view message) override {
-    heard += fmt::format("{}: {}\n", source, message);
-  }
-  std::string heard;
-};
-
 TEST(EngineHardware, SamplesThatHadToBeDroppedAreToldAtTheEnd) {
   Ears ears;
   EngineSpec spec;

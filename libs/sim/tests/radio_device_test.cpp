@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <map>
 #include <optional>
+#include <tuple>
 
 #include "radio_fixture.hpp"
 
@@ -14,6 +17,7 @@ class Cable final : public Transmitter {
   Status configure(const HardwareSetup& setup, TransmitterDeclaration& declaration) override {
     declaration.max_packet_bytes = 200;
     declaration.network = static_cast<std::uint32_t>(setup.parameters().integer("network"));
+    declaration.byte_rate = rate();
     declaration.boot = 1;
     return {};
   }
@@ -36,6 +40,10 @@ class Cable final : public Transmitter {
   static std::vector<PacketSink*>& plugs() {
     static std::vector<PacketSink*> all;
     return all;
+  }
+  static double& rate() {
+    static double value = 0;
+    return value;
   }
   static bool& unplugged() {
     static bool value = false;
@@ -73,8 +81,132 @@ class RadioDevice : public RadioTest {
     RadioTest::SetUp();
     Cable::unplugged() = Cable::spoil() = false;
     Cable::copies() = 1;
+    Cable::rate() = 0;
   }
 };
+
+/// What each robot was told by whom, as a sorted list.
+std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>> heard_by_all() {
+  std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>> all;
+  for (const Heard& heard : Chatter::log()) all.emplace_back(heard.to, heard.from, heard.number);
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+TEST_F(RadioDevice, ChanceTakesTheSameMessagesAsInProcess) {
+  const Numbers model = {{"loss", 0.4}};
+  std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>> found[2];
+  for (const bool device : {false, true}) {
+    Chatter::log().clear();
+    EngineSpec spec;
+    spec.seed = 5;
+    RobotType type =
+        device ? cabled_type({{"until", 50}}, model) : talking_type({{"until", 50}}, model);
+    // Each number of a robot is said over both of its communicators in turn.
+    add_communicator(type, model, "wire");
+    add_robot(spec, std::move(type));
+    add_twin(spec, {1, 0, 0});
+    add_twin(spec, {2, 0, 0});
+    const auto engine = make_engine(std::move(spec));
+    run(*engine, 60);
+    EXPECT_GT(engine->radio_counts().lost_chance, 100U);
+    expect_balance(engine->radio_counts());
+    found[device ? 1 : 0] = heard_by_all();
+  }
+  EXPECT_GT(found[0].size(), 300U);
+  EXPECT_EQ(found[0], found[1]);
+}
+
+TEST_F(RadioDevice, ASenderThatDoesNotKnowItsPlaceIsWhereTheWorldHasIt) {
+  EngineSpec spec;
+  add_robot(spec, cabled_type({{"only", 9}}, {{"range_m", 5}}));
+  add_twin(spec, {4, 0, 0});
+  add_twin(spec, {-4, 0, 0});
+  const auto engine = make_engine(std::move(spec));
+  run(*engine, 1);
+  RadioPacket packet;
+  packet.network = 7;
+  packet.channel = radio_name_hash("air");
+  packet.sender = radio_name_hash("r1");
+  const std::uint32_t number = 4;
+  packet.payload = std::as_bytes(std::span(&number, 1));
+  std::byte room[100];
+  const auto say = [&] {
+    ++packet.sequence;
+    const std::size_t size = encode(packet, room);
+    for (PacketSink* plug : Cable::plugs()) plug->receive(room, size);
+  };
+  say();
+  packet.sender = radio_name_hash("stranger");
+  say();
+  run(*engine, 2);
+  // 4 m to the first, 8 m to the third; nobody knows where the stranger is.
+  EXPECT_EQ(listeners(), (std::vector<std::uint32_t>{0}));
+  EXPECT_EQ(engine->radio_counts().lost_range, 4U);
+}
+
+TEST_F(RadioDevice, TheRateOfADeviceHoldsForAllThatShareIt) {
+  // 4 bytes over each of two communicators a step of 10 ms are 800 B/s.
+  Cable::rate() = 400;
+  EngineSpec spec;
+  RobotType type = cabled_type({{"only", 0}});
+  add_communicator(type, {}, "wire");
+  add_robot(spec, std::move(type));
+  add_twin(spec, {1, 0, 0});
+  const auto engine = make_engine(std::move(spec));
+  run(*engine, 100);
+  EXPECT_EQ(engine->radio_counts().offered, 200U);
+  EXPECT_EQ(engine->radio_counts().sent, 100U);
+}
+
+/// Says a lot in the name of a robot: `count` packets to each in every step.
+void flood(Engine& engine, const char* name, int steps, int count) {
+  RadioPacket packet;
+  packet.network = 7;
+  packet.channel = radio_name_hash("air");
+  packet.sender = radio_name_hash(name);
+  std::byte room[100];
+  for (int step = 0; step < steps; ++step) {
+    for (int i = 0; i < count; ++i) {
+      ++packet.sequence;
+      packet.payload = std::as_bytes(std::span(&packet.sequence, 1));
+      const std::size_t size = encode(packet, room);
+      for (PacketSink* plug : Cable::plugs()) plug->receive(room, size);
+    }
+    run(engine, 1);
+  }
+}
+
+TEST_F(RadioDevice, WhoFloodsIsNamedAndLosesItsOwnMessages) {
+  Ears ears;
+  EngineSpec spec;
+  spec.log = &ears;
+  add_robot(spec, cabled_type({{"until", 100}}, {{"messages", 8}}));
+  add_twin(spec, {1, 0, 0});
+  add_twin(spec, {2, 0, 0});
+  const auto engine = make_engine(std::move(spec));
+  flood(*engine, "stranger", 101, 1000);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> count;
+  for (const Heard& heard : Chatter::log()) ++count[{heard.to, heard.from}];
+  for (std::uint32_t to = 0; to < 3; ++to) {
+    for (std::uint32_t from = 0; from < 3; ++from) {
+      EXPECT_EQ((count[{to, from}]), to == from ? 0 : 100) << from << " to " << to;
+    }
+    // Of it each gets what is left of its inbox: 8 messages, two of the others.
+    EXPECT_EQ((count[{to, 3}]), 6 * 100 + 8);
+  }
+  EXPECT_GT(engine->radio_counts().overrun, 0U);
+  EXPECT_GT(engine->radio_counts().lost_mailbox, 0U);
+  expect_balance(engine->radio_counts());
+  // Once for each robot that hears it.
+  const std::string told = "transmitter `cable`: a sender that is no robot here";
+  std::size_t times = 0;
+  for (auto at = ears.heard.find(told); at != std::string::npos;
+       at = ears.heard.find(told, at + 1)) {
+    ++times;
+  }
+  EXPECT_EQ(times, 3U) << ears.heard;
+}
 
 TEST_F(RadioDevice, RangeAndSightHoldForWhatADeviceCarries) {
   EngineSpec spec;

@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
 #include <thread>
+
+#include "rave/robot/radio_packet.hpp"
 
 namespace rave::sim {
 namespace {
@@ -39,8 +43,8 @@ TEST(RadioPort, KeepsTheNewestPacketsAndCountsTheRest) {
   }
   const std::byte long_one[9] = {};
   port.receive(long_one, sizeof long_one);
-  EXPECT_EQ(port.take_overruns(), 300U - 256U + 1U);
-  EXPECT_EQ(port.take_overruns(), 0U);
+  EXPECT_EQ(port.take_overruns().count, 300U - 256U + 1U);
+  EXPECT_EQ(port.take_overruns().count, 0U);
   std::span<const std::byte> packet;
   for (int i = 44; i < 300; ++i) {
     ASSERT_TRUE(port.next(packet));
@@ -48,6 +52,39 @@ TEST(RadioPort, KeepsTheNewestPacketsAndCountsTheRest) {
     EXPECT_EQ(packet[0], std::byte{static_cast<unsigned char>(i)});
   }
   EXPECT_FALSE(port.next(packet));
+}
+
+TEST(RadioPort, WhoFloodsPushesOutItsOwn) {
+  RadioPort port(100);
+  const auto say = [&port](const char* name, std::uint32_t sequence) {
+    RadioPacket packet;
+    packet.sender = radio_name_hash(name);
+    packet.sequence = sequence;
+    std::byte room[100];
+    port.receive(room, encode(packet, room));
+  };
+  for (std::uint32_t i = 1; i <= 5000; ++i) {
+    say("flooder", i);
+    if (i % 100 == 0) {
+      say("anna", i);
+      say("bert", i);
+    }
+  }
+  const RadioPort::Overruns overruns = port.take_overruns();
+  EXPECT_EQ(overruns.count, 5100U - 256U);
+  EXPECT_EQ(overruns.sender, radio_name_hash("flooder"));
+  EXPECT_EQ(port.take_overruns().sender, 0U);
+  std::map<std::uint32_t, std::vector<std::uint32_t>> heard;
+  std::span<const std::byte> bytes;
+  while (port.next(bytes)) {
+    const auto packet = decode_radio_packet(bytes);
+    heard[packet->sender].push_back(packet->sequence);
+  }
+  EXPECT_EQ(heard[radio_name_hash("anna")].size(), 50U);
+  EXPECT_EQ(heard[radio_name_hash("bert")].size(), 50U);
+  ASSERT_EQ(heard[radio_name_hash("flooder")].size(), 156U);
+  EXPECT_EQ(heard[radio_name_hash("flooder")].back(), 5000U);
+  for (const auto& [sender, order] : heard) EXPECT_TRUE(std::ranges::is_sorted(order)) << sender;
 }
 
 TEST(RadioPort, PassesOnWhatAnotherThreadPuts) {

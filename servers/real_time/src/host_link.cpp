@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
 #include <vector>
 
 #include "rave/bus/sequence.hpp"
@@ -19,6 +20,8 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 constexpr milliseconds kLook{100};
+/// Of so many processes the packets are counted.
+constexpr std::size_t kMostProcesses = 4096;
 /// So many readings of the manager's clock are made in a hurry before the start.
 constexpr std::uint64_t kFirstReadings = 8;
 constexpr milliseconds kHurry{10};
@@ -76,6 +79,11 @@ struct HostLink::Impl {
   Clock::time_point last_world{};
   RobotColumns columns{};
   std::uint64_t packets_sent = 0;
+  std::map<RobotId, TalkLimit> talk{};  ///< Of robots here that have said something.
+  std::vector<RobotId> flooders{};
+  std::uint64_t packets_withheld = 0;
+  std::map<std::uint64_t, std::uint64_t> packets_heard{};  ///< By process: the newest number.
+  std::uint64_t packets_lost = 0;
 
   Status open_endpoints();
   void tell(LogLevel level, const std::string& text) const;
@@ -88,6 +96,7 @@ struct HostLink::Impl {
   void take_pongs();
   void take_worlds();
   void take_packets();
+  void note_number(const bus::Packet& packet);
   void hear(const bus::RunState& state);
   void look();
   void listen_to_first();
@@ -195,8 +204,17 @@ void HostLink::Impl::take_worlds() {
   });
 }
 
+/// Each process numbers what it sends, so a gap is what was lost on the way.
+void HostLink::Impl::note_number(const bus::Packet& packet) {
+  if (packets_heard.size() >= kMostProcesses) packets_heard.clear();
+  std::uint64_t& newest = packets_heard[packet.writer];
+  if (newest != 0 && packet.number > newest + 1) packets_lost += packet.number - newest - 1;
+  newest = std::max(newest, packet.number);
+}
+
 void HostLink::Impl::take_packets() {
   packets_in->take([this](const bus::Packet& packet) {
+    note_number(packet);
     sim::SentPacket sent = read_packet(packet, Duration{-shift().ns});
     // Clocks that are not related: it counts as sent when it is heard.
     if (!options.managed) sent.stamp_ns = INT64_MAX;
@@ -406,7 +424,14 @@ void HostLink::tell(const sim::Engine& engine, std::span<const RobotId> robots) 
 void HostLink::send(const sim::SentPackets& sent) {
   Impl& link = *impl_;
   if (!link.packets_out) return;
+  for (auto& [robot, limit] : link.talk) limit.step();
   for (const sim::SentPacket& packet : sent.packets) {
+    TalkLimit& limit = link.talk[packet.robot];
+    if (!limit.take(packet.size)) {
+      ++link.packets_withheld;
+      if (limit.name()) link.flooders.push_back(packet.robot);
+      continue;
+    }
     bus::Packet message =
         packet_of(packet, sent.bytes_of(packet), ++link.packets_sent, link.shift());
     static_cast<void>(link.packets_out->write(message));
@@ -421,6 +446,9 @@ Duration HostLink::world_age() const {
 
 std::optional<bus::ClockReading> HostLink::clock() const { return impl_->time.reading(local_ns()); }
 const std::optional<HostLink::Ending>& HostLink::ending() const noexcept { return impl_->ending; }
+std::vector<RobotId> HostLink::take_flooders() { return std::exchange(impl_->flooders, {}); }
+std::uint64_t HostLink::withheld_packets() const noexcept { return impl_->packets_withheld; }
+std::uint64_t HostLink::lost_packets() const noexcept { return impl_->packets_lost; }
 std::uint64_t HostLink::worlds() const noexcept { return impl_->world_count; }
 std::uint64_t HostLink::losses() const noexcept { return impl_->losses; }
 

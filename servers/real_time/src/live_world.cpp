@@ -124,6 +124,15 @@ void LiveWorld::clock_changed() {
   for (Other& other : others_) other.any_stamp = true;
 }
 
+bool LiveWorld::has_room_for(Other& other, std::size_t bytes) {
+  if (heard_.packets.size() >= kMostPackets || heard_.bytes.size() + bytes > kMostBytes) {
+    return false;
+  }
+  if (other.talk.take(bytes)) return true;
+  if (other.talk.name()) flooders_.push_back(other.last.robot);
+  return false;
+}
+
 bool LiveWorld::hear(std::uint64_t writer, const sim::SentPacket& packet,
                      std::span<const std::byte> bytes) {
   const std::uint32_t r = packet.robot.value();
@@ -139,7 +148,7 @@ bool LiveWorld::hear(std::uint64_t writer, const sim::SentPacket& packet,
   Counted& newest = newest_[{r, packet.communicator}];
   if (newest.writer == writer && packet.sequence <= newest.sequence) return false;
   newest = {writer, packet.sequence};
-  if (heard_.packets.size() >= kMostPackets || heard_.bytes.size() + bytes.size() > kMostBytes) {
+  if (!has_room_for(others_[other_of_[r]], bytes.size())) {
     ++dropped_packets_;
     return false;
   }
@@ -246,6 +255,7 @@ void LiveWorld::report_packets(std::uint64_t step) {
     others_report_.sent.add(packet, bytes);
   }
   heard_.clear();
+  for (Other& other : others_) other.talk.step();
 }
 
 void LiveWorld::report_others(std::uint64_t step) {

@@ -223,16 +223,32 @@ TEST_F(LiveWorlds, WhatIsHeardBeforeTheFirstStepIsKept) {
   EXPECT_EQ(step(1).sent.packets.size(), 1U);
 }
 
-TEST_F(LiveWorlds, TooManyMessagesAreDroppedAndCounted) {
-  for (std::uint32_t i = 0; i < LiveWorld::kMostPackets + 3; ++i) {
+TEST_F(LiveWorlds, WhoFloodsIsNamedAndTakesNothingFromTheOthers) {
+  const auto say = [this](RobotId robot, std::uint32_t sequence, std::size_t size) {
     sim::SentPacket packet;
-    packet.robot = kSimulated;
-    packet.sequence = i + 1;
-    live_->hear(1, packet, {});
+    packet.robot = robot;
+    packet.sequence = sequence;
+    const std::vector<std::byte> bytes(size);
+    return live_->hear(robot.value(), packet, bytes);
+  };
+  std::uint32_t number = 0;
+  std::uint64_t dropped = 0;
+  for (std::uint64_t now = 0; now < 3; ++now) {
+    for (std::uint32_t i = 0; i < LiveWorld::kMostPackets; ++i) say(kSimulated, ++number, 4);
+    EXPECT_TRUE(say(kReal, static_cast<std::uint32_t>(now) + 1, 60'000));
+    if (now == 0) step(0);
+    const std::uint32_t most = now == 0 ? TalkLimit::kMessagesAtOnce : TalkLimit::kMessagesPerStep;
+    EXPECT_EQ(step(now + 1).sent.packets.size(), most + 1);
+    dropped += LiveWorld::kMostPackets - most;
+    EXPECT_EQ(world_.sent.packets.back().robot, kReal);
   }
-  EXPECT_EQ(live_->dropped_packets(), 3U);
-  step(0);
-  EXPECT_EQ(step(1).sent.packets.size(), LiveWorld::kMostPackets);
+  EXPECT_EQ(live_->dropped_packets(), dropped);
+  EXPECT_EQ(live_->take_flooders(), (std::vector<RobotId>{kSimulated}));
+  EXPECT_TRUE(live_->take_flooders().empty());
+  // Long messages count by their bytes.
+  for (std::uint32_t i = 0; i < 5; ++i) say(kReal, 10 + i, 60'000);
+  EXPECT_EQ(step(4).sent.packets.size(), 2U);
+  EXPECT_EQ(live_->take_flooders(), (std::vector<RobotId>{kReal}));
 }
 
 TEST_F(LiveWorlds, AHostThatComesLateBeginsWhereTheWorldShowsIt) {

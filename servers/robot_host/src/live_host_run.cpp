@@ -6,6 +6,7 @@
 
 #include "event_log.hpp"
 #include "host_journey.hpp"
+#include "radio_report.hpp"
 #include "rave/base/file.hpp"
 #include "rave/real_time/host_link.hpp"
 #include "rave/robot_host/build.hpp"
@@ -93,6 +94,17 @@ bool wait_for_turn(LiveJourney& journey) {
   return true;
 }
 
+void name_flooders(LiveJourney& journey, const std::vector<RobotId>& robots) {
+  for (const RobotId robot : robots) {
+    journey.console.warn("radio",
+                         "robot `{}` says more than {} messages or {} bytes in a step to other "
+                         "hosts; what is beyond that is dropped",
+                         journey.engine.spec().robots[robot.value()].name,
+                         real_time::TalkLimit::kMessagesPerStep,
+                         real_time::TalkLimit::kBytesPerStep);
+  }
+}
+
 Status make_step(LiveJourney& journey) {
   sim::Engine& engine = journey.engine;
   journey.watch.step_begins(journey.report.step);
@@ -102,6 +114,8 @@ Status make_step(LiveJourney& journey) {
   tell_places(journey);
   RAVE_TRY(engine.propose(journey.report));
   journey.link.send(journey.report.sent);
+  name_flooders(journey, journey.link.take_flooders());
+  name_flooders(journey, journey.live.take_flooders());
   journey.watch.step_ends();
   look_back(journey, journey.live.events());
   return {};
@@ -163,6 +177,9 @@ Status write_results(const LiveJourney& journey, const BodyKinds& kinds,
   json["clock_bound_s"] = clock ? nlohmann::ordered_json(clock->bound.seconds()) : nullptr;
   json["worlds"] = journey.link.worlds();
   json["world_losses"] = journey.link.losses();
+  if (has_radio(journey.engine.spec())) json["radio"] = radio_json(journey.engine);
+  json["lost_packets"] = journey.link.lost_packets();
+  json["withheld_packets"] = journey.link.withheld_packets();
   json["dropped_packets"] = journey.live.dropped_packets();
   json["events"] = journey.events.size();
   json["ending"] = outcome.ending;

@@ -15,6 +15,7 @@ Json transmitters_json(const sim::Engine& engine) {
   Json all = Json::array();
   const sim::EngineSpec& spec = engine.spec();
   for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
+    if (spec.local && std::ranges::find(*spec.local, RobotId(r)) == spec.local->end()) continue;
     const sim::RobotType& type = spec.types[spec.robots[r].type];
     for (std::uint32_t t = 0; t < type.transmitters.size(); ++t) {
       // A driver's text is not ours: what is no JSON is left out.

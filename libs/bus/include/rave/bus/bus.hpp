@@ -20,7 +20,8 @@ class CycloneLog;
 class Participants;
 
 /// This process on the bus: one participant in one run. Writers and readers are made on it and must
-/// be gone before it. At most one per process and domain.
+/// be gone before it. At most one per process and domain, besides those that are
+/// `beside` it.
 ///
 /// Thread: one owner, also for its writers, readers and wait sets; only a stop token may come from
 /// another. Cyclone DDS has threads of its own that call nothing of ours.
@@ -66,6 +67,7 @@ class Bus {
   };
 
   explicit Bus(BusConfig config);
+  [[nodiscard]] Status open_domain();
   [[nodiscard]] Status open_participant();
   [[nodiscard]] tl::unexpected<Error> refused(dds_return_t code);
   [[nodiscard]] Result<dds_entity_t> make_topic(const TopicSpec& spec);
@@ -79,7 +81,8 @@ class Bus {
 
   BusConfig config_;
   std::uint64_t writer_;
-  std::unique_ptr<CycloneLog> log_;
+  std::uint32_t number_;             ///< Of the domain within this process.
+  std::unique_ptr<CycloneLog> log_;  ///< None if another bus of this process has it.
   dds_entity_t domain_ = 0;
   dds_entity_t participant_ = 0;
   dds_entity_t publisher_ = 0;

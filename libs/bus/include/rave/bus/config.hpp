@@ -40,6 +40,9 @@ struct BusConfig {
   Duration lease{1'000'000'000};
   /// Processes with another tag do not exist for this one, whatever their run. Usually empty.
   std::string tag;
+  /// Another bus of this process may be in the domain already; this one is then beside it as that
+  /// of another process would be. For drivers, whose host may have a bus of its own.
+  bool beside = false;
   /// A folder with certificates switches DDS Security on; see docs/design/distribution.md.
   std::filesystem::path security;
   /// Settings of Cyclone DDS in its own XML, or `file://...`, which win over those made from the

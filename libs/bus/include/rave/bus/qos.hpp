@@ -30,6 +30,8 @@ inline constexpr QosProfile kLately{.depth = 8};
 inline constexpr QosProfile kEverything{.depth = 0, .max_samples = 4096};
 /// The last few of each instance: bursts get through, a stuck reader holds nobody up.
 inline constexpr QosProfile kRecent{.depth = 256};
+/// The same where the robots of a whole host send through one writer at once.
+inline constexpr QosProfile kCrowd{.depth = 16'384};
 /// Sent once; late or lost means useless.
 inline constexpr QosProfile kOnce{.reliable = false};
 

@@ -18,6 +18,8 @@ struct RunId {
 
   /// From the operating system's source of chance. Not part of what a run computes with.
   [[nodiscard]] static RunId random();
+  /// The same for all who know a number, such as the hash of a name that people can say.
+  [[nodiscard]] static RunId of(std::uint64_t number);
   /// 32 hexadecimal digits, as text() writes them. Error: kParse.
   [[nodiscard]] static Result<RunId> parse(std::string_view text);
 

@@ -81,7 +81,7 @@ inline TopicSpec topic_of<Command>() {
 }
 template <>
 inline TopicSpec topic_of<Packet>() {
-  return {"rave/radio", &rave_wire_Packet_desc, kRecent};
+  return {"rave/radio", &rave_wire_Packet_desc, kCrowd};
 }
 template <>
 inline TopicSpec topic_of<HostInfo>() {

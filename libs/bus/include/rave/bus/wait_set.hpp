@@ -12,7 +12,8 @@ namespace rave::bus {
 enum class Woken : std::uint8_t { kReady, kTimeout, kStopped };
 
 /// Sleeps until there is something to take. Must be gone before its bus and after no reader that it
-/// waits for. Thread: that of the bus; the stop may be requested by any.
+/// waits for. Thread: that of the bus; the stop may be requested and
+/// the bell rung by any.
 class WaitSet {
  public:
   [[nodiscard]] static Result<WaitSet> create(Bus& bus);
@@ -29,6 +30,9 @@ class WaitSet {
   /// matches or not, until Bus::take_events() is called.
   [[nodiscard]] Status add_events();
 
+  /// Ends the wait that goes on, or else the next one, as kReady. Any thread.
+  void ring() const noexcept;
+
   /// `timeout` below 0 waits for ever. kReady if several apply.
   [[nodiscard]] Woken wait(Duration timeout, const std::stop_token& stop = {});
 
@@ -40,6 +44,7 @@ class WaitSet {
   Bus* bus_;
   dds_entity_t set_ = 0;
   dds_entity_t stop_ = 0;
+  dds_entity_t bell_ = 0;
   std::vector<dds_entity_t> conditions_;
 };
 

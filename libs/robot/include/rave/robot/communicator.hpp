@@ -32,7 +32,7 @@ struct LinkQuery {
   double distance_m = 0;         ///< Between reported poses.
   std::uint32_t obstructed = 0;  ///< 1: a body stands in between (if line_of_sight is asked).
   std::uint32_t bytes = 0;
-  std::uint32_t from = 0;
+  std::uint32_t from = 0;  ///< RobotId; of a sender that is no robot here the hash of its name.
   std::uint32_t to = 0;
   std::uint32_t sequence = 0;  ///< Of the message.
   std::uint32_t device = 0;    ///< Of the sender: its communicator, from kRadioDevice on.

@@ -28,8 +28,8 @@ struct TransmitterDeclaration {
   /// send() and close() are not called.
   std::uint32_t in_process = 0;
   std::uint32_t max_packet_bytes = 1400;
-  /// In-process ones: bytes a second of all communicators together, which the host enforces; 0: no
-  /// limit. A device keeps to its own rate by itself.
+  /// Bytes a second of all communicators together, which the host enforces before it calls send();
+  /// 0: no limit, or a device that keeps to one by itself.
   double byte_rate = 0;
   /// Of a device: only packets with this number are taken; radio_name_hash() of a name that those
   /// who belong together share.

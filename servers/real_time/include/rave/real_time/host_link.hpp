@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "rave/base/log.hpp"
 #include "rave/base/result.hpp"
@@ -59,8 +60,10 @@ class HostLink {
   /// Tells where robots of this engine are, as its last step sensed; those without a pose are left
   /// out. Nothing for an empty list.
   void tell(const sim::Engine& engine, std::span<const RobotId> robots);
-  /// Sends what robots here said in a step.
+  /// Sends what robots here said in a step, of each as much as its TalkLimit lets pass.
   void send(const sim::SentPackets& sent);
+  /// Who has exceeded it since the last call; each robot once in a run.
+  [[nodiscard]] std::vector<RobotId> take_flooders();
 
   /// For how long no world has come; 0 if it does not see.
   [[nodiscard]] Duration world_age() const;
@@ -72,6 +75,10 @@ class HostLink {
     std::string text;
   };
   [[nodiscard]] const std::optional<Ending>& ending() const noexcept;
+  /// How many messages of robots here were dropped since they had exceeded it.
+  [[nodiscard]] std::uint64_t withheld_packets() const noexcept;
+  /// How many messages of robots of other hosts were on the bus and did not get here.
+  [[nodiscard]] std::uint64_t lost_packets() const noexcept;
   /// How many worlds have come, and how often they failed to for longer than three periods and half
   /// a second.
   [[nodiscard]] std::uint64_t worlds() const noexcept;

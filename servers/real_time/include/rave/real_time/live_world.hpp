@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "rave/base/result.hpp"
+#include "rave/real_time/talk_limit.hpp"
 #include "rave/sim/world_authority.hpp"
 
 namespace rave::real_time {
@@ -42,7 +43,8 @@ class LiveWorld {
   void clock_changed();
   /// Takes in a message of a robot of another host, for the next step; when it was sent counts only
   /// if that is not in the future. `writer`: the process, whose messages arrive in their order.
-  /// False: it was heard before, or nobody here can make anything of it.
+  /// False: it was heard before, nobody here can make anything of it, or there is no room for it:
+  /// the robot has exceeded its TalkLimit, or all together what one step takes.
   bool hear(std::uint64_t writer, const sim::SentPacket& packet, std::span<const std::byte> bytes);
 
   /// A host that comes late begins with a later step than 0: makes `own`, its report of step 0, one
@@ -59,6 +61,8 @@ class LiveWorld {
   [[nodiscard]] std::span<const sim::Event> events() const noexcept { return events_; }
   /// How many messages of others were dropped because there were too many in one step.
   [[nodiscard]] std::uint64_t dropped_packets() const noexcept { return dropped_packets_; }
+  /// Who has exceeded its TalkLimit since the last call; each robot once in a run.
+  [[nodiscard]] std::vector<RobotId> take_flooders() { return std::exchange(flooders_, {}); }
   /// How many robots others run.
   [[nodiscard]] std::size_t others() const noexcept { return others_.size(); }
 
@@ -75,6 +79,7 @@ class LiveWorld {
     bool stale = false;
     bool any_stamp = true;       ///< The next sight counts whatever its stamp.
     std::int64_t sample_ns = 0;  ///< Of the last sample that was handed on.
+    TalkLimit talk;
   };
   struct Counted {
     std::uint64_t writer = 0;
@@ -82,6 +87,7 @@ class LiveWorld {
   };
 
   LiveWorld(const sim::EngineSpec& spec, std::unique_ptr<sim::WorldAuthority> authority);
+  [[nodiscard]] bool has_room_for(Other& other, std::size_t bytes);
   [[nodiscard]] SimTime time_of(std::uint64_t step) const noexcept;
   void report_others(std::uint64_t step);
   void report_place(Other& other, std::uint64_t step);
@@ -100,6 +106,7 @@ class LiveWorld {
   std::vector<std::uint32_t> order_;  ///< Of `heard_`.
   std::vector<sim::Event> events_;
   std::uint64_t dropped_packets_ = 0;
+  std::vector<RobotId> flooders_;  ///< Not asked for yet.
 };
 
 }  // namespace rave::real_time

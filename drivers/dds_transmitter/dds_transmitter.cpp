@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <nlohmann/json.hpp>
+
+#include "dds_network/network_words.hpp"
+#include "dds_transmitter/air.hpp"
+#include "line/host_clock.hpp"
+#include "rave/robot/plugin_entry.hpp"
+
+namespace rave::dds_transmitter {
+namespace {
+
+constexpr ParamSpec kParams[] = {
+    text_param("network", "rave",
+               "Robots whose transmitters name the same network are in one air."),
+    text_param("run", "", "32 hexadecimal digits in place of those made of `network`."),
+    integer_param("domain", 0, 0, 230, "Domain of DDS: chooses the UDP ports."),
+    text_param("interface", "127.0.0.1",
+               "Network interface, by address or name; the default is this machine."),
+    text_param("peers", "", "Addresses to look for other machines at, between commas."),
+    choice_param("multicast", "none", dds_network::kMulticasts,
+                 "What is sent by multicast: nothing, what finds others, or data as well."),
+    text_param("security", "", "Folder with certificates; switches DDS Security on."),
+    number_param("byte_rate", "B/s", 0, 0, 1e12,
+                 "Bytes a second of all communicators that share it; 0: no limit."),
+    integer_param("max_packet_bytes", 1400, 64, 65000, "Longest packet, head included."),
+    integer_param("queue_bytes", 1'048'576, 65'536, 1'000'000'000,
+                  "Bytes of packets of this process that may wait; newer ones are lost."),
+};
+
+/// Packets as samples of `rave/radio`, through the air that all robots of the process share.
+class DdsTransmitter final : public Transmitter {
+ public:
+  ~DdsTransmitter() override { close(); }
+
+  Status configure(const HardwareSetup& setup, TransmitterDeclaration& declaration) override {
+    RAVE_TRY_ASSIGN(const AirOptions options, read_options(setup));
+    RAVE_TRY_ASSIGN(air_, Air::join(options));
+    place_.host = setup.host;
+    place_.network = radio_name_hash(options.network);
+    network_ = options.network;
+    declaration.max_packet_bytes = static_cast<std::uint32_t>(options.max_packet_bytes);
+    declaration.byte_rate = setup.parameters().number("byte_rate");
+    declaration.network = place_.network;
+    declaration.boot = line::boot_number();
+    return {};
+  }
+
+  Status open(PacketSink& sink) override {
+    if (!air_) return fail(ErrorCode::kState, "opened before it was configured");
+    if (place_.sink != nullptr) return fail(ErrorCode::kState, "opened twice; close it first");
+    place_.sink = &sink;
+    Status attached = air_->attach(place_);
+    if (!attached) place_.sink = nullptr;
+    return attached;
+  }
+
+  Status send(std::span<const std::byte> packet) override { return air_->send(packet, place_); }
+
+  void close() override {
+    if (place_.sink == nullptr) return;
+    air_->detach(place_);
+    place_.sink = nullptr;
+  }
+
+  [[nodiscard]] std::string report() const override {
+    if (!air_) return "{}";
+    const AirCounts counts = air_->counts();
+    nlohmann::ordered_json json;
+    json["network"] = network_;
+    json["others"] = counts.others;
+    // Of all robots of this process together.
+    json["sent"] = counts.sent;
+    json["not_sent"] = counts.not_sent;
+    json["received"] = counts.received;
+    json["refused"] = counts.refused;
+    json["foreign"] = counts.foreign;
+    return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  }
+
+ private:
+  std::shared_ptr<Air> air_;
+  AirPlace place_;
+  std::string network_;
+};
+
+}  // namespace
+}  // namespace rave::dds_transmitter
+
+RAVE_PLUGIN("dds_transmitter") {
+  rave::add_transmitter<rave::dds_transmitter::DdsTransmitter>(
+      registry, {.name = "dds_transmitter",
+                 .summary = "Carries messages over DDS to all robots of the same network.",
+                 .params = rave::dds_transmitter::kParams,
+                 .clock = rave::DriverClock::kLive});
+}

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace rave {
+
+/// The sender that a packet of rave/robot/radio_packet.hpp names, unchecked; 0 if there are too few
+/// bytes for one.
+[[nodiscard]] std::uint32_t radio_sender(std::span<const std::byte> packet) noexcept;
+
+}  // namespace rave

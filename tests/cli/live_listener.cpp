@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "live_listener.hpp"
 
+#include "onlooker.hpp"
+
 namespace rave::cli_test {
 
 Result<std::unique_ptr<LiveListener>> LiveListener::open(const bus::RunId& run,
                                                          const std::vector<std::string>& apart) {
-  bus::BusConfig config;
-  config.participant = "listener";
-  config.run = run;
-  config.max_processes = 100;
-  for (std::size_t i = 0; i + 1 < apart.size(); ++i) {
-    if (apart[i] == "--bus-tag") config.tag = apart[i + 1];
-    if (apart[i] == "--domain")
-      config.domain = static_cast<std::uint32_t>(std::stoul(apart[i + 1]));
-  }
-  RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
+  RAVE_TRY_ASSIGN(auto bus, join_as_onlooker(run, apart));
   RAVE_TRY_ASSIGN(auto worlds, bus::Reader<bus::World>::create(*bus));
   RAVE_TRY_ASSIGN(auto states, bus::Reader<bus::HostState>::create(*bus));
   RAVE_TRY_ASSIGN(auto runs, bus::Reader<bus::RunState>::create(*bus));

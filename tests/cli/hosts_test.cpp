@@ -2,7 +2,6 @@
 // One world over several processes, started as users would start them.
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 
 #include "shared_world.hpp"
 
@@ -38,17 +37,8 @@ class Hosts : public SharedWorld {
     const auto before = record_size(host);
     wait_until([&] { return record_size(host) > before + 100'000; }, host + " goes on");
   }
-  /// The scenario with another policy.
   void write_policy(const std::string& policy, double timeout_s) {
-    std::string text = content_of(RAVE_SOURCE_DIR "/tests/cli/data/crowd.yaml");
-    const std::string robot = "file: ";
-    for (std::size_t at = 0; (at = text.find(robot, at)) != std::string::npos;) {
-      at += robot.size();
-      text.insert(at, RAVE_SOURCE_DIR "/tests/cli/data/");
-    }
-    scenario_ = folder_.path() / "policy.yaml";
-    std::ofstream(scenario_) << text << "on_lost_host: " << policy
-                             << "\nhost_timeout_s: " << timeout_s << "\n";
+    scenario_ = crowd_with_policy(policy, timeout_s);
   }
 
   std::string scenario_ = "crowd.yaml";

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "rave/bus/run_id.hpp"
 #include "shared_world.hpp"
 
 namespace rave::cli_test {

@@ -2,7 +2,6 @@
 // `kill -9` at random moments of a run in lock-step. RAVE_TEST_SEED and RAVE_KILL_ROUNDS say which
 // moments, and how many.
 #include <csignal>
-#include <fstream>
 #include <iostream>
 #include <thread>
 
@@ -71,21 +70,7 @@ class LockStepKill : public KillRound {
   Clock::time_point killed_{};
 };
 
-class AHostIsKilled : public LockStepKill {
- protected:
-  /// The scenario with another policy.
-  std::string scenario(const std::string& policy) {
-    std::string text = content_of(RAVE_SOURCE_DIR "/tests/cli/data/crowd.yaml");
-    const std::string robot = "file: ";
-    for (std::size_t at = 0; (at = text.find(robot, at)) != std::string::npos;) {
-      at += robot.size();
-      text.insert(at, RAVE_SOURCE_DIR "/tests/cli/data/");
-    }
-    const auto path = folder_.path() / "policy.yaml";
-    std::ofstream(path) << text << "on_lost_host: " << policy << "\nhost_timeout_s: 5\n";
-    return path;
-  }
-};
+class AHostIsKilled : public LockStepKill {};
 
 /// The names of policies and what the manager says of a host that is gone.
 struct Policy {
@@ -101,7 +86,7 @@ TEST_P(AHostIsKilled, TheRestGoesOnAsThePolicySays) {
   const bool drops = policy.name == std::string("drop");
   const bool waits = policy.name == std::string("wait");
   const Words span = of_run({"--duration", "100000"});
-  const std::string file = scenario(policy.name);
+  const std::string file = crowd_with_policy(policy.name, 5);
   const std::string victim = chance_.one_in(2) ? "one" : "two";
   const std::string other = victim == "one" ? "two" : "one";
   const Moment when = moment(8000, milliseconds(800));

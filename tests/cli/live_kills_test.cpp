@@ -119,7 +119,9 @@ TEST_P(ALiveManagerIsKilled, TheHostsGoOnAndTheNextOneKnowsTheTime) {
         return !listener_->worlds.empty() && listener_->worlds.back().manager != before.manager;
       },
       "a new world");
-  if (goes) EXPECT_GT(listener_->worlds.back().time_ns, before.time_ns);
+  if (goes) {
+    EXPECT_GT(listener_->worlds.back().time_ns, before.time_ns) << "the time of the run goes on";
+  }
   for (const std::uint32_t robot : {0U, 1U}) {
     hear_until(
         [&] {
@@ -132,7 +134,9 @@ TEST_P(ALiveManagerIsKilled, TheHostsGoOnAndTheNextOneKnowsTheTime) {
   end_all({"one", "two", "second"});
   for (const char* const host : {"one", "two"}) {
     expect_whole_record(host);
-    if (noticed) EXPECT_GE(result(host)["world_losses"], 1) << host;
+    if (noticed) {
+      EXPECT_GE(result(host)["world_losses"], 1) << host;
+    }
   }
 }
 INSTANTIATE_TEST_SUITE_P(Round, ALiveManagerIsKilled, ::testing::Range(0, kill_rounds()));

@@ -228,6 +228,26 @@ TEST_F(Hosts, WhoDoesNotFitIsToldSo) {
   EXPECT_NE(second.err.find("has an environment manager already"), std::string::npos) << second.err;
 }
 
+TEST_F(Hosts, ASecondManagerEndsAndTheRunGoesOn) {
+  start_crowd({"--run", "crowd"});
+  for (const char* const seed : {"1", "3"}) {
+    Words words = {"env",    "crowd.yaml", "--duration", "100000",
+                   "--seed", seed,         "--output",   folder(std::string("second-") + seed)};
+    words.insert(words.end(), {"--run", "crowd"});
+    for (const std::string& word : apart()) words.push_back(word);
+    const Ended second = run_rave(words);
+    EXPECT_EQ(second.exit_code, 2);
+    EXPECT_NE(second.err.find("has an environment manager already"), std::string::npos)
+        << second.err;
+  }
+  wait_for_more("one");
+  wait_for_more("two");
+  EXPECT_EQ(console("one").find("is gone"), std::string::npos) << console("one");
+  signal("env", SIGINT);
+  EXPECT_EQ(end_of("env"), 1);
+  EXPECT_EQ(end_of("one"), 0) << console("one");
+}
+
 TEST_F(Hosts, ASecondProcessForAHostIsRefusedAndTheFirstGoesOn) {
   start_crowd({});
   Words words = {"robot",      "crowd.yaml", "--host",   "one",

@@ -142,7 +142,10 @@ TEST_P(AManagerIsKilled, AnotherTakesOverAndTheHashIsThatOfOneProcess) {
   for (std::uint64_t kill = 0; kill < kills; ++kill) {
     const Moment when = moment(4000, milliseconds(400));
     kill_at(manager, when);
-    if (when.step > 0) wait_for_line("one", "the environment manager is gone");
+    // The next one may be there before anybody has missed the one before.
+    if (when.step > 0 && chance_.one_in(2)) {
+      wait_for_line("one", "the environment manager is gone");
+    }
     manager = "manager-" + std::to_string(kill + 2);
     start(manager, "env", "crowd.yaml", words);
   }

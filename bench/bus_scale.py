@@ -14,6 +14,7 @@ import json
 import os
 import pathlib
 import re
+import signal
 import statistics
 import subprocess
 import sys
@@ -91,20 +92,24 @@ def live_swarm(rave, folder):
     subprocess.run([rave, "bench", "swarm", "--robots", str(ROBOTS), "--steps", "1",
                     "--write", folder / "swarm"], check=True, stdout=subprocess.DEVNULL)
     file = folder / "swarm" / "scenario.yaml"
-    text = re.sub(r"^pace: .*$", "pace: 1\nclock: real_time\nhost_timeout_s: 60", file.read_text(),
+    text = re.sub(r"^pace: .*$", "pace: realtime\nclock: real_time\nhost_timeout_s: 60", file.read_text(),
                   flags=re.MULTILINE)
     file.write_text(text)
     run = uuid.uuid4().hex
     common = ["--processes", str(HOSTS), "--duration", "100000", "--run", run, "--bus-tag", run,
               "--quiet"]
     processes = []
+
+    def start(what, name, *more):
+        processes.append(subprocess.Popen(
+            [rave, what, file, *common, *more, "--output", folder / name],
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL))
+
     try:
-        manager = subprocess.Popen([rave, "env", file, *common, "--output", folder / "env"])
-        processes.append(manager)
+        start("env", "env")
+        manager = processes[0]
         for host in range(1, HOSTS + 1):
-            processes.append(subprocess.Popen(
-                [rave, "robot", file, *common, "--host", f"host-{host}", "--no-record", "--output",
-                 folder / f"host-{host}"]))
+            start("robot", f"host-{host}", "--host", f"host-{host}", "--no-record")
         wait_for_line(folder / "env" / "console.log", "all hosts are there", manager)
         yield manager
     finally:
@@ -125,8 +130,13 @@ def manager(options):
                 time.sleep(5)
                 shares.append(100 * (cpu_s(process) - before) / (time.monotonic() - begin))
             rss, most = memory_mb(process, "VmRSS"), memory_mb(process, "VmHWM")
+            process.send_signal(signal.SIGINT)
+            process.wait()
+        result = json.loads(pathlib.Path(name, "env", "result.json").read_text())
     return {"robots": ROBOTS, "hosts": HOSTS, "core_percent": spread(shares, 1),
-            "rss_mb": round(rss, 1), "rss_most_mb": round(most, 1)}
+            "rss_mb": round(rss, 1), "rss_most_mb": round(most, 1),
+            "worlds_per_s": round(result["worlds"] / result["end_s"], 2),
+            "reports_per_s": round(result["states"] / result["end_s"], 1)}
 
 
 PARTS = {part.__name__: part for part in (ping, world, crowd, deaths, manager)}

@@ -37,8 +37,8 @@ NETWORKS = {
 # Nanoseconds of a core per robot, as perf shows them in a run of three processes with 10 000 robots
 # (docs/design/distribution.md, Where the rest goes), and per message.
 COSTS_NS = {
-    "read_report": 15, "step": 150, "write_world": 10, "send": 12,    # the manager
-    "read_world": 25, "join": 60, "own": 450,                         # a host
+    "read_report": 41, "step": 179, "write_world": 22, "send": 10,    # the manager
+    "read_world": 50, "join": 84, "own": 555,                         # a host
     "message": 10_000,
 }
 
@@ -110,6 +110,7 @@ def shares(case):
     federated_ns = ((own + near) * (cost["step"] + cost["join"] + cost["read_world"])
                     + own * (cost["own"] + cost["write_world"]) + 16 * cost["message"])
     return {
+        "robots_near_a_host": near,
         "one authority, all robots to each host":
             {"host": everything_host, "manager": manager(everything, case["robots"])},
         "one authority, its region to each host":

@@ -2,7 +2,6 @@
 // One world over several processes, started as users would start them.
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 
 #include "shared_world.hpp"
@@ -40,17 +39,8 @@ class Hosts : public SharedWorld {
     const auto before = record_size(host);
     wait_until([&] { return record_size(host) > before + 100'000; }, host + " goes on");
   }
-  /// The scenario with another policy.
   void write_policy(const std::string& policy, double timeout_s) {
-    std::string text = content_of(RAVE_SOURCE_DIR "/tests/cli/data/crowd.yaml");
-    const std::string robot = "file: ";
-    for (std::size_t at = 0; (at = text.find(robot, at)) != std::string::npos;) {
-      at += robot.size();
-      text.insert(at, RAVE_SOURCE_DIR "/tests/cli/data/");
-    }
-    scenario_ = folder_.path() / "policy.yaml";
-    std::ofstream(scenario_) << text << "on_lost_host: " << policy
-                             << "\nhost_timeout_s: " << timeout_s << "\n";
+    scenario_ = crowd_with_policy(policy, timeout_s);
   }
 
   std::string scenario_ = "crowd.yaml";
@@ -279,6 +269,26 @@ TEST_F(Hosts, WhatNobodyCanUseIsRefusedAndTheRunDoesNotEnd) {
   start_host("two", "crowd.yaml", words);
   EXPECT_EQ(end_of("env"), 0) << console("env");
   EXPECT_EQ(result("env")["hash"], alone);
+}
+
+TEST_F(Hosts, ASecondManagerEndsAndTheRunGoesOn) {
+  start_crowd({"--run", "crowd"});
+  for (const char* const seed : {"1", "3"}) {
+    Words words = {"env",    "crowd.yaml", "--duration", "100000",
+                   "--seed", seed,         "--output",   folder(std::string("second-") + seed)};
+    words.insert(words.end(), {"--run", "crowd"});
+    for (const std::string& word : apart()) words.push_back(word);
+    const Ended second = run_rave(words);
+    EXPECT_EQ(second.exit_code, 2);
+    EXPECT_NE(second.err.find("has an environment manager already"), std::string::npos)
+        << second.err;
+  }
+  wait_for_more("one");
+  wait_for_more("two");
+  EXPECT_EQ(console("one").find("is gone"), std::string::npos) << console("one");
+  signal("env", SIGINT);
+  EXPECT_EQ(end_of("env"), 1);
+  EXPECT_EQ(end_of("one"), 0) << console("one");
 }
 
 TEST_F(Hosts, ASecondProcessForAHostIsRefusedAndTheFirstGoesOn) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "live_listener.hpp"
 
-#include "bus_of.hpp"
+#include "onlooker.hpp"
 
 namespace rave::cli_test {
 
 Result<std::unique_ptr<LiveListener>> LiveListener::open(const bus::RunId& run,
                                                          const std::vector<std::string>& apart) {
-  RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(bus_of(run, "listener", apart)));
+  RAVE_TRY_ASSIGN(auto bus, join_as_onlooker(run, apart));
   RAVE_TRY_ASSIGN(auto worlds, bus::Reader<bus::World>::create(*bus));
   RAVE_TRY_ASSIGN(auto states, bus::Reader<bus::HostState>::create(*bus));
   RAVE_TRY_ASSIGN(auto runs, bus::Reader<bus::RunState>::create(*bus));

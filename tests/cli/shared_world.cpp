@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <fstream>
 #include <iostream>
 #include <random>
 #include <thread>
@@ -49,6 +50,19 @@ void SharedWorld::start_host(const std::string& host, const std::string& scenari
                              std::vector<std::string> more) {
   more.insert(more.begin(), {"--host", host});
   start(host, "robot", scenario, std::move(more));
+}
+
+std::string SharedWorld::crowd_with_policy(const std::string& policy, double timeout_s) const {
+  std::string text = content_of(RAVE_SOURCE_DIR "/tests/cli/data/crowd.yaml");
+  const std::string robot = "file: ";
+  for (std::size_t at = 0; (at = text.find(robot, at)) != std::string::npos;) {
+    at += robot.size();
+    text.insert(at, RAVE_SOURCE_DIR "/tests/cli/data/");
+  }
+  const auto path = folder_.path() / "policy.yaml";
+  std::ofstream(path) << text << "on_lost_host: " << policy << "\nhost_timeout_s: " << timeout_s
+                      << "\n";
+  return path;
 }
 
 int SharedWorld::end_of(const std::string& name) {

@@ -26,6 +26,8 @@ class SharedWorld : public ::testing::Test {
   /// The same of `rave robot` for the host `name`.
   void start_host(const std::string& host, const std::string& scenario,
                   std::vector<std::string> more = {});
+  /// A copy of the scenario `crowd.yaml` that does this about lost hosts; its file.
+  [[nodiscard]] std::string crowd_with_policy(const std::string& policy, double timeout_s) const;
   /// Its exit code; -1 if a signal ended it.
   int end_of(const std::string& name);
   void signal(const std::string& name, int number);

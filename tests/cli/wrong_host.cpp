@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wrong_host.hpp"
 
-#include "bus_of.hpp"
+#include "onlooker.hpp"
 #include "rave/bus/sequence.hpp"
 
 namespace rave::cli_test {
@@ -9,7 +9,7 @@ namespace rave::cli_test {
 Result<std::unique_ptr<WrongHost>> WrongHost::open(const bus::RunId& run,
                                                    const std::vector<std::string>& apart,
                                                    std::uint32_t host) {
-  RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(bus_of(run, "wrong host", apart)));
+  RAVE_TRY_ASSIGN(auto bus, join_as_onlooker(run, apart));
   RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
   RAVE_TRY_ASSIGN(auto own_info, bus::Writer<bus::HostInfo>::create(*bus));
   RAVE_TRY_ASSIGN(auto reports, bus::Writer<bus::HostReport>::create(*bus));

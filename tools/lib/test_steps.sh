@@ -23,19 +23,26 @@ step_build() {
   [ "$result" = passed ]
 }
 
-# Runs the tests of a built preset: PRESET [ctest options].
+# Runs the tests of a built preset: PRESET [ctest options]. The report is called STEP_NAME, or as the
+# preset.
 step_ctest() {
-  local preset="$1"
+  local preset="$1" name="${STEP_NAME:-$1}"
   shift
-  ctest --test-dir "$root/build/$preset" --show-only=json-v1 "$@" >"$report/$preset.json"
+  ctest --test-dir "$root/build/$preset" --show-only=json-v1 "$@" >"$report/$name.json"
   # Its exit code is not needed: the report says which tests failed.
   ctest --test-dir "$root/build/$preset" -j "$(nproc)" --output-on-failure --no-tests=error \
-    --output-junit "$report/$preset.xml" "$@" || true
+    --output-junit "$report/$name.xml" "$@" || true
 }
 
 step_release() {
   step_build release || return 0
   step_ctest release "$@"
+}
+
+# More random moments at which processes are killed than the release step has.
+step_kills() {
+  step_build release rave_tests_kills || return 0
+  STEP_NAME=kills RAVE_KILL_ROUNDS="${RAVE_KILL_ROUNDS:-50}" step_ctest release -L '^kills$'
 }
 
 # The hash of a run does not depend on optimisation, and checks of the debug library run here. Only

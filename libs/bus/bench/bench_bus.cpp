@@ -2,6 +2,7 @@
 // Measures the bus between processes of this machine and prints JSON.
 //   bench_bus ping [COUNT]                     64 B there and back, beside UDP in the same run
 //   bench_bus world [RECEIVERS [ROBOTS [S]]]   the world at 10 Hz to many processes
+//   bench_bus crowd [PROCESSES [DEATHS]]       until all know all, and until a death is known
 // It starts itself for the other processes.
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "child.hpp"
+#include "crowd.hpp"
 #include "ping.hpp"
 #include "rave/bus/reader.hpp"
 #include "rave/bus/sequence.hpp"
@@ -63,7 +65,8 @@ int receive(const std::string& run, std::uint64_t last) {
 
 /// The arrays of a world of robots.
 struct Robots {
-  explicit Robots(std::uint32_t count) : id(count), values(6, std::vector<double>(count, 0.5)) {
+  explicit Robots(std::uint32_t count)
+      : id(count), values(6, std::vector<double>(count, 0.5)), stamps_ns(count) {
     for (std::uint32_t i = 0; i < count; ++i) id[i] = i;
   }
   void lend(rave_wire_PlanarRobots& robots) {
@@ -74,9 +77,11 @@ struct Robots {
     borrow(robots.vx_mps, values[3]);
     borrow(robots.vy_mps, values[4]);
     borrow(robots.wz_radps, values[5]);
+    borrow(robots.stamp_ns, stamps_ns);
   }
   std::vector<std::uint32_t> id;
   std::vector<std::vector<double>> values;
+  std::vector<std::int64_t> stamps_ns;
 };
 
 int world(std::size_t receivers, std::uint32_t count, std::uint64_t seconds) {
@@ -133,10 +138,15 @@ int main(int argc, char** argv) {
     return bench::serve_bus(argv[2], bench::Way::kListener);
   }
   if (role == "receive" && argc > 3) return receive(argv[2], argument(3, 0));
+  if (role == "attend" && argc > 3) bench::attend(argv[2], argument(3, 0));
+  if (role == "crowd") return bench::crowd(argument(2, 50), argument(3, 10));
   if (role == "ping") return bench::ping(argument(2, 20'000));
   if (role == "world") {
     return world(argument(2, 10), static_cast<std::uint32_t>(argument(3, 10'000)), argument(4, 10));
   }
-  std::fprintf(stderr, "usage: %s ping [COUNT] | world [RECEIVERS [ROBOTS [SECONDS]]]\n", argv[0]);
+  std::fprintf(stderr,
+               "usage: %s ping [COUNT] | world [RECEIVERS [ROBOTS [SECONDS]]] | crowd [PROCESSES "
+               "[DEATHS]]\n",
+               argv[0]);
   return 2;
 }

@@ -35,12 +35,13 @@ double number_from(const Child& child) {
   return std::fscanf(child.output, "%lf", &value) == 1 ? value : -1;
 }
 
-std::unique_ptr<Bus> join(const std::string& run, const char* name) {
+std::unique_ptr<Bus> join(const std::string& run, const char* name, int max_processes) {
   BusConfig config;
   config.participant = name;
   config.run = *RunId::parse(run);
   config.tag = "bench-" + run;
   config.domain = 77;
+  config.max_processes = max_processes;
   auto bus = Bus::open(config);
   if (!bus) {
     std::fprintf(stderr, "%s\n", bus.error().text().c_str());

@@ -25,7 +25,8 @@ struct Child {
 [[nodiscard]] double number_from(const Child& child);
 
 /// A bus of the benchmark's run; ends the program if there is none to be had.
-[[nodiscard]] std::unique_ptr<Bus> join(const std::string& run, const char* name);
+[[nodiscard]] std::unique_ptr<Bus> join(const std::string& run, const char* name,
+                                        int max_processes = 64);
 
 template <class Known>
 void wait_for(std::size_t count, const Known& known) {

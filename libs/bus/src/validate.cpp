@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/bus/validate.hpp"
 
+#include <algorithm>
 #include <tuple>
 
 #include "sample_checks.hpp"
@@ -9,9 +10,10 @@ namespace rave::bus {
 namespace {
 
 /// Sums and differences of times of a run must not overflow.
-template <class Field>
-Status check_time(const Field& field, std::int64_t time_ns) {
-  if (time_ns >= -kMaxTime_ns && time_ns <= kMaxTime_ns) return {};
+bool usable(std::int64_t time_ns) { return time_ns >= -kMaxTime_ns && time_ns <= kMaxTime_ns; }
+
+Status check_time(std::string_view field, std::int64_t time_ns) {
+  if (usable(time_ns)) return {};
   return invalid(fmt::format("{} is {}, not within +-{}", field, time_ns, kMaxTime_ns));
 }
 
@@ -29,10 +31,9 @@ Status check_robots(std::string_view list, const rave_wire_PlanarRobots& robots)
     return invalid(
         fmt::format("{}.stamp_ns has {} entries for {} robots", list, stamps.size(), size));
   }
-  for (std::size_t i = 0; i < size; ++i) {
-    RAVE_TRY(check_time(fmt::format("{}.stamp_ns[{}]", list, i), stamps[i]));
-  }
-  return {};
+  const auto wrong = std::find_if_not(stamps.begin(), stamps.end(), usable);
+  if (wrong == stamps.end()) return {};
+  return check_time(fmt::format("{}.stamp_ns[{}]", list, wrong - stamps.begin()), *wrong);
 }
 
 /// Inputs are in the order in which everybody applies them, and none is there twice.

@@ -35,7 +35,7 @@ class Run {
         claims_(static_cast<std::uint32_t>(options.hosts.size())) {}
 
   Result<ManagerOutcome> go();
-  /// The run cannot go on: tells everybody why.
+  /// The run cannot go on: tells everybody why, unless another manager has it.
   void give_up(const Error& error);
 
  private:
@@ -408,6 +408,8 @@ Result<ManagerOutcome> Run::go() {
 
 void Run::give_up(const Error& error) {
   over_ = true;
+  // The hosts are in good hands.
+  if (board_->is_second()) return;
   tell_state(rave_wire_RUN_FAILED, error.message);
   see_off();
 }

@@ -57,11 +57,10 @@ Result<std::unique_ptr<Switchboard>> Switchboard::open(const bus::BusConfig& con
 }
 
 Result<std::vector<std::uint64_t>> Switchboard::look_at_processes(bool begun) {
-  bool second = false;
   infos_.take([&](const bus::HostInfo& info) {
     if (info.host == rave_wire_kNone) {
       const bool goes = !begun && lock_step::gives_way(introduced_, info);
-      second = second || goes;
+      second_ = second_ || goes;
       if (!goes && log_ != nullptr) {
         log_->warn("environment manager",
                    "another one, on {}, was started after this one and is "
@@ -77,7 +76,7 @@ Result<std::vector<std::uint64_t>> Switchboard::look_at_processes(bool begun) {
       log_->error("environment manager", "refused: {}", fits.error().message);
     }
   });
-  if (second) {
+  if (second_) {
     return fail(ErrorCode::kState,
                 "this run has an environment manager already; to start another run of the same "
                 "scenario beside it, give both a name of their own with --run");

@@ -30,6 +30,8 @@ class Switchboard {
   /// Learns who is there; returns the processes that are gone. Errors: kState (there is a manager
   /// that started earlier, and this one has not `begun`).
   [[nodiscard]] Result<std::vector<std::uint64_t>> look_at_processes(bool begun);
+  /// Whether that error was the reason: the run is another manager's.
+  [[nodiscard]] bool is_second() const noexcept { return second_; }
   /// Whether a process said who it is, and fits.
   [[nodiscard]] bool knows(std::uint64_t writer) const { return fitting_.contains(writer); }
 
@@ -72,6 +74,7 @@ class Switchboard {
   std::vector<std::uint64_t> writers_;
   std::uint64_t epoch_;
   std::set<std::uint64_t> fitting_;
+  bool second_ = false;
 };
 
 }  // namespace rave::environment_manager

@@ -72,7 +72,13 @@ void HostPort::Impl::tell(LogLevel level, const std::string& text) {
 
 void HostPort::Impl::meet(const bus::HostInfo& info) {
   if (info.host == rave_wire_kNone) {
-    if (auto fits = check_fits(self, info); !fits) unfit = std::move(fits).error();
+    if (auto fits = check_fits(self, info); !fits) {
+      if (has_world) return tell(LogLevel::kError, "refused: " + fits.error().message);
+      unfit = std::move(fits).error();
+      return;
+    }
+    // Another one counts when the one before has been missed, and not before.
+    if (manager != 0) return;
     manager = info.writer;
     tell(LogLevel::kInfo, fmt::format("the environment manager is `{}` on {}", info.name,
                                       *info.machine != '\0' ? info.machine : "this machine"));
@@ -89,6 +95,7 @@ void HostPort::Impl::meet(const bus::HostInfo& info) {
 
 void HostPort::Impl::hear(const bus::RunState& state) {
   if (manager == 0) manager = state.writer;
+  if (state.writer != manager) return;
   for (const auto& host : bus::elements(state.hosts)) {
     if (host.host != self.host || host.phase != rave_wire_HOST_DROPPED) continue;
     ended_ = true;

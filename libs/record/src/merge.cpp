@@ -120,6 +120,9 @@ class Merger {
 
 Status Merger::check() const {
   const Part& first = *parts_.front();
+  if (!(first.info.step_s >= 1e-9 && first.info.step_s < 1e9)) {
+    return fail(ErrorCode::kParse, "`{}` gives no step", first.path.string());
+  }
   for (const auto& part : parts_) {
     if (part->info.scenario == first.info.scenario && part->info.seed == first.info.seed &&
         part->info.step_s == first.info.step_s && part->info.robots == first.info.robots) {
@@ -128,8 +131,7 @@ Status Merger::check() const {
     return fail(ErrorCode::kParse, "`{}` and `{}` are records of different runs",
                 first.path.string(), part->path.string());
   }
-  if (from_seconds(first.info.step_s).ns > 0) return {};
-  return fail(ErrorCode::kParse, "`{}` gives no step", first.path.string());
+  return {};
 }
 
 RunInfo Merger::joined_info() const {

@@ -217,6 +217,7 @@ void add_info(CLI::App& root, InfoCommand& c) {
   app.add_option("file", c.file, "A run.mcap, or the folder of a run")
       ->required()
       ->type_name("FILE");
+  app.add_flag("--json", c.json, "For other programs");
   app.footer("Example:\n  rave info runs/20260101-120000-mixed-reality");
 }
 

@@ -5,7 +5,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "places.hpp"
@@ -19,7 +18,6 @@ namespace rave::cli {
 namespace {
 
 using environment_manager::LiveManagerOutcome;
-using environment_manager::ManagerOutcome;
 
 /// The world alone: what the robots do is for their hosts.
 Result<robot_host::BuiltScenario> world_of(const ManagedRun& run) {
@@ -32,30 +30,11 @@ Result<robot_host::BuiltScenario> world_of(const ManagedRun& run) {
   return robot_host::build(run.scenario, catalogue, how);
 }
 
-std::string hash_text(const ManagerOutcome& outcome) {
-  return outcome.hash ? fmt::format("{:016x}", *outcome.hash) : std::string();
-}
-
-Status write_result(const ManagedRun& run, const ManagerOutcome& outcome) {
-  nlohmann::ordered_json json;
-  json["scenario"] = run.scenario.scenario.name.value;
-  json["whole"] = outcome.whole;
-  json["steps"] = outcome.steps;
-  json["hash"] = outcome.hash ? nlohmann::ordered_json(hash_text(outcome)) : nullptr;
-  json["robots"] = run.scenario.robots.size();
-  json["contacts"] = outcome.contacts;
-  json["wall_s"] = outcome.wall_s;
-  json["problems"] = outcome.problems;
-  return write_file_atomically(run.folder / "result.json", json.dump(2) + "\n");
-}
-
-std::string summary_of(const config::ExpandedScenario& scenario, const ManagerOutcome& outcome) {
-  const double sim_s = static_cast<double>(outcome.steps) * scenario.scenario.step_s.value;
-  const double speed = outcome.wall_s > 0 ? sim_s / outcome.wall_s : 0;
-  return fmt::format("{}: {} robots, {:.2f} s in {:.2f} s ({:.1f}x), {} contacts\nhash {}\n",
-                     scenario.scenario.name.value, scenario.robots.size(), sim_s, outcome.wall_s,
-                     speed, outcome.contacts,
-                     outcome.hash ? hash_text(outcome) : "none: the run was not whole");
+Result<std::unique_ptr<robot_host::SharedResults>> results_of(
+    const ManagedRun& run, const robot_host::BuiltScenario& built) {
+  return robot_host::SharedResults::begin(
+      run.scenario, built,
+      {run.folder, !run.options.no_picture, !run.options.no_record, &run.console});
 }
 
 lock_step::Identity manager_of(const config::ExpandedScenario& scenario, bool real_time) {
@@ -67,8 +46,11 @@ lock_step::Identity manager_of(const config::ExpandedScenario& scenario, bool re
           real_time};
 }
 
-Result<ManagedEnd> manage_steps(const ManagedRun& run, sim::EngineSpec spec,
+Result<ManagedEnd> manage_steps(const ManagedRun& run, robot_host::BuiltScenario built,
                                 std::vector<config::PlannedHost> hosts) {
+  ManagedEnd end;
+  RAVE_TRY_ASSIGN(end.results, results_of(run, built));
+  for (const config::PlannedHost& host : hosts) end.end.hosts.push_back({host.name, {}});
   const config::ScenarioFile& file = run.scenario.scenario;
   environment_manager::ManagerOptions how;
   how.bus = run.bus;
@@ -87,47 +69,46 @@ Result<ManagedEnd> manage_steps(const ManagedRun& run, sim::EngineSpec spec,
                       run.scenario.robots.size(),
                       progress.waiting.empty() ? std::string() : "waits for " + progress.waiting});
   };
-  RAVE_TRY_ASSIGN(auto outcome, environment_manager::manage(std::move(spec), how));
-  RAVE_TRY(write_result(run, outcome));
-  return ManagedEnd{outcome.whole, false, outcome.problems, summary_of(run.scenario, outcome)};
+  how.on_world = [&end](const sim::WorldAuthority& authority) {
+    return end.results->after_step(authority);
+  };
+  how.on_end = [&end](const sim::WorldAuthority& authority) { end.results->at_end(authority); };
+  RAVE_TRY_ASSIGN(auto outcome, environment_manager::manage(std::move(built.spec), how));
+  end.end.hash = outcome.hash;
+  end.end.steps = outcome.steps;
+  end.end.wall_s = outcome.wall_s;
+  end.end.problems = std::move(outcome.problems);
+  return end;
 }
 
-Status write_result(const ManagedRun& run, const LiveManagerOutcome& outcome,
-                    const std::string& live_reason) {
-  nlohmann::ordered_json json;
-  json["scenario"] = run.scenario.scenario.name.value;
-  json["whole"] = outcome.whole;
-  json["end_s"] = outcome.end.seconds();
-  json["hash"] = nullptr;
-  json["no_hash_because"] = live_reason;
-  json["robots"] = run.scenario.robots.size();
-  json["worlds"] = outcome.worlds;
-  json["states"] = outcome.states;
-  json["hosts"] = nlohmann::ordered_json::array();
-  for (const LiveManagerOutcome::Host& host : outcome.hosts) {
-    const bool known = host.bound_s >= 0;
-    nlohmann::ordered_json entry;
-    entry["name"] = host.name;
-    entry["heard"] = host.heard;
-    entry["losses"] = host.losses;
-    entry["clock_offset_s"] = known ? nlohmann::ordered_json(host.offset_s) : nullptr;
-    entry["clock_bound_s"] = known ? nlohmann::ordered_json(host.bound_s) : nullptr;
-    json["hosts"].push_back(std::move(entry));
+/// What is known of a run in real time; without a manager the hosts alone know more.
+Result<ManagedEnd> live_end(const ManagedRun& run, const robot_host::BuiltScenario& built,
+                            LiveManagerOutcome outcome) {
+  ManagedEnd end;
+  end.live = true;
+  RAVE_TRY_ASSIGN(end.results, results_of(run, built));
+  RAVE_TRY_ASSIGN(const auto hosts, config::plan_hosts(run.scenario));
+  for (const config::PlannedHost& planned : hosts) {
+    robot_host::SharedHost& host = end.end.hosts.emplace_back();
+    host.name = planned.name;
+    for (const LiveManagerOutcome::Host& met : outcome.hosts) {
+      if (met.name != host.name) continue;
+      host.heard = met.heard;
+      host.losses = met.losses;
+      if (met.bound_s < 0) continue;
+      host.offset_s = met.offset_s;
+      host.bound_s = met.bound_s;
+    }
   }
-  json["problems"] = outcome.problems;
-  return write_file_atomically(run.folder / "result.json", json.dump(2) + "\n");
-}
-
-std::string summary_of(const config::ExpandedScenario& scenario, const LiveManagerOutcome& outcome,
-                       const std::string& live_reason) {
-  return fmt::format(
-      "{}: {} robots on {} hosts, in real time to {:.2f} s, {} worlds\nhash none: {}\n",
-      scenario.scenario.name.value, scenario.robots.size(), outcome.hosts.size(),
-      outcome.end.seconds(), outcome.worlds, live_reason);
+  end.end.worlds = outcome.worlds;
+  end.end.states = outcome.states;
+  end.end.wall_s = outcome.end.seconds();
+  end.end.problems = std::move(outcome.problems);
+  return end;
 }
 
 /// Hosts that need nobody.
-Result<ManagedEnd> wait_for_hosts(const ManagedRun& run, const std::string& live_reason) {
+Result<ManagedEnd> wait_for_hosts(const ManagedRun& run, const robot_host::BuiltScenario& built) {
   const std::string& name = run.scenario.scenario.name.value;
   if (!run.hosts_ended) {
     return fail(ErrorCode::kInvalidArgument,
@@ -137,22 +118,22 @@ Result<ManagedEnd> wait_for_hosts(const ManagedRun& run, const std::string& live
   }
   run.console.info("run", "no robot looks at others, so the hosts go by themselves");
   LiveManagerOutcome outcome;
+  const auto began = std::chrono::steady_clock::now();
   // A look now and then: ends of processes, their restarts and a person's signal come by no one
   // way.
   while (!run.stopping() && !run.hosts_ended()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
   if (!run.hosts_ended()) outcome.problems.emplace_back("stopped before its hosts had ended");
-  outcome.whole = outcome.problems.empty();
-  RAVE_TRY(write_result(run, outcome, live_reason));
-  return ManagedEnd{outcome.whole, true, outcome.problems,
-                    fmt::format("{}: {} robots, in real time, without a manager\nhash none: {}\n",
-                                name, run.scenario.robots.size(), live_reason)};
+  outcome.end = Duration{
+      std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - began)
+          .count()};
+  return live_end(run, built, std::move(outcome));
 }
 
 Result<ManagedEnd> manage_time(const ManagedRun& run, const robot_host::BuiltScenario& built,
                                std::vector<config::PlannedHost> hosts) {
-  if (!robot_host::needs_manager(built)) return wait_for_hosts(run, built.live_reason);
+  if (!robot_host::needs_manager(built)) return wait_for_hosts(run, built);
   const config::ScenarioFile& file = run.scenario.scenario;
   run.console.warn("run", "the run goes at real time, because {}", built.live_reason);
   environment_manager::LiveManagerOptions how;
@@ -177,9 +158,7 @@ Result<ManagedEnd> manage_time(const ManagedRun& run, const robot_host::BuiltSce
                       waiting.empty() ? std::string() : "without " + waiting});
   };
   RAVE_TRY_ASSIGN(auto outcome, environment_manager::manage_live(how));
-  RAVE_TRY(write_result(run, outcome, built.live_reason));
-  return ManagedEnd{outcome.whole, true, outcome.problems,
-                    summary_of(run.scenario, outcome, built.live_reason)};
+  return live_end(run, built, std::move(outcome));
 }
 
 }  // namespace
@@ -197,7 +176,7 @@ Result<ManagedEnd> manage_run(const ManagedRun& run) {
   }
   if (!built.live_reason.empty()) return manage_time(run, built, std::move(hosts));
   RAVE_TRY(robot_host::check_can_be_shared(built));
-  return manage_steps(run, std::move(built.spec), std::move(hosts));
+  return manage_steps(run, std::move(built), std::move(hosts));
 }
 
 }  // namespace rave::cli

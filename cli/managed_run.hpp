@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "rave/base/result.hpp"
 #include "rave/bus/config.hpp"
 #include "rave/config/expanded_scenario.hpp"
+#include "rave/robot_host/shared_results.hpp"
 
 namespace rave::cli {
 
@@ -19,7 +21,7 @@ struct ManagedRun {
   const config::ExpandedScenario& scenario;
   const RunCommand& options;
   const bus::BusConfig& bus;
-  std::filesystem::path folder;  ///< Gets scenario.yaml and result.json.
+  std::filesystem::path folder;  ///< Gets scenario.yaml and, of ManagedEnd::results, the rest.
   Console& console;
   std::function<bool()> stopping;
   /// Set: the hosts belong to this process; whether all of them have ended.
@@ -28,10 +30,10 @@ struct ManagedRun {
 
 /// How it ended.
 struct ManagedEnd {
-  bool whole = false;
   bool live = false;  ///< It was in real time.
-  std::vector<std::string> problems;
-  std::string summary;  ///< A few lines for people.
+  robot_host::SharedEnd end;
+  /// To be written when it is known where the hosts left what they know.
+  std::unique_ptr<robot_host::SharedResults> results;
 };
 
 /// Builds the world, waits for the hosts and manages the run to its end, in lock-step or in real

@@ -6,7 +6,9 @@
 #include <cstdlib>
 #include <optional>
 
+#include "error_text.hpp"
 #include "rave/base/names.hpp"
+#include "rave/record/merge.hpp"
 
 namespace rave::cli {
 namespace {
@@ -97,11 +99,12 @@ Status add_plugin_folders(const std::vector<std::string>& given, plugin::Catalog
   return catalogue.add_folder(own);
 }
 
-fs::path record_file(std::string_view word) {
-  std::error_code error;
-  fs::path path(word);
-  if (fs::is_directory(path, error)) path /= "run.mcap";
-  return path;
+Result<fs::path> record_file(std::string_view word) {
+  RAVE_TRY_ASSIGN(auto run, record::open_run(word));
+  for (const std::string& note : run.notes) {
+    put(stderr, fmt::format("{} {}\n", terminal_of(stderr).yellow("missing:"), note));
+  }
+  return std::move(run.file);
 }
 
 Result<fs::path> find_scenario(std::string_view word) {

@@ -30,8 +30,9 @@ Status add_plugin_folders(const std::vector<std::string>& given, plugin::Catalog
 /// folder. Errors: kNotFound with the nearest name or the list.
 [[nodiscard]] Result<std::filesystem::path> find_scenario(std::string_view word);
 
-/// The record that a word on the command line stands for: the file itself, or `run.mcap` in a
-/// folder. Does not say whether it is there.
-[[nodiscard]] std::filesystem::path record_file(std::string_view word);
+/// The record that a word on the command line stands for: the file itself, or that of the run in a
+/// folder (record::open_run()); what is missing of it is told. Does not say whether a file is
+/// there. Errors: those of open_run().
+[[nodiscard]] Result<std::filesystem::path> record_file(std::string_view word);
 
 }  // namespace rave::cli

@@ -15,6 +15,7 @@
 #include "rave/base/file.hpp"
 #include "rave/robot_host/host_run.hpp"
 #include "run_folder.hpp"
+#include "run_report.hpp"
 
 namespace rave::cli {
 namespace {
@@ -86,11 +87,20 @@ class Crew {
         member.process.reset();
       }
       if (member.code == kGood) continue;
-      problems.push_back(member.code
-                             ? fmt::format("host `{}`: see {}", member.name, member.folder.string())
-                             : fmt::format("host `{}` did not end and was killed", member.name));
+      problems.push_back(
+          member.code
+              ? fmt::format("host `{}`: see {}", member.name, member.folders.back().string())
+              : fmt::format("host `{}` did not end and was killed", member.name));
     }
     return problems;
+  }
+
+  /// Where a host left what it knows; none of one that is elsewhere.
+  [[nodiscard]] std::vector<std::filesystem::path> folders_of(std::string_view host) const {
+    for (const Member& member : members_) {
+      if (member.name == host) return member.folders;
+    }
+    return {};
   }
 
  private:
@@ -100,27 +110,28 @@ class Crew {
     int starts = 0;
     std::optional<HostProcess> process;
     std::optional<int> code{};
-    std::filesystem::path folder{};
+    std::vector<std::filesystem::path> folders{};  ///< Of each start.
   };
 
   Status start(Member& member) {
     ++member.starts;
-    member.folder =
+    member.folders.push_back(
         folder_ / "hosts" /
-        (member.starts == 1 ? member.name : fmt::format("{}-{}", member.name, member.starts));
+        (member.starts == 1 ? member.name : fmt::format("{}-{}", member.name, member.starts)));
     std::vector<std::string> words = {(executable_folder() / "rave").string(),
                                       "robot",
                                       (folder_ / "scenario.yaml").string(),
                                       "--host",
                                       member.name,
                                       "--output",
-                                      member.folder.string(),
+                                      member.folders.back().string(),
                                       "--quiet"};
     for (const std::string& word : words_of(options_.bus, bus_.run)) words.push_back(word);
     for (const std::string& plugins : options_.plugins) {
       words.emplace_back("--plugins");
       words.push_back(plugins);
     }
+    if (options_.no_picture) words.emplace_back("--no-picture");
     if (options_.no_record) words.emplace_back("--no-record");
     if (options_.arm) words.emplace_back("--arm");
     RAVE_TRY_ASSIGN(auto process, HostProcess::start(std::move(words)));
@@ -145,25 +156,13 @@ std::string invitation(const config::ExpandedScenario& scenario, const config::P
                      scenario.scenario.name.value, host.name, words);
 }
 
-int report(const RunCommand& options, const ManagedEnd& outcome,
-           const std::vector<std::string>& problems, const std::filesystem::path& folder) {
-  const Terminal errors = terminal_of(stderr);
-  if (!options.quiet) {
-    put(stdout, outcome.summary);
-    put(stdout, fmt::format("{}: result.json, scenario.yaml, hosts/\n", folder.string()));
-  }
-  for (const auto* const list : {&outcome.problems, &problems}) {
-    for (const std::string& problem : *list) {
-      put(stderr, fmt::format("{} {}\n", errors.red("problem:"), problem));
-    }
-  }
-  const bool good = outcome.whole && problems.empty();
-  if (!good) {
-    put(stderr, fmt::format("{} the run was not whole\n", errors.red("not good:")));
-  } else if (!options.quiet) {
-    put(stdout, terminal_of(stdout).green("done") + "\n");
-  }
-  return good ? kGood : kNotGood;
+/// Puts together what all have left.
+Result<robot_host::RunOutcome> results_of(ManagedEnd& managed, const Crew& crew,
+                                          const std::vector<std::string>& problems) {
+  robot_host::SharedEnd& end = managed.end;
+  end.problems.insert(end.problems.end(), problems.begin(), problems.end());
+  for (robot_host::SharedHost& host : end.hosts) host.folders = crew.folders_of(host.name);
+  return managed.results->write(end);
 }
 
 }  // namespace
@@ -187,9 +186,6 @@ int run_shared(const RunCommand& options, const config::ExpandedScenario& scenar
       !written) {
     return complain(written.error());
   }
-  if (scenario.scenario.checks != config::ChecksFile{}) {
-    console.warn("run", "the scenario's checks need one process, so this run does not make them");
-  }
   Crew crew(options, *bus, folder->path(),
             scenario.scenario.on_lost_host == config::LostHost::kRestart, console);
   for (const config::PlannedHost& host : hosts) {
@@ -204,14 +200,15 @@ int run_shared(const RunCommand& options, const config::ExpandedScenario& scenar
     crew.look_after();
     return control.stopping() || crew.all_dead();
   };
-  const auto outcome = manage_run({scenario, options, *bus, folder->path(), console, stopping,
-                                   [&crew] { return crew.all_ended(); }});
+  auto managed = manage_run({scenario, options, *bus, folder->path(), console, stopping,
+                             [&crew] { return crew.all_ended(); }});
   // In lock-step the last step tells them.
-  if (outcome && outcome->live && control.stopping()) crew.interrupt();
+  if (managed && managed->live && control.stopping()) crew.interrupt();
   const std::vector<std::string> problems = crew.part();
   console.clear();
-  if (!outcome) return complain(outcome.error());
-  return report(options, *outcome, problems, folder->path());
+  if (!managed) return complain(managed.error());
+  const auto outcome = results_of(*managed, crew, problems);
+  return outcome ? report_outcome(options, *outcome, folder->path()) : complain(outcome.error());
 }
 
 }  // namespace rave::cli

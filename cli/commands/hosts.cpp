@@ -62,6 +62,7 @@ int robot(const RobotCommand& options) {
   how.run.output = folder->path();
   how.run.program_runner = program_runner();
   how.run.record = !run.no_record;
+  how.run.picture = !run.no_picture;
   how.run.log = &console;
   how.run.control = &control;
   how.run.arm = run.arm;
@@ -93,20 +94,24 @@ int env(const EnvCommand& options) {
   }
   robot_host::RunControl& control = ended_by_signals();
   bool started = false;
-  const auto outcome = manage_run({*scenario,
-                                   run,
-                                   *bus,
-                                   folder->path(),
-                                   console,
-                                   [&] {
-                                     started = true;
-                                     return control.stopping();
-                                   },
-                                   {}});
+  auto managed = manage_run({*scenario,
+                             run,
+                             *bus,
+                             folder->path(),
+                             console,
+                             [&] {
+                               started = true;
+                               return control.stopping();
+                             },
+                             {}});
   console.clear();
-  if (!outcome && !started) folder->discard();
+  if (!managed && !started) folder->discard();
+  if (!managed) return complain(managed.error());
+  const auto outcome = managed->results->write(managed->end);
   if (!outcome) return complain(outcome.error());
-  return tell(run, outcome->whole, outcome->summary, outcome->problems, folder->path());
+  // What the hosts know is with them: a check that needs it is theirs who put it all together.
+  return tell(run, outcome->whole && !outcome->checks_fail, outcome->summary, outcome->problems,
+              folder->path());
 }
 
 }  // namespace rave::cli

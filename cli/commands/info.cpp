@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
 
 #include "error_text.hpp"
 #include "places.hpp"
@@ -35,11 +37,68 @@ std::string run_text(const record::RecordSummary& summary) {
                                    : ", live: no run hash\n");
 }
 
+nlohmann::ordered_json run_json(const record::RunInfo& run) {
+  nlohmann::ordered_json json = {{"scenario", run.scenario},
+                                 {"started", run.started},
+                                 {"seed", run.seed},
+                                 {"step_s", run.step_s},
+                                 {"versions", run.versions},
+                                 {"inputs", run.inputs},
+                                 {"robots", nlohmann::ordered_json::array()}};
+  std::map<RobotId, nlohmann::ordered_json> sensors;
+  for (const record::RecordedSensor& sensor : run.sensors) {
+    sensors[sensor.robot].push_back(sensor.name);
+  }
+  for (const record::RecordedRobot& robot : run.robots) {
+    json["robots"].push_back(
+        {{"name", robot.name},
+         {"kind", robot.kind},
+         {"team", robot.team},
+         {"sensors",
+          sensors.contains(robot.id) ? sensors[robot.id] : nlohmann::ordered_json::array()}});
+  }
+  return json;
+}
+
+nlohmann::ordered_json info_json(const std::filesystem::path& file,
+                                 const record::RecordSummary& summary) {
+  nlohmann::ordered_json json = {
+      {"file", file.string()},      {"bytes", summary.file_bytes},
+      {"chunks", summary.chunks},   {"parts", summary.parts},
+      {"missing", summary.missing}, {"whole", summary.whole},
+      {"damages", summary.damages}, {"run", summary.run ? run_json(*summary.run) : nullptr},
+      {"steps", nullptr},           {"hash", nullptr}};
+  if (summary.end) {
+    json["steps"] = summary.end->steps;
+    if (summary.end->hash) json["hash"] = fmt::format("{:016x}", *summary.end->hash);
+  }
+  json["start_s"] = summary.start_s;
+  json["end_s"] = summary.end_s;
+  json["messages"] = summary.messages;
+  json["hybrids"] = summary.hybrids;
+  json["channels"] = nlohmann::ordered_json::array();
+  for (const record::ChannelSummary& channel : summary.channels) {
+    json["channels"].push_back({{"topic", channel.topic},
+                                {"type", channel.schema},
+                                {"encoding", channel.encoding},
+                                {"messages", channel.messages},
+                                {"rate_hz", channel.rate_hz}});
+  }
+  return json;
+}
+
 }  // namespace
 
 int info(const InfoCommand& options) {
-  const auto summary = record::describe_record(record_file(options.file));
+  const auto file = record_file(options.file);
+  if (!file) return complain(file.error());
+  const auto summary = record::describe_record(*file);
   if (!summary) return complain(summary.error());
+  const bool good = summary->whole && summary->damages.empty() && summary->missing.empty();
+  if (options.json) {
+    put(stdout, info_json(*file, *summary).dump(2) + "\n");
+    return good ? kGood : kNotGood;
+  }
   std::string text = run_text(*summary);
   text +=
       fmt::format("{} messages from {:.2f} to {:.2f} s, {} in {} chunks, {}\n", summary->messages,
@@ -47,6 +106,9 @@ int info(const InfoCommand& options) {
                   summary->whole ? "whole" : "cut: what is there can be read");
   for (const auto& [sensor, made_of] : summary->hybrids) {
     text += fmt::format("hybrid {}: {}; both parts and the result are recorded\n", sensor, made_of);
+  }
+  if (!summary->parts.empty()) {
+    text += fmt::format("made of the records of {} processes\n", summary->parts.size());
   }
   for (const std::string& damage : summary->damages) text += fmt::format("damaged: {}\n", damage);
   report::Table table;
@@ -59,7 +121,7 @@ int info(const InfoCommand& options) {
                           fmt::format("{:.1f} Hz", channel.rate_hz)});
   }
   put(stdout, text + report::render_table(table));
-  return summary->whole && summary->damages.empty() ? kGood : kNotGood;
+  return good ? kGood : kNotGood;
 }
 
 }  // namespace rave::cli

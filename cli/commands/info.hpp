@@ -8,6 +8,7 @@ namespace rave::cli {
 /// `rave info`.
 struct InfoCommand {
   std::string file;  ///< A record, or the folder of a run.
+  bool json = false;
 };
 
 /// Prints what is in a record. Returns 0; 1 if the record is not whole; 2 if it is none.

@@ -16,7 +16,7 @@ Result<PlayedScenario> make(const PlayCommand& options) {
   plugin::Catalogue catalogue(robot_host::host_stamp());
   RAVE_TRY(add_plugin_folders(options.run.plugins, catalogue));
   PlayWish wish;
-  wish.record = record_file(options.file);
+  RAVE_TRY_ASSIGN(wish.record, record_file(options.file));
   wish.robots = options.robots;
   wish.anew = options.anew;
   if (!options.world.empty()) wish.world = options.world;

@@ -50,13 +50,14 @@ int report_gap(const GapCommand& options) {
   if (auto added = add_plugin_folders(options.plugins, catalogue); !added) {
     return complain(added.error());
   }
-  const std::filesystem::path record = record_file(options.file);
+  const auto record = record_file(options.file);
+  if (!record) return complain(record.error());
   const auto gap = robot_host::measure_gap(
-      record, catalogue,
+      *record, catalogue,
       {options.robot, options.twin, options.commands, options.truth, options.window_s});
   if (!gap) return complain(gap.error());
   std::filesystem::path folder = options.output;
-  if (folder.empty()) folder = record.parent_path();
+  if (folder.empty()) folder = record->parent_path();
   std::error_code error;
   if (!folder.empty()) std::filesystem::create_directories(folder, error);
   const std::string stem = "gap-" + gap->robot;

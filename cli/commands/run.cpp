@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
-
 #include "console.hpp"
 #include "error_text.hpp"
 #include "interrupt.hpp"
@@ -15,51 +13,11 @@
 #include "rave/run_control/folder.hpp"
 #include "rave/run_control/server.hpp"
 #include "run_folder.hpp"
+#include "run_report.hpp"
 #include "run_scenario.hpp"
 #include "shared_run.hpp"
 
 namespace rave::cli {
-namespace {
-
-/// The files that a run leaves and that people look at, in that order.
-std::string files_of(const std::filesystem::path& folder) {
-  constexpr std::array<std::string_view, 8> kFiles = {"summary.txt", "result.json", "picture.svg",
-                                                      "picture.png", "events.log",  "scenario.yaml",
-                                                      "console.log", "run.mcap"};
-  std::string text;
-  std::error_code error;
-  for (const std::string_view file : kFiles) {
-    if (!std::filesystem::exists(folder / file, error)) continue;
-    text += (text.empty() ? "" : ", ") + std::string(file);
-  }
-  return fmt::format("{}: {}\n", folder.string(), text);
-}
-
-/// Tells how it ended; the exit code of the run.
-int report_outcome(const RunCommand& options, const robot_host::RunOutcome& outcome,
-                   const std::filesystem::path& folder) {
-  const bool good = outcome.whole && outcome.checks_hold;
-  if (!options.quiet) {
-    put(stdout, outcome.summary);
-    if (!outcome.summary.empty() && outcome.summary.back() != '\n') put(stdout, "\n");
-    put(stdout, files_of(folder));
-  }
-  const Terminal errors = terminal_of(stderr);
-  for (const std::string& problem : outcome.problems) {
-    put(stderr,
-        fmt::format("{} {}\n", good ? errors.yellow("note:") : errors.red("problem:"), problem));
-  }
-  if (!good) {
-    const std::string_view what =
-        outcome.whole ? "a check of the scenario does not hold" : "the run was not whole";
-    put(stderr, fmt::format("{} {}\n", errors.red("not good:"), what));
-  } else if (!options.quiet) {
-    put(stdout, terminal_of(stdout).green("done") + "\n");
-  }
-  return good ? kGood : kNotGood;
-}
-
-}  // namespace
 
 int run(const RunCommand& options) {
   auto scenario = read_scenario(options);

@@ -64,6 +64,8 @@ int verify(const VerifyCommand& options) {
   if (auto added = add_plugin_folders(options.plugins, catalogue); !added) {
     return complain(added.error());
   }
+  const auto record = record_file(options.file);
+  if (!record) return complain(record.error());
   Console console(options.quiet);
   robot_host::VerifyOptions verify_options;
   verify_options.program_runner = program_runner();
@@ -71,7 +73,7 @@ int verify(const VerifyCommand& options) {
   verify_options.log = &console;
   verify_options.on_progress = [&](const report::Progress& progress) { console.show(progress); };
   verify_options.control = &ended_by_signals();
-  const auto outcome = robot_host::verify(record_file(options.file), catalogue, verify_options);
+  const auto outcome = robot_host::verify(*record, catalogue, verify_options);
   console.clear();
   return outcome ? tell(options, *outcome) : complain(outcome.error());
 }

@@ -55,7 +55,7 @@ TEST_F(Hosts, TwoHostsGiveTheHashOfOneProcess) {
   EXPECT_EQ(result["hash"], alone);
   EXPECT_EQ(result["whole"], true);
   EXPECT_EQ(result["steps"], 300);
-  EXPECT_GT(result["contacts"], 0);
+  EXPECT_GT(result["events"]["contact"], 0);
   for (const char* const host : {"one", "two"}) {
     EXPECT_EQ(this->result(std::string("run/hosts/") + host)["whole"], true) << host;
     EXPECT_TRUE(fs::exists(folder(std::string("run/hosts/") + host + "/run.mcap")));

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "rave/record/mcap_reader.hpp"
+#include "rave/record/merge.hpp"
 #include "rave/record/run_reader.hpp"
 
 namespace rave::record {
@@ -25,6 +26,8 @@ Result<RecordSummary> describe_record(const std::filesystem::path& path) {
     if (metadata.name != kHybridMetadata) continue;
     if (auto entries = reader.read_metadata(metadata)) summary.hybrids = *std::move(entries);
   }
+  summary.parts = merged_files(reader);
+  summary.missing = missing_parts(reader);
   const double duration_s = summary.end_s - summary.start_s;
   for (const ChannelInfo& channel : reader.channels()) {
     const auto count = statistics.channel_message_counts.find(channel.id);

@@ -48,6 +48,7 @@ Status Engine::Impl::propose(HostReport& report, PhaseTimer& phase) {
     host->events.swap(events);
     events.clear();
     ++step;
+    if (spec.on_step_done) spec.on_step_done();
   }
   // What hardware says of the next step does not depend on where the authority lets robots go, and
   // the authority needs to know where the real ones are.

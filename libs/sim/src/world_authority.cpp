@@ -445,6 +445,7 @@ Pose2 WorldAuthority::pose(RobotId robot) const noexcept {
 }
 std::span<const Event> WorldAuthority::events() const noexcept { return impl_->done_events; }
 RunHash WorldAuthority::hash() const noexcept { return impl_->done_hash; }
+const world::Snapshot& WorldAuthority::snapshot() const noexcept { return impl_->truth.snapshot; }
 const world::WorldModel& WorldAuthority::world() const noexcept { return impl_->spec.world; }
 std::uint32_t WorldAuthority::host_count() const noexcept {
   return static_cast<std::uint32_t>(impl_->hosts.size());

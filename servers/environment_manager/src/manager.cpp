@@ -352,6 +352,7 @@ Status Run::make_step() {
     contacts_ += event.kind == sim::EventKind::kContact ? 1U : 0U;
   }
   world_.last = world_.last || ending_ || step_ >= options_.steps;
+  if (options_.on_world && options_.on_world(*authority_)) ending_ = true;
   RAVE_TRY(board_->send(world_, authority_->state(), seats_));
   for (Seat& seat : seats_) seat.reported = false;
   ++step_;
@@ -416,6 +417,7 @@ void Run::give_up(const Error& error) {
 
 ManagerOutcome Run::outcome() {
   ended_ = Clock::now();
+  if (options_.on_end) options_.on_end(*authority_);
   ManagerOutcome outcome;
   outcome.steps = authority_->steps_done();
   outcome.contacts = contacts_;

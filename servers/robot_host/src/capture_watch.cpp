@@ -2,6 +2,7 @@
 #include "capture_watch.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "rave/world/touching.hpp"
@@ -24,11 +25,16 @@ CaptureWatch::CaptureWatch(const config::CaptureCheckFile& check,
     : check_(check),
       predators_(ids_of(scenario, check.predator.value)),
       prey_(ids_of(scenario, check.prey.value)),
-      closest_m_(std::numeric_limits<double>::infinity()) {}
+      closest_m_(std::numeric_limits<double>::infinity()),
+      closest_before_m_(closest_m_) {}
 
 void CaptureWatch::after_step(sim::Engine& engine) {
+  look(engine.snapshot(), engine.steps_done() - 1);
+}
+
+void CaptureWatch::look(const world::Snapshot& world, std::uint64_t step) {
   events_.clear();
-  const world::Snapshot& world = engine.snapshot();
+  closest_before_m_ = closest_m_;
   const auto caught = [&](RobotId prey) {
     for (const RobotId predator : predators_) {
       if (predator == prey || !world.robot(predator).present || !world.robot(prey).present) {
@@ -41,8 +47,8 @@ void CaptureWatch::after_step(sim::Engine& engine) {
       closest_m_ = std::min(closest_m_, gap_m);
       if (!(gap_m <= check_.within_m)) continue;
       captures_.push_back({predator, prey, world.time().seconds(), gap_m});
-      events_.push_back({engine.steps_done() - 1, predator, sim::EventKind::kCaptured,
-                         world.body_of(prey), fmt::format("{:.3f} m apart", gap_m)});
+      events_.push_back({step, predator, sim::EventKind::kCaptured, world.body_of(prey),
+                         fmt::format("{:.3f} m apart", gap_m)});
       return true;
     }
     return false;
@@ -50,9 +56,21 @@ void CaptureWatch::after_step(sim::Engine& engine) {
   prey_.erase(std::remove_if(prey_.begin(), prey_.end(), caught), prey_.end());
 }
 
-bool CaptureWatch::holds() const noexcept {
-  if (!check_.before_s) return true;
-  return !captures_.empty() && captures_.front().time_s <= *check_.before_s;
+void CaptureWatch::forget_last_look() {
+  captures_.resize(captures_.size() - events_.size());
+  events_.clear();
+  closest_m_ = closest_before_m_;
+}
+
+CaptureFacts CaptureWatch::facts() const {
+  CaptureFacts facts{captures_, std::nullopt};
+  if (std::isfinite(closest_m_)) facts.closest_m = closest_m_;
+  return facts;
+}
+
+bool holds(const config::CaptureCheckFile& check, const CaptureFacts& facts) {
+  if (!check.before_s) return true;
+  return !facts.captures.empty() && facts.captures.front().time_s <= *check.before_s;
 }
 
 }  // namespace rave::robot_host

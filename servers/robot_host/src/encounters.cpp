@@ -31,7 +31,8 @@ void Encounters::after_step(sim::Engine& engine) {
     radius_m_.push_back(model.body(static_cast<std::uint32_t>(radius_m_.size())).radius_m());
   }
   for (std::uint32_t r = 0; r < count; ++r) {
-    if (engine.snapshot().robot(RobotId(r)).present) look_around(engine, RobotId(r));
+    if (!engine.is_local(RobotId(r)) || !engine.snapshot().robot(RobotId(r)).present) continue;
+    look_around(engine, RobotId(r));
   }
 }
 

@@ -6,22 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "facts.hpp"
 #include "kinds.hpp"
 #include "observer.hpp"
 
 namespace rave::robot_host {
 
-/// The nearest that a pair of bodies of two kinds came.
-struct Encounter {
-  double gap_m = 0;      ///< Between their outlines; negative if they overlapped.
-  double centres_m = 0;  ///< Between their origins.
-  double time_s = 0;
-  std::uint32_t a = 0;  ///< Body ids; `a` is a robot.
-  std::uint32_t b = 0;
-};
-
 /// Keeps the closest approach of each kind of pair, such as `real-simulated`. Bodies farther apart
-/// than its reach never count.
+/// than its reach never count. Of robots of several hosts, each pair is its host's whose id is
+/// lower.
 class Encounters final : public Observer {
  public:
   Encounters(const BodyKinds& kinds, const sim::EngineSpec& spec);

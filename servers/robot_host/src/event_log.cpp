@@ -45,14 +45,13 @@ void tell_events(const sim::Engine& engine, std::span<const sim::Event> events, 
   }
 }
 
-std::string events_log(const sim::Engine& engine, const BodyKinds& kinds,
+std::string events_log(const sim::EngineSpec& spec, const BodyKinds& kinds,
                        const std::vector<sim::Event>& events) {
   std::string text;
   for (const sim::Event& event : events) {
-    text += fmt::format("{:10.3f} s  {:<16} {:<14} {}{}\n",
-                        static_cast<double>(event.step) * engine.spec().step.seconds(),
-                        subject_of(engine.spec(), event), to_string(event.kind),
-                        with_whom(kinds, event), event.text);
+    text += fmt::format(
+        "{:10.3f} s  {:<16} {:<14} {}{}\n", static_cast<double>(event.step) * spec.step.seconds(),
+        subject_of(spec, event), to_string(event.kind), with_whom(kinds, event), event.text);
   }
   return text;
 }

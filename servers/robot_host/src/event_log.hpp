@@ -17,7 +17,7 @@ void tell_events(const sim::Engine& engine, std::span<const sim::Event> events, 
                  std::vector<sim::Event>& all);
 
 /// All events of a run, one per line, for people.
-[[nodiscard]] std::string events_log(const sim::Engine& engine, const BodyKinds& kinds,
+[[nodiscard]] std::string events_log(const sim::EngineSpec& spec, const BodyKinds& kinds,
                                      const std::vector<sim::Event>& events);
 
 /// Arms robots if that was asked for, else says who waits for it.

@@ -28,17 +28,24 @@ bool contains(const std::vector<RobotId>& robots, RobotId robot) {
   return std::find(robots.begin(), robots.end(), robot) != robots.end();
 }
 
+/// The robots of an entry, each once.
+std::vector<RobotId> robots_of(const config::ExpandedScenario& scenario,
+                               const config::TouchesCheckFile& file) {
+  std::vector<RobotId> robots;
+  for (const auto& name : file.robots) {
+    for (const RobotId robot : robots_named(scenario, *name)) {
+      if (!contains(robots, robot)) robots.push_back(robot);
+    }
+  }
+  return robots;
+}
+
 }  // namespace
 
 GoalChecks::GoalChecks(const config::ExpandedScenario& scenario, const sim::EngineSpec& spec) {
   for (const config::TouchesCheckFile& file : scenario.scenario.checks.touches) {
-    Touches touches{file, {}, {}, 0};
-    for (const auto& name : file.robots) {
-      for (const RobotId robot : robots_named(scenario, *name)) {
-        if (!contains(touches.robots, robot)) touches.robots.push_back(robot);
-      }
-    }
-    for (const RobotId robot : touches.robots) {
+    Touches touches;
+    for (const RobotId robot : robots_of(scenario, file)) {
       const auto& sensors = spec.types[spec.robots[robot.value()].type].sensors;
       for (std::uint32_t s = 0; file.sensor && s < sensors.size(); ++s) {
         if (sensors[s].name == **file.sensor) touches.feelers.push_back({robot, s, false});
@@ -48,25 +55,14 @@ GoalChecks::GoalChecks(const config::ExpandedScenario& scenario, const sim::Engi
   }
   for (const config::ArrivalCheckFile& file : scenario.scenario.checks.arrivals) {
     for (const RobotId robot : robots_named(scenario, *file.robot)) {
-      arrivals_.push_back({file, spec.robots[robot.value()].name, robot, std::nullopt, 0, false});
+      arrivals_.push_back({file, robot, {}});
     }
-  }
-}
-
-void GoalChecks::count_events(const sim::Engine& engine, Touches& touches) {
-  for (const sim::Event& event : engine.events()) {
-    if (event.kind != sim::EventKind::kContact) continue;
-    // The one that pushes has the event; the one that is pushed has been touched as well.
-    const bool concerned =
-        contains(touches.robots, event.robot) ||
-        std::any_of(touches.robots.begin(), touches.robots.end(),
-                    [&](RobotId robot) { return engine.snapshot().body_of(robot) == event.other; });
-    if (concerned) ++touches.count;
   }
 }
 
 void GoalChecks::count_readings(const sim::Engine& engine, Touches& touches) {
   for (Feeler& feeler : touches.feelers) {
+    if (!engine.is_local(feeler.robot)) continue;
     const sim::SensorSample sample = engine.sensor(feeler.robot, feeler.sensor);
     if (sample.info->kind != ReadingKind::kContact || sample.header->count == 0) continue;
     const auto* first = static_cast<const ContactReading*>(sample.records);
@@ -78,55 +74,113 @@ void GoalChecks::count_readings(const sim::Engine& engine, Touches& touches) {
 }
 
 void GoalChecks::after_step(sim::Engine& engine) {
-  for (Touches& touches : touches_) {
-    if (touches.file.sensor) {
-      count_readings(engine, touches);
-    } else {
-      count_events(engine, touches);
-    }
-  }
+  for (Touches& touches : touches_) count_readings(engine, touches);
   for (Arrival& arrival : arrivals_) {
+    ArrivalFacts& facts = arrival.facts;
+    if (!engine.is_local(arrival.id)) continue;
     const sim::ReportedPose& pose = engine.reported(arrival.id);
-    if (!pose.known || arrival.time_s) continue;
+    if (!pose.known || facts.time_s) continue;
     const double off_m =
         std::hypot(pose.pose.x_m - arrival.file.x_m, pose.pose.y_m - arrival.file.y_m);
-    arrival.nearest_m = arrival.known ? std::min(arrival.nearest_m, off_m) : off_m;
-    arrival.known = true;
+    facts.nearest_m = facts.known ? std::min(facts.nearest_m, off_m) : off_m;
+    facts.known = true;
     const double now_s = engine.time().seconds();
     if (off_m <= arrival.file.within_m && now_s <= arrival.file.before_s.value_or(now_s)) {
-      arrival.time_s = now_s;
+      facts.time_s = now_s;
     }
   }
 }
 
-std::vector<CheckResult> GoalChecks::results() const {
-  std::vector<CheckResult> results;
-  for (const Touches& touches : touches_) {
-    const auto& [robots, sensor, most, least] = touches.file;
-    CheckResult result;
-    result.name = fmt::format("touches of {}{}", listed(robots),
-                              sensor ? fmt::format(" (by `{}`)", **sensor) : std::string());
-    result.holds = touches.count >= least && touches.count <= most;
-    result.text = least > 0 ? fmt::format("{}, expected {} to {}", touches.count, least, most)
-                            : fmt::format("{}, expected at most {}", touches.count, most);
-    results.push_back(std::move(result));
+GoalFacts GoalChecks::facts() const {
+  GoalFacts facts;
+  for (const Touches& touches : touches_) facts.touches.push_back(touches.count);
+  for (const Arrival& arrival : arrivals_) facts.arrivals.push_back(arrival.facts);
+  return facts;
+}
+
+namespace {
+
+/// The one that pushes has the event; the one that is pushed has been touched as well.
+std::uint64_t count_contacts(const sim::EngineSpec& spec, const std::vector<sim::Event>& events,
+                             const std::vector<RobotId>& robots) {
+  const auto first_robot = static_cast<std::uint32_t>(spec.world.obstacles.size());
+  const auto concerned = [&](const sim::Event& event) {
+    if (event.kind != sim::EventKind::kContact) return false;
+    return contains(robots, event.robot) ||
+           std::any_of(robots.begin(), robots.end(), [&](RobotId robot) {
+             return BodyId(first_robot + robot.value()) == event.other;
+           });
+  };
+  return static_cast<std::uint64_t>(std::count_if(events.begin(), events.end(), concerned));
+}
+
+CheckResult touches_result(const config::TouchesCheckFile& file, std::uint64_t count) {
+  const auto& [robots, sensor, most, least] = file;
+  CheckResult result;
+  result.name = fmt::format("touches of {}{}", listed(robots),
+                            sensor ? fmt::format(" (by `{}`)", **sensor) : std::string());
+  const auto counted = static_cast<std::int64_t>(count);
+  result.holds = counted >= least && counted <= most;
+  result.text = least > 0 ? fmt::format("{}, expected {} to {}", count, least, most)
+                          : fmt::format("{}, expected at most {}", count, most);
+  return result;
+}
+
+CheckResult arrival_result(const config::ArrivalCheckFile& file, const std::string& robot,
+                           const ArrivalFacts& facts) {
+  CheckResult result;
+  result.name = fmt::format("{} comes to ({:.2f}, {:.2f}) m", robot, file.x_m, file.y_m);
+  result.holds = facts.time_s.has_value();
+  const std::string limit =
+      file.before_s ? fmt::format(" before {} s", *file.before_s) : std::string();
+  if (facts.time_s) {
+    result.text = fmt::format("at {:.2f} s", *facts.time_s);
+  } else if (facts.known) {
+    result.text = fmt::format("came no nearer than {:.2f} m, expected {} m{}", facts.nearest_m,
+                              file.within_m, limit);
+  } else {
+    result.text = "never said where it is";
   }
-  for (const Arrival& arrival : arrivals_) {
-    CheckResult result;
-    result.name = fmt::format("{} comes to ({:.2f}, {:.2f}) m", arrival.robot, arrival.file.x_m,
-                              arrival.file.y_m);
-    result.holds = arrival.time_s.has_value();
-    const std::string limit =
-        arrival.file.before_s ? fmt::format(" before {} s", *arrival.file.before_s) : std::string();
-    if (arrival.time_s) {
-      result.text = fmt::format("at {:.2f} s", *arrival.time_s);
-    } else if (arrival.known) {
-      result.text = fmt::format("came no nearer than {:.2f} m, expected {} m{}", arrival.nearest_m,
-                                arrival.file.within_m, limit);
-    } else {
-      result.text = "never said where it is";
+  return result;
+}
+
+/// What stands in the place of a result if nothing is known of a robot that it needs.
+void note_lost(const std::vector<RobotId>& robots, const sim::EngineSpec& spec,
+               const std::vector<std::uint8_t>& lost, CheckResult& result) {
+  for (const RobotId robot : robots) {
+    if (robot.value() >= lost.size() || lost[robot.value()] == 0) continue;
+    result.holds = false;
+    result.made = false;
+    result.text =
+        fmt::format("not made: nothing is known of `{}` here", spec.robots[robot.value()].name);
+    return;
+  }
+}
+
+}  // namespace
+
+std::vector<CheckResult> goal_results(const config::ExpandedScenario& scenario,
+                                      const sim::EngineSpec& spec, const RunFacts& facts,
+                                      const std::vector<std::uint8_t>& lost) {
+  std::vector<CheckResult> results;
+  const auto& checks = scenario.scenario.checks;
+  for (std::size_t i = 0; i < checks.touches.size(); ++i) {
+    const config::TouchesCheckFile& file = checks.touches[i];
+    const std::vector<RobotId> robots = robots_of(scenario, file);
+    std::uint64_t count = i < facts.goals.touches.size() ? facts.goals.touches[i] : 0;
+    if (!file.sensor) count = count_contacts(spec, facts.events, robots);
+    results.push_back(touches_result(file, count));
+    if (file.sensor || !facts.has_world) note_lost(robots, spec, lost, results.back());
+  }
+  std::size_t next = 0;
+  for (const config::ArrivalCheckFile& file : checks.arrivals) {
+    for (const RobotId robot : robots_named(scenario, *file.robot)) {
+      const bool there = next < facts.goals.arrivals.size();
+      results.push_back(arrival_result(file, spec.robots[robot.value()].name,
+                                       there ? facts.goals.arrivals[next] : ArrivalFacts()));
+      note_lost({robot}, spec, lost, results.back());
+      ++next;
     }
-    results.push_back(std::move(result));
   }
   return results;
 }

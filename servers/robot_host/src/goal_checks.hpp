@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "facts.hpp"
 #include "observer.hpp"
 #include "rave/config/expanded_scenario.hpp"
 
@@ -15,6 +16,7 @@ struct CheckResult {
   std::string name;  ///< `touches of rover`
   std::string text;  ///< `2, expected at most 0`
   bool holds = false;
+  bool made = true;  ///< False: nobody knows, since a part of the run left nothing here.
 };
 
 /// What a scenario wants its robots to do: come to places, and not touch things.
@@ -24,8 +26,8 @@ class GoalChecks final : public Observer {
 
   void after_step(sim::Engine& engine) override;
 
-  /// One for each entry of `checks: touches:` and `checks: arrivals:`, in that order.
-  [[nodiscard]] std::vector<CheckResult> results() const;
+  /// Of robots that run here.
+  [[nodiscard]] GoalFacts facts() const;
 
  private:
   /// A contact sensor of one robot, and whether it said that it touches.
@@ -35,24 +37,25 @@ class GoalChecks final : public Observer {
     bool touching = false;
   };
   struct Touches {
-    config::TouchesCheckFile file;
-    std::vector<RobotId> robots;
     std::vector<Feeler> feelers;  ///< Empty: events count.
-    int count = 0;
+    std::uint64_t count = 0;
   };
   struct Arrival {
     config::ArrivalCheckFile file;
-    std::string robot;
     RobotId id;
-    std::optional<double> time_s;
-    double nearest_m = 0;
-    bool known = false;
+    ArrivalFacts facts;
   };
-  static void count_events(const sim::Engine& engine, Touches& touches);
   static void count_readings(const sim::Engine& engine, Touches& touches);
 
   std::vector<Touches> touches_;
   std::vector<Arrival> arrivals_;
 };
+
+/// One for each entry of `checks: touches:` and, by robot, of `checks: arrivals:`, in that order.
+/// `lost`: by robot, 1 where nothing is known of it; empty: all is known.
+[[nodiscard]] std::vector<CheckResult> goal_results(const config::ExpandedScenario& scenario,
+                                                    const sim::EngineSpec& spec,
+                                                    const RunFacts& facts,
+                                                    const std::vector<std::uint8_t>& lost);
 
 }  // namespace rave::robot_host

@@ -6,6 +6,7 @@ namespace rave::robot_host {
 void HitCounter::after_step(sim::Engine& engine) {
   const sim::EngineSpec& spec = engine.spec();
   for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
+    if (!engine.is_local(RobotId(r))) continue;
     const sim::RobotType& type = spec.types[spec.robots[r].type];
     for (std::uint32_t s = 0; s < type.sensors.size(); ++s) {
       const sim::SensorSample sample = engine.sensor(RobotId(r), s);

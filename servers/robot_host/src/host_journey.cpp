@@ -2,6 +2,8 @@
 #include "host_journey.hpp"
 
 #include "event_log.hpp"
+#include "facts_file.hpp"
+#include "rave/base/file.hpp"
 #include "rave/base/names.hpp"
 #include "requests.hpp"
 
@@ -43,9 +45,9 @@ void serve_requests(HostJourney& journey) {
 
 void look_back(HostJourney& journey, std::span<const sim::Event> beside) {
   sim::Engine& engine = journey.engine;
-  if (engine.steps_done() == 0) return;
   RunControl* const control = journey.options.run.control;
   if (control != nullptr) control->set_time(engine.time().seconds());
+  journey.observers.after_step(engine);
   if (journey.ros2 != nullptr) journey.ros2->after_step(engine);
   if (journey.record != nullptr) {
     journey.record->after_step(engine);
@@ -58,10 +60,34 @@ void look_back(HostJourney& journey, std::span<const sim::Event> beside) {
         event.kind != sim::EventKind::kDriverFailed) {
       continue;
     }
-    journey.problems.push_back(fmt::format(
+    journey.losses.push_back(fmt::format(
         "robot `{}`: {} at {:.2f} s: {}", engine.spec().robots[event.robot.value()].name,
         to_string(event.kind), engine.time().seconds(), event.text));
   }
+}
+
+void note_end(const HostJourney& journey, std::string_view ending, bool good,
+              HostOutcome& outcome) {
+  outcome.problems = journey.losses;
+  outcome.problems.insert(outcome.problems.end(), journey.problems.begin(), journey.problems.end());
+  if (journey.stopped) outcome.problems.emplace_back("stopped before the run was over");
+  if (journey.ended) {
+    outcome.ending = ending;
+    if (!good) outcome.problems.push_back("the run ended: " + outcome.ending);
+  }
+  outcome.whole = outcome.problems.empty();
+}
+
+Status write_facts(const HostJourney& journey, RunFacts facts) {
+  const HostOptions& options = journey.options;
+  facts.events = journey.events;
+  for (std::string& problem : facts.problems) {
+    problem = fmt::format("host `{}`: {}", options.host, problem);
+  }
+  const FactsOf about{journey.run_number, options.host};
+  const std::vector<std::byte> bytes = encode_facts(about, facts);
+  return write_file_atomically(options.run.output / kFactsFile,
+                               {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 ControlledHost::ControlledHost(const sim::Engine& engine, const config::ScenarioFile& file,

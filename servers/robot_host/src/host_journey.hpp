@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "console_tee.hpp"
+#include "observers.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/robot_host/build.hpp"
 #include "rave/robot_host/host_run.hpp"
@@ -29,12 +30,15 @@ struct Seat {
 /// One host on its way through a run, whether the hosts wait for one another or not.
 struct HostJourney {
   sim::Engine& engine;
+  Observers& observers;
   RecordKeeper* record;  ///< May be null.
   Ros2Face* ros2;        ///< May be null.
   const HostOptions& options;
   ConsoleTee& console;
+  std::uint64_t run_number;  ///< shared_number() of its scenario.
   std::vector<sim::Event> events{};
-  std::vector<std::string> problems{};
+  std::vector<std::string> losses{};    ///< Of programs and drivers, which are events, too.
+  std::vector<std::string> problems{};  ///< What else is not as it should be.
   bool stopped = false;
   bool ended = false;  ///< By the manager.
 
@@ -46,9 +50,15 @@ struct HostJourney {
 /// Does what somebody has asked for since the last step.
 void serve_requests(HostJourney& journey);
 
-/// A step is done, the report of the next one is there: records it and tells its events, and those
-/// that `beside` the engine has.
+/// A step is done (EngineSpec::on_step_done): all look at it, it is recorded, its events are told,
+/// and those that `beside` the engine has.
 void look_back(HostJourney& journey, std::span<const sim::Event> beside = {});
+
+/// What ended a host's part beside its losses: that it was stopped, or how the manager ended it.
+void note_end(const HostJourney& journey, std::string_view ending, bool good, HostOutcome& outcome);
+
+/// Leaves what this host knows of the run for the results of the whole (read_facts()).
+Status write_facts(const HostJourney& journey, RunFacts facts);
 
 /// Lets others control a host as long as it goes.
 class ControlledHost {

@@ -7,6 +7,7 @@
 #include "console_tee.hpp"
 #include "event_log.hpp"
 #include "host_journey.hpp"
+#include "radio_report.hpp"
 #include "rave/base/file.hpp"
 #include "rave/lock_step/host_port.hpp"
 #include "rave/robot/interface_hash.hpp"
@@ -14,6 +15,7 @@
 #include "rave/robot_host/provenance.hpp"
 #include "record_keeper.hpp"
 #include "wall_pace.hpp"
+#include "world_record.hpp"
 
 namespace rave::robot_host {
 namespace {
@@ -27,6 +29,7 @@ struct Journey : HostJourney {
   HostPort& port;
   sim::HostReport report;
   sim::WorldStep world;
+  bool came_to_end = false;
 };
 
 Status propose(Journey& journey) {
@@ -58,7 +61,10 @@ Result<bool> take_step(Journey& journey) {
     journey.console.warn("host", "{}; its robots go on where they stand", text);
     journey.problems.push_back(std::move(text));
   }
-  if (journey.world.last) return false;
+  if (journey.world.last) {
+    journey.came_to_end = true;
+    return false;
+  }
   RAVE_TRY(journey.engine.join(journey.world, journey.port.authority()));
   return true;
 }
@@ -70,11 +76,10 @@ Status go_through(Journey& journey) {
     RAVE_TRY_ASSIGN(const bool goes_on, take_step(journey));
     if (!goes_on) return {};
     RAVE_TRY(propose(journey));
-    look_back(journey);
   }
 }
 
-Status write_results(const Journey& journey, const BodyKinds& kinds, const HostOutcome& outcome) {
+Status write_results(const Journey& journey, const HostOutcome& outcome) {
   const std::filesystem::path& folder = journey.options.run.output;
   nlohmann::ordered_json json;
   json["host"] = journey.options.host;
@@ -84,22 +89,28 @@ Status write_results(const Journey& journey, const BodyKinds& kinds, const HostO
   json["events"] = journey.events.size();
   json["ending"] = outcome.ending;
   json["problems"] = outcome.problems;
-  RAVE_TRY(write_file_atomically(folder / "events.log",
-                                 events_log(journey.engine, kinds, journey.events)));
+  RAVE_TRY(write_file_atomically(
+      folder / "events.log",
+      events_log(journey.engine.spec(), journey.observers.kinds, journey.events)));
   return write_file_atomically(folder / "result.json", json.dump(2) + "\n");
 }
 
 HostOutcome judge(const Journey& journey) {
   HostOutcome outcome;
   outcome.steps = journey.engine.steps_done();
-  outcome.problems = journey.problems;
-  if (journey.stopped) outcome.problems.emplace_back("stopped before the run was over");
-  if (journey.ended) {
-    outcome.ending = journey.port.ending().text;
-    if (!journey.port.ending().good) outcome.problems.push_back("the run ended: " + outcome.ending);
-  }
-  outcome.whole = outcome.problems.empty();
+  note_end(journey, journey.port.ending().text, journey.port.ending().good, outcome);
   return outcome;
+}
+
+/// What this host knows when all is over. Changes what the engine shows of robots.
+RunFacts facts_of(Journey& journey, const std::string& record_problem) {
+  RunFacts facts = gather(journey.observers, journey.engine, journey.options.run.picture);
+  if (!record_problem.empty()) facts.problems.push_back(record_problem);
+  if (!journey.came_to_end || !has_radio(journey.engine.spec())) return facts;
+  // Who hears what was sent in the last step is decided with the world after it.
+  const bool heard = journey.engine.join(journey.world, journey.port.authority()).has_value();
+  if (heard) facts.radio = journey.engine.radio_counts();
+  return facts;
 }
 
 }  // namespace
@@ -138,7 +149,9 @@ Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::C
   how.others = options.others.get();
   WallPace pace(1);
   how.live_clock = &pace;
-  RAVE_TRY_ASSIGN(BuiltScenario built, build(scenario, catalogue, how));
+  config::ExpandedScenario adjusted = scenario;
+  keep_history_for_observers(adjusted.scenario);
+  RAVE_TRY_ASSIGN(BuiltScenario built, build(adjusted, catalogue, how));
   options.others.reset();
   if (!built.live_reason.empty()) {
     return run_live_host({scenario, expanded, catalogue, options, seat, console, pace},
@@ -147,37 +160,47 @@ Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::C
   built.spec.live_clock = nullptr;
   RAVE_TRY(check_can_be_shared(built));
   for (const std::string& note : built.notes) console.warn("scenario", "{}", note);
+  std::function<void()> look;
+  built.spec.on_step_done = [&look] { look(); };
   RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(built.spec)));
   RAVE_TRY_ASSIGN(const auto port, HostPort::open(options.bus,
                                                   {seat.number, options.host,
                                                    static_cast<std::uint32_t>(seat.robots.size()),
                                                    shared_number(scenario), interface_stamp()},
                                                   &console));
-  const BodyKinds kinds(engine->spec(), built.robot_kinds);
   RAVE_TRY_ASSIGN(const auto ros2, Ros2Face::open(scenario, *engine, options.host));
+  Observers observers(scenario, built.robot_kinds, engine->spec());
   std::unique_ptr<RecordKeeper> record;
   if (run.record) {
-    RAVE_TRY_ASSIGN(record, RecordKeeper::begin(run.output / "run.mcap", *engine, kinds,
-                                                {scenario.scenario.name.value, expanded,
-                                                 versions_of(engine->spec(), catalogue),
-                                                 input_files(scenario, *engine), true},
-                                                run.log));
+    RAVE_TRY_ASSIGN(auto hosts, hosts_for_record(scenario));
+    RAVE_TRY_ASSIGN(
+        record, RecordKeeper::begin(
+                    run.output / "run.mcap", *engine, observers.kinds,
+                    {scenario.scenario.name.value, expanded, versions_of(engine->spec(), catalogue),
+                     input_files(scenario, *engine), true, options.host, std::move(hosts)},
+                    run.log));
   }
   const RecordedConsole recorded(console, record ? &record->recorder() : nullptr);
-  Journey journey({*engine, record.get(), ros2.get(), options, console}, *port);
+  Journey journey(
+      {*engine, observers, record.get(), ros2.get(), options, console, shared_number(scenario)},
+      *port);
   journey.report.host = seat.number;
+  look = [&journey] { look_back(journey); };
   const ControlledHost controlled(*engine, scenario.scenario, run.control, false);
   tell_who_waits(*engine, run, console);
   const Status went = go_through(journey);
   engine->halt();
   console.attach(nullptr);
   HostOutcome outcome = judge(journey);
+  std::string record_problem;
   if (record) {
     const Status written = record->end(engine->hash().value());
-    if (!written) outcome.problems.push_back("the record is not whole: " + written.error().text());
+    if (!written) record_problem = "the record is not whole: " + written.error().text();
   }
+  if (!record_problem.empty()) outcome.problems.push_back(record_problem);
   outcome.whole = outcome.whole && outcome.problems.empty();
-  RAVE_TRY(write_results(journey, kinds, outcome));
+  RAVE_TRY(write_results(journey, outcome));
+  RAVE_TRY(write_facts(journey, facts_of(journey, record_problem)));
   if (!went) return tl::unexpected(went.error());
   return outcome;
 }

@@ -45,6 +45,7 @@ void InstantKeeper::after_step(sim::Engine& engine) {
 void InstantKeeper::remember_sightings(sim::Engine& engine) {
   const sim::EngineSpec& spec = engine.spec();
   for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
+    if (!engine.is_local(RobotId(r))) continue;
     const sim::RobotType& type = spec.types[spec.robots[r].type];
     for (std::uint32_t s = 0; s < type.sensors.size(); ++s) {
       const sim::SensorSpec& sensor = type.sensors[s];
@@ -65,10 +66,10 @@ void InstantKeeper::remember_sightings(sim::Engine& engine) {
         const std::pair<std::uint32_t, std::int32_t> key{r, sightings[i].code};
         const auto known = std::find(seen_.begin(), seen_.end(), key);
         if (known != seen_.end()) {
-          sightings_[static_cast<std::size_t>(known - seen_.begin())] = shown;
+          sightings_[static_cast<std::size_t>(known - seen_.begin())].shown = std::move(shown);
         } else {
           seen_.push_back(key);
-          sightings_.push_back(shown);
+          sightings_.push_back({engine.steps_done() - 1, r, std::move(shown)});
         }
       }
     }
@@ -81,14 +82,16 @@ void InstantKeeper::freeze(const sim::Engine& engine) {
   instant_->sightings = std::move(sightings_);
   const sim::EngineSpec& spec = engine.spec();
   for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
-    if (!engine.snapshot().robot(RobotId(r)).present) continue;
-    add_robot(engine, RobotId(r));
+    if (!engine.is_local(RobotId(r)) || !engine.snapshot().robot(RobotId(r)).present) continue;
+    InstantRobot& shown = instant_->robots.emplace_back();
+    shown.robot = r;
+    add_bodies(engine, RobotId(r), shown);
     const sim::RobotType& type = spec.types[spec.robots[r].type];
-    for (std::uint32_t s = 0; s < type.sensors.size(); ++s) add_hits(engine, RobotId(r), s);
+    for (std::uint32_t s = 0; s < type.sensors.size(); ++s) add_hits(engine, RobotId(r), s, shown);
   }
 }
 
-void InstantKeeper::add_robot(const sim::Engine& engine, RobotId robot) {
+void InstantKeeper::add_bodies(const sim::Engine& engine, RobotId robot, InstantRobot& into) const {
   const std::uint32_t body = kinds_->body_of(robot);
   const world::Body& description = engine.spec().world.robots[robot.value()];
   const Pose2 X_WR = engine.snapshot().pose(robot);
@@ -99,11 +102,12 @@ void InstantKeeper::add_robot(const sim::Engine& engine, RobotId robot) {
     shown.kind = kinds_->kind(body);
     if (i == 0) shown.label = engine.spec().robots[robot.value()].name;
     shown.colour = kinds_->colour(body);
-    instant_->robots.push_back(std::move(shown));
+    into.bodies.push_back(std::move(shown));
   }
 }
 
-void InstantKeeper::add_hits(const sim::Engine& engine, RobotId robot, std::uint32_t sensor) {
+void InstantKeeper::add_hits(const sim::Engine& engine, RobotId robot, std::uint32_t sensor,
+                             InstantRobot& into) const {
   const sim::SensorSample sample = engine.sensor(robot, sensor);
   const sim::SensorParts parts = engine.sensor_parts(robot, sensor);
   const auto bodies = parts.real != nullptr ? parts.bodies : sample.bodies;
@@ -126,7 +130,7 @@ void InstantKeeper::add_hits(const sim::Engine& engine, RobotId robot, std::uint
     hit.to_W = transform(X_WS, range_m * Vec2{bearing.cos, bearing.sin});
     const bool is_virtual = virtual_m == nullptr || ranges[i] == virtual_m[i];
     if (met && is_virtual && bodies[i] != BodyId::kNone) hit.kind = kinds_->kind(bodies[i]);
-    instant_->hits.push_back(hit);
+    into.hits.push_back(hit);
   }
 }
 

@@ -3,33 +3,34 @@
 
 #include <optional>
 
+#include "facts.hpp"
 #include "kinds.hpp"
 #include "observer.hpp"
 #include "rave/report/picture.hpp"
 
 namespace rave::robot_host {
 
-/// Freezes one instant of the run for the picture: robots, laser hits and real sightings.
+/// Freezes one instant of the run for the picture: robots, laser hits and real sightings of robots
+/// that run here.
 class InstantKeeper final : public Observer {
  public:
   InstantKeeper(const BodyKinds& kinds, double instant_s) : kinds_(&kinds), instant_s_(instant_s) {}
 
   void after_step(sim::Engine& engine) override;
 
-  [[nodiscard]] const std::optional<report::PictureInstant>& instant() const noexcept {
-    return instant_;
-  }
+  [[nodiscard]] const std::optional<InstantFacts>& facts() const noexcept { return instant_; }
 
  private:
   void remember_sightings(sim::Engine& engine);
   void freeze(const sim::Engine& engine);
-  void add_robot(const sim::Engine& engine, RobotId robot);
-  void add_hits(const sim::Engine& engine, RobotId robot, std::uint32_t sensor);
+  void add_bodies(const sim::Engine& engine, RobotId robot, InstantRobot& into) const;
+  void add_hits(const sim::Engine& engine, RobotId robot, std::uint32_t sensor,
+                InstantRobot& into) const;
 
   const BodyKinds* kinds_;
   double instant_s_;
-  std::optional<report::PictureInstant> instant_;
-  std::vector<report::PictureSighting> sightings_;  ///< Of the last moments before the instant.
+  std::optional<InstantFacts> instant_;
+  std::vector<InstantSighting> sightings_;  ///< Of the last moments before the instant.
   std::vector<std::pair<std::uint32_t, std::int32_t>> seen_;  ///< Robot and code of each.
 };
 

@@ -13,6 +13,7 @@
 #include "rave/robot_host/provenance.hpp"
 #include "stall_watch.hpp"
 #include "wall_pace.hpp"
+#include "world_record.hpp"
 
 namespace rave::robot_host {
 namespace {
@@ -117,7 +118,6 @@ Status make_step(LiveJourney& journey) {
   name_flooders(journey, journey.link.take_flooders());
   name_flooders(journey, journey.live.take_flooders());
   journey.watch.step_ends();
-  look_back(journey, journey.live.events());
   return {};
 }
 
@@ -150,20 +150,12 @@ HostOutcome judge(const LiveJourney& journey, const std::string& live_reason) {
   outcome.live_reason = live_reason;
   outcome.steps =
       journey.engine.steps_done() - std::min(journey.first, journey.engine.steps_done());
-  outcome.problems = journey.problems;
-  if (journey.stopped) outcome.problems.emplace_back("stopped before the run was over");
-  if (journey.ended) {
-    outcome.ending = journey.link.ending()->text;
-    if (!journey.link.ending()->good) {
-      outcome.problems.push_back("the run ended: " + outcome.ending);
-    }
-  }
-  outcome.whole = outcome.problems.empty();
+  const auto ending = journey.link.ending();
+  note_end(journey, ending ? ending->text : "", !ending || ending->good, outcome);
   return outcome;
 }
 
-Status write_results(const LiveJourney& journey, const BodyKinds& kinds,
-                     const HostOutcome& outcome) {
+Status write_results(const LiveJourney& journey, const HostOutcome& outcome) {
   const std::filesystem::path& folder = journey.options.run.output;
   nlohmann::ordered_json json;
   json["host"] = journey.options.host;
@@ -184,8 +176,9 @@ Status write_results(const LiveJourney& journey, const BodyKinds& kinds,
   json["events"] = journey.events.size();
   json["ending"] = outcome.ending;
   json["problems"] = outcome.problems;
-  RAVE_TRY(write_file_atomically(folder / "events.log",
-                                 events_log(journey.engine, kinds, journey.events)));
+  RAVE_TRY(write_file_atomically(
+      folder / "events.log",
+      events_log(journey.engine.spec(), journey.observers.kinds, journey.events)));
   return write_file_atomically(folder / "result.json", json.dump(2) + "\n");
 }
 
@@ -213,22 +206,26 @@ HostLink::Options link_options(const LiveHost& host, const BuiltScenario& built)
 
 /// What is left to do when all is there.
 Result<HostOutcome> go(const LiveHost& host, sim::Engine& engine, HostLink& link, LiveWorld& live,
-                       const BuiltScenario& built, bool begun) {
+                       const BuiltScenario& built, bool begun, std::function<void()>& look) {
   const RunOptions& run = host.options.run;
-  const BodyKinds kinds(engine.spec(), built.robot_kinds);
   RAVE_TRY_ASSIGN(const auto ros2, Ros2Face::open(host.scenario, engine, host.options.host));
+  Observers observers(host.scenario, built.robot_kinds, engine.spec());
   std::unique_ptr<RecordKeeper> record;
   if (run.record) {
-    RAVE_TRY_ASSIGN(record, RecordKeeper::begin(run.output / "run.mcap", engine, kinds,
+    RAVE_TRY_ASSIGN(auto hosts, hosts_for_record(host.scenario));
+    RAVE_TRY_ASSIGN(record, RecordKeeper::begin(run.output / "run.mcap", engine, observers.kinds,
                                                 {host.scenario.scenario.name.value, host.expanded,
                                                  versions_of(engine.spec(), host.catalogue),
-                                                 input_files(host.scenario, engine), false},
+                                                 input_files(host.scenario, engine), false,
+                                                 host.options.host, std::move(hosts)},
                                                 run.log));
   }
   const RecordedConsole recorded(host.console, record ? &record->recorder() : nullptr);
   const config::ScenarioFile& file = host.scenario.scenario;
-  LiveJourney journey({engine, record.get(), ros2.get(), host.options, host.console}, link, live,
-                      host.pace, report_groups(host.scenario, host.seat));
+  LiveJourney journey({engine, observers, record.get(), ros2.get(), host.options, host.console,
+                       shared_number(host.scenario)},
+                      link, live, host.pace, report_groups(host.scenario, host.seat));
+  look = [&journey] { look_back(journey, journey.live.events()); };
   journey.steps = static_cast<std::uint64_t>(std::llround(file.duration_s / file.step_s.value));
   const ControlledHost controlled(engine, file, run.control, true);
   tell_who_waits(engine, run, host.console);
@@ -242,12 +239,19 @@ Result<HostOutcome> go(const LiveHost& host, sim::Engine& engine, HostLink& link
   engine.halt();
   host.console.attach(nullptr);
   HostOutcome outcome = judge(journey, built.live_reason);
+  RunFacts facts = gather(observers, engine, run.picture);
+  facts.first_step = journey.first;
+  facts.problems = journey.problems;
   if (record) {
     const Status written = record->end(std::nullopt);
-    if (!written) outcome.problems.push_back("the record is not whole: " + written.error().text());
+    if (!written) {
+      outcome.problems.push_back("the record is not whole: " + written.error().text());
+      facts.problems.push_back(outcome.problems.back());
+    }
   }
   outcome.whole = outcome.whole && outcome.problems.empty();
-  RAVE_TRY(write_results(journey, kinds, outcome));
+  RAVE_TRY(write_results(journey, outcome));
+  RAVE_TRY(write_facts(journey, std::move(facts)));
   if (!went) return tl::unexpected(went.error());
   return outcome;
 }
@@ -267,9 +271,11 @@ Result<HostOutcome> run_live_host(const LiveHost& host, BuiltScenario built) {
     begun = link->await_start([control] { return control != nullptr && control->stopping(); });
     host.pace.start_at(link->zero());
   };
+  std::function<void()> look;
+  built.spec.on_step_done = [&look] { look(); };
   RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(built.spec)));
   if (!begun) return tl::unexpected(begun.error());
-  return go(host, *engine, *link, *live, built, *begun);
+  return go(host, *engine, *link, *live, built, *begun, look);
 }
 
 }  // namespace rave::robot_host

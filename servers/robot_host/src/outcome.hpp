@@ -1,41 +1,53 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "capture_watch.hpp"
-#include "encounters.hpp"
+#include "facts.hpp"
 #include "goal_checks.hpp"
-#include "hit_counter.hpp"
-#include "instant.hpp"
-#include "rave/robot_host/build.hpp"
+#include "kinds.hpp"
 #include "rave/robot_host/run.hpp"
-#include "sighting_check.hpp"
-#include "track_recorder.hpp"
 
 namespace rave::robot_host {
 
-/// Everything that was gathered while a run went, when it has ended.
+/// Where what one host knows of a run comes from.
+struct HostShare {
+  std::string name;
+  std::vector<std::string> folders;    ///< Of each time that it was started; empty: elsewhere.
+  bool found = false;                  ///< It left what it knows.
+  std::optional<double> offset_s;      ///< Of its clock, of runs in real time.
+  std::optional<double> bound_s;       ///< How far that may be off.
+  std::optional<std::uint64_t> heard;  ///< Samples of where its robots are, in real time.
+  std::optional<std::uint64_t> losses;
+};
+
+/// Everything that is known of a run when it has ended.
 struct Findings {
   const config::ExpandedScenario& scenario;
-  const BuiltScenario& built;
+  const sim::EngineSpec& spec;  ///< Its world as it was at the end.
   const BodyKinds& kinds;
-  const sim::Engine& engine;
-  const TrackRecorder& tracks;
-  const Encounters& encounters;
-  const HitCounter& hits;
-  std::vector<CheckResult> goals;
-  const SightingCheck* sightings = nullptr;
-  const InstantKeeper* instant = nullptr;
-  const CaptureWatch* capture = nullptr;
-  const std::vector<sim::Event>& events;
+  const std::string& live_reason;
+  const RunFacts& facts;
   double wall_s = 0;
+  std::optional<std::uint64_t> hash{};
   bool ended_early = false;
-  std::string record_problem;  ///< Why run.mcap is not whole; empty if it is.
+  std::vector<std::uint8_t> lost{};       ///< By robot, 1: nothing is known of it. Empty: of none.
+  std::vector<HostShare> hosts{};         ///< Of a run of several.
+  std::optional<std::uint64_t> worlds{};  ///< Of one in real time: that the manager sent.
+  std::optional<std::uint64_t> states{};  ///< ... and that it got.
+
+  [[nodiscard]] bool any_lost() const noexcept;
+  /// Simulated time that was run through.
+  [[nodiscard]] double done_s() const noexcept;
+  [[nodiscard]] std::size_t real_robots() const;
+  [[nodiscard]] std::size_t count(sim::EventKind kind) const;
 };
+
+/// What the guards did, by robot: `slowed by fence` and how often.
+using GuardCounts = std::map<std::string, std::map<std::string, std::size_t>>;
+[[nodiscard]] GuardCounts guard_counts(const Findings& findings);
 
 /// What the run amounts to: whole or not, checks, hash.
 [[nodiscard]] RunOutcome judge(const Findings& findings);
@@ -48,5 +60,9 @@ struct Findings {
 
 /// The picture of the run.
 [[nodiscard]] report::Picture make_picture(const Findings& findings, const RunOutcome& outcome);
+
+/// Judges, and writes result.json, summary.txt, events.log and, if wanted, the pictures.
+[[nodiscard]] Result<RunOutcome> write_results(const Findings& findings,
+                                               const std::filesystem::path& folder, bool picture);
 
 }  // namespace rave::robot_host

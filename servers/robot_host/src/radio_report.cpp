@@ -11,26 +11,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json transmitters_json(const sim::Engine& engine) {
-  Json all = Json::array();
-  const sim::EngineSpec& spec = engine.spec();
-  for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
-    if (spec.local && std::ranges::find(*spec.local, RobotId(r)) == spec.local->end()) continue;
-    const sim::RobotType& type = spec.types[spec.robots[r].type];
-    for (std::uint32_t t = 0; t < type.transmitters.size(); ++t) {
-      // A driver's text is not ours: what is no JSON is left out.
-      const Json report = Json::parse(engine.transmitter_report(RobotId(r), t), nullptr, false);
-      if (!report.is_object() || report.empty()) continue;
-      Json entry = {{"robot", spec.robots[r].name},
-                    {"transmitter", type.transmitters[t].name},
-                    {"driver", type.transmitters[t].driver}};
-      for (const auto& [key, value] : report.items()) entry[key] = value;
-      all.push_back(std::move(entry));
-    }
-  }
-  return all;
-}
-
 }  // namespace
 
 bool has_radio(const sim::EngineSpec& spec) {
@@ -39,8 +19,7 @@ bool has_radio(const sim::EngineSpec& spec) {
   });
 }
 
-Json radio_json(const sim::Engine& engine) {
-  const sim::RadioCounts& c = engine.radio_counts();
+Json radio_json(const sim::RadioCounts& c) {
   Json json = {{"offered", c.offered},
                {"sent", c.sent},
                {"addressed", c.addressed},
@@ -53,7 +32,6 @@ Json radio_json(const sim::Engine& engine) {
                           {"repeated", c.repeated},
                           {"garbled", c.garbled},
                           {"overrun", c.overrun}};
-  json["transmitters"] = transmitters_json(engine);
   return json;
 }
 

@@ -15,8 +15,8 @@ namespace rave::robot_host {
 /// Whether any robot of the run has a communicator.
 [[nodiscard]] bool has_radio(const sim::EngineSpec& spec);
 
-/// `radio` of result.json: what became of all messages, and what the transmitters say.
-[[nodiscard]] nlohmann::ordered_json radio_json(const sim::Engine& engine);
+/// `radio` of result.json: what became of all messages.
+[[nodiscard]] nlohmann::ordered_json radio_json(const sim::RadioCounts& counts);
 
 /// One line for the summary.
 [[nodiscard]] std::string radio_line(const sim::RadioCounts& counts);

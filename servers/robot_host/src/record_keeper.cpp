@@ -69,22 +69,20 @@ Result<std::unique_ptr<RecordKeeper>> RecordKeeper::begin(const std::filesystem:
                                                           const BodyKinds& kinds,
                                                           const About& about, LogSink* log) {
   const sim::EngineSpec& spec = engine.spec();
-  record::RunInfo info;
+  record::RunInfo info = info_of(spec, kinds);
   info.scenario = about.scenario;
-  info.started = utc_now();
-  info.seed = spec.seed;
-  info.step_s = spec.step.seconds();
   info.expanded_scenario = about.expanded;
   info.versions = about.versions;
   info.inputs = about.inputs;
   for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
-    info.robots.push_back({RobotId(r), spec.robots[r].name,
-                           std::string(kinds.word(kinds.body_of(RobotId(r)))),
-                           spec.robots[r].team});
     if (engine.is_local(RobotId(r))) describe_sensors(engine, r, info);
   }
   RAVE_TRY_ASSIGN(auto recorder, record::RunRecorder::open(path, info, {}, log));
   RAVE_TRY(PartKeeper::describe(spec, recorder));
+  if (!about.host.empty()) {
+    RAVE_TRY(recorder.describe(record::kHostMetadata, {{"name", about.host}}));
+    RAVE_TRY(recorder.describe(record::kHostsMetadata, about.hosts));
+  }
   return std::unique_ptr<RecordKeeper>(
       new RecordKeeper(std::move(recorder), engine, kinds, about.hashed));
 }
@@ -149,15 +147,33 @@ void RecordKeeper::keep(const RunRequest& request, const sim::Engine& engine) {
 }
 
 void RecordKeeper::keep(std::span<const sim::Event> events) {
+  record_events(*kinds_, events, recorder_);
+}
+
+record::RunInfo info_of(const sim::EngineSpec& spec, const BodyKinds& kinds) {
+  record::RunInfo info;
+  info.started = utc_now();
+  info.seed = spec.seed;
+  info.step_s = spec.step.seconds();
+  for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
+    info.robots.push_back({RobotId(r), spec.robots[r].name,
+                           std::string(kinds.word(kinds.body_of(RobotId(r)))),
+                           spec.robots[r].team});
+  }
+  return info;
+}
+
+void record_events(const BodyKinds& kinds, std::span<const sim::Event> events,
+                   record::RunRecorder& recorder) {
   for (const sim::Event& event : events) {
     record::RunEvent recorded;
     recorded.robot = event.robot;
     recorded.kind = to_string(event.kind);
-    recorded.text = with_whom(*kinds_, event) + event.text;
+    recorded.text = with_whom(kinds, event) + event.text;
     // Names of obstacles may be used again, numbers are not.
     if (is_of_obstacle(event.kind))
       recorded.values.push_back(static_cast<double>(event.other.value()));
-    static_cast<void>(recorder_.event(recorded));
+    static_cast<void>(recorder.event(recorded));
   }
 }
 

@@ -24,7 +24,9 @@ class RecordKeeper final : public Observer {
     std::string expanded;
     record::StringMap versions;
     record::StringMap inputs;
-    bool hashed = true;  ///< A lock-step run, whose hash is kept of each step.
+    bool hashed = true;         ///< A lock-step run, whose hash is kept of each step.
+    std::string host{};         ///< Of one of several: its name.
+    record::StringMap hosts{};  ///< ... and which robots each of them runs.
   };
   /// Begins the file. `log` hears of a full disk, once; the run goes on without a record then.
   [[nodiscard]] static Result<std::unique_ptr<RecordKeeper>> begin(
@@ -60,5 +62,12 @@ class RecordKeeper final : public Observer {
   bool with_real_ = false;                ///< There are real robots, which others make way for.
   bool hashed_;
 };
+
+/// What the engine knows for the beginning of a record: start, seed, step and robots.
+[[nodiscard]] record::RunInfo info_of(const sim::EngineSpec& spec, const BodyKinds& kinds);
+
+/// Writes events of the present step, in the words of people.
+void record_events(const BodyKinds& kinds, std::span<const sim::Event> events,
+                   record::RunRecorder& recorder);
 
 }  // namespace rave::robot_host

@@ -7,6 +7,7 @@
 #include <map>
 #include <vector>
 
+#include "rave/record/moment_cursor.hpp"
 #include "rave/record/run_messages.hpp"
 #include "rave/robot/command.hpp"
 #include "rave/robot/reading.hpp"
@@ -209,10 +210,27 @@ RunDifference describe(const Item* recorded, const Item* again, const record::Ru
   return difference;
 }
 
-RunDifference difference_of(std::string_view topic, const std::vector<Bytes>& recorded,
-                            const std::vector<Bytes>& again, const record::RunInfo& run) {
-  const std::vector<Item> a = items_of(topic, recorded, run);
-  const std::vector<Item> b = items_of(topic, again, run);
+/// In which order robots of different hosts come in a step is chance; what one of them says in one
+/// channel keeps its order.
+void sort_items(std::vector<Item>& items) {
+  std::stable_sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
+    if (a.robot != b.robot) return a.robot < b.robot;
+    // Two kinds of event of one robot may come from two processes.
+    return a.channel != b.channel ? a.channel < b.channel : a.channel == "event" && a.text < b.text;
+  });
+}
+
+/// Nothing if, of a merged record, the same was said in another order, or in other rows.
+std::optional<RunDifference> difference_of(std::string_view topic,
+                                           const std::vector<Bytes>& recorded,
+                                           const std::vector<Bytes>& again,
+                                           const record::RunInfo& run, bool merged) {
+  std::vector<Item> a = items_of(topic, recorded, run);
+  std::vector<Item> b = items_of(topic, again, run);
+  if (merged) {
+    sort_items(a);
+    sort_items(b);
+  }
   for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
     const Item* const first = i < a.size() ? &a[i] : nullptr;
     const Item* const second = i < b.size() ? &b[i] : nullptr;
@@ -225,98 +243,45 @@ RunDifference difference_of(std::string_view topic, const std::vector<Bytes>& re
     if (second->robot < first->robot) return describe(nullptr, second, run);
     return describe(first, second, run);
   }
-  return {0, 0, "", std::string(topic), "the messages differ in form"};
+  if (merged && !a.empty() && recorded.size() == again.size()) return std::nullopt;
+  return RunDifference{0, 0, "", std::string(topic), "the messages differ in form"};
 }
-
-/// All messages of one moment, by topic.
-class StepCursor {
- public:
-  using Step = std::map<std::string_view, std::vector<Bytes>>;
-
-  StepCursor(const record::McapReader& reader, const std::vector<std::string_view>& topics)
-      : cursor_(reader.messages(filter_of(reader, topics))) {
-    for (const std::string_view topic : topics) topic_of_[reader.channel(topic)->id] = topic;
-  }
-  /// Loads the next moment; false at the end.
-  Result<bool> next() {
-    step_.clear();
-    if (!started_) {
-      RAVE_TRY(take());
-      started_ = true;
-    }
-    if (!ahead_) return false;
-    time_ns_ = ahead_time_ns_;
-    while (ahead_ && ahead_time_ns_ == time_ns_) {
-      step_[ahead_topic_].push_back(*std::move(ahead_));
-      RAVE_TRY(take());
-    }
-    return true;
-  }
-  [[nodiscard]] std::uint64_t time_ns() const noexcept { return time_ns_; }
-  [[nodiscard]] const Step& step() const noexcept { return step_; }
-  /// Whether the moment that was loaded is the last one.
-  [[nodiscard]] bool at_last() const noexcept { return !ahead_; }
-
- private:
-  static record::MessageFilter filter_of(const record::McapReader& reader,
-                                         const std::vector<std::string_view>& topics) {
-    record::MessageFilter filter;
-    for (const std::string_view topic : topics) {
-      filter.channels.push_back(reader.channel(topic)->id);
-    }
-    return filter;
-  }
-  Status take() {
-    ahead_.reset();
-    RAVE_TRY_ASSIGN(const auto message, cursor_.next());
-    if (!message) return {};
-    ahead_ = Bytes(message->bytes.begin(), message->bytes.end());
-    ahead_time_ns_ = message->log_time_ns;
-    ahead_topic_ = topic_of_[message->channel];
-    return {};
-  }
-
-  record::MessageCursor cursor_;
-  std::map<std::uint16_t, std::string_view> topic_of_;
-  Step step_;
-  std::uint64_t time_ns_ = 0;
-  std::optional<Bytes> ahead_;
-  std::uint64_t ahead_time_ns_ = 0;
-  std::string_view ahead_topic_;
-  bool started_ = false;
-};
 
 }  // namespace
 
 Result<RecordMatch> match_records(const record::McapReader& recorded,
                                   const record::McapReader& again, const record::RunInfo& run,
-                                  bool cut) {
+                                  RecordForm form) {
   std::vector<std::string_view> topics;
   for (const char* const topic : kTopics) {
     if (recorded.channel(topic) != nullptr && again.channel(topic) != nullptr) {
       topics.emplace_back(topic);
     }
   }
-  StepCursor a(recorded, topics);
-  StepCursor b(again, topics);
+  record::MomentCursor a(recorded, topics);
+  record::MomentCursor b(again, topics);
   RecordMatch match;
   while (true) {
     RAVE_TRY_ASSIGN(const bool more_a, a.next());
     RAVE_TRY_ASSIGN(const bool more_b, b.next());
     // The second run stops behind the first step that differs, so its end alone says nothing.
     if (!more_a || !more_b) return match;
-    const bool broken_off = cut && a.at_last();
+    const bool broken_off = form.cut && a.at_last();
     for (const std::string_view topic : topics) {
-      const auto first = a.step().find(topic);
-      const auto second = b.step().find(topic);
+      const auto first = a.messages().find(topic);
+      const auto second = b.messages().find(topic);
       static const std::vector<Bytes> kNoMessages;
-      const auto& recorded_messages = first == a.step().end() ? kNoMessages : first->second;
-      const auto& new_messages = second == b.step().end() ? kNoMessages : second->second;
+      const auto& recorded_messages = first == a.messages().end() ? kNoMessages : first->second;
+      const auto& new_messages = second == b.messages().end() ? kNoMessages : second->second;
       // The last step of a record that broke off need not be whole.
       if (broken_off && recorded_messages.size() < new_messages.size()) continue;
       match.messages += recorded_messages.size();
       if (a.time_ns() == b.time_ns() && recorded_messages == new_messages) continue;
-      match.difference = difference_of(topic, recorded_messages, new_messages, run);
+      match.difference = difference_of(topic, recorded_messages, new_messages, run, form.merged);
+      if (!match.difference && a.time_ns() == b.time_ns()) continue;
+      if (!match.difference) {
+        match.difference = RunDifference{0, 0, "", std::string(topic), "not at the same time"};
+      }
       const std::uint64_t time_ns = std::min(a.time_ns(), b.time_ns());
       match.difference->time_s = SimTime{static_cast<std::int64_t>(time_ns)}.seconds();
       match.difference->step = run.step_s > 0

@@ -16,11 +16,16 @@ struct RecordMatch {
   std::optional<RunDifference> difference;
 };
 
-/// Compares the exact streams that both records have, up to the first difference. `cut`: the first
-/// one broke off, so that the second may go on where it ends. `run` and the device names come from
-/// the first. Errors: those of MessageCursor::next().
+/// What is to be known of the first of two records.
+struct RecordForm {
+  bool cut = false;     ///< It broke off, so the second may go on where it ends.
+  bool merged = false;  ///< It was made of several: in a step robots come in any order.
+};
+
+/// Compares the exact streams that both records have, up to the first difference. `run` and the
+/// device names come from the first. Errors: those of MessageCursor::next().
 [[nodiscard]] Result<RecordMatch> match_records(const record::McapReader& recorded,
                                                 const record::McapReader& again,
-                                                const record::RunInfo& run, bool cut);
+                                                const record::RunInfo& run, RecordForm form);
 
 }  // namespace rave::robot_host

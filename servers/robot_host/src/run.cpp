@@ -7,7 +7,7 @@
 #include "console_tee.hpp"
 #include "event_log.hpp"
 #include "event_words.hpp"
-#include "goal_checks.hpp"
+#include "observers.hpp"
 #include "outcome.hpp"
 #include "rave/base/file.hpp"
 #include "rave/robot_host/provenance.hpp"
@@ -22,45 +22,15 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// All observers of one run.
-struct Observers {
-  BodyKinds kinds;
-  TrackRecorder tracks;
-  Encounters encounters;
-  HitCounter hits;
-  GoalChecks goals;
-  std::optional<SightingCheck> sightings;
-  std::optional<InstantKeeper> instant;
-  std::optional<CaptureWatch> capture;
+/// Who looks on, and who takes down what happens.
+struct Onlookers : Observers {
   std::unique_ptr<RecordKeeper> record;
   std::unique_ptr<Ros2Face> ros2;
 
-  Observers(const config::ExpandedScenario& expanded, const config::ScenarioFile& scenario,
-            const BuiltScenario& built, const sim::EngineSpec& spec)
-      : kinds(spec, built.robot_kinds),
-        tracks(kinds, spec, scenario.duration_s,
-               scenario.picture && scenario.picture->odometry_sensor
-                   ? scenario.picture->odometry_sensor->value
-                   : std::string()),
-        encounters(kinds, spec),
-        hits(kinds),
-        goals(expanded, spec) {
-    if (scenario.checks.sightings) sightings.emplace(*scenario.checks.sightings, spec);
-    if (scenario.checks.capture) capture.emplace(*scenario.checks.capture, expanded);
-    if (scenario.picture) {
-      instant.emplace(kinds, scenario.picture->instant_s.value_or(scenario.duration_s / 2));
-    }
-  }
+  using Observers::Observers;
 
   void after_step(sim::Engine& engine) {
-    kinds.learn(engine.spec().world);
-    tracks.after_step(engine);
-    encounters.after_step(engine);
-    hits.after_step(engine);
-    goals.after_step(engine);
-    if (sightings) sightings->after_step(engine);
-    if (instant) instant->after_step(engine);
-    if (capture) capture->after_step(engine);
+    Observers::after_step(engine);
     if (ros2) ros2->after_step(engine);
     if (!record) return;
     record->after_step(engine);
@@ -68,24 +38,10 @@ struct Observers {
   }
 };
 
-Status write_results(const Findings& findings, const RunOptions& options, RunOutcome& outcome) {
-  outcome = judge(findings);
-  if (options.picture) {
-    const report::Picture picture = make_picture(findings, outcome);
-    RAVE_TRY(report::write_svg(picture, options.output / "picture.svg"));
-    RAVE_TRY(report::write_png(picture, options.output / "picture.png"));
-  }
-  outcome.summary = summary_text(findings, outcome);
-  RAVE_TRY(write_file_atomically(options.output / "summary.txt", outcome.summary));
-  RAVE_TRY(write_file_atomically(options.output / "events.log",
-                                 events_log(findings.engine, findings.kinds, findings.events)));
-  return write_file_atomically(options.output / "result.json", result_json(findings, outcome));
-}
-
 /// A run on its way: what the loop needs, and what it leaves.
 struct Journey {
   sim::Engine& engine;
-  Observers& observers;
+  Onlookers& observers;
   WallPace& pace;
   bool live = false;
   const config::ScenarioFile& file;
@@ -208,8 +164,7 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
 
   config::ExpandedScenario adjusted = scenario;
   config::ScenarioFile& file = adjusted.scenario;
-  // The check and the frozen instant look back; a second is enough for both.
-  if (file.checks.sightings || file.picture) file.history_s = std::max(file.history_s, 1.0);
+  keep_history_for_observers(file);
 
   // Outlives the engine, whose drivers and programs speak to it.
   ConsoleTee console(options.log);
@@ -228,7 +183,7 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
   }
   RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(built.spec)));
 
-  Observers observers(adjusted, file, built, engine->spec());
+  Onlookers observers(adjusted, built.robot_kinds, engine->spec());
   RAVE_TRY_ASSIGN(observers.ros2, Ros2Face::open(adjusted, *engine));
   if (options.record) {
     RAVE_TRY_ASSIGN(
@@ -249,30 +204,18 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
   engine->halt();
   if (options.control != nullptr) options.control->end();
   console.attach(nullptr);
-  std::string record_problem;
+  RunFacts facts = gather(observers, *engine, options.picture);
+  facts.events = std::move(journey.events);
   if (observers.record) {
     const auto hash = live ? std::nullopt : std::optional(engine->hash().value());
     const Status written = observers.record->end(hash);
-    if (!written) record_problem = "the record is not whole: " + written.error().text();
+    if (!written) facts.problems.push_back("the record is not whole: " + written.error().text());
   }
-  const Findings findings{adjusted,
-                          built,
-                          observers.kinds,
-                          *engine,
-                          observers.tracks,
-                          observers.encounters,
-                          observers.hits,
-                          observers.goals.results(),
-                          observers.sightings ? &*observers.sightings : nullptr,
-                          observers.instant ? &*observers.instant : nullptr,
-                          observers.capture ? &*observers.capture : nullptr,
-                          journey.events,
-                          journey.wall_s,
-                          journey.stopped,
-                          record_problem};
-  RunOutcome outcome;
-  RAVE_TRY(write_results(findings, options, outcome));
-  return outcome;
+  Findings findings{adjusted, engine->spec(), observers.kinds, built.live_reason, facts};
+  findings.wall_s = journey.wall_s;
+  findings.ended_early = journey.stopped;
+  if (!live) findings.hash = engine->hash().value();
+  return write_results(findings, options.output, options.picture);
 }
 
 }  // namespace rave::robot_host

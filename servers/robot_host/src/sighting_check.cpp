@@ -42,6 +42,7 @@ void SightingCheck::after_step(sim::Engine& engine) {
     if (added[known_added_].body.code) known_codes_.insert(*added[known_added_].body.code);
   }
   for (Pair& pair : pairs_) {
+    if (!engine.is_local(pair.robot)) continue;
     const sim::SensorSample sample = engine.sensor(pair.robot, pair.real);
     if (sample.header->sequence == pair.seen_sequence) continue;
     pair.seen_sequence = sample.header->sequence;
@@ -58,14 +59,12 @@ void SightingCheck::after_step(sim::Engine& engine) {
 }
 
 void SightingCheck::compare(sim::Engine& engine, const Pair& pair, const Sighting& sighting) {
-  SightingTally& own = by_robot_[engine.spec().robots[pair.robot.value()].name];
+  SightingTally& own = facts_.by_robot[engine.spec().robots[pair.robot.value()].name];
   if (!known_codes_.contains(sighting.code)) {
-    ++all_.unknown;
     ++own.unknown;
-    ++unknown_codes_[sighting.code];
+    ++facts_.unknown_codes[sighting.code];
     return;
   }
-  ++all_.total;
   ++own.total;
   twin_.resize(engine.sensor(pair.robot, pair.twin).info->capacity);
   const auto header =
@@ -79,10 +78,13 @@ void SightingCheck::compare(sim::Engine& engine, const Pair& pair, const Sightin
     if (range_error_m > limits_.range_m || rad_to_deg(bearing_error_rad) > limits_.bearing_deg) {
       continue;
     }
-    ++all_.within;
     ++own.within;
     return;
   }
+}
+
+bool holds(const config::SightingsCheckFile& limits, const SightingTally& all) {
+  return all.total > 0 && all.within_pct() >= limits.min_within_pct;
 }
 
 }  // namespace rave::robot_host

@@ -1,27 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <map>
 #include <optional>
 #include <set>
-#include <string>
 #include <vector>
 
+#include "facts.hpp"
 #include "observer.hpp"
 #include "rave/config/scenario_file.hpp"
 
 namespace rave::robot_host {
-
-/// How many real sightings the virtual camera confirms.
-struct SightingTally {
-  std::uint64_t total = 0;    ///< With a code that the world knows.
-  std::uint64_t within = 0;   ///< Of these: range and bearing agree.
-  std::uint64_t unknown = 0;  ///< With a code that the world does not know.
-
-  [[nodiscard]] double within_pct() const noexcept {
-    return total == 0 ? 0 : 100.0 * static_cast<double>(within) / static_cast<double>(total);
-  }
-};
 
 /// The independent witness: every sighting of a robot's real camera is compared with what the
 /// virtual camera on the same robot says at that very instant.
@@ -31,18 +19,7 @@ class SightingCheck final : public Observer {
 
   void after_step(sim::Engine& engine) override;
 
-  [[nodiscard]] const SightingTally& all() const noexcept { return all_; }
-  /// By robot name.
-  [[nodiscard]] const std::map<std::string, SightingTally>& by_robot() const noexcept {
-    return by_robot_;
-  }
-  [[nodiscard]] const std::map<std::int32_t, std::uint64_t>& unknown_codes() const noexcept {
-    return unknown_codes_;
-  }
-  [[nodiscard]] const config::SightingsCheckFile& limits() const noexcept { return limits_; }
-  [[nodiscard]] bool holds() const noexcept {
-    return all_.total > 0 && all_.within_pct() >= limits_.min_within_pct;
-  }
+  [[nodiscard]] const SightingFacts& facts() const noexcept { return facts_; }
 
  private:
   struct Pair {
@@ -59,9 +36,10 @@ class SightingCheck final : public Observer {
   std::set<std::int32_t> known_codes_;
   std::size_t known_added_ = 0;  ///< Of the obstacles that came while the run went.
   std::vector<Sighting> twin_;   ///< What the virtual camera reads, reused.
-  SightingTally all_;
-  std::map<std::string, SightingTally> by_robot_;
-  std::map<std::int32_t, std::uint64_t> unknown_codes_;
+  SightingFacts facts_;
 };
+
+/// Whether enough was seen, and of that enough agrees.
+[[nodiscard]] bool holds(const config::SightingsCheckFile& limits, const SightingTally& all);
 
 }  // namespace rave::robot_host

@@ -29,6 +29,10 @@ TrackRecorder::TrackRecorder(const BodyKinds& kinds, const sim::EngineSpec& spec
   last_.resize(count);
   way_m_.resize(count);
   last_stamp_ns_.resize(count);
+  here_.assign(count, spec.local ? 0 : 1);
+  if (spec.local) {
+    for (const RobotId robot : *spec.local) here_[robot.value()] = 1;
+  }
   for (std::uint32_t r = 0; r < count; ++r) {
     const std::uint32_t body = kinds.body_of(RobotId(r));
     poses_[r].label = spec.robots[r].name;
@@ -49,7 +53,7 @@ TrackRecorder::TrackRecorder(const BodyKinds& kinds, const sim::EngineSpec& spec
 void TrackRecorder::after_step(sim::Engine& engine) {
   const bool keep = (engine.steps_done() - 1) % every_ == 0;
   for (std::uint32_t r = 0; r < poses_.size(); ++r) {
-    if (!engine.snapshot().robot(RobotId(r)).present) continue;
+    if (here_[r] == 0 || !engine.snapshot().robot(RobotId(r)).present) continue;
     follow_pose(engine, r, keep);
     if (odometry_[r]) follow_odometry(engine, r, keep);
   }
@@ -94,10 +98,13 @@ void TrackRecorder::follow_odometry(const sim::Engine& engine, std::uint32_t rob
   if (keep) odometry_tracks_[robot].points.push_back({engine.time().seconds(), *odometry.X_WR});
 }
 
-std::vector<report::PictureTrack> TrackRecorder::tracks() const {
-  std::vector<report::PictureTrack> all = poses_;
-  for (std::size_t r = 0; r < odometry_.size(); ++r) {
-    if (odometry_[r]) all.push_back(odometry_tracks_[r]);
+std::vector<TrackFacts> TrackRecorder::facts() const {
+  std::vector<TrackFacts> all;
+  for (std::uint32_t r = 0; r < poses_.size(); ++r) {
+    if (here_[r] != 0) all.push_back({r, poses_[r]});
+  }
+  for (std::uint32_t r = 0; r < poses_.size(); ++r) {
+    if (here_[r] != 0 && odometry_[r]) all.push_back({r, odometry_tracks_[r]});
   }
   return all;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "facts.hpp"
 #include "kinds.hpp"
 #include "observer.hpp"
 #include "rave/report/picture.hpp"
@@ -15,14 +16,15 @@ namespace rave::robot_host {
 /// and, for real robots, the track that their commanded velocity alone would give.
 class TrackRecorder final : public Observer {
  public:
-  /// `odometry_sensor`: name of the sensor whose velocity is integrated; empty for none.
+  /// `spec.local` says which robots run here. `odometry_sensor`: name of the sensor whose velocity
+  /// is integrated; empty for none.
   TrackRecorder(const BodyKinds& kinds, const sim::EngineSpec& spec, double duration_s,
                 const std::string& odometry_sensor);
 
   void after_step(sim::Engine& engine) override;
 
-  /// One track per robot, then the odometry-only ones.
-  [[nodiscard]] std::vector<report::PictureTrack> tracks() const;
+  /// Of robots that run here: one track each, then the odometry-only ones.
+  [[nodiscard]] std::vector<TrackFacts> facts() const;
 
   /// Length of the way of each robot, metres, by RobotId.
   [[nodiscard]] const std::vector<double>& way_m() const noexcept { return way_m_; }
@@ -39,6 +41,7 @@ class TrackRecorder final : public Observer {
   std::vector<report::PictureTrack> poses_;
   std::vector<report::PictureTrack> odometry_tracks_;
   std::vector<std::optional<Odometry>> odometry_;
+  std::vector<std::uint8_t> here_;  ///< By robot: it runs here.
   std::vector<std::optional<Pose2>> last_;
   std::vector<double> way_m_;
   std::vector<std::int64_t> last_stamp_ns_;

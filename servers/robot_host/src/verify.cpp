@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "rave/config/expanded_scenario.hpp"
+#include "rave/record/merge.hpp"
 #include "rave/record/run_reader.hpp"
 #include "rave/robot_host/build.hpp"
 #include "rave/robot_host/provenance.hpp"
@@ -220,6 +221,11 @@ Result<VerifyOutcome> verify(const fs::path& record, plugin::Catalogue& catalogu
                              const VerifyOptions& options) {
   RAVE_TRY_ASSIGN(const auto reader, record::McapReader::open(record));
   RAVE_TRY_ASSIGN(const record::RunInfo run, record::read_run_info(reader));
+  if (const auto missing = record::missing_parts(reader); !missing.empty()) {
+    return fail(ErrorCode::kInvalidArgument,
+                "`{}` cannot be verified, because a part of the run is missing: {}",
+                record.string(), missing.front());
+  }
   VerifyOutcome outcome;
   compare_inputs(run, outcome);
   if (!outcome.missing.empty()) return outcome;
@@ -248,7 +254,8 @@ Result<VerifyOutcome> verify(const fs::path& record, plugin::Catalogue& catalogu
       run_again(*engine, *keeper, kinds, InputReplay(std::move(inputs)), hashes, options, outcome));
   RAVE_TRY(keeper->end(engine->hash().value()));
   RAVE_TRY_ASSIGN(const auto again, record::McapReader::open(scratch.file()));
-  RAVE_TRY_ASSIGN(const RecordMatch match, match_records(reader, again, run, !end));
+  RAVE_TRY_ASSIGN(const RecordMatch match,
+                  match_records(reader, again, run, {!end, record::is_merged(reader)}));
   outcome.messages = match.messages;
   outcome.difference = match.difference;
   judge_hash(hashes, *engine, outcome);

@@ -89,14 +89,15 @@ TEST(SightingCheck, ConfirmsARecordedCameraAndFailsWithTightLimits) {
     file.twin.value = "camera_twin";
     if (!generous) file.range_m = 0.001;
     SightingCheck check(file, engine->spec());
-    EXPECT_FALSE(check.holds()) << "nothing was seen yet";
+    EXPECT_FALSE(holds(file, check.facts().all())) << "nothing was seen yet";
     for (int k = 0; k < 12000; ++k) {
       ASSERT_TRUE(engine->step().has_value());
       check.after_step(*engine);
     }
-    EXPECT_GT(check.all().total, 500U);
-    EXPECT_EQ(check.by_robot().size(), 5U);
-    EXPECT_EQ(check.holds(), generous) << check.all().within_pct();
+    const SightingTally all = check.facts().all();
+    EXPECT_GT(all.total, 500U);
+    EXPECT_EQ(check.facts().by_robot.size(), 5U);
+    EXPECT_EQ(holds(file, all), generous) << all.within_pct();
   }
 }
 
@@ -112,12 +113,12 @@ TEST(SightingCheck, CountsCodesThatTheWorldDoesNotKnow) {
     check.after_step(*engine);
   }
   // Without the tubes only the robots themselves are known.
-  EXPECT_GT(check.all().unknown, 500U);
+  EXPECT_GT(check.facts().all().unknown, 500U);
   std::uint64_t sum = 0;
-  for (const auto& [code, count] : check.unknown_codes()) sum += count;
-  EXPECT_EQ(sum, check.all().unknown);
+  for (const auto& [code, count] : check.facts().unknown_codes) sum += count;
+  EXPECT_EQ(sum, check.facts().all().unknown);
   for (const int robot_code : {5, 14, 41, 32, 23}) {
-    EXPECT_FALSE(check.unknown_codes().contains(robot_code));
+    EXPECT_FALSE(check.facts().unknown_codes.contains(robot_code));
   }
 }
 

@@ -34,9 +34,11 @@ struct RecordSummary {
   std::uint32_t chunks = 0;
   std::vector<ChannelSummary> channels;  ///< Those with messages, by topic.
   std::vector<AttachmentInfo> attachments;
-  StringMap hybrids;           ///< `robot/sensor` to what it is made of; their parts are recorded.
-  std::optional<RunInfo> run;  ///< None: not written by RAVE.
-  std::optional<RunEnd> end;   ///< None: the run did not come to its end.
+  StringMap hybrids;  ///< `robot/sensor` to what it is made of; their parts are recorded.
+  StringMap parts;    ///< The files that it was made of, and their bytes.
+  std::vector<std::string> missing;  ///< ... and what is missing or torn of them.
+  std::optional<RunInfo> run;        ///< None: not written by RAVE.
+  std::optional<RunEnd> end;         ///< None: the run did not come to its end.
 };
 
 /// Reads index, beginning and end of a record. Errors: kNotFound, kIo, kParse (no MCAP file).

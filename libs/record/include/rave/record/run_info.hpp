@@ -41,6 +41,13 @@ struct RecordedSensor {
 /// Metadata that names the hybrid sensors of a run, `robot/sensor`, and says what each is made of.
 inline constexpr const char* kHybridMetadata = "rave.hybrid";
 
+// The records of a run of several processes say whose they are (`name`; of the authority of the
+// world `world`), and which robots each host runs, as robot_ranges().
+inline constexpr const char* kHostMetadata = "rave.host";
+inline constexpr const char* kHostsMetadata = "rave.hosts";
+/// Of a record that was put together of several: what became of each of them.
+inline constexpr const char* kPartsMetadata = "rave.parts";
+
 /// What stands at the beginning of a record.
 struct RunInfo {
   std::string scenario;

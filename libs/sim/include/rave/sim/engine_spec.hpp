@@ -173,6 +173,10 @@ struct EngineSpec {
   /// Called each time that all is open but the sensors: a live run's clock starts here, so that
   /// what it took to find the devices is no part of the run. May be empty.
   std::function<void()> on_ready;
+  /// One of several hosts: called in Engine::propose() when the step is done, before hardware is
+  /// asked for the next one. Here alone observers find what they find between two steps of an
+  /// engine that is alone. May be empty.
+  std::function<void()> on_step_done;
   /// How long a stepped hardware driver may take, wall time, before the run is given up.
   std::chrono::milliseconds host_timeout{10'000};
   /// Changes of parameters that belong to the run, by step.

@@ -71,6 +71,8 @@ class WorldAuthority {
   /// The report of a host that is gone: of the next step, its simulated robots want to stand, its
   /// real ones are where they were last reported, which is old by now. `report` keeps its memory.
   void speak_for(std::uint32_t host, HostReport& report) const;
+  /// The world as the last WorldStep shows it.
+  [[nodiscard]] const world::Snapshot& snapshot() const noexcept;
   /// All bodies; obstacles as the last WorldStep shows them.
   [[nodiscard]] const world::WorldModel& world() const noexcept;
 

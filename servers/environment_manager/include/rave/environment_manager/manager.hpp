@@ -13,6 +13,7 @@
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/lock_step/introduction.hpp"
 #include "rave/sim/engine_spec.hpp"
+#include "rave/sim/world_authority.hpp"
 
 namespace rave::environment_manager {
 
@@ -36,6 +37,11 @@ struct ManagerOptions {
     std::string waiting;  ///< For whom; empty while it goes.
   };
   std::function<void(const Progress&)> on_progress;
+  /// Shown each world that was made, the last one included, before the hosts get it; true: the run
+  /// has come to its end with it. May be empty.
+  std::function<bool(const sim::WorldAuthority&)> on_world;
+  /// Shown the world once more when none is made any more. May be empty.
+  std::function<void(const sim::WorldAuthority&)> on_end;
 };
 
 /// What came of a run.

@@ -16,7 +16,7 @@ namespace rave::robot_host {
 
 /// How a process runs the robots of one host of a scenario.
 struct HostOptions {
-  RunOptions run;  ///< `picture` and `on_progress` do not count.
+  RunOptions run;  ///< `picture`: leave what it needs. `on_progress` does not count.
   bus::BusConfig bus;
   std::string host;  ///< Its name in the scenario.
   /// Where the drivers of the other hosts' robots are looked up while the scenario is built;
@@ -24,8 +24,9 @@ struct HostOptions {
   std::unique_ptr<plugin::Catalogue> others;
 };
 
-/// How it ended for this host. It leaves result.json, events.log, scenario.yaml and run.mcap, whose
-/// percepts and commands are of its robots, and whose poses are of all.
+/// How it ended for this host. It leaves result.json, events.log, scenario.yaml, findings.cdr (of
+/// which the results of the whole run are made, SharedResults) and run.mcap, whose percepts and
+/// commands are of its robots, and whose poses are of all.
 struct HostOutcome {
   bool whole = false;       ///< It took part from the first step to the last, and lost no driver.
   std::string live_reason;  ///< Why the run was in real time; empty in lock-step.

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run_report.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string_view>
+
+#include "error_text.hpp"
+
+namespace rave::cli {
+namespace {
+
+/// The files that a run leaves and that people look at, in that order.
+std::string files_of(const std::filesystem::path& folder) {
+  constexpr std::array<std::string_view, 10> kFiles = {
+      "summary.txt",   "result.json", "picture.svg", "picture.png", "events.log",
+      "scenario.yaml", "console.log", "run.mcap",    "world.mcap",  "hosts"};
+  std::string text;
+  std::error_code error;
+  for (const std::string_view file : kFiles) {
+    if (!std::filesystem::exists(folder / file, error)) continue;
+    text += (text.empty() ? "" : ", ") + std::string(file);
+  }
+  return fmt::format("{}: {}\n", folder.string(), text);
+}
+
+}  // namespace
+
+int report_outcome(const RunCommand& options, const robot_host::RunOutcome& outcome,
+                   const std::filesystem::path& folder) {
+  const bool good = outcome.whole && outcome.checks_hold;
+  if (!options.quiet) {
+    put(stdout, outcome.summary);
+    if (!outcome.summary.empty() && outcome.summary.back() != '\n') put(stdout, "\n");
+    put(stdout, files_of(folder));
+  }
+  const Terminal errors = terminal_of(stderr);
+  for (const std::string& problem : outcome.problems) {
+    put(stderr,
+        fmt::format("{} {}\n", good ? errors.yellow("note:") : errors.red("problem:"), problem));
+  }
+  if (!good) {
+    const std::string_view what =
+        outcome.whole ? "a check of the scenario does not hold" : "the run was not whole";
+    put(stderr, fmt::format("{} {}\n", errors.red("not good:"), what));
+  } else if (!options.quiet) {
+    put(stdout, terminal_of(stdout).green("done") + "\n");
+  }
+  return good ? kGood : kNotGood;
+}
+
+}  // namespace rave::cli

@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/record/merge.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+
+#include "once.hpp"
+#include "rave/base/hash.hpp"
+#include "rave/record/moment_cursor.hpp"
+#include "rave/record/robot_ranges.hpp"
+#include "rave/record/run_reader.hpp"
+#include "rave/record/run_record.hpp"
+#include "rows.hpp"
+
+namespace rave::record {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string_view>& merged_topics() {
+  static const std::vector<std::string_view> kTopics = {
+      topic::kPoses,  topic::kPercepts, topic::kCommands, topic::kActuators, topic::kRadio,
+      topic::kEvents, topic::kInputs,   topic::kHash,     topic::kConsole};
+  return kTopics;
+}
+
+StringMap metadata_of(const McapReader& reader, std::string_view name) {
+  for (const MetadataInfo& metadata : reader.metadata()) {
+    if (metadata.name != name) continue;
+    if (auto entries = reader.read_metadata(metadata)) return *std::move(entries);
+  }
+  return {};
+}
+
+/// The record of one process, at a moment.
+struct Part {
+  fs::path path;
+  std::string host;  ///< Empty: of the authority.
+  McapReader reader;
+  RunInfo info;
+  std::optional<RunEnd> end;
+  MomentCursor cursor;
+  bool more = true;
+  bool here = false;   ///< It has something of the moment that is merged.
+  std::string torn{};  ///< Why it is not whole; empty: it is.
+
+  void advance() {
+    auto next = cursor.next();
+    if (!next) torn = next.error().message;
+    more = next && *next;
+  }
+};
+
+Result<std::unique_ptr<Part>> open_part(const fs::path& path) {
+  RAVE_TRY_ASSIGN(auto reader, McapReader::open(path));
+  auto info = read_run_info(reader);
+  if (!info) {
+    return tl::unexpected(std::move(info).error().with_context(path.string()));
+  }
+  auto end = read_run_end(reader);
+  MomentCursor cursor(reader, merged_topics());
+  const StringMap whose = metadata_of(reader, kHostMetadata);
+  const auto name = whose.find("name");
+  auto part =
+      std::make_unique<Part>(Part{path, name == whose.end() ? "" : name->second, std::move(reader),
+                                  *std::move(info), end, std::move(cursor)});
+  if (!part->end) part->torn = "it has no end";
+  if (!part->reader.damages().empty()) part->torn = part->reader.damages().front();
+  return part;
+}
+
+/// Calls `take(part, item)` for each item of a topic at this moment; of what cannot be decoded
+/// there is none.
+template <class Decode, class Take>
+void each_item(const std::vector<std::unique_ptr<Part>>& parts, const char* topic, Decode decode,
+               Take take) {
+  for (const auto& part : parts) {
+    if (!part->here) continue;
+    for (const MomentCursor::Bytes& message : part->cursor.messages(topic)) {
+      const auto decoded = decode(message);
+      if (decoded) take(*part, *decoded);
+    }
+  }
+}
+
+/// A part of which not even the beginning can be read.
+struct Unreadable {
+  fs::path path;
+  std::string why;
+};
+
+class Merger {
+ public:
+  Merger(std::vector<std::unique_ptr<Part>> parts, std::vector<Unreadable> unreadable)
+      : parts_(std::move(parts)), unreadable_(std::move(unreadable)) {}
+
+  Result<std::vector<std::string>> write(const fs::path& output);
+
+ private:
+  [[nodiscard]] Status check() const;
+  [[nodiscard]] RunInfo joined_info() const;
+  [[nodiscard]] Status learn_hosts();
+  [[nodiscard]] Status describe(RunRecorder& recorder);
+  [[nodiscard]] bool next_moment();
+  Status write_moment(RunRecorder& recorder);
+  void write_poses(RunRecorder& recorder);
+  void write_hash(RunRecorder& recorder);
+  void write_inputs(RunRecorder& recorder, bool before_first);
+  [[nodiscard]] std::vector<std::string> notes() const;
+
+  std::vector<std::unique_ptr<Part>> parts_;
+  std::vector<Unreadable> unreadable_;
+  std::vector<std::string> hosts_;               ///< All that the run has.
+  std::vector<const std::string*> owner_;        ///< By robot: its host's name, or null.
+  std::vector<std::optional<RobotPose>> poses_;  ///< By robot, of one moment.
+  std::uint64_t time_ns_ = 0;
+  bool hashed_ = true;  ///< Each step had the hashes of all.
+};
+
+Status Merger::check() const {
+  const Part& first = *parts_.front();
+  if (!(first.info.step_s >= 1e-9 && first.info.step_s < 1e9)) {
+    return fail(ErrorCode::kParse, "`{}` gives no step", first.path.string());
+  }
+  for (const auto& part : parts_) {
+    if (part->info.scenario == first.info.scenario && part->info.seed == first.info.seed &&
+        part->info.step_s == first.info.step_s && part->info.robots == first.info.robots) {
+      continue;
+    }
+    return fail(ErrorCode::kParse, "`{}` and `{}` are records of different runs",
+                first.path.string(), part->path.string());
+  }
+  return {};
+}
+
+RunInfo Merger::joined_info() const {
+  RunInfo info = parts_.front()->info;
+  for (const auto& part : parts_) {
+    info.started = std::min(info.started, part->info.started);
+    info.versions.insert(part->info.versions.begin(), part->info.versions.end());
+    info.inputs.insert(part->info.inputs.begin(), part->info.inputs.end());
+    if (&part == &parts_.front()) continue;
+    info.sensors.insert(info.sensors.end(), part->info.sensors.begin(), part->info.sensors.end());
+  }
+  const auto place = [](const RecordedSensor& sensor) {
+    return std::pair(sensor.robot, sensor.sensor);
+  };
+  std::ranges::stable_sort(info.sensors, {}, place);
+  // A host that was started again describes its sensors again.
+  const auto again = std::ranges::unique(info.sensors, {}, place);
+  info.sensors.erase(again.begin(), again.end());
+  return info;
+}
+
+Status Merger::learn_hosts() {
+  const auto count = static_cast<std::uint32_t>(parts_.front()->info.robots.size());
+  owner_.assign(count, nullptr);
+  poses_.resize(count);
+  StringMap all;
+  for (const auto& part : parts_) {
+    const StringMap known = metadata_of(part->reader, kHostsMetadata);
+    all.insert(known.begin(), known.end());
+  }
+  for (const auto& [host, robots] : all) hosts_.push_back(host);
+  for (const std::string& host : hosts_) {
+    RAVE_TRY_ASSIGN(const auto robots, parse_robot_ranges(all[host], count));
+    for (const std::uint32_t robot : robots) owner_[robot] = &host;
+  }
+  return {};
+}
+
+std::vector<std::string> Merger::notes() const {
+  std::vector<std::string> notes;
+  for (const Unreadable& part : unreadable_) notes.push_back(part.why);
+  for (const auto& part : parts_) {
+    if (part->torn.empty()) continue;
+    notes.push_back(fmt::format("`{}` is torn: {}", part->path.string(), part->torn));
+  }
+  for (const std::string& host : hosts_) {
+    const bool there =
+        std::ranges::any_of(parts_, [&](const auto& part) { return part->host == host; });
+    if (!there) notes.push_back(fmt::format("there is no record of host `{}`", host));
+  }
+  return notes;
+}
+
+Status Merger::describe(RunRecorder& recorder) {
+  StringMap hybrids;
+  for (const auto& part : parts_) {
+    const StringMap own = metadata_of(part->reader, kHybridMetadata);
+    hybrids.insert(own.begin(), own.end());
+  }
+  if (!hybrids.empty()) RAVE_TRY(recorder.describe(kHybridMetadata, hybrids));
+  return {};
+}
+
+bool Merger::next_moment() {
+  time_ns_ = std::numeric_limits<std::uint64_t>::max();
+  for (const auto& part : parts_) {
+    if (part->more) time_ns_ = std::min(time_ns_, part->cursor.time_ns());
+  }
+  bool any = false;
+  for (const auto& part : parts_) {
+    part->here = part->more && part->cursor.time_ns() == time_ns_;
+    any = any || part->here;
+  }
+  return any;
+}
+
+void Merger::write_poses(RunRecorder& recorder) {
+  std::ranges::fill(poses_, std::nullopt);
+  each_item(parts_, topic::kPoses, decode_poses, [&](const Part& part, const auto& step) {
+    for (const RobotPose& pose : step.items) {
+      const std::uint32_t r = pose.robot.value();
+      if (r >= poses_.size()) continue;
+      const bool own = owner_[r] != nullptr && *owner_[r] == part.host;
+      if (poses_[r] && !own) continue;
+      poses_[r] = pose;
+    }
+  });
+  for (const auto& pose : poses_) {
+    if (pose) recorder.pose(*pose);
+  }
+}
+
+void Merger::write_hash(RunRecorder& recorder) {
+  RunHash sum;
+  std::size_t known = 0;
+  each_item(parts_, topic::kHash, decode_hash, [&](const Part&, const StepHash& step) {
+    sum.merge(RunHash::of_value(step.hash));
+    ++known;
+  });
+  // Of the hosts, and of the authority.
+  hashed_ = hashed_ && known == hosts_.size() + 1;
+  if (hashed_) static_cast<void>(recorder.hash(sum.value()));
+}
+
+void Merger::write_inputs(RunRecorder& recorder, bool before_first) {
+  Once<RunInput> once;
+  each_item(parts_, topic::kInputs, decode_input, [&](const Part& part, const RunInput& input) {
+    if ((input.step == 0) == before_first) once.add(&part, input);
+  });
+  for (const RunInput& input : once.items()) static_cast<void>(recorder.input(input));
+}
+
+Status Merger::write_moment(RunRecorder& recorder) {
+  const std::int64_t step_ns = from_seconds(parts_.front()->info.step_s).ns;
+  const auto step = time_ns_ / static_cast<std::uint64_t>(step_ns);
+  write_inputs(recorder, true);
+  recorder.begin_step(step, SimTime{static_cast<std::int64_t>(time_ns_)});
+  each_item(parts_, topic::kPercepts, decode_percepts,
+            [&](const Part&, const auto& all) { add_rows(all.items, recorder); });
+  each_item(parts_, topic::kCommands, decode_commands,
+            [&](const Part&, const auto& all) { add_rows(all.items, recorder); });
+  each_item(parts_, topic::kActuators, decode_actuators, [&](const Part&, const auto& all) {
+    for (const ActuatorRecord& command : all.items) recorder.actuator(command);
+  });
+  each_item(parts_, topic::kRadio, decode_radio, [&](const Part&, const auto& all) {
+    for (const RadioPacket& packet : all.items) recorder.radio(packet);
+  });
+  Once<RunEvent> events;
+  each_item(parts_, topic::kEvents, decode_event, [&](const Part& part, const auto& all) {
+    for (const RunEvent& event : all.items) events.add(&part, event);
+  });
+  std::ranges::stable_sort(events.items(), {}, &RunEvent::robot);
+  for (const RunEvent& event : events.items()) RAVE_TRY(recorder.event(event));
+  write_poses(recorder);
+  write_hash(recorder);
+  Once<ConsoleLine> lines;
+  each_item(parts_, topic::kConsole, decode_console,
+            [&](const Part& part, const ConsoleLine& line) { lines.add(&part, line); });
+  for (const ConsoleLine& line : lines.items()) {
+    recorder.console(line.level, line.source, line.text);
+  }
+  RAVE_TRY(recorder.end_step());
+  write_inputs(recorder, false);
+  return {};
+}
+
+Result<std::vector<std::string>> Merger::write(const fs::path& output) {
+  RAVE_TRY(check());
+  RAVE_TRY(learn_hosts());
+  RAVE_TRY_ASSIGN(auto recorder, RunRecorder::open(output, joined_info()));
+  RAVE_TRY(describe(recorder));
+  for (const auto& part : parts_) part->advance();
+  while (next_moment()) {
+    RAVE_TRY(write_moment(recorder));
+    for (const auto& part : parts_) {
+      if (part->here) part->advance();
+    }
+  }
+  std::vector<std::string> found = notes();
+  StringMap kept;
+  for (const std::string& note : found) kept[fmt::format("note {:04}", kept.size())] = note;
+  const auto keep_size = [&](const fs::path& path, std::uint64_t bytes) {
+    kept["file " + path.lexically_proximate(output.parent_path()).generic_string()] =
+        std::to_string(bytes);
+  };
+  for (const auto& part : parts_) keep_size(part->path, part->reader.file_size());
+  for (const Unreadable& part : unreadable_) {
+    std::error_code error;
+    keep_size(part.path, fs::file_size(part.path, error));
+  }
+  RAVE_TRY(recorder.describe(kPartsMetadata, kept));
+  // Without an end it is seen that the run is not whole here.
+  if (!found.empty()) return found;
+  RunHash sum;
+  bool hashed = hashed_;
+  for (const auto& part : parts_) {
+    hashed = hashed && part->end && part->end->hash;
+    if (hashed) sum.merge(RunHash::of_value(*part->end->hash));
+  }
+  RAVE_TRY(recorder.end(hashed ? std::optional(sum.value()) : std::nullopt));
+  return found;
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> merge_records(const std::vector<fs::path>& parts,
+                                               const fs::path& output) {
+  std::vector<std::unique_ptr<Part>> opened;
+  std::vector<Unreadable> unreadable;
+  for (const fs::path& path : parts) {
+    auto part = open_part(path);
+    if (part) {
+      opened.push_back(*std::move(part));
+    } else {
+      unreadable.push_back({path, part.error().text()});
+    }
+  }
+  if (opened.empty()) {
+    return fail(ErrorCode::kParse, "no record of the run can be read{}{}",
+                unreadable.empty() ? "" : ": ", unreadable.empty() ? "" : unreadable.front().why);
+  }
+  fs::path draft = output;
+  draft += ".merging";
+  auto notes = Merger(std::move(opened), std::move(unreadable)).write(draft);
+  std::error_code error;
+  if (!notes) {
+    fs::remove(draft, error);
+    return notes;
+  }
+  fs::rename(draft, output, error);
+  if (!error) return notes;
+  return fail(ErrorCode::kIo, "cannot write `{}`: {}", output.string(), error.message());
+}
+
+bool is_merged(const McapReader& reader) {
+  return std::ranges::any_of(reader.metadata(), [](const MetadataInfo& metadata) {
+    return metadata.name == kPartsMetadata;
+  });
+}
+
+StringMap merged_files(const McapReader& reader) {
+  constexpr std::string_view kFile = "file ";
+  StringMap files;
+  for (const auto& [key, value] : metadata_of(reader, kPartsMetadata)) {
+    if (key.starts_with(kFile)) files[key.substr(kFile.size())] = value;
+  }
+  return files;
+}
+
+std::vector<std::string> missing_parts(const McapReader& reader) {
+  std::vector<std::string> missing;
+  for (const auto& [key, value] : metadata_of(reader, kPartsMetadata)) {
+    if (key.starts_with("note ")) missing.push_back(value);
+  }
+  return missing;
+}
+
+}  // namespace rave::record

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rows.hpp"
+
+namespace rave::record {
+namespace {
+
+using ByteSpan = std::span<const std::byte>;
+
+bool same_row(const Percept& a, const Percept& b) {
+  return a.sensor == b.sensor && a.kind == b.kind && a.part == b.part && a.header == b.header;
+}
+bool same_row(const CommandRecord& a, const CommandRecord& b) {
+  return a.controller == b.controller;
+}
+
+ByteSpan bytes_of(const Percept& percept) { return percept.records; }
+ByteSpan bytes_of(const CommandRecord& command) { return command.command; }
+
+/// How many items from `begin` on are one row.
+template <class Item>
+std::uint32_t row_length(const std::vector<Item>& items, std::size_t begin) {
+  const Item& first = items[begin];
+  const ByteSpan bytes = bytes_of(first);
+  std::uint32_t length = 1;
+  for (; begin + length < items.size() && !bytes.empty(); ++length) {
+    const Item& item = items[begin + length];
+    const ByteSpan own = bytes_of(item);
+    if (item.robot.value() != first.robot.value() + length || !same_row(first, item) ||
+        own.size() != bytes.size() || own.data() != bytes.data() + length * bytes.size()) {
+      break;
+    }
+  }
+  return length;
+}
+
+}  // namespace
+
+void add_rows(const std::vector<Percept>& percepts, RunRecorder& recorder) {
+  for (std::size_t i = 0; i < percepts.size();) {
+    const Percept& first = percepts[i];
+    const std::uint32_t robots = first.part == PerceptPart::kResult ? row_length(percepts, i) : 1;
+    if (robots == 1) {
+      recorder.percept(first);
+    } else {
+      recorder.percepts({first.robot,
+                         robots,
+                         first.sensor,
+                         first.kind,
+                         first.header,
+                         {first.records.data(), first.records.size() * robots}});
+    }
+    i += robots;
+  }
+}
+
+void add_rows(const std::vector<CommandRecord>& commands, RunRecorder& recorder) {
+  for (std::size_t i = 0; i < commands.size();) {
+    const CommandRecord& first = commands[i];
+    const std::uint32_t robots = row_length(commands, i);
+    if (robots == 1) {
+      recorder.command(first);
+    } else {
+      recorder.commands({first.robot,
+                         robots,
+                         first.controller,
+                         {first.command.data(), first.command.size() * robots}});
+    }
+    i += robots;
+  }
+}
+
+}  // namespace rave::record

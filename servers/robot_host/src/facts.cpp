@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "facts.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <tuple>
+
+namespace rave::robot_host {
+namespace {
+
+template <class T>
+void append(std::vector<T>& into, std::vector<T> from) {
+  into.insert(into.end(), std::make_move_iterator(from.begin()),
+              std::make_move_iterator(from.end()));
+}
+
+/// Appends, in the order of robots. Who is in both came back: what was before is forgotten.
+template <class T>
+void append_by_robot(std::vector<T>& into, std::vector<T> from) {
+  const auto is_newer = [&from](const T& old) {
+    return std::ranges::binary_search(from, old.robot, {}, &T::robot);
+  };
+  const bool apart = into.empty() || from.empty() || into.back().robot < from.front().robot;
+  if (!apart) into.erase(std::remove_if(into.begin(), into.end(), is_newer), into.end());
+  append(into, std::move(from));
+  std::stable_sort(into.begin(), into.end(),
+                   [](const T& a, const T& b) { return a.robot < b.robot; });
+}
+
+void merge_events(std::vector<sim::Event> from, std::vector<sim::Event>& into) {
+  append(into, std::move(from));
+  // As an engine that is alone has them, and behind them what was seen by who looked on.
+  std::stable_sort(into.begin(), into.end(), [](const sim::Event& a, const sim::Event& b) {
+    const bool a_seen = a.kind == sim::EventKind::kCaptured;
+    const bool b_seen = b.kind == sim::EventKind::kCaptured;
+    if (a.step != b.step || a_seen != b_seen || a_seen) {
+      return std::tie(a.step, a_seen) < std::tie(b.step, b_seen);
+    }
+    return std::tie(a.robot, a.kind, a.other, a.text) < std::tie(b.robot, b.kind, b.other, b.text);
+  });
+  // In real time every host sees what happens to the world.
+  const auto same = [](const sim::Event& a, const sim::Event& b) {
+    return !a.robot.valid() && !b.robot.valid() && a.step == b.step && a.kind == b.kind &&
+           a.other == b.other && a.text == b.text;
+  };
+  into.erase(std::unique(into.begin(), into.end(), same), into.end());
+}
+
+void merge_closest(const std::map<std::string, Encounter>& from,
+                   std::map<std::string, Encounter>& into) {
+  for (const auto& [pair, found] : from) {
+    const auto [known, is_new] = into.try_emplace(pair, found);
+    Encounter& best = known->second;
+    // Of equal ones the first that an engine that is alone would have come to.
+    const bool nearer =
+        std::tie(found.gap_m, found.time_s, found.a) < std::tie(best.gap_m, best.time_s, best.a);
+    if (!is_new && nearer) best = found;
+  }
+}
+
+void merge_goals(const GoalFacts& from, GoalFacts& into) {
+  into.touches.resize(std::max(into.touches.size(), from.touches.size()));
+  for (std::size_t i = 0; i < from.touches.size(); ++i) into.touches[i] += from.touches[i];
+  into.arrivals.resize(std::max(into.arrivals.size(), from.arrivals.size()));
+  for (std::size_t i = 0; i < from.arrivals.size(); ++i) {
+    const ArrivalFacts& found = from.arrivals[i];
+    ArrivalFacts& arrival = into.arrivals[i];
+    if (!found.known) continue;
+    arrival.nearest_m =
+        arrival.known ? std::min(arrival.nearest_m, found.nearest_m) : found.nearest_m;
+    arrival.known = true;
+    const bool earlier = found.time_s && (!arrival.time_s || *found.time_s < *arrival.time_s);
+    if (earlier) arrival.time_s = found.time_s;
+  }
+}
+
+void merge_sightings(const std::optional<SightingFacts>& from, std::optional<SightingFacts>& into) {
+  if (!from) return;
+  if (!into) into.emplace();
+  for (const auto& [robot, tally] : from->by_robot) into->by_robot[robot] += tally;
+  for (const auto& [code, count] : from->unknown_codes) into->unknown_codes[code] += count;
+}
+
+void merge_captures(const std::optional<CaptureFacts>& from, std::optional<CaptureFacts>& into) {
+  if (!from) return;
+  if (!into) into.emplace();
+  append(into->captures, from->captures);
+  std::stable_sort(into->captures.begin(), into->captures.end(),
+                   [](const Capture& a, const Capture& b) { return a.time_s < b.time_s; });
+  if (!into->closest_m || from->closest_m.value_or(*into->closest_m) < *into->closest_m) {
+    into->closest_m = from->closest_m;
+  }
+}
+
+void merge_tracks(std::vector<TrackFacts> from, std::vector<TrackFacts>& into) {
+  append(into, std::move(from));
+  std::stable_sort(into.begin(), into.end(), [](const TrackFacts& a, const TrackFacts& b) {
+    return std::tie(a.track.odometry_only, a.robot) < std::tie(b.track.odometry_only, b.robot);
+  });
+}
+
+void merge_instant(std::optional<InstantFacts> from, std::optional<InstantFacts>& into) {
+  if (!from) return;
+  if (!into) {
+    into = std::move(from);
+    return;
+  }
+  append_by_robot(into->robots, std::move(from->robots));
+  append(into->sightings, std::move(from->sightings));
+  std::stable_sort(into->sightings.begin(), into->sightings.end(),
+                   [](const auto& a, const auto& b) {
+                     return std::tie(a.step, a.robot) < std::tie(b.step, b.robot);
+                   });
+}
+
+}  // namespace
+
+void merge(RunFacts from, RunFacts& into) {
+  into.first_step = std::min(into.first_step, from.first_step);
+  into.steps = std::max(into.steps, from.steps);
+  into.has_world = into.has_world || from.has_world;
+  append(into.problems, std::move(from.problems));
+  merge_events(std::move(from.events), into.events);
+  append_by_robot(into.robots, std::move(from.robots));
+  append_by_robot(into.devices, std::move(from.devices));
+  append_by_robot(into.streams, std::move(from.streams));
+  append_by_robot(into.transmitters, std::move(from.transmitters));
+  into.radio += from.radio;
+  into.inputs_by_hand += from.inputs_by_hand;
+  for (const auto& [who, counts] : from.hits) {
+    for (const auto& [what, count] : counts) into.hits[who][what] += count;
+  }
+  merge_closest(from.closest, into.closest);
+  merge_goals(from.goals, into.goals);
+  merge_sightings(from.sightings, into.sightings);
+  merge_captures(from.capture, into.capture);
+  merge_tracks(std::move(from.tracks), into.tracks);
+  merge_instant(std::move(from.instant), into.instant);
+}
+
+}  // namespace rave::robot_host

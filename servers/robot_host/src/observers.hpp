@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "capture_watch.hpp"
+#include "encounters.hpp"
+#include "facts.hpp"
+#include "goal_checks.hpp"
+#include "hit_counter.hpp"
+#include "instant.hpp"
+#include "rave/robot_host/build.hpp"
+#include "sighting_check.hpp"
+#include "track_recorder.hpp"
+
+namespace rave::robot_host {
+
+/// All who look at a run for its results.
+struct Observers {
+  BodyKinds kinds;
+  TrackRecorder tracks;
+  Encounters encounters;
+  HitCounter hits;
+  GoalChecks goals;
+  std::optional<SightingCheck> sightings;
+  std::optional<InstantKeeper> instant;
+  std::optional<CaptureWatch> capture;  ///< Only where all robots are.
+
+  /// `spec`: of the engine that is looked at. Refers to it and to itself.
+  Observers(const config::ExpandedScenario& scenario, const std::vector<std::string>& robot_kinds,
+            const sim::EngineSpec& spec);
+  Observers(const Observers&) = delete;
+  Observers& operator=(const Observers&) = delete;
+
+  void after_step(sim::Engine& engine);
+};
+
+/// What observers need of the past: set before the scenario is built.
+void keep_history_for_observers(config::ScenarioFile& scenario);
+
+/// What is known of the robots that run here when all steps are done, but for events and problems.
+/// `with_tracks`: they are for the picture alone.
+[[nodiscard]] RunFacts gather(const Observers& observers, const sim::Engine& engine,
+                              bool with_tracks);
+
+}  // namespace rave::robot_host

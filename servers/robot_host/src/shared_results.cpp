@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/robot_host/shared_results.hpp"
+
+#include <algorithm>
+
+#include "capture_watch.hpp"
+#include "facts_file.hpp"
+#include "outcome.hpp"
+#include "rave/base/file.hpp"
+#include "rave/robot_host/host_run.hpp"
+#include "world_record.hpp"
+
+namespace rave::robot_host {
+namespace {
+
+/// What results say of a spec, without what cannot be copied: its drivers.
+sim::EngineSpec outline_of(const sim::EngineSpec& spec) {
+  sim::EngineSpec outline;
+  outline.step = spec.step;
+  outline.seed = spec.seed;
+  outline.threads = spec.threads;
+  outline.world = spec.world;
+  outline.robots = spec.robots;
+  for (const sim::RobotType& type : spec.types) {
+    sim::RobotType& known = outline.types.emplace_back();
+    known.name = type.name;
+    known.simulated = type.simulated;
+    if (!type.communicators.empty()) known.communicators.emplace_back();
+  }
+  return outline;
+}
+
+}  // namespace
+
+struct SharedResults::Impl {
+  Impl(const config::ExpandedScenario& s, const BuiltScenario& built, Options o)
+      : scenario(s),
+        options(std::move(o)),
+        spec(outline_of(built.spec)),
+        live_reason(built.live_reason),
+        kinds(spec, built.robot_kinds) {
+    const auto& checks = scenario.scenario.checks;
+    if (live_reason.empty() && checks.capture) capture.emplace(*checks.capture, scenario);
+  }
+
+  void note_step(const sim::WorldAuthority& authority);
+  Result<RunFacts> read(const SharedHost& host, const std::filesystem::path& folder) const;
+  [[nodiscard]] HostShare share_of(const SharedHost& host) const;
+  void take(const SharedHost& host, const std::vector<std::size_t>& robots, Findings& findings);
+
+  const config::ExpandedScenario& scenario;
+  Options options;
+  sim::EngineSpec spec;
+  std::string live_reason;
+  BodyKinds kinds;
+  std::optional<CaptureWatch> capture;
+  std::unique_ptr<WorldRecord> record;
+  RunFacts facts;
+  std::vector<sim::Event> seen;  ///< Captures of the step that is not done yet.
+  bool begun = false;
+  std::uint64_t noted = 0;  ///< Steps whose events have been taken.
+};
+
+/// The step that is done now.
+void SharedResults::Impl::note_step(const sim::WorldAuthority& authority) {
+  const std::uint64_t done = authority.steps_done();
+  kinds.learn(authority.world());
+  if (!begun || done == noted) {
+    // The first world, of this run or of one that somebody else began.
+    begun = true;
+    noted = done;
+    return;
+  }
+  noted = done;
+  std::vector<sim::Event> events(authority.events().begin(), authority.events().end());
+  events.insert(events.end(), seen.begin(), seen.end());
+  seen.clear();
+  if (record) record->step(done - 1, kinds, events, authority.hash().value());
+  facts.events.insert(facts.events.end(), events.begin(), events.end());
+}
+
+Result<RunFacts> SharedResults::Impl::read(const SharedHost& host,
+                                           const std::filesystem::path& folder) const {
+  RAVE_TRY_ASSIGN(const std::string text, read_file(folder / kFactsFile));
+  return decode_facts(std::as_bytes(std::span(text)), {shared_number(scenario), host.name},
+                      {static_cast<std::uint32_t>(spec.robots.size()), kinds.count()});
+}
+
+HostShare SharedResults::Impl::share_of(const SharedHost& host) const {
+  HostShare share;
+  share.name = host.name;
+  for (const auto& folder : host.folders) {
+    share.folders.push_back(folder.lexically_proximate(options.folder).generic_string());
+  }
+  share.offset_s = host.offset_s;
+  share.bound_s = host.bound_s;
+  share.heard = host.heard;
+  share.losses = host.losses;
+  return share;
+}
+
+void SharedResults::Impl::take(const SharedHost& host, const std::vector<std::size_t>& robots,
+                               Findings& findings) {
+  HostShare share = share_of(host);
+  for (const auto& folder : host.folders) {
+    auto found = read(host, folder);
+    if (found) {
+      share.found = true;
+      merge(*std::move(found), facts);
+    } else if (found.error().code != ErrorCode::kNotFound) {
+      facts.problems.push_back(fmt::format("host `{}`: `{}`: {}", host.name,
+                                           (folder / kFactsFile).string(), found.error().message));
+    }
+  }
+  if (!share.found) {
+    findings.lost.resize(spec.robots.size());
+    for (const std::size_t robot : robots) findings.lost[robot] = 1;
+    // What a host elsewhere knows lies there; that is as it should be.
+    if (!host.folders.empty()) {
+      facts.problems.push_back(fmt::format(
+          "host `{}` left no findings: nothing is known of its robots here", host.name));
+    }
+  }
+  findings.hosts.push_back(std::move(share));
+}
+
+SharedResults::SharedResults(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+SharedResults::~SharedResults() = default;
+
+Result<std::unique_ptr<SharedResults>> SharedResults::begin(
+    const config::ExpandedScenario& scenario, const BuiltScenario& built, Options options) {
+  auto impl = std::make_unique<Impl>(scenario, built, std::move(options));
+  if (impl->live_reason.empty() && impl->options.record) {
+    RAVE_TRY_ASSIGN(impl->record, WorldRecord::begin(impl->options.folder / "world.mcap", scenario,
+                                                     impl->spec, impl->kinds, impl->options.log));
+  }
+  return std::unique_ptr<SharedResults>(new SharedResults(std::move(impl)));
+}
+
+bool SharedResults::after_step(const sim::WorldAuthority& authority) {
+  impl_->note_step(authority);
+  if (!impl_->capture) return false;
+  impl_->capture->look(authority.snapshot(), authority.steps_done());
+  impl_->seen = impl_->capture->events();
+  return impl_->capture->ends_run();
+}
+
+void SharedResults::at_end(const sim::WorldAuthority& authority) {
+  impl_->spec.world = authority.world();
+  impl_->facts.has_world = true;
+  if (impl_->capture) {
+    // Nobody was in the step that the last world began.
+    if (impl_->begun) impl_->capture->forget_last_look();
+    impl_->facts.capture = impl_->capture->facts();
+  }
+  if (!impl_->record) return;
+  const Status written = impl_->record->end(authority.hash().value());
+  if (!written) {
+    impl_->facts.problems.push_back("the record of the world is not whole: " +
+                                    written.error().text());
+  }
+}
+
+Result<RunOutcome> SharedResults::write(const SharedEnd& end) {
+  Impl& impl = *impl_;
+  RAVE_TRY_ASSIGN(const auto planned, config::plan_hosts(impl.scenario));
+  RunFacts& facts = impl.facts;
+  facts.problems.insert(facts.problems.begin(), end.problems.begin(), end.problems.end());
+  Findings findings{impl.scenario, impl.spec, impl.kinds, impl.live_reason, facts};
+  for (std::size_t h = 0; h < planned.size() && h < end.hosts.size(); ++h) {
+    impl.take(end.hosts[h], planned[h].robots, findings);
+  }
+  if (impl.live_reason.empty()) facts.steps = end.steps;
+  findings.worlds = end.worlds;
+  findings.states = end.states;
+  findings.wall_s = end.wall_s;
+  findings.hash = end.hash;
+  return write_results(findings, impl.options.folder, impl.options.picture);
+}
+
+}  // namespace rave::robot_host

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+#include "facts_sample.hpp"
+
+namespace rave::robot_host::testing {
+namespace {
+
+constexpr FactsLimits kLimits{4, 8};
+
+TEST(Facts, ComeBackBitByBit) {
+  const auto bytes = encode_facts(sample_whose(), sample_facts(1));
+  const auto back = decode_facts(bytes, sample_whose(), kLimits);
+  ASSERT_TRUE(back) << back.error().text();
+  EXPECT_EQ(encode_facts(sample_whose(), *back), bytes);
+  EXPECT_TRUE(std::signbit(back->robots.at(0).y_m));
+  EXPECT_EQ(back->goals.arrivals.at(1).time_s, 1.5);
+}
+
+TEST(Facts, WhatIsCutIsRefused) {
+  const auto bytes = encode_facts(sample_whose(), sample_facts(1));
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    EXPECT_FALSE(decode_facts(std::span(bytes).first(size), sample_whose(), kLimits)) << size;
+  }
+}
+
+TEST(Facts, ThoseOfAnotherRunOrHostOrWorldAreRefused) {
+  const auto bytes = encode_facts(sample_whose(), sample_facts(3));
+  const auto run = decode_facts(bytes, {8, "left"}, kLimits);
+  ASSERT_FALSE(run);
+  EXPECT_NE(run.error().message.find("another scenario"), std::string::npos);
+  const auto host = decode_facts(bytes, {7, "right"}, kLimits);
+  ASSERT_FALSE(host);
+  EXPECT_NE(host.error().message.find("of host `left`, not of `right`"), std::string::npos);
+  const auto robots = decode_facts(bytes, sample_whose(), {3, 8});
+  ASSERT_FALSE(robots);
+  EXPECT_NE(robots.error().message.find("robots or bodies that there are not"), std::string::npos);
+  EXPECT_FALSE(decode_facts(bytes, sample_whose(), {4, 1}));
+}
+
+TEST(Facts, OfTheOldVersionStillHaveItsBytes) {
+  std::ifstream file(RAVE_SOURCE_DIR "/servers/robot_host/tests/corpus_facts/sample.cdr",
+                     std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const auto bytes = encode_facts(sample_whose(), sample_facts(1));
+  ASSERT_EQ(text.size(), bytes.size()) << "another layout needs another version";
+  EXPECT_EQ(std::memcmp(text.data(), bytes.data(), bytes.size()), 0);
+}
+
+TEST(Facts, OfTwoHostsAddUpInAnyOrder) {
+  RunFacts whole;
+  RunFacts turned;
+  merge(sample_facts(1), whole);
+  merge(sample_facts(3), whole);
+  merge(sample_facts(3), turned);
+  merge(sample_facts(1), turned);
+  EXPECT_EQ(encode_facts(sample_whose(), whole), encode_facts(sample_whose(), turned));
+  ASSERT_EQ(whole.robots.size(), 2U);
+  EXPECT_EQ(whole.robots[0].robot, 1U);
+  EXPECT_EQ(whole.radio.sent, 6U);
+  EXPECT_EQ(whole.hits["simulated"]["real"], 4U);
+  EXPECT_NEAR(whole.closest["real-simulated"].gap_m, 0.2, 1e-12);
+  EXPECT_EQ(whole.goals.touches[0], 4U);
+  EXPECT_EQ(whole.sightings->all().total, 10U);
+  ASSERT_EQ(whole.tracks.size(), 4U);
+  EXPECT_FALSE(whole.tracks[1].track.odometry_only);
+  EXPECT_EQ(whole.tracks[1].robot, 3U);
+  EXPECT_EQ(whole.events[0].step, 3U);
+  EXPECT_EQ(whole.events[1].robot, RobotId(3));
+}
+
+TEST(Facts, OfAHostThatCameBackTheLatterCount) {
+  RunFacts whole;
+  merge(sample_facts(1), whole);
+  RunFacts later = sample_facts(1);
+  later.robots[0].commands = 99;
+  merge(std::move(later), whole);
+  ASSERT_EQ(whole.robots.size(), 1U);
+  EXPECT_EQ(whole.robots[0].commands, 99U);
+}
+
+}  // namespace
+}  // namespace rave::robot_host::testing

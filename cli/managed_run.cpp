@@ -50,7 +50,7 @@ Result<ManagedEnd> manage_steps(const ManagedRun& run, robot_host::BuiltScenario
                                 std::vector<config::PlannedHost> hosts) {
   ManagedEnd end;
   RAVE_TRY_ASSIGN(end.results, results_of(run, built));
-  for (const config::PlannedHost& host : hosts) end.end.hosts.push_back({host.name, {}});
+  for (const config::PlannedHost& host : hosts) end.end.hosts.emplace_back().name = host.name;
   const config::ScenarioFile& file = run.scenario.scenario;
   environment_manager::ManagerOptions how;
   how.bus = run.bus;
@@ -125,7 +125,7 @@ Result<ManagedEnd> wait_for_hosts(const ManagedRun& run, const robot_host::Built
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
   if (!run.hosts_ended()) outcome.problems.emplace_back("stopped before its hosts had ended");
-  outcome.end = Duration{
+  outcome.end = SimTime{
       std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - began)
           .count()};
   return live_end(run, built, std::move(outcome));

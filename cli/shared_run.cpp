@@ -157,8 +157,8 @@ std::string invitation(const config::ExpandedScenario& scenario, const config::P
 }
 
 /// Puts together what all have left.
-Result<robot_host::RunOutcome> results_of(ManagedEnd& managed, const Crew& crew,
-                                          const std::vector<std::string>& problems) {
+Result<robot_host::RunOutcome> put_together(ManagedEnd& managed, const Crew& crew,
+                                            const std::vector<std::string>& problems) {
   robot_host::SharedEnd& end = managed.end;
   end.problems.insert(end.problems.end(), problems.begin(), problems.end());
   for (robot_host::SharedHost& host : end.hosts) host.folders = crew.folders_of(host.name);
@@ -207,7 +207,7 @@ int run_shared(const RunCommand& options, const config::ExpandedScenario& scenar
   const std::vector<std::string> problems = crew.part();
   console.clear();
   if (!managed) return complain(managed.error());
-  const auto outcome = results_of(*managed, crew, problems);
+  const auto outcome = put_together(*managed, crew, problems);
   return outcome ? report_outcome(options, *outcome, folder->path()) : complain(outcome.error());
 }
 

@@ -215,6 +215,18 @@ TEST_F(LiveHosts, RunStartsAllAndEndsInTime) {
   for (const char* const host : {"one", "two"}) {
     EXPECT_EQ(this->result(std::string("run/hosts/") + host)["whole"], true) << host;
   }
+  ASSERT_EQ(result["robots"].size(), 2U) << result.dump();
+  EXPECT_EQ(result["robots"][0]["name"], "left");
+  EXPECT_GT(result["robots"][1]["commands"], 0);
+  EXPECT_EQ(result["hosts"][1]["found"], true);
+  const Ended info = run_rave({"info", folder("run"), "--json"});
+  EXPECT_EQ(info.exit_code, 0) << info.err;
+  const auto record = nlohmann::json::parse(info.out, nullptr, false);
+  EXPECT_EQ(record["parts"].size(), 2U) << info.out;
+  EXPECT_EQ(record["hash"], nullptr);
+  for (const char* const robot : {"left", "right"}) {
+    EXPECT_GT(readings_of(folder("run") + "/run.mcap")[std::string(robot) + "/laser"].size(), 10U);
+  }
 }
 
 TEST_F(LiveHosts, ARunThatIsInterruptedEndsItsHosts) {

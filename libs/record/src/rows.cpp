@@ -4,7 +4,7 @@
 namespace rave::record {
 namespace {
 
-using ByteSpan = std::span<const std::byte>;
+using RowBytes = std::span<const std::byte>;
 
 bool same_row(const Percept& a, const Percept& b) {
   return a.sensor == b.sensor && a.kind == b.kind && a.part == b.part && a.header == b.header;
@@ -13,18 +13,18 @@ bool same_row(const CommandRecord& a, const CommandRecord& b) {
   return a.controller == b.controller;
 }
 
-ByteSpan bytes_of(const Percept& percept) { return percept.records; }
-ByteSpan bytes_of(const CommandRecord& command) { return command.command; }
+RowBytes bytes_of(const Percept& percept) { return percept.records; }
+RowBytes bytes_of(const CommandRecord& command) { return command.command; }
 
 /// How many items from `begin` on are one row.
 template <class Item>
 std::uint32_t row_length(const std::vector<Item>& items, std::size_t begin) {
   const Item& first = items[begin];
-  const ByteSpan bytes = bytes_of(first);
+  const RowBytes bytes = bytes_of(first);
   std::uint32_t length = 1;
   for (; begin + length < items.size() && !bytes.empty(); ++length) {
     const Item& item = items[begin + length];
-    const ByteSpan own = bytes_of(item);
+    const RowBytes own = bytes_of(item);
     if (item.robot.value() != first.robot.value() + length || !same_row(first, item) ||
         own.size() != bytes.size() || own.data() != bytes.data() + length * bytes.size()) {
       break;

@@ -15,11 +15,11 @@ namespace rave::robot_host {
 /// Where what one host knows of a run comes from.
 struct HostShare {
   std::string name;
-  std::vector<std::string> folders;    ///< Of each time that it was started; empty: elsewhere.
-  bool found = false;                  ///< It left what it knows.
-  std::optional<double> offset_s;      ///< Of its clock, of runs in real time.
-  std::optional<double> bound_s;       ///< How far that may be off.
-  std::optional<std::uint64_t> heard;  ///< Samples of where its robots are, in real time.
+  std::vector<std::string> folders;  ///< Of each time that it was started; empty: elsewhere.
+  bool found = false;                ///< It left what it knows.
+  std::optional<double> offset_s;    ///< Of its clock, of runs in real time.
+  std::optional<double> bound_s;     ///< How far that may be off.
+  std::optional<bool> heard;         ///< It was there at some time, in real time.
   std::optional<std::uint64_t> losses;
 };
 

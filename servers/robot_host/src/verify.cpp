@@ -5,6 +5,7 @@
 
 #include <chrono>
 
+#include "capture_watch.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/record/merge.hpp"
 #include "rave/record/run_reader.hpp"
@@ -164,11 +165,27 @@ Result<config::ExpandedScenario> scenario_of(const record::RunInfo& run, const f
   return *std::move(scenario);
 }
 
+/// The second run, and all who write its record.
+struct SecondRun {
+  sim::Engine& engine;
+  RecordKeeper& keeper;
+  BodyKinds& kinds;
+  std::optional<CaptureWatch> capture{};
+
+  void look_back() {
+    kinds.learn(engine.spec().world);
+    keeper.after_step(engine);
+    if (!capture) return;
+    capture->after_step(engine);
+    keeper.keep(capture->events());
+  }
+};
+
 /// Steps until the recorded run ended, or one step beyond the first whose hash differs: what a step
 /// resolves is seen in the poses of the next.
-Status run_again(sim::Engine& engine, RecordKeeper& keeper, BodyKinds& kinds, InputReplay inputs,
-                 const std::vector<std::uint64_t>& hashes, const VerifyOptions& options,
-                 VerifyOutcome& outcome) {
+Status run_again(SecondRun& run, InputReplay inputs, const std::vector<std::uint64_t>& hashes,
+                 const VerifyOptions& options, VerifyOutcome& outcome) {
+  sim::Engine& engine = run.engine;
   StallWatch watch(options.log);
   const auto begin = Clock::now();
   auto next_progress = begin;
@@ -179,12 +196,11 @@ Status run_again(sim::Engine& engine, RecordKeeper& keeper, BodyKinds& kinds, In
       outcome.ended_early = true;
       return {};
     }
-    RAVE_TRY(inputs.serve(engine, keeper, outcome));
+    RAVE_TRY(inputs.serve(engine, run.keeper, outcome));
     watch.step_begins(outcome.steps);
     RAVE_TRY(engine.step());
     watch.step_ends();
-    kinds.learn(engine.spec().world);
-    keeper.after_step(engine);
+    run.look_back();
     ++outcome.steps;
     if (differs) return {};
     const std::uint64_t done = outcome.steps - 1;
@@ -198,7 +214,7 @@ Status run_again(sim::Engine& engine, RecordKeeper& keeper, BodyKinds& kinds, In
     options.on_progress({sim_s / end_s, sim_s, end_s, wall_s > 0 ? sim_s / wall_s : 0,
                          engine.spec().robots.size(), "comparing"});
   }
-  RAVE_TRY(inputs.serve(engine, keeper, outcome));
+  RAVE_TRY(inputs.serve(engine, run.keeper, outcome));
   outcome.hash = engine.hash().value();
   return {};
 }
@@ -250,8 +266,10 @@ Result<VerifyOutcome> verify(const fs::path& record, plugin::Catalogue& catalogu
                   RecordKeeper::begin(scratch.file(), *engine, kinds,
                                       {run.scenario, "", {}, {}, true}, options.log));
   RAVE_TRY_ASSIGN(auto inputs, read_inputs(reader));
-  RAVE_TRY(
-      run_again(*engine, *keeper, kinds, InputReplay(std::move(inputs)), hashes, options, outcome));
+  SecondRun second{*engine, *keeper, kinds};
+  const auto& checks = scenario.scenario.checks;
+  if (checks.capture) second.capture.emplace(*checks.capture, scenario);
+  RAVE_TRY(run_again(second, InputReplay(std::move(inputs)), hashes, options, outcome));
   RAVE_TRY(keeper->end(engine->hash().value()));
   RAVE_TRY_ASSIGN(const auto again, record::McapReader::open(scratch.file()));
   RAVE_TRY_ASSIGN(const RecordMatch match,

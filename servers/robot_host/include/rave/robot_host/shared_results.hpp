@@ -25,7 +25,7 @@ struct SharedHost {
   // Of a run in real time:
   std::optional<double> offset_s;  ///< Of its clock against that of the manager.
   std::optional<double> bound_s;
-  std::optional<std::uint64_t> heard;  ///< Samples of where its robots are.
+  std::optional<bool> heard;  ///< It was there at some time.
   std::optional<std::uint64_t> losses;
 };
 

@@ -55,13 +55,6 @@ Status Air::open() {
   return waits_->add(*reader_);
 }
 
-Air::~Air() {
-  // Each place has gone, and with the last one the thread. In this order they need one another.
-  waits_.reset();
-  reader_.reset();
-  writer_.reset();
-}
-
 Status Air::attach(const AirPlace& place) {
   const std::lock_guard one(thread_mutex_);
   {

@@ -47,7 +47,7 @@ class Air {
   [[nodiscard]] static Result<std::shared_ptr<Air>> join(const AirOptions& options);
   Air(const Air&) = delete;
   Air& operator=(const Air&) = delete;
-  ~Air();
+  ~Air() = default;
 
   /// From now on the place hears what is sent. The first one starts the thread. Error: kIo.
   [[nodiscard]] Status attach(const AirPlace& place);
@@ -75,7 +75,7 @@ class Air {
   void tell(LogLevel level, const std::string& text);
 
   const AirOptions options_;
-  // Of the thread while it runs, else of whoever joins and leaves.
+  // Of the thread while it runs, else of whoever joins and leaves; they need those before them.
   std::unique_ptr<bus::Bus> bus_;
   std::optional<bus::Writer<bus::Packet>> writer_;
   std::optional<bus::Reader<bus::Packet>> reader_;

@@ -13,9 +13,9 @@
 namespace rave::bus {
 namespace {
 
-/// Numbers that domains of buses beside others have within this process; those of ROS 2 end before.
-constexpr std::uint32_t kFirstBeside = 2000;
-constexpr std::uint32_t kMostBeside = 1000;
+/// The number that the domain of a bus beside others has within this process: this one or the next
+/// one below that is free. DDS Security asks for permission under it, which is given for 0 to 230.
+constexpr std::uint32_t kHighestDomain = 230;
 
 constexpr std::uint32_t kReaderStatus =
     DDS_SUBSCRIPTION_MATCHED_STATUS | DDS_REQUESTED_INCOMPATIBLE_QOS_STATUS;
@@ -72,12 +72,10 @@ Result<std::unique_ptr<Bus>> Bus::open(const BusConfig& config) {
 
 Status Bus::open_domain() {
   const std::string settings = cyclone_xml(config_);
-  // The plain number is left to the bus of the host, which may come later.
-  if (config_.beside) number_ = kFirstBeside;
+  if (config_.beside) number_ = kHighestDomain;
   domain_ = dds_create_domain(number_, settings.c_str());
-  while (config_.beside && domain_ == DDS_RETCODE_PRECONDITION_NOT_MET &&
-         ++number_ < kFirstBeside + kMostBeside) {
-    domain_ = dds_create_domain(number_, settings.c_str());
+  while (config_.beside && domain_ == DDS_RETCODE_PRECONDITION_NOT_MET && number_ > 0) {
+    domain_ = dds_create_domain(--number_, settings.c_str());
   }
   if (domain_ < 0) return refused(domain_);
   return {};

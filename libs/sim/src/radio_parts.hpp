@@ -93,7 +93,7 @@ struct Channel {
 
 /// Sends what a line has, up to (not including) `until_ns`: of the communicators that share it the
 /// one that may begin first, among equals the one of the lowest number. Each goes no faster than
-/// its own rate and all together no faster than the line's own. Packets whose last byte leaves by
+/// its own rate and all together no faster than that of the line. Packets whose last byte leaves by
 /// `until_ns` are added to `complete`, in the order in which they do.
 void send_waiting(RadioLine& line, std::vector<Endpoint>& endpoints,
                   const std::vector<RadioModel>& models, PacketStore& packets,

@@ -49,7 +49,7 @@ void RadioPort::receive(const std::byte* packet, std::uint64_t size) noexcept {
   const std::lock_guard lock(mutex_);
   const std::uint32_t sender = radio_sender({packet, size});
   if (size > slots_[0].bytes.size()) {
-    note_lost(sender);
+    ++overruns_;
     return;
   }
   if (free_.empty()) drop_one();
@@ -73,10 +73,6 @@ void RadioPort::drop_one() {
   free_.push_back(*oldest);
   queue_.erase(oldest);
   uncount_one(held_, sender);
-  note_lost(sender);
-}
-
-void RadioPort::note_lost(std::uint32_t sender) {
   ++overruns_;
   if (lost_.size() < kDepth) count_one(lost_, sender);
 }

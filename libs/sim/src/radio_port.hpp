@@ -28,7 +28,7 @@ class RadioPort final : public PacketSink {
   /// Packets that were lost because nobody took them, or because they were too long.
   struct Overruns {
     std::uint64_t count = 0;
-    std::uint32_t sender = 0;  ///< Hash of the name of who lost most of them; 0: nobody is known.
+    std::uint32_t sender = 0;  ///< Hash of the name of who sent too many; 0: nobody is known.
   };
   /// Those since the last call.
   [[nodiscard]] Overruns take_overruns();
@@ -50,7 +50,6 @@ class RadioPort final : public PacketSink {
   };
 
   void drop_one();
-  void note_lost(std::uint32_t sender);
 
   mutable std::mutex mutex_;  // guards all but taken_
   std::vector<Slot> slots_;

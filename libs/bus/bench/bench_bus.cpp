@@ -138,7 +138,7 @@ int main(int argc, char** argv) {
     return bench::serve_bus(argv[2], bench::Way::kListener);
   }
   if (role == "receive" && argc > 3) return receive(argv[2], argument(3, 0));
-  if (role == "attend" && argc > 3) bench::attend(argv[2], argument(3, 0));
+  if (role == "attend" && argc > 4) bench::attend(argv[2], argv[3], argument(4, 0));
   if (role == "crowd") return bench::crowd(argument(2, 50), argument(3, 10));
   if (role == "ping") return bench::ping(argument(2, 20'000));
   if (role == "world") {

@@ -42,6 +42,10 @@ std::unique_ptr<Bus> join(const std::string& run, const char* name, int max_proc
   config.tag = "bench-" + run;
   config.domain = 77;
   config.max_processes = max_processes;
+  // To try out what settings of Cyclone DDS bring.
+  if (const char* const settings = std::getenv("CYCLONEDDS_URI")) {
+    config.cyclone_settings = settings;
+  }
   auto bus = Bus::open(config);
   if (!bus) {
     std::fprintf(stderr, "%s\n", bus.error().text().c_str());

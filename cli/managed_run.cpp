@@ -14,6 +14,7 @@
 #include "rave/environment_manager/manager.hpp"
 #include "rave/robot_host/build.hpp"
 #include "rave/robot_host/host_run.hpp"
+#include "rave/run_control/folder.hpp"
 
 namespace rave::cli {
 namespace {
@@ -81,6 +82,7 @@ Result<ManagedEnd> manage_steps(const ManagedRun& run, sim::EngineSpec spec,
   how.pace = file.pace.is_max() ? 0 : file.pace.factor;
   how.log = &run.console;
   how.stopping = run.stopping;
+  how.control = &run.control;
   how.on_progress = [&run, &file](const environment_manager::ManagerOptions::Progress& progress) {
     const double sim_s = static_cast<double>(progress.step) * file.step_s.value;
     run.console.show({sim_s / file.duration_s, sim_s, file.duration_s, progress.speed,
@@ -103,6 +105,14 @@ Status write_result(const ManagedRun& run, const LiveManagerOutcome& outcome,
   json["robots"] = run.scenario.robots.size();
   json["worlds"] = outcome.worlds;
   json["states"] = outcome.states;
+  const LiveManagerOutcome::Edits& edits = outcome.edits;
+  const bool measured = edits.confirmed > 0;
+  json["edits"] = edits.made;
+  json["edits_confirmed_by_all"] = edits.confirmed;
+  json["edit_slowest_s"] = measured ? nlohmann::ordered_json(edits.slowest_s) : nullptr;
+  json["edit_mean_s"] =
+      measured ? nlohmann::ordered_json(edits.sum_s / static_cast<double>(edits.confirmed))
+               : nullptr;
   json["hosts"] = nlohmann::ordered_json::array();
   for (const LiveManagerOutcome::Host& host : outcome.hosts) {
     const bool known = host.bound_s >= 0;
@@ -150,7 +160,7 @@ Result<ManagedEnd> wait_for_hosts(const ManagedRun& run, const std::string& live
                                 name, run.scenario.robots.size(), live_reason)};
 }
 
-Result<ManagedEnd> manage_time(const ManagedRun& run, const robot_host::BuiltScenario& built,
+Result<ManagedEnd> manage_time(const ManagedRun& run, robot_host::BuiltScenario built,
                                std::vector<config::PlannedHost> hosts) {
   if (!robot_host::needs_manager(built)) return wait_for_hosts(run, built.live_reason);
   const config::ScenarioFile& file = run.scenario.scenario;
@@ -171,18 +181,27 @@ Result<ManagedEnd> manage_time(const ManagedRun& run, const robot_host::BuiltSce
   how.ends_hosts = static_cast<bool>(run.hosts_ended);
   how.log = &run.console;
   how.stopping = run.stopping;
+  how.control = &run.control;
   how.on_progress = [&run, &file](SimTime now, const std::string& waiting) {
     run.console.show({now.seconds() / file.duration_s, now.seconds(), file.duration_s, 1,
                       run.scenario.robots.size(),
                       waiting.empty() ? std::string() : "without " + waiting});
   };
-  RAVE_TRY_ASSIGN(auto outcome, environment_manager::manage_live(how));
+  RAVE_TRY_ASSIGN(auto outcome, environment_manager::manage_live(std::move(built.spec), how));
   RAVE_TRY(write_result(run, outcome, built.live_reason));
   return ManagedEnd{outcome.whole, true, outcome.problems,
                     summary_of(run.scenario, outcome, built.live_reason)};
 }
 
 }  // namespace
+
+std::unique_ptr<run_control::Server> serve_control(const std::string& scenario,
+                                                   robot_host::RunControl& control, LogSink& log) {
+  auto server = run_control::Server::start(run_control::own_run_name(scenario), control);
+  if (server) return *std::move(server);
+  log.warn("run", "no other terminal can control this run: {}", server.error().message);
+  return nullptr;
+}
 
 Result<ManagedEnd> manage_run(const ManagedRun& run) {
   RAVE_TRY(
@@ -195,8 +214,7 @@ Result<ManagedEnd> manage_run(const ManagedRun& run) {
                 "`processes:` with a number; `rave run` needs neither",
                 run.scenario.scenario.name.value);
   }
-  if (!built.live_reason.empty()) return manage_time(run, built, std::move(hosts));
-  RAVE_TRY(robot_host::check_can_be_shared(built));
+  if (!built.live_reason.empty()) return manage_time(run, std::move(built), std::move(hosts));
   return manage_steps(run, std::move(built.spec), std::move(hosts));
 }
 

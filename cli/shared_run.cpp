@@ -200,12 +200,13 @@ int run_shared(const RunCommand& options, const config::ExpandedScenario& scenar
     if (auto started = crew.start(host); !started) return complain(started.error());
   }
   robot_host::RunControl& control = ended_by_signals();
+  const auto server = serve_control(scenario.scenario.name.value, control, console);
   const auto stopping = [&] {
     crew.look_after();
     return control.stopping() || crew.all_dead();
   };
-  const auto outcome = manage_run({scenario, options, *bus, folder->path(), console, stopping,
-                                   [&crew] { return crew.all_ended(); }});
+  const auto outcome = manage_run({scenario, options, *bus, folder->path(), console, control,
+                                   stopping, [&crew] { return crew.all_ended(); }});
   // In lock-step the last step tells them.
   if (outcome && outcome->live && control.stopping()) crew.interrupt();
   const std::vector<std::string> problems = crew.part();

@@ -13,6 +13,7 @@ namespace rave::bus {
 namespace {
 
 using testing::Box;
+using testing::NewBox;
 using testing::RobotArrays;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();

@@ -20,7 +20,7 @@ using Kind = sim::ObstacleChange::Kind;
 using bus::testing::Decoded;
 using bus::testing::encode;
 
-std::string bits(double value) { return fmt::format("{:x} ", std::bit_cast<std::uint64_t>(value)); }
+std::string hex(double value) { return fmt::format("{:x} ", std::bit_cast<std::uint64_t>(value)); }
 
 std::string text_of(const sim::ObstacleChange& change) {
   const world::Body& body = change.body;
@@ -30,15 +30,15 @@ std::string text_of(const sim::ObstacleChange& change) {
   if (body.code) text += fmt::format("code {} ", *body.code);
   for (const double value :
        {change.X_WB.x, change.X_WB.y, change.X_WB.yaw, body.code_z0_m, body.code_z1_m}) {
-    text += bits(value);
+    text += hex(value);
   }
   for (const world::Shape& shape : body.shapes) {
     text += fmt::format("shape {} ", static_cast<int>(shape.kind));
     for (const double value :
          {shape.centre.x, shape.centre.y, shape.radius_m, shape.z0_m, shape.z1_m}) {
-      text += bits(value);
+      text += hex(value);
     }
-    for (const Vec2 corner : shape.vertices()) text += bits(corner.x) + bits(corner.y);
+    for (const Vec2 corner : shape.vertices()) text += hex(corner.x) + hex(corner.y);
   }
   return text;
 }
@@ -139,7 +139,7 @@ TEST(ObstacleMessages, AMessageLeavesNothingOfTheOneBefore) {
   EXPECT_TRUE(parts.changes().empty());
 }
 
-std::string refusal_of(const std::vector<Vec2>& corners) {
+std::string polygon_refusal(const std::vector<Vec2>& corners) {
   std::vector<double> x;
   std::vector<double> y;
   for (const Vec2 corner : corners) {
@@ -160,13 +160,14 @@ std::string refusal_of(const std::vector<Vec2>& corners) {
 }
 
 TEST(ObstacleMessages, APolygonThatWouldComeOutOtherwiseIsRefused) {
-  EXPECT_EQ(refusal_of({{0, 0}, {1, 0}, {0, 1}}), "");
+  EXPECT_EQ(polygon_refusal({{0, 0}, {1, 0}, {0, 1}}), "");
   const std::string other =
       "obstacle `bale`, shapes[0]: its corners are not those of a polygon that is strictly convex "
       "and counterclockwise";
-  EXPECT_EQ(refusal_of({{0, 0}, {0, 1}, {1, 0}}), other) << "clockwise";
-  EXPECT_EQ(refusal_of({{0, 0}, {0.5, 0}, {1, 0}, {0, 1}}), other) << "on one line";
-  EXPECT_NE(refusal_of({{0, 0}, {1, 0}, {0.1, 0.1}, {0, 1}}).find("not convex"), std::string::npos);
+  EXPECT_EQ(polygon_refusal({{0, 0}, {0, 1}, {1, 0}}), other) << "clockwise";
+  EXPECT_EQ(polygon_refusal({{0, 0}, {0.5, 0}, {1, 0}, {0, 1}}), other) << "on one line";
+  EXPECT_NE(polygon_refusal({{0, 0}, {1, 0}, {0.1, 0.1}, {0, 1}}).find("not convex"),
+            std::string::npos);
 }
 
 TEST(ObstacleMessages, WhatTheBusCannotCarryIsRefused) {

@@ -35,7 +35,10 @@ void serve_requests(HostJourney& journey) {
   control->serve(
       [&journey](const RunRequest& request) {
         auto answer = serve_request(journey.engine, request);
-        if (answer && journey.record != nullptr) journey.record->keep(request, journey.engine);
+        const bool asks = request.kind == RunRequest::Kind::kList;
+        if (answer && !asks && journey.record != nullptr) {
+          journey.record->keep(request, journey.engine.steps_done());
+        }
         return answer;
       },
       [&journey](RunStatus& status) { refresh_status(journey.engine, status); });
@@ -46,6 +49,7 @@ void look_back(HostJourney& journey, std::span<const sim::Event> beside) {
   if (engine.steps_done() == 0) return;
   RunControl* const control = journey.options.run.control;
   if (control != nullptr) control->set_time(engine.time().seconds());
+  journey.kinds.learn(engine.spec().world);
   if (journey.record != nullptr) {
     journey.record->after_step(engine);
     journey.record->keep(beside);
@@ -61,6 +65,14 @@ void look_back(HostJourney& journey, std::span<const sim::Event> beside) {
         "robot `{}`: {} at {:.2f} s: {}", engine.spec().robots[event.robot.value()].name,
         to_string(event.kind), engine.time().seconds(), event.text));
   }
+}
+
+std::vector<sim::Event> obstacle_events(const sim::WorldStep& world) {
+  std::vector<sim::Event> events;
+  for (const sim::ObstacleChange& change : world.obstacles) {
+    events.push_back(sim::obstacle_event(world.step, change, "", !change.asked.empty()));
+  }
+  return events;
 }
 
 ControlledHost::ControlledHost(const sim::Engine& engine, const config::ScenarioFile& file,

@@ -10,6 +10,7 @@
 #include "rave/robot_host/build.hpp"
 #include "rave/robot_host/host_run.hpp"
 #include "rave/sim/engine.hpp"
+#include "rave/sim/world_step.hpp"
 #include "record_keeper.hpp"
 #include "wall_pace.hpp"
 
@@ -31,6 +32,7 @@ struct HostJourney {
   RecordKeeper* record;  ///< May be null.
   const HostOptions& options;
   ConsoleTee& console;
+  BodyKinds& kinds;  ///< Learns of obstacles that come.
   std::vector<sim::Event> events{};
   std::vector<std::string> problems{};
   bool stopped = false;
@@ -47,6 +49,10 @@ void serve_requests(HostJourney& journey);
 /// A step is done, the report of the next one is there: records it and tells its events, and those
 /// that `beside` the engine has.
 void look_back(HostJourney& journey, std::span<const sim::Event> beside = {});
+
+/// What the world says of obstacles in its step; an engine that is one of several hosts has no
+/// events of them.
+[[nodiscard]] std::vector<sim::Event> obstacle_events(const sim::WorldStep& world);
 
 /// Lets others control a host as long as it goes.
 class ControlledHost {

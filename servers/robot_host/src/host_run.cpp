@@ -12,6 +12,7 @@
 #include "rave/robot/interface_hash.hpp"
 #include "rave/robot_host/build.hpp"
 #include "rave/robot_host/provenance.hpp"
+#include "rave/robot_host/world_request.hpp"
 #include "record_keeper.hpp"
 #include "wall_pace.hpp"
 
@@ -34,6 +35,14 @@ Status propose(Journey& journey) {
   // The others shall know why.
   if (!status) journey.port.farewell(journey.report, journey.engine.hash().value());
   return status;
+}
+
+/// What was asked of the world by hand counts from the step that comes now on.
+void keep_requests(Journey& journey) {
+  if (journey.record == nullptr) return;
+  for (const RunRequest& request : requests_in(journey.engine.spec(), journey.world)) {
+    journey.record->keep(request, journey.world.step);
+  }
 }
 
 /// Takes the next step of the world in; false: there is none for this host.
@@ -59,6 +68,7 @@ Result<bool> take_step(Journey& journey) {
     journey.problems.push_back(std::move(text));
   }
   if (journey.world.last) return false;
+  keep_requests(journey);
   RAVE_TRY(journey.engine.join(journey.world, journey.port.authority()));
   return true;
 }
@@ -70,7 +80,7 @@ Status go_through(Journey& journey) {
     RAVE_TRY_ASSIGN(const bool goes_on, take_step(journey));
     if (!goes_on) return {};
     RAVE_TRY(propose(journey));
-    look_back(journey);
+    look_back(journey, obstacle_events(journey.world));
   }
 }
 
@@ -115,13 +125,6 @@ std::uint64_t shared_number(const config::ExpandedScenario& scenario) {
   return lock_step::scenario_number(config::write_expanded(shared));
 }
 
-Status check_can_be_shared(const BuiltScenario& built) {
-  if (built.spec.obstacle_changes.empty()) return {};
-  return fail(ErrorCode::kInvalidArgument,
-              "the scenario changes obstacles while it runs, which hosts in lock-step cannot yet; "
-              "run it in one process");
-}
-
 std::uint64_t interface_stamp() {
   return mix64(robot_interface_hash() ^ mix64(virtual_interface_hash()));
 }
@@ -145,7 +148,6 @@ Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::C
                          std::move(built));
   }
   built.spec.live_clock = nullptr;
-  RAVE_TRY(check_can_be_shared(built));
   for (const std::string& note : built.notes) console.warn("scenario", "{}", note);
   RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(built.spec)));
   RAVE_TRY_ASSIGN(const auto port, HostPort::open(options.bus,
@@ -153,17 +155,18 @@ Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::C
                                                    static_cast<std::uint32_t>(seat.robots.size()),
                                                    shared_number(scenario), interface_stamp()},
                                                   &console));
-  const BodyKinds kinds(engine->spec(), built.robot_kinds);
+  BodyKinds kinds(engine->spec(), built.robot_kinds);
   std::unique_ptr<RecordKeeper> record;
   if (run.record) {
-    RAVE_TRY_ASSIGN(record, RecordKeeper::begin(run.output / "run.mcap", *engine, kinds,
-                                                {scenario.scenario.name.value, expanded,
-                                                 versions_of(engine->spec(), catalogue),
-                                                 input_files(scenario, *engine), true},
-                                                run.log));
+    RAVE_TRY_ASSIGN(record,
+                    RecordKeeper::begin(run.output / "run.mcap", *engine, kinds,
+                                        {scenario.scenario.name.value, expanded,
+                                         host_versions(engine->spec(), catalogue, options.host),
+                                         input_files(scenario, *engine), true},
+                                        run.log));
   }
   const RecordedConsole recorded(console, record ? &record->recorder() : nullptr);
-  Journey journey({*engine, record.get(), options, console}, *port);
+  Journey journey({*engine, record.get(), options, console, kinds}, *port);
   journey.report.host = seat.number;
   const ControlledHost controlled(*engine, scenario.scenario, run.control, false);
   tell_who_waits(*engine, run, console);

@@ -99,6 +99,7 @@ Status make_step(LiveJourney& journey) {
   engine.set_world_age(journey.link.world_age());
   RAVE_TRY(journey.live.step(journey.report, journey.world));
   RAVE_TRY(engine.join(journey.world, {}));
+  journey.link.obstacles_shown();
   tell_places(journey);
   RAVE_TRY(engine.propose(journey.report));
   journey.link.send(journey.report.sent);
@@ -198,7 +199,7 @@ HostLink::Options link_options(const LiveHost& host, const BuiltScenario& built)
 Result<HostOutcome> go(const LiveHost& host, sim::Engine& engine, HostLink& link, LiveWorld& live,
                        const BuiltScenario& built, bool begun) {
   const RunOptions& run = host.options.run;
-  const BodyKinds kinds(engine.spec(), built.robot_kinds);
+  BodyKinds kinds(engine.spec(), built.robot_kinds);
   std::unique_ptr<RecordKeeper> record;
   if (run.record) {
     RAVE_TRY_ASSIGN(record, RecordKeeper::begin(run.output / "run.mcap", engine, kinds,
@@ -209,8 +210,8 @@ Result<HostOutcome> go(const LiveHost& host, sim::Engine& engine, HostLink& link
   }
   const RecordedConsole recorded(host.console, record ? &record->recorder() : nullptr);
   const config::ScenarioFile& file = host.scenario.scenario;
-  LiveJourney journey({engine, record.get(), host.options, host.console}, link, live, host.pace,
-                      report_groups(host.scenario, host.seat));
+  LiveJourney journey({engine, record.get(), host.options, host.console, kinds}, link, live,
+                      host.pace, report_groups(host.scenario, host.seat));
   journey.steps = static_cast<std::uint64_t>(std::llround(file.duration_s / file.step_s.value));
   const ControlledHost controlled(engine, file, run.control, true);
   tell_who_waits(engine, run, host.console);
@@ -240,7 +241,7 @@ Result<HostOutcome> run_live_host(const LiveHost& host, BuiltScenario built) {
   host.console.warn("run", "the run goes at real time, because {}", built.live_reason);
   for (const std::string& note : built.notes) host.console.warn("scenario", "{}", note);
   built.spec.own_authority = true;
-  RAVE_TRY_ASSIGN(const auto live, LiveWorld::create(built.spec));
+  RAVE_TRY_ASSIGN(const auto live, LiveWorld::create(built.spec, !needs_manager(built)));
   RAVE_TRY_ASSIGN(const auto link, HostLink::open(link_options(host, built), *live));
   // The run starts when all devices are open here, and everywhere.
   RunControl* const control = host.options.run.control;

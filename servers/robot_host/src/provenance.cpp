@@ -132,4 +132,11 @@ Files versions_of(const sim::EngineSpec& spec, plugin::Catalogue& catalogue) {
   return versions;
 }
 
+Files host_versions(const sim::EngineSpec& spec, plugin::Catalogue& catalogue,
+                    const std::string& host) {
+  Files versions = versions_of(spec, catalogue);
+  versions["host"] = host;
+  return versions;
+}
+
 }  // namespace rave::robot_host

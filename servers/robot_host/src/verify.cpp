@@ -5,6 +5,7 @@
 
 #include <chrono>
 
+#include "host_again.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/record/run_reader.hpp"
 #include "rave/robot_host/build.hpp"
@@ -20,6 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
+
+/// Among the versions of a record: of which host of several it is.
+constexpr std::string_view kHost = "host";
 
 /// A folder for the second record, removed again.
 class Scratch {
@@ -71,14 +75,35 @@ Result<std::vector<record::RunInput>> read_inputs(const record::McapReader& read
   return inputs;
 }
 
+/// The run that is done again: of all robots in one engine, or of one host of several.
+struct Again {
+  sim::Engine& engine;
+  std::function<Status()> step;
+  std::function<Result<std::string>(const RunRequest&)> ask;
+  std::function<std::vector<sim::Event>()> beside;  ///< Events that the engine does not have.
+};
+
+Again again_of(sim::Engine& engine) {
+  return {engine, [&engine] { return engine.step(); },
+          [&engine](const RunRequest& request) { return serve_request(engine, request); },
+          [] { return std::vector<sim::Event>(); }};
+}
+
+Again again_of(HostAgain& host) {
+  return {host.engine(), [&host] { return host.step(); },
+          [&host](const RunRequest& request) { return host.ask(request); },
+          [&host] { return host.beside(); }};
+}
+
 /// Asks for the same again, at the same steps.
 class InputReplay {
  public:
   explicit InputReplay(std::vector<record::RunInput> inputs) : inputs_(std::move(inputs)) {}
 
   /// Those before the step that comes next. What is refused now was not refused then.
-  Status serve(sim::Engine& engine, RecordKeeper& keeper, VerifyOutcome& outcome) {
-    for (; next_ < inputs_.size() && inputs_[next_].step <= engine.steps_done(); ++next_) {
+  Status serve(const Again& again, RecordKeeper& keeper, VerifyOutcome& outcome) {
+    const std::uint64_t step = again.engine.steps_done();
+    for (; next_ < inputs_.size() && inputs_[next_].step <= step; ++next_) {
       const record::RunInput& input = inputs_[next_];
       const auto kind = request_kind(input.kind);
       if (!kind) {
@@ -86,9 +111,9 @@ class InputReplay {
                     "the record has an input `{}`, which this RAVE does not know", input.kind);
       }
       const RunRequest request{*kind, input.robot, input.key, input.value};
-      const auto answer = serve_request(engine, request);
+      const auto answer = again.ask(request);
       if (answer) {
-        keeper.keep(request, engine);
+        keeper.keep(request, step);
       } else {
         outcome.notes.push_back(
             fmt::format("step {}: `{}` was done in the record and is refused "
@@ -120,6 +145,7 @@ void compare_inputs(const record::RunInfo& run, VerifyOutcome& outcome) {
 void compare_versions(const record::RunInfo& run, const record::StringMap& now,
                       VerifyOutcome& outcome) {
   for (const auto& [name, recorded] : run.versions) {
+    if (name == kHost) continue;
     const auto found = now.find(name);
     const std::string version = found == now.end() ? "none" : found->second;
     if (version != recorded) {
@@ -165,9 +191,10 @@ Result<config::ExpandedScenario> scenario_of(const record::RunInfo& run, const f
 
 /// Steps until the recorded run ended, or one step beyond the first whose hash differs: what a step
 /// resolves is seen in the poses of the next.
-Status run_again(sim::Engine& engine, RecordKeeper& keeper, BodyKinds& kinds, InputReplay inputs,
+Status run_again(const Again& again, RecordKeeper& keeper, BodyKinds& kinds, InputReplay inputs,
                  const std::vector<std::uint64_t>& hashes, const VerifyOptions& options,
                  VerifyOutcome& outcome) {
+  sim::Engine& engine = again.engine;
   StallWatch watch(options.log);
   const auto begin = Clock::now();
   auto next_progress = begin;
@@ -178,12 +205,13 @@ Status run_again(sim::Engine& engine, RecordKeeper& keeper, BodyKinds& kinds, In
       outcome.ended_early = true;
       return {};
     }
-    RAVE_TRY(inputs.serve(engine, keeper, outcome));
+    RAVE_TRY(inputs.serve(again, keeper, outcome));
     watch.step_begins(outcome.steps);
-    RAVE_TRY(engine.step());
+    RAVE_TRY(again.step());
     watch.step_ends();
     kinds.learn(engine.spec().world);
     keeper.after_step(engine);
+    keeper.keep(again.beside());
     ++outcome.steps;
     if (differs) return {};
     const std::uint64_t done = outcome.steps - 1;
@@ -197,7 +225,7 @@ Status run_again(sim::Engine& engine, RecordKeeper& keeper, BodyKinds& kinds, In
     options.on_progress({sim_s / end_s, sim_s, end_s, wall_s > 0 ? sim_s / wall_s : 0,
                          engine.spec().robots.size(), "comparing"});
   }
-  RAVE_TRY(inputs.serve(engine, keeper, outcome));
+  RAVE_TRY(inputs.serve(again, keeper, outcome));
   outcome.hash = engine.hash().value();
   return {};
 }
@@ -236,22 +264,31 @@ Result<VerifyOutcome> verify(const fs::path& record, plugin::Catalogue& catalogu
   RAVE_TRY(note_length(reader, run, end, outcome));
   built.spec.live_clock = nullptr;
   BodyKinds kinds(built.spec, built.robot_kinds);
-  RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(built.spec)));
-  compare_versions(run, versions_of(engine->spec(), catalogue), outcome);
+  std::unique_ptr<sim::Engine> alone;
+  std::unique_ptr<HostAgain> of_host;
+  if (const auto host = run.versions.find(std::string(kHost)); host != run.versions.end()) {
+    RAVE_TRY_ASSIGN(of_host, HostAgain::create(scenario, host->second, catalogue,
+                                               {options.program_runner, options.log, &pace}));
+  } else {
+    RAVE_TRY_ASSIGN(alone, sim::Engine::create(std::move(built.spec)));
+  }
+  const Again again = of_host ? again_of(*of_host) : again_of(*alone);
+  const sim::Engine& engine = again.engine;
+  compare_versions(run, versions_of(engine.spec(), catalogue), outcome);
   RAVE_TRY_ASSIGN(const auto hashes, read_hashes(reader));
   RAVE_TRY_ASSIGN(const Scratch scratch, Scratch::create());
   RAVE_TRY_ASSIGN(const auto keeper,
-                  RecordKeeper::begin(scratch.file(), *engine, kinds,
+                  RecordKeeper::begin(scratch.file(), engine, kinds,
                                       {run.scenario, "", {}, {}, true}, options.log));
   RAVE_TRY_ASSIGN(auto inputs, read_inputs(reader));
   RAVE_TRY(
-      run_again(*engine, *keeper, kinds, InputReplay(std::move(inputs)), hashes, options, outcome));
-  RAVE_TRY(keeper->end(engine->hash().value()));
-  RAVE_TRY_ASSIGN(const auto again, record::McapReader::open(scratch.file()));
-  RAVE_TRY_ASSIGN(const RecordMatch match, match_records(reader, again, run, !end));
+      run_again(again, *keeper, kinds, InputReplay(std::move(inputs)), hashes, options, outcome));
+  RAVE_TRY(keeper->end(engine.hash().value()));
+  RAVE_TRY_ASSIGN(const auto second, record::McapReader::open(scratch.file()));
+  RAVE_TRY_ASSIGN(const RecordMatch match, match_records(reader, second, run, !end));
   outcome.messages = match.messages;
   outcome.difference = match.difference;
-  judge_hash(hashes, *engine, outcome);
+  judge_hash(hashes, engine, outcome);
   return outcome;
 }
 

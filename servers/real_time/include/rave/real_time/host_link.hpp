@@ -41,7 +41,8 @@ class HostLink {
   HostLink& operator=(const HostLink&) = delete;
   ~HostLink();
 
-  /// Waits until the run has a time and, if it sees, a first world; from then on zero() stands.
+  /// Waits until the run has a time, all obstacles and, if it sees, a first world; from then on
+  /// zero() stands.
   /// `stopping` is asked ten times a second. False: somebody wants to stop. The log is told for
   /// whom it waits. Errors: kState (this host is served by another process, or the manager does not
   /// fit).
@@ -61,6 +62,10 @@ class HostLink {
   void tell(const sim::Engine& engine, std::span<const RobotId> robots);
   /// Sends what robots here said in a step.
   void send(const sim::SentPackets& sent);
+
+  /// The last step has the obstacles of LiveWorld::shown_revision() around its robots; the manager
+  /// is told when that is more than before.
+  void obstacles_shown();
 
   /// For how long no world has come; 0 if it does not see.
   [[nodiscard]] Duration world_age() const;

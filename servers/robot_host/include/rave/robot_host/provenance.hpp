@@ -28,4 +28,9 @@ namespace rave::robot_host {
 [[nodiscard]] std::map<std::string, std::string> versions_of(const sim::EngineSpec& spec,
                                                              plugin::Catalogue& catalogue);
 
+/// The same of one host of several, and its name: `host`.
+[[nodiscard]] std::map<std::string, std::string> host_versions(const sim::EngineSpec& spec,
+                                                               plugin::Catalogue& catalogue,
+                                                               const std::string& host);
+
 }  // namespace rave::robot_host

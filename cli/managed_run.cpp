@@ -13,6 +13,7 @@
 #include "rave/environment_manager/manager.hpp"
 #include "rave/robot_host/build.hpp"
 #include "rave/robot_host/host_run.hpp"
+#include "rave/run_control/folder.hpp"
 
 namespace rave::cli {
 namespace {
@@ -63,6 +64,7 @@ Result<ManagedEnd> manage_steps(const ManagedRun& run, robot_host::BuiltScenario
   how.pace = file.pace.is_max() ? 0 : file.pace.factor;
   how.log = &run.console;
   how.stopping = run.stopping;
+  how.control = &run.control;
   how.on_progress = [&run, &file](const environment_manager::ManagerOptions::Progress& progress) {
     const double sim_s = static_cast<double>(progress.step) * file.step_s.value;
     run.console.show({sim_s / file.duration_s, sim_s, file.duration_s, progress.speed,
@@ -81,16 +83,21 @@ Result<ManagedEnd> manage_steps(const ManagedRun& run, robot_host::BuiltScenario
   return end;
 }
 
-/// What is known of a run in real time; without a manager the hosts alone know more.
-Result<ManagedEnd> live_end(const ManagedRun& run, const robot_host::BuiltScenario& built,
-                            LiveManagerOutcome outcome) {
+/// Of a run in real time, before it begins.
+Result<ManagedEnd> begin_live(const ManagedRun& run, const robot_host::BuiltScenario& built) {
   ManagedEnd end;
   end.live = true;
   RAVE_TRY_ASSIGN(end.results, results_of(run, built));
   RAVE_TRY_ASSIGN(const auto hosts, config::plan_hosts(run.scenario));
   for (const config::PlannedHost& planned : hosts) {
-    robot_host::SharedHost& host = end.end.hosts.emplace_back();
-    host.name = planned.name;
+    end.end.hosts.emplace_back().name = planned.name;
+  }
+  return end;
+}
+
+/// What is known of it then; without a manager the hosts alone know more.
+void note_outcome(LiveManagerOutcome outcome, ManagedEnd& end) {
+  for (robot_host::SharedHost& host : end.end.hosts) {
     for (const LiveManagerOutcome::Host& met : outcome.hosts) {
       if (met.name != host.name) continue;
       host.heard = met.heard;
@@ -102,9 +109,10 @@ Result<ManagedEnd> live_end(const ManagedRun& run, const robot_host::BuiltScenar
   }
   end.end.worlds = outcome.worlds;
   end.end.states = outcome.states;
+  end.end.edits = robot_host::SharedEdits{outcome.edits.made, outcome.edits.confirmed,
+                                          outcome.edits.slowest_s, outcome.edits.sum_s};
   end.end.wall_s = outcome.end.seconds();
   end.end.problems = std::move(outcome.problems);
-  return end;
 }
 
 /// Hosts that need nobody.
@@ -128,10 +136,12 @@ Result<ManagedEnd> wait_for_hosts(const ManagedRun& run, const robot_host::Built
   outcome.end = SimTime{
       std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - began)
           .count()};
-  return live_end(run, built, std::move(outcome));
+  RAVE_TRY_ASSIGN(auto end, begin_live(run, built));
+  note_outcome(std::move(outcome), end);
+  return end;
 }
 
-Result<ManagedEnd> manage_time(const ManagedRun& run, const robot_host::BuiltScenario& built,
+Result<ManagedEnd> manage_time(const ManagedRun& run, robot_host::BuiltScenario built,
                                std::vector<config::PlannedHost> hosts) {
   if (!robot_host::needs_manager(built)) return wait_for_hosts(run, built);
   const config::ScenarioFile& file = run.scenario.scenario;
@@ -152,16 +162,27 @@ Result<ManagedEnd> manage_time(const ManagedRun& run, const robot_host::BuiltSce
   how.ends_hosts = static_cast<bool>(run.hosts_ended);
   how.log = &run.console;
   how.stopping = run.stopping;
+  how.control = &run.control;
   how.on_progress = [&run, &file](SimTime now, const std::string& waiting) {
     run.console.show({now.seconds() / file.duration_s, now.seconds(), file.duration_s, 1,
                       run.scenario.robots.size(),
                       waiting.empty() ? std::string() : "without " + waiting});
   };
-  RAVE_TRY_ASSIGN(auto outcome, environment_manager::manage_live(how));
-  return live_end(run, built, std::move(outcome));
+  RAVE_TRY_ASSIGN(auto end, begin_live(run, built));
+  RAVE_TRY_ASSIGN(auto outcome, environment_manager::manage_live(std::move(built.spec), how));
+  note_outcome(std::move(outcome), end);
+  return end;
 }
 
 }  // namespace
+
+std::unique_ptr<run_control::Server> serve_control(const std::string& scenario,
+                                                   robot_host::RunControl& control, LogSink& log) {
+  auto server = run_control::Server::start(run_control::own_run_name(scenario), control);
+  if (server) return *std::move(server);
+  log.warn("run", "no other terminal can control this run: {}", server.error().message);
+  return nullptr;
+}
 
 Result<ManagedEnd> manage_run(const ManagedRun& run) {
   RAVE_TRY(
@@ -174,8 +195,7 @@ Result<ManagedEnd> manage_run(const ManagedRun& run) {
                 "`processes:` with a number; `rave run` needs neither",
                 run.scenario.scenario.name.value);
   }
-  if (!built.live_reason.empty()) return manage_time(run, built, std::move(hosts));
-  RAVE_TRY(robot_host::check_can_be_shared(built));
+  if (!built.live_reason.empty()) return manage_time(run, std::move(built), std::move(hosts));
   return manage_steps(run, std::move(built), std::move(hosts));
 }
 

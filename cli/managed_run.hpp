@@ -12,7 +12,9 @@
 #include "rave/base/result.hpp"
 #include "rave/bus/config.hpp"
 #include "rave/config/expanded_scenario.hpp"
+#include "rave/robot_host/run_control.hpp"
 #include "rave/robot_host/shared_results.hpp"
+#include "rave/run_control/server.hpp"
 
 namespace rave::cli {
 
@@ -23,10 +25,17 @@ struct ManagedRun {
   const bus::BusConfig& bus;
   std::filesystem::path folder;  ///< Gets scenario.yaml and, of ManagedEnd::results, the rest.
   Console& console;
+  robot_host::RunControl& control;  ///< What others ask of the run.
   std::function<bool()> stopping;
   /// Set: the hosts belong to this process; whether all of them have ended.
   std::function<bool()> hosts_ended;
 };
+
+/// Lets other terminals control a managed run, under the name of its scenario, until it is
+/// destroyed. Null: they cannot, and the log says why.
+[[nodiscard]] std::unique_ptr<run_control::Server> serve_control(const std::string& scenario,
+                                                                 robot_host::RunControl& control,
+                                                                 LogSink& log);
 
 /// How it ended.
 struct ManagedEnd {

@@ -196,11 +196,12 @@ int run_shared(const RunCommand& options, const config::ExpandedScenario& scenar
     if (auto started = crew.start(host); !started) return complain(started.error());
   }
   robot_host::RunControl& control = ended_by_signals();
+  const auto server = serve_control(scenario.scenario.name.value, control, console);
   const auto stopping = [&] {
     crew.look_after();
     return control.stopping() || crew.all_dead();
   };
-  auto managed = manage_run({scenario, options, *bus, folder->path(), console, stopping,
+  auto managed = manage_run({scenario, options, *bus, folder->path(), console, control, stopping,
                              [&crew] { return crew.all_ended(); }});
   // In lock-step the last step tells them.
   if (managed && managed->live && control.stopping()) crew.interrupt();

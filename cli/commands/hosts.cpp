@@ -66,7 +66,7 @@ int robot(const RobotCommand& options) {
   how.run.log = &console;
   how.run.control = &control;
   how.run.arm = run.arm;
-  how.run.run_name = run_control::own_run_name(name);
+  how.run.run_name = run_control::own_run_name(scenario->scenario.name.value, options.host);
   auto server = run_control::Server::start(how.run.run_name, control);
   if (!server) {
     console.warn("host", "no other terminal can control this host: {}", server.error().message);
@@ -93,12 +93,14 @@ int env(const EnvCommand& options) {
     return complain(opened.error());
   }
   robot_host::RunControl& control = ended_by_signals();
+  const auto server = serve_control(scenario->scenario.name.value, control, console);
   bool started = false;
   auto managed = manage_run({*scenario,
                              run,
                              *bus,
                              folder->path(),
                              console,
+                             control,
                              [&] {
                                started = true;
                                return control.stopping();

@@ -94,6 +94,24 @@ inline Status check_id(std::string_view field, std::uint32_t id) {
   return {};
 }
 
+/// A change of an obstacle as its authority made it; whether its polygons are convex is for those
+/// who make shapes of them. `field`: where it stands in its message.
+[[nodiscard]] Status check_obstacle_change(const std::string& field,
+                                           const rave_wire_ObstacleChange& change);
+
+template <class Sequence>
+Status check_obstacle_changes(std::string_view list, const Sequence& sequence) {
+  const auto changes = elements(sequence);
+  if (changes.size() > rave_wire_kMaxObstacleChanges) {
+    return invalid(fmt::format("{} has {} entries, more than {}", list, changes.size(),
+                               rave_wire_kMaxObstacleChanges));
+  }
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    RAVE_TRY(check_obstacle_change(fmt::format("{}[{}]", list, i), changes[i]));
+  }
+  return {};
+}
+
 template <class Sample>
 Status check_writer(const Sample& sample) {
   if (sample.writer == 0) return invalid("writer is 0");

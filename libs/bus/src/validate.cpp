@@ -155,16 +155,6 @@ Status validate(const RosterEntry& sample) {
   return {};
 }
 
-Status validate(const Obstacle& sample) {
-  RAVE_TRY(check_writer(sample));
-  RAVE_TRY(check_id("id", sample.id));
-  RAVE_TRY(check_label("name", sample.name, false));
-  RAVE_TRY(check_label("author", sample.author, false));
-  if (sample.layer > rave_wire_LAYER_MAPPED_REAL) return invalid("layer is unknown");
-  RAVE_TRY(check_pose(sample));
-  return check_body(sample.body, !sample.removed);
-}
-
 Status validate(const Edit& sample) {
   RAVE_TRY(check_writer(sample));
   RAVE_TRY(check_label("author", sample.author, true));
@@ -224,6 +214,7 @@ Status validate(const ClockPing& sample) {
   RAVE_TRY(check_writer(sample));
   if (sample.target == 0) return invalid("target is 0");
   RAVE_TRY(check_time("run_ns", sample.run_ns));
+  RAVE_TRY(check_time("obstacles_ns", sample.obstacles_ns));
   RAVE_TRY(check_time("offset_ns", sample.offset_ns));
   return check_time("bound_ns", sample.bound_ns);
 }

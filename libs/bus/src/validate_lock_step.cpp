@@ -79,6 +79,17 @@ Status check_named(std::string_view list, const Sequence& sequence, std::size_t 
                              wrong - entries.begin(), wrong->robot, robots));
 }
 
+/// As check_named(), but an event may concern the world and no robot.
+Status check_events(const rave_wire_AuthorityState& authority, std::size_t robots) {
+  const auto events = elements(authority.events);
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    if (events[i].robot < robots || events[i].robot == rave_wire_kNone) continue;
+    return invalid(fmt::format("authority.events[{}] is of robot {}, but there are {}", i,
+                               events[i].robot, robots));
+  }
+  return {};
+}
+
 Status check_inputs(const WorldStep& world) {
   for (const auto& input : elements(world.inputs)) {
     for (const auto& change : elements(input.changes)) {
@@ -111,11 +122,13 @@ Status validate(const WorldStep& sample) {
   RAVE_TRY(check_named("poses", sample.poses, robots));
   RAVE_TRY(check_named("samples", sample.samples, robots));
   RAVE_TRY(check_named("resized", sample.resized, robots));
-  RAVE_TRY(check_named("authority.events", sample.authority.events, robots));
+  RAVE_TRY(check_events(sample.authority, robots));
   RAVE_TRY(check_named("authority.scales", sample.authority.scales, robots));
   RAVE_TRY(check_sent(sample.sent));
   RAVE_TRY(check_poses(sample.poses));
   RAVE_TRY(check_samples(sample.samples));
+  RAVE_TRY(check_obstacle_changes("obstacles", sample.obstacles));
+  RAVE_TRY(check_obstacle_changes("authority.obstacles", sample.authority.obstacles));
   return check_inputs(sample);
 }
 

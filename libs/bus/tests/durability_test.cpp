@@ -25,8 +25,8 @@ TEST(Durability, ALateReaderHasAllFiveObstaclesAndRobotsNotOne) {
   std::set<std::string> robots;
   EXPECT_TRUE(eventually([&] {
     obstacles->take([&](const Obstacle& obstacle) {
-      EXPECT_EQ(elements(elements(obstacle.body).front().x_m).size(), 4U);
-      boxes.insert(obstacle.name);
+      EXPECT_EQ(elements(elements(obstacle.stands.shapes).front().x_m).size(), 4U);
+      boxes.insert(obstacle.stands.name);
     });
     roster->take([&](const RosterEntry& entry) { robots.insert(entry.name); });
     return boxes.size() >= 5 && robots.size() >= 5;

@@ -72,12 +72,8 @@ void furnish(Bus& bus, const Arguments& arguments) {
   auto roster = Writer<RosterEntry>::create(bus);
   Box box;
   for (std::uint32_t i = 0; i < number(arguments, "count"); ++i) {
-    Obstacle obstacle{};
-    obstacle.id = i;
-    obstacle.revision = i + 1;
-    put_text(obstacle.name, "box" + std::to_string(i));
-    box.lend(obstacle.body);
-    static_cast<void>(obstacles->write(obstacle));
+    NewBox obstacle(i);
+    static_cast<void>(obstacles->write(obstacle.sample));
     RosterEntry entry{};
     entry.robot = i;
     put_text(entry.name, "robot" + std::to_string(i));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "rave/bus/sequence.hpp"
@@ -61,6 +62,27 @@ struct Box {
   template <class Sequence>
   void lend(Sequence& body) {
     borrow(body, prisms);
+  }
+};
+
+/// An obstacle that came: a box of 1 m.
+struct NewBox {
+  Box box;
+  std::vector<rave_wire_BodyShape> shapes = std::vector<rave_wire_BodyShape>(1);
+  Obstacle sample{};
+
+  explicit NewBox(std::uint32_t id) {
+    sample.writer = 1;
+    sample.id = id;
+    sample.revision = id + std::uint64_t{1};
+    sample.stands.kind = rave_wire_OBSTACLE_ADD;
+    sample.stands.id = id;
+    put_text(sample.stands.name, "box" + std::to_string(id));
+    shapes[0].kind = rave_wire_SHAPE_POLYGON;
+    borrow(shapes[0].x_m, box.x);
+    borrow(shapes[0].y_m, box.y);
+    shapes[0].z_max_m = 1;
+    borrow(sample.stands.shapes, shapes);
   }
 };
 

@@ -13,6 +13,7 @@ namespace rave::bus {
 namespace {
 
 using testing::Box;
+using testing::NewBox;
 using testing::RobotArrays;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -121,11 +122,13 @@ TEST(Validate, LooksAtBothListsOfAHost) {
   EXPECT_EQ(reason(state), "host is none");
 }
 
-/// Obstacles with the body that a test makes.
+/// Roster entries with the body that a test makes.
 std::string judge_body(Box& box) {
-  auto obstacle = written<Obstacle>();
-  box.lend(obstacle.body);
-  return reason(obstacle);
+  RosterEntry entry{};
+  entry.writer = 1;
+  put_text(entry.name, "anna");
+  box.lend(entry.body);
+  return reason(entry);
 }
 
 TEST(Validate, WantsBodiesConvexAndCounterclockwise) {
@@ -171,11 +174,45 @@ TEST(Validate, WantsBodiesWithHeightAndCorners) {
   EXPECT_TRUE(judge_body(infinite).starts_with("body[0].x_m is inf"));
 }
 
-TEST(Validate, AnObstacleThatIsGoneNeedsNoBody) {
-  auto obstacle = written<Obstacle>();
-  EXPECT_EQ(reason(obstacle), "body is empty");
-  obstacle.removed = true;
-  EXPECT_EQ(reason(obstacle), "accepted");
+template <class Spoil>
+std::string judge_obstacle(Spoil&& spoil) {
+  NewBox box(3);
+  spoil(box.sample, box.shapes[0]);
+  return reason(box.sample);
+}
+
+TEST(Validate, ObstaclesAreWhatSomebodyCanBuild) {
+  using Shape = rave_wire_BodyShape;
+  EXPECT_EQ(judge_obstacle([](Obstacle&, Shape&) {}), "accepted");
+  EXPECT_EQ(judge_obstacle([](Obstacle& o, Shape&) { o.revision = 0; }), "revision is 0");
+  EXPECT_EQ(judge_obstacle([](Obstacle& o, Shape&) { o.stands.id = 4; }),
+            "stands.id is 4, of obstacle 3");
+  EXPECT_EQ(judge_obstacle([](Obstacle& o, Shape&) { o.stands.x_m = kNaN; }),
+            "stands.x_m is nan, not within +-10000000");
+  EXPECT_EQ(judge_obstacle([](Obstacle& o, Shape&) { o.stands.shapes._length = 0; }),
+            "stands.shapes is empty");
+  EXPECT_EQ(judge_obstacle([](Obstacle& o, Shape&) { o.stands.name[1] = '\x1b'; }),
+            "stands.name has control characters");
+  EXPECT_EQ(judge_obstacle([](Obstacle&, Shape& s) { s.x_m._length = 2; }),
+            "stands.shapes[0] has 2 x and 4 y; a polygon has 3 corners or more");
+  EXPECT_EQ(judge_obstacle([](Obstacle&, Shape& s) { s.kind = rave_wire_SHAPE_DISC; }),
+            "stands.shapes[0] has 4 x and 4 y; a disc has one of each");
+  EXPECT_EQ(judge_obstacle([](Obstacle&, Shape& s) { s.radius_m = 1; }),
+            "stands.shapes[0].radius_m is 1");
+  EXPECT_EQ(judge_obstacle([](Obstacle&, Shape& s) { s.z_min_m = 2; }),
+            "stands.shapes[0]: z_min_m 2 is not below z_max_m 1");
+  EXPECT_EQ(judge_obstacle([](Obstacle&, Shape& s) { s.x_m._buffer[2] = kInfinity; }),
+            "stands.shapes[0].x_m is inf, not within +-10000000");
+}
+
+TEST(Validate, AnObstacleThatMovedHasNoBody) {
+  NewBox box(3);
+  box.sample.stands.kind = rave_wire_OBSTACLE_MOVE;
+  EXPECT_EQ(reason(box.sample), "stands.shapes are of one that is not new");
+  box.sample.stands.shapes._length = 0;
+  EXPECT_EQ(reason(box.sample), "accepted");
+  box.sample.removed = true;
+  EXPECT_EQ(reason(box.sample), "removed is set of an obstacle that did not come");
 }
 
 TEST(Validate, RosterEntriesHaveNamesThatCanBeShown) {

@@ -60,11 +60,9 @@ Result<std::unique_ptr<Part>> open_part(const fs::path& path) {
   }
   auto end = read_run_end(reader);
   MomentCursor cursor(reader, merged_topics());
-  const StringMap whose = metadata_of(reader, kHostMetadata);
-  const auto name = whose.find("name");
-  auto part =
-      std::make_unique<Part>(Part{path, name == whose.end() ? "" : name->second, std::move(reader),
-                                  *std::move(info), end, std::move(cursor)});
+  std::string host = host_of(reader);
+  auto part = std::make_unique<Part>(
+      Part{path, std::move(host), std::move(reader), *std::move(info), end, std::move(cursor)});
   if (!part->end) part->torn = "it has no end";
   if (!part->reader.damages().empty()) part->torn = part->reader.damages().front();
   return part;
@@ -260,8 +258,14 @@ Status Merger::write_moment(RunRecorder& recorder) {
     for (const RadioPacket& packet : all.items) recorder.radio(packet);
   });
   Once<RunEvent> events;
+  const bool authority =
+      std::ranges::any_of(parts_, [](const auto& part) { return part->host.empty(); });
   each_item(parts_, topic::kEvents, decode_event, [&](const Part& part, const auto& all) {
-    for (const RunEvent& event : all.items) events.add(&part, event);
+    for (const RunEvent& event : all.items) {
+      // What happens to the world the authority knows best.
+      const bool of_world = !event.robot.valid();
+      if (!of_world || !authority || part.host.empty()) events.add(&part, event);
+    }
   });
   std::ranges::stable_sort(events.items(), {}, &RunEvent::robot);
   for (const RunEvent& event : events.items()) RAVE_TRY(recorder.event(event));
@@ -344,6 +348,12 @@ Result<std::vector<std::string>> merge_records(const std::vector<fs::path>& part
   fs::rename(draft, output, error);
   if (!error) return notes;
   return fail(ErrorCode::kIo, "cannot write `{}`: {}", output.string(), error.message());
+}
+
+std::string host_of(const McapReader& reader) {
+  const StringMap whose = metadata_of(reader, kHostMetadata);
+  const auto name = whose.find("name");
+  return name == whose.end() ? std::string() : name->second;
 }
 
 bool is_merged(const McapReader& reader) {

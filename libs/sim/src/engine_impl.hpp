@@ -187,7 +187,7 @@ struct Engine::Impl {
   [[nodiscard]] Status check(const WorldStep& world) const;
   Status make_changes(const WorldStep& world);
   Status catch_up(const WorldStep& world, const AuthorityState& state);
-  void put_obstacle(const ObstacleChange& change);
+  void put_obstacles(std::span<const ObstacleChange> changes);
   void do_input(const WorldInput& input);
   void adopt(const WorldStep& world);
   Status take_newer_samples();

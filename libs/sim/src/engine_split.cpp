@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
+#include <vector>
 
 #include "engine_impl.hpp"
 #include "message_checks.hpp"
@@ -14,6 +16,26 @@ bool of_body(const ScheduledChange& scheduled) {
   return std::any_of(scheduled.changes.begin(), scheduled.changes.end(), [](const auto& change) {
     return change.part == ParameterChange::Part::kBody;
   });
+}
+
+/// What of a change of an obstacle has not been made yet in this world; ids of new ones ascend.
+std::optional<ObstacleChange> left_to_do(const world::WorldModel& world,
+                                         const ObstacleChange& change) {
+  using Kind = ObstacleChange::Kind;
+  const world::Obstacle* const obstacle = world.obstacle(change.id.value());
+  if (obstacle == nullptr) return change;
+  if (obstacle->removed) return std::nullopt;
+  if (change.kind == Kind::kRemove) return change;
+  const Pose2& X_WB = obstacle->X_WB;
+  const bool there =
+      X_WB.x == change.X_WB.x && X_WB.y == change.X_WB.y && X_WB.yaw == change.X_WB.yaw;
+  if (there) return std::nullopt;
+  ObstacleChange move;
+  move.kind = Kind::kMove;
+  move.id = change.id;
+  move.name = change.name;
+  move.X_WB = change.X_WB;
+  return move;
 }
 
 }  // namespace
@@ -109,7 +131,8 @@ Status Engine::join(const WorldStep& world, const AuthorityState& state) {
   Impl& engine = *impl_;
   const bool later = engine.host && engine.host->proposed && world.step > engine.step;
   if (!later) return apply(world);
-  RAVE_TRY(check_taken_over(engine.spec, world, state));
+  const bool missed = state.obstacle_changes != engine.host->obstacle_changes;
+  RAVE_TRY(check_taken_over(engine.spec, world, state, missed));
   PhaseTimer phase(engine.spec.phase_clock, engine.phase_times);
   engine.step = world.step;
   engine.now = engine.step_time(world.step);
@@ -122,8 +145,14 @@ Status Engine::join(const WorldStep& world, const AuthorityState& state) {
 
 /// Makes the changes that this host was not there for; those of the world itself come with it.
 Status Engine::Impl::catch_up(const WorldStep& world, const AuthorityState& state) {
-  while (host->obstacle_changes + world.obstacles.size() < state.obstacles.size()) {
-    put_obstacle(state.obstacles[host->obstacle_changes]);
+  if (host->obstacle_changes != state.obstacle_changes) {
+    std::vector<ObstacleChange> missed;
+    for (const ObstacleChange& change : state.obstacles) {
+      const auto left = left_to_do(spec.world, change);
+      if (left) missed.push_back(*left);
+    }
+    put_obstacles(missed);
+    host->obstacle_changes = state.obstacle_changes;
   }
   for (const ResizedRobot& resized : state.scales) {
     if (truth.scale_of(resized.robot) == resized.scale) continue;
@@ -177,9 +206,7 @@ Status Engine::Impl::make_changes(const WorldStep& world) {
     body_changed(resized.robot);
     tell_program_of_body(resized.robot);
   }
-  for (const ObstacleChange& change : world.obstacles) {
-    put_obstacle(change);
-  }
+  put_obstacles(world.obstacles);
   for (const WorldInput& input : world.inputs) do_input(input);
   for (; next_change < spec.changes.size() && spec.changes[next_change].step <= step;
        ++next_change) {
@@ -190,10 +217,11 @@ Status Engine::Impl::make_changes(const WorldStep& world) {
   return {};
 }
 
-void Engine::Impl::put_obstacle(const ObstacleChange& change) {
-  truth.put_obstacle(change, step_time(step));
-  obstacle_changed(change);
-  ++host->obstacle_changes;
+void Engine::Impl::put_obstacles(std::span<const ObstacleChange> changes) {
+  if (changes.empty()) return;
+  truth.put_obstacles(changes, step_time(step),
+                      [this](const ObstacleChange& change) { obstacle_changed(change); });
+  host->obstacle_changes += changes.size();
 }
 
 void Engine::Impl::do_input(const WorldInput& input) {

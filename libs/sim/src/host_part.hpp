@@ -50,7 +50,8 @@ struct HostPart {
   SentPackets sent;                    ///< Of the step.
   std::vector<PoseSample> samples;     ///< Since the last report.
   std::vector<InputRefusal> refusals;  ///< The same.
-  std::size_t obstacle_changes = 0;    ///< How many have been made here.
+  /// How many changes of obstacles led to those that are here.
+  std::uint64_t obstacle_changes = 0;
 };
 
 }  // namespace rave::sim

@@ -33,32 +33,21 @@ void add_body(ItemHash& item, const world::Body& body) {
   for (const world::Shape& shape : body.shapes) add_shape(item, shape);
 }
 
-EventKind kind_of(ObstacleChange::Kind kind) noexcept {
-  if (kind == ObstacleChange::Kind::kAdd) return EventKind::kObstacleAdded;
-  return kind == ObstacleChange::Kind::kMove ? EventKind::kObstacleMoved
-                                             : EventKind::kObstacleRemoved;
-}
-
 }  // namespace
 
 Event noted_obstacle(std::uint64_t step, const ObstacleChange& change, std::string_view note,
                      Author author, RunHash& hash) {
+  Event event = obstacle_event(step, change, note, author == Author::kHand);
   const Pose2& X_WB = change.X_WB;
-  const bool placed = change.kind != ObstacleChange::Kind::kRemove;
-  std::string text = fmt::format("`{}`", change.name);
-  if (placed) text += fmt::format(" at ({}, {}), yaw {} rad", X_WB.x, X_WB.y, X_WB.yaw);
-  text += note;
-  if (author == Author::kHand) text += " (by hand)";
-  const EventKind kind = kind_of(change.kind);
-  ItemHash item(step, RobotId::kNone, HashChannel::kInput, static_cast<std::uint32_t>(kind));
+  ItemHash item(step, RobotId::kNone, HashChannel::kInput, static_cast<std::uint32_t>(event.kind));
   item.add(std::uint64_t{change.id.value()});
-  item.add_bytes(std::as_bytes(std::span(text)));
-  if (placed) {
+  item.add_bytes(std::as_bytes(std::span(event.text)));
+  if (change.kind != ObstacleChange::Kind::kRemove) {
     for (const double number : {X_WB.x, X_WB.y, X_WB.yaw}) item.add(number);
   }
   if (change.kind == ObstacleChange::Kind::kAdd) add_body(item, change.body);
   hash.add(item);
-  return {step, RobotId(), kind, change.id, std::move(text)};
+  return event;
 }
 
 Status check_body_change(const ParameterChange& change) {

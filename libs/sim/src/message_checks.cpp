@@ -188,29 +188,62 @@ Status check_inputs(const EngineSpec& spec, const WorldStep& world) {
   return {};
 }
 
-/// One after the other, as they will be made.
-Status check_obstacles(const EngineSpec& spec, const WorldStep& world) {
-  std::uint32_t next = spec.world.body_count();
-  std::set<BodyId> removed;
-  for (const ObstacleChange& change : world.obstacles) {
+/// Which obstacles there are while changes are made one after the other.
+class ObstacleRoll {
+ public:
+  /// As the world is now.
+  explicit ObstacleRoll(const world::WorldModel& world)
+      : world_(world), added_(world.added.size()) {}
+  /// As it was at the start.
+  [[nodiscard]] static ObstacleRoll at_start(const world::WorldModel& world) {
+    ObstacleRoll roll(world);
+    roll.added_ = 0;
+    roll.nothing_removed_ = true;
+    return roll;
+  }
+
+  Status take(std::span<const ObstacleChange> changes) {
+    for (const ObstacleChange& change : changes) RAVE_TRY(take(change));
+    return {};
+  }
+
+ private:
+  [[nodiscard]] std::uint32_t next() const noexcept {
+    return static_cast<std::uint32_t>(world_.obstacles.size() + world_.robots.size() + added_);
+  }
+  [[nodiscard]] bool stands(BodyId id) const {
+    if (!id.valid() || world_.is_robot(id.value()) || id.value() >= next()) return false;
+    const world::Obstacle* const obstacle = world_.obstacle(id.value());
+    const bool was_removed = obstacle != nullptr && obstacle->removed && !nothing_removed_;
+    return !was_removed && !removed_.contains(id);
+  }
+  Status take(const ObstacleChange& change) {
     RAVE_TRY(check_obstacle_change(change));
-    const BodyId id = change.id;
     const auto wrong_id = [&](std::string_view what) {
       return fail(ErrorCode::kInvalidArgument, "obstacle `{}`, number {}: {}", change.name,
-                  id.value(), what);
+                  change.id.value(), what);
     };
     if (change.kind == ObstacleChange::Kind::kAdd) {
-      if (id.value() != next) return wrong_id(fmt::format("added, but number {} comes next", next));
-      ++next;
-      continue;
+      if (change.id.value() != next()) {
+        return wrong_id(fmt::format("added, but number {} comes next", next()));
+      }
+      ++added_;
+      return {};
     }
-    const world::Obstacle* const obstacle = spec.world.obstacle(id.value());
-    const bool comes = id.value() >= spec.world.body_count() && id.value() < next;
-    const bool stands = comes || (obstacle != nullptr && !obstacle->removed);
-    if (!stands || removed.contains(id)) return wrong_id("changed, but there is no such obstacle");
-    if (change.kind == ObstacleChange::Kind::kRemove) removed.insert(id);
+    if (!stands(change.id)) return wrong_id("changed, but there is no such obstacle");
+    if (change.kind == ObstacleChange::Kind::kRemove) removed_.insert(change.id);
+    return {};
   }
-  return {};
+
+  const world::WorldModel& world_;
+  std::size_t added_;
+  bool nothing_removed_ = false;
+  std::set<BodyId> removed_;
+};
+
+Status check_obstacles(const EngineSpec& spec, const WorldStep& world) {
+  if (world.obstacles.empty()) return {};
+  return ObstacleRoll(spec.world).take(world.obstacles);
 }
 
 }  // namespace
@@ -255,18 +288,38 @@ Status check_world_step(const EngineSpec& spec, const WorldStep& world) {
   return check_sent(spec, world.step, world.sent, is_any);
 }
 
-Status check_taken_over(const EngineSpec& spec, const WorldStep& world,
-                        const AuthorityState& state) {
+Status check_told_obstacles(const EngineSpec& spec, const WorldStep& world,
+                            const AuthorityState& state) {
+  if (state.obstacles.empty() && state.obstacle_changes > 0) {
+    return fail(ErrorCode::kInvalidArgument,
+                "obstacles have changed {} times before this world, and nobody told how",
+                state.obstacle_changes);
+  }
+  if (state.obstacles.size() > state.obstacle_changes) {
+    return fail(ErrorCode::kInvalidArgument, "{} changes of obstacles, but only {} were made",
+                state.obstacles.size(), state.obstacle_changes);
+  }
+  ObstacleRoll roll = ObstacleRoll::at_start(spec.world);
+  RAVE_TRY(roll.take(state.obstacles));
+  return roll.take(world.obstacles);
+}
+
+Status check_taken_over(const EngineSpec& spec, const WorldStep& world, const AuthorityState& state,
+                        bool needs_obstacles) {
   WorldStep bare = world;
   bare.obstacles.clear();
   RAVE_TRY(check_world_step(spec, bare));
+  if (needs_obstacles) RAVE_TRY(check_told_obstacles(spec, world, state));
   const std::size_t robots = spec.robots.size();
   const bool pinned = std::all_of(state.pinned.begin(), state.pinned.end(),
                                   [&](RobotId robot) { return robot.value() < robots; });
   const bool sizes = std::all_of(state.scales.begin(), state.scales.end(), [&](const auto& robot) {
     return robot.robot.value() < robots && std::isfinite(robot.scale);
   });
-  if (pinned && sizes) return {};
+  const bool events = std::all_of(state.events.begin(), state.events.end(), [&](const auto& event) {
+    return !event.robot.valid() || event.robot.value() < robots;
+  });
+  if (pinned && sizes && events) return {};
   return fail(ErrorCode::kInvalidArgument, "a state with robots that do not exist");
 }
 

@@ -26,9 +26,15 @@ Status check_report(const EngineSpec& spec, const HostRobots& own,
 /// The same of the authority's message.
 Status check_world_step(const EngineSpec& spec, const WorldStep& world);
 
-/// The same of what somebody takes over who was not there before: the obstacles of the world are
-/// left out, since they follow those of the state.
-Status check_taken_over(const EngineSpec& spec, const WorldStep& world,
-                        const AuthorityState& state);
+/// The same of what somebody takes over who was not there before. `needs_obstacles`: those of the
+/// state have to lead from the start to the world; otherwise neither they nor those of the world
+/// are looked at.
+Status check_taken_over(const EngineSpec& spec, const WorldStep& world, const AuthorityState& state,
+                        bool needs_obstacles);
+
+/// The part of it that concerns obstacles: those of `state` lead from the start to those before
+/// `world`.
+Status check_told_obstacles(const EngineSpec& spec, const WorldStep& world,
+                            const AuthorityState& state);
 
 }  // namespace rave::sim

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rave/sim/event.hpp"
+
 namespace rave::sim {
 namespace {
 
@@ -84,13 +86,36 @@ Status check_body(const ObstacleChange& change) {
   return {};
 }
 
+EventKind kind_of(ObstacleChange::Kind kind) noexcept {
+  if (kind == ObstacleChange::Kind::kAdd) return EventKind::kObstacleAdded;
+  return kind == ObstacleChange::Kind::kMove ? EventKind::kObstacleMoved
+                                             : EventKind::kObstacleRemoved;
+}
+
 }  // namespace
+
+Event obstacle_event(std::uint64_t step, const ObstacleChange& change, std::string_view note,
+                     bool by_hand) {
+  const Pose2& X_WB = change.X_WB;
+  std::string text = fmt::format("`{}`", change.name);
+  if (change.kind != Kind::kRemove) {
+    text += fmt::format(" at ({}, {}), yaw {} rad", X_WB.x, X_WB.y, X_WB.yaw);
+  }
+  text += note;
+  if (by_hand) text += " (by hand)";
+  return {step, RobotId(), kind_of(change.kind), change.id, std::move(text)};
+}
 
 Status check_obstacle_change(const ObstacleChange& change) {
   if (change.kind > Kind::kRemove) {
     return fail(ErrorCode::kInvalidArgument, "an unknown change of an obstacle");
   }
   RAVE_TRY(check_name(change));
+  if (change.asked.size() > ObstacleChange::kMostAskedBytes) {
+    return fail(ErrorCode::kInvalidArgument,
+                "obstacle `{}`: asked for in {} bytes; expected at most {}", change.name,
+                change.asked.size(), ObstacleChange::kMostAskedBytes);
+  }
   if (change.kind == Kind::kRemove) return {};
   RAVE_TRY(check_pose(change));
   return change.kind == Kind::kAdd ? check_body(change) : Status{};

@@ -6,6 +6,7 @@
 
 #include "input_notes.hpp"
 #include "message_checks.hpp"
+#include "rave/sim/obstacle_history.hpp"
 #include "spec_checks.hpp"
 #include "world_truth.hpp"
 
@@ -44,6 +45,8 @@ struct WorldAuthority::Impl {
                      WorldStep& world);
   Status change_obstacle(const ObstacleChange& change, Author author, WorldStep& world);
   void make_obstacle_changes(WorldStep& world);
+  void take_over_obstacles(WorldStep& world);
+  void close_obstacles();
   void place_real_robots();
   void write_poses(WorldStep& world) const;
   void write_contacts(WorldStep& world);
@@ -64,8 +67,10 @@ struct WorldAuthority::Impl {
   std::vector<WorldInput> asked;  ///< For the next step.
   std::uint64_t inputs = 0;
   std::size_t next_change = 0;
-  std::size_t next_obstacle = 0;                 ///< Of spec.obstacle_changes.
-  std::vector<ObstacleChange> obstacle_changes;  ///< That were made so far.
+  std::size_t next_obstacle = 0;               ///< Of spec.obstacle_changes.
+  ObstacleHistory history;                     ///< Before the world that was made last.
+  std::vector<ObstacleChange> last_obstacles;  ///< Of that world.
+  std::vector<ObstacleChange> adopted;         ///< Of another authority, for the next step.
   std::vector<InputRefusal> refusals;
   std::vector<std::pair<const SentPacket*, const SentPackets*>> sent;  ///< During step() alone.
   std::vector<std::uint32_t> seen;  ///< Robots that were pushed, with repetition.
@@ -99,7 +104,9 @@ void WorldAuthority::Impl::begin() {
   inputs = 0;
   next_change = 0;
   next_obstacle = 0;
-  obstacle_changes.clear();
+  history = {};
+  last_obstacles.clear();
+  adopted.clear();
   refusals.clear();
 }
 
@@ -161,6 +168,7 @@ void WorldAuthority::Impl::finish_step() {
 void WorldAuthority::Impl::make_changes(WorldStep& world) {
   for (WorldInput& input : asked) do_input(input, world);
   asked.clear();
+  take_over_obstacles(world);
   make_obstacle_changes(world);
   for (; next_change < spec.changes.size() && spec.changes[next_change].step <= step;
        ++next_change) {
@@ -191,9 +199,25 @@ Status WorldAuthority::Impl::change_obstacle(const ObstacleChange& change, Autho
   const SimTime from{static_cast<std::int64_t>(step) * spec.step.ns};
   RAVE_TRY_ASSIGN(ObstacleChange made, truth.change_obstacle(change, from, note));
   events.push_back(noted_obstacle(step, made, note, author, hash));
-  obstacle_changes.push_back(made);
   world.obstacles.push_back(std::move(made));
   return {};
+}
+
+/// What another authority has decided already.
+void WorldAuthority::Impl::take_over_obstacles(WorldStep& world) {
+  truth.put_obstacles(adopted, {static_cast<std::int64_t>(step) * spec.step.ns});
+  for (ObstacleChange& change : adopted) {
+    const Author author = change.asked.empty() ? Author::kRun : Author::kHand;
+    events.push_back(noted_obstacle(step, change, "", author, hash));
+    world.obstacles.push_back(std::move(change));
+  }
+  adopted.clear();
+}
+
+/// What the hosts have been told by now.
+void WorldAuthority::Impl::close_obstacles() {
+  for (const ObstacleChange& change : last_obstacles) history.add(change);
+  last_obstacles.clear();
 }
 
 void WorldAuthority::Impl::do_input(WorldInput& input, WorldStep& world) {
@@ -307,8 +331,10 @@ Status WorldAuthority::step(std::span<const HostReport* const> reports, WorldSte
   WorldTruth& truth = authority.truth;
   world.begin(authority.step, authority.spec.robots.size());
   authority.refusals.clear();
+  authority.close_obstacles();
   if (authority.step > 0) authority.finish_step();
   authority.make_changes(world);
+  authority.last_obstacles = world.obstacles;
   authority.place_real_robots();
   authority.write_poses(world);
   truth.make_way();
@@ -324,7 +350,7 @@ Status WorldAuthority::step(std::span<const HostReport* const> reports, WorldSte
 
 Status WorldAuthority::check(const HostReport& report) const { return impl_->check(report); }
 
-AuthorityState WorldAuthority::state() const {
+AuthorityState WorldAuthority::state(bool with_obstacles) const {
   const Impl& authority = *impl_;
   AuthorityState state;
   state.hash = authority.hash;
@@ -334,20 +360,23 @@ AuthorityState WorldAuthority::state() const {
     state.scales.push_back({RobotId(robot), scale});
   }
   state.inputs = authority.inputs;
-  state.obstacles = authority.obstacle_changes;
+  state.obstacle_changes = authority.history.count();
+  if (with_obstacles) state.obstacles = authority.history.changes();
   return state;
 }
 
 Status WorldAuthority::resume(const WorldStep& world, const AuthorityState& state) {
   Impl& authority = *impl_;
-  RAVE_TRY(check_taken_over(authority.spec, world, state));
+  RAVE_TRY(check_taken_over(authority.spec, world, state, true));
   authority.begin();
   for (const ResizedRobot& resized : state.scales) {
     RAVE_TRY(authority.truth.put_scale(resized.robot, resized.scale));
   }
   const SimTime now{static_cast<std::int64_t>(world.step) * authority.spec.step.ns};
-  for (const ObstacleChange& change : state.obstacles) authority.truth.put_obstacle(change, now);
-  authority.obstacle_changes = state.obstacles;
+  authority.truth.put_obstacles(state.obstacles, now);
+  authority.truth.put_obstacles(world.obstacles, now);
+  authority.history = ObstacleHistory(state.obstacles, state.obstacle_changes);
+  authority.last_obstacles = world.obstacles;
   authority.take_over(world);
   authority.truth.take_over(SimTime{static_cast<std::int64_t>(world.step) * authority.spec.step.ns},
                             state.pinned);
@@ -434,12 +463,39 @@ Result<std::uint64_t> WorldAuthority::ask(WorldInput input) {
   return authority.inputs;
 }
 
+void WorldAuthority::adopt(ObstacleChange change) { impl_->adopted.push_back(std::move(change)); }
+
+void WorldAuthority::place(RobotId robot, const Pose2& X_WR, bool present) {
+  Mover& mover = impl_->truth.movers[robot.value()];
+  mover.X_WR = X_WR;
+  mover.present = present;
+}
+
+Result<ObstacleChange> WorldAuthority::decide(const ObstacleChange& change, SimTime at,
+                                              std::string& note) {
+  RAVE_TRY_ASSIGN(ObstacleChange made, impl_->truth.change_obstacle(change, at, note));
+  impl_->history.add(made);
+  return made;
+}
+
+Status WorldAuthority::put_obstacles(std::span<const ObstacleChange> changes, SimTime at) {
+  AuthorityState state;
+  state.obstacle_changes = changes.size();
+  state.obstacles.assign(changes.begin(), changes.end());
+  RAVE_TRY(check_told_obstacles(impl_->spec, WorldStep(), state));
+  static_cast<void>(impl_->truth.restore_obstacles());
+  impl_->truth.put_obstacles(changes, at);
+  impl_->history = ObstacleHistory(state.obstacles, state.obstacle_changes);
+  return {};
+}
+
 std::span<const InputRefusal> WorldAuthority::refusals() const noexcept { return impl_->refusals; }
 void WorldAuthority::reset() { impl_->begin(); }
 const EngineSpec& WorldAuthority::spec() const noexcept { return impl_->spec; }
 std::uint64_t WorldAuthority::steps_done() const noexcept {
   return impl_->step > 0 ? impl_->step - 1 : 0;
 }
+std::uint64_t WorldAuthority::next_step() const noexcept { return impl_->step; }
 Pose2 WorldAuthority::pose(RobotId robot) const noexcept {
   return impl_->truth.movers[robot.value()].X_WR;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <map>
 #include <span>
 #include <vector>
@@ -67,6 +68,9 @@ struct WorldTruth {
   Result<ObstacleChange> change_obstacle(ObstacleChange change, SimTime from, std::string& note);
   /// The same without a look at what is around: somebody else has looked, and given the id.
   void put_obstacle(const ObstacleChange& change, SimTime from);
+  /// The same of many, one after the other; `placed`, which may be empty, is told after each.
+  void put_obstacles(std::span<const ObstacleChange> changes, SimTime from,
+                     const std::function<void(const ObstacleChange&)>& placed = {});
   /// Puts the obstacles of the start back, and forgets all others; false if nothing had changed.
   bool restore_obstacles();
 
@@ -99,6 +103,7 @@ struct WorldTruth {
   void put_body(RobotId robot, const world::Body& body);
   [[nodiscard]] Result<world::Body> body_at(RobotId robot, double scale) const;
   Status check_room(RobotId robot, const world::Body& body, double scale) const;
+  void place_obstacle(const ObstacleChange& change, SimTime from);
   [[nodiscard]] Result<BodyId> find_obstacle(const ObstacleChange& change) const;
   Status check_new_obstacle(const ObstacleChange& change) const;
   Status check_room_for(const ObstacleChange& change, const world::Body& body,

@@ -129,6 +129,21 @@ Result<ObstacleChange> WorldTruth::change_obstacle(ObstacleChange change, SimTim
 }
 
 void WorldTruth::put_obstacle(const ObstacleChange& change, SimTime from) {
+  put_obstacles(std::span(&change, 1), from);
+}
+
+void WorldTruth::put_obstacles(std::span<const ObstacleChange> changes, SimTime from,
+                               const std::function<void(const ObstacleChange&)>& placed) {
+  if (changes.empty()) return;
+  for (const ObstacleChange& change : changes) {
+    place_obstacle(change, from);
+    if (placed) placed(change);
+  }
+  snapshot.index_obstacles();
+}
+
+/// Where it stands, for everybody but the index of the snapshot.
+void WorldTruth::place_obstacle(const ObstacleChange& change, SimTime from) {
   world::WorldModel& world = spec.world;
   ObstacleState before;
   if (change.kind == Kind::kAdd) {
@@ -145,7 +160,6 @@ void WorldTruth::put_obstacle(const ObstacleChange& change, SimTime from) {
   if (change.kind == Kind::kMove) obstacle.X_WB = change.X_WB;
   obstacle.removed = change.kind == Kind::kRemove;
   snapshot.set_obstacle(change.id, obstacle.X_WB, !obstacle.removed);
-  snapshot.index_obstacles();
   // The oldest frame of the history may be a step older than the history is long.
   journal.forget_before(from - spec.history - Duration{2 * spec.step.ns});
   journal.add({from, change.id, before, {obstacle.X_WB, !obstacle.removed}});

@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "live_board.hpp"
 
+#include <algorithm>
+
+#include "manager_habits.hpp"
 #include "rave/bus/sequence.hpp"
 
 namespace rave::environment_manager {
-namespace {
-
-constexpr std::string_view kSource = "environment manager";
-
-}  // namespace
-
 struct LiveBoard::Parts {
   std::unique_ptr<bus::Bus> bus;
   bus::Writer<bus::HostInfo> own_info;
   bus::Writer<bus::World> worlds;
   bus::Writer<bus::RunState> runs;
   bus::Writer<bus::ClockPong> pongs;
+  bus::Writer<bus::Obstacle> obstacles;
   bus::Reader<bus::HostInfo> infos;
   bus::Reader<bus::ClockPing> pings;
   bus::Reader<bus::HostState> states;
+  bus::Reader<bus::LastObstacle> handed_in;
 };
 
 LiveBoard::LiveBoard(const LiveManagerOptions& options, Parts parts)
@@ -28,9 +27,11 @@ LiveBoard::LiveBoard(const LiveManagerOptions& options, Parts parts)
       worlds_(std::move(parts.worlds)),
       runs_(std::move(parts.runs)),
       pongs_(std::move(parts.pongs)),
+      obstacles_(std::move(parts.obstacles)),
       infos_(std::move(parts.infos)),
       pings_(std::move(parts.pings)),
       states_(std::move(parts.states)),
+      handed_in_(std::move(parts.handed_in)),
       claims_(static_cast<std::uint32_t>(options.hosts.size())),
       seat_of_(options.robots.size()),
       robots_(options.robots.size()),
@@ -54,12 +55,15 @@ Result<std::unique_ptr<LiveBoard>> LiveBoard::open(const LiveManagerOptions& opt
   RAVE_TRY_ASSIGN(auto worlds, bus::Writer<bus::World>::create(*bus));
   RAVE_TRY_ASSIGN(auto runs, bus::Writer<bus::RunState>::create(*bus));
   RAVE_TRY_ASSIGN(auto pongs, bus::Writer<bus::ClockPong>::create(*bus));
+  RAVE_TRY_ASSIGN(auto obstacles, bus::Writer<bus::Obstacle>::create(*bus));
   RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
   RAVE_TRY_ASSIGN(auto pings, bus::Reader<bus::ClockPing>::create(*bus));
   RAVE_TRY_ASSIGN(auto states, bus::Reader<bus::HostState>::create(*bus));
+  RAVE_TRY_ASSIGN(auto handed_in, bus::Reader<bus::LastObstacle>::create(*bus));
   std::unique_ptr<LiveBoard> board(new LiveBoard(
       options, {std::move(bus), std::move(own_info), std::move(worlds), std::move(runs),
-                std::move(pongs), std::move(infos), std::move(pings), std::move(states)}));
+                std::move(pongs), std::move(obstacles), std::move(infos), std::move(pings),
+                std::move(states), std::move(handed_in)}));
   RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(*board->bus_));
   RAVE_TRY(waits.add(board->pings_));
   RAVE_TRY(waits.add(board->states_));
@@ -115,6 +119,7 @@ void LiveBoard::lose(std::uint64_t writer, bool goes) {
     if (seat.writer != writer) continue;
     seat.writer = 0;
     seat.bound_ns = -1;
+    seat.obstacle_revision = 0;
     news_ = true;
     if (!goes) continue;
     ++seat.losses;
@@ -149,6 +154,8 @@ bool LiveBoard::sit_down(const bus::ClockPing& ping) {
   }
   seat.offset_ns = ping.offset_ns;
   seat.bound_ns = ping.bound_ns;
+  seat.obstacle_revision = ping.obstacle_revision;
+  seat.obstacles_ns = ping.obstacles_ns;
   return true;
 }
 
@@ -196,6 +203,36 @@ void LiveBoard::send_world(std::uint64_t number, SimTime now, std::span<const st
   columns_.lend(world.robots);
   bus::borrow(world.stale, stale_);
   static_cast<void>(worlds_.write(world));
+}
+
+Status LiveBoard::publish(const real_time::ObstacleSight& sight) {
+  RAVE_TRY(parts_.fill(std::span(&sight.stands, 1)));
+  bus::Obstacle message{};
+  message.id = sight.stands.id.value();
+  message.revision = sight.revision;
+  message.scheduled = sight.scheduled;
+  message.removed = sight.removed;
+  message.stands = parts_.changes().front();
+  return obstacles_.write(message);
+}
+
+void LiveBoard::take_handed() {
+  const auto hear = [this](const bus::LastObstacle& sample) {
+    auto sight = real_time::read_obstacle(sample);
+    if (!sight) {
+      handed_in_.refuse(sample, sight.error().message);
+      return;
+    }
+    real_time::ObstacleSight& known = handed_[sample.id];
+    if (sight->revision > known.revision) known = *std::move(sight);
+  };
+  while (handed_in_.take(hear) > 0) continue;
+}
+
+std::uint64_t LiveBoard::shown_revision() const noexcept {
+  std::uint64_t revision = 0;
+  for (const LiveSeat& seat : seats_) revision = std::max(revision, seat.obstacle_revision);
+  return revision;
 }
 
 void LiveBoard::publish(bus::RunState& state) {

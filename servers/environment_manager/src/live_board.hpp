@@ -13,6 +13,7 @@
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/writer.hpp"
 #include "rave/environment_manager/live_manager.hpp"
+#include "rave/lock_step/obstacle_messages.hpp"
 #include "rave/real_time/messages.hpp"
 
 namespace rave::environment_manager {
@@ -28,6 +29,8 @@ struct LiveSeat {
   std::uint64_t last_step = 0;
   std::int64_t offset_ns = 0;  ///< Our clock minus its own, as it says.
   std::int64_t bound_ns = -1;
+  std::uint64_t obstacle_revision = 0;  ///< That it has around its robots,
+  std::int64_t obstacles_ns = 0;        ///< since then.
 };
 
 /// What a manager in real time knows of hosts and robots, and its end of the bus. Belongs to one
@@ -37,7 +40,10 @@ class LiveBoard {
   /// `options` must outlive it. Errors: those of bus::Bus::open().
   [[nodiscard]] static Result<std::unique_ptr<LiveBoard>> open(const LiveManagerOptions& options);
 
-  void wait(Duration timeout) { static_cast<void>(waits_->wait(timeout)); }
+  /// Sleeps until something has come, the time is over or `stop` is set.
+  void wait(Duration timeout, const std::stop_token& stop = {}) {
+    static_cast<void>(waits_->wait(timeout, stop));
+  }
   /// Learns who is there and who is gone; that counts as a loss if the run `goes`. Errors: kState
   /// (another manager).
   Status look_at_processes(bool goes);
@@ -62,6 +68,22 @@ class LiveBoard {
     if (!known_[robot]) return std::nullopt;
     return robots_[robot].stamp;
   }
+  /// The robot as it was heard of last; null before.
+  [[nodiscard]] const real_time::RobotSight* sight_of(std::size_t robot) const noexcept {
+    return known_[robot] ? &robots_[robot] : nullptr;
+  }
+  /// Tells all hosts, those that come later too, how an obstacle stands. Errors: kInvalidArgument
+  /// (larger than the bus carries), kIo.
+  Status publish(const real_time::ObstacleSight& sight);
+  /// Takes in what hosts hand over of the manager that was here before.
+  void take_handed();
+  /// All of that, by number.
+  [[nodiscard]] const std::map<std::uint32_t, real_time::ObstacleSight>& handed_obstacles()
+      const noexcept {
+    return handed_;
+  }
+  /// The latest change of obstacles that any host says it has.
+  [[nodiscard]] std::uint64_t shown_revision() const noexcept;
   [[nodiscard]] std::uint64_t states() const noexcept { return states_taken_; }
   /// Whether a host has come or gone since the last call.
   [[nodiscard]] bool take_news() noexcept { return std::exchange(news_, false); }
@@ -78,9 +100,11 @@ class LiveBoard {
   bus::Writer<bus::World> worlds_;
   bus::Writer<bus::RunState> runs_;
   bus::Writer<bus::ClockPong> pongs_;
+  bus::Writer<bus::Obstacle> obstacles_;
   bus::Reader<bus::HostInfo> infos_;
   bus::Reader<bus::ClockPing> pings_;
   bus::Reader<bus::HostState> states_;
+  bus::Reader<bus::LastObstacle> handed_in_;
   std::optional<bus::WaitSet> waits_;
   bus::HostInfo introduced_{};  ///< What the others were told of this process.
   std::vector<LiveSeat> seats_;
@@ -93,6 +117,8 @@ class LiveBoard {
   std::vector<std::uint64_t> said_by_;  ///< By robot: the process that spoke of it last.
   real_time::RobotColumns columns_;
   std::vector<std::uint32_t> stale_;
+  lock_step::ObstacleParts parts_;
+  std::map<std::uint32_t, real_time::ObstacleSight> handed_;
   std::uint64_t states_taken_ = 0;
   bool news_ = false;
 };

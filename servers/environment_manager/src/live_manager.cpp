@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "live_board.hpp"
+#include "live_edits.hpp"
 #include "manager_habits.hpp"
 #include "rave/base/names.hpp"
 #include "rave/bus/sequence.hpp"
@@ -26,8 +27,9 @@ std::int64_t ns_of(Clock::time_point when) {
 
 class LiveRun {
  public:
-  LiveRun(const LiveManagerOptions& options, std::unique_ptr<LiveBoard> board)
-      : options_(options), board_(std::move(board)) {}
+  LiveRun(const LiveManagerOptions& options, std::unique_ptr<LiveBoard> board,
+          std::unique_ptr<LiveEdits> edits)
+      : options_(options), board_(std::move(board)), edits_(std::move(edits)) {}
 
   Result<LiveManagerOutcome> go();
 
@@ -56,6 +58,7 @@ class LiveRun {
 
   const LiveManagerOptions& options_;
   std::unique_ptr<LiveBoard> board_;
+  std::unique_ptr<LiveEdits> edits_;  ///< Behind the board, which it uses.
   bool begun_ = false;
   std::int64_t zero_ns_ = 0;  ///< Of the run, by the clock here; holds once it has begun.
   Clock::time_point first_host_{};
@@ -86,6 +89,7 @@ void LiveRun::begin_in(std::chrono::nanoseconds lead) {
 /// Hosts know the time of a run that began with another manager.
 void LiveRun::take_over(std::int64_t run_ns) {
   begin_in(-std::chrono::nanoseconds(run_ns));
+  edits_->begin(true);
   log(LogLevel::kWarning, "takes over at {:.2f} s of the run", now().seconds());
 }
 
@@ -101,9 +105,11 @@ void LiveRun::begin_if_ready() {
   const std::string waits_for = missing();
   if (waits_for.empty()) {
     begin_in(kLead);
+    edits_->begin(false);
     log(LogLevel::kInfo, "all hosts are there: the run begins");
   } else if (Clock::now() - first_host_ > std::chrono::nanoseconds(options_.host_timeout.ns)) {
     begin_in(kLead);
+    edits_->begin(false);
     log(LogLevel::kWarning, "the run begins without {}", waits_for);
   }
 }
@@ -122,6 +128,7 @@ void LiveRun::hear(const bus::ClockPing& ping) {
   pong.ping_received_ns = received_ns;
   pong.begun = begun_;
   pong.zero_ns = zero_ns_;
+  pong.obstacle_revision = edits_->revision();
   pong.pong_sent_ns = ns_of(Clock::now());
   board_->answer(pong);
 }
@@ -129,6 +136,7 @@ void LiveRun::hear(const bus::ClockPing& ping) {
 Status LiveRun::listen() {
   board_->take_pings([this](const bus::ClockPing& ping) { hear(ping); });
   board_->take_states();
+  board_->take_handed();
   if (Clock::now() < next_look_) return {};
   next_look_ = Clock::now() + kLook;
   // Towards the end each host goes when it is done.
@@ -208,9 +216,11 @@ Result<LiveManagerOutcome> LiveRun::go() {
     if (begun_) wake = std::min(wake, next_world_);
     const auto left =
         std::chrono::duration_cast<std::chrono::nanoseconds>(wake - Clock::now()).count();
-    board_->wait(Duration{std::max<std::int64_t>(0, left)});
+    board_->wait(Duration{std::max<std::int64_t>(0, left)},
+                 options_.control != nullptr ? options_.control->asked() : std::stop_token());
     RAVE_TRY(listen());
     begin_if_ready();
+    if (begun_) RAVE_TRY(edits_->look(now()));
     if (begun_ && Clock::now() >= next_world_) send_world();
     if (Clock::now() >= next_tell_) {
       const std::string waits_for = missing();
@@ -230,7 +240,9 @@ Result<LiveManagerOutcome> LiveRun::go() {
 
 LiveManagerOutcome LiveRun::outcome() {
   ended_ = true;
+  edits_->end();
   LiveManagerOutcome outcome;
+  outcome.edits = edits_->edits();
   if (begun_) outcome.end = now();
   outcome.worlds = worlds_;
   outcome.states = board_->states();
@@ -258,9 +270,10 @@ LiveManagerOutcome LiveRun::outcome() {
 
 }  // namespace
 
-Result<LiveManagerOutcome> manage_live(const LiveManagerOptions& options) {
+Result<LiveManagerOutcome> manage_live(sim::EngineSpec spec, const LiveManagerOptions& options) {
   RAVE_TRY_ASSIGN(auto board, LiveBoard::open(options));
-  LiveRun run(options, std::move(board));
+  RAVE_TRY_ASSIGN(auto edits, LiveEdits::create(std::move(spec), options, *board));
+  LiveRun run(options, std::move(board), std::move(edits));
   return run.go();
 }
 

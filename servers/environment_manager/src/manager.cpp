@@ -10,6 +10,7 @@
 #include "rave/sim/world_authority.hpp"
 #include "seats.hpp"
 #include "switchboard.hpp"
+#include "wishes.hpp"
 
 namespace rave::environment_manager {
 namespace {
@@ -32,6 +33,7 @@ class Run {
         authority_(std::move(authority)),
         board_(std::move(board)),
         seats_(make_seats(options.hosts)),
+        wishes_(options.control, options.log),
         claims_(static_cast<std::uint32_t>(options.hosts.size())) {}
 
   Result<ManagerOutcome> go();
@@ -54,6 +56,13 @@ class Run {
   Status take_over();
   Status make_step();
   void wait_for_turn();
+  void hold();
+  Status resend();
+  [[nodiscard]] robot_host::RunStatus first_status() const;
+  /// Wakes from a wait when somebody asks something.
+  [[nodiscard]] std::stop_token asked() const {
+    return options_.control != nullptr ? options_.control->asked() : std::stop_token();
+  }
   void tell_state(rave_wire_RunPhase phase, std::string text);
   void tell_progress(std::string waiting);
   [[nodiscard]] std::string waited_for() const;
@@ -71,6 +80,7 @@ class Run {
   std::unique_ptr<sim::WorldAuthority> authority_;
   std::unique_ptr<Switchboard> board_;
   std::vector<Seat> seats_;
+  Wishes wishes_;
   bus::HostClaims claims_;
   std::uint64_t step_ = 0;  ///< For which reports are gathered.
   bool begun_ = false;      ///< All hosts have been there at once.
@@ -90,6 +100,7 @@ class Run {
   Clock::time_point next_progress_;
   Clock::time_point resend_at_;
   bool asked_again_ = false;
+  bool newcomer_ = false;  ///< Somebody has to be told of all obstacles.
   std::optional<Error> failure_;
 };
 
@@ -183,6 +194,7 @@ Status Run::sit_down(Seat& seat, const bus::HostReport& message) {
   // A process that was cut off and is in its step still has missed nothing.
   const bool same = seat.last_writer == message.writer && message.step + 1 >= step_;
   if (begun_ && !same) miss_steps(seat);
+  newcomer_ = newcomer_ || (begun_ && !same);
   log(LogLevel::kInfo, "host `{}` is {}, with {} robots", seat.name,
       seat.state == SeatState::kLost ? fmt::format("back in step {}", step_) : "here", seat.robots);
   seat.writer = message.writer;
@@ -263,9 +275,18 @@ Status Run::look() {
   if (asked_again_ && Clock::now() >= resend_at_) {
     asked_again_ = false;
     resend_at_ = Clock::now() + kAgain;
-    board_->resend(seats_);
+    RAVE_TRY(resend());
   }
   return {};
+}
+
+/// The last world again, for whoever has not got it.
+Status Run::resend() {
+  if (!std::exchange(newcomer_, false)) {
+    board_->resend(seats_);
+    return {};
+  }
+  return board_->send(world_, authority_->state(true), seats_);
 }
 
 /// Who has not answered for too long.
@@ -289,8 +310,9 @@ Result<Run::Gathered> Run::gather() {
   const auto since = Clock::now();
   RAVE_TRY(listen());
   while (!complete()) {
-    board_->wait(Duration{std::chrono::nanoseconds(kLook).count()});
+    board_->wait(Duration{std::chrono::nanoseconds(kLook).count()}, asked());
     RAVE_TRY(listen());
+    wishes_.listen(*authority_);
     if (complete()) break;
     RAVE_TRY(look());
     const auto now = Clock::now();
@@ -302,6 +324,7 @@ Result<Run::Gathered> Run::gather() {
                  fmt::format("waiting for {}", waited_for()));
     }
     tell_progress(waited_for());
+    wishes_.put_off(fmt::format("the run waits for {}", waited_for()));
     if (stopping()) return Gathered::kStopped;
   }
   return Gathered::kAll;
@@ -353,7 +376,8 @@ Status Run::make_step() {
   }
   world_.last = world_.last || ending_ || step_ >= options_.steps;
   if (options_.on_world && options_.on_world(*authority_)) ending_ = true;
-  RAVE_TRY(board_->send(world_, authority_->state(), seats_));
+  RAVE_TRY(board_->send(world_, authority_->state(std::exchange(newcomer_, false)), seats_));
+  wishes_.after_step(*authority_, world_);
   for (Seat& seat : seats_) seat.reported = false;
   ++step_;
   return {};
@@ -367,12 +391,40 @@ void Run::wait_for_turn() {
       began_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(due_s));
   for (auto now = Clock::now(); now < due; now = Clock::now()) {
     const auto left = std::min<Clock::duration>(due - now, kLook);
-    board_->wait(Duration{std::chrono::duration_cast<std::chrono::nanoseconds>(left).count()});
+    board_->wait(Duration{std::chrono::duration_cast<std::chrono::nanoseconds>(left).count()},
+                 asked());
     auto status = listen();
     if (status) status = look();
     if (!status) failure_ = std::move(status).error();
+    wishes_.listen(*authority_);
     if (failure_ || stopping()) return;
   }
+}
+
+/// Somebody has paused the run.
+void Run::hold() {
+  constexpr milliseconds kHeld{20};
+  const auto since = Clock::now();
+  while (!wishes_.may_step() && !stopping()) {
+    board_->wait(Duration{std::chrono::nanoseconds(kHeld).count()});
+    auto status = listen();
+    if (status) status = look();
+    if (!status) failure_ = std::move(status).error();
+    if (failure_) return;
+    wishes_.listen(*authority_);
+    wishes_.put_off("the run is paused");
+    if (Clock::now() >= next_tell_) tell_state(rave_wire_RUN_WAITS, "paused");
+    tell_progress("somebody who has paused it");
+  }
+  began_ += Clock::now() - since;
+}
+
+robot_host::RunStatus Run::first_status() const {
+  robot_host::RunStatus status;
+  status.scenario = options_.scenario;
+  status.duration_s = static_cast<double>(options_.steps) * authority_->spec().step.seconds();
+  status.pace = options_.pace;
+  return status;
 }
 
 Result<ManagerOutcome> Run::go() {
@@ -384,6 +436,7 @@ Result<ManagerOutcome> Run::go() {
   }
   RAVE_TRY(take_over());
   begun_ = true;
+  wishes_.begin(*authority_, first_status());
   began_ = Clock::now();
   first_step_ = step_;
   for (;;) {
@@ -393,7 +446,9 @@ Result<ManagerOutcome> Run::go() {
           fmt::format("stopped in step {} while waiting for {}", step_, waited_for()));
       break;
     }
+    hold();
     wait_for_turn();
+    wishes_.listen(*authority_);
     if (failure_) return tl::unexpected(*failure_);
     if (stopping() && !ending_) {
       ending_ = true;
@@ -418,6 +473,7 @@ void Run::give_up(const Error& error) {
 ManagerOutcome Run::outcome() {
   ended_ = Clock::now();
   if (options_.on_end) options_.on_end(*authority_);
+  wishes_.end();
   ManagerOutcome outcome;
   outcome.steps = authority_->steps_done();
   outcome.contacts = contacts_;
@@ -457,6 +513,7 @@ Result<ManagerOutcome> manage(sim::EngineSpec spec, const ManagerOptions& option
   for (std::uint32_t h = 0; h < options.hosts.size(); ++h) {
     for (const std::size_t robot : options.hosts[h].robots) host_of[robot] = h;
   }
+  RAVE_TRY(check_scheduled(spec));
   RAVE_TRY_ASSIGN(auto authority, sim::WorldAuthority::create(std::move(spec), std::move(host_of)));
   RAVE_TRY_ASSIGN(auto board, Switchboard::open(options.bus, options.identity, options.log));
   Run run(options, std::move(authority), std::move(board));

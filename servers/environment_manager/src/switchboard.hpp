@@ -25,8 +25,10 @@ class Switchboard {
                                                                  lock_step::Identity identity,
                                                                  LogSink* log);
 
-  /// Sleeps until something has come or the time is over.
-  void wait(Duration timeout) { static_cast<void>(waits_.wait(timeout)); }
+  /// Sleeps until something has come, the time is over or `stop` is set.
+  void wait(Duration timeout, const std::stop_token& stop = {}) {
+    static_cast<void>(waits_.wait(timeout, stop));
+  }
   /// Learns who is there; returns the processes that are gone. Errors: kState (there is a manager
   /// that started earlier, and this one has not `begun`).
   [[nodiscard]] Result<std::vector<std::uint64_t>> look_at_processes(bool begun);

@@ -9,6 +9,7 @@
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/writer.hpp"
 #include "rave/lock_step/messages.hpp"
+#include "rave/sim/obstacle_history.hpp"
 
 namespace rave::lock_step {
 namespace {
@@ -44,7 +45,10 @@ struct HostPort::Impl {
   bus::HostInfo introduced;  ///< What the others were told of this process.
   ReportMessage message{};
   WorldMessage last_message{};
-  sim::AuthorityState authority{};  ///< Of the last world.
+  /// Of the last world; with obstacles only if it brought them.
+  sim::AuthorityState authority{};
+  sim::ObstacleHistory obstacles{};                   ///< Before the last world.
+  std::vector<sim::ObstacleChange> last_obstacles{};  ///< Of that world.
   bool has_world = false;
   std::uint64_t epoch = 0;    ///< Of the authority that answered last; 0: it is gone.
   std::uint64_t manager = 0;  ///< Its process; 0: nobody has been heard of.
@@ -57,6 +61,7 @@ struct HostPort::Impl {
   void meet(const bus::HostInfo& info);
   void hear(const bus::RunState& state);
   Status send(const sim::HostReport& report, std::uint64_t hash, const sim::WorldStep& last);
+  Status follow_obstacles(const sim::WorldStep& world, sim::AuthorityState& state);
   [[nodiscard]] bool take_world(const sim::HostReport& report, sim::WorldStep& world);
   [[nodiscard]] bool ended() const noexcept { return ended_; }
 
@@ -141,10 +146,29 @@ Status HostPort::Impl::send(const sim::HostReport& report, std::uint64_t hash,
                             const sim::WorldStep& last) {
   if (has_world && epoch == 0) {
     // Whoever takes the place of the manager that is gone goes on from here.
-    RAVE_TRY_ASSIGN(bus::LastWorld* const handed, last_message.fill(last, authority, kHandedOver));
+    sim::AuthorityState whole = authority;
+    whole.obstacles = obstacles.changes();
+    RAVE_TRY_ASSIGN(bus::LastWorld* const handed, last_message.fill(last, whole, kHandedOver));
     RAVE_TRY(last_worlds.write(*handed));
   }
   return reports.write(message.fill(report, epoch, hash));
+}
+
+/// What stood before the world that has come now: told by it to whoever was not there, and else
+/// what stood before the last one, with that one's changes.
+Status HostPort::Impl::follow_obstacles(const sim::WorldStep& world, sim::AuthorityState& state) {
+  const std::uint64_t known = obstacles.count() + last_obstacles.size();
+  if (!state.obstacles.empty()) {
+    obstacles = sim::ObstacleHistory(state.obstacles, state.obstacle_changes);
+  } else if (state.obstacle_changes == known) {
+    for (const sim::ObstacleChange& change : last_obstacles) obstacles.add(change);
+  } else {
+    return fail(ErrorCode::kInvalidArgument,
+                "obstacles have changed {} times before this world, of which this host knows {}",
+                state.obstacle_changes, known);
+  }
+  last_obstacles = world.obstacles;
+  return {};
 }
 
 bool HostPort::Impl::take_world(const sim::HostReport& report, sim::WorldStep& world) {
@@ -157,11 +181,15 @@ bool HostPort::Impl::take_world(const sim::HostReport& report, sim::WorldStep& w
     if (sample.step < report.step) return;  // sent again for somebody else
     const auto hosts = bus::elements(sample.hosts);
     if (self.host >= hosts.size() || hosts[self.host] != bus->writer()) return;  // not for us
-    if (auto status = read(sample, world, authority); !status) {
+    sim::AuthorityState state;
+    auto status = read(sample, world, state);
+    if (status) status = follow_obstacles(world, state);
+    has_world = status.has_value();
+    if (!status) {
       worlds.refuse(sample, status.error().message);
       return;
     }
-    has_world = true;
+    authority = std::move(state);
     epoch = sample.epoch;
     manager = sample.writer;
     found = true;

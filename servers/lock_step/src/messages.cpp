@@ -282,11 +282,9 @@ Result<bus::LastWorld*> WorldMessage::fill(const sim::WorldStep& world,
   borrow(message_.touches, touches_);
   fill_sizes(world.resized, resized_, message_.resized);
   fill_parts(world, parts_, message_);
-  fill_authority(authority);
-  if (!world.obstacles.empty()) {
-    return fail(ErrorCode::kInvalidArgument,
-                "obstacles cannot come and go in a run of several processes yet");
-  }
+  RAVE_TRY(fill_authority(authority));
+  RAVE_TRY(obstacles_.fill(world.obstacles));
+  borrow(message_.obstacles, obstacles_.changes());
   RAVE_TRY(fill_inputs(world));
   return &message_;
 }
@@ -296,7 +294,7 @@ void WorldMessage::address(std::span<const std::uint64_t> hosts) {
   borrow(message_.hosts, hosts_);
 }
 
-void WorldMessage::fill_authority(const sim::AuthorityState& authority) {
+Status WorldMessage::fill_authority(const sim::AuthorityState& authority) {
   message_.authority.hash = authority.hash.value();
   message_.authority.inputs = authority.inputs;
   events_.clear();
@@ -309,6 +307,10 @@ void WorldMessage::fill_authority(const sim::AuthorityState& authority) {
   for (const RobotId robot : authority.pinned) pinned_.push_back(robot.value());
   borrow(message_.authority.pinned, pinned_);
   fill_sizes(authority.scales, scales_, message_.authority.scales);
+  message_.authority.obstacle_changes = authority.obstacle_changes;
+  RAVE_TRY(obstacles_before_.fill(authority.obstacles));
+  borrow(message_.authority.obstacles, obstacles_before_.changes());
+  return {};
 }
 
 Status WorldMessage::fill_inputs(const sim::WorldStep& world) {
@@ -361,17 +363,39 @@ void read(const bus::HostReport& message, sim::HostReport& report) {
 
 namespace {
 
-void read_authority(const rave_wire_AuthorityState& message, std::uint64_t step,
-                    sim::AuthorityState& authority) {
+/// Whether an event may be of no robot.
+bool concerns_world(sim::EventKind kind) noexcept {
+  return sim::is_of_obstacle(kind) || kind == sim::EventKind::kChangeRefused;
+}
+
+template <class Sequence>
+Status read_obstacles(const Sequence& sequence, std::vector<sim::ObstacleChange>& changes) {
+  for (const rave_wire_ObstacleChange& wire : elements(sequence)) {
+    RAVE_TRY_ASSIGN(auto change, read_obstacle(wire));
+    changes.push_back(std::move(change));
+  }
+  return {};
+}
+
+Status read_authority(const rave_wire_AuthorityState& message, std::uint64_t step,
+                      sim::AuthorityState& authority) {
   authority = {};
   authority.hash = RunHash::of_value(message.hash);
   authority.inputs = message.inputs;
   for (const auto& event : elements(message.events)) {
+    const auto kind = static_cast<sim::EventKind>(event.kind);
+    const bool of_obstacle = sim::is_of_obstacle(kind);
+    if (event.robot == rave_wire_kNone ? !concerns_world(kind) : of_obstacle) {
+      return fail(ErrorCode::kInvalidArgument, "an event of kind {} that is of {} robot",
+                  event.kind, of_obstacle ? "a" : "no");
+    }
     authority.events.push_back({step, RobotId(event.robot), static_cast<sim::EventKind>(event.kind),
                                 BodyId(event.other), "", 0});
   }
   for (const std::uint32_t robot : elements(message.pinned)) authority.pinned.emplace_back(robot);
   read_sizes(message.scales, authority.scales);
+  authority.obstacle_changes = message.obstacle_changes;
+  return read_obstacles(message.obstacles, authority.obstacles);
 }
 
 }  // namespace
@@ -394,7 +418,8 @@ Status read(const bus::WorldStep& message, sim::WorldStep& world, sim::Authority
   }
   read_sizes(message.resized, world.resized);
   read_parts(message, world);
-  read_authority(message.authority, message.step, authority);
+  RAVE_TRY(read_authority(message.authority, message.step, authority));
+  RAVE_TRY(read_obstacles(message.obstacles, world.obstacles));
   for (const rave_wire_WorldInput& input : elements(message.inputs)) {
     RAVE_TRY_ASSIGN(auto read_input, from_wire(input));
     world.inputs.push_back(std::move(read_input));

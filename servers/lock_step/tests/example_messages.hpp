@@ -83,6 +83,22 @@ inline sim::WorldStep example_world() {
                     {Part::kController, 1, "mode", std::string("fast")},
                     {Part::kActuator, 2, "gains", std::vector<double>{1, 2, 3}}};
   world.inputs = {stop, change};
+  sim::ObstacleChange crate;
+  crate.id = BodyId(9);
+  crate.name = "crate";
+  crate.X_WB = {1, -2, 0.5};
+  crate.asked = "{name: crate}";
+  crate.body.name = crate.name;
+  crate.body.colour = "#102030";
+  crate.body.code = 7;
+  crate.body.shapes = {*world::make_disc({0.1, 0.2}, 0.3, 0, 1)};
+  const std::vector<Vec2> corners = {{0, 0}, {1, 0}, {0.25, 0.5}};
+  crate.body.shapes.push_back(world::make_prisms(corners, 0.1, 0.9)->front());
+  sim::ObstacleChange gone;
+  gone.kind = sim::ObstacleChange::Kind::kRemove;
+  gone.id = BodyId(8);
+  gone.name = "post";
+  world.obstacles = {crate, gone};
   return world;
 }
 
@@ -93,6 +109,14 @@ inline sim::AuthorityState example_authority() {
   state.pinned = {RobotId(0), RobotId(2)};
   state.scales = {{RobotId(2), 1.5}};
   state.inputs = 5;
+  state.events.push_back({41, RobotId(), sim::EventKind::kObstacleRemoved, BodyId(8), "", 0});
+  state.obstacle_changes = 6;
+  sim::ObstacleChange moved;
+  moved.kind = sim::ObstacleChange::Kind::kMove;
+  moved.id = BodyId(0);
+  moved.name = "door";
+  moved.X_WB = {4, 5, -0.25};
+  state.obstacles = {moved};
   return state;
 }
 

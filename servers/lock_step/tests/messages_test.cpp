@@ -58,6 +58,14 @@ void put(std::string& text, const std::vector<double>& column) {
   text += "| ";
 }
 
+void put(std::string& text, const std::vector<sim::ObstacleChange>& changes) {
+  for (const sim::ObstacleChange& c : changes) {
+    text += fmt::format("obstacle {} {} {} {} {} {} ", static_cast<int>(c.kind), c.id.value(),
+                        c.name, c.asked, c.body.colour, c.body.shapes.size()) +
+            bits(c.X_WB.x) + bits(c.X_WB.y) + bits(c.X_WB.yaw);
+  }
+}
+
 std::string text_of(const sim::HostReport& report) {
   std::string text = fmt::format("{} {} {} {} ", report.host, report.step,
                                  static_cast<int>(report.state), report.text);
@@ -95,6 +103,7 @@ std::string text_of(const sim::WorldStep& world) {
   put(text, world.poses);
   put(text, world.samples);
   put(text, world.sent);
+  put(text, world.obstacles);
   for (const sim::WorldInput& input : world.inputs) {
     text += fmt::format("input {} {} {} {} ", input.sequence, static_cast<int>(input.kind),
                         static_cast<int>(input.author), input.robot.value());
@@ -107,7 +116,9 @@ std::string text_of(const sim::WorldStep& world) {
 }
 
 std::string text_of(const sim::AuthorityState& state) {
-  std::string text = fmt::format("{:x} {} ", state.hash.value(), state.inputs);
+  std::string text =
+      fmt::format("{:x} {} {} ", state.hash.value(), state.inputs, state.obstacle_changes);
+  put(text, state.obstacles);
   for (const sim::Event& event : state.events) {
     text += fmt::format("event {} {} {} {} ", event.step, event.robot.value(),
                         static_cast<int>(event.kind), event.other.value());
@@ -189,6 +200,8 @@ TEST(Messages, WhatTheBusCannotCarryIsRefusedBeforeItIsAsked) {
   EXPECT_FALSE(check_fits(input));
 }
 
+constexpr auto kUnknownChange = static_cast<rave_wire_ObstacleChangeKind>(3);
+
 /// A world that is right but for one thing.
 template <class Spoil>
 std::string refusal_of(Spoil spoil) {
@@ -222,6 +235,29 @@ TEST(Messages, AWorldThatNobodyCouldUseIsRefusedWithItsField) {
             "an input of no known kind or author");
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.inputs._buffer[1].changes._buffer[0].part = 9; }),
             "a parameter of no known part of a robot");
+  EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.obstacles._buffer[1].kind = kUnknownChange; }),
+            "obstacles[1].kind is unknown");
+  EXPECT_EQ(refusal_of([](bus::WorldStep& w) {
+              w.obstacles._buffer[0].shapes._buffer[1].x_m._buffer[2] = std::nan("");
+            }),
+            "obstacles[0].shapes[1].x_m is nan, not within +-10000000");
+  EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.authority.obstacles._buffer[0].x_m = 1e9; }),
+            "authority.obstacles[0].x_m is 1000000000, not within +-10000000");
+  EXPECT_EQ(refusal_of([](bus::WorldStep& w) {
+              std::swap(w.obstacles._buffer[0].shapes._buffer[1].x_m._buffer[0],
+                        w.obstacles._buffer[0].shapes._buffer[1].x_m._buffer[1]);
+              std::swap(w.obstacles._buffer[0].shapes._buffer[1].y_m._buffer[0],
+                        w.obstacles._buffer[0].shapes._buffer[1].y_m._buffer[1]);
+            }),
+            "obstacle `crate`, shapes[1]: its corners are not those of a polygon that is strictly "
+            "convex and counterclockwise");
+  EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.authority.events._buffer[0].robot = 3; }),
+            "authority.events[0] is of robot 3, but there are 3");
+  EXPECT_EQ(
+      refusal_of([](bus::WorldStep& w) { w.authority.events._buffer[0].robot = rave_wire_kNone; }),
+      "an event of kind 1 that is of no robot");
+  EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.authority.events._buffer[1].robot = 0; }),
+            "an event of kind 29 that is of a robot");
 }
 
 TEST(Introduction, ProcessesThatDifferAreTold) {

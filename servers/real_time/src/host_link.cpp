@@ -56,6 +56,8 @@ struct HostLink::Impl {
   std::optional<bus::Writer<bus::ClockPing>> pings{};
   std::optional<bus::Reader<bus::ClockPong>> pongs{};
   std::optional<bus::Reader<bus::RunState>> runs{};
+  std::optional<bus::Reader<bus::Obstacle>> obstacles{};  ///< Made anew for each manager.
+  std::optional<bus::Writer<bus::LastObstacle>> last_obstacles{};
   std::optional<bus::Reader<bus::World>> worlds{};        // if it sees
   std::optional<bus::Writer<bus::Packet>> packets_out{};  // if it talks
   std::optional<bus::Reader<bus::Packet>> packets_in{};
@@ -68,9 +70,12 @@ struct HostLink::Impl {
   std::optional<Ending> ending{};
   std::string told{};
   bool started = false;
-  std::int64_t zero_ns = 0;       ///< Of this process; stands once it has started.
-  std::uint64_t pings_sent = 0;   ///< To this manager.
-  std::uint64_t pongs_heard = 0;  ///< From it.
+  std::int64_t zero_ns = 0;             ///< Of this process; stands once it has started.
+  std::uint64_t pings_sent = 0;         ///< To this manager.
+  std::uint64_t pongs_heard = 0;        ///< From it.
+  std::uint64_t obstacle_revision = 0;  ///< That it says there is.
+  std::uint64_t shown_revision = 0;     ///< That the robots here have around them,
+  SimTime shown_since{};                ///< by the time of the run.
   Clock::time_point ping_at{};
   std::vector<RobotSight> starts{};
   std::uint64_t world_count = 0;
@@ -95,6 +100,8 @@ struct HostLink::Impl {
   void meet(const bus::HostInfo& info);
   void take_pongs();
   void take_worlds();
+  void take_obstacles();
+  void hear(const bus::Obstacle& sample);
   void take_packets();
   void note_number(const bus::Packet& packet);
   void hear(const bus::RunState& state);
@@ -126,6 +133,7 @@ Status HostLink::Impl::open_endpoints() {
     RAVE_TRY(make(pings, *bus));
     RAVE_TRY(make(pongs, *bus));
     RAVE_TRY(make(runs, *bus));
+    RAVE_TRY(make(last_obstacles, *bus));
     RAVE_TRY(set.add(*pongs));
     RAVE_TRY(set.add(*runs));
   }
@@ -183,6 +191,7 @@ void HostLink::Impl::take_pongs() {
         pong.begun, pong.zero_ns);
     if (!heard) pongs->refuse(pong, heard.error().message);
     ++pongs_heard;
+    obstacle_revision = pong.obstacle_revision;
     // A manager that took over may be a little off, and stamps must not seem to stand still.
     if (was_known && std::abs(before - time.zero_ns()) > kJump_ns) live.clock_changed();
   });
@@ -210,6 +219,28 @@ void HostLink::Impl::note_number(const bus::Packet& packet) {
   std::uint64_t& newest = packets_heard[packet.writer];
   if (newest != 0 && packet.number > newest + 1) packets_lost += packet.number - newest - 1;
   newest = std::max(newest, packet.number);
+}
+
+void HostLink::Impl::take_obstacles() {
+  // Before a step all that has come is looked at: of two the later one may stand first.
+  while (obstacles->take([this](const bus::Obstacle& sample) { hear(sample); }) > 0) continue;
+}
+
+void HostLink::Impl::hear(const bus::Obstacle& sample) {
+  if (sample.writer != manager) return;
+  auto sight = read_obstacle(sample);
+  if (!sight) {
+    obstacles->refuse(sample, sight.error().message);
+    return;
+  }
+  if (!live.see(*std::move(sight))) return;
+  // For a manager that takes the place of this one.
+  bus::LastObstacle kept{};
+  static_cast<bus::Obstacle&>(kept) = sample;
+  if (auto written = last_obstacles->write(kept); !written) {
+    tell(LogLevel::kWarning,
+         "an obstacle cannot be kept for another manager: " + written.error().message);
+  }
 }
 
 void HostLink::Impl::take_packets() {
@@ -243,6 +274,10 @@ void HostLink::Impl::listen_to_first() {
   pings_sent = 0;
   pongs_heard = 0;
   ping_at = {};
+  // A new reader is told of all obstacles, also of those that came before anybody listened to this
+  // manager.
+  obstacles.reset();
+  if (auto made = make(obstacles, *bus); !made) unfit = std::move(made).error();
   const char* const machine = managers.front().machine;
   tell_once(LogLevel::kInfo,
             fmt::format("the environment manager is `{}` on {}", managers.front().name,
@@ -284,6 +319,7 @@ void HostLink::Impl::take() {
   if (worlds) take_worlds();
   if (packets_in) take_packets();
   look();
+  if (obstacles) take_obstacles();
 }
 
 void HostLink::Impl::ping() {
@@ -303,6 +339,8 @@ void HostLink::Impl::ping() {
     message.bound_ns = reading->bound.ns;
   }
   if (time.known()) message.run_ns = std::max<std::int64_t>(0, time.at(now_ns).ns);
+  message.obstacle_revision = shown_revision;
+  message.obstacles_ns = shown_since.ns;
   message.sent_ns = local_ns();
   static_cast<void>(pings->write(message));
   ping_at = Clock::now() + wait;
@@ -311,6 +349,7 @@ void HostLink::Impl::ping() {
 bool HostLink::Impl::ready() const {
   if (!options.managed) return true;
   if (!time.known() || pongs_heard < kFirstReadings / 2) return false;
+  if (live.heard_revision() < obstacle_revision) return false;
   return !worlds || world_count > 0;
 }
 
@@ -436,6 +475,15 @@ void HostLink::send(const sim::SentPackets& sent) {
         packet_of(packet, sent.bytes_of(packet), ++link.packets_sent, link.shift());
     static_cast<void>(link.packets_out->write(message));
   }
+}
+
+void HostLink::obstacles_shown() {
+  Impl& link = *impl_;
+  const std::uint64_t shown = link.live.shown_revision();
+  if (shown <= link.shown_revision) return;
+  link.shown_revision = shown;
+  link.shown_since = link.time.at(local_ns());
+  link.ping_at = {};
 }
 
 Duration HostLink::world_age() const {

@@ -43,7 +43,8 @@ sim::RobotType outline_of(const sim::RobotType& type) {
 
 /// The same world, in which the simulated robots of others are of types that are only placed. Their
 /// bodies keep their layer, so sensors tell them from real ones.
-sim::EngineSpec world_of(const sim::EngineSpec& spec, const std::vector<std::uint8_t>& local) {
+sim::EngineSpec world_of(const sim::EngineSpec& spec, const std::vector<std::uint8_t>& local,
+                         bool alone) {
   sim::EngineSpec world;
   world.world = spec.world;
   world.robots = spec.robots;
@@ -64,6 +65,8 @@ sim::EngineSpec world_of(const sim::EngineSpec& spec, const std::vector<std::uin
     }
     type = placed[type];
   }
+  // Otherwise the manager makes them.
+  if (alone) world.obstacle_changes = spec.obstacle_changes;
   // Others are changed by their own hosts.
   for (const sim::ScheduledChange& change : spec.changes) {
     if (local[change.robot.value()] != 0) world.changes.push_back(change);
@@ -93,12 +96,12 @@ LiveWorld::LiveWorld(const sim::EngineSpec& spec, std::unique_ptr<sim::WorldAuth
   }
 }
 
-Result<std::unique_ptr<LiveWorld>> LiveWorld::create(const sim::EngineSpec& spec) {
+Result<std::unique_ptr<LiveWorld>> LiveWorld::create(const sim::EngineSpec& spec, bool alone) {
   const std::vector<std::uint8_t> local = local_robots(spec);
   std::vector<std::uint32_t> host_of;
   for (const std::uint8_t here : local) host_of.push_back(here != 0 ? kOwn : kOthers);
   RAVE_TRY_ASSIGN(auto authority,
-                  sim::WorldAuthority::create(world_of(spec, local), std::move(host_of)));
+                  sim::WorldAuthority::create(world_of(spec, local, alone), std::move(host_of)));
   return std::unique_ptr<LiveWorld>(new LiveWorld(spec, std::move(authority)));
 }
 
@@ -118,6 +121,54 @@ bool LiveWorld::see(const RobotSight& sight) {
   if (other.real && samples_.size() < kMostPackets)
     samples_.push_back({sight.robot, sight.stamp, sight.X_WR});
   return true;
+}
+
+bool LiveWorld::see(ObstacleSight sight) {
+  const world::WorldModel& world = authority_->spec().world;
+  const std::uint32_t id = sight.stands.id.value();
+  const bool adds = sight.stands.kind == sim::ObstacleChange::Kind::kAdd;
+  const auto first_added = static_cast<std::uint32_t>(world.obstacles.size() + world.robots.size());
+  const bool possible = adds ? id >= first_added : id < world.obstacles.size();
+  if (!possible || !sim::check_obstacle_change(sight.stands)) return false;
+  std::uint64_t& known = revision_of_[id];
+  if (sight.revision <= known) return false;
+  known = sight.revision;
+  heard_revision_ = std::max(heard_revision_, sight.revision);
+  news_[id] = std::move(sight);
+  return true;
+}
+
+/// Those that came are numbered in a row; one whose forerunner is not there yet waits for it.
+void LiveWorld::adopt_obstacles() {
+  if (news_.empty()) return;
+  std::uint32_t next = authority_->world().body_count();
+  for (auto it = news_.begin(); it != news_.end() && it->first <= next; it = news_.erase(it)) {
+    const bool is_new = it->first == next;
+    adopt(it->second, is_new);
+    if (is_new) ++next;
+  }
+  if (news_.empty()) shown_revision_ = heard_revision_;
+}
+
+void LiveWorld::adopt(const ObstacleSight& sight, bool is_new) {
+  using Kind = sim::ObstacleChange::Kind;
+  const world::Obstacle* const obstacle = authority_->world().obstacle(sight.stands.id.value());
+  sim::ObstacleChange change = sight.stands;
+  if (is_new) {
+    authority_->adopt(change);
+  } else if (obstacle == nullptr || obstacle->removed) {
+    return;
+  } else if (change.kind == Kind::kAdd) {
+    change.body = {};
+    change.kind = Kind::kMove;
+    if (!sight.removed) authority_->adopt(change);
+  } else {
+    authority_->adopt(change);
+  }
+  if (!sight.removed) return;
+  change.body = {};
+  change.kind = Kind::kRemove;
+  authority_->adopt(change);
 }
 
 void LiveWorld::clock_changed() {
@@ -270,9 +321,10 @@ Status LiveWorld::step(const sim::HostReport& own, sim::WorldStep& world) {
   events_.clear();
   std::array<const sim::HostReport*, 2> reports = {&own, &others_report_};
   if (!others_.empty()) report_others(own.step);
+  adopt_obstacles();
   RAVE_TRY(authority_->step(std::span(reports).first(others_.empty() ? 1 : 2), world));
   for (const sim::Event& event : authority_->events()) {
-    if (local_[event.robot.value()] != 0) events_.push_back(event);
+    if (!event.robot.valid() || local_[event.robot.value()] != 0) events_.push_back(event);
   }
   return {};
 }

@@ -2,6 +2,7 @@
 #include "rave/real_time/messages.hpp"
 
 #include "rave/bus/sequence.hpp"
+#include "rave/lock_step/obstacle_messages.hpp"
 #include "rave/math/transform.hpp"
 
 namespace rave::real_time {
@@ -46,6 +47,15 @@ RobotSight read_robot(const rave_wire_PlanarRobots& robots, std::size_t index, D
   const Vec2 v_W{bus::elements(robots.vx_mps)[index], bus::elements(robots.vy_mps)[index]};
   const Vec2 v_B = rotate(-sight.X_WR.yaw, v_W);
   sight.velocity = {v_B.x, v_B.y, bus::elements(robots.wz_radps)[index]};
+  return sight;
+}
+
+Result<ObstacleSight> read_obstacle(const bus::Obstacle& sample) {
+  ObstacleSight sight;
+  sight.revision = sample.revision;
+  sight.scheduled = sample.scheduled;
+  sight.removed = sample.removed;
+  RAVE_TRY_ASSIGN(sight.stands, lock_step::read_obstacle(sample.stands));
   return sight;
 }
 

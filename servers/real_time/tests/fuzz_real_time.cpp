@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes from the network as worlds and messages of robots, all the way into the world of a host:
-// deserialiser, validation, reading, and steps of that world. The first byte says what comes; a
-// step is made after each.
+// Bytes from the network as worlds, messages of robots and obstacles, all the way into the world of
+// a host: deserialiser, validation, reading, and steps of that world. The first byte says what
+// comes; a step is made after each.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -50,6 +50,13 @@ void receive_packet(real_time::LiveWorld& live, std::span<const std::byte> bytes
             real_time::payload_of(packet));
 }
 
+void receive_obstacle(real_time::LiveWorld& live, std::span<const std::byte> bytes, bool swapped) {
+  bus::testing::Decoded<bus::Obstacle> decoded;
+  if (!decoded.decode(bytes, swapped) || !bus::validate(decoded.sample())) return;
+  auto sight = real_time::read_obstacle(decoded.sample());
+  if (sight) live.see(*std::move(sight));
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -61,7 +68,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   sim::HostReport own;
   sim::WorldStep world;
   for (std::uint64_t step = 0; step < 3; ++step) {
-    ((data[0] & 1U) != 0 ? receive_world : receive_packet)(**live, bytes, swapped);
+    if ((data[0] & 2U) != 0) {
+      receive_obstacle(**live, bytes, swapped);
+    } else {
+      ((data[0] & 1U) != 0 ? receive_world : receive_packet)(**live, bytes, swapped);
+    }
     own.begin(step);
     if (step > 0) own.proposals = {{0}, {1}, {0}, {0}};
     // Whatever others say, the own world goes on.

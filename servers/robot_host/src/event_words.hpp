@@ -9,12 +9,6 @@
 /// How events are told to people.
 namespace rave::robot_host {
 
-/// Whether it is one of an obstacle that came, moved or went; its text names the obstacle.
-[[nodiscard]] inline bool is_of_obstacle(sim::EventKind kind) noexcept {
-  return kind == sim::EventKind::kObstacleAdded || kind == sim::EventKind::kObstacleMoved ||
-         kind == sim::EventKind::kObstacleRemoved;
-}
-
 /// The robot that it concerns, or `world`.
 [[nodiscard]] inline std::string_view subject_of(const sim::EngineSpec& spec,
                                                  const sim::Event& event) noexcept {

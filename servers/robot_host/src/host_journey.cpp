@@ -37,7 +37,10 @@ void serve_requests(HostJourney& journey) {
   control->serve(
       [&journey](const RunRequest& request) {
         auto answer = serve_request(journey.engine, request);
-        if (answer && journey.record != nullptr) journey.record->keep(request, journey.engine);
+        const bool asks = request.kind == RunRequest::Kind::kList;
+        if (answer && !asks && journey.record != nullptr) {
+          journey.record->keep(request, journey.engine.steps_done());
+        }
         return answer;
       },
       [&journey](RunStatus& status) { refresh_status(journey.engine, status); });
@@ -81,6 +84,9 @@ void note_end(const HostJourney& journey, std::string_view ending, bool good,
 Status write_facts(const HostJourney& journey, RunFacts facts) {
   const HostOptions& options = journey.options;
   facts.events = journey.events;
+  if (journey.world_tells) {
+    std::erase_if(facts.events, [](const sim::Event& event) { return !event.robot.valid(); });
+  }
   for (std::string& problem : facts.problems) {
     problem = fmt::format("host `{}`: {}", options.host, problem);
   }
@@ -88,6 +94,14 @@ Status write_facts(const HostJourney& journey, RunFacts facts) {
   const std::vector<std::byte> bytes = encode_facts(about, facts);
   return write_file_atomically(options.run.output / kFactsFile,
                                {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+std::vector<sim::Event> obstacle_events(const sim::WorldStep& world) {
+  std::vector<sim::Event> events;
+  for (const sim::ObstacleChange& change : world.obstacles) {
+    events.push_back(sim::obstacle_event(world.step, change, "", !change.asked.empty()));
+  }
+  return events;
 }
 
 ControlledHost::ControlledHost(const sim::Engine& engine, const config::ScenarioFile& file,

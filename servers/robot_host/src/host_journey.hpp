@@ -11,6 +11,7 @@
 #include "rave/robot_host/build.hpp"
 #include "rave/robot_host/host_run.hpp"
 #include "rave/sim/engine.hpp"
+#include "rave/sim/world_step.hpp"
 #include "record_keeper.hpp"
 #include "ros2_face.hpp"
 #include "wall_pace.hpp"
@@ -39,6 +40,7 @@ struct HostJourney {
   std::vector<sim::Event> events{};
   std::vector<std::string> losses{};    ///< Of programs and drivers, which are events, too.
   std::vector<std::string> problems{};  ///< What else is not as it should be.
+  bool world_tells = false;             ///< What concerns no robot is for the manager to note.
   bool stopped = false;
   bool ended = false;  ///< By the manager.
 
@@ -59,6 +61,10 @@ void note_end(const HostJourney& journey, std::string_view ending, bool good, Ho
 
 /// Leaves what this host knows of the run for the results of the whole (read_facts()).
 Status write_facts(const HostJourney& journey, RunFacts facts);
+
+/// What the world says of obstacles in its step; an engine that is one of several hosts has no
+/// events of them.
+[[nodiscard]] std::vector<sim::Event> obstacle_events(const sim::WorldStep& world);
 
 /// Lets others control a host as long as it goes.
 class ControlledHost {

@@ -13,6 +13,7 @@
 #include "rave/robot/interface_hash.hpp"
 #include "rave/robot_host/build.hpp"
 #include "rave/robot_host/provenance.hpp"
+#include "rave/robot_host/world_request.hpp"
 #include "record_keeper.hpp"
 #include "wall_pace.hpp"
 #include "world_record.hpp"
@@ -37,6 +38,14 @@ Status propose(Journey& journey) {
   // The others shall know why.
   if (!status) journey.port.farewell(journey.report, journey.engine.hash().value());
   return status;
+}
+
+/// What was asked of the world by hand counts from the step that comes now on.
+void keep_requests(Journey& journey) {
+  if (journey.record == nullptr) return;
+  for (const RunRequest& request : requests_in(journey.engine.spec(), journey.world)) {
+    journey.record->keep(request, journey.world.step);
+  }
 }
 
 /// Takes the next step of the world in; false: there is none for this host.
@@ -65,6 +74,7 @@ Result<bool> take_step(Journey& journey) {
     journey.came_to_end = true;
     return false;
   }
+  keep_requests(journey);
   RAVE_TRY(journey.engine.join(journey.world, journey.port.authority()));
   return true;
 }
@@ -126,13 +136,6 @@ std::uint64_t shared_number(const config::ExpandedScenario& scenario) {
   return lock_step::scenario_number(config::write_expanded(shared));
 }
 
-Status check_can_be_shared(const BuiltScenario& built) {
-  if (built.spec.obstacle_changes.empty()) return {};
-  return fail(ErrorCode::kInvalidArgument,
-              "the scenario changes obstacles while it runs, which hosts in lock-step cannot yet; "
-              "run it in one process");
-}
-
 std::uint64_t interface_stamp() {
   return mix64(robot_interface_hash() ^ mix64(virtual_interface_hash()));
 }
@@ -158,7 +161,6 @@ Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::C
                          std::move(built));
   }
   built.spec.live_clock = nullptr;
-  RAVE_TRY(check_can_be_shared(built));
   for (const std::string& note : built.notes) console.warn("scenario", "{}", note);
   std::function<void()> look;
   built.spec.on_step_done = [&look] { look(); };
@@ -185,7 +187,8 @@ Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::C
       {*engine, observers, record.get(), ros2.get(), options, console, shared_number(scenario)},
       *port);
   journey.report.host = seat.number;
-  look = [&journey] { look_back(journey); };
+  journey.world_tells = true;
+  look = [&journey] { look_back(journey, obstacle_events(journey.world)); };
   const ControlledHost controlled(*engine, scenario.scenario, run.control, false);
   tell_who_waits(*engine, run, console);
   const Status went = go_through(journey);

@@ -112,6 +112,7 @@ Status make_step(LiveJourney& journey) {
   engine.set_world_age(journey.link.world_age());
   RAVE_TRY(journey.live.step(journey.report, journey.world));
   RAVE_TRY(engine.join(journey.world, {}));
+  journey.link.obstacles_shown();
   tell_places(journey);
   RAVE_TRY(engine.propose(journey.report));
   journey.link.send(journey.report.sent);
@@ -262,7 +263,7 @@ Result<HostOutcome> run_live_host(const LiveHost& host, BuiltScenario built) {
   host.console.warn("run", "the run goes at real time, because {}", built.live_reason);
   for (const std::string& note : built.notes) host.console.warn("scenario", "{}", note);
   built.spec.own_authority = true;
-  RAVE_TRY_ASSIGN(const auto live, LiveWorld::create(built.spec));
+  RAVE_TRY_ASSIGN(const auto live, LiveWorld::create(built.spec, !needs_manager(built)));
   RAVE_TRY_ASSIGN(const auto link, HostLink::open(link_options(host, built), *live));
   // The run starts when all devices are open here, and everywhere.
   RunControl* const control = host.options.run.control;

@@ -9,6 +9,7 @@
 #include "goal_checks.hpp"
 #include "kinds.hpp"
 #include "rave/robot_host/run.hpp"
+#include "rave/robot_host/shared_results.hpp"
 
 namespace rave::robot_host {
 
@@ -37,6 +38,7 @@ struct Findings {
   std::vector<HostShare> hosts{};         ///< Of a run of several.
   std::optional<std::uint64_t> worlds{};  ///< Of one in real time: that the manager sent.
   std::optional<std::uint64_t> states{};  ///< ... and that it got.
+  std::optional<SharedEdits> edits{};
 
   [[nodiscard]] bool any_lost() const noexcept;
   /// Simulated time that was run through.

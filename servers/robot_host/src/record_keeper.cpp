@@ -141,9 +141,9 @@ void RecordKeeper::keep_pose(const sim::Engine& engine, RobotId robot) {
   recorder_.pose(pose);
 }
 
-void RecordKeeper::keep(const RunRequest& request, const sim::Engine& engine) {
-  static_cast<void>(recorder_.input({engine.steps_done(), std::string(to_string(request.kind)),
-                                     request.robot, request.key, request.value}));
+void RecordKeeper::keep(const RunRequest& request, std::uint64_t step) {
+  static_cast<void>(recorder_.input(
+      {step, std::string(to_string(request.kind)), request.robot, request.key, request.value}));
 }
 
 void RecordKeeper::keep(std::span<const sim::Event> events) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -38,8 +39,8 @@ class RecordKeeper final : public Observer {
   /// Events of the last step that observers found.
   void keep(std::span<const sim::Event> events);
 
-  /// What was asked of the run before its next step, and done.
-  void keep(const RunRequest& request, const sim::Engine& engine);
+  /// What was asked of the run and counts from this step on.
+  void keep(const RunRequest& request, std::uint64_t step);
 
   [[nodiscard]] record::RunRecorder& recorder() noexcept { return recorder_; }
 

@@ -8,6 +8,7 @@
 #include "rave/config/diagnostics.hpp"
 #include "rave/config/yaml.hpp"
 #include "rave/robot_host/parameter_key.hpp"
+#include "rave/robot_host/world_request.hpp"
 
 namespace rave::robot_host {
 namespace {
@@ -66,12 +67,8 @@ Result<std::string> edit(sim::Engine& engine, const RunRequest& request) {
   RAVE_TRY_ASSIGN(const sim::ObstacleChange change, asked_change(request));
   RAVE_TRY_ASSIGN(const sim::ChangedObstacle made, engine.change_obstacle(change));
   const double from_s = static_cast<double>(made.step) * engine.spec().step.seconds();
-  using Kind = sim::ObstacleChange::Kind;
-  const std::string_view done = change.kind == Kind::kAdd    ? "added"
-                                : change.kind == Kind::kMove ? "moved"
-                                                             : "removed";
-  return fmt::format("{} {}; counts from step {} on, at {:.3f} s", done, made.text, made.step,
-                     from_s);
+  return fmt::format("{} {}; counts from step {} on, at {:.3f} s", word_of(change.kind), made.text,
+                     made.step, from_s);
 }
 
 }  // namespace

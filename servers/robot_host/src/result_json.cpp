@@ -189,6 +189,15 @@ Json changes_json(const Findings& findings) {
   return json;
 }
 
+void add_edits(const SharedEdits& edits, Json& json) {
+  const auto confirmed = static_cast<double>(edits.confirmed);
+  const bool measured = edits.confirmed > 0;
+  json["edits"] = edits.made;
+  json["edits_confirmed_by_all"] = edits.confirmed;
+  json["edit_slowest_s"] = measured ? Json(edits.slowest_s) : Json();
+  json["edit_mean_s"] = measured ? Json(edits.sum_s / confirmed) : Json();
+}
+
 }  // namespace
 
 std::string result_json(const Findings& findings, const RunOutcome& outcome) {
@@ -234,6 +243,7 @@ std::string result_json(const Findings& findings, const RunOutcome& outcome) {
   json["streams"] = instruments_json(findings, findings.facts.streams, "sensor");
   if (findings.worlds) json["worlds"] = *findings.worlds;
   if (findings.states) json["states"] = *findings.states;
+  if (findings.edits) add_edits(*findings.edits, json);
   if (!findings.hosts.empty()) json["hosts"] = hosts_json(findings);
   return json.dump(2) + "\n";
 }

@@ -61,7 +61,7 @@ void serve_requests(Journey& journey) {
       [&engine, record](const RunRequest& request) {
         auto answer = serve_request(engine, request);
         const bool asks = request.kind == RunRequest::Kind::kList;
-        if (answer && !asks && record != nullptr) record->keep(request, engine);
+        if (answer && !asks && record != nullptr) record->keep(request, engine.steps_done());
         return answer;
       },
       [&engine](RunStatus& status) { refresh_status(engine, status); });

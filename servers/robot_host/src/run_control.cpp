@@ -58,15 +58,19 @@ bool RunControl::paused() const {
 
 Result<std::string> RunControl::ask(RunRequest request, std::chrono::milliseconds patience) {
   std::future<Result<std::string>> answer;
+  std::stop_source wake(std::nostopstate);
   {
     const std::lock_guard lock(mutex_);
     if (!running_) return fail(ErrorCode::kState, "no run is under way");
     Pending& pending = pending_.emplace_back();
     pending.request = std::move(request);
+    pending.since = std::chrono::steady_clock::now();
     answer = pending.answer.get_future();
     asked_.store(true);
+    wake = wake_;
   }
   changed_.notify_all();
+  wake.request_stop();
   if (answer.wait_for(patience) == std::future_status::ready) return answer.get();
   return fail(ErrorCode::kTimeout,
               "the run has not come to it for {} ms: a step does not end; it is done before the "
@@ -90,23 +94,64 @@ void RunControl::begin(RunStatus status) {
 }
 
 void RunControl::serve(const Serve& serve, const std::function<void(RunStatus&)>& refresh) {
-  if (!asked_.load()) return;
-  std::deque<Pending> pending;
-  {
-    const std::lock_guard lock(mutex_);
-    pending.swap(pending_);
-    asked_.store(false);
-  }
+  std::vector<Asked> asked = take();
+  if (asked.empty()) return;
   // Told when the status says it too.
   std::vector<Result<std::string>> answers;
-  for (const Pending& one : pending) answers.push_back(serve(one.request));
-  {
-    const std::lock_guard lock(mutex_);
-    refresh(status_);
+  for (const Asked& one : asked) answers.push_back(serve(one.request()));
+  this->refresh(refresh);
+  for (std::size_t i = 0; i < asked.size(); ++i) asked[i].answer(std::move(answers[i]));
+}
+
+std::vector<RunControl::Asked> RunControl::take() {
+  std::vector<Asked> asked;
+  if (!asked_.load()) return asked;
+  const std::lock_guard lock(mutex_);
+  for (Pending& one : pending_) {
+    asked.emplace_back(std::move(one.request), std::move(one.answer), one.since);
   }
-  for (std::size_t i = 0; i < pending.size(); ++i) {
-    pending[i].answer.set_value(std::move(answers[i]));
-  }
+  pending_.clear();
+  asked_.store(false);
+  wake_ = std::stop_source();
+  return asked;
+}
+
+std::stop_token RunControl::asked() const {
+  const std::lock_guard lock(mutex_);
+  return wake_.get_token();
+}
+
+void RunControl::refresh(const std::function<void(RunStatus&)>& refresh) {
+  const std::lock_guard lock(mutex_);
+  refresh(status_);
+}
+
+bool RunControl::may_step() {
+  const std::lock_guard lock(mutex_);
+  if (!paused_) return true;
+  if (steps_ == 0) return false;
+  --steps_;
+  return true;
+}
+
+RunControl::Asked::Asked(Asked&& other) noexcept
+    : request_(std::move(other.request_)),
+      promise_(std::move(other.promise_)),
+      since_(other.since_),
+      open_(std::exchange(other.open_, false)) {}
+
+RunControl::Asked& RunControl::Asked::operator=(Asked&& other) noexcept {
+  std::swap(request_, other.request_);
+  std::swap(promise_, other.promise_);
+  std::swap(since_, other.since_);
+  std::swap(open_, other.open_);
+  return *this;
+}
+
+RunControl::Asked::~Asked() { answer(fail(ErrorCode::kState, "the run has ended")); }
+
+void RunControl::Asked::answer(Result<std::string> text) {
+  if (std::exchange(open_, false)) promise_.set_value(std::move(text));
 }
 
 void RunControl::end() {
@@ -118,6 +163,7 @@ void RunControl::end() {
   }
   pending_.clear();
   asked_.store(false);
+  wake_ = std::stop_source();
 }
 
 bool RunControl::wait_for_turn(const std::function<void()>& serve) {

@@ -173,6 +173,7 @@ Result<RunOutcome> SharedResults::write(const SharedEnd& end) {
   if (impl.live_reason.empty()) facts.steps = end.steps;
   findings.worlds = end.worlds;
   findings.states = end.states;
+  findings.edits = end.edits;
   findings.wall_s = end.wall_s;
   findings.hash = end.hash;
   return write_results(findings, impl.options.folder, impl.options.picture);

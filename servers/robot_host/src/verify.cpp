@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "capture_watch.hpp"
+#include "host_again.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/record/merge.hpp"
 #include "rave/record/run_reader.hpp"
@@ -73,14 +74,36 @@ Result<std::vector<record::RunInput>> read_inputs(const record::McapReader& read
   return inputs;
 }
 
+/// The run that is done again: of all robots in one engine, or of one host of several.
+struct Again {
+  sim::Engine& engine;
+  std::function<Status()> step;
+  std::function<Result<std::string>(const RunRequest&)> ask;
+  std::function<std::vector<sim::Event>()> beside;  ///< Events that the engine does not have.
+  bool looks = false;                               ///< It says by itself when a step is done.
+};
+
+Again again_of(sim::Engine& engine) {
+  return {engine, [&engine] { return engine.step(); },
+          [&engine](const RunRequest& request) { return serve_request(engine, request); },
+          [] { return std::vector<sim::Event>(); }};
+}
+
+Again again_of(HostAgain& host) {
+  return {host.engine(), [&host] { return host.step(); },
+          [&host](const RunRequest& request) { return host.ask(request); },
+          [&host] { return host.beside(); }, true};
+}
+
 /// Asks for the same again, at the same steps.
 class InputReplay {
  public:
   explicit InputReplay(std::vector<record::RunInput> inputs) : inputs_(std::move(inputs)) {}
 
   /// Those before the step that comes next. What is refused now was not refused then.
-  Status serve(sim::Engine& engine, RecordKeeper& keeper, VerifyOutcome& outcome) {
-    for (; next_ < inputs_.size() && inputs_[next_].step <= engine.steps_done(); ++next_) {
+  Status serve(const Again& again, RecordKeeper& keeper, VerifyOutcome& outcome) {
+    const std::uint64_t step = again.engine.steps_done();
+    for (; next_ < inputs_.size() && inputs_[next_].step <= step; ++next_) {
       const record::RunInput& input = inputs_[next_];
       const auto kind = request_kind(input.kind);
       if (!kind) {
@@ -88,9 +111,9 @@ class InputReplay {
                     "the record has an input `{}`, which this RAVE does not know", input.kind);
       }
       const RunRequest request{*kind, input.robot, input.key, input.value};
-      const auto answer = serve_request(engine, request);
+      const auto answer = again.ask(request);
       if (answer) {
-        keeper.keep(request, engine);
+        keeper.keep(request, step);
       } else {
         outcome.notes.push_back(
             fmt::format("step {}: `{}` was done in the record and is refused "
@@ -167,16 +190,17 @@ Result<config::ExpandedScenario> scenario_of(const record::RunInfo& run, const f
 
 /// The second run, and all who write its record.
 struct SecondRun {
-  sim::Engine& engine;
+  const Again& again;
   RecordKeeper& keeper;
   BodyKinds& kinds;
   std::optional<CaptureWatch> capture{};
 
   void look_back() {
-    kinds.learn(engine.spec().world);
-    keeper.after_step(engine);
+    kinds.learn(again.engine.spec().world);
+    keeper.after_step(again.engine);
+    keeper.keep(again.beside());
     if (!capture) return;
-    capture->after_step(engine);
+    capture->after_step(again.engine);
     keeper.keep(capture->events());
   }
 };
@@ -185,7 +209,7 @@ struct SecondRun {
 /// resolves is seen in the poses of the next.
 Status run_again(SecondRun& run, InputReplay inputs, const std::vector<std::uint64_t>& hashes,
                  const VerifyOptions& options, VerifyOutcome& outcome) {
-  sim::Engine& engine = run.engine;
+  sim::Engine& engine = run.again.engine;
   StallWatch watch(options.log);
   const auto begin = Clock::now();
   auto next_progress = begin;
@@ -196,11 +220,11 @@ Status run_again(SecondRun& run, InputReplay inputs, const std::vector<std::uint
       outcome.ended_early = true;
       return {};
     }
-    RAVE_TRY(inputs.serve(engine, run.keeper, outcome));
+    RAVE_TRY(inputs.serve(run.again, run.keeper, outcome));
     watch.step_begins(outcome.steps);
-    RAVE_TRY(engine.step());
+    RAVE_TRY(run.again.step());
     watch.step_ends();
-    run.look_back();
+    if (!run.again.looks) run.look_back();
     ++outcome.steps;
     if (differs) return {};
     const std::uint64_t done = outcome.steps - 1;
@@ -214,7 +238,7 @@ Status run_again(SecondRun& run, InputReplay inputs, const std::vector<std::uint
     options.on_progress({sim_s / end_s, sim_s, end_s, wall_s > 0 ? sim_s / wall_s : 0,
                          engine.spec().robots.size(), "comparing"});
   }
-  RAVE_TRY(inputs.serve(engine, run.keeper, outcome));
+  RAVE_TRY(inputs.serve(run.again, run.keeper, outcome));
   outcome.hash = engine.hash().value();
   return {};
 }
@@ -258,25 +282,35 @@ Result<VerifyOutcome> verify(const fs::path& record, plugin::Catalogue& catalogu
   RAVE_TRY(note_length(reader, run, end, outcome));
   built.spec.live_clock = nullptr;
   BodyKinds kinds(built.spec, built.robot_kinds);
-  RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(built.spec)));
-  compare_versions(run, versions_of(engine->spec(), catalogue), outcome);
+  std::unique_ptr<sim::Engine> alone;
+  std::unique_ptr<HostAgain> of_host;
+  if (const std::string host = record::host_of(reader); !host.empty()) {
+    RAVE_TRY_ASSIGN(of_host, HostAgain::create(scenario, host, catalogue,
+                                               {options.program_runner, options.log, &pace}));
+  } else {
+    RAVE_TRY_ASSIGN(alone, sim::Engine::create(std::move(built.spec)));
+  }
+  const Again again = of_host ? again_of(*of_host) : again_of(*alone);
+  const sim::Engine& engine = again.engine;
+  compare_versions(run, versions_of(engine.spec(), catalogue), outcome);
   RAVE_TRY_ASSIGN(const auto hashes, read_hashes(reader));
   RAVE_TRY_ASSIGN(const Scratch scratch, Scratch::create());
   RAVE_TRY_ASSIGN(const auto keeper,
-                  RecordKeeper::begin(scratch.file(), *engine, kinds,
+                  RecordKeeper::begin(scratch.file(), engine, kinds,
                                       {run.scenario, "", {}, {}, true}, options.log));
   RAVE_TRY_ASSIGN(auto inputs, read_inputs(reader));
-  SecondRun second{*engine, *keeper, kinds};
+  SecondRun second{again, *keeper, kinds};
   const auto& checks = scenario.scenario.checks;
-  if (checks.capture) second.capture.emplace(*checks.capture, scenario);
+  if (checks.capture && !of_host) second.capture.emplace(*checks.capture, scenario);
+  if (of_host) of_host->look = [&second] { second.look_back(); };
   RAVE_TRY(run_again(second, InputReplay(std::move(inputs)), hashes, options, outcome));
-  RAVE_TRY(keeper->end(engine->hash().value()));
-  RAVE_TRY_ASSIGN(const auto again, record::McapReader::open(scratch.file()));
+  RAVE_TRY(keeper->end(engine.hash().value()));
+  RAVE_TRY_ASSIGN(const auto written, record::McapReader::open(scratch.file()));
   RAVE_TRY_ASSIGN(const RecordMatch match,
-                  match_records(reader, again, run, {!end, record::is_merged(reader)}));
+                  match_records(reader, written, run, {!end, record::is_merged(reader)}));
   outcome.messages = match.messages;
   outcome.difference = match.difference;
-  judge_hash(hashes, *engine, outcome);
+  judge_hash(hashes, engine, outcome);
   return outcome;
 }
 

@@ -26,6 +26,9 @@ fs::path wanted_folder() {
   return fmt::format("{}/rave-{}", P_tmpdir, ::geteuid());
 }
 
+/// Between a scenario and the host that does a part of it.
+constexpr char kOfHost = '@';
+
 /// What stands before the process id.
 std::string_view scenario_of(std::string_view run) { return run.substr(0, run.rfind('-')); }
 std::string_view process_of(std::string_view run) { return run.substr(run.rfind('-') + 1); }
@@ -52,8 +55,13 @@ Result<fs::path> socket_folder() {
   return folder;
 }
 
-std::string own_run_name(std::string_view scenario) {
-  return fmt::format("{}-{}", scenario.substr(0, kMaxScenarioBytes), ::getpid());
+std::string own_run_name(std::string_view scenario, std::string_view host) {
+  if (host.empty()) {
+    return fmt::format("{}-{}", scenario.substr(0, kMaxScenarioBytes), ::getpid());
+  }
+  constexpr std::size_t kMaxHostBytes = 20;
+  return fmt::format("{}{}{}-{}", scenario.substr(0, kMaxScenarioBytes - kMaxHostBytes), kOfHost,
+                     host.substr(0, kMaxHostBytes), ::getpid());
 }
 
 Result<std::vector<std::string>> running_runs() {
@@ -77,10 +85,14 @@ Result<std::vector<std::string>> running_runs() {
 Result<std::string> find_run(std::string_view word) {
   RAVE_TRY_ASSIGN(const std::vector<std::string> runs, running_runs());
   if (runs.empty()) return fail(ErrorCode::kNotFound, "no run is under way");
-  if (word.empty() && runs.size() == 1) return runs.front();
-  std::vector<std::string_view> names(runs.begin(), runs.end());
+  std::vector<std::string_view> names;
+  for (const std::string& run : runs) {
+    if (run.find(kOfHost) == std::string::npos) names.emplace_back(run);
+  }
+  if (names.empty()) names.assign(runs.begin(), runs.end());
+  if (word.empty() && names.size() == 1) return std::string(names.front());
   if (word.empty()) {
-    return fail(ErrorCode::kNotFound, "{} runs are under way, so say which: {}", runs.size(),
+    return fail(ErrorCode::kNotFound, "{} runs are under way, so say which: {}", names.size(),
                 join_names(names));
   }
   std::vector<std::string> of_scenario;
@@ -93,6 +105,7 @@ Result<std::string> find_run(std::string_view word) {
     names.assign(of_scenario.begin(), of_scenario.end());
     return fail(ErrorCode::kNotFound, "several runs are of `{}`: {}", word, join_names(names));
   }
+  names.assign(runs.begin(), runs.end());
   return fail(ErrorCode::kNotFound, "there is no run `{}`{}", word, suggestion(word, names));
 }
 

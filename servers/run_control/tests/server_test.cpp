@@ -91,6 +91,68 @@ TEST_F(ServerTest, AsksARunAndLists) {
   runner.join();
 }
 
+TEST_F(ServerTest, AHostOfARunIsNotTakenForIt) {
+  robot_host::RunControl control;
+  const auto run = Server::start(own_run_name("crowd"), control);
+  const auto left = Server::start(own_run_name("crowd", "left"), control);
+  ASSERT_TRUE(run && left);
+  EXPECT_EQ(running_runs().value().size(), 2U);
+  EXPECT_EQ(find_run("").value(), own_run_name("crowd"));
+  EXPECT_EQ(find_run("crowd").value(), own_run_name("crowd"));
+  EXPECT_EQ(find_run("crowd@left").value(), own_run_name("crowd", "left"));
+  EXPECT_NE(find_run("crowd@lef").error().message.find("crowd@left"), std::string::npos);
+}
+
+TEST_F(ServerTest, AHostAloneIsWhatIsMeant) {
+  robot_host::RunControl control;
+  const auto left = Server::start(own_run_name("crowd", "left"), control);
+  ASSERT_TRUE(left);
+  EXPECT_EQ(find_run("").value(), own_run_name("crowd", "left"));
+}
+
+TEST(RunControlLater, ARunMayAnswerWhenItHasComeToIt) {
+  robot_host::RunControl control;
+  control.begin({"tests", 0, 10, 1, false, false, {}});
+  const std::stop_token woken = control.asked();
+  EXPECT_FALSE(woken.stop_requested());
+  std::string answer;
+  std::thread asker([&] { answer = control.ask({}).value_or("refused"); });
+  while (!woken.stop_requested()) std::this_thread::yield();
+  auto asked = control.take();
+  ASSERT_EQ(asked.size(), 1U);
+  EXPECT_TRUE(control.take().empty());
+  EXPECT_FALSE(control.asked().stop_requested());
+  asked[0].answer(std::string("later"));
+  asked[0].answer(std::string("twice"));
+  asker.join();
+  EXPECT_EQ(answer, "later");
+}
+
+TEST(RunControlLater, WhoIsNeverAnsweredIsTold) {
+  robot_host::RunControl control;
+  control.begin({"tests", 0, 10, 1, false, false, {}});
+  const std::stop_token woken = control.asked();
+  std::string answer;
+  std::thread asker([&] { answer = control.ask({}).error().message; });
+  while (!woken.stop_requested()) std::this_thread::yield();
+  static_cast<void>(control.take());
+  asker.join();
+  EXPECT_EQ(answer, "the run has ended");
+}
+
+TEST(RunControlLater, AHeldRunIsCountedOutInSteps) {
+  robot_host::RunControl control;
+  EXPECT_TRUE(control.may_step());
+  control.pause();
+  EXPECT_FALSE(control.may_step());
+  control.step(2);
+  EXPECT_TRUE(control.may_step());
+  EXPECT_TRUE(control.may_step());
+  EXPECT_FALSE(control.may_step());
+  control.resume();
+  EXPECT_TRUE(control.may_step());
+}
+
 TEST_F(ServerTest, AStopReachesAPausedRun) {
   robot_host::RunControl control;
   const auto server = Server::start("tests-2", control);

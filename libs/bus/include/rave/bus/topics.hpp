@@ -20,6 +20,8 @@ using HostState = rave_wire_HostState;
 using World = rave_wire_World;
 using RosterEntry = rave_wire_RosterEntry;
 using Obstacle = rave_wire_Obstacle;
+/// An obstacle as a host hands it to a manager that starts anew; the same type on another topic.
+struct LastObstacle : rave_wire_Obstacle {};
 using Edit = rave_wire_Edit;
 using Command = rave_wire_Command;
 using Packet = rave_wire_Packet;
@@ -70,6 +72,10 @@ inline TopicSpec topic_of<RosterEntry>() {
 template <>
 inline TopicSpec topic_of<Obstacle>() {
   return {"rave/obstacle", &rave_wire_Obstacle_desc, kDurable};
+}
+template <>
+inline TopicSpec topic_of<LastObstacle>() {
+  return {"rave/last_obstacle", &rave_wire_Obstacle_desc, kDurable};
 }
 template <>
 inline TopicSpec topic_of<Edit>() {

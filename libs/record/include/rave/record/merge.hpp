@@ -31,6 +31,8 @@ struct OpenedRun {
 [[nodiscard]] Result<std::vector<std::string>> merge_records(
     const std::vector<std::filesystem::path>& parts, const std::filesystem::path& output);
 
+/// Which host of several left this record; empty: none, or all.
+[[nodiscard]] std::string host_of(const McapReader& reader);
 /// Whether a record was made of several.
 [[nodiscard]] bool is_merged(const McapReader& reader);
 /// The files of which a record was made, relative to its folder, and their bytes then; empty: of

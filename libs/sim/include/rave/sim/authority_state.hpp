@@ -19,7 +19,10 @@ struct AuthorityState {
   std::vector<RobotId> pinned;       ///< Who could not get out of a real robot's way; ascending.
   std::vector<ResizedRobot> scales;  ///< Of all bodies that are not as the spec says; ascending.
   std::uint64_t inputs = 0;          ///< How many have been asked for so far.
-  /// All changes of obstacles so far, in their order; those of the world are the last of them.
+  /// How many changes of obstacles were made before those of the world.
+  std::uint64_t obstacle_changes = 0;
+  /// What leads from the obstacles of the spec to those before the world, see ObstacleHistory.
+  /// Left out (empty although there were changes) where everybody knows them.
   std::vector<ObstacleChange> obstacles;
 };
 

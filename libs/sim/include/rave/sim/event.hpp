@@ -32,6 +32,12 @@ enum class EventKind : std::uint32_t {
 };
 [[nodiscard]] std::string_view to_string(EventKind kind) noexcept;
 
+/// Whether events of this kind are of an obstacle and of no robot.
+[[nodiscard]] constexpr bool is_of_obstacle(EventKind kind) noexcept {
+  return kind == EventKind::kObstacleAdded || kind == EventKind::kObstacleMoved ||
+         kind == EventKind::kObstacleRemoved;
+}
+
 /// Something that happened to a robot in one step, or to the world.
 struct Event {
   std::uint64_t step = 0;

@@ -4,12 +4,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "rave/base/result.hpp"
 #include "rave/world/body.hpp"
 #include "rave/world/world_view.hpp"
 
 namespace rave::sim {
+
+struct Event;
 
 /// A wish to change which obstacles there are, or what became of one. Obstacles do not push: a new
 /// place that would overlap a simulated robot is refused. A real robot stands where it stands, and
@@ -26,6 +29,7 @@ struct ObstacleChange {
   static constexpr double kLargest_m = 1e6;
   static constexpr std::size_t kMostStanding = 100'000;  ///< Obstacles of a world at a time.
   static constexpr std::size_t kMostAdded = 100'000;     ///< In one run, removed ones too.
+  static constexpr std::size_t kMostAskedBytes = 4096;
 
   Kind kind = Kind::kAdd;
   /// Of kMove and kRemove: which one; with none, the one that `name` says. Of kAdd it is given by
@@ -35,6 +39,9 @@ struct ObstacleChange {
   std::string name;
   Pose2 X_WB;        ///< kAdd and kMove.
   world::Body body;  ///< kAdd: shapes, layer, code and colour; it will be called `name`.
+  /// In the words of whoever asked for it by hand, for records on all hosts; at most
+  /// kMostAskedBytes. Empty: it belongs to the run.
+  std::string asked;
 };
 
 /// What became of a change that was made.
@@ -50,6 +57,11 @@ struct ScheduledObstacle {
   std::uint64_t step = 0;
   ObstacleChange change;
 };
+
+/// The event of a change that was made and counts from `step` on. `note`: what else is worth
+/// telling.
+[[nodiscard]] Event obstacle_event(std::uint64_t step, const ObstacleChange& change,
+                                   std::string_view note, bool by_hand);
 
 /// What can be seen without a world: numbers are finite and within the limits above, the body of a
 /// new obstacle has shapes of positive size and an obstacle's layer. Errors: kInvalidArgument.

@@ -40,8 +40,9 @@ class WorldAuthority {
   /// Whether a report is what step() needs next of its host; errors as there.
   [[nodiscard]] Status check(const HostReport& report) const;
 
-  /// What belongs to the WorldStep that step() made last.
-  [[nodiscard]] AuthorityState state() const;
+  /// What belongs to the WorldStep that step() made last. `with_obstacles`: also those of before,
+  /// which only somebody needs who was not there.
+  [[nodiscard]] AuthorityState state(bool with_obstacles = true) const;
   /// Goes on in the place of another authority of the same spec, after it had made `world` and
   /// `state`: the reports of the step after `world` come next. Errors: kInvalidArgument (a world of
   /// another spec); then nothing has changed.
@@ -52,6 +53,23 @@ class WorldAuthority {
   /// kInvalidArgument (no such robot, nothing to change, a change of the body together with other
   /// parts, what check_obstacle_change() says).
   Result<std::uint64_t> ask(WorldInput input);
+  /// A change of an obstacle that another authority has made, and given its number: it counts from
+  /// the next step on, whoever stands there. It has passed check_obstacle_change(), and its number
+  /// is that of an obstacle of world(), or the one that comes next.
+  void adopt(ObstacleChange change);
+
+  // Where nobody calls step(): an authority over obstacles alone, as a run in real time has one.
+
+  /// Where a robot is said to be.
+  void place(RobotId robot, const Pose2& X_WR, bool present);
+  /// Makes a change of an obstacle at once; returns it with its number, and appends to `note` what
+  /// is worth telling. Errors: kInvalidArgument and kNotFound, see ObstacleChange; then everything
+  /// is as it was.
+  Result<ObstacleChange> decide(const ObstacleChange& change, SimTime at, std::string& note);
+  /// Goes on in the place of another one: `changes` lead from the obstacles of the start to those
+  /// that there are. Errors: kInvalidArgument; then nothing has changed.
+  Status put_obstacles(std::span<const ObstacleChange> changes, SimTime at);
+
   /// What hosts and authority said in the last step to inputs that came by hand.
   [[nodiscard]] std::span<const InputRefusal> refusals() const noexcept;
 
@@ -61,6 +79,8 @@ class WorldAuthority {
   [[nodiscard]] const EngineSpec& spec() const noexcept;
   /// Of which all is known: motion, contacts, hash.
   [[nodiscard]] std::uint64_t steps_done() const noexcept;
+  /// The world of this one is made next.
+  [[nodiscard]] std::uint64_t next_step() const noexcept;
   /// True pose of a simulated, reported pose of a real robot, as the last WorldStep shows it.
   [[nodiscard]] Pose2 pose(RobotId robot) const noexcept;
   /// Contacts, pins, changes of bodies and obstacles of the last step that is done, by robot.

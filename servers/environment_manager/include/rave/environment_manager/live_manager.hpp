@@ -12,6 +12,8 @@
 #include "rave/bus/config.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/lock_step/introduction.hpp"
+#include "rave/robot_host/run_control.hpp"
+#include "rave/sim/engine_spec.hpp"
 
 namespace rave::environment_manager {
 
@@ -38,6 +40,8 @@ struct LiveManagerOptions {
   LogSink* log = nullptr;  ///< Not owned; may be null.
   /// Asked about ten times a second whether to end; may be empty.
   std::function<bool()> stopping;
+  /// What others ask of the run; not owned, may be null.
+  robot_host::RunControl* control = nullptr;
   /// Told about ten times a second, in the calling thread: time of the run, and for whom it waits;
   /// may be empty.
   std::function<void(SimTime, const std::string&)> on_progress;
@@ -57,16 +61,28 @@ struct LiveManagerOutcome {
     std::uint64_t losses = 0;
   };
   std::vector<Host> hosts;
+  /// Changes of obstacles by hand, and how long it took from the wish until the robots of all hosts
+  /// had them around them, as far as hosts have confirmed that.
+  struct Edits {
+    std::uint64_t made = 0;
+    std::uint64_t confirmed = 0;
+    double slowest_s = 0;
+    double sum_s = 0;  ///< Of all that were confirmed.
+  };
+  Edits edits;
   std::vector<std::string> problems;  ///< One sentence each; empty if all is well.
 };
 
 /// Serves a run in real time, in the calling thread: gives it its time, which is that of this
 /// process since all hosts were there, gathers what hosts say of their robots, and tells all of
-/// them each `world_period`. It resolves nothing and keeps nothing that hosts do not say again, so
+/// them each `world_period`. Of `spec` it has the obstacles and the bodies of the robots: it
+/// decides which changes of obstacles can be made, those of the scenario and those by `control`,
+/// and tells all at once. It resolves no motion and keeps nothing that hosts do not say again, so
 /// it may be ended and started anew at any time: it then goes on with the time that the hosts have.
 /// Whoever becomes late, lost or stale is in the log once and, for all processes, in the topics
 /// `rave/world` and `rave/run`. Errors: the bus cannot be opened; kState (there is a manager of
 /// this run already).
-[[nodiscard]] Result<LiveManagerOutcome> manage_live(const LiveManagerOptions& options);
+[[nodiscard]] Result<LiveManagerOutcome> manage_live(sim::EngineSpec spec,
+                                                     const LiveManagerOptions& options);
 
 }  // namespace rave::environment_manager

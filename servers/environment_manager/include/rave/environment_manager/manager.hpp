@@ -12,6 +12,7 @@
 #include "rave/bus/config.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/lock_step/introduction.hpp"
+#include "rave/robot_host/run_control.hpp"
 #include "rave/sim/engine_spec.hpp"
 #include "rave/sim/world_authority.hpp"
 
@@ -30,6 +31,8 @@ struct ManagerOptions {
   LogSink* log = nullptr;  ///< Not owned; may be null.
   /// Asked about ten times a second whether to end the run; may be empty.
   std::function<bool()> stopping;
+  /// What others ask of the run, and how they hold it; not owned, may be null.
+  robot_host::RunControl* control = nullptr;
   /// Told about ten times a second, in the calling thread; may be empty.
   struct Progress {
     std::uint64_t step = 0;
@@ -59,7 +62,8 @@ struct ManagerOutcome {
 /// thread: gathers the report of each host, limits the motion of all robots, and sends the world
 /// back, which is the tick. If a manager of this run was there before, it goes on where that one
 /// ended. Hosts are awaited, told apart and, when they are late or gone, treated as the policy
-/// says; everything of that is in the log and, for all processes, in the topic `rave/run`. Errors:
+/// says; everything of that is in the log and, for all processes, in the topic `rave/run`. What is
+/// asked of obstacles and robots by `control` counts from the next step on, on all hosts. Errors:
 /// the bus cannot be opened; kState (there is a manager of this run already; a host cannot go on
 /// and the policy is to wait); kInvalidArgument (the scenario).
 [[nodiscard]] Result<ManagerOutcome> manage(sim::EngineSpec spec, const ManagerOptions& options);

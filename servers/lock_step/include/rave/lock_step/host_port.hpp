@@ -42,7 +42,8 @@ class HostPort {
   [[nodiscard]] Result<Answer> exchange(const sim::HostReport& report, std::uint64_t hash,
                                         sim::WorldStep& world,
                                         const std::function<bool()>& stopping);
-  /// What the authority knew beside the last world.
+  /// What the authority knew beside the last world, with the obstacles of before only if this host
+  /// had missed some.
   [[nodiscard]] const sim::AuthorityState& authority() const noexcept;
   /// After kEnded: whether the run ended as it should, and what its manager says of it.
   struct Ending {

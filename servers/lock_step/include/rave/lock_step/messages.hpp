@@ -7,6 +7,7 @@
 
 #include "rave/base/result.hpp"
 #include "rave/bus/topics.hpp"
+#include "rave/lock_step/obstacle_messages.hpp"
 #include "rave/sim/host_report.hpp"
 #include "rave/sim/world_authority.hpp"
 #include "rave/sim/world_step.hpp"
@@ -39,7 +40,8 @@ class ReportMessage {
 class WorldMessage {
  public:
   /// As ReportMessage::fill(). Errors: kInvalidArgument, an input that the bus cannot carry: a name
-  /// longer than 128 bytes, a text longer than 1024, a list of more than 1024 numbers.
+  /// longer than 128 bytes, a text longer than 1024, a list of more than 1024 numbers; what
+  /// ObstacleParts::fill() says.
   [[nodiscard]] Result<bus::LastWorld*> fill(const sim::WorldStep& world,
                                              const sim::AuthorityState& authority,
                                              std::uint64_t epoch);
@@ -48,7 +50,7 @@ class WorldMessage {
 
  private:
   Status fill_inputs(const sim::WorldStep& world);
-  void fill_authority(const sim::AuthorityState& authority);
+  Status fill_authority(const sim::AuthorityState& authority);
 
   bus::LastWorld message_{};
   WireParts parts_;
@@ -60,6 +62,8 @@ class WorldMessage {
   std::vector<std::uint32_t> pinned_;
   std::vector<std::uint64_t> hosts_;
   std::vector<rave_wire_WorldInput> inputs_;
+  ObstacleParts obstacles_;
+  ObstacleParts obstacles_before_;
   std::vector<std::vector<rave_wire_ParameterChange>> changes_;
 };
 
@@ -70,7 +74,8 @@ class WorldMessage {
 /// needs is for WorldAuthority::step() to say. The message has passed bus::validate().
 void read(const bus::HostReport& message, sim::HostReport& report);
 /// The same for a step of the world, which Engine::apply() judges, and what its authority knows
-/// beside. Errors: kInvalidArgument (an input or a part of a robot that does not exist).
+/// beside. Errors: kInvalidArgument (an input or a part of a robot that does not exist, an event of
+/// no robot that is not of the world, an obstacle that nobody can build).
 [[nodiscard]] Status read(const bus::WorldStep& message, sim::WorldStep& world,
                           sim::AuthorityState& authority);
 

@@ -42,7 +42,8 @@ class HostLink {
   HostLink& operator=(const HostLink&) = delete;
   ~HostLink();
 
-  /// Waits until the run has a time and, if it sees, a first world; from then on zero() stands.
+  /// Waits until the run has a time, all obstacles and, if it sees, a first world; from then on
+  /// zero() stands.
   /// `stopping` is asked ten times a second. False: somebody wants to stop. The log is told for
   /// whom it waits. Errors: kState (this host is served by another process, or the manager does not
   /// fit).
@@ -64,6 +65,10 @@ class HostLink {
   void send(const sim::SentPackets& sent);
   /// Who has exceeded it since the last call; each robot once in a run.
   [[nodiscard]] std::vector<RobotId> take_flooders();
+
+  /// The last step has the obstacles of LiveWorld::shown_revision() around its robots; the manager
+  /// is told when that is more than before.
+  void obstacles_shown();
 
   /// For how long no world has come; 0 if it does not see.
   [[nodiscard]] Duration world_age() const;

@@ -22,6 +22,14 @@ struct RobotSight {
   Twist2 velocity;  ///< Body frame; finite.
 };
 
+/// How an obstacle stands that is not as it was at the start, as the manager of the run says.
+struct ObstacleSight {
+  std::uint64_t scheduled = 0;  ///< How many changes of the scenario were due by then.
+  std::uint64_t revision = 0;   ///< Of all obstacles: each change has the next, from 1.
+  sim::ObstacleChange stands;   ///< An addition at the present place, a move, or a removal.
+  bool removed = false;         ///< It came, and is gone.
+};
+
 /// The world of one host in real time. It is the authority for the robots that run here and knows
 /// all others only by what their hosts say, when that arrives: they are where their last velocity
 /// has brought them since, for at most the `staleness` of their type, after which they stay there
@@ -32,13 +40,22 @@ struct RobotSight {
 /// thread; uses others inside step().
 class LiveWorld {
  public:
-  /// `spec`: that of the engine, with `local`; nothing of it is kept but a copy. Errors:
-  /// kInvalidArgument.
-  [[nodiscard]] static Result<std::unique_ptr<LiveWorld>> create(const sim::EngineSpec& spec);
+  /// `spec`: that of the engine, with `local`; nothing of it is kept but a copy. `alone`: there is
+  /// no manager, and the changes of obstacles of the spec are made here. Errors: kInvalidArgument.
+  [[nodiscard]] static Result<std::unique_ptr<LiveWorld>> create(const sim::EngineSpec& spec,
+                                                                 bool alone = false);
 
   /// Takes in where a robot of another host was. False, and nothing has changed: it runs here, does
   /// not exist, or more recent things are known of it.
   bool see(const RobotSight& sight);
+  /// Takes in how an obstacle stands, for the next step; whoever stands there. False: more recent
+  /// things are known of it, or it cannot be.
+  bool see(ObstacleSight sight);
+  /// The latest revision that was heard of, and that of the last step: all obstacles stand as they
+  /// should as far as this.
+  [[nodiscard]] std::uint64_t heard_revision() const noexcept { return heard_revision_; }
+  [[nodiscard]] std::uint64_t shown_revision() const noexcept { return shown_revision_; }
+
   /// The clock by which others stamp is another one now: what is heard next is the most recent.
   void clock_changed();
   /// Takes in a message of a robot of another host, for the next step; when it was sent counts only
@@ -56,8 +73,8 @@ class LiveWorld {
   /// those of WorldAuthority::step().
   Status step(const sim::HostReport& own, sim::WorldStep& world);
 
-  /// Of the last step: contacts, pins and changes of bodies of the robots that run here, and who of
-  /// the others became stale (kPoseStale) or was heard of again (kPoseBack).
+  /// Of the last step: contacts, pins and changes of bodies of the robots that run here, changes of
+  /// obstacles, and who of the others became stale (kPoseStale) or was heard of again (kPoseBack).
   [[nodiscard]] std::span<const sim::Event> events() const noexcept { return events_; }
   /// How many messages of others were dropped because there were too many in one step.
   [[nodiscard]] std::uint64_t dropped_packets() const noexcept { return dropped_packets_; }
@@ -93,6 +110,8 @@ class LiveWorld {
   void report_place(Other& other, std::uint64_t step);
   void report_samples(SimTime now);
   void report_packets(std::uint64_t step);
+  void adopt_obstacles();
+  void adopt(const ObstacleSight& sight, bool is_new);
 
   std::unique_ptr<sim::WorldAuthority> authority_;
   std::vector<std::uint8_t> local_;       ///< By robot: it runs here.
@@ -106,7 +125,11 @@ class LiveWorld {
   std::vector<std::uint32_t> order_;  ///< Of `heard_`.
   std::vector<sim::Event> events_;
   std::uint64_t dropped_packets_ = 0;
-  std::vector<RobotId> flooders_;  ///< Not asked for yet.
+  std::vector<RobotId> flooders_;                       ///< Not asked for yet.
+  std::map<std::uint32_t, ObstacleSight> news_;         ///< Of obstacles, by number.
+  std::map<std::uint32_t, std::uint64_t> revision_of_;  ///< The same, of all that was heard.
+  std::uint64_t heard_revision_ = 0;
+  std::uint64_t shown_revision_ = 0;
 };
 
 }  // namespace rave::real_time

@@ -30,6 +30,10 @@ class RobotColumns {
 [[nodiscard]] RobotSight read_robot(const rave_wire_PlanarRobots& robots, std::size_t index,
                                     Duration shift);
 
+/// How an obstacle stands, as the bus carries it. Errors: kInvalidArgument, see
+/// lock_step::read_obstacle(). The sample has passed bus::validate().
+[[nodiscard]] Result<ObstacleSight> read_obstacle(const bus::Obstacle& sample);
+
 /// A message of a robot as a packet that borrows `bytes`; `shift` is put on its stamp.
 [[nodiscard]] bus::Packet packet_of(const sim::SentPacket& sent, std::span<const std::byte> bytes,
                                     std::uint64_t number, Duration shift);

@@ -56,10 +56,6 @@ struct HostOutcome {
 /// pace, its threads and what to do about lost hosts.
 [[nodiscard]] std::uint64_t shared_number(const config::ExpandedScenario& scenario);
 
-/// Whether a world can be shared by hosts in lock-step. Errors: kInvalidArgument says what cannot
-/// be: drivers by the wall clock, obstacles that come and go.
-[[nodiscard]] Status check_can_be_shared(const BuiltScenario& built);
-
 /// What else they must have in common: the interface of plug-ins.
 [[nodiscard]] std::uint64_t interface_stamp();
 

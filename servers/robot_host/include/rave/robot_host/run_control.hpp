@@ -10,6 +10,7 @@
 #include <future>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -87,6 +88,35 @@ class RunControl {
   [[nodiscard]] RunStatus status() const;
 
   // For the run.
+  /// Something that was asked and is not answered yet. The asker waits for answer(), which may be
+  /// called once; who is never answered is told that the run has ended.
+  class Asked {
+   public:
+    Asked(RunRequest request, std::promise<Result<std::string>> promise,
+          std::chrono::steady_clock::time_point since)
+        : request_(std::move(request)), promise_(std::move(promise)), since_(since) {}
+    Asked(Asked&& other) noexcept;
+    Asked& operator=(Asked&& other) noexcept;
+    ~Asked();
+    [[nodiscard]] const RunRequest& request() const noexcept { return request_; }
+    /// When it was asked.
+    [[nodiscard]] std::chrono::steady_clock::time_point since() const noexcept { return since_; }
+    void answer(Result<std::string> text);
+
+   private:
+    RunRequest request_;
+    std::promise<Result<std::string>> promise_;
+    std::chrono::steady_clock::time_point since_;
+    bool open_ = true;
+  };
+  /// All that was asked since the last call, in order, for a run that answers later.
+  [[nodiscard]] std::vector<Asked> take();
+  /// Wakes who waits for something else, with the next request since take().
+  [[nodiscard]] std::stop_token asked() const;
+  /// Brings the status up to date.
+  void refresh(const std::function<void(RunStatus&)>& refresh);
+  /// Whether a step may be done now; counts the single steps of a run that is held.
+  [[nodiscard]] bool may_step();
   using Serve = std::function<Result<std::string>(const RunRequest&)>;
   /// Requests are taken from here on.
   void begin(RunStatus status);
@@ -102,6 +132,7 @@ class RunControl {
   struct Pending {
     RunRequest request;
     std::promise<Result<std::string>> answer;
+    std::chrono::steady_clock::time_point since;
   };
   std::atomic<bool> stop_{false};
   static_assert(std::atomic<bool>::is_always_lock_free);
@@ -113,6 +144,7 @@ class RunControl {
   bool running_ = false;
   std::uint64_t steps_ = 0;  ///< Single steps still to be done.
   std::deque<Pending> pending_;
+  std::stop_source wake_;  ///< Of asked().
   RunStatus status_;
 };
 

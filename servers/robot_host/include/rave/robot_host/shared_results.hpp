@@ -29,6 +29,14 @@ struct SharedHost {
   std::optional<std::uint64_t> losses;
 };
 
+/// Obstacles that were changed by hand in real time, and how soon all hosts had them.
+struct SharedEdits {
+  std::uint64_t made = 0;
+  std::uint64_t confirmed = 0;  ///< By all hosts that were there.
+  double slowest_s = 0;         ///< Of those; from the request to the last answer.
+  double sum_s = 0;
+};
+
 /// How a run of several hosts ended.
 struct SharedEnd {
   std::optional<std::uint64_t> hash;
@@ -39,6 +47,7 @@ struct SharedEnd {
   // Of a run in real time: what the manager sent and got.
   std::optional<std::uint64_t> worlds;
   std::optional<std::uint64_t> states;
+  std::optional<SharedEdits> edits;
 };
 
 /// Makes of what the hosts of a run left, and of what its manager saw, the results that the run has

@@ -52,7 +52,8 @@ struct VerifyOutcome {
   }
 };
 
-/// Runs the scenario inside a record again, as it says, and compares every pose, percept, command,
+/// Runs the scenario inside a record again, as it says (of a host of several in lock-step: its
+/// robots in one engine, the others in another), and compares every pose, percept, command,
 /// actuator command, radio packet and event with those of the record, and the run hash after each
 /// step. Stops behind the first step that differs. Writes only a temporary file. Errors: the record
 /// cannot be read, or the scenario cannot be run here.

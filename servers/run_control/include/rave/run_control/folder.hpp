@@ -15,14 +15,17 @@ namespace rave::run_control {
 /// somebody else's, open to others).
 [[nodiscard]] Result<std::filesystem::path> socket_folder();
 
-/// Name of the run that this process does, such as `predator-prey-4711`.
-[[nodiscard]] std::string own_run_name(std::string_view scenario);
+/// Name of the run that this process does, such as `predator-prey-4711`; of the part of it that one
+/// host of several does, `predator-prey@left-4711`.
+[[nodiscard]] std::string own_run_name(std::string_view scenario, std::string_view host = {});
 
 /// Names of the runs that go on, in order. Sockets of those that have died are removed.
 [[nodiscard]] Result<std::vector<std::string>> running_runs();
 
 /// The run that a word stands for: its name, its process id, or its scenario if only one run has
-/// that; with an empty word the only run. Errors: kNotFound with the nearest name or the list.
+/// that; with an empty word the only run. Hosts of a run are named in full (`predator-prey@left`)
+/// and count as runs only where there is nothing else. Errors: kNotFound with the nearest name or
+/// the list.
 [[nodiscard]] Result<std::string> find_run(std::string_view word);
 
 }  // namespace rave::run_control

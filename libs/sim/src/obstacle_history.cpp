@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/sim/obstacle_history.hpp"
+
+namespace rave::sim {
+
+using Kind = ObstacleChange::Kind;
+
+ObstacleHistory::ObstacleHistory(const std::vector<ObstacleChange>& changes, std::uint64_t count) {
+  for (const ObstacleChange& change : changes) add(change);
+  count_ = count;
+}
+
+void ObstacleHistory::add(const ObstacleChange& change) {
+  ++count_;
+  const auto found = entry_of_.find(change.id.value());
+  if (change.kind != Kind::kAdd && found != entry_of_.end()) {
+    ObstacleChange& before = changes_[found->second];
+    if (change.kind == Kind::kMove) {
+      before.X_WB = change.X_WB;
+      return;
+    }
+    // The number of one that was added stays taken, so that it came has to be told, too.
+    if (before.kind == Kind::kMove) {
+      before.kind = Kind::kRemove;
+      return;
+    }
+  }
+  if (change.kind != Kind::kRemove) entry_of_[change.id.value()] = changes_.size();
+  changes_.push_back(change);
+  changes_.back().asked.clear();
+}
+
+}  // namespace rave::sim

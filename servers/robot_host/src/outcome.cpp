@@ -135,14 +135,17 @@ Json robots_json(const Findings& findings) {
 
 Json events_json(const Findings& findings) {
   Json json = Json::object();
-  for (const auto kind :
-       {sim::EventKind::kContact, sim::EventKind::kPinned, sim::EventKind::kPoseStale,
-        sim::EventKind::kPoseBack, sim::EventKind::kProgramFailed, sim::EventKind::kDriverFailed,
-        sim::EventKind::kDriverBack, sim::EventKind::kGuardSlowed, sim::EventKind::kGuardStopped,
-        sim::EventKind::kStopped, sim::EventKind::kReleased, sim::EventKind::kArmed,
-        sim::EventKind::kChanged, sim::EventKind::kChangeRefused, sim::EventKind::kObstacleAdded,
-        sim::EventKind::kObstacleMoved, sim::EventKind::kObstacleRemoved,
-        sim::EventKind::kCaptured}) {
+  for (const auto kind : {sim::EventKind::kContact,         sim::EventKind::kPinned,
+                          sim::EventKind::kPoseStale,       sim::EventKind::kPoseBack,
+                          sim::EventKind::kProgramFailed,   sim::EventKind::kDriverFailed,
+                          sim::EventKind::kDriverBack,      sim::EventKind::kGuardSlowed,
+                          sim::EventKind::kGuardStopped,    sim::EventKind::kStopped,
+                          sim::EventKind::kReleased,        sim::EventKind::kArmed,
+                          sim::EventKind::kChanged,         sim::EventKind::kChangeRefused,
+                          sim::EventKind::kObstacleAdded,   sim::EventKind::kObstacleMoved,
+                          sim::EventKind::kObstacleRemoved, sim::EventKind::kCaptured,
+                          sim::EventKind::kHandedOver,      sim::EventKind::kHandOverRefused,
+                          sim::EventKind::kShadowReset}) {
     std::string name(to_string(kind));
     std::replace(name.begin(), name.end(), ' ', '_');
     json[name] = count_events(findings, kind);
@@ -227,6 +230,24 @@ Json changes_json(const Findings& findings) {
   return json;
 }
 
+/// What became of each hand-over, and of shadows; nothing for a scenario without twins.
+void add_hand_overs(const Findings& findings, Json& json) {
+  const sim::EngineSpec& spec = findings.engine.spec();
+  const bool twins = std::any_of(spec.robots.begin(), spec.robots.end(),
+                                 [](const auto& robot) { return robot.twin.has_value(); });
+  if (!twins) return;
+  json["hand_overs"] = Json::array();
+  for (const sim::Event& event : findings.events) {
+    const bool made = event.kind == sim::EventKind::kHandedOver;
+    if (!made && event.kind != sim::EventKind::kHandOverRefused) continue;
+    json["hand_overs"].push_back({{"time_s", static_cast<double>(event.step) * spec.step.seconds()},
+                                  {"robot", subject_of(spec, event)},
+                                  {"made", made},
+                                  {"what", event.text}});
+  }
+  if (findings.shadows != nullptr) json["shadows"] = Json::parse(findings.shadows->json());
+}
+
 std::size_t count_real(const Findings& findings) {
   const sim::EngineSpec& spec = findings.engine.spec();
   return static_cast<std::size_t>(std::count_if(
@@ -294,6 +315,14 @@ RunOutcome judge(const Findings& findings) {
                                            static_cast<double>(event.step) * spec.step.seconds(),
                                            event.text));
   }
+  for (const sim::Event& event : findings.events) {
+    // Whoever asked by hand has been told.
+    const bool scheduled = !event.text.ends_with("(by hand)");
+    if (event.kind != sim::EventKind::kHandOverRefused || !scheduled) continue;
+    outcome.problems.push_back(fmt::format(
+        "robot `{}` at {:.2f} s was not handed over: {}", spec.robots[event.robot.value()].name,
+        static_cast<double>(event.step) * spec.step.seconds(), event.text));
+  }
   outcome.whole = outcome.problems.empty();
   if (findings.capture != nullptr && !findings.capture->holds()) {
     outcome.checks_hold = false;
@@ -348,6 +377,7 @@ std::string result_json(const Findings& findings, const RunOutcome& outcome) {
   if (has_radio(findings.engine.spec())) json["radio"] = radio_json(findings.engine);
   json["guard"] = guard_counts(findings);
   json["changes"] = changes_json(findings);
+  add_hand_overs(findings, json);
   json["inputs_by_hand"] = findings.engine.inputs_by_hand();
   if (findings.capture != nullptr) json["capture"] = capture_json(findings);
   json["robots"] = robots_json(findings);

@@ -13,6 +13,7 @@
 #include "instant.hpp"
 #include "rave/robot_host/build.hpp"
 #include "rave/robot_host/run.hpp"
+#include "shadows.hpp"
 #include "sighting_check.hpp"
 #include "track_recorder.hpp"
 
@@ -31,6 +32,7 @@ struct Findings {
   const SightingCheck* sightings = nullptr;
   const InstantKeeper* instant = nullptr;
   const CaptureWatch* capture = nullptr;
+  const Shadows* shadows = nullptr;
   const std::vector<sim::Event>& events;
   double wall_s = 0;
   bool ended_early = false;

@@ -8,10 +8,16 @@ namespace {
 
 using Kind = RunRequest::Kind;
 
-constexpr std::pair<Kind, std::string_view> kWords[] = {
-    {Kind::kStop, "stop"},     {Kind::kRelease, "release"}, {Kind::kArm, "arm"},
-    {Kind::kSet, "set"},       {Kind::kAdd, "add"},         {Kind::kMove, "move"},
-    {Kind::kRemove, "remove"}, {Kind::kList, "list"}};
+constexpr std::pair<Kind, std::string_view> kWords[] = {{Kind::kStop, "stop"},
+                                                        {Kind::kRelease, "release"},
+                                                        {Kind::kArm, "arm"},
+                                                        {Kind::kSet, "set"},
+                                                        {Kind::kAdd, "add"},
+                                                        {Kind::kMove, "move"},
+                                                        {Kind::kRemove, "remove"},
+                                                        {Kind::kList, "list"},
+                                                        {Kind::kHandOver, "hand_over"},
+                                                        {Kind::kResetShadow, "reset_shadow"}};
 
 }  // namespace
 
@@ -107,6 +113,11 @@ void RunControl::serve(const Serve& serve, const std::function<void(RunStatus&)>
   for (std::size_t i = 0; i < pending.size(); ++i) {
     pending[i].answer.set_value(std::move(answers[i]));
   }
+}
+
+void RunControl::refresh(const std::function<void(RunStatus&)>& refresh) {
+  const std::lock_guard lock(mutex_);
+  refresh(status_);
 }
 
 void RunControl::end() {

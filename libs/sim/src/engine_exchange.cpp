@@ -18,10 +18,6 @@ double distance_m(const Pose2& a, const Pose2& b) noexcept {
   return std::sqrt(squared_norm(a.position() - b.position()));
 }
 
-std::string_view name_of(const RobotType& type) noexcept {
-  return type.simulated ? "simulated" : "real";
-}
-
 /// Whether what one set gives can be put where the program expects what the other gave.
 Status check_readings(const RobotGroup& group, const RobotGroup& other) {
   for (std::size_t s = 0; s < other.sensors.size(); ++s) {
@@ -189,7 +185,7 @@ Status Engine::Impl::check_near(const Twin& twin) const {
       ErrorCode::kState,
       "its {} drivers say that it is at ({:.3f}, {:.3f}) m, {:.1f} degrees, which is {:.3f} "
       "m and {:.1f} degrees from where it is now; expected at most {} m and {:.0f} degrees",
-      name_of(*twin.other.type), X_after.x, X_after.y, rad_to_deg(X_after.yaw), apart_m,
+      reality_of(*twin.other.type), X_after.x, X_after.y, rad_to_deg(X_after.yaw), apart_m,
       rad_to_deg(turned_rad), limits.within_m, rad_to_deg(limits.within_rad));
 }
 
@@ -236,11 +232,12 @@ void Engine::Impl::change_drivers(Twin& twin) {
   ++twin.state.made;
   const double jump_m = distance_m(X_before, place.X_WR);
   const double turn_rad = std::abs(wrap_angle(place.X_WR.yaw - X_before.yaw));
-  end_hand_over(twin, EventKind::kHandedOver,
-                fmt::format("{} -> {} at ({:.3f}, {:.3f}) m, {:.1f} degrees; moved by {:.4f} m and "
-                            "{:.2f} degrees",
-                            name_of(*twin.other.type), name_of(type), place.X_WR.x, place.X_WR.y,
-                            rad_to_deg(place.X_WR.yaw), jump_m, rad_to_deg(turn_rad)));
+  end_hand_over(
+      twin, EventKind::kHandedOver,
+      fmt::format("{} -> {} at ({:.3f}, {:.3f}) m, {:.1f} degrees; moved by {:.4f} m and "
+                  "{:.2f} degrees",
+                  reality_of(*twin.other.type), reality_of(type), place.X_WR.x, place.X_WR.y,
+                  rad_to_deg(place.X_WR.yaw), jump_m, rad_to_deg(turn_rad)));
 }
 
 void Engine::Impl::close_other(Twin& twin) {

@@ -34,10 +34,6 @@ bool is_below(const Twist2& twist, double mps, double radps) noexcept {
   return std::sqrt(squared_norm(Vec2{twist.vx, twist.vy})) <= mps && std::abs(twist.wz) <= radps;
 }
 
-std::string_view name_of(const RobotType& type) noexcept {
-  return type.simulated ? "simulated" : "real";
-}
-
 }  // namespace
 
 Status Engine::Impl::hand_over(RobotId robot, DriverSet to, Author author) {
@@ -52,7 +48,8 @@ Status Engine::Impl::hand_over(RobotId robot, DriverSet to, Author author) {
     return fail(ErrorCode::kState, "robot `{}` is being handed over already", name);
   }
   if (twin->state.active == to) {
-    return fail(ErrorCode::kState, "robot `{}` has its {} drivers already", name, name_of(target));
+    return fail(ErrorCode::kState, "robot `{}` has its {} drivers already", name,
+                reality_of(target));
   }
   if (!target.simulated && truth.scale_of(robot) != 1) {
     return fail(ErrorCode::kState, "the body of robot `{}` has `scale` {}; a real one has 1", name,
@@ -183,9 +180,9 @@ bool Engine::Impl::moves_seen(const RobotGroup& group, std::uint32_t robot) cons
 void Engine::Impl::refuse(Twin& twin, const std::string& why) {
   if (twin.made) close_other(twin);
   ++twin.state.refused;
-  const std::string from(name_of(*group_of_twin(twin).type));
+  const std::string from(reality_of(*group_of_twin(twin).type));
   end_hand_over(twin, EventKind::kHandOverRefused,
-                fmt::format("{} -> {}: {}", from, name_of(*twin.other.type), why));
+                fmt::format("{} -> {}: {}", from, reality_of(*twin.other.type), why));
 }
 
 void Engine::Impl::end_hand_over(Twin& twin, EventKind kind, std::string text) {

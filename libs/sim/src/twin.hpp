@@ -11,6 +11,10 @@
 
 namespace rave::sim {
 
+[[nodiscard]] inline std::string_view reality_of(const RobotType& type) noexcept {
+  return type.simulated ? "simulated" : "real";
+}
+
 /// A robot with two sets of drivers. Its group has it alone; controllers and program stay there,
 /// whichever set serves.
 struct Twin {

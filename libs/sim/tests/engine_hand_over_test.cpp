@@ -27,7 +27,7 @@ RobotType counting() {
 }
 
 /// Two robots among boxes, one of which changes its drivers and back.
-EngineSpec crowd(unsigned threads) {
+EngineSpec changing_crowd(unsigned threads) {
   EngineSpec spec;
   spec.threads = threads;
   spec.share_always = true;
@@ -43,8 +43,8 @@ EngineSpec crowd(unsigned threads) {
 }
 
 TEST(HandOver, OfSimulatedDriversIsTheSameRunForAnyThreads) {
-  const auto one = make_engine(crowd(1));
-  const auto two = make_engine(crowd(2));
+  const auto one = make_engine(changing_crowd(1));
+  const auto two = make_engine(changing_crowd(2));
   const auto events = run(*one, 400);
   run(*two, 400);
   EXPECT_EQ(of_kind(events, EventKind::kHandedOver).size(), 2U);
@@ -55,10 +55,10 @@ TEST(HandOver, OfSimulatedDriversIsTheSameRunForAnyThreads) {
 }
 
 TEST(HandOver, ThatIsNotMadeChangesTheRun) {
-  EngineSpec spec = crowd(1);
+  EngineSpec spec = changing_crowd(1);
   spec.hand_overs.clear();
   const auto without = make_engine(std::move(spec));
-  const auto with = make_engine(crowd(1));
+  const auto with = make_engine(changing_crowd(1));
   run(*without, 51);
   run(*with, 51);
   EXPECT_NE(with->hash().value(), without->hash().value()) << "it stands";

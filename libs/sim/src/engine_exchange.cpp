@@ -232,12 +232,12 @@ void Engine::Impl::change_drivers(Twin& twin) {
   ++twin.state.made;
   const double jump_m = distance_m(X_before, place.X_WR);
   const double turn_rad = std::abs(wrap_angle(place.X_WR.yaw - X_before.yaw));
-  end_hand_over(
-      twin, EventKind::kHandedOver,
-      fmt::format("{} -> {} at ({:.3f}, {:.3f}) m, {:.1f} degrees; moved by {:.4f} m and "
-                  "{:.2f} degrees",
-                  reality_of(*twin.other.type), reality_of(type), place.X_WR.x, place.X_WR.y,
-                  rad_to_deg(place.X_WR.yaw), jump_m, rad_to_deg(turn_rad)));
+  std::string text = fmt::format(
+      "{} -> {} at ({:.3f}, {:.3f}) m, {:.1f} degrees; moved by {:.4f} m and {:.2f} degrees",
+      reality_of(*twin.other.type), reality_of(type), place.X_WR.x, place.X_WR.y,
+      rad_to_deg(place.X_WR.yaw), jump_m, rad_to_deg(turn_rad));
+  if (!guard_states[r].armed) text += "; it stands until somebody arms it";
+  end_hand_over(twin, EventKind::kHandedOver, std::move(text));
 }
 
 void Engine::Impl::close_other(Twin& twin) {

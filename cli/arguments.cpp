@@ -35,6 +35,8 @@ struct Everything {
   StopCommand stop;
   ArmCommand arm;
   SetCommand set;
+  HandOverCommand hand_over;
+  ShadowCommand shadow;
   EditCommand edit;
   HoldCommand hold;
   BenchSwarmCommand bench_swarm;
@@ -352,6 +354,33 @@ void add_control(CLI::App& root, Everything& all) {
       ->check(CLI::Range(1, 1'000'000'000));
 }
 
+void add_hand_over(CLI::App& root, Everything& all) {
+  HandOverCommand& c = all.hand_over;
+  CLI::App& app = *root.add_subcommand("hand-over", "Give a robot its other drivers while it runs");
+  app.add_option("robot", c.robot, "One whose entry in the scenario has `twin:`")
+      ->required()
+      ->type_name("ROBOT");
+  app.add_option("to", c.to, "real or simulated; or first (those of `file:`) or twin")
+      ->required()
+      ->type_name("DRIVERS");
+  app.add_option("--run", c.run, "Name, process id or scenario of the run [the only one]")
+      ->type_name("RUN");
+  app.footer(
+      "The drivers are opened, the robot is brought to stand, and between two steps it changes.\n"
+      "Its program and its controllers go on. What keeps it from changing is told, and then\n"
+      "everything is as it was.\n\n"
+      "Examples:\n"
+      "  rave hand-over create real\n"
+      "  rave hand-over create simulated --run corridor");
+
+  CLI::App& shadow = *root.add_subcommand(
+      "shadow", "How far real robots are from their simulated twins that run beside them");
+  add_run_name(shadow, all.shadow.run);
+  take_robot(shadow, all.shadow.robot);
+  shadow.add_flag("--reset", all.shadow.reset, "Put the twin where the robot is");
+  shadow.add_flag("--json", all.shadow.json, "Print the numbers as JSON");
+}
+
 void add_name(CLI::App& app, std::string& name) {
   app.add_option("name", name, "Of the obstacle; `rave edit list` has them all")
       ->required()
@@ -493,6 +522,8 @@ Command chosen_command(const CLI::App& root, const Everything& all) {
   if (name == "stop") return all.stop;
   if (name == "arm") return all.arm;
   if (name == "set") return all.set;
+  if (name == "hand-over") return all.hand_over;
+  if (name == "shadow") return all.shadow;
   if (name == "bench") {
     if (chosen_app(root).get_name() == "swarm") return all.bench_swarm;
     return all.bench_compare;
@@ -533,6 +564,7 @@ Command parse_arguments(int argc, const char* const* argv) {
   add_play(root, all.play);
   add_report(root, all.gap);
   add_control(root, all);
+  add_hand_over(root, all);
   add_edit(root, all.edit);
   add_bench(root, all.bench_swarm, all.bench_compare);
   add_keys_commands(root, all.keys);

@@ -9,6 +9,7 @@
 #include "commands/describe.hpp"
 #include "commands/drivers.hpp"
 #include "commands/edit.hpp"
+#include "commands/hand_over.hpp"
 #include "commands/hosts.hpp"
 #include "commands/info.hpp"
 #include "commands/keys.hpp"
@@ -28,12 +29,12 @@ struct Finished {
   int exit_code = 0;
 };
 
-using Command =
-    std::variant<Finished, RunCommand, RobotCommand, EnvCommand, CheckCommand, DriversCommand,
-                 DescribeCommand, NewCommand, SchemaCommand, InfoCommand, VerifyCommand,
-                 PlayCommand, GapCommand, PsCommand, StopCommand, ArmCommand, SetCommand,
-                 EditCommand, HoldCommand, BenchSwarmCommand, BenchCompareCommand, KeysNewCommand,
-                 KeysAddCommand, KeysShowCommand, VersionCommand>;
+using Command = std::variant<Finished, RunCommand, RobotCommand, EnvCommand, CheckCommand,
+                             DriversCommand, DescribeCommand, NewCommand, SchemaCommand,
+                             InfoCommand, VerifyCommand, PlayCommand, GapCommand, PsCommand,
+                             StopCommand, ArmCommand, SetCommand, HandOverCommand, ShadowCommand,
+                             EditCommand, HoldCommand, BenchSwarmCommand, BenchCompareCommand,
+                             KeysNewCommand, KeysAddCommand, KeysShowCommand, VersionCommand>;
 
 /// Reads the command line. Prints help and complaints itself.
 [[nodiscard]] Command parse_arguments(int argc, const char* const* argv);

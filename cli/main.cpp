@@ -27,6 +27,8 @@ struct Dispatch {
   int operator()(const StopCommand& options) const { return stop_robots(options); }
   int operator()(const ArmCommand& options) const { return arm_robots(options); }
   int operator()(const SetCommand& options) const { return set_parameter(options); }
+  int operator()(const HandOverCommand& options) const { return hand_over(options); }
+  int operator()(const ShadowCommand& options) const { return show_shadows(options); }
   int operator()(const EditCommand& options) const { return edit_world(options); }
   int operator()(const HoldCommand& options) const { return hold_run(options); }
   int operator()(const BenchSwarmCommand& options) const { return bench_swarm(options); }

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "error_text.hpp"
+#include "rave/math/scalar.hpp"
 #include "rave/report/table.hpp"
 #include "rave/run_control/client.hpp"
 #include "rave/run_control/folder.hpp"
@@ -45,8 +46,17 @@ std::string pace_text(const robot_host::RunStatus& status) {
 }
 
 std::string state_text(const robot_host::RunStatus::Robot& robot) {
-  if (robot.stopped) return "stopped";
-  return robot.armed ? "free" : "not armed";
+  std::string text = robot.stopped ? "stopped" : robot.armed ? "free" : "not armed";
+  if (robot.hand_over) {
+    const auto& hand_over = *robot.hand_over;
+    text += fmt::format(" at ({:.3f}, {:.3f}) m, {:.1f} deg", hand_over.x_m, hand_over.y_m,
+                        rad_to_deg(hand_over.yaw_rad));
+    if (hand_over.under_way) text += ", being handed over";
+  }
+  if (robot.shadow && robot.shadow->running) {
+    text += fmt::format(", shadow {:.3f} m away", robot.shadow->m);
+  }
+  return text;
 }
 
 std::string state_text(const robot_host::RunStatus& status) {

@@ -232,6 +232,10 @@ class CreatePeer {
     if (name == "deafen") deaf_left_ = std::max(1, number);
     if (name == "mute") mute_ = true;
     if (name == "speak") mute_ = false;
+    if (name == "place" && command.size() == 4) {
+      plant_.place(std::atof(what.c_str()), std::atof(command[2].c_str()),
+                   std::atof(command[3].c_str()));
+    }
     if (name == "vanish") wire_.vanish();
     if (name == "return") wire_.come_back();
     if (name == "reboot") robot_.power_on(plant_);

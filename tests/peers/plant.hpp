@@ -29,6 +29,13 @@ class Plant {
   /// Moves on by `dt_s`, at most a few milliseconds. Wheel speeds in metres per second.
   void advance(double dt_s, double left_mps, double right_mps, std::mt19937_64& random);
 
+  /// Somebody carries it there; its wheels turn as they did.
+  void place(double x, double y, double yaw) {
+    x_ = x;
+    y_ = y;
+    yaw_ = yaw;
+  }
+
   struct Wheel {
     double speed_mps = 0;   ///< Of its rim.
     double travel_m = 0;    ///< Of its rim since the beginning.

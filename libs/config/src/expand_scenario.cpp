@@ -100,16 +100,30 @@ class Expansion {
     if (entry.robot) {
       common.robot = *std::move(entry.robot);
     } else {
-      read_robot(entry, common.robot);
+      read_robot(*entry.file, entry.variables, common.robot);
     }
+    expand_twin(entry, common);
     add_robots(entry, group);
   }
 
-  void read_robot(const RobotEntry& entry, RobotFile& robot) {
-    const fs::path path = beside(folder_, **entry.file);
-    const auto text = read(path, entry.file->where);
+  void expand_twin(RobotEntry& entry, RobotGroup& common) {
+    common.hand_over = entry.hand_over;
+    common.shadow = entry.shadow;
+    if (!entry.twin && !entry.twin_robot) return;
+    TwinGroup& twin = common.twin.emplace();
+    if (entry.twin) twin.file = absolute(beside(folder_, **entry.twin));
+    if (entry.twin_robot) {
+      twin.robot = *std::move(entry.twin_robot);
+    } else {
+      read_robot(*entry.twin, entry.variables, twin.robot);
+    }
+  }
+
+  void read_robot(const Located<std::string>& file, const Variables& variables, RobotFile& robot) {
+    const fs::path path = beside(folder_, *file);
+    const auto text = read(path, file.where);
     if (!text) return;
-    auto result = read_robot_text(*text, path.string(), entry.variables);
+    auto result = read_robot_text(*text, path.string(), variables);
     if (result) {
       robot = *std::move(result);
     } else {

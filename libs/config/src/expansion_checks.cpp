@@ -20,13 +20,17 @@ class Checks {
   void run() {
     unique_obstacles();
     unique_robots();
-    for (const RobotGroup& group : expanded_.groups) timing(group.robot);
+    for (const RobotGroup& group : expanded_.groups) {
+      timing(group.robot);
+      if (group.twin) twin(group);
+    }
     sightings();
     for (const TouchesCheckFile& check : scenario_.checks.touches) touches(check);
     for (const ArrivalCheckFile& check : scenario_.checks.arrivals) (void)groups_of(check.robot);
     odometry();
     for (const ChangeFile& change : scenario_.changes) {
       if (change.robot) robots_exist("robot", *change.robot);
+      if (change.robot && change.hand_over) twins_exist(*change.robot);
       multiple_of_step("at_s", change.at_s);
     }
     if (auto hosts = plan_hosts(expanded_); !hosts) diagnostics_.add(std::move(hosts).error());
@@ -56,6 +60,24 @@ class Checks {
       if (is_new) continue;
       report(expanded_.group_of(robot).name.where, "{}",
              named_twice("robot", robot.name, expanded_.groups[first->second].name.where));
+    }
+  }
+
+  void twin(const RobotGroup& group) {
+    timing(group.twin->robot);
+    if (!scenario_.processes && scenario_.hosts.empty()) return;
+    report(group.name.where,
+           "robot `{}` has a `twin`, whose drivers only a run in one process can change; expected "
+           "neither `processes` nor `hosts`",
+           *group.name);
+  }
+
+  void twins_exist(const Located<std::string>& name) {
+    for (const std::size_t r : robots_named(expanded_, *name)) {
+      const ExpandedRobot& robot = expanded_.robots[r];
+      if (expanded_.group_of(robot).twin) continue;
+      report(name.where, "`hand_over`: robot `{}` has no `twin`, whose drivers it could be given",
+             robot.name);
     }
   }
 

@@ -43,16 +43,28 @@ void validate(const RobotEntry& c, CheckContext& check) {
   if (starts > 1) {
     check.error("", "the robot `{}` has more than one of `pose`, `poses` and `scatter`", *c.name);
   }
+  const bool has_twin = c.twin || c.twin_robot;
+  if (has_twin && (c.poses || c.scatter)) {
+    check.error("twin", "`twin` belongs to one robot, but `{}` stands for several", *c.name);
+  }
+  if (c.shadow && !has_twin) {
+    check.error("shadow", "`shadow` needs `twin`, the file of the simulated robot");
+  }
 }
 
 void validate(const ChangeFile& c, CheckContext& check) {
-  const int kinds = int{c.robot || c.set} + int{c.add_obstacle.has_value()} +
+  const int kinds = int{c.robot || c.set || c.hand_over} + int{c.add_obstacle.has_value()} +
                     int{c.move_obstacle.has_value()} + int{c.remove_obstacle.has_value()};
   if (kinds != 1) {
     check.error("",
-                "a change has {} of `robot` with `set`, `add_obstacle`, `move_obstacle` and "
-                "`remove_obstacle`; expected one",
+                "a change has {} of `robot` with `set` or `hand_over`, `add_obstacle`, "
+                "`move_obstacle` and `remove_obstacle`; expected one",
                 kinds);
+    return;
+  }
+  if (c.hand_over) {
+    if (!c.robot) check.error("hand_over", "`hand_over` needs `robot`, which says whose drivers");
+    if (c.set) check.error("set", "`set` and `hand_over` are two changes; write two entries");
     return;
   }
   if (!c.robot && !c.set) return;
@@ -94,13 +106,14 @@ void substitute_inline_robots(RawNode& scenario, Diagnostics& diagnostics) {
   if (!robots || !robots->is_sequence()) return;
   for (std::size_t i = 0; i < robots->size(); ++i) {
     RawNode& entry = robots->child(i);
-    RawNode* robot = find_child(entry, "robot");
-    if (!robot) continue;
     Variables given;
     if (const RawNode* values = entry.find("variables"); values && values->is_mapping()) {
       for (std::size_t k = 0; k < values->size(); ++k) given[values->key(k)] = values->child(k);
     }
-    substitute_variables(*robot, given, diagnostics);
+    for (const std::string_view key : {"robot", "twin_robot"}) {
+      RawNode* const robot = find_child(entry, key);
+      if (robot) substitute_variables(*robot, given, diagnostics);
+    }
   }
 }
 

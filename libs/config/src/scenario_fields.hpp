@@ -29,6 +29,20 @@ void describe(V& v, ScatterFile& c) {
 
 void validate(const ScatterFile& c, CheckContext& check);
 
+constexpr auto enum_names(EnumTag<HandOverTo> /*tag*/) {
+  return std::array{EnumName{HandOverTo::kReal, "real"},
+                    EnumName{HandOverTo::kSimulated, "simulated"},
+                    EnumName{HandOverTo::kFirst, "first"}, EnumName{HandOverTo::kTwin, "twin"}};
+}
+
+template <class V>
+void describe(V& v, HandOverFile& c) {
+  v.field("within_m", c.within_m,
+          {.doc = "How far its pose may jump.", .min = 0, .max = kFarthest_m, .unit = "m"});
+  v.field("within_deg", c.within_deg,
+          {.doc = "How far its heading may jump.", .min = 0, .max = 180, .unit = "deg"});
+}
+
 template <class V>
 void describe(V& v, RobotEntry& c) {
   v.required("name", c.name, {.doc = "With several poses or scattered, -1, -2, ... is added."});
@@ -47,6 +61,17 @@ void describe(V& v, RobotEntry& c) {
            .max_items = static_cast<std::size_t>(kMaxRobots)});
   v.field("scatter", c.scatter, {.doc = "Places at random by the seed."});
   v.field("kind", c.kind, {.doc = "A word for pictures; null: what the drivers say."});
+  v.field("twin", c.twin,
+          {.doc = "A robot file of the same robot with other drivers, which `rave hand-over` and "
+                  "`hand_over` under `changes` give it while the run goes; relative to this file.",
+           .min_items = 1});
+  v.field("twin_robot", c.twin_robot, {.doc = "The file of `twin` written out in place."});
+  v.field("hand_over", c.hand_over,
+          {.doc = "What a change of its drivers keeps to; else it is refused."});
+  v.field(
+      "shadow", c.shadow,
+      {.doc = "Whether the simulated twin runs beside the real robot, unseen by all others, and "
+              "the difference is told."});
 }
 
 void validate(const RobotEntry& c, CheckContext& check);
@@ -120,6 +145,9 @@ void describe(V& v, ChangeFile& c) {
   v.field("set", c.set,
           {.doc = "New values by key: program.PARAM, controller.NAME.PARAM, "
                   "actuator.NAME.PARAM, body.scale."});
+  v.field("hand_over", c.hand_over,
+          {.doc = "Gives the robot its other drivers: the real or the simulated ones, or by their "
+                  "place in the scenario those of `file` (first) or `twin`."});
   v.field("add_obstacle", c.add_obstacle,
           {.doc = "An obstacle that comes; its name is not that of one that stands then."});
   v.field("move_obstacle", c.move_obstacle, {.doc = "An obstacle that stands elsewhere."});

@@ -13,6 +13,11 @@ RobotEntry entry_of(const RobotGroup& group) {
   entry.robot = group.robot;
   entry.scatter = group.scatter;
   if (!group.file.empty()) entry.file = Located<std::string>(group.file);
+  entry.hand_over = group.hand_over;
+  entry.shadow = group.shadow;
+  if (!group.twin) return entry;
+  entry.twin_robot = group.twin->robot;
+  if (!group.twin->file.empty()) entry.twin = Located<std::string>(group.twin->file);
   return entry;
 }
 
@@ -51,7 +56,10 @@ std::string write_expanded(const ExpandedScenario& expanded) {
   RawNode tree = write_node(scenario);
   RawNode robots = *tree.find("robots");
   for (std::size_t i = 0; i < robots.size(); ++i) {
-    robots.child(i).set("robot", escaped(*robots.child(i).find("robot")));
+    for (const char* const key : {"robot", "twin_robot"}) {
+      const RawNode* const robot = robots.child(i).find(key);
+      if (robot != nullptr && robot->is_mapping()) robots.child(i).set(key, escaped(*robot));
+    }
   }
   tree.set("robots", std::move(robots));
   return to_yaml(tree);

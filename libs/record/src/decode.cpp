@@ -155,6 +155,24 @@ Result<StepOf<RunEvent>> decode_event(Message message) {
   return step;
 }
 
+Result<StepOf<ShadowRecord>> decode_shadow(Message message) {
+  CdrReader reader(message);
+  StepOf<ShadowRecord> step;
+  step.time = get_time(reader);
+  step.step = reader.get<std::uint64_t>();
+  ShadowRecord shadow;
+  shadow.robot = RobotId(reader.get<std::uint32_t>());
+  for (Pose2* const pose : {&shadow.X_WR, &shadow.X_WS}) {
+    for (double* const number : {&pose->x, &pose->y, &pose->yaw}) *number = reader.get<double>();
+  }
+  shadow.m = reader.get<double>();
+  shadow.rad = reader.get<double>();
+  shadow.readings = reader.get_sequence<double>();
+  if (!reader.ok()) return malformed(topic::kShadows);
+  step.items.push_back(std::move(shadow));
+  return step;
+}
+
 Result<RunInput> decode_input(Message message) {
   CdrReader reader(message);
   static_cast<void>(get_time(reader));

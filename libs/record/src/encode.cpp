@@ -23,6 +23,20 @@ void encode_event(CdrWriter& writer, SimTime time, std::uint64_t step, const Run
   writer.put_sequence(std::span<const double>(event.values));
 }
 
+void encode_shadow(CdrWriter& writer, SimTime time, std::uint64_t step,
+                   const ShadowRecord& shadow) {
+  writer.clear();
+  put_time(writer, time);
+  writer.put(step);
+  writer.put(shadow.robot.value());
+  for (const Pose2& pose : {shadow.X_WR, shadow.X_WS}) {
+    for (const double number : {pose.x, pose.y, pose.yaw}) writer.put(number);
+  }
+  writer.put(shadow.m);
+  writer.put(shadow.rad);
+  writer.put_sequence(std::span<const double>(shadow.readings));
+}
+
 void encode_input(CdrWriter& writer, SimTime time, const RunInput& input) {
   writer.clear();
   put_time(writer, time);

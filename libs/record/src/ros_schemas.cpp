@@ -79,6 +79,11 @@ const RosSchema kInputSchema{"rave_msgs/msg/Input",
                              "builtin_interfaces/Time stamp\nuint64 step\nstring kind\n"
                              "string robot\nstring key\nstring value\n" RAVE_TIME};
 
+const RosSchema kShadowSchema{
+    "rave_msgs/msg/Shadow",
+    "builtin_interfaces/Time stamp\nuint64 step\nuint32 robot\nfloat64[3] robot_pose\n"
+    "float64[3] shadow_pose\nfloat64 m\nfloat64 rad\nfloat64[] readings\n" RAVE_TIME};
+
 const RosSchema kLogSchema{
     "rcl_interfaces/msg/Log",
     "byte DEBUG=10\nbyte INFO=20\nbyte WARN=30\nbyte ERROR=40\nbyte FATAL=50\n"

@@ -77,6 +77,7 @@ class RunRecorder::Impl {
   McapWriter file_;
   StandardViews views_;
   Stream run_, end_, events_, inputs_, console_, hash_;
+  std::optional<Stream> shadows_;
   PoseBatch poses_;
   std::vector<RobotPose> seen_;  ///< For the view, in steps in which it is due.
   bool view_due_ = false;
@@ -242,6 +243,15 @@ Status RunRecorder::event(const RunEvent& event) {
 Status RunRecorder::input(const RunInput& input) {
   encode_input(impl_->cdr_, impl_->time_, input);
   return impl_->inputs_.write(impl_->file_, impl_->time_, impl_->cdr_.bytes());
+}
+
+Status RunRecorder::shadow(const ShadowRecord& shadow) {
+  if (!impl_->shadows_) {
+    RAVE_TRY_ASSIGN(const auto schema, add_schema(impl_->file_, kShadowSchema));
+    RAVE_TRY_ASSIGN(impl_->shadows_, add_stream(impl_->file_, topic::kShadows, schema));
+  }
+  encode_shadow(impl_->cdr_, impl_->time_, impl_->step_, shadow);
+  return impl_->shadows_->write(impl_->file_, impl_->time_, impl_->cdr_.bytes());
 }
 
 void RunRecorder::pose(const RobotPose& robot) {

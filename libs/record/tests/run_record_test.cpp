@@ -399,6 +399,41 @@ TEST(RunRecordDecode, RowsWithoutEqualPartsAndOtherLayoutsAreErrors) {
       "of another version of RAVE");
 }
 
+TEST(RunRecord, ShadowsHaveAChannelOfTheirOwn) {
+  const TemporaryFile file;
+  auto recorder = RunRecorder::open(file.path(), sample_info());
+  ASSERT_TRUE(recorder);
+  recorder->begin_step(7, SimTime{70'000'000});
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  ASSERT_TRUE(recorder->shadow({RobotId(3), {1, 2, 0.5}, {-0.0, 2.5, -3}, 0.75, 0.125, {nan, 4}}));
+  ASSERT_TRUE(recorder->end_step());
+  ASSERT_TRUE(recorder->end(std::nullopt));
+  const auto reader = McapReader::open(file.path());
+  ASSERT_TRUE(reader);
+  int count = 0;
+  const auto take = [&](const MessageView& message) -> Status {
+    RAVE_TRY_ASSIGN(const auto step, decode_shadow(message.bytes));
+    EXPECT_EQ(step.step, 7U);
+    EXPECT_EQ(step.time.ns, 70'000'000);
+    const ShadowRecord& shadow = step.items.at(0);
+    EXPECT_EQ(shadow.robot.value(), 3U);
+    EXPECT_EQ(shadow.X_WR, (Pose2{1, 2, 0.5}));
+    EXPECT_TRUE(std::signbit(shadow.X_WS.x));
+    EXPECT_EQ(shadow.X_WS.yaw, -3);
+    EXPECT_EQ(shadow.m, 0.75);
+    EXPECT_EQ(shadow.rad, 0.125);
+    EXPECT_EQ(shadow.readings.size(), 2U);
+    EXPECT_TRUE(std::isnan(shadow.readings[0]));
+    ++count;
+    for (std::size_t size = 0; size < message.bytes.size(); ++size) {
+      EXPECT_FALSE(decode_shadow(message.bytes.first(size)));
+    }
+    return {};
+  };
+  EXPECT_TRUE(for_each_message(*reader, topic::kShadows, take));
+  EXPECT_EQ(count, 1);
+}
+
 TEST(RunRecordDecode, ACutMessageIsAnErrorWithItsTopic) {
   const TemporaryFile file;
   auto recorder = RunRecorder::open(file.path(), sample_info());
@@ -411,7 +446,8 @@ TEST(RunRecordDecode, ACutMessageIsAnErrorWithItsTopic) {
     const bool results[] = {decode_run(bytes).has_value(),      decode_end(bytes).has_value(),
                             decode_poses(bytes).has_value(),    decode_percepts(bytes).has_value(),
                             decode_commands(bytes).has_value(), decode_radio(bytes).has_value(),
-                            decode_event(bytes).has_value(),    decode_console(bytes).has_value()};
+                            decode_event(bytes).has_value(),    decode_console(bytes).has_value(),
+                            decode_shadow(bytes).has_value()};
     return std::ranges::count(results, true);
   };
   MessageCursor cursor = reader->messages();

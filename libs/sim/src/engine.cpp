@@ -38,7 +38,9 @@ bool has_hybrid(const EngineSpec& spec, const std::vector<std::uint8_t>& local) 
   const auto is_hybrid = [](const SensorSpec& sensor) { return sensor.hybrid.has_value(); };
   std::vector<std::uint8_t> runs(spec.types.size());
   for (std::size_t r = 0; r < local.size(); ++r) {
-    if (local[r] != 0) runs[spec.robots[r].type] = 1;
+    if (local[r] == 0) continue;
+    runs[spec.robots[r].type] = 1;
+    if (spec.robots[r].twin) runs[*spec.robots[r].twin] = 1;
   }
   for (std::size_t t = 0; t < runs.size(); ++t) {
     const auto& sensors = spec.types[t].sensors;
@@ -67,8 +69,12 @@ Status check(const EngineSpec& spec) {
     const RobotType& type = spec.types[spec.robots[r].type];
     RAVE_TRY(check_pose_source(type, spec.robots[r].name));
     check_drivers(type);
+    if (!spec.robots[r].twin) continue;
+    const RobotType& twin = spec.types[*spec.robots[r].twin];
+    RAVE_TRY(check_pose_source(twin, spec.robots[r].name));
+    check_drivers(twin);
   }
-  return {};
+  return check_twins(spec);
 }
 
 }  // namespace
@@ -111,6 +117,12 @@ std::string_view to_string(EventKind kind) noexcept {
       return "obstacle removed";
     case EventKind::kCaptured:
       return "captured";
+    case EventKind::kHandedOver:
+      return "handed over";
+    case EventKind::kHandOverRefused:
+      return "hand over refused";
+    case EventKind::kShadowReset:
+      return "shadow reset";
   }
   return "unknown";
 }
@@ -130,24 +142,27 @@ Engine::Impl::Impl(EngineSpec s)
 Engine::Impl::~Impl() {
   tell_complaints();
   halt();
+  close_twins();
   for (RobotGroup& group : groups) close_group(group);
   if (radio) radio->close();
 }
 
 void Engine::Impl::tell_complaints() const {
+  for (const RobotGroup& group : groups) tell_complaints(group);
+}
+
+void Engine::Impl::tell_complaints(const RobotGroup& group) const {
   if (spec.log == nullptr) return;
-  for (const RobotGroup& group : groups) {
-    for (const SensorSlots& slots : group.sensors) {
-      for (std::size_t m = 0; m < slots.queues.size(); ++m) {
-        const std::string complaint = slots.queues[m]->complaint();
-        if (complaint.empty()) continue;
-        spec.log->warn(
-            logs[group.members[m].value()].source,
-            "sensor `{}` (driver `{}`) broke its contract; samples dropped: {}; first: {}",
-            slots.spec->name, slots.spec->hardware_driver(), slots.queues[m]->dropped(), complaint);
-      }
-      tell_withheld(group, slots);
+  for (const SensorSlots& slots : group.sensors) {
+    for (std::size_t m = 0; m < slots.queues.size(); ++m) {
+      const std::string complaint = slots.queues[m]->complaint();
+      if (complaint.empty()) continue;
+      spec.log->warn(logs[group.members[m].value()].source,
+                     "sensor `{}` (driver `{}`) broke its contract; samples dropped: {}; first: {}",
+                     slots.spec->name, slots.spec->hardware_driver(), slots.queues[m]->dropped(),
+                     complaint);
     }
+    tell_withheld(group, slots);
   }
 }
 
@@ -182,6 +197,7 @@ Status Engine::Impl::make() {
     member_index[r] = static_cast<std::uint32_t>(groups[index].members.size());
     groups[index].members.emplace_back(r);
   }
+  make_twins();
   radio = std::make_unique<Radio>(spec, local, logs, pool);
   RAVE_TRY(radio->make());
   for (std::uint32_t g = 0; g < groups.size(); ++g) {
@@ -197,6 +213,7 @@ Status Engine::Impl::make() {
 Status Engine::Impl::reset() {
   tell_complaints();
   halt();
+  restore_twins();
   restore_obstacles();
   restore_bodies();
   radio->close();
@@ -224,6 +241,7 @@ void Engine::Impl::set_initial_state() {
   pending.clear();
   by_hand = 0;
   next_change = 0;
+  next_hand_over = 0;
   next_obstacle = 0;
   world_age = {};
   set_up_guards();
@@ -257,6 +275,10 @@ Result<std::unique_ptr<Engine>> Engine::create(EngineSpec spec) {
 void Engine::Impl::begin_step() {
   now = step_time(step);
   make_changes();
+  if (!twins.empty()) {
+    begin_hand_overs();
+    advance_hand_overs();
+  }
   events.swap(pending);  // both keep their room
   pending.clear();
   past_valid = false;  // samples of this step may change what the past looked like

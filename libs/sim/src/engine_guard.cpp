@@ -92,6 +92,7 @@ Command Engine::Impl::guarded(const RobotGroup& group, const ActuatorSlots& slot
   const CommandKind expected =
       controller != nullptr ? controller->spec->ops->gives : CommandKind::kVelocity;
   // What does not obey cannot be guarded, and a simulated robot is only if its file says so.
+  if (state.held) return standing(expected);
   if (!limits || slots.obeys[member] == 0) return state.stopped ? standing(expected) : command;
 
   const ReportedPose& pose = reported[r];
@@ -144,16 +145,18 @@ void Engine::Impl::tell_guard(RobotId robot, const GuardSpec& limits, std::uint3
 }
 
 void Engine::Impl::halt() noexcept {
-  for (RobotGroup& group : groups) {
-    for (ActuatorSlots& slots : group.actuators) {
-      if (slots.spec == nullptr || slots.spec->hardware_ops == nullptr) continue;
-      for (std::size_t m = 0; m < slots.open.size(); ++m) {
-        // Only what takes velocities can be told to stand; the rest is left to its close().
-        if (slots.open[m] == 0 || slots.commands[m].kind != CommandKind::kVelocity) continue;
-        const Command stand = velocity_command(0, 0);
-        ErrorText ignored;
-        slots.spec->hardware_ops->write(slots.instances.at(m), &stand, now.ns, &ignored);
-      }
+  for (RobotGroup& group : groups) halt(group);
+}
+
+void Engine::Impl::halt(RobotGroup& group) noexcept {
+  for (ActuatorSlots& slots : group.actuators) {
+    if (slots.spec == nullptr || slots.spec->hardware_ops == nullptr) continue;
+    for (std::size_t m = 0; m < slots.open.size(); ++m) {
+      // Only what takes velocities can be told to stand; the rest is left to its close().
+      if (slots.open[m] == 0 || slots.commands[m].kind != CommandKind::kVelocity) continue;
+      const Command stand = velocity_command(0, 0);
+      ErrorText ignored;
+      slots.spec->hardware_ops->write(slots.instances.at(m), &stand, now.ns, &ignored);
     }
   }
 }

@@ -16,6 +16,7 @@
 #include "rave/sim/engine.hpp"
 #include "rave/sim/thread_pool.hpp"
 #include "robot_group.hpp"
+#include "twin.hpp"
 #include "world_truth.hpp"
 
 namespace rave::sim {
@@ -49,8 +50,12 @@ struct GuardState {
   static constexpr std::int64_t kNever = -1'000'000'000;
   bool stopped = false;
   bool armed = true;
+  bool held = false;                                   ///< Stands while it is handed over.
   std::array<std::int64_t, kGuardLimits> last_step{};  ///< When each limit acted last.
 };
+
+/// A record of a sensor that says where its robot is, as a pose.
+[[nodiscard]] PoseReading pose_reading(ReadingKind kind, const std::byte* record);
 
 /// The world at the stamp of a real sample, for the virtual halves of hybrid sensors.
 struct FusionWorld {
@@ -76,9 +81,11 @@ struct Engine::Impl {
   /// What drivers did wrong with their samples. Told at the end, since when their threads did it is
   /// chance.
   void tell_complaints() const;
+  void tell_complaints(const RobotGroup& group) const;
   void tell_withheld(const RobotGroup& group, const SensorSlots& slots) const;
   /// Tells hardware to stand.
   void halt() noexcept;
+  void halt(RobotGroup& group) noexcept;
 
   Status step_alone();
   /// A step begins: its time, what is asked of it.
@@ -160,6 +167,38 @@ struct Engine::Impl {
   void find_neighbours(RobotId robot, double reach_m, Worker& worker) const;
   void tell_guard(RobotId robot, const GuardSpec& limits, std::uint32_t acted, Worker& worker);
 
+  // engine_exchange.cpp: robots with two sets of drivers
+  struct Arrival {
+    Pose2 X_WR;
+    PoseReading variance;
+    std::optional<Pose2> X_WM;
+    SimTime stamp;
+  };
+  void make_twins();
+  void close_twins() noexcept;
+  void restore_twins();
+  Status open_other(Twin& twin);
+  void close_other(Twin& twin);
+  [[nodiscard]] Arrival arrival(const Twin& twin) const;
+  [[nodiscard]] Status check_near(const Twin& twin) const;
+  void exchange(Twin& twin);
+  void change_drivers(Twin& twin);
+  [[nodiscard]] Twin* find_twin(RobotId robot) noexcept;
+  [[nodiscard]] RobotGroup& group_of_twin(const Twin& twin) noexcept;
+
+  // engine_hand_over.cpp: how they come to that
+  Status hand_over(RobotId robot, DriverSet to, Author author);
+  void begin_hand_overs();
+  void advance_hand_overs();
+  void advance(Twin& twin);
+  void begin_stage(Twin& twin, Twin::Stage stage);
+  Status listen(Twin& twin);
+  [[nodiscard]] bool is_heard(const Twin& twin) const noexcept;
+  [[nodiscard]] bool stands(Twin& twin);
+  [[nodiscard]] bool moves_seen(const RobotGroup& group, std::uint32_t robot) const;
+  void refuse(Twin& twin, const std::string& why);
+  void end_hand_over(Twin& twin, EventKind kind, std::string text);
+
   // engine_inputs.cpp: what is asked of a run between two steps
   void note_input(RobotId robot, EventKind kind, std::string text, Author author);
   void make_changes();
@@ -211,6 +250,7 @@ struct Engine::Impl {
   std::unique_ptr<HostPart> host;   ///< Null if all run here.
   std::vector<RobotLog> logs;
   std::deque<RobotGroup> groups;  ///< Deque: groups never move, views into them stay valid.
+  std::deque<Twin> twins;
   std::vector<std::uint32_t> group_index;   ///< By robot; those that run elsewhere have none.
   std::vector<std::uint32_t> member_index;  ///< By robot.
   std::vector<Block> blocks;
@@ -237,7 +277,8 @@ struct Engine::Impl {
   Duration world_age;
   std::uint64_t by_hand = 0;
   std::size_t next_change = 0;
-  std::size_t next_obstacle = 0;  ///< Of spec.obstacle_changes.
+  std::size_t next_hand_over = 0;  ///< Of spec.hand_overs.
+  std::size_t next_obstacle = 0;   ///< Of spec.obstacle_changes.
   RunHash hash;
   PhaseTimes phase_times;
   FanScratch past_scratch;

@@ -32,6 +32,18 @@ RandomStream processing_stream(const EngineSpec& spec, RobotId robot, std::uint3
 
 }  // namespace
 
+PoseReading pose_reading(ReadingKind kind, const std::byte* record) {
+  PoseReading reading;
+  if (kind == ReadingKind::kPose) {
+    std::memcpy(&reading, record, sizeof reading);
+    return reading;
+  }
+  OdometryReading odometry;
+  std::memcpy(&odometry, record, sizeof odometry);
+  return {odometry.x_m, odometry.y_m, odometry.yaw_rad, odometry.variance_xy_m2,
+          odometry.variance_yaw_rad2};
+}
+
 Status Engine::Impl::ingest() {
   RAVE_TRY(ingest_sensors(false));
   refresh_reported();
@@ -153,18 +165,10 @@ void Engine::Impl::note_reported_pose(RobotGroup& group, const SensorSlots& slot
   const auto device = static_cast<std::uint32_t>(&slots - group.sensors.data());
   if (group.type->pose_from != device || header.count == 0) return;
   const RobotId robot = group.members[member];
-  PoseReading reading;
-  Pose2 X_WM;
-  if (slots.spec->kind == ReadingKind::kPose) {
-    std::memcpy(&reading, record, sizeof reading);
-    X_WM = group.type->X_WM.value_or(Pose2{});
-  } else {
-    OdometryReading odometry;
-    std::memcpy(&odometry, record, sizeof odometry);
-    reading = {odometry.x_m, odometry.y_m, odometry.yaw_rad, odometry.variance_xy_m2,
-               odometry.variance_yaw_rad2};
-    X_WM = group.type->X_WM.value_or(spec.robots[robot.value()].X_WR);
-  }
+  const PoseReading reading = pose_reading(slots.spec->kind, record);
+  const Pose2 start =
+      slots.spec->kind == ReadingKind::kPose ? Pose2{} : spec.robots[robot.value()].X_WR;
+  const Pose2 X_WM = group.X_WM.value_or(group.type->X_WM.value_or(start));
   const Pose2 X_WR = compose(X_WM, {reading.x_m, reading.y_m, reading.yaw_rad});
   if (!std::isfinite(X_WR.x) || !std::isfinite(X_WR.y) || !std::isfinite(X_WR.yaw)) return;
   ReportedPose& pose = reported[robot.value()];

@@ -170,7 +170,11 @@ Status Engine::Impl::change(RobotId robot, std::span<const ParameterChange> chan
   };
   for (const ParameterChange& first : changes) {
     if (first.part == Part::kBody) {
-      const Status checked = check_body_change(first);
+      Status checked = check_body_change(first);
+      const Twin* const twin = find_twin(robot);
+      if (checked && twin != nullptr && twin->state.under_way) {
+        checked = fail(ErrorCode::kState, "it is being handed over");
+      }
       if (!checked) return refuse(checked.error(), "body");
       scale = &first;
       continue;

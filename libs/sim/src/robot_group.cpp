@@ -31,6 +31,16 @@ RobotInfo info_of(const GroupContext& context, RobotId id) {
   return info;
 }
 
+void show_sensors(RobotGroup& group) {
+  const std::size_t sensors = group.sensors.size();
+  for (std::size_t m = 0; m < group.members.size(); ++m) {
+    for (std::size_t s = 0; s < sensors; ++s) {
+      group.program.views[m * sensors + s] = {&group.sensors[s].headers[m],
+                                              group.sensors[s].records_of(m)};
+    }
+  }
+}
+
 namespace {
 
 constexpr std::size_t kQueueDepth = 256;
@@ -324,10 +334,8 @@ void lay_out_program(const GroupContext& context, RobotGroup& group) {
   slots.given.assign(count, 0);
   slots.changed.clear();
   slots.changed.resize(count);
+  show_sensors(group);
   for (std::size_t m = 0; m < count; ++m) {
-    for (std::size_t s = 0; s < sensors; ++s) {
-      slots.views[m * sensors + s] = {&group.sensors[s].headers[m], group.sensors[s].records_of(m)};
-    }
     DecideItem& item = slots.items[m];
     item.sensors = slots.views.data() + m * sensors;
     item.commands = slots.commands.data() + m * controllers;
@@ -391,9 +399,17 @@ Status start_devices(const GroupContext& context, RobotGroup& group) {
   return start_programs(context, group);
 }
 
+/// Sensors as new, their queues open.
+void clear_sensors(RobotGroup& group) {
+  for (SensorSlots& slots : group.sensors) {
+    clear_samples(slots);
+    for (auto& queue : slots.queues) queue->reopen();
+  }
+}
+
 }  // namespace
 
-Status make_group(GroupContext context, RobotGroup& group) {
+Status make_body(GroupContext context, RobotGroup& group) {
   RAVE_TRY(make_devices(context, group));
   group.sensors.resize(group.type->sensors.size());
   for (std::size_t s = 0; s < group.sensors.size(); ++s) {
@@ -404,17 +420,29 @@ Status make_group(GroupContext context, RobotGroup& group) {
       return tl::unexpected(named(context, group.members.front(), "sensor", slots.spec->name,
                                   slots.spec->driver, status.error()));
     }
-    group.sensor_infos.push_back(slots.info);
   }
+  group.actuators.resize(group.type->actuators.size());
+  for (std::size_t a = 0; a < group.actuators.size(); ++a) {
+    group.actuators[a].spec = &group.type->actuators[a];
+  }
+  return {};
+}
+
+Status open_body(GroupContext context, RobotGroup& group) {
+  clear_sensors(group);
+  RAVE_TRY(open_devices(context, group));
+  RAVE_TRY(start_actuators(context, group));
+  return open_sensors(context, group);
+}
+
+Status make_group(GroupContext context, RobotGroup& group) {
+  RAVE_TRY(make_body(context, group));
+  for (const SensorSlots& slots : group.sensors) group.sensor_infos.push_back(slots.info);
   group.controllers.resize(group.type->controllers.size());
   for (std::size_t c = 0; c < group.controllers.size(); ++c) {
     group.controllers[c].spec = &group.type->controllers[c];
     group.controller_infos.push_back(
         {group.controllers[c].spec->name.c_str(), group.controllers[c].spec->accepts, 0});
-  }
-  group.actuators.resize(group.type->actuators.size());
-  for (std::size_t a = 0; a < group.actuators.size(); ++a) {
-    group.actuators[a].spec = &group.type->actuators[a];
   }
   if (group.type->program) group.program.spec = &*group.type->program;
   return start_devices(context, group);
@@ -422,10 +450,7 @@ Status make_group(GroupContext context, RobotGroup& group) {
 
 Status reset_group(GroupContext context, RobotGroup& group) {
   close_group(group);
-  for (SensorSlots& slots : group.sensors) {
-    clear_samples(slots);
-    for (auto& queue : slots.queues) queue->reopen();
-  }
+  clear_sensors(group);
   return start_devices(context, group);
 }
 

@@ -123,6 +123,8 @@ struct RobotGroup {
   std::vector<SensorInfo> sensor_infos;
   std::vector<ControllerInfo> controller_infos;
   std::vector<const char*> robot_names;  ///< Of all robots, for programs.
+  /// Frame of the pose source since a hand-over, in the place of that of the type.
+  std::optional<Pose2> X_WM;
 };
 
 /// Where messages of one robot's drivers and program go.
@@ -141,6 +143,14 @@ struct GroupContext {
 /// The services and the description of one robot, for its drivers.
 [[nodiscard]] HostServices services_of(RobotLog& log);
 [[nodiscard]] RobotInfo info_of(const GroupContext& context, RobotId id);
+
+/// Makes the devices, sensors and actuators of a group, but opens nothing. Errors name robot and
+/// device; then the group is to be thrown away.
+Status make_body(GroupContext context, RobotGroup& group);
+/// Opens them as new; what was opened before an error is closed by close_group().
+Status open_body(GroupContext context, RobotGroup& group);
+/// Points programs to the samples of the group's sensors.
+void show_sensors(RobotGroup& group);
 
 /// Makes all instances of a group and starts them, except that hardware sensors are not opened yet.
 /// Errors name robot and device.

@@ -62,6 +62,30 @@ Status check_shared(const EngineSpec& spec) {
   return {};
 }
 
+Status check_twins(const EngineSpec& spec) {
+  for (std::size_t r = 0; r < spec.robots.size(); ++r) {
+    if (!spec.robots[r].twin) continue;
+    RAVE_CHECK(*spec.robots[r].twin < spec.types.size());
+    const RobotType& first = spec.types[spec.robots[r].type];
+    const RobotType& twin = spec.types[*spec.robots[r].twin];
+    RAVE_CHECK(first.sensors.size() == twin.sensors.size());
+    RAVE_CHECK(first.actuators.size() == twin.actuators.size());
+    RAVE_CHECK(first.controllers.size() == twin.controllers.size());
+    for (std::size_t s = 0; s < first.sensors.size(); ++s) {
+      RAVE_CHECK(first.sensors[s].kind == twin.sensors[s].kind);
+    }
+    for (std::size_t other = 0; other < spec.robots.size(); ++other) {
+      RAVE_CHECK(other == r || (spec.robots[other].type != spec.robots[r].type &&
+                                spec.robots[other].type != *spec.robots[r].twin));
+    }
+    if (!spec.local) continue;
+    return fail(ErrorCode::kInvalidArgument,
+                "robot `{}` has two sets of drivers, which only a run in one process can change",
+                spec.robots[r].name);
+  }
+  return {};
+}
+
 Status check_local(const EngineSpec& spec) {
   if (!spec.local) return {};
   RAVE_TRY(check_shared(spec));

@@ -17,7 +17,10 @@ namespace rave::sim {
 Status check_world(const EngineSpec& spec);
 /// What must hold of it, too, if several hosts share the world. Errors: kInvalidArgument.
 Status check_shared(const EngineSpec& spec);
-/// The same and EngineSpec::local; nothing if that is not set.
+/// What must hold of robots with two sets of drivers. Errors: kInvalidArgument (the robots are
+/// shared among hosts).
+Status check_twins(const EngineSpec& spec);
+/// What check_shared() says and EngineSpec::local; nothing if that is not set.
 Status check_local(const EngineSpec& spec);
 
 /// By robot: 1 if it runs here.

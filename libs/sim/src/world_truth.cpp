@@ -230,6 +230,20 @@ void WorldTruth::put_body(RobotId robot, const world::Body& body) {
   snapshot.body_changed(robot);
 }
 
+void WorldTruth::set_reality(RobotId robot, bool simulated, const Pose2& X_WR) {
+  const std::uint32_t r = robot.value();
+  const Layer layer = simulated ? Layer::kSimulatedRobots : Layer::kRealRobots;
+  movers[r] = {X_WR, true, simulated};
+  velocity[r] = {};
+  proposal[r] = {};
+  limited[r] = 0;
+  world::Body body = spec.world.robots[r];
+  body.layer = layer;
+  put_body(robot, body);
+  const auto original = original_bodies_.find(r);
+  if (original != original_bodies_.end()) original->second.layer = layer;
+}
+
 double WorldTruth::scale_of(RobotId robot) const {
   const auto scale = scales_.find(robot.value());
   return scale == scales_.end() ? 1.0 : scale->second;

@@ -58,6 +58,9 @@ struct WorldTruth {
   /// The same without a look at what is around: somebody else has looked.
   Status put_scale(RobotId robot, double scale);
   [[nodiscard]] double scale_of(RobotId robot) const;
+  /// A robot is from now on a simulated or a real one, and stands there; between resolve() and
+  /// make_way().
+  void set_reality(RobotId robot, bool simulated, const Pose2& X_WR);
   /// Gives all robots back the bodies that they had, and returns whose changed.
   [[nodiscard]] std::vector<RobotId> restore_bodies();
 

@@ -12,6 +12,7 @@
 #include "rave/math/scalar.hpp"
 #include "rave/math/transform.hpp"
 #include "rave/sim/virtual_sensor.hpp"
+#include "twins.hpp"
 
 namespace rave::robot_host {
 namespace {
@@ -136,14 +137,9 @@ Status add_groups(const config::ExpandedScenario& scenario, plugin::Catalogue& c
                   std::vector<world::Body>& bodies) {
   const std::vector<std::uint8_t> here = groups_here(scenario, options);
   for (const config::RobotGroup& group : scenario.groups) {
-    sim::RobotType type;
-    type.name = group.name.value;
-    type.folder = std::filesystem::path(group.file).parent_path().string();
-    type.staleness = from_seconds(group.robot.staleness_s);
     const bool others = here[built.spec.types.size()] == 0 && options.others != nullptr;
     plugin::Catalogue& drivers = others ? *options.others : catalogue;
-    RAVE_TRY(add_devices({scenario, drivers, options, built}, group, type));
-    RAVE_TRY_ASSIGN(type.guard, guard_spec(group));
+    RAVE_TRY_ASSIGN(sim::RobotType type, make_type({scenario, drivers, options, built}, group));
     RAVE_TRY_ASSIGN(auto body, make_body(group));
     body.layer = type.simulated ? Layer::kSimulatedRobots : Layer::kRealRobots;
     note_oddities(group, body, built);
@@ -192,8 +188,10 @@ Result<BuiltScenario> build(const config::ExpandedScenario& scenario, plugin::Ca
     built.robot_kinds.push_back(group.kind.value_or(""));
     spec.robots.push_back({robot.name, group.team, static_cast<std::uint32_t>(robot.group), {}});
   }
+  RAVE_TRY(add_twins({scenario, catalogue, options, built}));
   RAVE_TRY(put_down_robots(scenario, spec));
   RAVE_TRY(add_changes(scenario, spec));
+  RAVE_TRY(add_hand_overs(scenario, spec));
   RAVE_TRY(add_obstacle_changes(scenario, spec));
   spec.local = options.local;
   if (options.others == nullptr) return built;

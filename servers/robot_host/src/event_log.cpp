@@ -14,6 +14,7 @@ LogLevel level_of(sim::EventKind kind) {
     case sim::EventKind::kProgramFailed:
     case sim::EventKind::kDriverFailed:
     case sim::EventKind::kChangeRefused:
+    case sim::EventKind::kHandOverRefused:
       return LogLevel::kError;
     case sim::EventKind::kReleased:
     case sim::EventKind::kArmed:
@@ -22,6 +23,8 @@ LogLevel level_of(sim::EventKind kind) {
     case sim::EventKind::kObstacleAdded:
     case sim::EventKind::kObstacleMoved:
     case sim::EventKind::kObstacleRemoved:
+    case sim::EventKind::kHandedOver:
+    case sim::EventKind::kShadowReset:
       return LogLevel::kInfo;
     default:
       return LogLevel::kWarning;

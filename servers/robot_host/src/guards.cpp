@@ -53,7 +53,7 @@ Result<std::optional<sim::GuardSpec>> guard_spec(const config::RobotGroup& group
 Status add_changes(const config::ExpandedScenario& scenario, sim::EngineSpec& spec) {
   const double step_s = scenario.scenario.step_s.value;
   for (const config::ChangeFile& file : scenario.scenario.changes) {
-    if (!file.robot) continue;
+    if (!file.robot || !file.set) continue;
     for (const std::size_t r : config::robots_named(scenario, file.robot->value)) {
       sim::ScheduledChange change;
       change.step = static_cast<std::uint64_t>(std::llround(file.at_s.value / step_s));

@@ -11,11 +11,10 @@ BodyKinds::BodyKinds(const sim::EngineSpec& spec, const std::vector<std::string>
   std::size_t real_robots = 0;
   for (std::size_t r = 0; r < spec.robots.size(); ++r) {
     const bool simulated = spec.types[spec.robots[r].type].simulated;
-    words_.emplace_back(simulated ? "simulated" : "real");
-    const bool hunter = robot_words[r] == "hunter";
-    kinds_.push_back(
-        hunter ? report::Kind::kHunter
-               : (simulated ? report::Kind::kSimulatedRobot : report::Kind::kRecordedRobot));
+    words_.emplace_back();
+    kinds_.emplace_back();
+    hunters_.push_back(robot_words[r] == "hunter" ? 1 : 0);
+    set_reality(RobotId(static_cast<std::uint32_t>(r)), simulated);
     std::string colour = spec.world.robots[r].colour;
     if (colour.empty() && !simulated) colour = report::robot_colour(real_robots);
     if (!simulated) ++real_robots;
@@ -23,6 +22,22 @@ BodyKinds::BodyKinds(const sim::EngineSpec& spec, const std::vector<std::string>
     names_.push_back(spec.robots[r].name);
   }
   first_added_ = count();
+}
+
+void BodyKinds::set_reality(RobotId robot, bool simulated) {
+  const std::uint32_t body = body_of(robot);
+  words_[body] = simulated ? "simulated" : "real";
+  kinds_[body] = hunters_[robot.value()] != 0
+                     ? report::Kind::kHunter
+                     : (simulated ? report::Kind::kSimulatedRobot : report::Kind::kRecordedRobot);
+}
+
+void BodyKinds::follow(const sim::Engine& engine) {
+  const sim::EngineSpec& spec = engine.spec();
+  for (const sim::Event& event : engine.events()) {
+    if (event.kind != sim::EventKind::kHandedOver) continue;
+    set_reality(event.robot, spec.types[spec.robots[event.robot.value()].type].simulated);
+  }
 }
 
 void BodyKinds::add(const world::Body& obstacle) {

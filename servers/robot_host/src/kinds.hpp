@@ -18,6 +18,8 @@ class BodyKinds {
 
   /// Obstacles that came since; call it before asking for them.
   void learn(const world::WorldModel& world);
+  /// Robots that were handed over in the last step are another kind now.
+  void follow(const sim::Engine& engine);
 
   /// `real`, `simulated`, `landmark`, `mapped_wall` or `virtual_obstacle`.
   [[nodiscard]] std::string_view word(std::uint32_t body) const { return words_[body]; }
@@ -37,12 +39,15 @@ class BodyKinds {
  private:
   void add(const world::Body& obstacle);
 
+  void set_reality(RobotId robot, bool simulated);
+
   std::uint32_t first_robot_ = 0;
   std::uint32_t first_added_ = 0;  ///< Behind the robots.
   std::vector<std::string_view> words_;
   std::vector<report::Kind> kinds_;
   std::vector<std::string> colours_;
   std::vector<std::string> names_;
+  std::vector<std::uint8_t> hunters_;  ///< By robot.
 };
 
 }  // namespace rave::robot_host

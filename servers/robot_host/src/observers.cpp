@@ -71,6 +71,7 @@ Observers::Observers(const config::ExpandedScenario& scenario,
 
 void Observers::after_step(sim::Engine& engine) {
   kinds.learn(engine.spec().world);
+  kinds.follow(engine);
   tracks.after_step(engine);
   encounters.after_step(engine);
   hits.after_step(engine);

@@ -119,6 +119,14 @@ RunOutcome judge(const Findings& findings) {
                                            static_cast<double>(event.step) * spec.step.seconds(),
                                            event.text));
   }
+  for (const sim::Event& event : facts.events) {
+    // Whoever asked by hand has been told.
+    const bool scheduled = !event.text.ends_with("(by hand)");
+    if (event.kind != sim::EventKind::kHandOverRefused || !scheduled) continue;
+    outcome.problems.push_back(fmt::format(
+        "robot `{}` at {:.2f} s was not handed over: {}", spec.robots[event.robot.value()].name,
+        static_cast<double>(event.step) * spec.step.seconds(), event.text));
+  }
   outcome.whole = outcome.problems.empty();
   judge_checks(findings, outcome);
   if (findings.hash) outcome.hash = fmt::format("{:016x}", *findings.hash);

@@ -89,6 +89,7 @@ Result<std::unique_ptr<RecordKeeper>> RecordKeeper::begin(const std::filesystem:
 
 void RecordKeeper::after_step(sim::Engine& engine) {
   recorder_.begin_step(engine.steps_done() - 1, engine.time());
+  follow(engine);
   parts_.keep(engine, recorder_);
   for (RecordColumns& group : groups_) {
     group.keep_percepts(engine, recorder_);
@@ -101,6 +102,17 @@ void RecordKeeper::after_step(sim::Engine& engine) {
   // A failure was told to the log when it happened, and end() returns it: the run goes on.
   if (hashed_) static_cast<void>(recorder_.hash(engine.hash().value()));
   static_cast<void>(recorder_.end_step());
+}
+
+void RecordKeeper::follow(const sim::Engine& engine) {
+  const sim::EngineSpec& spec = engine.spec();
+  for (const sim::Event& event : engine.events()) {
+    if (event.kind != sim::EventKind::kHandedOver) continue;
+    const sim::RobotType& type = spec.types[spec.robots[event.robot.value()].type];
+    told_truth_[event.robot.value()] = type.simulated && !type.pose_from ? 1 : 0;
+    with_real_ = with_real_ || !type.simulated;
+    parts_ = PartKeeper(spec);
+  }
 }
 
 void RecordKeeper::keep_poses(const sim::Engine& engine) {

@@ -50,6 +50,8 @@ class RecordKeeper final : public Observer {
  private:
   RecordKeeper(record::RunRecorder recorder, const sim::Engine& engine, const BodyKinds& kinds,
                bool hashed);
+  /// Robots that were handed over in the last step are told otherwise where they are.
+  void follow(const sim::Engine& engine);
   void keep_poses(const sim::Engine& engine);
   void keep_pose(const sim::Engine& engine, RobotId robot);
   /// Robots [begin, end), which were all told their true pose.

@@ -9,6 +9,7 @@
 #include "rave/config/yaml.hpp"
 #include "rave/robot_host/parameter_key.hpp"
 #include "rave/robot_host/world_request.hpp"
+#include "twins.hpp"
 
 namespace rave::robot_host {
 namespace {
@@ -71,6 +72,17 @@ Result<std::string> edit(sim::Engine& engine, const RunRequest& request) {
                      made.step, from_s);
 }
 
+Result<std::string> hand_over(sim::Engine& engine, RobotId robot, const RunRequest& request) {
+  if (!robot.valid()) return fail(ErrorCode::kInvalidArgument, "a hand-over needs a robot");
+  RAVE_TRY_ASSIGN(const config::HandOverTo to, hand_over_word(request.value));
+  const auto state = engine.hand_over_state(robot);
+  const sim::DriverSet active = state ? state->active : sim::DriverSet::kFirst;
+  RAVE_TRY_ASSIGN(const sim::DriverSet set, driver_set(engine.spec(), robot, active, to));
+  RAVE_TRY(engine.hand_over(robot, set));
+  return fmt::format("robot `{}` is being handed over to its {} drivers", request.robot,
+                     request.value);
+}
+
 }  // namespace
 
 Result<std::string> serve_request(sim::Engine& engine, const RunRequest& request) {
@@ -101,6 +113,10 @@ Result<std::string> serve_request(sim::Engine& engine, const RunRequest& request
     case RunRequest::Kind::kMove:
     case RunRequest::Kind::kRemove:
       return edit(engine, request);
+    case RunRequest::Kind::kHandOver:
+      return hand_over(engine, robot, request);
+    case RunRequest::Kind::kResetShadow:
+      return fail(ErrorCode::kNotFound, "no robot of the run has a shadow");
     case RunRequest::Kind::kList:
       return list_obstacles(engine.spec().world);
   }
@@ -117,6 +133,16 @@ void refresh_status(const sim::Engine& engine, RunStatus& status) {
     robot.simulated = spec.types[spec.robots[r].type].simulated;
     robot.armed = engine.armed(RobotId(r));
     robot.stopped = engine.stopped(RobotId(r));
+    const auto hand_over = engine.hand_over_state(RobotId(r));
+    if (!hand_over) continue;
+    const Pose2 X_WR = engine.snapshot().pose(RobotId(r));
+    robot.hand_over = {hand_over->under_way,
+                       hand_over->made,
+                       hand_over->refused,
+                       hand_over->last,
+                       X_WR.x,
+                       X_WR.y,
+                       X_WR.yaw};
   }
 }
 

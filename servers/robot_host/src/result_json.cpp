@@ -136,14 +136,17 @@ Json hosts_json(const Findings& findings) {
 
 Json events_json(const Findings& findings) {
   Json json = Json::object();
-  for (const auto kind :
-       {sim::EventKind::kContact, sim::EventKind::kPinned, sim::EventKind::kPoseStale,
-        sim::EventKind::kPoseBack, sim::EventKind::kProgramFailed, sim::EventKind::kDriverFailed,
-        sim::EventKind::kDriverBack, sim::EventKind::kGuardSlowed, sim::EventKind::kGuardStopped,
-        sim::EventKind::kStopped, sim::EventKind::kReleased, sim::EventKind::kArmed,
-        sim::EventKind::kChanged, sim::EventKind::kChangeRefused, sim::EventKind::kObstacleAdded,
-        sim::EventKind::kObstacleMoved, sim::EventKind::kObstacleRemoved,
-        sim::EventKind::kCaptured}) {
+  for (const auto kind : {sim::EventKind::kContact,         sim::EventKind::kPinned,
+                          sim::EventKind::kPoseStale,       sim::EventKind::kPoseBack,
+                          sim::EventKind::kProgramFailed,   sim::EventKind::kDriverFailed,
+                          sim::EventKind::kDriverBack,      sim::EventKind::kGuardSlowed,
+                          sim::EventKind::kGuardStopped,    sim::EventKind::kStopped,
+                          sim::EventKind::kReleased,        sim::EventKind::kArmed,
+                          sim::EventKind::kChanged,         sim::EventKind::kChangeRefused,
+                          sim::EventKind::kObstacleAdded,   sim::EventKind::kObstacleMoved,
+                          sim::EventKind::kObstacleRemoved, sim::EventKind::kCaptured,
+                          sim::EventKind::kHandedOver,      sim::EventKind::kHandOverRefused,
+                          sim::EventKind::kShadowReset}) {
     std::string name(to_string(kind));
     std::replace(name.begin(), name.end(), ' ', '_');
     json[name] = findings.count(kind);
@@ -187,6 +190,24 @@ Json changes_json(const Findings& findings) {
                     {"what", event.text}});
   }
   return json;
+}
+
+/// What became of each hand-over, and of shadows; nothing for a scenario without twins.
+void add_hand_overs(const Findings& findings, Json& json) {
+  const sim::EngineSpec& spec = findings.spec;
+  const bool twins = std::any_of(spec.robots.begin(), spec.robots.end(),
+                                 [](const auto& robot) { return robot.twin.has_value(); });
+  if (!twins) return;
+  json["hand_overs"] = Json::array();
+  for (const sim::Event& event : findings.facts.events) {
+    const bool made = event.kind == sim::EventKind::kHandedOver;
+    if (!made && event.kind != sim::EventKind::kHandOverRefused) continue;
+    json["hand_overs"].push_back({{"time_s", static_cast<double>(event.step) * spec.step.seconds()},
+                                  {"robot", subject_of(spec, event)},
+                                  {"made", made},
+                                  {"what", event.text}});
+  }
+  if (findings.shadows != nullptr) json["shadows"] = Json::parse(findings.shadows->json());
 }
 
 void add_edits(const SharedEdits& edits, Json& json) {
@@ -237,6 +258,7 @@ std::string result_json(const Findings& findings, const RunOutcome& outcome) {
   json["guard"] = guard_counts(findings);
   json["changes"] = changes_json(findings);
   json["inputs_by_hand"] = findings.facts.inputs_by_hand;
+  add_hand_overs(findings, json);
   if (scenario.checks.capture) json["capture"] = capture_json(findings);
   json["robots"] = robots_json(findings);
   json["devices"] = instruments_json(findings, findings.facts.devices, "device");

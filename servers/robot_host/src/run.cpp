@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/robot_host/run.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
@@ -14,6 +15,7 @@
 #include "record_keeper.hpp"
 #include "requests.hpp"
 #include "ros2_face.hpp"
+#include "shadows.hpp"
 #include "stall_watch.hpp"
 #include "wall_pace.hpp"
 
@@ -22,19 +24,27 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// How old what others see of hand-overs and shadows may be.
+constexpr auto kStatusInterval = std::chrono::milliseconds(50);
+
 /// Who looks on, and who takes down what happens.
 struct Onlookers : Observers {
   std::unique_ptr<RecordKeeper> record;
   std::unique_ptr<Ros2Face> ros2;
+  std::unique_ptr<Shadows> shadows;
 
   using Observers::Observers;
 
   void after_step(sim::Engine& engine) {
     Observers::after_step(engine);
     if (ros2) ros2->after_step(engine);
+    if (shadows) shadows->after_step(engine);
     if (!record) return;
     record->after_step(engine);
     if (capture) record->keep(capture->events());
+    if (!shadows) return;
+    record->keep(shadows->events());
+    shadows->keep(record->recorder());
   }
 };
 
@@ -52,19 +62,27 @@ struct Journey {
   bool stopped = false;
 };
 
+void refresh(const Journey& journey, RunStatus& status) {
+  refresh_status(journey.engine, status);
+  if (journey.observers.shadows) journey.observers.shadows->refresh(status);
+}
+
 /// Does what somebody has asked for since the last step.
 void serve_requests(Journey& journey) {
   if (journey.options.control == nullptr) return;
   sim::Engine& engine = journey.engine;
   RecordKeeper* const record = journey.observers.record.get();
   journey.options.control->serve(
-      [&engine, record](const RunRequest& request) {
+      [&engine, record, &journey](const RunRequest& request) {
+        if (request.kind == RunRequest::Kind::kResetShadow && journey.observers.shadows) {
+          return journey.observers.shadows->reset(request.robot);
+        }
         auto answer = serve_request(engine, request);
         const bool asks = request.kind == RunRequest::Kind::kList;
         if (answer && !asks && record != nullptr) record->keep(request, engine.steps_done());
         return answer;
       },
-      [&engine](RunStatus& status) { refresh_status(engine, status); });
+      [&journey](RunStatus& status) { refresh(journey, status); });
 }
 
 /// Waits until the next step may be done; false: the run is to end.
@@ -98,6 +116,10 @@ Status go_through(Journey& journey) {
   StallWatch watch(&journey.console);
   const auto begin = Clock::now();
   auto next_progress = begin;
+  auto next_status = begin;
+  const auto& robots = journey.engine.spec().robots;
+  const bool shows_more = std::any_of(robots.begin(), robots.end(),
+                                      [](const auto& robot) { return robot.twin.has_value(); });
   while (journey.engine.steps_done() < steps && !journey.stopped) {
     if (!wait_for_turn(journey)) {
       journey.stopped = true;
@@ -116,7 +138,15 @@ Status go_through(Journey& journey) {
       tell_events(journey.engine, capture.events(), &journey.console, journey.events);
       if (capture.ends_run()) break;
     }
+    if (journey.observers.shadows) {
+      tell_events(journey.engine, journey.observers.shadows->events(), &journey.console,
+                  journey.events);
+    }
     const auto now = Clock::now();
+    if (journey.options.control != nullptr && shows_more && now >= next_status) {
+      next_status = now + kStatusInterval;
+      journey.options.control->refresh([&](RunStatus& status) { refresh(journey, status); });
+    }
     journey.wall_s = std::chrono::duration<double>(now - begin).count();
     if (journey.options.on_progress && now >= next_progress) {
       next_progress = now + kProgressInterval;
@@ -185,6 +215,7 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
 
   Onlookers observers(adjusted, built.robot_kinds, engine->spec());
   RAVE_TRY_ASSIGN(observers.ros2, Ros2Face::open(adjusted, *engine));
+  RAVE_TRY_ASSIGN(observers.shadows, Shadows::create(adjusted, catalogue, *engine, &console));
   if (options.record) {
     RAVE_TRY_ASSIGN(
         observers.record,
@@ -215,6 +246,7 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
   findings.wall_s = journey.wall_s;
   findings.ended_early = journey.stopped;
   if (!live) findings.hash = engine->hash().value();
+  findings.shadows = observers.shadows.get();
   return write_results(findings, options.output, options.picture);
 }
 

@@ -8,10 +8,16 @@ namespace {
 
 using Kind = RunRequest::Kind;
 
-constexpr std::pair<Kind, std::string_view> kWords[] = {
-    {Kind::kStop, "stop"},     {Kind::kRelease, "release"}, {Kind::kArm, "arm"},
-    {Kind::kSet, "set"},       {Kind::kAdd, "add"},         {Kind::kMove, "move"},
-    {Kind::kRemove, "remove"}, {Kind::kList, "list"}};
+constexpr std::pair<Kind, std::string_view> kWords[] = {{Kind::kStop, "stop"},
+                                                        {Kind::kRelease, "release"},
+                                                        {Kind::kArm, "arm"},
+                                                        {Kind::kSet, "set"},
+                                                        {Kind::kAdd, "add"},
+                                                        {Kind::kMove, "move"},
+                                                        {Kind::kRemove, "remove"},
+                                                        {Kind::kList, "list"},
+                                                        {Kind::kHandOver, "hand_over"},
+                                                        {Kind::kResetShadow, "reset_shadow"}};
 
 }  // namespace
 
@@ -152,6 +158,11 @@ RunControl::Asked::~Asked() { answer(fail(ErrorCode::kState, "the run has ended"
 
 void RunControl::Asked::answer(Result<std::string> text) {
   if (std::exchange(open_, false)) promise_.set_value(std::move(text));
+}
+
+void RunControl::refresh(const std::function<void(RunStatus&)>& refresh) {
+  const std::lock_guard lock(mutex_);
+  refresh(status_);
 }
 
 void RunControl::end() {

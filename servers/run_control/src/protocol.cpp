@@ -20,13 +20,20 @@ struct Word {
   std::string_view name;
   Request::What what;
 };
-constexpr std::array kWords = {
-    Word{"status", Request::What::kStatus},   Word{"stop", Request::What::kStop},
-    Word{"release", Request::What::kRelease}, Word{"arm", Request::What::kArm},
-    Word{"set", Request::What::kSet},         Word{"pause", Request::What::kPause},
-    Word{"resume", Request::What::kResume},   Word{"step", Request::What::kStep},
-    Word{"add", Request::What::kAdd},         Word{"move", Request::What::kMove},
-    Word{"remove", Request::What::kRemove},   Word{"list", Request::What::kList}};
+constexpr std::array kWords = {Word{"status", Request::What::kStatus},
+                               Word{"stop", Request::What::kStop},
+                               Word{"release", Request::What::kRelease},
+                               Word{"arm", Request::What::kArm},
+                               Word{"set", Request::What::kSet},
+                               Word{"pause", Request::What::kPause},
+                               Word{"resume", Request::What::kResume},
+                               Word{"step", Request::What::kStep},
+                               Word{"add", Request::What::kAdd},
+                               Word{"move", Request::What::kMove},
+                               Word{"remove", Request::What::kRemove},
+                               Word{"list", Request::What::kList},
+                               Word{"hand_over", Request::What::kHandOver},
+                               Word{"reset_shadow", Request::What::kResetShadow}};
 
 /// An object without repeated keys; discarded for anything else.
 Json parse_object(std::string_view line) {
@@ -79,11 +86,15 @@ bool take_details(Json& json, Request& request) {
     case Request::What::kStop:
     case Request::What::kRelease:
     case Request::What::kArm:
+    case Request::What::kResetShadow:
       return take_text(json, "robot", request.robot);
     case Request::What::kSet:
       return take_text(json, "robot", request.robot) && take_text(json, "key", request.key) &&
              take_text(json, "value", request.value) && !request.robot.empty() &&
              !request.key.empty() && !request.value.empty();
+    case Request::What::kHandOver:
+      return take_text(json, "robot", request.robot) && take_text(json, "value", request.value) &&
+             !request.robot.empty() && !request.value.empty();
     case Request::What::kStep:
       return take_count(json, request.count);
     case Request::What::kAdd:
@@ -96,6 +107,27 @@ bool take_details(Json& json, Request& request) {
   }
 }
 
+Json hand_over_json(const robot_host::RunStatus::HandOver& hand_over) {
+  return {
+      {"under_way", hand_over.under_way}, {"made", hand_over.made}, {"refused", hand_over.refused},
+      {"last", hand_over.last},           {"x_m", hand_over.x_m},   {"y_m", hand_over.y_m},
+      {"yaw_rad", hand_over.yaw_rad}};
+}
+
+Json shadow_json(const robot_host::RunStatus::Shadow& shadow) {
+  Json json = {
+      {"running", shadow.running}, {"since_s", shadow.since_s}, {"m", shadow.m},
+      {"rad", shadow.rad},         {"most_m", shadow.most_m},   {"most_rad", shadow.most_rad},
+      {"readings", Json::array()}};
+  for (const auto& reading : shadow.readings) {
+    json["readings"].push_back({{"sensor", reading.sensor},
+                                {"unit", reading.unit},
+                                {"last", reading.last},
+                                {"most", reading.most}});
+  }
+  return json;
+}
+
 Json status_json(const robot_host::RunStatus& status) {
   Json json = {
       {"scenario", status.scenario}, {"sim_s", status.sim_s}, {"duration_s", status.duration_s},
@@ -106,6 +138,9 @@ Json status_json(const robot_host::RunStatus& status) {
                               {"simulated", robot.simulated},
                               {"armed", robot.armed},
                               {"stopped", robot.stopped}});
+    Json& last = json["robots"].back();
+    if (robot.hand_over) last["hand_over"] = hand_over_json(*robot.hand_over);
+    if (robot.shadow) last["shadow"] = shadow_json(*robot.shadow);
   }
   return json;
 }
@@ -128,6 +163,38 @@ bool read_text(const Json& json, const char* key, std::string& value) {
   return true;
 }
 
+bool read_count(const Json& json, const char* key, std::uint32_t& value) {
+  if (!json.contains(key) || !json.at(key).is_number_unsigned()) return false;
+  const auto whole = json.at(key).get<std::uint64_t>();
+  value = static_cast<std::uint32_t>(whole);
+  return whole <= UINT32_MAX;
+}
+
+bool read_hand_over(const Json& json, robot_host::RunStatus::HandOver& hand_over) {
+  return json.is_object() && read_bool(json, "under_way", hand_over.under_way) &&
+         read_count(json, "made", hand_over.made) &&
+         read_count(json, "refused", hand_over.refused) &&
+         read_text(json, "last", hand_over.last) && read_number(json, "x_m", hand_over.x_m) &&
+         read_number(json, "y_m", hand_over.y_m) && read_number(json, "yaw_rad", hand_over.yaw_rad);
+}
+
+bool read_shadow(const Json& json, robot_host::RunStatus::Shadow& shadow) {
+  bool good = json.is_object() && read_bool(json, "running", shadow.running) &&
+              read_number(json, "since_s", shadow.since_s) && read_number(json, "m", shadow.m) &&
+              read_number(json, "rad", shadow.rad) && read_number(json, "most_m", shadow.most_m) &&
+              read_number(json, "most_rad", shadow.most_rad) && json.contains("readings") &&
+              json.at("readings").is_array();
+  if (!good) return false;
+  for (const Json& item : json.at("readings")) {
+    robot_host::RunStatus::Shadow::Reading reading;
+    good = good && item.is_object() && read_text(item, "sensor", reading.sensor) &&
+           read_text(item, "unit", reading.unit) && read_number(item, "last", reading.last) &&
+           read_number(item, "most", reading.most);
+    shadow.readings.push_back(std::move(reading));
+  }
+  return good;
+}
+
 bool read_status(const Json& json, robot_host::RunStatus& status) {
   bool good = json.is_object() && read_text(json, "scenario", status.scenario) &&
               read_number(json, "sim_s", status.sim_s) &&
@@ -141,6 +208,12 @@ bool read_status(const Json& json, robot_host::RunStatus& status) {
     good = good && item.is_object() && read_text(item, "name", robot.name) &&
            read_bool(item, "simulated", robot.simulated) && read_bool(item, "armed", robot.armed) &&
            read_bool(item, "stopped", robot.stopped);
+    if (good && item.contains("hand_over")) {
+      good = read_hand_over(item.at("hand_over"), robot.hand_over.emplace());
+    }
+    if (good && item.contains("shadow")) {
+      good = read_shadow(item.at("shadow"), robot.shadow.emplace());
+    }
     status.robots.push_back(std::move(robot));
   }
   return good;

@@ -51,6 +51,10 @@ Kind kind_of(What what) {
       return Kind::kRemove;
     case What::kList:
       return Kind::kList;
+    case What::kHandOver:
+      return Kind::kHandOver;
+    case What::kResetShadow:
+      return Kind::kResetShadow;
     default:
       return Kind::kStop;
   }

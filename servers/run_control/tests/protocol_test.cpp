@@ -17,7 +17,10 @@ TEST(Protocol, RequestsComeBackAsTheyWere) {
         Request{What::kStep, "", "", "", 12},
         Request{What::kAdd, "", "", "{name: a, disc_radius_m: 0.2}", 1},
         Request{What::kMove, "", "", "{name: a, x_m: 1}", 1},
-        Request{What::kRemove, "", "a", "", 1}, Request{What::kList, "", "", "", 1}}) {
+        Request{What::kRemove, "", "a", "", 1}, Request{What::kList, "", "", "", 1},
+        Request{What::kHandOver, "create", "", "real", 1},
+        Request{What::kResetShadow, "create", "", "", 1},
+        Request{What::kResetShadow, "", "", "", 1}}) {
     std::string line = write_request(request);
     ASSERT_EQ(line.back(), '\n');
     line.pop_back();
@@ -56,6 +59,10 @@ TEST(Protocol, RefusesWhatIsNotExactlyARequest) {
                                  R"({"rave":1,"do":"remove","value":"a"})",
                                  R"({"rave":1,"do":"remove","key":7})",
                                  R"({"rave":1,"do":"list","robot":"a"})",
+                                 R"({"rave":1,"do":"hand_over","value":"real"})",
+                                 R"({"rave":1,"do":"hand_over","robot":"a"})",
+                                 R"({"rave":1,"do":"hand_over","robot":"a","value":1})",
+                                 R"({"rave":1,"do":"reset_shadow","robot":7})",
                                  R"({"rave":1,"do":"stop","robot":"a\u0000b"})"}) {
     const auto read = parse_request(line);
     EXPECT_FALSE(read) << line;
@@ -65,6 +72,28 @@ TEST(Protocol, RefusesWhatIsNotExactlyARequest) {
   }
   EXPECT_FALSE(parse_request(std::string(kMaxLineBytes + 1, ' ')));
   EXPECT_FALSE(parse_request(std::string(kMaxLineBytes, '[')));
+}
+
+TEST(Protocol, HandOversAndShadowsAreToldWithTheirRobots) {
+  Answer answer;
+  answer.good = true;
+  answer.status.scenario = "lab";
+  auto& robot = answer.status.robots.emplace_back();
+  robot.name = "create";
+  robot.hand_over = {true, 2, 1, "simulated -> real", 1.5, -2, 0.25};
+  robot.shadow = {true, 3, 0.125, 0.5, 0.25, 0.75, {{"laser", "m", 0.0625, 0.5}}};
+  answer.status.robots.push_back({"plain", true, true, false, {}, {}});
+  const auto read = parse_answer(write_answer(answer));
+  ASSERT_TRUE(read) << read.error().text();
+  ASSERT_EQ(read->status.robots.size(), 2U);
+  EXPECT_EQ(read->status.robots[0].hand_over, answer.status.robots[0].hand_over);
+  EXPECT_EQ(read->status.robots[0].shadow, answer.status.robots[0].shadow);
+  EXPECT_FALSE(read->status.robots[1].hand_over);
+  EXPECT_FALSE(read->status.robots[1].shadow);
+  EXPECT_FALSE(parse_answer(
+      R"({"good":true,"text":"","status":{"scenario":"a","sim_s":0,"duration_s":1,"pace":1,)"
+      R"("live":false,"paused":false,"robots":[{"name":"b","simulated":true,"armed":true,)"
+      R"("stopped":false,"hand_over":{"under_way":true,"made":-1,"refused":0,"last":""}}]}})"));
 }
 
 TEST(Protocol, AnswersComeBackAsTheyWere) {

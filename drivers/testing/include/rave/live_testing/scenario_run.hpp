@@ -43,6 +43,7 @@ class RaveRun {
     ::kill(pid_, SIGKILL);
     (void)wait();
   }
+  [[nodiscard]] pid_t pid() const { return pid_; }
   /// Ends it as a user does.
   void interrupt() const { ::kill(pid_, SIGINT); }
 

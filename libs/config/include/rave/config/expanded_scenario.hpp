@@ -13,6 +13,13 @@
 
 namespace rave::config {
 
+/// The other drivers of a robot: a robot file of the same robot.
+struct TwinGroup {
+  std::string file;  ///< As RobotGroup::file.
+  RobotFile robot;
+  bool operator==(const TwinGroup&) const = default;
+};
+
 /// What the robots of one entry of the scenario have in common.
 struct RobotGroup {
   Located<std::string> name;  ///< As written; the place is the entry's, for later errors.
@@ -23,6 +30,9 @@ struct RobotGroup {
   std::string file;
   RobotFile robot;
   std::optional<ScatterFile> scatter;  ///< Set: the robots have no poses yet.
+  std::optional<TwinGroup> twin;       ///< Set: it is one robot.
+  HandOverFile hand_over;
+  bool shadow = false;  ///< With `twin` only.
   bool operator==(const RobotGroup&) const = default;
 };
 

@@ -26,6 +26,21 @@ struct ScatterFile {
   bool operator==(const ScatterFile&) const = default;
 };
 
+/// How far the pose of a robot may jump when its drivers change; farther, and that is refused.
+struct HandOverFile {
+  double within_m = 0.25;
+  double within_deg = 20;
+  bool operator==(const HandOverFile&) const = default;
+};
+
+/// Which drivers a robot with a twin is given.
+enum class HandOverTo : std::uint8_t {
+  kReal,
+  kSimulated,
+  kFirst,  ///< Those of `file`.
+  kTwin,
+};
+
 /// One entry of `robots:`, which stands for one robot or several equal ones.
 struct RobotEntry {
   /// Of the robot, or with several of them what `-1`, `-2`, … is put behind.
@@ -39,6 +54,12 @@ struct RobotEntry {
   std::optional<std::vector<std::array<double, 3>>> poses;  ///< Each x [m], y [m], yaw [deg].
   std::optional<ScatterFile> scatter;
   std::optional<std::string> kind;  ///< A free word for pictures.
+  /// Another robot file of the same robot, with drivers that may serve it instead; as `file` and
+  /// `robot`. Of one robot only.
+  std::optional<Located<std::string>> twin;
+  std::optional<RobotFile> twin_robot;
+  HandOverFile hand_over;
+  bool shadow = false;  ///< While it is real, its simulated twin runs beside it.
   bool operator==(const RobotEntry&) const = default;
 };
 
@@ -92,12 +113,13 @@ struct ChecksFile {
 };
 
 /// What changes while the run goes; part of the run, as if the programs had known. Either `robot`
-/// and `set` or one of the others is given.
+/// and `set` or `hand_over`, or one of the others is given.
 struct ChangeFile {
   Located<double> at_s = 0.0;  ///< A multiple of the step.
   /// A robot, or an entry of `robots:` that stands for several.
   std::optional<Located<std::string>> robot;
   std::optional<RawNode> set;  ///< A mapping from keys such as `program.speed_mps` to values.
+  std::optional<HandOverTo> hand_over;
   std::optional<ObstacleFile> add_obstacle;
   std::optional<MoveObstacleFile> move_obstacle;
   std::optional<Located<std::string>> remove_obstacle;

@@ -29,6 +29,7 @@ inline constexpr const char* kActuators = "/rave/actuators";
 inline constexpr const char* kRadio = "/rave/radio";
 inline constexpr const char* kEvents = "/rave/events";
 inline constexpr const char* kInputs = "/rave/inputs";
+inline constexpr const char* kShadows = "/rave/shadows";
 inline constexpr const char* kHash = "/rave/hash";
 inline constexpr const char* kConsole = "/rosout";
 }  // namespace topic
@@ -133,12 +134,25 @@ struct RunEvent {
 /// What somebody asked of the run between two steps, and was done: enough to ask for it again.
 struct RunInput {
   std::uint64_t step = 0;  ///< The step that comes next.
-  std::string kind;   ///< `stop`, `release`, `arm`, `set`; of obstacles `add`, `move`, `remove`.
+  /// `stop`, `release`, `arm`, `set`, `hand_over`; of obstacles `add`, `move`, `remove`.
+  std::string kind;
   std::string robot;  ///< Empty: all of them.
   std::string key;    ///< Of `set`: such as `program.max_speed_mps`; of `remove`: which one.
-  std::string value;  ///< Of `set`, `add` and `move`: as in a file.
+  std::string value;  ///< Of `set`, `hand_over`, `add` and `move`: as in a file.
 
   friend bool operator==(const RunInput&, const RunInput&) = default;
+};
+
+/// How far a real robot and its shadow are from each other in one step.
+struct ShadowRecord {
+  RobotId robot;
+  Pose2 X_WR;      ///< Of the robot, as reported.
+  Pose2 X_WS;      ///< Of its shadow.
+  double m = 0;    ///< Between the origins.
+  double rad = 0;  ///< Between the headings, 0 to pi.
+  /// By sensor: of the newest readings; in metres of ranges and odometry, as a share of contacts.
+  /// NaN: not compared so far.
+  std::vector<double> readings;
 };
 
 /// A line of the console.
@@ -181,6 +195,7 @@ struct RunEnd {
 [[nodiscard]] Result<StepOf<RadioPacket>> decode_radio(std::span<const std::byte> message);
 [[nodiscard]] Result<StepOf<RunEvent>> decode_event(std::span<const std::byte> message);
 [[nodiscard]] Result<RunInput> decode_input(std::span<const std::byte> message);
+[[nodiscard]] Result<StepOf<ShadowRecord>> decode_shadow(std::span<const std::byte> message);
 [[nodiscard]] Result<StepHash> decode_hash(std::span<const std::byte> message);
 [[nodiscard]] Result<ConsoleLine> decode_console(std::span<const std::byte> message);
 

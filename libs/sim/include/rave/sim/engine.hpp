@@ -192,6 +192,14 @@ class Engine {
   /// authority's to change); then everything is as it was.
   Result<ChangedObstacle> change_obstacle(const ObstacleChange& change,
                                           Author author = Author::kHand);
+  /// Begins to give a robot its other drivers, by RobotSpec::twin: opens them, makes the robot
+  /// stand, and changes between two steps when it stands and they say where it is. Program and
+  /// controllers go on as they are. What came of it is an event, kHandedOver or kHandOverRefused.
+  /// Errors: kInvalidArgument (it has one set), kState (one is under way; it has these; its body is
+  /// scaled).
+  Status hand_over(RobotId robot, DriverSet to, Author author = Author::kHand);
+  /// Nothing for a robot with one set of drivers.
+  [[nodiscard]] std::optional<HandOverState> hand_over_state(RobotId robot) const;
   /// The present value of a parameter; empty if there is none of this name.
   [[nodiscard]] std::string parameter(RobotId robot, ParameterChange::Part part,
                                       std::uint32_t index, std::string_view name) const;

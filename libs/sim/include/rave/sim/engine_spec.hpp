@@ -10,6 +10,7 @@
 
 #include "rave/base/log.hpp"
 #include "rave/base/result.hpp"
+#include "rave/math/scalar.hpp"
 #include "rave/plugin/param_set.hpp"
 #include "rave/robot/actuator.hpp"
 #include "rave/robot/controller.hpp"
@@ -20,6 +21,7 @@
 #include "rave/robot/program.hpp"
 #include "rave/robot/sample_queue.hpp"
 #include "rave/sim/guard.hpp"
+#include "rave/sim/hand_over.hpp"
 #include "rave/sim/obstacle_change.hpp"
 #include "rave/sim/parameter_change.hpp"
 #include "rave/sim/phase_clock.hpp"
@@ -149,11 +151,24 @@ struct RobotType {
   std::optional<GuardSpec> guard;
 };
 
+/// How far the pose of a robot may jump in a hand-over; farther, and it is refused.
+struct HandOverLimits {
+  double within_m = 0.25;
+  double within_rad = deg_to_rad(20);
+};
+
 struct RobotSpec {
   std::string name;
   std::string team;
   std::uint32_t type = 0;
   Pose2 X_WR;  ///< Where a simulated robot starts.
+  /// Of an engine: `type` is the one that serves the robot now, `twin` the other.
+  ///
+  /// Another type whose sensors, actuators and devices may serve the robot instead: sensors and
+  /// actuators of the same names and kinds in the same order, the same controllers and program.
+  /// Both types are this robot's alone.
+  std::optional<std::uint32_t> twin = std::nullopt;
+  HandOverLimits hand_over = {};
 };
 
 /// Everything an Engine is made from. Robots are in the order of their ids, which is also the order
@@ -183,6 +198,8 @@ struct EngineSpec {
   std::vector<ScheduledChange> changes;
   /// Obstacles that come, move and go as a part of the run, by step.
   std::vector<ScheduledObstacle> obstacle_changes;
+  /// Robots that change their drivers as a part of the run, by step.
+  std::vector<ScheduledHandOver> hand_overs;
   /// Not owned; outlives the engine.
   LogSink* log = nullptr;
   /// Set: phase_times() tells what the phases took. No part of any result.

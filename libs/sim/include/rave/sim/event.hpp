@@ -28,7 +28,10 @@ enum class EventKind : std::uint32_t {
   kObstacleAdded = 27,  ///< `other` has come; no robot is concerned.
   kObstacleMoved = 28,
   kObstacleRemoved = 29,
-  kCaptured = 30,  ///< The host saw that a robot caught another; no part of the hash.
+  kCaptured = 30,         ///< The host saw that a robot caught another; no part of the hash.
+  kHandedOver = 31,       ///< A robot has its other set of drivers from this step on.
+  kHandOverRefused = 32,  ///< ... or could not be given it; everything is as it was.
+  kShadowReset = 33,      ///< The host put a shadow where its robot is; no part of the hash.
 };
 [[nodiscard]] std::string_view to_string(EventKind kind) noexcept;
 

@@ -30,27 +30,62 @@ struct RunRequest {
     kMove,    ///< The same.
     kRemove,  ///< The same.
     kList,    ///< Which obstacles there are; changes nothing.
+    kHandOver,
+    kResetShadow,  ///< Of one robot, or of all.
   };
   Kind kind = Kind::kStop;
   std::string robot;  ///< Empty: all of them.
   /// kSet: such as `program.max_speed_mps`. kRemove: the name of the obstacle.
   std::string key;
-  /// kSet: as in a file. kAdd, kMove: YAML, an entry of `obstacles:`, or of `move_obstacle:`.
+  /// kHandOver: `real`, `simulated`, `first` or `twin`. kSet: as in a file. kAdd, kMove: YAML, an
+  /// entry of `obstacles:`, or of `move_obstacle:`.
   std::string value;
 };
 
-/// `stop`, `release`, `arm`, `set`, `add`, `move`, `remove` or `list`; and back, nothing for any
+/// `stop`, `release`, `arm`, `set`, `add`, `move`, `remove`, `list`, `hand_over` or `reset_shadow`;
+/// and back, nothing for any
 /// other word.
 [[nodiscard]] std::string_view to_string(RunRequest::Kind kind) noexcept;
 [[nodiscard]] std::optional<RunRequest::Kind> request_kind(std::string_view word) noexcept;
 
 /// What can be seen of a run from outside.
 struct RunStatus {
+  /// How it stands with a robot that has two sets of drivers; sim::HandOverState.
+  struct HandOver {
+    bool under_way = false;
+    std::uint32_t made = 0;
+    std::uint32_t refused = 0;
+    std::string last;
+    double x_m = 0;  ///< Where the robot is, which the drivers that it is given have to say too.
+    double y_m = 0;
+    double yaw_rad = 0;
+    friend bool operator==(const HandOver&, const HandOver&) = default;
+  };
+  /// How far a real robot and its shadow are from each other.
+  struct Shadow {
+    struct Reading {
+      std::string sensor;
+      std::string unit;  ///< `m` or `share`.
+      double last = 0;
+      double most = 0;
+      friend bool operator==(const Reading&, const Reading&) = default;
+    };
+    bool running = false;
+    double since_s = 0;  ///< When it was put where the robot was.
+    double m = 0;
+    double rad = 0;
+    double most_m = 0;
+    double most_rad = 0;
+    std::vector<Reading> readings;
+    friend bool operator==(const Shadow&, const Shadow&) = default;
+  };
   struct Robot {
     std::string name;
     bool simulated = true;
     bool armed = true;
     bool stopped = false;
+    std::optional<HandOver> hand_over = std::nullopt;
+    std::optional<Shadow> shadow = std::nullopt;
   };
   std::string scenario;
   double sim_s = 0;
@@ -122,6 +157,8 @@ class RunControl {
   void begin(RunStatus status);
   /// Answers what was asked, in order; `robots` brings the status up to date when something was.
   void serve(const Serve& serve, const std::function<void(RunStatus&)>& refresh);
+  /// Brings the status up to date though nothing was asked.
+  void refresh(const std::function<void(RunStatus&)>& refresh);
   void set_time(double sim_s) noexcept { sim_s_.store(sim_s); }
   /// No more requests; those that wait get an error.
   void end();

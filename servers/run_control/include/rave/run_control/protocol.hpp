@@ -30,11 +30,13 @@ struct Request {
     kMove,
     kRemove,
     kList,
+    kHandOver,
+    kResetShadow,
   };
   What what = What::kStatus;
-  std::string robot;        ///< kStop, kRelease, kArm: empty: all; kSet.
+  std::string robot;        ///< kStop, kRelease, kArm, kResetShadow: empty: all; kSet, kHandOver.
   std::string key;          ///< kSet; kRemove: the name of an obstacle.
-  std::string value;        ///< kSet; kAdd and kMove: YAML, see robot_host::RunRequest.
+  std::string value;        ///< kSet; kHandOver; kAdd and kMove: YAML, see robot_host::RunRequest.
   std::uint64_t count = 1;  ///< kStep: 1 to 1e9.
   friend bool operator==(const Request&, const Request&) = default;
 };

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/hand_over.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <thread>
+
+#include "error_text.hpp"
+#include "rave/math/scalar.hpp"
+#include "rave/report/table.hpp"
+#include "rave/run_control/client.hpp"
+#include "rave/run_control/folder.hpp"
+
+namespace rave::cli {
+namespace {
+
+using robot_host::RunStatus;
+using run_control::Request;
+
+constexpr auto kLook = std::chrono::milliseconds(50);
+
+Request request_of(Request::What what, const std::string& robot) {
+  Request request;
+  request.what = what;
+  request.robot = robot;
+  return request;
+}
+
+int refused(const std::string& run, const std::string& text) {
+  complain({ErrorCode::kState, fmt::format("{}: {}", run, text), {}});
+  return kNotGood;
+}
+
+Result<RunStatus> status_of(const std::string& run) {
+  RAVE_TRY_ASSIGN(auto answer, run_control::ask(run, request_of(Request::What::kStatus, "")));
+  return std::move(answer.status);
+}
+
+std::optional<RunStatus::HandOver> hand_over_of(const RunStatus& status, const std::string& robot) {
+  for (const RunStatus::Robot& one : status.robots) {
+    if (one.name == robot) return one.hand_over;
+  }
+  return std::nullopt;
+}
+
+/// Waits for the end of the hand-over that was begun after `before`.
+int await(const std::string& run, const std::string& robot, const RunStatus::HandOver& before) {
+  while (true) {
+    const auto status = status_of(run);
+    if (!status) return complain(status.error());
+    const auto now = hand_over_of(*status, robot);
+    if (!now) return refused(run, "the run ended before the robot was handed over");
+    if (now->made != before.made) {
+      put(stdout, fmt::format("{}: {}: {}\n", run, robot, now->last));
+      return kGood;
+    }
+    if (now->refused != before.refused) return refused(run, robot + ": " + now->last);
+    std::this_thread::sleep_for(kLook);
+  }
+}
+
+nlohmann::ordered_json json_of(const RunStatus::Robot& robot) {
+  const RunStatus::Shadow& shadow = *robot.shadow;
+  nlohmann::ordered_json json = {{"robot", robot.name},        {"running", shadow.running},
+                                 {"since_s", shadow.since_s},  {"m", shadow.m},
+                                 {"rad", shadow.rad},          {"most_m", shadow.most_m},
+                                 {"most_rad", shadow.most_rad}};
+  for (const auto& reading : shadow.readings) {
+    json["readings"][reading.sensor] = {
+        {"unit", reading.unit}, {"last", reading.last}, {"most", reading.most}};
+  }
+  return json;
+}
+
+void add_rows(const RunStatus& status, const RunStatus::Robot& robot, report::Table& table) {
+  const RunStatus::Shadow& shadow = *robot.shadow;
+  const std::string since =
+      shadow.running ? fmt::format("{:.1f} s", status.sim_s - shadow.since_s) : "not running";
+  table.rows.push_back({robot.name, "position", fmt::format("{:.3f} m", shadow.m),
+                        fmt::format("{:.3f} m", shadow.most_m), since});
+  table.rows.push_back({"", "heading", fmt::format("{:.1f} deg", rad_to_deg(shadow.rad)),
+                        fmt::format("{:.1f} deg", rad_to_deg(shadow.most_rad)), ""});
+  for (const auto& reading : shadow.readings) {
+    const bool share = reading.unit == "share";
+    const auto text = [share](double value) {
+      return share ? fmt::format("{:.1f} %", 100 * value) : fmt::format("{:.3f} m", value);
+    };
+    table.rows.push_back({"", reading.sensor, text(reading.last), text(reading.most), ""});
+  }
+}
+
+}  // namespace
+
+int hand_over(const HandOverCommand& options) {
+  const auto run = run_control::find_run(options.run);
+  if (!run) return complain(run.error());
+  const auto status = status_of(*run);
+  if (!status) return complain(status.error());
+  const auto before = hand_over_of(*status, options.robot).value_or(RunStatus::HandOver{});
+  Request request = request_of(Request::What::kHandOver, options.robot);
+  request.value = options.to;
+  const auto answer = run_control::ask(*run, request);
+  if (!answer) return complain(answer.error());
+  if (!answer->good) return refused(*run, answer->text);
+  return await(*run, options.robot, before);
+}
+
+int show_shadows(const ShadowCommand& options) {
+  const auto run = run_control::find_run(options.run);
+  if (!run) return complain(run.error());
+  if (options.reset) {
+    const auto answer =
+        run_control::ask(*run, request_of(Request::What::kResetShadow, options.robot));
+    if (!answer) return complain(answer.error());
+    if (!answer->good) return refused(*run, answer->text);
+    put(stdout, fmt::format("{}: {}\n", *run, answer->text));
+    return kGood;
+  }
+  const auto status = status_of(*run);
+  if (!status) return complain(status.error());
+  report::Table table;
+  table.columns = {{"robot", report::Align::kLeft, false},
+                   {"difference", report::Align::kLeft, false},
+                   {"now", report::Align::kRight, false},
+                   {"most", report::Align::kRight, false},
+                   {"since", report::Align::kRight, false}};
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const RunStatus::Robot& robot : status->robots) {
+    if (!robot.shadow || (!options.robot.empty() && options.robot != robot.name)) continue;
+    add_rows(*status, robot, table);
+    json.push_back(json_of(robot));
+  }
+  if (json.empty()) {
+    return refused(*run, options.robot.empty()
+                             ? "no robot of the run has a shadow; `shadow: true` and `twin:` of "
+                               "its entry in the scenario give it one"
+                             : fmt::format("robot `{}` has no shadow", options.robot));
+  }
+  put(stdout, options.json ? json.dump(2) + "\n" : report::render_table(table));
+  return kGood;
+}
+
+}  // namespace rave::cli

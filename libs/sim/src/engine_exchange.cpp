@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+// The two sets of drivers of a robot: made, opened, exchanged.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "engine_impl.hpp"
+#include "rave/math/scalar.hpp"
+#include "rave/math/transform.hpp"
+
+namespace rave::sim {
+namespace {
+
+/// Bearings of a real and a virtual laser may be so far apart.
+constexpr double kSameBearing_rad = deg_to_rad(1.0);
+
+double distance_m(const Pose2& a, const Pose2& b) noexcept {
+  return std::sqrt(squared_norm(a.position() - b.position()));
+}
+
+/// Whether what one set gives can be put where the program expects what the other gave.
+Status check_readings(const RobotGroup& group, const RobotGroup& other) {
+  for (std::size_t s = 0; s < other.sensors.size(); ++s) {
+    const SensorInfo& told = group.sensor_infos[s];
+    const SensorInfo& info = other.sensors[s].info;
+    if (info.kind != ReadingKind::kRanges) {
+      const bool isolated = group.program.spec != nullptr && group.program.spec->isolate;
+      if (!isolated || info.capacity <= told.capacity) continue;
+      return fail(ErrorCode::kInvalidArgument,
+                  "sensor `{}` may give {} readings, but its program has a process of its own with "
+                  "room for {}",
+                  told.name, info.capacity, told.capacity);
+    }
+    if (info.capacity != told.capacity) {
+      return fail(ErrorCode::kInvalidArgument,
+                  "sensor `{}` gives {} ranges, but the program was told of {}", told.name,
+                  info.capacity, told.capacity);
+    }
+    if (told.bearings_rad == nullptr || info.bearings_rad == nullptr) continue;
+    for (std::uint32_t i = 0; i < info.capacity; ++i) {
+      const double apart_rad = std::abs(wrap_angle(told.bearings_rad[i] - info.bearings_rad[i]));
+      if (apart_rad <= kSameBearing_rad) continue;
+      return fail(ErrorCode::kInvalidArgument,
+                  "sensor `{}`: range {} is at {:.2f} degrees, but the program was told {:.2f}",
+                  told.name, i, rad_to_deg(info.bearings_rad[i]), rad_to_deg(told.bearings_rad[i]));
+    }
+  }
+  return {};
+}
+
+/// A recording cannot begin in the middle.
+Status check_live(const RobotGroup& other) {
+  for (const SensorSlots& slots : other.sensors) {
+    if (slots.is_virtual() || slots.live) continue;
+    return fail(
+        ErrorCode::kInvalidArgument,
+        "sensor `{}` (driver `{}`) plays a recording, which cannot begin in a running world",
+        slots.spec->name, slots.spec->hardware_driver());
+  }
+  return {};
+}
+
+void throw_away(RobotGroup& other) {
+  close_group(other);
+  other.actuators.clear();
+  other.sensors.clear();
+  other.devices.clear();
+}
+
+/// The program keeps the last sample of the sensor until the new one gives one, and sees numbers
+/// that go on.
+void carry_sample(const SensorSlots& from, SensorSlots& to) {
+  to.sequence[0] = from.sequence[0];
+  SampleHeader& header = to.headers[0];
+  header = from.headers[0];
+  header.count = std::min(header.count, to.capacity);
+  const std::size_t bytes = std::size_t{header.count} * record_size(to.spec->kind);
+  if (bytes > 0) std::memcpy(to.records_of(0), from.records.data(), bytes);
+}
+
+}  // namespace
+
+void Engine::Impl::make_twins() {
+  for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
+    if (!spec.robots[r].twin) continue;
+    Twin& twin = twins.emplace_back();
+    twin.robot = RobotId(r);
+    twin.types = {spec.robots[r].type, *spec.robots[r].twin};
+    twin.other.type = &spec.types[twin.types[1]];
+    twin.other.members = {twin.robot};
+  }
+}
+
+Twin* Engine::Impl::find_twin(RobotId robot) noexcept {
+  for (Twin& twin : twins) {
+    if (twin.robot == robot) return &twin;
+  }
+  return nullptr;
+}
+
+RobotGroup& Engine::Impl::group_of_twin(const Twin& twin) noexcept {
+  return groups[group_index[twin.robot.value()]];
+}
+
+void Engine::Impl::close_twins() noexcept {
+  for (Twin& twin : twins) {
+    if (twin.work.valid()) twin.work.wait();
+    twin.work = {};
+    close_group(twin.other);
+  }
+}
+
+/// The first set serves again, and nothing is under way.
+void Engine::Impl::restore_twins() {
+  close_twins();
+  for (Twin& twin : twins) {
+    if (twin.state.active != DriverSet::kFirst) {
+      RobotGroup& group = group_of_twin(twin);
+      close_group(group);
+      exchange(twin);
+      const bool simulated = group.type->simulated;
+      truth.set_reality(twin.robot, simulated, spec.robots[twin.robot.value()].X_WR);
+      body_changed(twin.robot);
+    }
+    group_of_twin(twin).X_WM.reset();
+    twin.stage = Twin::Stage::kIdle;
+    twin.state = {};
+  }
+}
+
+/// Maybe in a thread of its own: touches nothing but the set that does not serve.
+Status Engine::Impl::open_other(Twin& twin) {
+  const GroupContext context{spec, logs, radio.get()};
+  if (!twin.made) {
+    Status made = make_body(context, twin.other);
+    if (made) made = check_readings(group_of_twin(twin), twin.other);
+    if (made) made = check_live(twin.other);
+    if (!made) {
+      throw_away(twin.other);
+      return made;
+    }
+    twin.made = true;
+  }
+  Status opened = check_live(twin.other);
+  if (opened) opened = open_body(context, twin.other);
+  if (!opened) close_group(twin.other);
+  return opened;
+}
+
+/// Where the robot is when the other set serves, and the frame of its pose source.
+Engine::Impl::Arrival Engine::Impl::arrival(const Twin& twin) const {
+  const std::uint32_t r = twin.robot.value();
+  const RobotType& type = *twin.other.type;
+  Arrival place{truth.movers[r].X_WR, {}, std::nullopt, now};
+  if (!type.pose_from) return place;
+  const PoseReading heard = twin.heard.value_or(PoseReading{});
+  const Pose2 X_MR{heard.x_m, heard.y_m, heard.yaw_rad};
+  if (type.sensors[*type.pose_from].kind == ReadingKind::kOdometry) {
+    // Wheels count from wherever they were switched on: that place is chosen so that it fits.
+    place.X_WM = compose(place.X_WR, inverse(X_MR));
+  } else if (twin.heard) {
+    place.X_WR = compose(type.X_WM.value_or(Pose2{}), X_MR);
+  }
+  if (twin.heard) {
+    place.variance = heard;
+    place.stamp = twin.heard_at;
+  }
+  return place;
+}
+
+Status Engine::Impl::check_near(const Twin& twin) const {
+  const std::uint32_t r = twin.robot.value();
+  if (!truth.movers[r].present) {
+    return fail(ErrorCode::kState, "nobody has said yet where it is");
+  }
+  const Pose2 X_before = truth.movers[r].X_WR;
+  const Pose2 X_after = arrival(twin).X_WR;
+  const double apart_m = distance_m(X_before, X_after);
+  const double turned_rad = std::abs(wrap_angle(X_after.yaw - X_before.yaw));
+  const HandOverLimits& limits = spec.robots[r].hand_over;
+  const bool finite =
+      std::isfinite(X_after.x) && std::isfinite(X_after.y) && std::isfinite(X_after.yaw);
+  if (finite && apart_m <= limits.within_m && turned_rad <= limits.within_rad) return {};
+  return fail(
+      ErrorCode::kState,
+      "its {} drivers say that it is at ({:.3f}, {:.3f}) m, {:.1f} degrees, which is {:.3f} "
+      "m and {:.1f} degrees from where it is now; expected at most {} m and {:.0f} degrees",
+      reality_of(*twin.other.type), X_after.x, X_after.y, rad_to_deg(X_after.yaw), apart_m,
+      rad_to_deg(turned_rad), limits.within_m, rad_to_deg(limits.within_rad));
+}
+
+/// The sets change places; program and controllers stay.
+void Engine::Impl::exchange(Twin& twin) {
+  RobotGroup& group = group_of_twin(twin);
+  std::swap(group.type, twin.other.type);
+  std::swap(group.devices, twin.other.devices);
+  std::swap(group.sensors, twin.other.sensors);
+  std::swap(group.actuators, twin.other.actuators);
+  show_sensors(group);
+  const bool first = twin.state.active == DriverSet::kFirst;
+  twin.state.active = first ? DriverSet::kTwin : DriverSet::kFirst;
+  RobotSpec& robot = spec.robots[twin.robot.value()];
+  robot.type = twin.type_of(twin.state.active);
+  robot.twin = twin.type_of(first ? DriverSet::kFirst : DriverSet::kTwin);
+}
+
+void Engine::Impl::change_drivers(Twin& twin) {
+  const std::uint32_t r = twin.robot.value();
+  RobotGroup& group = group_of_twin(twin);
+  const Pose2 X_before = truth.movers[r].X_WR;
+  const Arrival place = arrival(twin);
+  halt(group);
+  for (std::size_t s = 0; s < group.sensors.size(); ++s) {
+    carry_sample(group.sensors[s], twin.other.sensors[s]);
+  }
+  exchange(twin);
+  const RobotType& type = *group.type;
+  group.X_WM = place.X_WM;
+  truth.set_reality(twin.robot, type.simulated, place.X_WR);
+  body_changed(twin.robot);
+  reported[r] = {{place.X_WR.x, place.X_WR.y, place.X_WR.yaw, place.variance.variance_xy_m2,
+                  place.variance.variance_yaw_rad2},
+                 {},
+                 place.stamp,
+                 true,
+                 false};
+  tracks[r].clear();
+  tracks[r].add(place.stamp, place.X_WR);
+  // Who armed the robot before armed another one.
+  guard_states[r].armed = type.simulated || !guards[twin.type_of(twin.state.active)]->arm;
+  close_other(twin);
+  ++twin.state.made;
+  const double jump_m = distance_m(X_before, place.X_WR);
+  const double turn_rad = std::abs(wrap_angle(place.X_WR.yaw - X_before.yaw));
+  std::string text = fmt::format(
+      "{} -> {} at ({:.3f}, {:.3f}) m, {:.1f} degrees; moved by {:.4f} m and {:.2f} degrees",
+      reality_of(*twin.other.type), reality_of(type), place.X_WR.x, place.X_WR.y,
+      rad_to_deg(place.X_WR.yaw), jump_m, rad_to_deg(turn_rad));
+  if (!guard_states[r].armed) text += "; it stands until somebody arms it";
+  end_hand_over(twin, EventKind::kHandedOver, std::move(text));
+}
+
+void Engine::Impl::close_other(Twin& twin) {
+  tell_complaints(twin.other);
+  const auto policy = spec.live_clock != nullptr ? std::launch::async : std::launch::deferred;
+  twin.work = std::async(policy, [&twin]() -> Status {
+    close_group(twin.other);
+    return {};
+  });
+  if (policy == std::launch::deferred) twin.work.wait();
+}
+
+}  // namespace rave::sim

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+// A robot changes between two sets of drivers while the run goes.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+
+#include "engine_impl.hpp"
+#include "input_notes.hpp"
+#include "rave/base/check.hpp"
+#include "rave/math/scalar.hpp"
+#include "rave/math/transform.hpp"
+
+namespace rave::sim {
+namespace {
+
+/// How long the pose source of a set that was opened may be silent.
+constexpr Duration kListen{5'000'000'000};
+/// How long a robot may take to come to stand.
+constexpr Duration kComeToStand{10'000'000'000};
+/// A real robot has to be seen to stand for so long.
+constexpr Duration kSeenToStand{300'000'000};
+/// A reading that is older says nothing about the present.
+constexpr Duration kFresh{500'000'000};
+/// The reported velocity of a real robot that stands is that of the noise of its pose source.
+constexpr double kReportedStill_mps = 0.03;
+constexpr double kReportedStill_radps = 0.15;
+constexpr double kWheelsStill_mps = 0.005;
+constexpr double kWheelsStill_radps = 0.02;
+constexpr double kTrueStill_mps = 0.001;
+constexpr double kTrueStill_radps = 0.01;
+
+bool is_below(const Twist2& twist, double mps, double radps) noexcept {
+  return std::sqrt(squared_norm(Vec2{twist.vx, twist.vy})) <= mps && std::abs(twist.wz) <= radps;
+}
+
+}  // namespace
+
+Status Engine::Impl::hand_over(RobotId robot, DriverSet to, Author author) {
+  const std::string& name = spec.robots[robot.value()].name;
+  Twin* const twin = find_twin(robot);
+  if (twin == nullptr) {
+    return fail(ErrorCode::kInvalidArgument,
+                "robot `{}` has one set of drivers; `twin:` in the scenario names another", name);
+  }
+  const RobotType& target = spec.types[twin->type_of(to)];
+  if (twin->stage != Twin::Stage::kIdle) {
+    return fail(ErrorCode::kState, "robot `{}` is being handed over already", name);
+  }
+  if (twin->state.active == to) {
+    return fail(ErrorCode::kState, "robot `{}` has its {} drivers already", name,
+                reality_of(target));
+  }
+  if (!target.simulated && truth.scale_of(robot) != 1) {
+    return fail(ErrorCode::kState, "the body of robot `{}` has `scale` {}; a real one has 1", name,
+                truth.scale_of(robot));
+  }
+  if (author == Author::kHand) ++by_hand;
+  twin->by_hand = author == Author::kHand;
+  twin->state.under_way = true;
+  twin->state.to = to;
+  twin->heard.reset();
+  begin_stage(*twin, Twin::Stage::kOpening);
+  const bool waits =
+      std::any_of(target.sensors.begin(), target.sensors.end(),
+                  [](const SensorSpec& sensor) { return sensor.hardware_ops != nullptr; }) ||
+      !target.devices.empty();
+  // Hardware may take seconds to be found, for which nobody else shall wait. A stepped run waits.
+  const auto policy =
+      waits && spec.live_clock != nullptr ? std::launch::async : std::launch::deferred;
+  twin->work = std::async(policy, [this, twin, before = std::move(twin->work)]() mutable {
+    if (before.valid()) before.wait();
+    return open_other(*twin);
+  });
+  return {};
+}
+
+void Engine::Impl::begin_stage(Twin& twin, Twin::Stage stage) {
+  twin.stage = stage;
+  twin.since = step_time(step);
+  twin.moved_at = twin.since;
+  guard_states[twin.robot.value()].held = stage == Twin::Stage::kStanding;
+}
+
+void Engine::Impl::advance_hand_overs() {
+  for (Twin& twin : twins) {
+    if (twin.stage != Twin::Stage::kIdle) advance(twin);
+  }
+}
+
+void Engine::Impl::advance(Twin& twin) {
+  if (twin.stage == Twin::Stage::kOpening) {
+    if (twin.work.wait_for(std::chrono::seconds(0)) == std::future_status::timeout) return;
+    const Status opened = twin.work.get();
+    if (!opened) return refuse(twin, opened.error().text());
+    begin_stage(twin, Twin::Stage::kListening);
+  }
+  const Status healthy = listen(twin);
+  if (!healthy) return refuse(twin, healthy.error().text());
+  if (twin.stage == Twin::Stage::kListening) {
+    if (!is_heard(twin)) return;
+    begin_stage(twin, Twin::Stage::kStanding);
+  }
+  if (!stands(twin)) {
+    if (now - twin.since <= kComeToStand) return;
+    return refuse(twin,
+                  fmt::format("it was not seen to stand within {} s", kComeToStand.seconds()));
+  }
+  const Status near = check_near(twin);
+  if (!near) return refuse(twin, near.error().text());
+  change_drivers(twin);
+}
+
+/// Whether the other set says where the robot is, if it has to.
+bool Engine::Impl::is_heard(const Twin& twin) const noexcept {
+  const RobotType& type = *twin.other.type;
+  const bool asks = type.pose_from && type.sensors[*type.pose_from].hardware_ops != nullptr;
+  return !asks || twin.heard.has_value();
+}
+
+/// Takes in what the other set has said, so that nothing old is left when it begins to serve.
+Status Engine::Impl::listen(Twin& twin) {
+  for (std::size_t s = 0; s < twin.other.sensors.size(); ++s) {
+    SensorSlots& slots = twin.other.sensors[s];
+    if (slots.is_virtual()) continue;
+    SampleHeader sample;
+    while (slots.queues[0]->next(now, &sample, slots.scratch.data())) {
+      if (twin.other.type->pose_from != s || sample.count == 0) continue;
+      twin.heard = pose_reading(slots.spec->kind, slots.scratch.data());
+      twin.heard_at = {sample.stamp_ns};
+    }
+    const std::string failure = slots.queues[0]->failure();
+    if (!failure.empty()) {
+      return fail(ErrorCode::kState, "sensor `{}`: {}", slots.spec->name, failure);
+    }
+  }
+  const bool lost = twin.heard && now - twin.heard_at > kListen;
+  if (!lost && (is_heard(twin) || now - twin.since <= kListen)) return {};
+  return fail(ErrorCode::kTimeout, "sensor `{}` has not said for {} s where the robot is",
+              twin.other.sensors[*twin.other.type->pose_from].spec->name, kListen.seconds());
+}
+
+bool Engine::Impl::stands(Twin& twin) {
+  const std::uint32_t r = twin.robot.value();
+  const RobotGroup& group = group_of_twin(twin);
+  // The command that makes it stand has to reach it first.
+  if (now <= twin.since) return false;
+  if (group.type->simulated) {
+    return is_below(truth.velocity[r], kTrueStill_mps, kTrueStill_radps);
+  }
+  // A recording goes its way, whatever it is told.
+  const bool obeys = std::any_of(group.actuators.begin(), group.actuators.end(),
+                                 [](const ActuatorSlots& slots) { return slots.obeys[0] != 0; });
+  if (!obeys) return true;
+  if (!moves_seen(group, r)) return now - twin.moved_at >= kSeenToStand;
+  twin.moved_at = now;
+  return false;
+}
+
+/// Whether a real robot is seen to move, or cannot be seen.
+bool Engine::Impl::moves_seen(const RobotGroup& group, std::uint32_t robot) const {
+  const ReportedPose& pose = reported[robot];
+  if (!pose.known || pose.stale) return true;
+  if (!is_below(pose.velocity, kReportedStill_mps, kReportedStill_radps)) return true;
+  for (const ActuatorSlots& slots : group.actuators) {
+    if (slots.failed[0] != 0) return true;
+  }
+  for (const SensorSlots& slots : group.sensors) {
+    if (slots.spec->kind != ReadingKind::kOdometry || slots.headers[0].count == 0) continue;
+    if (now.ns - slots.headers[0].stamp_ns > kFresh.ns) return true;
+    OdometryReading wheels;
+    std::memcpy(&wheels, slots.records.data(), sizeof wheels);
+    if (!is_below({wheels.v_mps, 0, wheels.w_radps}, kWheelsStill_mps, kWheelsStill_radps)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+void Engine::Impl::refuse(Twin& twin, const std::string& why) {
+  if (twin.made) close_other(twin);
+  ++twin.state.refused;
+  const std::string from(reality_of(*group_of_twin(twin).type));
+  end_hand_over(twin, EventKind::kHandOverRefused,
+                fmt::format("{} -> {}: {}", from, reality_of(*twin.other.type), why));
+}
+
+void Engine::Impl::end_hand_over(Twin& twin, EventKind kind, std::string text) {
+  begin_stage(twin, Twin::Stage::kIdle);
+  twin.state.under_way = false;
+  twin.state.last = text;
+  const Author author = twin.by_hand ? Author::kHand : Author::kRun;
+  pending.push_back(noted_input(step, twin.robot, kind, std::move(text), author, hash));
+}
+
+void Engine::Impl::begin_hand_overs() {
+  for (; next_hand_over < spec.hand_overs.size() && spec.hand_overs[next_hand_over].step <= step;
+       ++next_hand_over) {
+    const ScheduledHandOver& asked = spec.hand_overs[next_hand_over];
+    const Status begun = hand_over(asked.robot, asked.to, Author::kRun);
+    if (begun) continue;
+    if (Twin* const twin = find_twin(asked.robot)) ++twin->state.refused;
+    note_input(asked.robot, EventKind::kHandOverRefused, begun.error().text(), Author::kRun);
+  }
+}
+
+Status Engine::hand_over(RobotId robot, DriverSet to, Author author) {
+  RAVE_CHECK(robot.value() < impl_->spec.robots.size());
+  return impl_->hand_over(robot, to, author);
+}
+
+std::optional<HandOverState> Engine::hand_over_state(RobotId robot) const {
+  const Twin* const twin = impl_->find_twin(robot);
+  if (twin == nullptr) return std::nullopt;
+  return twin->state;
+}
+
+}  // namespace rave::sim

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <future>
+#include <optional>
+
+#include "rave/sim/hand_over.hpp"
+#include "robot_group.hpp"
+
+namespace rave::sim {
+
+[[nodiscard]] inline std::string_view reality_of(const RobotType& type) noexcept {
+  return type.simulated ? "simulated" : "real";
+}
+
+/// A robot with two sets of drivers. Its group has it alone; controllers and program stay there,
+/// whichever set serves.
+struct Twin {
+  enum class Stage : std::uint8_t {
+    kIdle,
+    kOpening,    ///< The other set is being opened.
+    kListening,  ///< It is open; its pose source has not spoken yet.
+    kStanding,   ///< The robot is brought to stand.
+  };
+
+  RobotId robot;
+  std::array<std::uint32_t, 2> types{};  ///< By DriverSet.
+  RobotGroup other;                      ///< The set that does not serve: type, devices, sensors
+                     ///< and actuators. While `work` goes on it belongs to that.
+  bool made = false;  ///< `other` has instances.
+  Stage stage = Stage::kIdle;
+  SimTime since;  ///< When the stage began.
+  std::future<Status> work;
+  bool by_hand = false;
+  std::optional<PoseReading> heard;  ///< By the pose source of the other set, in its frame.
+  SimTime heard_at;
+  SimTime moved_at;  ///< When the robot was seen to move last, or could not be seen.
+  HandOverState state;
+
+  [[nodiscard]] std::uint32_t type_of(DriverSet set) const noexcept {
+    return types[static_cast<std::size_t>(set)];
+  }
+};
+
+}  // namespace rave::sim

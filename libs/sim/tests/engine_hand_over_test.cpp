@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include "engine_fixture.hpp"
+
+namespace rave::sim::testing {
+namespace {
+
+/// Gives the robot that was added last other drivers.
+void add_drivers(EngineSpec& spec, RobotType type) {
+  spec.robots.back().twin = static_cast<std::uint32_t>(spec.types.size());
+  spec.types.push_back(std::move(type));
+}
+
+RobotType roaming(Numbers wheels = {}, double range_m = 3) {
+  RobotType type = simulated_type(wheels);
+  type.sensors.push_back(laser(16, 3, range_m));
+  type.program = program<Roam>({}, 10);
+  return type;
+}
+
+RobotType counting() {
+  RobotType type = simulated_type();
+  type.sensors.push_back(virtual_sensor<Counter>("counter"));
+  type.program = program<Diary>({{"v", 0.5}}, 10);
+  return type;
+}
+
+/// Two robots among boxes, one of which changes its drivers and back.
+EngineSpec changing_crowd(unsigned threads) {
+  EngineSpec spec;
+  spec.threads = threads;
+  spec.share_always = true;
+  for (int i = 0; i < 6; ++i) {
+    spec.world.obstacles.push_back(box({2.0 + (i % 3), -2.0 + 1.7 * i, 0.3 * i}, 0.6, 0.4));
+  }
+  add_robot(spec, roaming(), {0, 0, 0});
+  add_drivers(spec, roaming({}, 2));
+  add_robot(spec, roaming({{"shake", 0.02}}), {0, 1, 0});
+  for (int i = 0; i < 100; ++i) add_twin(spec, {-1.0 - 0.5 * (i % 10), 0.5 * i - 25, 0});
+  spec.hand_overs = {{50, RobotId(0), DriverSet::kTwin}, {250, RobotId(0), DriverSet::kFirst}};
+  return spec;
+}
+
+TEST(HandOver, OfSimulatedDriversIsTheSameRunForAnyThreads) {
+  const auto one = make_engine(changing_crowd(1));
+  const auto two = make_engine(changing_crowd(2));
+  const auto events = run(*one, 400);
+  run(*two, 400);
+  EXPECT_EQ(of_kind(events, EventKind::kHandedOver).size(), 2U);
+  EXPECT_EQ(one->hash().value(), two->hash().value());
+  ASSERT_TRUE(one->reset());
+  EXPECT_EQ(of_kind(run(*one, 400), EventKind::kHandedOver).size(), 2U);
+  EXPECT_EQ(one->hash().value(), two->hash().value());
+}
+
+TEST(HandOver, ThatIsNotMadeChangesTheRun) {
+  EngineSpec spec = changing_crowd(1);
+  spec.hand_overs.clear();
+  const auto without = make_engine(std::move(spec));
+  const auto with = make_engine(changing_crowd(1));
+  run(*without, 51);
+  run(*with, 51);
+  EXPECT_NE(with->hash().value(), without->hash().value()) << "it stands";
+}
+
+TEST(HandOver, LeavesProgramAndPlaceAsTheyAre) {
+  EngineSpec spec;
+  const RobotId robot = add_robot(spec, counting(), {1, 2, 0});
+  add_drivers(spec, counting());
+  spec.hand_overs = {{100, robot, DriverSet::kTwin}};
+  const auto engine = make_engine(std::move(spec));
+  run(*engine, 101);
+  const double before_m = engine->true_pose(robot).x;
+  EXPECT_NEAR(before_m, 1.5, 0.01);
+  const auto events = of_kind(run(*engine, 200), EventKind::kHandedOver);
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events.front().step, 101U) << events.front().text;
+  EXPECT_NE(events.front().text.find("moved by 0.0000 m"), std::string::npos)
+      << events.front().text;
+  EXPECT_GT(engine->true_pose(robot).x, before_m + 0.9) << "its program drives on";
+  // One instance from the first decision to the last, and readings that go on counting.
+  const auto& entries = Diary::entries();
+  EXPECT_EQ(entries.size(), 31U);
+  for (std::size_t i = 1; i < entries.size(); ++i) {
+    EXPECT_GT(entries[i].sequence, entries[i - 1].sequence);
+    EXPECT_EQ(entries[i].count, 1U);
+  }
+  EXPECT_LT(entries.back().first, 250) << "the counter of the other drivers began anew";
+  const auto state = engine->hand_over_state(robot);
+  ASSERT_TRUE(state);
+  EXPECT_EQ(state->active, DriverSet::kTwin);
+  EXPECT_EQ(state->made, 1U);
+  EXPECT_FALSE(state->under_way);
+}
+
+TEST(HandOver, OfARecordedRobotGoesOnWhereItWasReported) {
+  EngineSpec spec;
+  RobotType real = real_type({{"x", 1}, {"y", 2}, {"vx", 0.5}});
+  RobotType simulated = simulated_type();
+  simulated.sensors.push_back(virtual_sensor<Beacon>("mocap"));
+  const RobotId robot = add_robot(spec, std::move(real));
+  add_drivers(spec, std::move(simulated));
+  const auto engine = make_engine(std::move(spec));
+  run(*engine, 100);
+  const double reported_m = engine->reported(robot).pose.x_m;
+  EXPECT_NEAR(reported_m, 1.5, 0.02);
+  ASSERT_TRUE(engine->hand_over(robot, DriverSet::kTwin));
+  EXPECT_EQ(of_kind(run(*engine, 20), EventKind::kHandedOver).size(), 1U);
+  EXPECT_NEAR(engine->true_pose(robot).x, reported_m, 0.02);
+  EXPECT_EQ(engine->spec().world.robots[0].layer, Layer::kSimulatedRobots);
+  EXPECT_EQ(engine->inputs_by_hand(), 1U);
+  // A recording cannot begin in the middle, and the robot stays what it is.
+  ASSERT_TRUE(engine->hand_over(robot, DriverSet::kFirst));
+  const auto refused = of_kind(run(*engine, 20), EventKind::kHandOverRefused);
+  ASSERT_EQ(refused.size(), 1U);
+  EXPECT_NE(refused.front().text.find("plays a recording"), std::string::npos)
+      << refused.front().text;
+  EXPECT_EQ(engine->hand_over_state(robot)->active, DriverSet::kTwin);
+  ASSERT_TRUE(engine->reset());
+  run(*engine, 50);
+  EXPECT_EQ(engine->spec().world.robots[0].layer, Layer::kRealRobots);
+  EXPECT_NEAR(engine->reported(robot).pose.x_m, 1.25, 0.02);
+}
+
+TEST(HandOver, WithoutOtherDriversOrTwiceAtOnceIsRefused) {
+  EngineSpec spec;
+  const RobotId robot = add_robot(spec, counting());
+  add_drivers(spec, counting());
+  const RobotId plain = add_robot(spec, roaming(), {5, 5, 0});
+  const auto engine = make_engine(std::move(spec));
+  EXPECT_FALSE(engine->hand_over(plain, DriverSet::kTwin));
+  EXPECT_FALSE(engine->hand_over_state(plain));
+  EXPECT_FALSE(engine->hand_over(robot, DriverSet::kFirst)) << "it has them";
+  ASSERT_TRUE(engine->hand_over(robot, DriverSet::kTwin));
+  EXPECT_FALSE(engine->hand_over(robot, DriverSet::kTwin)) << "under way";
+  run(*engine, 5);
+  EXPECT_TRUE(engine->hand_over(robot, DriverSet::kFirst));
+}
+
+TEST(HandOver, OfRangesThatTheProgramWasNotToldOfIsRefused) {
+  EngineSpec spec;
+  const RobotId robot = add_robot(spec, roaming());
+  RobotType other = simulated_type();
+  other.sensors.push_back(laser(17, 3));
+  other.program = program<Roam>({}, 10);
+  add_drivers(spec, std::move(other));
+  const auto engine = make_engine(std::move(spec));
+  ASSERT_TRUE(engine->hand_over(robot, DriverSet::kTwin));
+  const auto refused = of_kind(run(*engine, 3), EventKind::kHandOverRefused);
+  ASSERT_EQ(refused.size(), 1U);
+  EXPECT_NE(refused.front().text.find("17 ranges"), std::string::npos) << refused.front().text;
+}
+
+TEST(HandOver, IsForOneProcess) {
+  EngineSpec spec;
+  add_robot(spec, counting());
+  add_drivers(spec, counting());
+  add_robot(spec, roaming(), {3, 3, 0});
+  spec.local = {RobotId(0)};
+  const auto engine = Engine::create(std::move(spec));
+  ASSERT_FALSE(engine);
+  EXPECT_NE(engine.error().text().find("one process"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace rave::sim::testing

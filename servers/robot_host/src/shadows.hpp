@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "observer.hpp"
+#include "rave/config/expanded_scenario.hpp"
+#include "rave/plugin/catalogue.hpp"
+#include "rave/record/run_record.hpp"
+#include "rave/robot_host/run_control.hpp"
+#include "shadow_world.hpp"
+
+namespace rave::robot_host {
+
+/// How the readings of one sensor of robot and shadow differ, since the shadow was put down.
+struct ShadowReading {
+  std::string sensor;
+  /// `m`: mean absolute difference of the ranges of one scan that both have; of odometry, how far
+  /// the ways differ. `share`: of the readings of contact that differ. Empty: not compared.
+  std::string_view unit;
+  double last = 0;
+  double most = 0;
+  std::uint64_t compared = 0;
+};
+
+/// How far a robot and its shadow are from each other.
+struct ShadowDifference {
+  bool running = false;  ///< The robot is real now, and known to be somewhere.
+  SimTime since;         ///< When the shadow was put where the robot was.
+  double m = 0;
+  double rad = 0;  ///< 0 to pi.
+  double most_m = 0;
+  double most_rad = 0;
+  std::vector<ShadowReading> readings;  ///< By sensor.
+};
+
+/// Runs the shadows of a run beside it and measures how far they are from their robots. No part of
+/// the run: nothing in it depends on them.
+class Shadows final : public Observer {
+ public:
+  struct Moment {
+    double time_s = 0;   ///< Of the run.
+    double after_s = 0;  ///< Since the shadow was put down.
+    double m = 0;
+    double rad = 0;
+  };
+
+  /// Null if the scenario has no shadow. `engine`: before its first step. Errors: those of
+  /// ShadowWorld.
+  [[nodiscard]] static Result<std::unique_ptr<Shadows>> create(
+      const config::ExpandedScenario& scenario, plugin::Catalogue& catalogue,
+      const sim::Engine& engine, LogSink* log);
+
+  void after_step(sim::Engine& engine) override;
+  /// Writes what the last step found.
+  void keep(record::RunRecorder& recorder) const;
+  /// What happened to shadows in the last step.
+  [[nodiscard]] std::span<const sim::Event> events() const noexcept { return events_; }
+
+  /// Puts the shadow of a robot, or of all with an empty name, where the robot is, with the next
+  /// step. Errors: kNotFound.
+  Result<std::string> reset(std::string_view robot);
+  void refresh(RunStatus& status) const;
+  /// For result.json; a JSON array.
+  [[nodiscard]] std::string json() const;
+
+ private:
+  struct Shadow {
+    RobotId robot;
+    std::string name;
+    std::unique_ptr<ShadowWorld> world;  ///< Null since it failed.
+    ShadowDifference now;
+    double ever_m = 0;  ///< Largest of all times that it was put down.
+    double ever_rad = 0;
+    std::uint32_t starts = 0;
+    bool reset_asked = false;
+    bool fresh = false;  ///< The last step compared something.
+    SimTime compared_at;
+    Pose2 X_WR;  ///< As compared last.
+    Pose2 X_WS;
+    std::vector<std::uint32_t> seen;  ///< By sensor: sequence of the last reading.
+    std::vector<Pose2> odometry_R;    ///< By sensor: where the robot's began ...
+    std::vector<Pose2> odometry_S;    ///< ... and the shadow's.
+    std::vector<Moment> moments;
+    double moment_every_s = 1;
+    double next_moment_s = 0;
+  };
+
+  explicit Shadows(LogSink* log) : log_(log) {}
+  void step(sim::Engine& engine, Shadow& shadow);
+  void begin(const sim::Engine& engine, Shadow& shadow);
+  void compare(const sim::Engine& engine, Shadow& shadow);
+  void compare_readings(const sim::Engine& engine, Shadow& shadow);
+  void compare_ranges(const sim::SensorSample& real, std::uint32_t sensor, Shadow& shadow);
+  void keep_moment(double time_s, Shadow& shadow) const;
+
+  LogSink* log_;
+  std::vector<Shadow> shadows_;
+  std::vector<sim::Event> events_;
+  std::vector<float> ranges_;
+};
+
+}  // namespace rave::robot_host

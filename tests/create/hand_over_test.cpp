@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+// A Create changes between its simulated and its real drivers while the run goes.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+
+#include "create_run.hpp"
+
+namespace rave::tests {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Two goals in a row and one that leads back: who begins anew turns round at once.
+constexpr const char* kGoals =
+    "program:\n"
+    "  driver: go_to_goal\n"
+    "  period_s: 0.1\n"
+    "  params: {goals_m: [1.4, 1.05, 3.0, 1.1, 1.0, 0.8], cruise_mps: 0.2, tolerance_m: 0.15}\n";
+
+struct Place {
+  double x_m = 0;
+  double y_m = 0;
+  double yaw_rad = 0;
+};
+
+/// Where the robot is, as `rave ps` says.
+std::optional<Place> place_of(const CreateRun& run) {
+  const std::string text = CreateRun::rave_says("ps --robots").text;
+  std::size_t at = text.find("rosie");
+  if (at == std::string::npos) return std::nullopt;
+  at = text.find(" at (", at);
+  if (at == std::string::npos) return std::nullopt;
+  Place place;
+  double yaw_deg = 0;
+  if (std::sscanf(text.c_str() + at, " at (%lf, %lf) m, %lf", &place.x_m, &place.y_m, &yaw_deg) !=
+      3) {
+    return std::nullopt;
+  }
+  place.yaw_rad = yaw_deg * 3.14159265358979 / 180;
+  static_cast<void>(run);
+  return place;
+}
+
+template <class Wanted>
+Place await_place(const CreateRun& run, Wanted wanted) {
+  const auto end = std::chrono::steady_clock::now() + testing::kLong;
+  std::optional<Place> now = place_of(run);
+  while ((!now || !wanted(*now)) && std::chrono::steady_clock::now() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    now = place_of(run);
+  }
+  EXPECT_TRUE(now && wanted(*now)) << (now ? now->x_m : -1) << " " << (now ? now->y_m : -1);
+  return now.value_or(Place{});
+}
+
+/// Waits until it is at one place in two looks.
+Place await_standing(const CreateRun& run) {
+  std::optional<Place> before;
+  return await_place(run, [&](const Place& now) {
+    const bool stands = before && std::hypot(now.x_m - before->x_m, now.y_m - before->y_m) < 1e-3;
+    before = now;
+    return stands;
+  });
+}
+
+/// The only runs of the test's own folder of sockets.
+class HandOver : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ =
+        std::filesystem::temp_directory_path() / ("create_hand_over_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder_);
+    std::filesystem::permissions(folder_, std::filesystem::perms::owner_all);
+    ::setenv("XDG_RUNTIME_DIR", folder_.c_str(), 1);
+  }
+  void TearDown() override {
+    ::unsetenv("XDG_RUNTIME_DIR");
+    std::filesystem::remove_all(folder_);
+  }
+  /// How far the robot jumped in a hand-over that was made.
+  static double jump_m(const Json& hand_over) {
+    const std::string what = hand_over["what"];
+    double metres = 1e9;
+    const std::size_t at = what.find("moved by ");
+    if (at != std::string::npos) std::sscanf(what.c_str() + at, "moved by %lf", &metres);
+    return metres;
+  }
+  std::filesystem::path folder_;
+};
+
+TEST_F(HandOver, ToTheRealRobotAndBackKeepsPlaceAndProgram) {
+  CreateRun run("create-simulated", 600, {"--slip", "0.02,0.04"}, "", "", "create", "", kGoals);
+  run.start();
+  // Past the first goal, and then held where it is.
+  await_place(run, [](const Place& at) { return at.x_m > 1.9; });
+  EXPECT_EQ(CreateRun::rave_says("stop --robot rosie").exit_code, 0);
+  const Place stands = await_standing(run);
+  run.peer->tell("place " + std::to_string(stands.x_m) + " " + std::to_string(stands.y_m) + " " +
+                 std::to_string(stands.yaw_rad));
+  const double path_before_m = run.state()["path_m"];
+  const auto real = CreateRun::rave_says("hand-over rosie real");
+  ASSERT_EQ(real.exit_code, 0) << real.text;
+  EXPECT_NE(real.text.find("simulated -> real"), std::string::npos) << real.text;
+  EXPECT_EQ(run.state()["path_m"], path_before_m) << "a stop holds whatever drives the robot";
+  EXPECT_EQ(CreateRun::rave_says("arm --release --robot rosie").exit_code, 0);
+  // On to the second goal, not back to the first one.
+  const Json there = run.await_state([](const Json& s) {
+    return std::hypot(s["x"].get<double>() - 3.0, s["y"].get<double>() - 1.1) < 0.25;
+  });
+  EXPECT_LT(there["path_m"].get<double>() - path_before_m, 1.4);
+  run.await_state([](const Json& s) { return s["x"].get<double>() < 2.6; });
+
+  const auto simulated = CreateRun::rave_says("hand-over rosie simulated");
+  ASSERT_EQ(simulated.exit_code, 0) << simulated.text;
+  const Json left =
+      run.await_state([](const Json& s) { return s["left_mps"] == 0.0 && s["right_mps"] == 0.0; });
+  // The simulated robot ends the way alone.
+  await_place(run, [](const Place& at) { return std::hypot(at.x_m - 1, at.y_m - 0.8) < 0.3; });
+  EXPECT_NEAR(run.state()["path_m"].get<double>(), left["path_m"].get<double>(), 1e-3);
+  EXPECT_EQ(run.state()["mode"], "passive") << "it is left at rest";
+  run.rave->interrupt();
+  EXPECT_EQ(run.rave->wait(), 1);
+  const Json result = run.result();
+  ASSERT_TRUE(result.is_object());
+  ASSERT_EQ(result["hand_overs"].size(), 2U) << result["hand_overs"].dump();
+  for (const Json& hand_over : result["hand_overs"]) {
+    EXPECT_TRUE(hand_over["made"]) << hand_over.dump();
+    EXPECT_LT(jump_m(hand_over), 0.02) << hand_over.dump();
+  }
+  EXPECT_EQ(result["events"]["program_failed"], 0);
+  EXPECT_EQ(result["events"]["driver_failed"], 0) << result["problems"].dump();
+}
+
+TEST_F(HandOver, ToARobotThatIsNotThereIsRefusedAndTheRunGoesOn) {
+  CreateRun run("create-simulated", 600, {}, "", "", "create");
+  run.peer->tell("vanish");
+  run.start();
+  await_place(run, [](const Place&) { return true; });
+  const auto real = CreateRun::rave_says("hand-over rosie real");
+  EXPECT_EQ(real.exit_code, 1);
+  EXPECT_NE(real.text.find("no robot with the Open Interface answered"), std::string::npos)
+      << real.text;
+  const Place before = await_place(run, [](const Place&) { return true; });
+  await_place(run, [&](const Place& now) {
+    return std::hypot(now.x_m - before.x_m, now.y_m - before.y_m) > 0.1;
+  });
+  // It comes back, but stands elsewhere: so does the answer.
+  run.peer->tell("return");
+  EXPECT_EQ(CreateRun::rave_says("stop --robot rosie").exit_code, 0);
+  const Place stands = await_standing(run);
+  run.peer->tell("place " + std::to_string(stands.x_m > 2 ? 0.5 : 3.5) + " 0.5 0");
+  const auto far = CreateRun::rave_says("hand-over rosie real");
+  EXPECT_EQ(far.exit_code, 1);
+  EXPECT_NE(far.text.find("from where it is now"), std::string::npos) << far.text;
+  run.rave->interrupt();
+  EXPECT_EQ(run.rave->wait(), 1);
+  const Json result = run.result();
+  ASSERT_TRUE(result.is_object());
+  EXPECT_EQ(result["events"]["hand_over_refused"], 2) << result["events"].dump();
+  EXPECT_EQ(result["robots"][0]["reality"], "simulated");
+}
+
+TEST_F(HandOver, ARobotThatVanishesAfterwardsIsALossAsAnyOther) {
+  CreateRun run("create-simulated", 600, {}, "", "", "create",
+                "    hand_over: {within_m: 5, within_deg: 180}\n");
+  run.start();
+  await_place(run, [](const Place&) { return true; });
+  const auto real = CreateRun::rave_says("hand-over rosie real");
+  ASSERT_EQ(real.exit_code, 0) << real.text;
+  run.await_state([](const Json& s) { return std::abs(s["left_mps"].get<double>()) > 0.05; });
+  run.peer->tell("vanish");
+  run.await_state([](const Json& s) { return s["left_mps"] == 0.0 && s["right_mps"] == 0.0; });
+  // Nobody can see whether it stands, so the simulated one does not begin elsewhere.
+  const auto simulated = CreateRun::rave_says("hand-over rosie simulated");
+  EXPECT_EQ(simulated.exit_code, 1);
+  EXPECT_NE(simulated.text.find("not seen to stand"), std::string::npos) << simulated.text;
+  run.rave->interrupt();
+  EXPECT_EQ(run.rave->wait(), 1);
+  const Json result = run.result();
+  ASSERT_TRUE(result.is_object());
+  EXPECT_EQ(result["events"]["driver_failed"], 3) << "odometry, bumper and wheels";
+  EXPECT_EQ(result["robots"][0]["reality"], "real");
+}
+
+TEST_F(HandOver, BetweenSimulatedDriversIsTheSameRunAgain) {
+  const auto hash_of = [](const std::string& threads) {
+    CreateRun run("create-simulated", 12, {}, "",
+                  "threads: " + threads +
+                      "\npace: max\nchanges:\n"
+                      "  - {at_s: 3, robot: rosie, hand_over: twin}\n"
+                      "  - {at_s: 8, robot: rosie, hand_over: first}\n",
+                  "create-simulated");
+    run.start();
+    EXPECT_EQ(run.rave->wait(), 0);
+    const Json result = run.result();
+    EXPECT_EQ(result["hand_overs"].size(), 2U);
+    EXPECT_EQ(result["events"]["handed_over"], 2);
+    EXPECT_EQ(CreateRun::rave_says("verify " + run.file("out")).exit_code, 0);
+    return result["hash"].get<std::string>();
+  };
+  const std::string one = hash_of("1");
+  EXPECT_EQ(one, hash_of("1"));
+  EXPECT_EQ(one, hash_of("2"));
+}
+
+}  // namespace
+}  // namespace rave::tests

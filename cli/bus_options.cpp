@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bus_options.hpp"
 
-#include <bit>
+#include <array>
 
-#include "rave/base/hash.hpp"
 #include "rave/base/names.hpp"
 
 namespace rave::cli {
 namespace {
-
-/// The same for all who know the name: a number for a run that people can say to one another.
-bus::RunId run_of_name(std::uint64_t name) {
-  bus::RunId run;
-  const std::array<std::uint64_t, 2> halves = {mix64(name), mix64(~name)};
-  run.bytes = std::bit_cast<std::array<std::uint8_t, 16>>(halves);
-  return run;
-}
 
 Result<bus::Multicast> multicast_of(const std::string& word) {
   if (word == "off") return bus::Multicast::kOff;
@@ -30,6 +21,13 @@ Result<bus::Multicast> multicast_of(const std::string& word) {
 
 Result<bus::BusConfig> bus_config(const BusOptions& options, std::string participant,
                                   std::uint64_t scenario) {
+  RAVE_TRY_ASSIGN(auto config, read_bus_options(options, std::move(participant), scenario));
+  RAVE_TRY(bus::validate(config));
+  return config;
+}
+
+Result<bus::BusConfig> read_bus_options(const BusOptions& options, std::string participant,
+                                        std::uint64_t scenario) {
   bus::BusConfig config;
   config.participant = std::move(participant);
   config.domain = options.domain;
@@ -41,13 +39,9 @@ Result<bus::BusConfig> bus_config(const BusOptions& options, std::string partici
   config.max_processes = 100;
   RAVE_TRY_ASSIGN(config.multicast, multicast_of(options.multicast));
   const auto digits = bus::RunId::parse(options.run);
-  if (digits) {
-    config.run = *digits;
-  } else {
-    const auto name = std::as_bytes(std::span(options.run.data(), options.run.size()));
-    config.run = run_of_name(options.run.empty() ? scenario : content_hash(name));
-  }
-  RAVE_TRY(bus::validate(config));
+  config.run = digits                ? *digits
+               : options.run.empty() ? bus::run_of_number(scenario)
+                                     : bus::run_of_name(options.run);
   return config;
 }
 

@@ -28,6 +28,13 @@ TEST(RunId, RefusesOtherText) {
             "a run id has hexadecimal digits only, not `-8`");
 }
 
+TEST(RunId, OfANameIsTheSameForAll) {
+  EXPECT_EQ(run_of_name("morning"), run_of_name("morning"));
+  EXPECT_NE(run_of_name("morning"), run_of_name("evening"));
+  EXPECT_NE(run_of_number(1), run_of_number(2));
+  EXPECT_FALSE(run_of_name("").none());
+}
+
 TEST(RunId, ComparesWithWhatIsOnTheWire) {
   RunId id;
   id.bytes[3] = 7;

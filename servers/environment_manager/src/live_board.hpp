@@ -13,6 +13,7 @@
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/writer.hpp"
 #include "rave/environment_manager/live_manager.hpp"
+#include "rave/lock_step/pulse.hpp"
 #include "rave/real_time/messages.hpp"
 
 namespace rave::environment_manager {
@@ -37,7 +38,10 @@ class LiveBoard {
   /// `options` must outlive it. Errors: those of bus::Bus::open().
   [[nodiscard]] static Result<std::unique_ptr<LiveBoard>> open(const LiveManagerOptions& options);
 
-  void wait(Duration timeout) { static_cast<void>(waits_->wait(timeout)); }
+  void wait(Duration timeout) {
+    pulse_.beat({worlds_sent_});
+    static_cast<void>(waits_->wait(timeout));
+  }
   /// Learns who is there and who is gone; that counts as a loss if the run `goes`. Errors: kState
   /// (another manager).
   Status look_at_processes(bool goes);
@@ -81,6 +85,7 @@ class LiveBoard {
   bus::Reader<bus::HostInfo> infos_;
   bus::Reader<bus::ClockPing> pings_;
   bus::Reader<bus::HostState> states_;
+  lock_step::Pulse pulse_;
   std::optional<bus::WaitSet> waits_;
   bus::HostInfo introduced_{};  ///< What the others were told of this process.
   std::vector<LiveSeat> seats_;
@@ -94,6 +99,7 @@ class LiveBoard {
   real_time::RobotColumns columns_;
   std::vector<std::uint32_t> stale_;
   std::uint64_t states_taken_ = 0;
+  std::uint64_t worlds_sent_ = 0;
   bool news_ = false;
 };
 

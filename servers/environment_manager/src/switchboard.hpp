@@ -13,6 +13,7 @@
 #include "rave/bus/writer.hpp"
 #include "rave/lock_step/introduction.hpp"
 #include "rave/lock_step/messages.hpp"
+#include "rave/lock_step/pulse.hpp"
 #include "seats.hpp"
 
 namespace rave::environment_manager {
@@ -26,7 +27,10 @@ class Switchboard {
                                                                  LogSink* log);
 
   /// Sleeps until something has come or the time is over.
-  void wait(Duration timeout) { static_cast<void>(waits_.wait(timeout)); }
+  void wait(Duration timeout) {
+    pulse_.beat({step_});
+    static_cast<void>(waits_.wait(timeout));
+  }
   /// Learns who is there; returns the processes that are gone. Errors: kState (there is a manager
   /// that started earlier, and this one has not `begun`).
   [[nodiscard]] Result<std::vector<std::uint64_t>> look_at_processes(bool begun);
@@ -71,6 +75,8 @@ class Switchboard {
   bus::LastWorld* sent_ = nullptr;  ///< In `message_`.
   std::vector<std::uint64_t> writers_;
   std::uint64_t epoch_;
+  lock_step::Pulse pulse_;
+  std::uint64_t step_ = 0;  ///< That was sent last.
   std::set<std::uint64_t> fitting_;
 };
 

@@ -147,12 +147,12 @@ Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::C
   built.spec.live_clock = nullptr;
   RAVE_TRY(check_can_be_shared(built));
   for (const std::string& note : built.notes) console.warn("scenario", "{}", note);
+  lock_step::Identity self{seat.number, options.host,
+                           static_cast<std::uint32_t>(seat.robots.size()), shared_number(scenario),
+                           interface_stamp()};
+  self.real_robots = real_robots(built.spec, seat.robots);
   RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(built.spec)));
-  RAVE_TRY_ASSIGN(const auto port, HostPort::open(options.bus,
-                                                  {seat.number, options.host,
-                                                   static_cast<std::uint32_t>(seat.robots.size()),
-                                                   shared_number(scenario), interface_stamp()},
-                                                  &console));
+  RAVE_TRY_ASSIGN(const auto port, HostPort::open(options.bus, std::move(self), &console));
   const BodyKinds kinds(engine->spec(), built.robot_kinds);
   std::unique_ptr<RecordKeeper> record;
   if (run.record) {

@@ -30,6 +30,11 @@ struct RunId {
   friend bool operator==(const RunId&, const RunId&) noexcept = default;
 };
 
+/// The number of a run that people call by a name: the same for all who know the name.
+[[nodiscard]] RunId run_of_name(std::string_view name) noexcept;
+/// The same by a number of what the run does.
+[[nodiscard]] RunId run_of_number(std::uint64_t number) noexcept;
+
 /// The name of one start of one process: 64 random bits, never 0.
 [[nodiscard]] std::uint64_t random_writer_id();
 

@@ -7,6 +7,7 @@
 #include "commands/check.hpp"
 #include "commands/control.hpp"
 #include "commands/describe.hpp"
+#include "commands/doctor.hpp"
 #include "commands/drivers.hpp"
 #include "commands/edit.hpp"
 #include "commands/hosts.hpp"
@@ -17,6 +18,7 @@
 #include "commands/report.hpp"
 #include "commands/run.hpp"
 #include "commands/schema.hpp"
+#include "commands/top.hpp"
 #include "commands/verify.hpp"
 
 namespace rave::cli {
@@ -33,7 +35,7 @@ using Command =
                  DescribeCommand, NewCommand, SchemaCommand, InfoCommand, VerifyCommand,
                  PlayCommand, GapCommand, PsCommand, StopCommand, ArmCommand, SetCommand,
                  EditCommand, HoldCommand, BenchSwarmCommand, BenchCompareCommand, KeysNewCommand,
-                 KeysAddCommand, KeysShowCommand, VersionCommand>;
+                 KeysAddCommand, KeysShowCommand, TopCommand, DoctorCommand, VersionCommand>;
 
 /// Reads the command line. Prints help and complaints itself.
 [[nodiscard]] Command parse_arguments(int argc, const char* const* argv);

@@ -58,6 +58,8 @@ void RunModel::hear(const bus::HostInfo& info) {
 
 void RunModel::hear(const bus::RunState& state, std::int64_t now_ns) {
   const auto writer = processes_.find(state.writer);
+  // The first one may be of some time ago.
+  const bool fresh = state_ && state_->writer == state.writer;
   const bool of_the_dead = writer != processes_.end() && writer->second.gone;
   if (state_ && state_->writer != state.writer && of_the_dead) return;
   State now;
@@ -74,7 +76,7 @@ void RunModel::hear(const bus::RunState& state, std::int64_t now_ns) {
                             host.step, host.offset_s, host.bound_s};
   }
   state_ = std::move(now);
-  run_steps_.add(now_ns, static_cast<double>(state.step));
+  if (fresh) run_steps_.add(now_ns, static_cast<double>(state.step));
 }
 
 void RunModel::hear(const bus::ProcessState& state, std::int64_t now_ns, std::int64_t delay_ns) {

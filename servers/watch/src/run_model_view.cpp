@@ -14,6 +14,8 @@ namespace {
 
 /// Processes say something each second.
 constexpr std::int64_t kPatience_ns = 2'500'000'000;
+/// Who has not been in a new step for this long is not only between two messages.
+constexpr std::int64_t kStands_ns = 2'000'000'000;
 
 }  // namespace
 
@@ -74,7 +76,9 @@ void RunModel::tell_process(const Process& process, HostView& view, std::int64_t
   view.lost = process.lost;
   const bool here = view.standing != Standing::kGone && view.standing != Standing::kDropped;
   if (here && process.delay_ns) view.delay_s = seconds_of(*process.delay_ns);
-  if (process.moved_ns) view.age_s = seconds_of(now_ns - *process.moved_ns);
+  if (process.moved_ns && now_ns - *process.moved_ns > kStands_ns) {
+    view.age_s = seconds_of(now_ns - *process.moved_ns);
+  }
   if (!process.state) return;
   const bus::ProcessState& state = *process.state;
   view.process = state.process;

@@ -135,7 +135,18 @@ TEST_F(RunModelTest, WhatAProcessSaysOfItself) {
   EXPECT_DOUBLE_EQ(left.delay_s.value(), 350e-6);
   EXPECT_DOUBLE_EQ(left.round_trip_s.value(), 200e-6);
   EXPECT_EQ(left.lost, 1U) << "its second message never came";
-  EXPECT_DOUBLE_EQ(host(0, 3 * kSecond).age_s.value(), 1) << "since it was in a new step";
+  EXPECT_FALSE(host(0, 4 * kSecond).age_s) << "the next message may be on its way";
+  EXPECT_DOUBLE_EQ(host(0, 5 * kSecond).age_s.value(), 3) << "since it was in a new step";
+}
+
+TEST_F(RunModelTest, TheSpeedIsThatOfLately) {
+  tell(100, 10 * kSecond);
+  EXPECT_DOUBLE_EQ(model_.view(10 * kSecond, false).speed.value(), 0) << "as the manager says";
+  tell(200, 11 * kSecond);
+  const RunView view = model_.view(11 * kSecond, false);
+  EXPECT_DOUBLE_EQ(view.speed.value(), 1);
+  EXPECT_DOUBLE_EQ(view.hosts[0].rate_hz.value(), 100);
+  EXPECT_EQ(view.step, 200U);
 }
 
 TEST_F(RunModelTest, WithoutAManagerARunInLockStepStands) {

@@ -47,12 +47,12 @@ struct HostView {
   /// manager, worlds per second.
   std::optional<double> rate_hz;
   std::optional<double> asked_rate_hz;  ///< What its files want; in real time only.
-  std::optional<double> age_s;          ///< Of the newest place of any robot of it.
-  std::optional<double> delay_s;        ///< From it to here, by the clocks of day of both machines.
-  std::optional<double> round_trip_s;   ///< To the manager and back.
-  std::optional<double> offset_s;       ///< Clock of the manager minus its own.
-  std::optional<double> bound_s;        ///< Give or take this.
-  std::optional<std::uint64_t> lost;    ///< Messages that never came: from it to here, or to it.
+  std::optional<double> age_s;    ///< Of the newest place of a robot; in lock-step: of its step.
+  std::optional<double> delay_s;  ///< From it to here, by the clocks of day of both machines.
+  std::optional<double> round_trip_s;    ///< To the manager and back.
+  std::optional<double> offset_s;        ///< Clock of the manager minus its own.
+  std::optional<double> bound_s;         ///< Give or take this.
+  std::optional<std::uint64_t> lost;     ///< Messages that never came: from it to here, or to it.
   std::optional<std::uint64_t> refused;  ///< Samples that it could not use.
   std::optional<double> cores;           ///< That it keeps busy.
   std::optional<double> memory_mb;       ///< Resident, 10^6 bytes.

@@ -200,6 +200,9 @@ RobotView RunModel::robot_view(std::uint32_t number, const Robot& robot,
 void RunModel::tell_run(RunView& view, std::int64_t now_ns) const {
   view.run = run_;
   view.timing = timing();
+  if (!knows_any()) {
+    view.text = "its processes are there and nothing is heard: do they have --security?";
+  }
   if (!state_) return;
   view.scenario = state_->scenario;
   constexpr Phase kPhases[] = {Phase::kGathers, Phase::kGoes, Phase::kWaits, Phase::kEnded,

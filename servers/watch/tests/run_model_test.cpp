@@ -139,6 +139,13 @@ TEST_F(RunModelTest, WhatAProcessSaysOfItself) {
   EXPECT_DOUBLE_EQ(host(0, 5 * kSecond).age_s.value(), 3) << "since it was in a new step";
 }
 
+TEST(RunModelAlone, WhoHearsNothingIsToldWhy) {
+  const RunModel model("00ff");
+  EXPECT_FALSE(model.knows_any());
+  EXPECT_EQ(model.view(0, true).text,
+            "its processes are there and nothing is heard: do they have --security?");
+}
+
 TEST_F(RunModelTest, TheSpeedIsThatOfLately) {
   tell(100, 10 * kSecond);
   EXPECT_DOUBLE_EQ(model_.view(10 * kSecond, false).speed.value(), 0) << "as the manager says";

@@ -9,10 +9,12 @@
 #include <algorithm>
 
 #include "bench_arguments.hpp"
+#include "bus_arguments.hpp"
 #include "error_text.hpp"
 #include "keys_arguments.hpp"
 #include "rave/base/names.hpp"
 #include "rave/base/result.hpp"
+#include "watch_arguments.hpp"
 
 namespace rave::cli {
 namespace {
@@ -42,6 +44,8 @@ struct Everything {
   BenchSwarmCommand bench_swarm;
   BenchCompareCommand bench_compare;
   KeysCommands keys;
+  TopCommand top;
+  DoctorCommand doctor;
 };
 
 void add_plugins(CLI::App& app, std::vector<std::string>& folders) {
@@ -70,29 +74,6 @@ void add_run_options(CLI::App& app, RunCommand& c) {
   app.add_flag("--arm", c.arm, "Arm all robots at the start: real ones may drive at once");
   app.add_flag("--quiet", c.quiet, "Print errors and problems only");
   add_plugins(app, c.plugins);
-}
-
-/// How a process takes part in a run of several.
-void add_bus_options(CLI::App& app, BusOptions& c) {
-  app.add_option("--run", c.run, "Name of the run, the same for all its processes [its scenario]")
-      ->type_name("NAME");
-  app.add_option("--domain", c.domain, "DDS domain of a run with several processes [0]")
-      ->type_name("N")
-      ->check(CLI::Range(0, 230));
-  app.add_option("--interface", c.interface,
-                 "Address or name of the network interface [this machine only]")
-      ->type_name("ADDR");
-  app.add_option("--peer", c.peers, "A machine to look for others at; may be repeated")
-      ->type_name("ADDR")
-      ->take_all()
-      ->allow_extra_args(false);
-  app.add_option("--multicast", c.multicast, "off, discovery (to find one another) or on")
-      ->type_name("USE");
-  app.add_option("--security", c.security,
-                 "Folder with the certificates of this process, as `rave keys` makes them")
-      ->type_name("DIR");
-  // Not for people: keeps tests on one machine apart.
-  app.add_option("--bus-tag", c.tag)->group("");
 }
 
 void add_run(CLI::App& root, RunCommand& c) {
@@ -534,6 +515,8 @@ Command chosen_command(const CLI::App& root, const Everything& all) {
     if (what == "add") return all.keys.add;
     return all.keys.show;
   }
+  if (name == "top") return all.top;
+  if (name == "doctor") return all.doctor;
   if (name == "edit") return chosen_edit(chosen_app(root).get_name(), all.edit);
   HoldCommand hold = all.hold;
   if (name == "pause") return hold;
@@ -568,6 +551,8 @@ Command parse_arguments(int argc, const char* const* argv) {
   add_edit(root, all.edit);
   add_bench(root, all.bench_swarm, all.bench_compare);
   add_keys_commands(root, all.keys);
+  add_top(root, all.top);
+  add_doctor(root, all.doctor);
   root.add_subcommand("version", "What this build is, and which plug-ins fit it");
   root.footer(
       "Examples:\n"

@@ -7,6 +7,7 @@
 #include "commands/check.hpp"
 #include "commands/control.hpp"
 #include "commands/describe.hpp"
+#include "commands/doctor.hpp"
 #include "commands/drivers.hpp"
 #include "commands/edit.hpp"
 #include "commands/hand_over.hpp"
@@ -18,6 +19,7 @@
 #include "commands/report.hpp"
 #include "commands/run.hpp"
 #include "commands/schema.hpp"
+#include "commands/top.hpp"
 #include "commands/verify.hpp"
 
 namespace rave::cli {
@@ -29,12 +31,13 @@ struct Finished {
   int exit_code = 0;
 };
 
-using Command = std::variant<Finished, RunCommand, RobotCommand, EnvCommand, CheckCommand,
-                             DriversCommand, DescribeCommand, NewCommand, SchemaCommand,
-                             InfoCommand, VerifyCommand, PlayCommand, GapCommand, PsCommand,
-                             StopCommand, ArmCommand, SetCommand, HandOverCommand, ShadowCommand,
-                             EditCommand, HoldCommand, BenchSwarmCommand, BenchCompareCommand,
-                             KeysNewCommand, KeysAddCommand, KeysShowCommand, VersionCommand>;
+using Command =
+    std::variant<Finished, RunCommand, RobotCommand, EnvCommand, CheckCommand, DriversCommand,
+                 DescribeCommand, NewCommand, SchemaCommand, InfoCommand, VerifyCommand,
+                 PlayCommand, GapCommand, PsCommand, StopCommand, ArmCommand, SetCommand,
+                 HandOverCommand, ShadowCommand, EditCommand, HoldCommand, BenchSwarmCommand,
+                 BenchCompareCommand, KeysNewCommand, KeysAddCommand, KeysShowCommand, TopCommand,
+                 DoctorCommand, VersionCommand>;
 
 /// Reads the command line. Prints help and complaints itself.
 [[nodiscard]] Command parse_arguments(int argc, const char* const* argv);

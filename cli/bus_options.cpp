@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bus_options.hpp"
 
-#include "rave/base/hash.hpp"
+#include <array>
+
 #include "rave/base/names.hpp"
 
 namespace rave::cli {
@@ -20,6 +21,13 @@ Result<bus::Multicast> multicast_of(const std::string& word) {
 
 Result<bus::BusConfig> bus_config(const BusOptions& options, std::string participant,
                                   std::uint64_t scenario) {
+  RAVE_TRY_ASSIGN(auto config, read_bus_options(options, std::move(participant), scenario));
+  RAVE_TRY(bus::validate(config));
+  return config;
+}
+
+Result<bus::BusConfig> read_bus_options(const BusOptions& options, std::string participant,
+                                        std::uint64_t scenario) {
   bus::BusConfig config;
   config.participant = std::move(participant);
   config.domain = options.domain;
@@ -31,13 +39,9 @@ Result<bus::BusConfig> bus_config(const BusOptions& options, std::string partici
   config.max_processes = 100;
   RAVE_TRY_ASSIGN(config.multicast, multicast_of(options.multicast));
   const auto digits = bus::RunId::parse(options.run);
-  if (digits) {
-    config.run = *digits;
-  } else {
-    const auto name = std::as_bytes(std::span(options.run.data(), options.run.size()));
-    config.run = bus::RunId::of(options.run.empty() ? scenario : content_hash(name));
-  }
-  RAVE_TRY(bus::validate(config));
+  config.run = digits                ? *digits
+               : options.run.empty() ? bus::run_of_number(scenario)
+                                     : bus::run_of_name(options.run);
   return config;
 }
 

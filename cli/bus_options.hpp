@@ -26,6 +26,11 @@ struct BusOptions {
 [[nodiscard]] Result<bus::BusConfig> bus_config(const BusOptions& options, std::string participant,
                                                 std::uint64_t scenario);
 
+/// The same, without a look at whether a bus can be made of it.
+[[nodiscard]] Result<bus::BusConfig> read_bus_options(const BusOptions& options,
+                                                      std::string participant,
+                                                      std::uint64_t scenario);
+
 /// The same as words for the command line of another process of the run.
 [[nodiscard]] std::vector<std::string> words_of(const BusOptions& options, const bus::RunId& run);
 

@@ -24,7 +24,9 @@ Terminal terminal_of(std::FILE* stream) {
   const bool refused = no_colour != nullptr && *no_colour != '\0';
   terminal.colour = terminal.is_terminal && !refused && !dumb;
   ::winsize size{};
-  if (::ioctl(descriptor, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) terminal.width = size.ws_col;
+  if (::ioctl(descriptor, TIOCGWINSZ, &size) != 0) return terminal;
+  if (size.ws_col > 0) terminal.width = size.ws_col;
+  if (size.ws_row > 0) terminal.height = size.ws_row;
   return terminal;
 }
 

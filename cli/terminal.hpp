@@ -11,8 +11,9 @@ namespace rave::cli {
 /// What is known of the terminal behind a stream; of a file or pipe nothing, so text stays plain.
 struct Terminal {
   bool is_terminal = false;
-  bool colour = false;     ///< Escape codes are welcome: a terminal, and NO_COLOR is not set.
-  std::size_t width = 80;  ///< Columns.
+  bool colour = false;      ///< Escape codes are welcome: a terminal, and NO_COLOR is not set.
+  std::size_t width = 80;   ///< Columns.
+  std::size_t height = 24;  ///< Lines.
 
   [[nodiscard]] std::string bold(std::string_view text) const { return styled("1", text); }
   [[nodiscard]] std::string faint(std::string_view text) const { return styled("2", text); }

@@ -2,10 +2,8 @@
 #include "dds_transmitter/air_options.hpp"
 
 #include <filesystem>
-#include <span>
 
 #include "dds_network/network_words.hpp"
-#include "rave/base/hash.hpp"
 
 namespace rave::dds_transmitter {
 namespace {
@@ -15,9 +13,7 @@ constexpr const char* kTag = "rave radio";
 
 }  // namespace
 
-bus::RunId run_of_network(std::string_view network) {
-  return bus::RunId::of(content_hash(std::as_bytes(std::span(network.data(), network.size()))));
-}
+bus::RunId run_of_network(std::string_view network) { return bus::run_of_name(network); }
 
 Result<AirOptions> read_options(const HardwareSetup& setup) {
   const Params params = setup.parameters();

@@ -56,8 +56,8 @@ Ended run_rave(const std::vector<std::string>& arguments,
 }
 
 pid_t start_rave(const std::vector<std::string>& arguments,
-                 const std::vector<std::string>& variables) {
-  return spawn(arguments, variables, "/dev/null", "/dev/null");
+                 const std::vector<std::string>& variables, const std::string& out) {
+  return spawn(arguments, variables, out, "/dev/null");
 }
 
 int wait_for(pid_t process) {

@@ -20,9 +20,10 @@ struct Ended {
 [[nodiscard]] Ended run_rave(const std::vector<std::string>& arguments,
                              const std::vector<std::string>& variables = {});
 
-/// Starts `rave` with its output dropped; for tests that send signals.
+/// Starts `rave` with its output dropped, or in a file; for tests that send signals.
 [[nodiscard]] pid_t start_rave(const std::vector<std::string>& arguments,
-                               const std::vector<std::string>& variables = {});
+                               const std::vector<std::string>& variables = {},
+                               const std::string& out = "/dev/null");
 /// Waits for it; -1 if a signal ended it.
 [[nodiscard]] int wait_for(pid_t process);
 

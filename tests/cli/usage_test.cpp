@@ -9,7 +9,7 @@ namespace {
 TEST(Usage, HelpOfEverySubcommandHasAnExample) {
   EXPECT_NE(run_rave({"--help"}).out.find("Examples:"), std::string::npos);
   for (const char* const name : {"run", "check", "drivers", "describe", "new", "schema", "info",
-                                 "verify", "play", "report", "bench", "keys"}) {
+                                 "verify", "play", "report", "bench", "keys", "top", "doctor"}) {
     const Ended ended = run_rave({name, "--help"});
     EXPECT_EQ(ended.exit_code, 0) << name;
     EXPECT_NE(ended.out.find("Example"), std::string::npos) << name;

@@ -109,6 +109,17 @@ def can_make_machines():
     return True
 
 
+def skip_if_there_can_be_no_machines():
+    if os.geteuid() != 0 or not shutil.which("ip") or not shutil.which("nft"):
+        print("skipped: needs root, iproute2 (ip) and nftables (nft), to make machines of network "
+              "namespaces")
+        sys.exit(77)
+    if not can_make_machines():
+        print("skipped: this system does not allow network namespaces, cables between them, or "
+              "rules that lose packets")
+        sys.exit(77)
+
+
 class Machines(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="rave-machines-"))
@@ -205,13 +216,6 @@ if __name__ == "__main__":
     if len(sys.argv) < 2:
         sys.exit(__doc__)
     RAVE = str(pathlib.Path(sys.argv.pop(1)).resolve())
-    if os.geteuid() != 0 or not shutil.which("ip") or not shutil.which("nft"):
-        print("skipped: needs root, iproute2 (ip) and nftables (nft), to make machines of network "
-              "namespaces")
-        sys.exit(77)
-    if not can_make_machines():
-        print("skipped: this system does not allow network namespaces, cables between them, or "
-              "rules that lose packets")
-        sys.exit(77)
+    skip_if_there_can_be_no_machines()
     ALONE = hash_alone()
     unittest.main(verbosity=2)

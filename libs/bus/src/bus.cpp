@@ -83,7 +83,11 @@ Status Bus::open_domain() {
 
 Status Bus::open_participant() {
   const Qos qos(dds_create_qos());
-  write_identity({config_.participant, config_.run, writer_}, qos.get());
+  if (config_.anonymous) {
+    dds_qset_entity_name(qos.get(), config_.participant.c_str());
+  } else {
+    write_identity({config_.participant, config_.run, writer_}, qos.get());
+  }
   participant_ = dds_create_participant(number_, qos.get(), nullptr);
   if (participant_ < 0) return refused(participant_);
   const Qos partition = partition_of(config_.run);
@@ -161,6 +165,8 @@ std::vector<BusEvent> Bus::take_events() {
   }
   return std::exchange(events_, {});
 }
+
+std::vector<BusProcess> Bus::processes() const { return participants_->all(); }
 
 void Bus::collect_matches(Endpoint& endpoint) {
   std::uint32_t status = 0;

@@ -150,7 +150,7 @@ Status validate(const BusConfig& config) {
   RAVE_TRY(check_text("participant", config.participant, 64));
   RAVE_TRY(check_text("interface", config.interface, 255));
   RAVE_TRY(check_text("tag", config.tag, 255));
-  if (config.run.none())
+  if (config.run.none() && !config.anonymous)
     return fail(kBad, "run: an id is needed; all processes of a run share one");
   if (config.domain > 230) return fail(kBad, "domain: {} is not in 0 to 230", config.domain);
   if (config.interface.empty()) return fail(kBad, "interface: an address or a name is needed");

@@ -113,4 +113,10 @@ Identity Participants::find(const dds_guid_t& guid) const {
   return {};
 }
 
+std::vector<BusProcess> Participants::all() const {
+  std::vector<BusProcess> processes;
+  for (const auto& [key, who] : known_) processes.push_back({who.name, who.run, who.writer});
+  return processes;
+}
+
 }  // namespace rave::bus

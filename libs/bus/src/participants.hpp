@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "rave/bus/bus.hpp"
 #include "rave/bus/event.hpp"
 #include "rave/bus/run_id.hpp"
 
@@ -35,6 +36,7 @@ class Participants {
   void collect(std::vector<BusEvent>& events);
   /// Who has the participant; empty if nobody known.
   [[nodiscard]] Identity find(const dds_guid_t& guid) const;
+  [[nodiscard]] std::vector<BusProcess> all() const;
   [[nodiscard]] dds_entity_t reader() const noexcept { return reader_; }
 
  private:

@@ -6,6 +6,7 @@
 #include <bit>
 #include <charconv>
 #include <random>
+#include <span>
 
 #include "rave/base/hash.hpp"
 
@@ -18,13 +19,6 @@ RunId RunId::random() {
     const std::uint32_t bits = chance();
     std::memcpy(id.bytes.data() + i, &bits, sizeof bits);
   }
-  return id;
-}
-
-RunId RunId::of(std::uint64_t number) {
-  RunId id;
-  const std::array<std::uint64_t, 2> halves = {mix64(number), mix64(~number)};
-  id.bytes = std::bit_cast<std::array<std::uint8_t, 16>>(halves);
   return id;
 }
 
@@ -46,6 +40,17 @@ Result<RunId> RunId::parse(std::string_view text) {
 }
 
 std::string RunId::text() const { return fmt::format("{:02x}", fmt::join(bytes, "")); }
+
+RunId run_of_number(std::uint64_t number) noexcept {
+  RunId run;
+  const std::array<std::uint64_t, 2> halves = {mix64(number), mix64(~number)};
+  run.bytes = std::bit_cast<std::array<std::uint8_t, 16>>(halves);
+  return run;
+}
+
+RunId run_of_name(std::string_view name) noexcept {
+  return run_of_number(content_hash(std::as_bytes(std::span(name.data(), name.size()))));
+}
 
 std::uint64_t random_writer_id() {
   std::random_device chance;

@@ -210,6 +210,20 @@ Status validate(const HostInfo& sample) {
   return {};
 }
 
+Status validate(const ProcessState& sample) {
+  RAVE_TRY(check_writer(sample));
+  if (sample.number == 0) return invalid("number is 0");
+  if (sample.robots > rave_wire_kMaxRobots) {
+    return invalid(fmt::format("robots is {}, more than {}", sample.robots, rave_wire_kMaxRobots));
+  }
+  if (sample.real_robots > sample.robots) {
+    return invalid(
+        fmt::format("real_robots is {}, of {} robots", sample.real_robots, sample.robots));
+  }
+  RAVE_TRY(check_time("cpu_ns", sample.cpu_ns));
+  return check_time("round_trip_ns", sample.round_trip_ns);
+}
+
 Status validate(const ClockPing& sample) {
   RAVE_TRY(check_writer(sample));
   if (sample.target == 0) return invalid("target is 0");

@@ -97,6 +97,8 @@ TEST(BusConfig, RefusesWhatCannotWork) {
   config = good();
   config.run = {};
   EXPECT_EQ(reason(config), "run: an id is needed; all processes of a run share one");
+  config.anonymous = true;
+  EXPECT_TRUE(validate(config)) << "who only looks belongs to no run";
   config = good();
   config.domain = 231;
   EXPECT_EQ(reason(config), "domain: 231 is not in 0 to 230");

@@ -21,17 +21,18 @@ TEST(RunId, IsAnotherEachTime) {
   EXPECT_NE(random_writer_id(), random_writer_id());
 }
 
-TEST(RunId, OfANumberIsTheSameForAllWhoKnowIt) {
-  EXPECT_EQ(RunId::of(7), RunId::of(7));
-  EXPECT_NE(RunId::of(7), RunId::of(8));
-  EXPECT_FALSE(RunId::of(0).none());
-}
-
 TEST(RunId, RefusesOtherText) {
   EXPECT_EQ(RunId::parse("12").error().message,
             "a run id has 32 hexadecimal digits, not 2 characters");
   EXPECT_EQ(RunId::parse("0001020304050607-8090a0b0c0d0e0f").error().message,
             "a run id has hexadecimal digits only, not `-8`");
+}
+
+TEST(RunId, OfANameIsTheSameForAll) {
+  EXPECT_EQ(run_of_name("morning"), run_of_name("morning"));
+  EXPECT_NE(run_of_name("morning"), run_of_name("evening"));
+  EXPECT_NE(run_of_number(1), run_of_number(2));
+  EXPECT_FALSE(run_of_name("").none());
 }
 
 TEST(RunId, ComparesWithWhatIsOnTheWire) {

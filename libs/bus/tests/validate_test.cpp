@@ -261,6 +261,15 @@ TEST(Validate, HostsAndClocks) {
   EXPECT_EQ(reason(host), "name is empty");
   put_text(host.name, "lab");
   EXPECT_EQ(reason(host), "accepted");
+  auto process = written<ProcessState>();
+  EXPECT_EQ(reason(process), "number is 0");
+  process.number = 1;
+  process.real_robots = 2;
+  EXPECT_EQ(reason(process), "real_robots is 2, of 0 robots");
+  process.robots = 3;
+  EXPECT_EQ(reason(process), "accepted");
+  process.robots = rave_wire_kMaxRobots + 1;
+  EXPECT_EQ(reason(process), "robots is 131073, more than 131072");
   auto ping = written<ClockPing>();
   EXPECT_EQ(reason(ping), "target is 0");
   auto pong = written<ClockPong>();

@@ -18,6 +18,7 @@ struct LiveBoard::Parts {
   bus::Reader<bus::ClockPing> pings;
   bus::Reader<bus::HostState> states;
   bus::Reader<bus::LastObstacle> handed_in;
+  lock_step::Pulse pulse;
 };
 
 LiveBoard::LiveBoard(const LiveManagerOptions& options, Parts parts)
@@ -32,6 +33,7 @@ LiveBoard::LiveBoard(const LiveManagerOptions& options, Parts parts)
       pings_(std::move(parts.pings)),
       states_(std::move(parts.states)),
       handed_in_(std::move(parts.handed_in)),
+      pulse_(std::move(parts.pulse)),
       claims_(static_cast<std::uint32_t>(options.hosts.size())),
       seat_of_(options.robots.size()),
       robots_(options.robots.size()),
@@ -60,10 +62,11 @@ Result<std::unique_ptr<LiveBoard>> LiveBoard::open(const LiveManagerOptions& opt
   RAVE_TRY_ASSIGN(auto pings, bus::Reader<bus::ClockPing>::create(*bus));
   RAVE_TRY_ASSIGN(auto states, bus::Reader<bus::HostState>::create(*bus));
   RAVE_TRY_ASSIGN(auto handed_in, bus::Reader<bus::LastObstacle>::create(*bus));
+  RAVE_TRY_ASSIGN(auto pulse, lock_step::Pulse::create(*bus, options.identity));
   std::unique_ptr<LiveBoard> board(new LiveBoard(
       options, {std::move(bus), std::move(own_info), std::move(worlds), std::move(runs),
                 std::move(pongs), std::move(obstacles), std::move(infos), std::move(pings),
-                std::move(states), std::move(handed_in)}));
+                std::move(states), std::move(handed_in), std::move(pulse)}));
   RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(*board->bus_));
   RAVE_TRY(waits.add(board->pings_));
   RAVE_TRY(waits.add(board->states_));
@@ -203,6 +206,7 @@ void LiveBoard::send_world(std::uint64_t number, SimTime now, std::span<const st
   columns_.lend(world.robots);
   bus::borrow(world.stale, stale_);
   static_cast<void>(worlds_.write(world));
+  worlds_sent_ = number;
 }
 
 Status LiveBoard::publish(const real_time::ObstacleSight& sight) {

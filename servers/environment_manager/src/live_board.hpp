@@ -14,6 +14,7 @@
 #include "rave/bus/writer.hpp"
 #include "rave/environment_manager/live_manager.hpp"
 #include "rave/lock_step/obstacle_messages.hpp"
+#include "rave/lock_step/pulse.hpp"
 #include "rave/real_time/messages.hpp"
 
 namespace rave::environment_manager {
@@ -42,6 +43,7 @@ class LiveBoard {
 
   /// Sleeps until something has come, the time is over or `stop` is set.
   void wait(Duration timeout, const std::stop_token& stop = {}) {
+    pulse_.beat({worlds_sent_});
     static_cast<void>(waits_->wait(timeout, stop));
   }
   /// Learns who is there and who is gone; that counts as a loss if the run `goes`. Errors: kState
@@ -105,6 +107,7 @@ class LiveBoard {
   bus::Reader<bus::ClockPing> pings_;
   bus::Reader<bus::HostState> states_;
   bus::Reader<bus::LastObstacle> handed_in_;
+  lock_step::Pulse pulse_;
   std::optional<bus::WaitSet> waits_;
   bus::HostInfo introduced_{};  ///< What the others were told of this process.
   std::vector<LiveSeat> seats_;
@@ -120,6 +123,7 @@ class LiveBoard {
   lock_step::ObstacleParts parts_;
   std::map<std::uint32_t, real_time::ObstacleSight> handed_;
   std::uint64_t states_taken_ = 0;
+  std::uint64_t worlds_sent_ = 0;
   bool news_ = false;
 };
 

@@ -140,6 +140,7 @@ void Run::tell_state(rave_wire_RunPhase phase, std::string text) {
     hosts[i].phase = static_cast<rave_wire_HostPhase>(seats_[i].state);
     hosts[i].robots = seats_[i].robots;
     hosts[i].step = seats_[i].last_step;
+    hosts[i].bound_s = -1;  // nobody asks for the time here
   }
   bus::borrow(state.hosts, hosts);
   board_->publish(state);

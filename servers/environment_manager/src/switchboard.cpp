@@ -18,6 +18,7 @@ struct Switchboard::Parts {
   bus::Reader<bus::HostInfo> infos;
   bus::WaitSet waits;
   bus::HostInfo introduced;
+  lock_step::Pulse pulse;
 };
 
 Switchboard::Switchboard(Parts parts)
@@ -32,7 +33,8 @@ Switchboard::Switchboard(Parts parts)
       infos_(std::move(parts.infos)),
       waits_(std::move(parts.waits)),
       introduced_(parts.introduced),
-      epoch_(bus::random_writer_id()) {}
+      epoch_(bus::random_writer_id()),
+      pulse_(std::move(parts.pulse)) {}
 
 Result<std::unique_ptr<Switchboard>> Switchboard::open(const bus::BusConfig& config,
                                                        lock_step::Identity identity, LogSink* log) {
@@ -48,12 +50,13 @@ Result<std::unique_ptr<Switchboard>> Switchboard::open(const bus::BusConfig& con
   RAVE_TRY(waits.add(last_worlds));
   RAVE_TRY(waits.add(infos));
   RAVE_TRY(waits.add_events());
+  RAVE_TRY_ASSIGN(auto pulse, lock_step::Pulse::create(*bus, identity));
   bus::HostInfo info = introduction(identity);
   RAVE_TRY(own_info.write(info));
-  return std::unique_ptr<Switchboard>(
-      new Switchboard({std::move(identity), log, std::move(bus), std::move(worlds),
-                       std::move(states), std::move(own_info), std::move(reports),
-                       std::move(last_worlds), std::move(infos), std::move(waits), info}));
+  return std::unique_ptr<Switchboard>(new Switchboard(
+      {std::move(identity), log, std::move(bus), std::move(worlds), std::move(states),
+       std::move(own_info), std::move(reports), std::move(last_worlds), std::move(infos),
+       std::move(waits), info, std::move(pulse)}));
 }
 
 Result<std::vector<std::uint64_t>> Switchboard::look_at_processes(bool begun) {
@@ -116,6 +119,7 @@ bool Switchboard::take_last_world(sim::WorldStep& world, sim::AuthorityState& au
 Status Switchboard::send(const sim::WorldStep& world, const sim::AuthorityState& authority,
                          const std::vector<Seat>& seats) {
   RAVE_TRY_ASSIGN(sent_, message_.fill(world, authority, epoch_));
+  step_ = world.step;
   return write(seats);
 }
 

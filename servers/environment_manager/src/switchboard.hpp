@@ -13,6 +13,7 @@
 #include "rave/bus/writer.hpp"
 #include "rave/lock_step/introduction.hpp"
 #include "rave/lock_step/messages.hpp"
+#include "rave/lock_step/pulse.hpp"
 #include "seats.hpp"
 
 namespace rave::environment_manager {
@@ -27,6 +28,7 @@ class Switchboard {
 
   /// Sleeps until something has come, the time is over or `stop` is set.
   void wait(Duration timeout, const std::stop_token& stop = {}) {
+    pulse_.beat({step_});
     static_cast<void>(waits_.wait(timeout, stop));
   }
   /// Learns who is there; returns the processes that are gone. Errors: kState (there is a manager
@@ -75,6 +77,8 @@ class Switchboard {
   bus::LastWorld* sent_ = nullptr;  ///< In `message_`.
   std::vector<std::uint64_t> writers_;
   std::uint64_t epoch_;
+  lock_step::Pulse pulse_;
+  std::uint64_t step_ = 0;  ///< That was sent last.
   std::set<std::uint64_t> fitting_;
   bool second_ = false;
 };

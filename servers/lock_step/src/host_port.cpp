@@ -9,6 +9,7 @@
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/writer.hpp"
 #include "rave/lock_step/messages.hpp"
+#include "rave/lock_step/pulse.hpp"
 #include "rave/sim/obstacle_history.hpp"
 
 namespace rave::lock_step {
@@ -42,6 +43,7 @@ struct HostPort::Impl {
   bus::Reader<bus::RunState> states;
   bus::Reader<bus::HostInfo> infos;
   bus::WaitSet waits;
+  Pulse pulse;
   bus::HostInfo introduced;  ///< What the others were told of this process.
   ReportMessage message{};
   WorldMessage last_message{};
@@ -210,6 +212,7 @@ Result<std::unique_ptr<HostPort>> HostPort::open(const bus::BusConfig& config, I
   RAVE_TRY_ASSIGN(auto states, bus::Reader<bus::RunState>::create(*bus));
   RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
   RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(*bus));
+  RAVE_TRY_ASSIGN(auto pulse, Pulse::create(*bus, identity));
   RAVE_TRY(waits.add(worlds));
   RAVE_TRY(waits.add(states));
   RAVE_TRY(waits.add(infos));
@@ -219,7 +222,7 @@ Result<std::unique_ptr<HostPort>> HostPort::open(const bus::BusConfig& config, I
   return std::unique_ptr<HostPort>(new HostPort(std::unique_ptr<Impl>(
       new Impl{std::move(identity), log, std::move(bus), std::move(reports), std::move(own_info),
                std::move(last_worlds), std::move(worlds), std::move(states), std::move(infos),
-               std::move(waits), info})));
+               std::move(waits), std::move(pulse), info})));
 }
 
 Result<HostPort::Answer> HostPort::exchange(const sim::HostReport& report, std::uint64_t hash,
@@ -229,6 +232,7 @@ Result<HostPort::Answer> HostPort::exchange(const sim::HostReport& report, std::
   auto patience = kFirstPatience;
   auto send_at = Clock::now();
   for (;;) {
+    port.pulse.beat({report.step});
     if (Clock::now() >= send_at) {
       RAVE_TRY(port.send(report, hash, world));
       send_at = Clock::now() + patience;

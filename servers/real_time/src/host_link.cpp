@@ -9,6 +9,7 @@
 #include "rave/bus/sequence.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/writer.hpp"
+#include "rave/lock_step/pulse.hpp"
 #include "rave/math/transform.hpp"
 #include "rave/real_time/messages.hpp"
 #include "rave/real_time/shared_time.hpp"
@@ -35,9 +36,9 @@ std::int64_t local_ns() {
 }
 
 /// A writer or reader that is not always there.
-template <class End>
-Status make(std::optional<End>& place, bus::Bus& bus) {
-  RAVE_TRY_ASSIGN(End end, End::create(bus));
+template <class End, class... More>
+Status make(std::optional<End>& place, bus::Bus& bus, const More&... more) {
+  RAVE_TRY_ASSIGN(End end, End::create(bus, more...));
   place.emplace(std::move(end));
   return {};
 }
@@ -62,6 +63,9 @@ struct HostLink::Impl {
   std::optional<bus::Writer<bus::Packet>> packets_out{};  // if it talks
   std::optional<bus::Reader<bus::Packet>> packets_in{};
   std::optional<bus::WaitSet> waits{};  // behind all that it waits for
+  std::optional<lock_step::Pulse> pulse{};
+  lock_step::Pulse::Facts facts{};      ///< For those who look on.
+  std::uint64_t last_world_number = 0;  ///< Of this manager; 0: none yet.
 
   SharedTime time{};
   std::vector<bus::HostInfo> managers{};  ///< That are there; the first is listened to.
@@ -148,6 +152,7 @@ Status HostLink::Impl::open_endpoints() {
   }
   RAVE_TRY(set.add_events());
   waits.emplace(std::move(set));
+  RAVE_TRY(make(pulse, *bus, options.self));
   introduced = lock_step::introduction(options.self);
   return own_info.write(introduced);
 }
@@ -189,7 +194,12 @@ void HostLink::Impl::take_pongs() {
     const Status heard = time.hear(
         pong.writer, {pong.ping_sent_ns, pong.ping_received_ns, pong.pong_sent_ns, heard_ns},
         pong.begun, pong.zero_ns);
-    if (!heard) pongs->refuse(pong, heard.error().message);
+    if (!heard) {
+      pongs->refuse(pong, heard.error().message);
+    } else {
+      facts.round_trip_ns =
+          heard_ns - pong.ping_sent_ns - (pong.pong_sent_ns - pong.ping_received_ns);
+    }
     ++pongs_heard;
     obstacle_revision = pong.obstacle_revision;
     // A manager that took over may be a little off, and stamps must not seem to stand still.
@@ -201,6 +211,10 @@ void HostLink::Impl::take_worlds() {
   worlds->take([this](const bus::World& world) {
     if (world.writer != manager) return;
     ++world_count;
+    if (last_world_number != 0 && world.step > last_world_number) {
+      facts.missed += world.step - last_world_number - 1;
+    }
+    last_world_number = world.step;
     last_world = Clock::now();
     const Duration back{-shift().ns};
     for (std::size_t i = 0; i < world.robots.id._length; ++i) {
@@ -273,6 +287,7 @@ void HostLink::Impl::listen_to_first() {
   manager = managers.front().writer;
   pings_sent = 0;
   pongs_heard = 0;
+  last_world_number = 0;
   ping_at = {};
   // A new reader is told of all obstacles, also of those that came before anybody listened to this
   // manager.
@@ -315,6 +330,7 @@ void HostLink::Impl::look() {
 }
 
 void HostLink::Impl::take() {
+  pulse->beat(facts);
   if (pongs) take_pongs();
   if (worlds) take_worlds();
   if (packets_in) take_packets();
@@ -456,6 +472,7 @@ void HostLink::tell(const sim::Engine& engine, std::span<const RobotId> robots) 
   bus::HostState message{};
   message.host = link.options.self.host;
   message.step = engine.steps_done();
+  link.facts.step = message.step;
   link.columns.lend(message.resolved);
   static_cast<void>(link.states.write(message));
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host_journey.hpp"
 
+#include <algorithm>
+
 #include "event_log.hpp"
 #include "facts_file.hpp"
 #include "rave/base/file.hpp"
@@ -29,6 +31,12 @@ Result<Seat> find_seat(const config::ExpandedScenario& scenario, const std::stri
   }
   return fail(ErrorCode::kNotFound, "the scenario `{}` has no host `{}`{}",
               scenario.scenario.name.value, name, suggestion(name, names));
+}
+
+std::uint32_t real_robots(const sim::EngineSpec& spec, std::span<const RobotId> robots) {
+  return static_cast<std::uint32_t>(std::ranges::count_if(robots, [&](RobotId robot) {
+    return !spec.types[spec.robots[robot.value()].type].simulated;
+  }));
 }
 
 void serve_requests(HostJourney& journey) {

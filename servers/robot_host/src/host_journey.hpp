@@ -28,6 +28,10 @@ struct Seat {
 [[nodiscard]] Result<Seat> find_seat(const config::ExpandedScenario& scenario,
                                      const std::string& name);
 
+/// How many of the robots are real ones.
+[[nodiscard]] std::uint32_t real_robots(const sim::EngineSpec& spec,
+                                        std::span<const RobotId> robots);
+
 /// One host on its way through a run, whether the hosts wait for one another or not.
 struct HostJourney {
   sim::Engine& engine;

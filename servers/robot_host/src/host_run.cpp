@@ -162,14 +162,14 @@ Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::C
   }
   built.spec.live_clock = nullptr;
   for (const std::string& note : built.notes) console.warn("scenario", "{}", note);
+  lock_step::Identity self{seat.number, options.host,
+                           static_cast<std::uint32_t>(seat.robots.size()), shared_number(scenario),
+                           interface_stamp()};
+  self.real_robots = real_robots(built.spec, seat.robots);
   std::function<void()> look;
   built.spec.on_step_done = [&look] { look(); };
   RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(built.spec)));
-  RAVE_TRY_ASSIGN(const auto port, HostPort::open(options.bus,
-                                                  {seat.number, options.host,
-                                                   static_cast<std::uint32_t>(seat.robots.size()),
-                                                   shared_number(scenario), interface_stamp()},
-                                                  &console));
+  RAVE_TRY_ASSIGN(const auto port, HostPort::open(options.bus, std::move(self), &console));
   RAVE_TRY_ASSIGN(const auto ros2, Ros2Face::open(scenario, *engine, options.host));
   Observers observers(scenario, built.robot_kinds, engine->spec());
   std::unique_ptr<RecordKeeper> record;

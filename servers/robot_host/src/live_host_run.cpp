@@ -192,6 +192,7 @@ HostLink::Options link_options(const LiveHost& host, const BuiltScenario& built)
                   shared_number(host.scenario),
                   interface_stamp(),
                   true};
+  options.self.real_robots = real_robots(built.spec, host.seat.robots);
   options.managed = needs_manager(built);
   options.sees = false;
   options.talks = false;

@@ -19,6 +19,13 @@ namespace rave::bus {
 class CycloneLog;
 class Participants;
 
+/// Another process in the domain, as it introduces itself. A value.
+struct BusProcess {
+  std::string name;
+  RunId run;                 ///< None: it belongs to no run, or is not of RAVE.
+  std::uint64_t writer = 0;  ///< 0 if it has no run.
+};
+
 /// This process on the bus: one participant in one run. Writers and readers are made on it and must
 /// be gone before it. At most one per process and domain, besides those that are
 /// `beside` it.
@@ -41,6 +48,9 @@ class Bus {
   /// What has changed since the last call, oldest first. Call it now and then: at most kMaxEvents
   /// are kept, after which refusals and foreign samples are only counted.
   [[nodiscard]] std::vector<BusEvent> take_events();
+
+  /// The other processes in the domain, of this and of other runs, as of the last take_events().
+  [[nodiscard]] std::vector<BusProcess> processes() const;
 
   /// How many samples of other runs came by.
   [[nodiscard]] std::uint64_t foreign_samples() const noexcept { return foreign_samples_; }

@@ -23,8 +23,11 @@ enum class Multicast : std::uint8_t {
 struct BusConfig {
   /// Shown to others, in events and tables: 1 to 64 bytes.
   std::string participant;
-  /// Must not be none.
+  /// Must not be none, unless `anonymous`.
   RunId run;
+  /// For those who only look: others are told the name alone, so no process takes this one for a
+  /// part of a run, or of another run. Without a run it sees who is there and no samples.
+  bool anonymous = false;
   /// 0 to 230: chooses the UDP ports, 7400 + 250 * domain and up.
   std::uint32_t domain = 0;
   /// The network interface, by address (`192.168.1.7`) or by name (`eth0`).

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "rave/bus/bus.hpp"
@@ -43,11 +44,19 @@ class Reader {
  public:
   /// Error: kState (the topic exists with another type), kIo.
   [[nodiscard]] static Result<Reader> create(Bus& bus) {
-    RAVE_TRY_ASSIGN(ReaderCore core, ReaderCore::create(bus, topic_of<Message>()));
+    return create(bus, topic_of<Message>().qos);
+  }
+  /// The same with other qualities of service than the topic has; for those who look on and must
+  /// not ask writers for more than these give anyway.
+  [[nodiscard]] static Result<Reader> create(Bus& bus, const QosProfile& qos) {
+    TopicSpec topic = topic_of<Message>();
+    topic.qos = qos;
+    RAVE_TRY_ASSIGN(ReaderCore core, ReaderCore::create(bus, topic));
     return Reader(std::move(core));
   }
 
-  /// Calls `visit(const Message&)` for every sample that has come, oldest first per instance, and
+  /// Calls `visit(const Message&)`, or `visit(const Message&, const dds_sample_info_t&)` with the
+  /// time of sending and the like, for every sample that has come, oldest first per instance, and
   /// `gone(const Message&)`, of which the key fields alone hold, for every object that its writer
   /// disposed of. Samples are on loan: valid during the call only, not copied. Those of other runs
   /// and those that validate() refuses are dropped, counted, and told as events. Returns how many
@@ -97,7 +106,11 @@ class Reader {
       return 0;
     }
     const bool good = info.valid_data && judge(sample);
-    if (good) visit(sample);
+    if constexpr (std::is_invocable_v<Visit&, const Message&, const dds_sample_info_t&>) {
+      if (good) visit(sample, info);
+    } else {
+      if (good) visit(sample);
+    }
     // Every sample of an object that is gone says so; the last of them counts.
     if (disposed && info.sample_rank == 0) gone(sample);
     return good ? 1 : 0;

@@ -18,8 +18,6 @@ struct RunId {
 
   /// From the operating system's source of chance. Not part of what a run computes with.
   [[nodiscard]] static RunId random();
-  /// The same for all who know a number, such as the hash of a name that people can say.
-  [[nodiscard]] static RunId of(std::uint64_t number);
   /// 32 hexadecimal digits, as text() writes them. Error: kParse.
   [[nodiscard]] static Result<RunId> parse(std::string_view text);
 
@@ -31,6 +29,11 @@ struct RunId {
 
   friend bool operator==(const RunId&, const RunId&) noexcept = default;
 };
+
+/// The number of a run that people call by a name: the same for all who know the name.
+[[nodiscard]] RunId run_of_name(std::string_view name) noexcept;
+/// The same by a number of what the run does.
+[[nodiscard]] RunId run_of_number(std::uint64_t number) noexcept;
 
 /// The name of one start of one process: 64 random bits, never 0.
 [[nodiscard]] std::uint64_t random_writer_id();

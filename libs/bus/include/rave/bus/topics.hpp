@@ -26,6 +26,7 @@ using Edit = rave_wire_Edit;
 using Command = rave_wire_Command;
 using Packet = rave_wire_Packet;
 using HostInfo = rave_wire_HostInfo;
+using ProcessState = rave_wire_ProcessState;
 using ClockPing = rave_wire_ClockPing;
 using ClockPong = rave_wire_ClockPong;
 
@@ -92,6 +93,10 @@ inline TopicSpec topic_of<Packet>() {
 template <>
 inline TopicSpec topic_of<HostInfo>() {
   return {"rave/host", &rave_wire_HostInfo_desc, kDurable};
+}
+template <>
+inline TopicSpec topic_of<ProcessState>() {
+  return {"rave/process", &rave_wire_ProcessState_desc, kNewest};
 }
 template <>
 inline TopicSpec topic_of<ClockPing>() {

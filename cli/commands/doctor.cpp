@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/doctor.hpp"
+
+#include <fmt/format.h>
+
+#include "error_text.hpp"
+#include "key_watch.hpp"
+#include "rave/bus/bus.hpp"
+#include "rave/doctor/checks.hpp"
+#include "rave/doctor/examine.hpp"
+#include "rave/doctor/listener.hpp"
+#include "rave/robot_host/host_run.hpp"
+
+namespace rave::cli {
+namespace {
+
+using doctor::Finding;
+using doctor::Verdict;
+
+std::string mark_of(Verdict verdict, const Terminal& terminal) {
+  switch (verdict) {
+    case Verdict::kGood:
+      return terminal.green("good   ");
+    case Verdict::kUnknown:
+      return terminal.faint("unknown");
+    case Verdict::kAdvice:
+      return terminal.yellow("advice ");
+    case Verdict::kProblem:
+      break;
+  }
+  return terminal.red("PROBLEM");
+}
+
+void print(const doctor::Findings& findings) {
+  const Terminal terminal = terminal_of(stdout);
+  std::size_t problems = 0;
+  std::string text;
+  for (const Finding& finding : findings) {
+    text += fmt::format("{}  {:<10} {}\n", mark_of(finding.verdict, terminal), finding.check,
+                        finding.what);
+    if (!finding.mend.empty()) text += fmt::format("         {:<10} {}\n", "", finding.mend);
+    problems += finding.verdict == Verdict::kProblem ? 1U : 0U;
+  }
+  text += problems == 0 ? std::string("nothing wrong was found\n")
+                        : fmt::format("{} problem{}; below each the command that mends it\n",
+                                      problems, problems == 1 ? "" : "s");
+  put(stdout, text);
+}
+
+/// Who listens is found by whoever asks; those who do not ask need not be known.
+bus::BusConfig listening(bus::BusConfig config, const std::string& address) {
+  config.anonymous = true;
+  if (config.multicast == bus::Multicast::kOff) config.peers.push_back(address);
+  return config;
+}
+
+int listen(const bus::BusConfig& config, doctor::About about) {
+  const doctor::Machine machine = doctor::this_machine();
+  const doctor::Interface* const interface = machine.find(config.interface);
+  if (interface == nullptr || interface->address.empty()) {
+    return complain({ErrorCode::kNotFound, doctor::check_interface(machine, config).what, {}});
+  }
+  KeyWatch keys(false);
+  // Joined before it answers: who gets an answer looks for it on the bus.
+  about.participant = config.participant;
+  const auto bus = bus::Bus::open(listening(config, interface->address));
+  if (!bus) return complain(bus.error());
+  auto listener = doctor::Listener::open({interface->address, std::move(about)});
+  if (!listener) return complain(listener.error());
+  put(stderr, fmt::format("listens at {}, domain {}, until Ctrl-C; on the other machine:\n"
+                          "  rave doctor --domain {} --interface ITS_ADDRESS --peers {}\n",
+                          interface->address, config.domain, config.domain, interface->address));
+  (*listener)->serve([&keys] { return keys.ended(); },
+                     [](const std::string& who) { put(stderr, who + " asks\n"); });
+  return kGood;
+}
+
+}  // namespace
+
+int doctor(const DoctorCommand& options) {
+  const std::string name = fmt::format("rave doctor {:.8}", bus::RunId::random().text());
+  const auto config = read_bus_options(options.bus, name, 0);
+  if (!config) return complain(config.error());
+  const doctor::About here = doctor::about_here(*config, robot_host::interface_stamp());
+  if (options.listen) return listen(*config, here);
+  const doctor::Findings findings = doctor::examine(doctor::this_machine(), *config, here);
+  if (options.json) {
+    put(stdout, doctor::to_json(findings));
+  } else {
+    print(findings);
+  }
+  return doctor::all_well(findings) ? kGood : kNotGood;
+}
+
+}  // namespace rave::cli

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/top.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <stop_token>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "error_text.hpp"
+#include "key_watch.hpp"
+#include "rave/run_control/folder.hpp"
+#include "rave/watch/lone_run.hpp"
+#include "rave/watch/observer.hpp"
+#include "rave/watch/page.hpp"
+
+namespace rave::cli {
+namespace {
+
+constexpr Duration kSearch = from_seconds(3);
+/// Rates need two messages of each process, which come once a second.
+constexpr double kOnce_s = 2.5;
+
+/// Looks on for a while and says what it has seen; the second word of it: with robots.
+using Look = std::function<Result<watch::RunView>(Duration, bool, const std::stop_token&)>;
+
+Look look_at(std::shared_ptr<watch::Observer> observer) {
+  return [observer = std::move(observer)](Duration span, bool robots,
+                                          const std::stop_token& stop) -> Result<watch::RunView> {
+    observer->watch(span, stop);
+    return observer->view(robots);
+  };
+}
+
+void wait_for(Duration span, const std::stop_token& stop) {
+  std::mutex mutex;
+  std::unique_lock lock(mutex);
+  std::condition_variable_any().wait_for(lock, stop, std::chrono::nanoseconds(span.ns),
+                                         [] { return false; });
+}
+
+Look look_at(const std::string& lone_run) {
+  // Shared with nobody: a std::function wants to be copied.
+  auto run = std::make_shared<watch::LoneRun>(lone_run);
+  return [run](Duration span, bool robots, const std::stop_token& stop) -> Result<watch::RunView> {
+    RAVE_TRY(run->look(robots));
+    wait_for(span, stop);
+    return run->look(robots);
+  };
+}
+
+Result<Look> join(bus::BusConfig config, const bus::RunId& run) {
+  config.run = run;
+  RAVE_TRY_ASSIGN(auto observer, watch::Observer::open(config));
+  return look_at(std::shared_ptr<watch::Observer>(std::move(observer)));
+}
+
+/// Whether a run is of this scenario, as its manager says.
+Result<bool> is_of(bus::BusConfig config, const watch::FoundRun& run, std::string_view scenario,
+                   const std::stop_token& stop) {
+  config.run = run.run;
+  RAVE_TRY_ASSIGN(const auto observer, watch::Observer::open(config));
+  constexpr int kLooks = 15;
+  for (int look = 0; look < kLooks && !stop.stop_requested(); ++look) {
+    observer->watch(from_seconds(0.1), stop);
+    const std::string found = observer->view(false).scenario;
+    if (!found.empty()) return found == scenario;
+  }
+  return false;
+}
+
+Result<Look> find_shared_run(const bus::BusConfig& config, const std::string& word,
+                             const std::stop_token& stop) {
+  RAVE_TRY_ASSIGN(const auto found, watch::find_runs(config, kSearch, stop));
+  const auto chosen = watch::choose_run(found, word);
+  if (chosen) return join(config, *chosen);
+  if (!word.empty()) {
+    for (const watch::FoundRun& run : found) {
+      RAVE_TRY_ASSIGN(const bool fits, is_of(config, run, word, stop));
+      if (fits) return join(config, run.run);
+    }
+  }
+  return tl::unexpected(chosen.error());
+}
+
+/// A run of several processes, or else one that this user has started here as one process.
+Result<Look> find_run(const TopCommand& options, const bus::BusConfig& config,
+                      const std::stop_token& stop) {
+  auto shared = find_shared_run(config, options.run, stop);
+  if (shared || shared.error().code != ErrorCode::kNotFound) return shared;
+  const auto lone = run_control::find_run(options.run);
+  if (lone) return look_at(*lone);
+  const auto runs = run_control::running_runs();
+  const bool none = !runs || runs->empty();
+  if (!none) return tl::unexpected(lone.error());
+  if (!options.run.empty()) return shared;
+  return fail(
+      ErrorCode::kNotFound,
+      "no run is under way: none on the bus in domain {} at {}, and none of one process\n"
+      "start one, for example `rave run flock --processes 3`; to see one of other machines, "
+      "give --interface and --peer (or --multicast) as its processes have them",
+      config.domain, config.interface);
+}
+
+/// The page of a terminal that changes in its place.
+class Screen {
+ public:
+  Screen() { put(stdout, "\x1b[?1049h\x1b[?25l"); }
+  Screen(const Screen&) = delete;
+  Screen& operator=(const Screen&) = delete;
+  ~Screen() { put(stdout, "\x1b[?25h\x1b[?1049l"); }
+
+  /// All in one piece, and nothing is erased that is written again: it does not flicker.
+  static void show(const std::vector<std::string>& lines) {
+    std::string text = "\x1b[H";
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      text += (i == 0 ? "" : "\r\n") + lines[i] + "\x1b[K";
+    }
+    put(stdout, text + "\x1b[J");
+  }
+};
+
+/// What is printed where nothing can be changed in its place.
+void print(const watch::RunView& view, const TopCommand& options) {
+  if (options.json) {
+    put(stdout, watch::to_json(view));
+    return;
+  }
+  const Terminal terminal = terminal_of(stdout);
+  std::string text;
+  for (const std::string& line : watch::render_page(view, {terminal.width, 0, terminal.colour})) {
+    text += line + "\n";
+  }
+  put(stdout, text + (options.once ? "" : "\n"));
+}
+
+Status show_live(const Look& look, const TopCommand& options, Duration interval, KeyWatch& keys) {
+  const Screen screen;
+  bool robots = options.robots;
+  // The first page soon, for people do not wait gladly.
+  Duration span = from_seconds(0.3);
+  while (!keys.ended()) {
+    RAVE_TRY_ASSIGN(const watch::RunView view, look(span, robots, keys.next()));
+    span = interval;
+    if (keys.take_toggle()) {
+      robots = !robots;
+      span = from_seconds(0.01);
+      continue;
+    }
+    const Terminal terminal = terminal_of(stdout);
+    watch::PageOptions page{terminal.width, terminal.height, terminal.colour, "q quit  r robots"};
+    Screen::show(watch::render_page(view, page));
+  }
+  return {};
+}
+
+}  // namespace
+
+int top(const TopCommand& options) {
+  const bool live = terminal_of(stdout).is_terminal && !options.once && !options.json;
+  KeyWatch keys(live && ::isatty(STDIN_FILENO) == 1);
+  auto config = bus_config(options.bus, "rave top", 0);
+  if (!config) return complain(config.error());
+  const auto look = find_run(options, *config, keys.next());
+  if (keys.ended()) return kGood;
+  if (!look) return complain(look.error());
+  const double usual_s = options.once ? kOnce_s : 1;
+  const Duration interval = from_seconds(options.interval_s.value_or(usual_s));
+  if (live) {
+    const Status shown = show_live(*look, options, interval, keys);
+    return shown ? kGood : complain(shown.error());
+  }
+  do {
+    const auto view = (*look)(interval, options.robots, keys.next());
+    if (!view) return complain(view.error());
+    print(*view, options);
+  } while (!options.once && !keys.ended());
+  return kGood;
+}
+
+}  // namespace rave::cli

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "key_watch.hpp"
+
+#include <poll.h>
+#include <pthread.h>
+#include <sys/eventfd.h>
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+
+namespace rave::cli {
+namespace {
+
+::sigset_t ends() {
+  ::sigset_t set{};
+  ::sigemptyset(&set);
+  ::sigaddset(&set, SIGINT);
+  ::sigaddset(&set, SIGTERM);
+  return set;
+}
+
+}  // namespace
+
+KeyWatch::KeyWatch(bool keys) : keys_(keys && ::tcgetattr(STDIN_FILENO, &before_) == 0) {
+  const ::sigset_t set = ends();
+  ::pthread_sigmask(SIG_BLOCK, &set, nullptr);
+  signals_ = ::signalfd(-1, &set, SFD_CLOEXEC);
+  quit_ = ::eventfd(0, EFD_CLOEXEC);
+  if (keys_) {
+    ::termios single = before_;
+    single.c_lflag &= ~static_cast<::tcflag_t>(ICANON | ECHO);
+    ::tcsetattr(STDIN_FILENO, TCSANOW, &single);
+  }
+  thread_ = std::thread([this] { watch(); });
+}
+
+KeyWatch::~KeyWatch() {
+  ::eventfd_write(quit_, 1);
+  thread_.join();
+  if (keys_) ::tcsetattr(STDIN_FILENO, TCSANOW, &before_);
+  ::close(signals_);
+  ::close(quit_);
+  const ::sigset_t set = ends();
+  ::pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+}
+
+std::stop_token KeyWatch::next() {
+  const std::lock_guard lock(mutex_);
+  if (!ended_) happened_ = std::stop_source();
+  return happened_.get_token();
+}
+
+void KeyWatch::wake() {
+  const std::lock_guard lock(mutex_);
+  happened_.request_stop();
+}
+
+void KeyWatch::take_key() {
+  char key = 0;
+  const ::ssize_t size = ::read(STDIN_FILENO, &key, 1);
+  constexpr char kEndOfText = 4;
+  if (size <= 0 || key == 'q' || key == 'Q' || key == kEndOfText) ended_ = true;
+  if (size > 0 && (key == 'r' || key == 'R')) toggled_ = true;
+  wake();
+}
+
+void KeyWatch::watch() {
+  while (!ended_) {
+    std::array<::pollfd, 3> sources = {
+        {{signals_, POLLIN, 0}, {quit_, POLLIN, 0}, {keys_ ? STDIN_FILENO : -1, POLLIN, 0}}};
+    if (::poll(sources.data(), sources.size(), -1) < 0) continue;
+    if (sources[1].revents != 0) return;
+    if (sources[0].revents != 0) {
+      // Taken, or it would end the process as soon as it is let in again.
+      ::signalfd_siginfo signal{};
+      static_cast<void>(::read(signals_, &signal, sizeof signal) > 0);
+      ended_ = true;
+      wake();
+    }
+    if (sources[2].revents != 0) take_key();
+  }
+}
+
+}  // namespace rave::cli

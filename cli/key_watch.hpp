@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <termios.h>
+
+#include <atomic>
+#include <mutex>
+#include <stop_token>
+#include <thread>
+
+namespace rave::cli {
+
+/// Waits for the end of a command that shows something until somebody has seen enough: SIGINT,
+/// SIGTERM, or the key q; and for the key r. To be made before any other thread of the process,
+/// which then all leave the signals to it. One in a process.
+class KeyWatch {
+ public:
+  /// `keys`: the terminal behind the standard input gives each key at once, and shows none.
+  explicit KeyWatch(bool keys);
+  KeyWatch(const KeyWatch&) = delete;
+  KeyWatch& operator=(const KeyWatch&) = delete;
+  /// Gives the terminal and the signals back.
+  ~KeyWatch();
+
+  [[nodiscard]] bool ended() const noexcept { return ended_.load(); }
+  /// Whether r was pressed since the last call.
+  [[nodiscard]] bool take_toggle() noexcept { return toggled_.exchange(false); }
+  /// Stops when something happens from now on, or has ended already.
+  [[nodiscard]] std::stop_token next();
+
+ private:
+  void watch();
+  void take_key();
+  void wake();
+
+  ::termios before_{};  ///< Read before it is known that there are keys.
+  const bool keys_;
+  int signals_ = -1;
+  int quit_ = -1;  ///< Becomes readable when the thread shall end.
+  std::atomic<bool> ended_{false};
+  std::atomic<bool> toggled_{false};
+  std::mutex mutex_;  // over `happened_`
+  std::stop_source happened_;
+  std::thread thread_;
+};
+
+}  // namespace rave::cli

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "rave/bus/wait_set.hpp"
+#include "rave/doctor/ports.hpp"
+#include "rave/doctor/visit.hpp"
+
+namespace rave::doctor {
+namespace {
+
+/// Certificates and logs need no more; the time of a run is found out by itself.
+constexpr double kSameTime_s = 2;
+
+class Judge {
+ public:
+  Judge(const Visit& visit, const About& here) : visit_(visit), there_(visit.about), here_(here) {}
+
+  Findings all() {
+    door();
+    if (visit_.door != Visit::Door::kOpen) return std::move(findings_);
+    sameness();
+    clock();
+    ports();
+    multicast();
+    sizes();
+    return std::move(findings_);
+  }
+
+ private:
+  void add(const char* check, Verdict verdict, std::string what, std::string mend = {}) {
+    findings_.push_back(
+        {check, verdict, fmt::format("{}: {}", visit_.peer, what), std::move(mend)});
+  }
+  void good(const char* check, std::string what) { add(check, Verdict::kGood, std::move(what)); }
+  void problem(const char* check, std::string what, std::string mend) {
+    add(check, Verdict::kProblem, std::move(what), std::move(mend));
+  }
+
+  void door() {
+    const unsigned first = first_port(here_.domain);
+    const unsigned last = last_port(here_.domain);
+    const std::string listen = fmt::format(
+        "rave doctor --listen --interface {} --domain {}    # there", visit_.peer, here_.domain);
+    if (visit_.other_domain) {
+      problem(
+          "domain",
+          fmt::format("it is in domain {}, and this machine in {}", *visit_.other_domain,
+                      here_.domain),
+          fmt::format("--domain {}    # here, or the other number there", *visit_.other_domain));
+      return;
+    }
+    switch (visit_.door) {
+      case Visit::Door::kOpen:
+        good("way", fmt::format("`{}` answers", there_.machine));
+        return;
+      case Visit::Door::kRefused:
+        problem("way", "the machine is there, and no doctor listens on it", listen);
+        return;
+      case Visit::Door::kNoWay:
+        problem("way", fmt::format("there is no way to it ({})", visit_.why),
+                fmt::format("ip route get {0}; ping -c 3 {0}    # which address does it have?",
+                            visit_.peer));
+        return;
+      case Visit::Door::kSilent:
+        problem("way",
+                fmt::format("nothing comes back: no doctor listens there, a cable is out, or a "
+                            "firewall on one of the two drops UDP {} to {}",
+                            first, last),
+                listen + fmt::format("; sudo nft insert rule inet filter input udp dport {}-{} "
+                                     "accept    # on both",
+                                     first, last));
+        return;
+    }
+  }
+
+  void sameness() {
+    if (there_.interface_stamp != here_.interface_stamp || there_.version != here_.version) {
+      const bool same = there_.interface_stamp == here_.interface_stamp;
+      add("version", same ? Verdict::kAdvice : Verdict::kProblem,
+          fmt::format("it has RAVE {}{}, and this machine {}", there_.version,
+                      same ? "" : " with other interfaces", here_.version),
+          "git pull && ./run --help    # on both, so that both have one build");
+    } else {
+      good("version", fmt::format("{} on both", here_.version));
+    }
+    if (there_.authority != here_.authority) {
+      const auto has = [](const About& about) {
+        return about.authority.empty() ? std::string("no certificates")
+                                       : fmt::format("those of {:.17}", about.authority);
+      };
+      problem("keys", fmt::format("it has {}, and this machine {}", has(there_), has(here_)),
+              "rave keys new SET here there    # one set for all; then --security on both");
+    } else if (!here_.authority.empty()) {
+      good("keys", "of the same authority");
+    }
+    if (there_.multicast != here_.multicast) {
+      add("settings", Verdict::kAdvice,
+          fmt::format("it says --multicast {}, and this machine --multicast {}", there_.multicast,
+                      here_.multicast),
+          fmt::format("--multicast {}    # there", here_.multicast));
+    }
+  }
+
+  void clock() {
+    if (!visit_.clock) return;
+    const double offset_s = visit_.clock->offset.seconds();
+    const std::string text = fmt::format(
+        "its clock of day is {:+.3f} s from the one here, give or "
+        "take {:.3f} s",
+        offset_s, visit_.clock->bound.seconds());
+    if (std::fabs(offset_s) <= kSameTime_s + visit_.clock->bound.seconds()) {
+      good("clock", text);
+      return;
+    }
+    problem("clock", text, "sudo timedatectl set-ntp true    # on both");
+  }
+
+  void ports() {
+    const bool none = there_.discovery_port == 0;
+    if (none) {
+      problem("ports", "no port is left there for another process in the domain",
+              "sudo ss -ulpn    # there: says who has them");
+      return;
+    }
+    if (visit_.discovery_open && visit_.data_open) {
+      good("ports", fmt::format("{} and {} are reached", there_.discovery_port, there_.data_port));
+      return;
+    }
+    problem("ports",
+            fmt::format("UDP port {} is not reached, while {} is: a firewall lets a part of the "
+                        "domain through",
+                        visit_.discovery_open ? there_.data_port : there_.discovery_port,
+                        doctor_port(here_.domain)),
+            fmt::format("sudo nft insert rule inet filter input udp dport {}-{} accept    # there",
+                        first_port(here_.domain), last_port(here_.domain)));
+  }
+
+  void multicast() {
+    if (here_.multicast == "off") return;
+    const bool tried = visit_.multicast_there && visit_.multicast_back;
+    if (tried && *visit_.multicast_there && *visit_.multicast_back) {
+      good("multicast", "both ways");
+      return;
+    }
+    const char* const what = !tried                    ? "it does not take part in the group"
+                             : *visit_.multicast_there ? "what it sends is not heard here"
+                             : *visit_.multicast_back  ? "what is sent here is not heard there"
+                                                       : "neither hears the other";
+    problem(
+        "multicast", what,
+        fmt::format("--multicast off --peer {}    # a list of all machines, on each", visit_.peer));
+  }
+
+  void sizes() {
+    const auto lost = std::ranges::find_if(
+        visit_.sizes, [](const Visit::Size& size) { return !size.there || !size.back; });
+    if (lost == visit_.sizes.end()) {
+      if (!visit_.sizes.empty()) {
+        good("sizes", fmt::format("datagrams up to {} bytes arrive", visit_.sizes.back().bytes));
+      }
+      return;
+    }
+    problem("sizes",
+            fmt::format("datagrams of {} bytes and more do not {}: fragments of packets are "
+                        "dropped, or the MTU on the way is smaller than at an end",
+                        lost->bytes, lost->there ? "come back" : "arrive"),
+            fmt::format("ip link show    # compare the mtu on both; sudo ip link set DEV mtu {}",
+                        lost->bytes <= 1472 ? 1400 : 1500));
+  }
+
+  const Visit& visit_;
+  const About& there_;
+  const About& here_;
+  Findings findings_;
+};
+
+}  // namespace
+
+Findings judge(const Visit& visit, const About& here) { return Judge(visit, here).all(); }
+
+Finding check_bus(const bus::BusConfig& given, const std::string& participant) {
+  bus::BusConfig config = given;
+  config.anonymous = true;
+  const auto bus = bus::Bus::open(config);
+  if (!bus) return {"bus", Verdict::kProblem, bus.error().message, "rave doctor --help"};
+  auto waits = bus::WaitSet::create(**bus);
+  if (!waits || !waits->add_events()) return {"bus", Verdict::kUnknown, "cannot wait on it", {}};
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(3);
+  std::size_t seen = 0;
+  for (;;) {
+    static_cast<void>((*bus)->take_events());
+    const auto processes = (*bus)->processes();
+    seen = processes.size();
+    if (std::ranges::find(processes, participant, &bus::BusProcess::name) != processes.end()) {
+      return {"bus", Verdict::kGood, fmt::format("`{}` is seen on it", participant), {}};
+    }
+    const auto left = std::chrono::duration_cast<std::chrono::nanoseconds>(
+        end - std::chrono::steady_clock::now());
+    if (left.count() <= 0) break;
+    static_cast<void>(waits->wait(Duration{left.count()}));
+  }
+  if (participant.empty()) {
+    return {"bus", Verdict::kGood, fmt::format("{} other processes are seen on it", seen), {}};
+  }
+  return {
+      "bus", Verdict::kProblem,
+      fmt::format("`{}` answers, and is not seen on the bus: its --peer, --multicast, --security "
+                  "or --bus-tag differ from those here",
+                  participant),
+      "rave doctor --listen    # there, with the same options as here"};
+}
+
+}  // namespace rave::doctor

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <netdb.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "rave/doctor/checks.hpp"
+#include "rave/doctor/ports.hpp"
+#include "socket.hpp"
+
+namespace rave::doctor {
+namespace {
+
+struct FreeFound {
+  void operator()(::addrinfo* list) const noexcept { ::freeaddrinfo(list); }
+};
+
+/// The IPv4 address behind a name; empty if there is none.
+std::string resolve(const std::string& name) {
+  ::addrinfo wanted{};
+  wanted.ai_family = AF_INET;
+  wanted.ai_socktype = SOCK_DGRAM;
+  ::addrinfo* raw = nullptr;
+  if (::getaddrinfo(name.c_str(), nullptr, &wanted, &raw) != 0) return {};
+  const std::unique_ptr<::addrinfo, FreeFound> list(raw);
+  return place_of(*reinterpret_cast<const ::sockaddr_in*>(list->ai_addr)).address;
+}
+
+std::string list_of(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+std::string address_on(const Machine& machine, const bus::BusConfig& config) {
+  const Interface* const interface = machine.find(config.interface);
+  return interface != nullptr ? interface->address : std::string();
+}
+
+}  // namespace
+
+Finding check_peers(const Machine& machine, const bus::BusConfig& config,
+                    std::vector<std::string>& addresses) {
+  const bool multicast = config.multicast != bus::Multicast::kOff;
+  bool self = false;
+  std::vector<std::string> unknown;
+  for (const std::string& peer : config.peers) {
+    const std::string address = resolve(peer);
+    if (address.empty()) {
+      unknown.push_back(peer);
+    } else if (machine.has_address(address)) {
+      self = true;
+    } else {
+      addresses.push_back(address);
+    }
+  }
+  if (!unknown.empty()) {
+    return {"peers", Verdict::kProblem, fmt::format("no address is known for {}", list_of(unknown)),
+            fmt::format("getent ahostsv4 {}    # name the address instead", unknown.front())};
+  }
+  const bool local = config.loopback() && addresses.empty();
+  if (local) return {"peers", Verdict::kGood, "this machine only", {}};
+  if (addresses.empty() && !multicast) {
+    return {"peers", Verdict::kProblem, "without peers and without multicast nobody is found",
+            "--peer ADDRESS    # of each machine that takes part, this one included"};
+  }
+  if (!self && !multicast) {
+    const std::string own = address_on(machine, config);
+    return {"peers", Verdict::kAdvice,
+            fmt::format("{}; this machine is not among them, so its own processes do not find one "
+                        "another",
+                        list_of(addresses)),
+            fmt::format("--peer {}", own.empty() ? "ADDRESS" : own)};
+  }
+  return {
+      "peers", Verdict::kGood, addresses.empty() ? "found by multicast" : list_of(addresses), {}};
+}
+
+Finding check_ports(const bus::BusConfig& config) {
+  const std::uint32_t domain = std::min(config.domain, kMostDomain);
+  const std::uint16_t group = multicast_port(domain);
+  const std::string any = "0.0.0.0";
+  if (const auto shared = Socket::bind({any, group}, true); !shared) {
+    return {
+        "ports", Verdict::kProblem,
+        fmt::format("UDP port {}, of multicast, is taken by a program that does not share it "
+                    "({})",
+                    group, shared.error().message),
+        fmt::format("sudo ss -ulpn 'sport = :{}'    # says which; or use another --domain", group)};
+  }
+  int taken = 0;
+  for (int index = 0; index < config.max_processes; ++index) {
+    const bool free = Socket::bind({any, discovery_port(domain, index)}).has_value() &&
+                      Socket::bind({any, data_port(domain, index)}).has_value();
+    taken += free ? 0 : 1;
+  }
+  const int first = discovery_port(domain, 0);
+  const int last = data_port(domain, config.max_processes - 1);
+  if (taken == config.max_processes) {
+    return {"ports", Verdict::kProblem,
+            fmt::format("all UDP ports from {} to {} are taken", first, last),
+            fmt::format("sudo ss -ulpn 'sport >= :{} and sport <= :{}'    # says by whom; or use "
+                        "another --domain",
+                        first, last)};
+  }
+  return {"ports",
+          Verdict::kGood,
+          taken == 0 ? fmt::format("{} to {} are free", first, last)
+                     : fmt::format("{} of {} processes have theirs; the others are free", taken,
+                                   config.max_processes),
+          {}};
+}
+
+Finding check_own_way(const Machine& machine, const bus::BusConfig& config) {
+  const std::string address = address_on(machine, config);
+  if (address.empty()) {
+    return {"self", Verdict::kUnknown, "there is no interface to try it on", {}};
+  }
+  const std::uint32_t domain = std::min(config.domain, kMostDomain);
+  for (int index = 0; index < config.max_processes; ++index) {
+    const std::uint16_t port = data_port(domain, index);
+    const auto socket = Socket::bind({address, port});
+    if (!socket) continue;
+    const std::string probe = fmt::format("RAVE doctor {}", bus::RunId::random().text());
+    static_cast<void>(socket->send(probe, {address, port}));
+    std::array<char, 2048> bytes{};
+    for (int looks = 0; looks < 50; ++looks) {
+      const auto received = socket->receive(bytes, 300);
+      if (!received || !*received) break;
+      if (std::string_view(bytes.data(), (*received)->size) != probe) continue;
+      return {
+          "self", Verdict::kGood, fmt::format("{} reaches its own UDP port {}", address, port), {}};
+    }
+    return {"self", Verdict::kProblem,
+            fmt::format("what {} sends to its own UDP port {} does not arrive: a packet filter "
+                        "drops it",
+                        address, port),
+            fmt::format("sudo nft insert rule inet filter input udp dport {}-{} accept",
+                        first_port(domain), last_port(domain))};
+  }
+  return {"self", Verdict::kUnknown, "no port is free to try it on", {}};
+}
+
+Finding check_multicast(const Machine& machine, const bus::BusConfig& config) {
+  Finding finding{"multicast"};
+  if (config.multicast == bus::Multicast::kOff) {
+    finding.what = "not used";
+    return finding;
+  }
+  const Interface* const interface = machine.find(config.interface);
+  if (interface == nullptr || interface->address.empty()) {
+    return {"multicast", Verdict::kUnknown, "there is no interface to try it on", {}};
+  }
+  const std::string by_list =
+      "--multicast off --peer ADDRESS    # of each machine; works wherever one reaches the other";
+  if (!interface->multicast && !interface->loopback) {
+    return {"multicast", Verdict::kProblem,
+            fmt::format("{} does not do multicast", interface->name),
+            fmt::format("sudo ip link set {} multicast on", interface->name)};
+  }
+  const std::uint16_t port = multicast_port(std::min(config.domain, kMostDomain));
+  auto socket = Socket::bind({"0.0.0.0", port}, true);
+  Status tried = socket ? socket->join(kMulticastGroup, interface->address)
+                        : Status(tl::unexpected(socket.error()));
+  const std::string probe = fmt::format("RAVE doctor {}", bus::RunId::random().text());
+  if (tried) tried = socket->send(probe, {kMulticastGroup, port});
+  if (!tried) {
+    return {"multicast", Verdict::kProblem,
+            fmt::format("nothing can be sent to {} through {} ({})", kMulticastGroup,
+                        interface->name, tried.error().message),
+            fmt::format("sudo ip route add 224.0.0.0/4 dev {}", interface->name)};
+  }
+  // Others may talk in the group.
+  std::array<char, 2048> bytes{};
+  for (int looks = 0; looks < 50; ++looks) {
+    const auto received = socket->receive(bytes, 100);
+    if (!received || !*received) break;
+    if (std::string_view(bytes.data(), (*received)->size) != probe) continue;
+    finding.what = fmt::format("{}:{} works on {}", kMulticastGroup, port, interface->name);
+    return finding;
+  }
+  return {"multicast", Verdict::kProblem,
+          fmt::format("what is sent to {}:{} through {} does not come back: a packet filter drops "
+                      "it, or it leaves elsewhere",
+                      kMulticastGroup, port, interface->name),
+          by_list};
+}
+
+}  // namespace rave::doctor

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+#include "rave/base/result.hpp"
+#include "rave/bus/writer.hpp"
+#include "rave/lock_step/introduction.hpp"
+
+namespace rave::lock_step {
+
+/// Tells those who look on how a process of a run fares (topic rave/process). Must be gone before
+/// its bus; thread: that of the bus.
+class Pulse {
+ public:
+  /// What the process knows of itself.
+  struct Facts {
+    std::uint64_t step = 0;
+    std::uint64_t missed = 0;         ///< Worlds that never came.
+    std::int64_t round_trip_ns = -1;  ///< To the manager and back; -1: not known.
+  };
+
+  /// Errors: those of bus::Writer::create().
+  [[nodiscard]] static Result<Pulse> create(bus::Bus& bus, const Identity& self);
+
+  /// To be called often: sends the facts about once a second, and otherwise only reads the clock.
+  void beat(const Facts& facts);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Pulse(bus::Bus& bus, bus::Writer<bus::ProcessState> writer, const Identity& self);
+
+  bus::Bus* bus_;
+  bus::Writer<bus::ProcessState> writer_;
+  bus::ProcessState state_{};
+  Clock::time_point next_{};
+};
+
+}  // namespace rave::lock_step

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/lock_step/pulse.hpp"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <ctime>
+#include <memory>
+
+namespace rave::lock_step {
+namespace {
+
+constexpr std::chrono::seconds kPeriod{1};
+
+/// Time of cores that this process has used.
+std::int64_t cpu_ns() {
+  std::timespec used{};
+  if (::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used) != 0) return 0;
+  return std::int64_t{used.tv_sec} * 1'000'000'000 + used.tv_nsec;
+}
+
+struct Close {
+  void operator()(std::FILE* file) const noexcept { std::fclose(file); }
+};
+
+/// Resident memory of this process: the second number of /proc/self/statm, in pages (proc(5)).
+std::uint64_t memory_bytes() {
+  const std::unique_ptr<std::FILE, Close> file(std::fopen("/proc/self/statm", "re"));
+  unsigned long long pages = 0;
+  if (!file || std::fscanf(file.get(), "%*u %llu", &pages) != 1) return 0;
+  return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+}  // namespace
+
+Pulse::Pulse(bus::Bus& bus, bus::Writer<bus::ProcessState> writer, const Identity& self)
+    : bus_(&bus), writer_(std::move(writer)) {
+  state_.host = self.host;
+  state_.robots = self.robots;
+  state_.real_robots = self.real_robots;
+  state_.process = static_cast<std::uint32_t>(::getpid());
+}
+
+Result<Pulse> Pulse::create(bus::Bus& bus, const Identity& self) {
+  RAVE_TRY_ASSIGN(auto writer, bus::Writer<bus::ProcessState>::create(bus));
+  return Pulse(bus, std::move(writer), self);
+}
+
+void Pulse::beat(const Facts& facts) {
+  const auto now = Clock::now();
+  if (now < next_) return;
+  next_ = now + kPeriod;
+  ++state_.number;
+  state_.step = facts.step;
+  state_.missed = facts.missed;
+  state_.round_trip_ns = facts.round_trip_ns;
+  state_.refused = bus_->refused_samples();
+  state_.cpu_ns = cpu_ns();
+  state_.memory_bytes = memory_bytes();
+  static_cast<void>(writer_.write(state_));
+}
+
+}  // namespace rave::lock_step

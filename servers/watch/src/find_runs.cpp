@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <map>
+
+#include "rave/base/names.hpp"
+#include "rave/bus/wait_set.hpp"
+#include "rave/watch/observer.hpp"
+
+namespace rave::watch {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// When nobody new has come for this long, all that are near have answered.
+constexpr std::chrono::milliseconds kMoment{400};
+/// Fewer digits of a number could as well be a name.
+constexpr std::size_t kFewestDigits = 4;
+
+std::vector<FoundRun> runs_of(const std::vector<bus::BusProcess>& processes) {
+  std::map<std::string, FoundRun> runs;
+  for (const bus::BusProcess& process : processes) {
+    if (process.run.none()) continue;
+    FoundRun& run = runs[process.run.text()];
+    run.run = process.run;
+    run.processes.push_back(process.name);
+  }
+  std::vector<FoundRun> found;
+  for (auto& [number, run] : runs) {
+    std::ranges::sort(run.processes);
+    found.push_back(std::move(run));
+  }
+  std::ranges::stable_sort(found, std::greater(),
+                           [](const FoundRun& r) { return r.processes.size(); });
+  return found;
+}
+
+std::string list_of(const std::vector<FoundRun>& runs) {
+  std::string text;
+  for (const FoundRun& run : runs) {
+    const std::vector<std::string_view> names(run.processes.begin(), run.processes.end());
+    text += fmt::format("{}{} (of {})", text.empty() ? "" : "; ", run.run.text().substr(0, 8),
+                        join_names(names));
+  }
+  return text;
+}
+
+}  // namespace
+
+Result<std::vector<FoundRun>> find_runs(bus::BusConfig config, Duration patience,
+                                        const std::stop_token& stop) {
+  config.run = {};
+  config.anonymous = true;
+  RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
+  RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(*bus));
+  RAVE_TRY(waits.add_events());
+  auto end = Clock::now() + std::chrono::nanoseconds(patience.ns);
+  std::size_t known = 0;
+  for (;;) {
+    static_cast<void>(bus->take_events());
+    const std::size_t processes = bus->processes().size();
+    if (processes > known) {
+      known = processes;
+      if (!runs_of(bus->processes()).empty()) end = std::min(end, Clock::now() + kMoment);
+    }
+    const auto left = std::chrono::duration_cast<std::chrono::nanoseconds>(end - Clock::now());
+    if (left.count() <= 0 || stop.stop_requested()) break;
+    static_cast<void>(waits.wait(Duration{left.count()}, stop));
+  }
+  return runs_of(bus->processes());
+}
+
+Result<bus::RunId> choose_run(const std::vector<FoundRun>& found, std::string_view word) {
+  if (found.empty()) return fail(ErrorCode::kNotFound, "no run of several processes is under way");
+  if (word.empty()) {
+    if (found.size() == 1) return found.front().run;
+    return fail(ErrorCode::kNotFound, "{} runs are under way, so say which: {}", found.size(),
+                list_of(found));
+  }
+  std::vector<FoundRun> fitting;
+  for (const FoundRun& run : found) {
+    if (run.run == bus::run_of_name(word)) return run.run;
+    if (word.size() >= kFewestDigits && run.run.text().starts_with(word)) fitting.push_back(run);
+  }
+  if (fitting.size() == 1) return fitting.front().run;
+  if (!fitting.empty()) {
+    return fail(ErrorCode::kNotFound, "the numbers of several runs begin with `{}`: {}", word,
+                list_of(fitting));
+  }
+  return fail(ErrorCode::kNotFound, "there is no run `{}`; those under way: {}", word,
+              list_of(found));
+}
+
+}  // namespace rave::watch

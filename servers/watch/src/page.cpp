@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/watch/page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "columns.hpp"
+#include "short_text.hpp"
+
+namespace rave::watch {
+namespace {
+
+constexpr std::size_t kLongestName = 24;
+/// Below this share of what is asked for, somebody should look.
+constexpr double kGoodShare = 0.9;
+
+Tone tone_of(Standing standing) {
+  switch (standing) {
+    case Standing::kHere:
+      return Tone::kGood;
+    case Standing::kWaiting:
+    case Standing::kLate:
+      return Tone::kCare;
+    case Standing::kGone:
+    case Standing::kDropped:
+      break;
+  }
+  return Tone::kBad;
+}
+
+Tone tone_of(Phase phase) {
+  switch (phase) {
+    case Phase::kGoes:
+    case Phase::kEnded:
+      return Tone::kGood;
+    case Phase::kFailed:
+      return Tone::kBad;
+    default:
+      return Tone::kCare;
+  }
+}
+
+template <class Value, class Text>
+Cell cell(const std::optional<Value>& value, Text text) {
+  return {value ? text(*value) : std::string()};
+}
+
+Cell rate_cell(const std::optional<double>& rate, const std::optional<double>& asked) {
+  if (!rate) return {};
+  if (!asked) return {number_text(*rate)};
+  return {fmt::format("{}/{}", number_text(*rate), number_text(*asked)),
+          *rate < kGoodShare * *asked ? Tone::kCare : Tone::kPlain};
+}
+
+Cell count_cell(const std::optional<std::uint64_t>& count) {
+  if (!count) return {};
+  return {fmt::format("{}", *count), *count > 0 ? Tone::kCare : Tone::kPlain};
+}
+
+std::string robots_text(const HostView& host) {
+  if (!host.robots) return {};
+  if (!host.real_robots) return fmt::format("{}", *host.robots);
+  return fmt::format("{}+{}", *host.real_robots,
+                     *host.robots - std::min(*host.robots, *host.real_robots));
+}
+
+std::vector<Cell> row_of(const HostView& host) {
+  const auto plain = [](auto value) { return fmt::format("{}", value); };
+  const bool told = host.offset_s && host.bound_s;
+  return {
+      {fitted(host.manager ? "manager" : host.name, kLongestName)},
+      {fitted(host.machine, kLongestName)},
+      {std::string(to_string(host.standing)), tone_of(host.standing)},
+      {robots_text(host)},
+      cell(host.step, plain),
+      rate_cell(host.rate_hz, host.asked_rate_hz),
+      cell(host.age_s, time_text),
+      cell(host.delay_s, time_text),
+      cell(host.round_trip_s, time_text),
+      {told ? offset_text(*host.offset_s, *host.bound_s) : std::string()},
+      count_cell(host.lost),
+      count_cell(host.refused),
+      cell(host.cores, [](double cores) { return fmt::format("{:.0f}%", 100 * cores); }),
+      cell(host.memory_mb, [](double mb) { return fmt::format("{:.0f} MB", mb); }),
+      cell(host.process, plain),
+  };
+}
+
+Grid hosts_grid(const RunView& view) {
+  Grid grid;
+  grid.columns = {{"HOST", false, 100},   {"MACHINE", false, 40}, {"STATE", false, 90},
+                  {"REAL+SIM", true, 70}, {"STEP", true, 50},     {"RATE /s", true, 80},
+                  {"AGE", true, 75},      {"DELAY", true, 45},    {"TRIP", true, 30},
+                  {"CLOCK", true, 55},    {"LOST", true, 65},     {"REFUSED", true, 25},
+                  {"CPU", true, 60},      {"MEMORY", true, 35},   {"PID", true, 20}};
+  for (const HostView& host : view.hosts) grid.rows.push_back(row_of(host));
+  return grid;
+}
+
+std::vector<Cell> row_of(const RobotView& robot) {
+  const auto place = [](double value) { return fmt::format("{:.2f}", value); };
+  const std::string name = robot.name.empty() ? fmt::format("#{}", robot.number) : robot.name;
+  const std::string kind = !robot.simulated ? "" : (*robot.simulated ? "simulated" : "real");
+  return {{fitted(name, kLongestName)},
+          {fitted(robot.host, kLongestName)},
+          {kind},
+          {robot.stale ? "stale" : "heard", robot.stale ? Tone::kBad : Tone::kGood},
+          cell(robot.age_s, time_text),
+          rate_cell(robot.rate_hz, robot.asked_rate_hz),
+          cell(robot.x_m, place),
+          cell(robot.y_m, place)};
+}
+
+Grid robots_grid(const RunView& view) {
+  Grid grid;
+  grid.columns = {{"ROBOT", false, 100}, {"ON HOST", false, 60}, {"KIND", false, 50},
+                  {"STATE", false, 90},  {"AGE", true, 80},      {"RATE /s", true, 70},
+                  {"X m", true, 45},     {"Y m", true, 40}};
+  for (const RobotView& robot : view.robots) grid.rows.push_back(row_of(robot));
+  return grid;
+}
+
+std::string timing_text(Timing timing) {
+  switch (timing) {
+    case Timing::kLockStep:
+      return "in lock-step";
+    case Timing::kRealTime:
+      return "in real time";
+    case Timing::kAlone:
+      return "one process";
+    case Timing::kUnknown:
+      break;
+  }
+  return {};
+}
+
+/// The first line: parts that are left out from the end if it is too narrow.
+std::string title_of(const RunView& view, const PageOptions& options) {
+  std::vector<Cell> parts;
+  parts.push_back({view.scenario.empty() ? std::string("run") : view.scenario});
+  parts.push_back({std::string(to_string(view.phase)), tone_of(view.phase)});
+  if (view.time_s && view.duration_s) {
+    parts.push_back({fmt::format("{:.2f} of {:.2f} s", *view.time_s, *view.duration_s)});
+  }
+  if (view.speed) parts.push_back({fmt::format("{}x", number_text(*view.speed))});
+  parts.push_back({timing_text(view.timing)});
+  if (view.step && view.steps && view.timing != Timing::kRealTime) {
+    parts.push_back({fmt::format("step {} of {}", *view.step, *view.steps)});
+  }
+  parts.push_back({"run " + view.run.substr(0, view.timing == Timing::kAlone ? 40 : 8)});
+  std::string line;
+  std::size_t used = 0;
+  for (const Cell& part : parts) {
+    if (part.text.empty()) continue;
+    const std::string text = fitted(part.text, options.width);
+    const std::size_t more = columns_of(text) + (used == 0 ? 0 : 3);
+    if (used + more > options.width) break;
+    line += (used == 0 ? "" : "   ") + toned(text, part.tone, options.colour);
+    used += more;
+  }
+  return line;
+}
+
+std::string legend(const PageOptions& options) {
+  struct Entry {
+    Standing standing;
+    std::string_view meaning;
+  };
+  constexpr Entry kEntries[] = {{Standing::kHere, ""},
+                                {Standing::kWaiting, " not in the run yet"},
+                                {Standing::kLate, " silent"},
+                                {Standing::kGone, ""},
+                                {Standing::kDropped, " gone for good"}};
+  std::string line;
+  std::size_t used = 0;
+  for (const Entry& entry : kEntries) {
+    const std::string word(to_string(entry.standing));
+    const std::size_t more = word.size() + entry.meaning.size() + (used == 0 ? 0 : 3);
+    if (used + more > options.width) break;
+    line += (used == 0 ? "" : "   ") + toned(word, tone_of(entry.standing), options.colour) +
+            toned(std::string(entry.meaning), Tone::kFaint, options.colour);
+    used += more;
+  }
+  const std::size_t keys = columns_of(options.keys);
+  if (keys > 0 && used + 3 + keys <= options.width) {
+    line += std::string(options.width - used - keys, ' ') +
+            toned(options.keys, Tone::kFaint, options.colour);
+  }
+  return line;
+}
+
+}  // namespace
+
+std::vector<std::string> render_page(const RunView& view, const PageOptions& options) {
+  constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+  std::vector<std::string> lines = {title_of(view, options)};
+  if (!view.text.empty()) lines.push_back(fitted(view.text, options.width));
+  lines.emplace_back();
+  // Behind the tables an empty line and the legend.
+  constexpr std::size_t kBelow = 2;
+  const auto left = [&](std::size_t headings) {
+    const std::size_t used = lines.size() + headings + kBelow;
+    return options.height == 0 ? kAll : options.height - std::min(options.height, used);
+  };
+  const auto add = [&](const Grid& grid, std::size_t rows) {
+    for (std::string& line : lines_of(grid, options.width, rows, options.colour)) {
+      lines.push_back(std::move(line));
+    }
+  };
+  const bool robots = !view.robots.empty();
+  // With both tables the hosts get at most half of the page.
+  const std::size_t rows = left(1);
+  add(hosts_grid(view), robots && rows != kAll ? std::max<std::size_t>(1, rows / 2) : rows);
+  if (robots) {
+    lines.emplace_back();
+    if (left(1) > 0) add(robots_grid(view), left(1));
+  }
+  lines.emplace_back();
+  lines.push_back(legend(options));
+  if (options.height > 0 && lines.size() > options.height) lines.resize(options.height);
+  return lines;
+}
+
+}  // namespace rave::watch

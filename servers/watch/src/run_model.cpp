@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/watch/run_model.hpp"
+
+#include <algorithm>
+
+#include "moments.hpp"
+#include "rave/bus/sequence.hpp"
+
+namespace rave::watch {
+namespace {
+
+/// Somebody who makes up processes or robots gets no further.
+constexpr std::size_t kMostProcesses = 2 * rave_wire_kMaxHosts;
+constexpr std::size_t kMostRobots = rave_wire_kMaxRobots;
+
+}  // namespace
+
+void Rate::add(std::int64_t now_ns, double count) {
+  if (!readings_.empty() && count < readings_.back().count) readings_.clear();
+  readings_.push_back({now_ns, count});
+  const auto window_ns = static_cast<std::int64_t>(kWindow_s * 1e9);
+  while (readings_.size() > 2 && readings_.front().at_ns < now_ns - window_ns) {
+    readings_.pop_front();
+  }
+}
+
+std::optional<double> Rate::at(std::int64_t now_ns) const {
+  if (readings_.size() < 2) return std::nullopt;
+  const Reading& first = readings_.front();
+  const Reading& last = readings_.back();
+  const std::int64_t span_ns = last.at_ns - first.at_ns;
+  // What has not come for longer than usual has become rarer.
+  const std::int64_t usual_ns = span_ns / static_cast<std::int64_t>(readings_.size() - 1);
+  const std::int64_t until_ns = std::max(last.at_ns, now_ns - 2 * usual_ns);
+  if (until_ns <= first.at_ns) return std::nullopt;
+  return (last.count - first.count) / seconds_of(until_ns - first.at_ns);
+}
+
+RunModel::Process& RunModel::process_of(std::uint64_t writer) {
+  const auto found = processes_.find(writer);
+  if (found != processes_.end()) return found->second;
+  if (processes_.size() >= kMostProcesses) processes_.erase(processes_.begin());
+  Process& process = processes_[writer];
+  process.order = ++arrivals_;
+  return process;
+}
+
+void RunModel::hear(const bus::HostInfo& info) {
+  Process& process = process_of(info.writer);
+  process.introduced = true;
+  process.gone = false;
+  process.host = info.host;
+  process.name = info.name;
+  process.machine = info.machine;
+  process.real_time = info.clock == rave_wire_CLOCK_REAL_TIME;
+  process.robots = info.robots;
+}
+
+void RunModel::hear(const bus::RunState& state, std::int64_t now_ns) {
+  const auto writer = processes_.find(state.writer);
+  // The first one may be of some time ago.
+  const bool fresh = state_ && state_->writer == state.writer;
+  const bool of_the_dead = writer != processes_.end() && writer->second.gone;
+  if (state_ && state_->writer != state.writer && of_the_dead) return;
+  State now;
+  now.writer = state.writer;
+  now.scenario = state.scenario;
+  now.phase = state.phase;
+  now.step = state.step;
+  now.steps = state.steps;
+  now.step_s = state.step_s;
+  now.speed = state.speed;
+  now.text = state.text;
+  for (const rave_wire_HostSight& host : bus::elements(state.hosts)) {
+    now.hosts[host.host] = {host.name, host.phase,    host.robots,
+                            host.step, host.offset_s, host.bound_s};
+  }
+  state_ = std::move(now);
+  if (fresh) run_steps_.add(now_ns, static_cast<double>(state.step));
+}
+
+void RunModel::hear(const bus::ProcessState& state, std::int64_t now_ns, std::int64_t delay_ns) {
+  Process& process = process_of(state.writer);
+  process.gone = false;
+  if (!process.introduced) process.host = state.host;
+  if (process.state && process.heard_ns && now_ns > *process.heard_ns) {
+    const bus::ProcessState& before = *process.state;
+    if (state.number > before.number) process.lost += state.number - before.number - 1;
+    process.cores = static_cast<double>(state.cpu_ns - before.cpu_ns) /
+                    static_cast<double>(now_ns - *process.heard_ns);
+  }
+  if (!process.state || process.state->step != state.step) process.moved_ns = now_ns;
+  process.steps.add(now_ns, static_cast<double>(state.step));
+  process.state = state;
+  process.heard_ns = now_ns;
+  process.delay_ns = delay_ns;
+}
+
+void RunModel::place(const rave_wire_PlanarRobots& robots, std::size_t i, std::int64_t now_ns) {
+  const std::uint32_t number = robots.id._buffer[i];
+  if (robots_.size() >= kMostRobots && !robots_.contains(number)) return;
+  Robot& robot = robots_[number];
+  const std::int64_t stamp_ns = robots.stamp_ns._buffer[i];
+  if (robot.stamp_ns && stamp_ns < *robot.stamp_ns) return;
+  robot.stamp_ns = stamp_ns;
+  robot.heard_ns = now_ns;
+  robot.x_m = robots.x_m._buffer[i];
+  robot.y_m = robots.y_m._buffer[i];
+  robot.yaw_rad = robots.yaw_rad._buffer[i];
+}
+
+void RunModel::hear(const bus::HostState& state, std::int64_t now_ns, std::int64_t delay_ns) {
+  Process& process = process_of(state.writer);
+  process.gone = false;
+  if (!process.introduced) process.host = state.host;
+  const auto ids = bus::elements(state.resolved.id);
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    place(state.resolved, i, now_ns);
+    const auto found = robots_.find(ids[i]);
+    if (found == robots_.end()) continue;
+    Robot& robot = found->second;
+    robot.host = state.host;
+    if (robot.last_step != 0 && state.step > robot.last_step) {
+      const std::uint64_t gap = state.step - robot.last_step;
+      robot.least_gap = robot.least_gap == 0 ? gap : std::min(robot.least_gap, gap);
+    }
+    robot.last_step = state.step;
+    robot.reports.add(now_ns, ++robot.reported);
+    const std::int64_t stamp_ns = state.resolved.stamp_ns._buffer[i];
+    process.newest_stamp_ns = std::max(process.newest_stamp_ns.value_or(stamp_ns), stamp_ns);
+  }
+  process.reported += static_cast<double>(ids.size());
+  process.reports.add(now_ns, process.reported);
+  process.reported_ns = now_ns;
+  process.delay_ns = delay_ns;
+}
+
+void RunModel::hear(const bus::World& world, std::int64_t now_ns) {
+  if (!worlds_ || worlds_->writer != world.writer) {
+    worlds_.emplace();
+    worlds_->writer = world.writer;
+  } else if (world.step > worlds_->number) {
+    worlds_->lost += world.step - worlds_->number - 1;
+  }
+  worlds_->number = world.step;
+  worlds_->time_ns = world.time_ns;
+  worlds_->heard_ns = now_ns;
+  worlds_->rate.add(now_ns, static_cast<double>(world.step));
+  for (std::size_t i = 0; i < world.robots.id._length; ++i) place(world.robots, i, now_ns);
+  for (auto& [number, robot] : robots_) robot.stale = false;
+  for (const std::uint32_t number : bus::elements(world.stale)) {
+    const auto found = robots_.find(number);
+    if (found != robots_.end()) found->second.stale = true;
+  }
+}
+
+void RunModel::hear(const bus::RosterEntry& entry) {
+  if (robots_.size() >= kMostRobots && !robots_.contains(entry.robot)) return;
+  Robot& robot = robots_[entry.robot];
+  robot.name = entry.name;
+  robot.host = entry.host;
+  robot.simulated = entry.kind == rave_wire_ROBOT_SIMULATED;
+}
+
+void RunModel::lose(std::uint64_t writer) {
+  const auto found = processes_.find(writer);
+  if (found != processes_.end()) found->second.gone = true;
+}
+
+}  // namespace rave::watch

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a model says of its run.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+
+#include "moments.hpp"
+#include "rave/watch/run_model.hpp"
+
+namespace rave::watch {
+namespace {
+
+/// Processes say something each second.
+constexpr std::int64_t kPatience_ns = 2'500'000'000;
+/// Who has not been in a new step for this long is not only between two messages.
+constexpr std::int64_t kStands_ns = 2'000'000'000;
+
+}  // namespace
+
+/// Who serves a host: of those that are there the one that is heard of, else the last that was.
+const RunModel::Process* RunModel::speaker_of(std::uint32_t host) const {
+  const Process* best = nullptr;
+  for (const auto& [writer, process] : processes_) {
+    if (process.host != host) continue;
+    const auto rank = [](const Process& p) {
+      return std::tuple(!p.gone, p.heard_ns.value_or(-1), p.order);
+    };
+    if (best == nullptr || rank(process) > rank(*best)) best = &process;
+  }
+  return best;
+}
+
+bool RunModel::manager_here() const {
+  const Process* const manager = speaker_of(rave_wire_kNone);
+  return manager != nullptr && !manager->gone;
+}
+
+Standing RunModel::standing_of(const Process* process, const Sight* sight,
+                               std::int64_t now_ns) const {
+  // Who is dead cannot say who else is.
+  const bool told = sight != nullptr && manager_here();
+  if (sight != nullptr && sight->phase == rave_wire_HOST_DROPPED) return Standing::kDropped;
+  if (process == nullptr) {
+    return sight != nullptr && sight->phase != rave_wire_HOST_MISSING ? Standing::kGone
+                                                                      : Standing::kWaiting;
+  }
+  if (process->gone) return Standing::kGone;
+  const bool silent = process->heard_ns && now_ns - *process->heard_ns > kPatience_ns;
+  if (silent || (told && sight->phase == rave_wire_HOST_LATE)) return Standing::kLate;
+  // One that is there again and not yet back in the run.
+  const bool out = told && sight->phase != rave_wire_HOST_RUNS;
+  return out ? Standing::kWaiting : Standing::kHere;
+}
+
+std::optional<std::int64_t> RunModel::run_ns(std::int64_t now_ns) const {
+  if (!worlds_) return std::nullopt;
+  return worlds_->time_ns + (now_ns - worlds_->heard_ns);
+}
+
+Timing RunModel::timing() const {
+  for (const auto& [writer, process] : processes_) {
+    if (process.introduced) return process.real_time ? Timing::kRealTime : Timing::kLockStep;
+  }
+  return Timing::kUnknown;
+}
+
+std::optional<double> RunModel::asked_of(const Robot& robot) const {
+  if (robot.least_gap == 0 || !state_ || state_->step_s <= 0) return std::nullopt;
+  return 1 / (static_cast<double>(robot.least_gap) * state_->step_s);
+}
+
+void RunModel::tell_process(const Process& process, HostView& view, std::int64_t now_ns) const {
+  view.machine = process.machine;
+  view.lost = process.lost;
+  const bool here = view.standing != Standing::kGone && view.standing != Standing::kDropped;
+  if (here && process.delay_ns) view.delay_s = seconds_of(*process.delay_ns);
+  if (process.moved_ns && now_ns - *process.moved_ns > kStands_ns) {
+    view.age_s = seconds_of(now_ns - *process.moved_ns);
+  }
+  if (!process.state) return;
+  const bus::ProcessState& state = *process.state;
+  view.process = state.process;
+  view.robots = state.robots;
+  view.real_robots = state.real_robots;
+  view.step = state.step;
+  view.lost = process.lost + state.missed;
+  view.refused = state.refused;
+  if (!here) return;
+  view.cores = process.cores;
+  if (state.memory_bytes > 0) view.memory_mb = static_cast<double>(state.memory_bytes) * 1e-6;
+  if (state.round_trip_ns >= 0) view.round_trip_s = seconds_of(state.round_trip_ns);
+}
+
+/// What a host in real time says of its robots.
+void RunModel::tell_reports(std::uint32_t host, const Process& process, HostView& view,
+                            std::int64_t now_ns) const {
+  double asked_hz = 0;
+  std::size_t robots = 0;
+  std::size_t with_period = 0;
+  for (const auto& [number, robot] : robots_) {
+    if (robot.host != host || robot.reported == 0) continue;
+    ++robots;
+    if (const auto asked = asked_of(robot)) {
+      asked_hz += *asked;
+      ++with_period;
+    }
+  }
+  if (const auto rate = process.reports.at(now_ns); rate && robots > 0) {
+    view.rate_hz = *rate / static_cast<double>(robots);
+  }
+  if (with_period > 0) view.asked_rate_hz = asked_hz / static_cast<double>(with_period);
+  const auto now = run_ns(now_ns);
+  if (now && process.newest_stamp_ns) {
+    view.age_s = std::max(0.0, seconds_of(*now - *process.newest_stamp_ns));
+  } else if (process.reported_ns) {
+    view.age_s = seconds_of(now_ns - *process.reported_ns);
+  }
+}
+
+HostView RunModel::manager_view(const Process& process, std::int64_t now_ns) const {
+  HostView view;
+  view.name = "environment manager";
+  view.manager = true;
+  view.standing = standing_of(&process, nullptr, now_ns);
+  tell_process(process, view, now_ns);
+  view.robots.reset();
+  view.real_robots.reset();
+  view.age_s.reset();
+  if (process.real_time) {
+    view.step.reset();
+    if (worlds_) {
+      view.rate_hz = worlds_->rate.at(now_ns);
+      view.lost = view.lost.value_or(0) + worlds_->lost;
+      view.age_s = seconds_of(now_ns - worlds_->heard_ns);
+    }
+    return view;
+  }
+  if (state_) view.step = state_->step;
+  view.rate_hz = run_steps_.at(now_ns);
+  return view;
+}
+
+std::string RunModel::name_of(std::uint32_t host) const {
+  if (state_) {
+    const auto sight = state_->hosts.find(host);
+    if (sight != state_->hosts.end() && !sight->second.name.empty()) return sight->second.name;
+  }
+  const Process* const process = speaker_of(host);
+  return process != nullptr && !process->name.empty() ? process->name
+                                                      : fmt::format("host {}", host);
+}
+
+HostView RunModel::host_view(std::uint32_t host, std::int64_t now_ns) const {
+  HostView view;
+  view.number = host;
+  view.name = name_of(host);
+  const Sight* sight = nullptr;
+  if (state_ && state_->hosts.contains(host)) sight = &state_->hosts.at(host);
+  const Process* const process = speaker_of(host);
+  view.standing = standing_of(process, sight, now_ns);
+  if (process != nullptr) {
+    tell_process(*process, view, now_ns);
+    if (process->introduced && !view.robots) view.robots = process->robots;
+    view.rate_hz = process->steps.at(now_ns);
+    if (process->real_time) view.rate_hz.reset();
+    if (process->reported > 0) tell_reports(host, *process, view, now_ns);
+  }
+  if (sight == nullptr) return view;
+  view.robots = sight->robots;
+  view.step = std::max(view.step.value_or(0), sight->step);
+  if (sight->bound_s >= 0 && view.standing != Standing::kGone) {
+    view.offset_s = sight->offset_s;
+    view.bound_s = sight->bound_s;
+  }
+  return view;
+}
+
+RobotView RunModel::robot_view(std::uint32_t number, const Robot& robot,
+                               std::int64_t now_ns) const {
+  RobotView view;
+  view.number = number;
+  view.name = robot.name;
+  view.host = name_of(robot.host);
+  view.simulated = robot.simulated;
+  view.stale = robot.stale;
+  view.rate_hz = robot.reports.at(now_ns);
+  view.asked_rate_hz = asked_of(robot);
+  if (!robot.stamp_ns) return view;
+  const auto now = run_ns(now_ns);
+  view.age_s = seconds_of(now ? *now - *robot.stamp_ns : now_ns - *robot.heard_ns);
+  view.age_s = std::max(0.0, *view.age_s);
+  view.x_m = robot.x_m;
+  view.y_m = robot.y_m;
+  view.yaw_rad = robot.yaw_rad;
+  return view;
+}
+
+void RunModel::tell_run(RunView& view, std::int64_t now_ns) const {
+  view.run = run_;
+  view.timing = timing();
+  if (!knows_any()) {
+    view.text = "its processes are there and nothing is heard: do they have --security?";
+  }
+  if (!state_) return;
+  view.scenario = state_->scenario;
+  constexpr Phase kPhases[] = {Phase::kGathers, Phase::kGoes, Phase::kWaits, Phase::kEnded,
+                               Phase::kFailed};
+  view.phase = kPhases[static_cast<std::size_t>(state_->phase)];
+  view.text = state_->text;
+  view.step = state_->step;
+  view.steps = state_->steps;
+  view.time_s = static_cast<double>(state_->step) * state_->step_s;
+  view.duration_s = static_cast<double>(state_->steps) * state_->step_s;
+  view.speed = state_->speed;
+  if (view.timing == Timing::kRealTime && manager_here()) {
+    if (const auto now = run_ns(now_ns)) view.time_s = std::max(0.0, seconds_of(*now));
+  } else if (const auto steps = run_steps_.at(now_ns)) {
+    view.speed = *steps * state_->step_s;
+  }
+  const bool over = view.phase == Phase::kEnded || view.phase == Phase::kFailed;
+  if (!over && !manager_here() && view.timing == Timing::kLockStep) {
+    view.phase = Phase::kWaits;
+    view.text = "the environment manager is gone";
+    view.speed = 0;
+  }
+}
+
+RunView RunModel::view(std::int64_t now_ns, bool with_robots) const {
+  RunView view;
+  tell_run(view, now_ns);
+  std::set<std::uint32_t> hosts;
+  if (state_) {
+    for (const auto& [number, sight] : state_->hosts) hosts.insert(number);
+  }
+  for (const auto& [writer, process] : processes_) {
+    if (process.host != rave_wire_kNone) hosts.insert(process.host);
+  }
+  if (const Process* const manager = speaker_of(rave_wire_kNone)) {
+    view.hosts.push_back(manager_view(*manager, now_ns));
+  }
+  for (const std::uint32_t host : hosts) view.hosts.push_back(host_view(host, now_ns));
+  if (!with_robots) return view;
+  for (const auto& [number, robot] : robots_) {
+    view.robots.push_back(robot_view(number, robot, now_ns));
+  }
+  std::ranges::stable_sort(view.robots, [](const RobotView& a, const RobotView& b) {
+    return std::tuple(a.stale, a.age_s.value_or(0)) > std::tuple(b.stale, b.age_s.value_or(0));
+  });
+  return view;
+}
+
+}  // namespace rave::watch

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "short_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace rave::watch {
+namespace {
+
+struct Unit {
+  double seconds;
+  std::string_view name;
+};
+constexpr std::array<Unit, 3> kUnits = {{{1, "s"}, {1e-3, "ms"}, {1e-6, "us"}}};
+
+/// The largest in which the time is not below 1.
+Unit unit_of(double seconds) {
+  for (const Unit& unit : kUnits) {
+    if (std::fabs(seconds) >= unit.seconds) return unit;
+  }
+  return kUnits.back();
+}
+
+bool continues(char c) noexcept { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80; }
+
+}  // namespace
+
+std::string time_text(double seconds) {
+  const Unit unit = unit_of(seconds);
+  const double value = seconds / unit.seconds;
+  const bool fine = std::fabs(value) < 9.95 && unit.name != "us";
+  return fine ? fmt::format("{:.1f} {}", value, unit.name)
+              : fmt::format("{:.0f} {}", value, unit.name);
+}
+
+std::string number_text(double value) {
+  const double size = std::fabs(value);
+  if (size < 9.995) return fmt::format("{:.2f}", value);
+  return size < 99.95 ? fmt::format("{:.1f}", value) : fmt::format("{:.0f}", value);
+}
+
+std::string offset_text(double offset_s, double bound_s) {
+  const Unit unit = unit_of(std::max(std::fabs(offset_s), bound_s));
+  return fmt::format("{:+.2f}±{:.2f} {}", offset_s / unit.seconds, bound_s / unit.seconds,
+                     unit.name);
+}
+
+std::size_t columns_of(std::string_view text) noexcept {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return !continues(c); }));
+}
+
+std::string fitted(std::string_view text, std::size_t width) {
+  std::string clean;
+  for (const char c : text) {
+    if (static_cast<unsigned char>(c) >= 0x20 && c != 0x7f) clean += c;
+  }
+  if (columns_of(clean) <= width) return clean;
+  std::size_t end = 0;
+  for (std::size_t columns = 0; end < clean.size(); ++end) {
+    if (!continues(clean[end]) && ++columns > width - std::min<std::size_t>(width, 1)) break;
+  }
+  return width == 0 ? std::string() : clean.substr(0, end) + "…";
+}
+
+}  // namespace rave::watch

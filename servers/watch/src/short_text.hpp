@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+/// Numbers and names for narrow columns.
+namespace rave::watch {
+
+/// `310 us`, `4.2 ms`, `45 ms`, `1.3 s`, `215 s`.
+[[nodiscard]] std::string time_text(double seconds);
+/// Three digits that count: `0.50`, `9.90`, `49.8`, `4890`.
+[[nodiscard]] std::string number_text(double value);
+/// `+1.20±0.08 ms`: both in one unit.
+[[nodiscard]] std::string offset_text(double offset_s, double bound_s);
+
+/// Without control characters; what is wider than `width` columns ends in `…`.
+[[nodiscard]] std::string fitted(std::string_view text, std::size_t width);
+/// How many columns UTF-8 text takes, one for each character.
+[[nodiscard]] std::size_t columns_of(std::string_view text) noexcept;
+
+}  // namespace rave::watch

@@ -15,6 +15,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// For the files; gone with the process.
+struct Folder {
+  Folder() { fs::create_directories(path); }
+  ~Folder() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+  fs::path path = fs::temp_directory_path() / ("rave-fuzz-merge-" + std::to_string(::getpid()));
+};
+
 void write(const fs::path& path, const std::uint8_t* data, std::size_t size) {
   std::ofstream file(path, std::ios::binary | std::ios::trunc);
   file.write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
@@ -28,9 +38,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static_cast<void>(parse_robot_ranges(
       {reinterpret_cast<const char*>(data), std::min<std::size_t>(size, 40)}, 9));
   const std::size_t first = std::min<std::size_t>(data[0] + 256U * data[1], size - 2);
-  static const fs::path folder =
-      fs::temp_directory_path() / ("rave-fuzz-merge-" + std::to_string(::getpid()));
-  fs::create_directories(folder);
+  static const Folder kept;
+  const fs::path& folder = kept.path;
   write(folder / "a.mcap", data + 2, first);
   write(folder / "b.mcap", data + 2 + first, size - 2 - first);
   const auto notes = merge_records({folder / "a.mcap", folder / "b.mcap"}, folder / "whole.mcap");

@@ -51,6 +51,7 @@ void Encounters::look_around(const sim::Engine& engine, RobotId robot) {
     last = body;
     const bool other_robot = kinds_->is_robot(body);
     if (other_robot && body < self) continue;  // each pair once
+    if (other_robot) radius_m_[body] = engine.body_radius_m(RobotId(body - obstacles));
     const Pose2 X_WB =
         other_robot ? world.pose(RobotId(body - obstacles)) : world.obstacle_pose(BodyId(body));
     const double centres_m = std::sqrt(squared_norm(X_WB.position() - X_WR.position()));

@@ -13,7 +13,9 @@ std::string odometry_sensor(const config::ScenarioFile& scenario) {
 
 RobotFacts robot_facts(const Observers& observers, const sim::Engine& engine, RobotId robot) {
   const sim::RobotType& type = engine.spec().types[engine.spec().robots[robot.value()].type];
-  const sim::ReportedPose& reported = engine.reported(robot);
+  // By now a host may have asked hardware for the step that is not done any more.
+  const sim::ReportedPose* const told = observers.tracks.reported(robot);
+  const sim::ReportedPose& reported = told != nullptr ? *told : engine.reported(robot);
   RobotFacts facts;
   facts.robot = robot.value();
   if (type.program) facts.program = type.program->driver;

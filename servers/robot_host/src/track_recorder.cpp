@@ -33,7 +33,9 @@ TrackRecorder::TrackRecorder(const BodyKinds& kinds, const sim::EngineSpec& spec
   if (spec.local) {
     for (const RobotId robot : *spec.local) here_[robot.value()] = 1;
   }
+  reported_.resize(count);
   for (std::uint32_t r = 0; r < count; ++r) {
+    told_.push_back(here_[r] != 0 && spec.types[spec.robots[r].type].pose_from ? 1 : 0);
     const std::uint32_t body = kinds.body_of(RobotId(r));
     poses_[r].label = spec.robots[r].name;
     poses_[r].kind = kinds.kind(body);
@@ -53,6 +55,7 @@ TrackRecorder::TrackRecorder(const BodyKinds& kinds, const sim::EngineSpec& spec
 void TrackRecorder::after_step(sim::Engine& engine) {
   const bool keep = (engine.steps_done() - 1) % every_ == 0;
   for (std::uint32_t r = 0; r < poses_.size(); ++r) {
+    if (told_[r] != 0) reported_[r] = engine.reported(RobotId(r));
     if (here_[r] == 0 || !engine.snapshot().robot(RobotId(r)).present) continue;
     follow_pose(engine, r, keep);
     if (odometry_[r]) follow_odometry(engine, r, keep);

@@ -26,6 +26,12 @@ class TrackRecorder final : public Observer {
   /// Of robots that run here: one track each, then the odometry-only ones.
   [[nodiscard]] std::vector<TrackFacts> facts() const;
 
+  /// Where a robot that something tells its pose was said to be in the last step; null: it is told
+  /// the truth.
+  [[nodiscard]] const sim::ReportedPose* reported(RobotId robot) const noexcept {
+    return told_[robot.value()] != 0 ? &reported_[robot.value()] : nullptr;
+  }
+
   /// Length of the way of each robot, metres, by RobotId.
   [[nodiscard]] const std::vector<double>& way_m() const noexcept { return way_m_; }
 
@@ -42,6 +48,8 @@ class TrackRecorder final : public Observer {
   std::vector<report::PictureTrack> odometry_tracks_;
   std::vector<std::optional<Odometry>> odometry_;
   std::vector<std::uint8_t> here_;  ///< By robot: it runs here.
+  std::vector<std::uint8_t> told_;  ///< ... and something tells it where it is.
+  std::vector<sim::ReportedPose> reported_;
   std::vector<std::optional<Pose2>> last_;
   std::vector<double> way_m_;
   std::vector<std::int64_t> last_stamp_ns_;

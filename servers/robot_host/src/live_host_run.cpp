@@ -156,7 +156,8 @@ HostOutcome judge(const LiveJourney& journey, const std::string& live_reason) {
   return outcome;
 }
 
-Status write_results(const LiveJourney& journey, const HostOutcome& outcome) {
+Status write_results(const LiveJourney& journey, const RunFacts& facts,
+                     const HostOutcome& outcome) {
   const std::filesystem::path& folder = journey.options.run.output;
   nlohmann::ordered_json json;
   json["host"] = journey.options.host;
@@ -170,7 +171,10 @@ Status write_results(const LiveJourney& journey, const HostOutcome& outcome) {
   json["clock_bound_s"] = clock ? nlohmann::ordered_json(clock->bound.seconds()) : nullptr;
   json["worlds"] = journey.link.worlds();
   json["world_losses"] = journey.link.losses();
-  if (has_radio(journey.engine.spec())) json["radio"] = radio_json(journey.engine);
+  if (has_radio(journey.engine.spec())) {
+    json["radio"] = radio_json(facts.radio);
+    json["radio"]["transmitters"] = transmitters_json(journey.engine.spec(), facts.transmitters);
+  }
   json["lost_packets"] = journey.link.lost_packets();
   json["withheld_packets"] = journey.link.withheld_packets();
   json["dropped_packets"] = journey.live.dropped_packets();
@@ -252,7 +256,7 @@ Result<HostOutcome> go(const LiveHost& host, sim::Engine& engine, HostLink& link
     }
   }
   outcome.whole = outcome.whole && outcome.problems.empty();
-  RAVE_TRY(write_results(journey, outcome));
+  RAVE_TRY(write_results(journey, facts, outcome));
   RAVE_TRY(write_facts(journey, std::move(facts)));
   if (!went) return tl::unexpected(went.error());
   return outcome;

@@ -13,6 +13,22 @@ using Json = nlohmann::ordered_json;
 
 }  // namespace
 
+Json transmitters_json(const sim::EngineSpec& spec,
+                       const std::vector<InstrumentFacts>& transmitters) {
+  Json all = Json::array();
+  for (const InstrumentFacts& instrument : transmitters) {
+    // A driver's text is not ours: what is no JSON is left out.
+    const Json report = Json::parse(instrument.report, nullptr, false);
+    if (!report.is_object() || report.empty()) continue;
+    Json entry = {{"robot", spec.robots[instrument.robot].name},
+                  {"transmitter", instrument.name},
+                  {"driver", instrument.driver}};
+    for (const auto& [key, value] : report.items()) entry[key] = value;
+    all.push_back(std::move(entry));
+  }
+  return all;
+}
+
 bool has_radio(const sim::EngineSpec& spec) {
   return std::any_of(spec.robots.begin(), spec.robots.end(), [&](const sim::RobotSpec& robot) {
     return !spec.types[robot.type].communicators.empty();

@@ -3,7 +3,9 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
+#include "facts.hpp"
 #include "rave/sim/engine.hpp"
 
 namespace rave::record {
@@ -17,6 +19,10 @@ namespace rave::robot_host {
 
 /// `radio` of result.json: what became of all messages.
 [[nodiscard]] nlohmann::ordered_json radio_json(const sim::RadioCounts& counts);
+
+/// Its `transmitters`: what the drivers say of themselves.
+[[nodiscard]] nlohmann::ordered_json transmitters_json(
+    const sim::EngineSpec& spec, const std::vector<InstrumentFacts>& transmitters);
 
 /// One line for the summary.
 [[nodiscard]] std::string radio_line(const sim::RadioCounts& counts);

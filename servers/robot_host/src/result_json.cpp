@@ -81,20 +81,6 @@ Json instruments_json(const Findings& findings, const std::vector<InstrumentFact
 }
 
 /// A driver's text is not ours: of a transmitter, what is no JSON is left out.
-Json transmitters_json(const Findings& findings) {
-  Json all = Json::array();
-  for (const InstrumentFacts& instrument : findings.facts.transmitters) {
-    const Json report = Json::parse(instrument.report, nullptr, false);
-    if (!report.is_object() || report.empty()) continue;
-    Json entry = {{"robot", findings.spec.robots[instrument.robot].name},
-                  {"transmitter", instrument.name},
-                  {"driver", instrument.driver}};
-    for (const auto& [key, value] : report.items()) entry[key] = value;
-    all.push_back(std::move(entry));
-  }
-  return all;
-}
-
 Json robot_json(const Findings& findings, const RobotFacts& robot) {
   const sim::RobotSpec& spec = findings.spec.robots[robot.robot];
   const bool simulated = findings.spec.types[spec.type].simulated;
@@ -253,7 +239,7 @@ std::string result_json(const Findings& findings, const RunOutcome& outcome) {
   json["events"] = events_json(findings);
   if (has_radio(findings.spec)) {
     json["radio"] = radio_json(findings.facts.radio);
-    json["radio"]["transmitters"] = transmitters_json(findings);
+    json["radio"]["transmitters"] = transmitters_json(findings.spec, findings.facts.transmitters);
   }
   json["guard"] = guard_counts(findings);
   json["changes"] = changes_json(findings);

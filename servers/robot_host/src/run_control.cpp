@@ -127,11 +127,6 @@ std::stop_token RunControl::asked() const {
   return wake_.get_token();
 }
 
-void RunControl::refresh(const std::function<void(RunStatus&)>& refresh) {
-  const std::lock_guard lock(mutex_);
-  refresh(status_);
-}
-
 bool RunControl::may_step() {
   const std::lock_guard lock(mutex_);
   if (!paused_) return true;

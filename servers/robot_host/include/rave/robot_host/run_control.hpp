@@ -148,8 +148,6 @@ class RunControl {
   [[nodiscard]] std::vector<Asked> take();
   /// Wakes who waits for something else, with the next request since take().
   [[nodiscard]] std::stop_token asked() const;
-  /// Brings the status up to date.
-  void refresh(const std::function<void(RunStatus&)>& refresh);
   /// Whether a step may be done now; counts the single steps of a run that is held.
   [[nodiscard]] bool may_step();
   using Serve = std::function<Result<std::string>(const RunRequest&)>;

@@ -98,7 +98,16 @@ Status LiveEdits::take_over(SimTime now) {
   }
   revision_ = std::max(revision_, board_.shown_revision());
   const std::vector<sim::ObstacleChange> changes = changes_of(obstacles_);
-  RAVE_TRY(authority_->put_obstacles(changes, now));
+  if (auto put = authority_->put_obstacles(changes, now); !put) {
+    // The run goes on: hosts have their obstacles, and this manager those of the start.
+    obstacles_.clear();
+    takes_over_ = false;
+    if (options_.log != nullptr) {
+      options_.log->error(kSource, "what hosts handed over of obstacles cannot be: {}",
+                          put.error().message);
+    }
+    return {};
+  }
   for (const sim::ObstacleChange& change : changes) limits_.made(change);
   for (const auto& [id, sight] : obstacles_) {
     next_scheduled_ = std::max<std::size_t>(next_scheduled_, sight.scheduled);

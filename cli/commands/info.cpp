@@ -31,6 +31,9 @@ std::string run_text(const record::RecordSummary& summary) {
   std::string text =
       fmt::format("{}, seed {}, begun {}\n{} robots: {} real, {} simulated\n", run.scenario,
                   run.seed, run.started, run.robots.size(), real, run.robots.size() - real);
+  if (!summary.end && !summary.missing.empty()) {
+    return text + "its end is not known, because a part of its record is missing\n";
+  }
   if (!summary.end) return text + "the run did not come to its end\n";
   text += fmt::format("{} steps of {} s", summary.end->steps, run.step_s);
   return text + (summary.end->hash ? fmt::format(", run hash {:016x}\n", *summary.end->hash)

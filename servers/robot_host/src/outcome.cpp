@@ -109,7 +109,7 @@ RunOutcome judge(const Findings& findings) {
                     static_cast<double>(event.step) * spec.step.seconds(), event.text));
   }
   for (const RobotFacts& robot : facts.robots) {
-    if (robot.known) continue;
+    if (robot.known || facts.steps == 0) continue;
     outcome.problems.push_back(
         fmt::format("robot `{}` never said where it is", spec.robots[robot.robot].name));
   }

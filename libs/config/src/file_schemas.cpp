@@ -90,11 +90,11 @@ std::string world_schema() {
 
 std::string scenario_schema() {
   RawNode schema = Codec<ScenarioFile>::schema({});
-  RawNode* place = &schema;
-  for (const char* key : {"properties", "robots", "items", "properties", "robot"}) {
-    place = child_of(*place, key);
+  RawNode* entry = &schema;
+  for (const char* key : {"properties", "robots", "items", "properties"}) {
+    entry = child_of(*entry, key);
   }
-  allow_variables(*place);
+  for (const char* key : {"robot", "twin_robot"}) allow_variables(*child_of(*entry, key));
   return finish(schema, "RAVE scenario file", "scenario.schema.json");
 }
 

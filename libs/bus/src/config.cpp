@@ -97,9 +97,13 @@ std::string discovery(const BusConfig& config) {
 }
 
 /// A world of 10 000 robots is half a megabyte: the usual limits would stop a writer after one, and
-/// a sample of many megabytes is no message of ours.
+/// a sample of many megabytes is no message of ours. Where many processes join at once, each is
+/// asked by all others again and again what it has got; ten times a second is more than fifty of
+/// them can answer before they are taken for dead. Longer breaks would delay two that just miss
+/// each other.
 std::string internals() {
   return "<Internal><SocketReceiveBufferSize max=\"8MiB\"/>"
+         "<HeartbeatInterval>200ms</HeartbeatInterval>"
          "<Watermarks><WhcHigh>16MB</WhcHigh><WhcHighInit>16MB</WhcHighInit></Watermarks>"
          "<MaxSampleSize>16MiB</MaxSampleSize></Internal>"
          "<SharedMemory><Enable>false</Enable></SharedMemory>"

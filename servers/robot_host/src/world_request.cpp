@@ -89,6 +89,10 @@ Result<sim::WorldInput> input_of(const sim::EngineSpec& spec, const RunRequest& 
       RAVE_TRY_ASSIGN(input.obstacle, obstacle_change(request));
       return input;
     }
+    case RunRequest::Kind::kHandOver:
+    case RunRequest::Kind::kResetShadow:
+      return fail(ErrorCode::kInvalidArgument,
+                  "a robot of several hosts has no twin and no shadow; run it in one process");
     case RunRequest::Kind::kList:
       break;
   }

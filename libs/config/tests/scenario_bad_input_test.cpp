@@ -197,6 +197,7 @@ const FileCase kScenarios[] = {
     {"GeoOriginKey",
      "name: a\ngeo_origin: {lattitude_deg: 47, longitude_deg: 8}\nrobots: [{name: r, file: "
      "r.yaml}]\n",
+     "s.yaml:2:13: missing key `latitude_deg`: expected a number (from -90 to 90, in degrees)\n"
      "s.yaml:2:14: unknown key `lattitude_deg`; did you mean `latitude_deg`?"},
     {"Ros2Nodes", "name: a\nros2: {nodes: humbel}\nrobots: [{name: r, file: r.yaml}]\n",
      "s.yaml:2:15: `nodes`: found the text \"humbel\", expected one of none, humble and iron; did "

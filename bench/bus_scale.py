@@ -152,6 +152,8 @@ def main():
     unknown = [part for part in options.parts if part not in PARTS]
     if unknown:
         parser.error(f"there is no part `{unknown[0]}`; there are {', '.join(PARTS)}")
+    # Whoever ends this ends what it has started.
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
     for part in options.parts or PARTS:
         before = os.getloadavg()[0]
         result = PARTS[part](options)

@@ -65,7 +65,8 @@ TEST_F(LiveObstacles, OneComesMovesAndGoes) {
   ASSERT_EQ(step().size(), 1U);
   EXPECT_EQ(world_.obstacles[0].id, BodyId(3));
   EXPECT_EQ(live_->shown_revision(), 1U);
-  ASSERT_EQ(live_->events().size(), 1U);
+  EXPECT_TRUE(step().empty());
+  ASSERT_EQ(live_->events().size(), 1U) << "of the step that is done";
   EXPECT_EQ(live_->events()[0].kind, EventKind::kObstacleAdded);
   EXPECT_FALSE(live_->events()[0].robot.valid());
   EXPECT_NE(live_->events()[0].text.find("(by hand)"), std::string::npos);
@@ -163,6 +164,8 @@ TEST_F(LiveObstacles, WithoutAManagerThoseOfTheScenarioAreMadeHere) {
   EXPECT_TRUE(step().empty());
   EXPECT_TRUE(step().empty());
   ASSERT_EQ(step().size(), 1U);
+  EXPECT_TRUE(step().empty());
+  ASSERT_EQ(live_->events().size(), 1U);
   EXPECT_EQ(live_->events()[0].text.find("by hand"), std::string::npos);
   number_ = 0;
   make(spec, false);

@@ -77,8 +77,12 @@ TEST_F(EditsOverHosts, AScenarioThatChangesObstaclesHasTheHashOfOneProcess) {
   const std::string alone = hash_alone("edited.yaml", {});
   ASSERT_EQ(alone.size(), 16U);
   start("run", "run", "edited.yaml");
-  EXPECT_EQ(end_of("run"), 0) << console("run");
+  // As in one process: a change that cannot be made makes the run one that is not whole.
+  EXPECT_EQ(end_of("run"), 1) << console("run");
   EXPECT_EQ(result("run")["hash"], alone);
+  ASSERT_EQ(result("run")["problems"].size(), 1U);
+  EXPECT_NE(result("run")["problems"][0].get<std::string>().find("obstacle `lid` would overlap"),
+            std::string::npos);
   std::mt19937 chance(static_cast<unsigned>(::getpid()));
   for (const int processes : {2, 3}) {
     Words order = {"env"};
@@ -92,7 +96,9 @@ TEST_F(EditsOverHosts, AScenarioThatChangesObstaclesHasTheHashOfOneProcess) {
         start_host(who, "edited.yaml", split);
       }
     }
-    for (const std::string& who : order) EXPECT_EQ(end_of(who), 0) << who << console(who);
+    for (const std::string& who : order) {
+      EXPECT_EQ(end_of(who), who == "env" ? 1 : 0) << who << console(who);
+    }
     EXPECT_EQ(result("env")["hash"], alone) << processes;
   }
 }
@@ -180,7 +186,7 @@ TEST_F(EditsOverHosts, AManagerThatIsKilledIsReplacedByOneThatKnowsTheObstacles)
   EXPECT_EQ(end_of("env"), -1);
   wait_for_line("one", "the environment manager is gone");
   start("second", "env", "edited.yaml", span);
-  EXPECT_EQ(end_of("second"), 0) << console("second");
+  EXPECT_EQ(end_of("second"), 1) << "of the change that is refused";
   EXPECT_EQ(result("second")["hash"], alone);
   EXPECT_EQ(end_of("one"), 0) << console("one");
   EXPECT_EQ(end_of("two"), 0) << console("two");

@@ -399,7 +399,7 @@ TEST(RunRecordDecode, RowsWithoutEqualPartsAndOtherLayoutsAreErrors) {
       "of another version of RAVE");
 }
 
-TEST(RunRecord, ShadowsHaveAChannelOfTheirOwn) {
+TEST(RunRecordShadows, HaveAChannelOfTheirOwn) {
   const TemporaryFile file;
   auto recorder = RunRecorder::open(file.path(), sample_info());
   ASSERT_TRUE(recorder);

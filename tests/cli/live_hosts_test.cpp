@@ -61,7 +61,8 @@ class LiveHosts : public SharedWorld {
   /// What a robot's laser read straight ahead, as its host recorded it.
   [[nodiscard]] std::vector<float> ahead(const std::string& host, const std::string& robot) {
     std::vector<float> all;
-    for (const Reading& reading : readings_of(folder(host) + "/run.mcap")[robot + "/laser"]) {
+    auto readings = readings_of(folder(host) + "/run.mcap");
+    for (const Reading& reading : readings[robot + "/laser"]) {
       const std::string& bytes = std::get<3>(reading);
       std::vector<float> ranges(bytes.size() / sizeof(float));
       std::memcpy(ranges.data(), bytes.data(), ranges.size() * sizeof(float));

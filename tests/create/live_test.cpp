@@ -38,7 +38,8 @@ constexpr const char* kHosts =
 /// The shortest range of each reading of the ghost.
 std::vector<float> nearest(const std::string& record) {
   std::vector<float> all;
-  for (const cli_test::Reading& reading : cli_test::readings_of(record)["ghost/laser"]) {
+  auto readings = cli_test::readings_of(record);
+  for (const cli_test::Reading& reading : readings["ghost/laser"]) {
     const std::string& bytes = std::get<3>(reading);
     std::vector<float> ranges(bytes.size() / sizeof(float));
     std::memcpy(ranges.data(), bytes.data(), ranges.size() * sizeof(float));

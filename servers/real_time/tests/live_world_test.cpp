@@ -237,7 +237,8 @@ TEST_F(LiveWorlds, WhoFloodsIsNamedAndTakesNothingFromTheOthers) {
     for (std::uint32_t i = 0; i < LiveWorld::kMostPackets; ++i) say(kSimulated, ++number, 4);
     EXPECT_TRUE(say(kReal, static_cast<std::uint32_t>(now) + 1, 60'000));
     if (now == 0) step(0);
-    const std::uint32_t most = now == 0 ? TalkLimit::kMessagesAtOnce : TalkLimit::kMessagesPerStep;
+    const std::uint32_t most = TalkLimit::kOnReception * (now == 0 ? TalkLimit::kMessagesAtOnce
+                                                                   : TalkLimit::kMessagesPerStep);
     EXPECT_EQ(step(now + 1).sent.packets.size(), most + 1);
     dropped += LiveWorld::kMostPackets - most;
     EXPECT_EQ(world_.sent.packets.back().robot, kReal);
@@ -246,8 +247,8 @@ TEST_F(LiveWorlds, WhoFloodsIsNamedAndTakesNothingFromTheOthers) {
   EXPECT_EQ(live_->take_flooders(), (std::vector<RobotId>{kSimulated}));
   EXPECT_TRUE(live_->take_flooders().empty());
   // Long messages count by their bytes.
-  for (std::uint32_t i = 0; i < 5; ++i) say(kReal, 10 + i, 60'000);
-  EXPECT_EQ(step(4).sent.packets.size(), 2U);
+  for (std::uint32_t i = 0; i < 8; ++i) say(kReal, 10 + i, 60'000);
+  EXPECT_EQ(step(4).sent.packets.size(), 7U);
   EXPECT_EQ(live_->take_flooders(), (std::vector<RobotId>{kReal}));
 }
 

@@ -96,7 +96,7 @@ class LiveWorld {
     bool stale = false;
     bool any_stamp = true;       ///< The next sight counts whatever its stamp.
     std::int64_t sample_ns = 0;  ///< Of the last sample that was handed on.
-    TalkLimit talk;
+    TalkLimit talk{TalkLimit::kOnReception};
   };
   struct Counted {
     std::uint64_t writer = 0;

@@ -93,7 +93,13 @@ Result<std::vector<std::uint64_t>> Switchboard::look_at_processes(bool begun) {
     }
     const bool worth = event.kind == kRefused || event.kind == kIncompatible ||
                        event.kind == kForeignRun || event.kind == kNotice;
-    if (worth && log_ != nullptr) log_->warn("bus", "{}", event.line());
+    if (!worth || log_ == nullptr) continue;
+    // Whoever says the same wrong thing again and again does not fill the log.
+    std::string line = event.line();
+    std::string& told = told_[event.writer];
+    if (line == told) continue;
+    log_->warn("bus", "{}", line);
+    told = std::move(line);
   }
   return gone;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <set>
 #include <span>
@@ -80,6 +81,7 @@ class Switchboard {
   lock_step::Pulse pulse_;
   std::uint64_t step_ = 0;  ///< That was sent last.
   std::set<std::uint64_t> fitting_;
+  std::map<std::uint64_t, std::string> told_;  ///< By writer: what the log had of it last.
   bool second_ = false;
 };
 

@@ -18,6 +18,8 @@ namespace {
   ::sigemptyset(&set);
   ::sigaddset(&set, SIGINT);
   ::sigaddset(&set, SIGTERM);
+  ::sigaddset(&set, SIGQUIT);
+  ::sigaddset(&set, SIGHUP);
   return set;
 }
 
@@ -31,6 +33,8 @@ KeyWatch::KeyWatch(bool keys) : keys_(keys && ::tcgetattr(STDIN_FILENO, &before_
   if (keys_) {
     ::termios single = before_;
     single.c_lflag &= ~static_cast<::tcflag_t>(ICANON | ECHO);
+    // Who stops the process would find the terminal as it is now.
+    single.c_cc[VSUSP] = _POSIX_VDISABLE;
     ::tcsetattr(STDIN_FILENO, TCSANOW, &single);
   }
   thread_ = std::thread([this] { watch(); });
@@ -52,6 +56,11 @@ std::stop_token KeyWatch::next() {
   return happened_.get_token();
 }
 
+void KeyWatch::end_it() {
+  ended_ = true;
+  over_.request_stop();
+}
+
 void KeyWatch::wake() {
   const std::lock_guard lock(mutex_);
   happened_.request_stop();
@@ -61,7 +70,7 @@ void KeyWatch::take_key() {
   char key = 0;
   const ::ssize_t size = ::read(STDIN_FILENO, &key, 1);
   constexpr char kEndOfText = 4;
-  if (size <= 0 || key == 'q' || key == 'Q' || key == kEndOfText) ended_ = true;
+  if (size <= 0 || key == 'q' || key == 'Q' || key == kEndOfText) end_it();
   if (size > 0 && (key == 'r' || key == 'R')) toggled_ = true;
   wake();
 }
@@ -76,7 +85,7 @@ void KeyWatch::watch() {
       // Taken, or it would end the process as soon as it is let in again.
       ::signalfd_siginfo signal{};
       static_cast<void>(::read(signals_, &signal, sizeof signal) > 0);
-      ended_ = true;
+      end_it();
       wake();
     }
     if (sources[2].revents != 0) take_key();

@@ -11,8 +11,8 @@
 namespace rave::cli {
 
 /// Waits for the end of a command that shows something until somebody has seen enough: SIGINT,
-/// SIGTERM, or the key q; and for the key r. To be made before any other thread of the process,
-/// which then all leave the signals to it. One in a process.
+/// SIGTERM, SIGQUIT, SIGHUP, or the key q; and for the key r. To be made before any other thread of
+/// the process, which then all leave the signals to it. One in a process.
 class KeyWatch {
  public:
   /// `keys`: the terminal behind the standard input gives each key at once, and shows none.
@@ -27,10 +27,13 @@ class KeyWatch {
   [[nodiscard]] bool take_toggle() noexcept { return toggled_.exchange(false); }
   /// Stops when something happens from now on, or has ended already.
   [[nodiscard]] std::stop_token next();
+  /// Stops when somebody has seen enough.
+  [[nodiscard]] std::stop_token end() const { return over_.get_token(); }
 
  private:
   void watch();
   void take_key();
+  void end_it();
   void wake();
 
   ::termios before_{};  ///< Read before it is known that there are keys.
@@ -41,6 +44,7 @@ class KeyWatch {
   std::atomic<bool> toggled_{false};
   std::mutex mutex_;  // over `happened_`
   std::stop_source happened_;
+  std::stop_source over_;
   std::thread thread_;
 };
 

@@ -169,6 +169,7 @@ Result<ManagedEnd> manage_time(const ManagedRun& run, robot_host::BuiltScenario 
                       waiting.empty() ? std::string() : "without " + waiting});
   };
   RAVE_TRY_ASSIGN(auto end, begin_live(run, built));
+  how.on_end = [&end](const world::WorldModel& world) { end.results->learn(world); };
   RAVE_TRY_ASSIGN(auto outcome, environment_manager::manage_live(std::move(built.spec), how));
   note_outcome(std::move(outcome), end);
   return end;

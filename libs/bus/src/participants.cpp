@@ -37,6 +37,10 @@ Identity read_identity(const dds_qos_t* qos) {
   if (dds_qget_entity_name(qos, &name) && name != nullptr) {
     const std::unique_ptr<char, DdsFree> owner(name);
     identity.name = std::string_view(name).substr(0, 256);
+    // It is shown to people, and comes from anybody.
+    for (char& c : identity.name) {
+      if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+    }
   }
   void* data = nullptr;
   std::size_t size = 0;

@@ -142,8 +142,9 @@ Engine::Impl::Impl(EngineSpec s)
 Engine::Impl::~Impl() {
   tell_complaints();
   halt();
-  close_twins();
+  // What serves first: an opening that is under way may take its time.
   for (RobotGroup& group : groups) close_group(group);
+  close_twins();
   if (radio) radio->close();
 }
 

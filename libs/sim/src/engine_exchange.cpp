@@ -36,7 +36,11 @@ Status check_readings(const RobotGroup& group, const RobotGroup& other) {
                   "sensor `{}` gives {} ranges, but the program was told of {}", told.name,
                   info.capacity, told.capacity);
     }
-    if (told.bearings_rad == nullptr || info.bearings_rad == nullptr) continue;
+    if (told.bearings_rad == nullptr && info.bearings_rad == nullptr) continue;
+    if (told.bearings_rad == nullptr || info.bearings_rad == nullptr) {
+      return fail(ErrorCode::kInvalidArgument,
+                  "sensor `{}`: only one set of drivers says where its ranges point", told.name);
+    }
     for (std::uint32_t i = 0; i < info.capacity; ++i) {
       const double apart_rad = std::abs(wrap_angle(told.bearings_rad[i] - info.bearings_rad[i]));
       if (apart_rad <= kSameBearing_rad) continue;

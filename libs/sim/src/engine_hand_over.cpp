@@ -106,6 +106,8 @@ void Engine::Impl::advance(Twin& twin) {
     return refuse(twin,
                   fmt::format("it was not seen to stand within {} s", kComeToStand.seconds()));
   }
+  // Where it was long ago is not where it is; silence is listen()'s to judge.
+  if (twin.heard && now - twin.heard_at > twin.other.type->staleness) return;
   const Status near = check_near(twin);
   if (!near) return refuse(twin, near.error().text());
   change_drivers(twin);
@@ -126,7 +128,10 @@ Status Engine::Impl::listen(Twin& twin) {
     SampleHeader sample;
     while (slots.queues[0]->next(now, &sample, slots.scratch.data())) {
       if (twin.other.type->pose_from != s || sample.count == 0) continue;
-      twin.heard = pose_reading(slots.spec->kind, slots.scratch.data());
+      const PoseReading said = pose_reading(slots.spec->kind, slots.scratch.data());
+      if (!std::isfinite(said.x_m) || !std::isfinite(said.y_m) || !std::isfinite(said.yaw_rad))
+        continue;
+      twin.heard = said;
       twin.heard_at = {sample.stamp_ns};
     }
     const std::string failure = slots.queues[0]->failure();
@@ -166,7 +171,8 @@ bool Engine::Impl::moves_seen(const RobotGroup& group, std::uint32_t robot) cons
     if (slots.failed[0] != 0) return true;
   }
   for (const SensorSlots& slots : group.sensors) {
-    if (slots.spec->kind != ReadingKind::kOdometry || slots.headers[0].count == 0) continue;
+    if (slots.spec->kind != ReadingKind::kOdometry) continue;
+    if (slots.headers[0].count == 0) return true;
     if (now.ns - slots.headers[0].stamp_ns > kFresh.ns) return true;
     OdometryReading wheels;
     std::memcpy(&wheels, slots.records.data(), sizeof wheels);

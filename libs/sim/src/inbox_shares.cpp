@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
 
 namespace rave::sim {
 namespace {
@@ -42,19 +43,27 @@ void InboxShares::add(std::uint32_t from) {
 }
 
 std::uint32_t InboxShares::make_room(Mailbox& box, std::uint32_t from, std::size_t bytes) {
-  std::uint32_t taken = 0;
-  if (bytes > box.max_bytes) return taken;
-  while (!fits(box, bytes) && !shares_.empty()) {
-    Share& most = *std::ranges::max_element(shares_, {}, &Share::count);
-    if (most.count < count_of(from) + 2) break;
-    std::uint32_t newest = box.count;
-    while (box.heads[--newest].from != most.from) {
-    }
-    take_out(box, newest);
-    --most.count;
-    ++taken;
+  if (bytes > box.max_bytes || fits(box, bytes)) return 0;
+  // Nobody goes for one that would not fit even then.
+  const std::uint32_t mine = count_of(from);
+  std::vector<Share> left = shares_;
+  std::vector<std::uint32_t> going;  // newest first
+  std::vector<bool> goes(box.count);
+  std::size_t used = box.bytes;
+  while (box.count - going.size() >= box.max_messages || bytes > box.max_bytes - used) {
+    const auto most = std::ranges::max_element(left, {}, &Share::count);
+    if (most == left.end() || most->count < mine + 2) return 0;
+    std::uint32_t newest = box.count - 1;
+    while (goes[newest] || box.heads[newest].from != most->from) --newest;
+    goes[newest] = true;
+    going.push_back(newest);
+    used -= box.heads[newest].size;
+    --most->count;
   }
-  return taken;
+  std::ranges::sort(going, std::greater());
+  for (const std::uint32_t message : going) take_out(box, message);
+  shares_ = std::move(left);
+  return static_cast<std::uint32_t>(going.size());
 }
 
 }  // namespace rave::sim

@@ -31,7 +31,8 @@ Start next_start(const RadioLine& line, const std::vector<Endpoint>& endpoints,
 
 std::int64_t sending_ns(std::uint32_t bytes, double byte_rate) noexcept {
   if (!(byte_rate > 0)) return 0;
-  return static_cast<std::int64_t>(std::ceil(bytes * 1e9 / byte_rate));
+  constexpr double kNever_ns = 1e18;
+  return static_cast<std::int64_t>(std::min(std::ceil(bytes * 1e9 / byte_rate), kNever_ns));
 }
 
 void send_waiting(RadioLine& line, std::vector<Endpoint>& endpoints,

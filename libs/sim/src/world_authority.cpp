@@ -365,6 +365,11 @@ AuthorityState WorldAuthority::state(bool with_obstacles) const {
   return state;
 }
 
+void WorldAuthority::repeat_schedule() noexcept {
+  impl_->next_change = 0;
+  impl_->next_obstacle = 0;
+}
+
 Status WorldAuthority::resume(const WorldStep& world, const AuthorityState& state) {
   Impl& authority = *impl_;
   RAVE_TRY(check_taken_over(authority.spec, world, state, true));

@@ -230,6 +230,7 @@ void Snapshot::body_changed(RobotId robot) {
     const std::size_t index = first + i;
     const CoverDisc whole = cover(body.shapes[i], std::numeric_limits<double>::infinity()).front();
     shapes_[index].radius_m = whole.radius_m;
+    shapes_[index].layer = body.layer;
     whole_[index] = whole.centre_B;
     const std::vector<CoverDisc> discs = cover(body.shapes[i], kLargestPiece_m);
     const auto at = cover_.begin() + first_disc_[index];

@@ -31,15 +31,21 @@ Status EditLimits::take(const sim::ObstacleChange& change, Clock::time_point now
         "of: {} of at most {}, {} of at most {} bytes",
         entries_, kMostEntries, all_bytes_, lock_step::kMostObstacleBytes);
   }
+  if (open_ >= kMostOpen) {
+    return fail(ErrorCode::kState,
+                "{} edits wait for the next step, which is as many as it takes; ask again later",
+                open_);
+  }
+  ++open_;
   edits_ -= 1;
   bytes_ -= bytes;
   return {};
 }
 
 void EditLimits::made(const sim::ObstacleChange& change) {
-  const bool first = changed_.insert(change.id.value()).second;
-  if (!first && change.kind == sim::ObstacleChange::Kind::kMove) return;
-  ++entries_;
+  // The removal of one that came was counted with it.
+  if (!changed_.insert(change.id.value()).second) return;
+  entries_ += change.kind == sim::ObstacleChange::Kind::kAdd ? 2 : 1;
   all_bytes_ += lock_step::wire_bytes(change) - change.asked.size();
 }
 

@@ -110,7 +110,9 @@ Status LiveEdits::take_over(SimTime now) {
   }
   for (const sim::ObstacleChange& change : changes) limits_.made(change);
   for (const auto& [id, sight] : obstacles_) {
-    next_scheduled_ = std::max<std::size_t>(next_scheduled_, sight.scheduled);
+    next_scheduled_ = std::max(
+        next_scheduled_,
+        std::min<std::size_t>(sight.scheduled, authority_->spec().obstacle_changes.size()));
     RAVE_TRY(board_.publish(sight));
   }
   takes_over_ = false;
@@ -160,6 +162,7 @@ Result<std::string> LiveEdits::make(const sim::ObstacleChange& change, SimTime n
   place_robots(now);
   std::string remark;
   RAVE_TRY_ASSIGN(const sim::ObstacleChange made, authority_->decide(change, now, remark));
+  limits_.step_done();
   limits_.made(made);
   note(made);
   const sim::Event event = sim::obstacle_event(0, made, remark, !made.asked.empty());

@@ -34,6 +34,8 @@ class LiveEdits {
   /// Does what is due, and answers what is done.
   Status look(SimTime now);
   void end();
+  /// With the obstacles that came.
+  [[nodiscard]] const world::WorldModel& world() const { return authority_->world(); }
 
   /// The last change that hosts are told of.
   [[nodiscard]] std::uint64_t revision() const noexcept {

@@ -241,6 +241,7 @@ Result<LiveManagerOutcome> LiveRun::go() {
 LiveManagerOutcome LiveRun::outcome() {
   ended_ = true;
   edits_->end();
+  if (options_.on_end) options_.on_end(edits_->world());
   LiveManagerOutcome outcome;
   outcome.edits = edits_->edits();
   if (begun_) outcome.end = now();

@@ -80,6 +80,7 @@ class Run {
   std::unique_ptr<sim::WorldAuthority> authority_;
   std::unique_ptr<Switchboard> board_;
   std::vector<Seat> seats_;
+  sim::HostReport heard_;  ///< Before it is known whether it can be used.
   Wishes wishes_;
   bus::HostClaims claims_;
   std::uint64_t step_ = 0;  ///< For which reports are gathered.
@@ -222,7 +223,10 @@ Status Run::hear(const bus::HostReport& message) {
     return {};
   }
   if (message.step < step_) {
-    if (begun_ && !seat.reported) asked_again_ = true;  // it has not got the step that it needs
+    if (begun_ && !seat.reported) {
+      asked_again_ = true;  // it has not got the step that it needs
+      newcomer_ = newcomer_ || message.step + 1 < step_;
+    }
     return {};
   }
   if (message.step > step_ && begun_) {
@@ -231,14 +235,15 @@ Status Run::hear(const bus::HostReport& message) {
     return {};
   }
   if (seat.reported && begun_) return {};  // it was sent twice
-  lock_step::read(message, seat.report);
+  lock_step::read(message, heard_);
   // What the authority cannot use is no reason to end the run of the others. Before the run begins
   // it does not know yet which step comes next.
-  if (const Status usable = begun_ || message.step == 0 ? authority_->check(seat.report) : Status{};
+  if (const Status usable = begun_ || message.step == 0 ? authority_->check(heard_) : Status{};
       !usable) {
     board_->refuse(message, usable.error().text());
     return {};
   }
+  std::swap(seat.report, heard_);
   seat.hash = message.hash;
   seat.reported = true;
   return {};
@@ -265,7 +270,11 @@ void Run::miss(std::uint64_t writer) {
     seat.writer = 0;
     seat.state = SeatState::kMissing;
     seat.reported = false;
+    seat.last_step = 0;
   }
+  if (begun_) return;
+  newest_report_ = 0;
+  for (const Seat& seat : seats_) newest_report_ = std::max(newest_report_, seat.last_step);
 }
 
 /// What can wait until nothing else is to be done.
@@ -357,7 +366,11 @@ Status Run::take_over() {
   step_ = world_.step + 1;
   RAVE_TRY(authority_->resume(world_, state_));
   log(LogLevel::kWarning, "takes over from a manager that is gone, at step {}", step_);
-  for (Seat& seat : seats_) seat.reported = seat.reported && authority_->check(seat.report);
+  for (Seat& seat : seats_) {
+    if (!seat.reported || authority_->check(seat.report)) continue;
+    seat.reported = false;
+    seat.report = {};
+  }
   return board_->send(world_, state_, seats_);
 }
 

@@ -67,6 +67,8 @@ Result<std::uint64_t> Wishes::pass_on(const RunRequest& request, sim::WorldAutho
   RAVE_TRY_ASSIGN(sim::WorldInput input, robot_host::input_of(authority.spec(), request));
   if (input.obstacle) {
     RAVE_TRY(limits_.take(*input.obstacle, EditLimits::Clock::now()));
+  } else if (wishes_.size() >= EditLimits::kMostOpen) {
+    return fail(ErrorCode::kState, "too much waits for the next step; ask again later");
   } else {
     RAVE_TRY(lock_step::check_fits(input));
   }
@@ -125,6 +127,7 @@ void Wishes::note_inputs(const sim::WorldStep& world) {
 }
 
 void Wishes::after_step(const sim::WorldAuthority& authority, const sim::WorldStep& world) {
+  limits_.step_done();
   for (const sim::ObstacleChange& change : world.obstacles) limits_.made(change);
   next_step_ = world.step + 1;
   if (!begun_) return;

@@ -48,6 +48,7 @@ struct HostPort::Impl {
   ReportMessage message{};
   WorldMessage last_message{};
   /// Of the last world; with obstacles only if it brought them.
+  sim::WorldStep coming{};  ///< Before it is known whether it can be used; keeps its memory.
   sim::AuthorityState authority{};
   sim::ObstacleHistory obstacles{};                   ///< Before the last world.
   std::vector<sim::ObstacleChange> last_obstacles{};  ///< Of that world.
@@ -184,13 +185,14 @@ bool HostPort::Impl::take_world(const sim::HostReport& report, sim::WorldStep& w
     const auto hosts = bus::elements(sample.hosts);
     if (self.host >= hosts.size() || hosts[self.host] != bus->writer()) return;  // not for us
     sim::AuthorityState state;
-    auto status = read(sample, world, state);
-    if (status) status = follow_obstacles(world, state);
-    has_world = status.has_value();
+    auto status = read(sample, coming, state);
+    if (status) status = follow_obstacles(coming, state);
     if (!status) {
       worlds.refuse(sample, status.error().message);
       return;
     }
+    std::swap(world, coming);
+    has_world = true;
     authority = std::move(state);
     epoch = sample.epoch;
     manager = sample.writer;

@@ -228,6 +228,7 @@ Status LiveWorld::begin_at(std::uint64_t step, std::span<const RobotSight> start
     if (r < local_.size() && local_[r] != 0 && finite(start)) put(r, start.X_WR);
   }
   RAVE_TRY(authority_->resume(before, {}));
+  authority_->repeat_schedule();
   own.step = step;
   own.proposals.clear();
   for (const RobotId robot : simulated_) own.proposals.robots.push_back(robot.value());

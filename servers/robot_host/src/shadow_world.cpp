@@ -201,6 +201,7 @@ void ShadowWorld::mirror_obstacles(const sim::Engine& engine) {
     sim::ObstacleChange& change = input.obstacle.emplace();
     change.kind = added ? Kind::kAdd : removed ? Kind::kRemove : Kind::kMove;
     change.name = obstacle->body.name;
+    if (event.other.value() < engine.spec().world.obstacles.size()) change.id = event.other;
     change.X_WB = obstacle->X_WB;
     if (added) change.body = obstacle->body;
     const auto asked = authority_->ask(std::move(input));

@@ -261,6 +261,9 @@ Result<std::string> Shadows::reset(std::string_view robot) {
   for (Shadow& shadow : shadows_) {
     names.push_back(shadow.name);
     if (!robot.empty() && robot != shadow.name) continue;
+    if (!shadow.world) {
+      return fail(ErrorCode::kState, "the shadow of robot `{}` has ended", shadow.name);
+    }
     shadow.reset_asked = true;
     asked.push_back(shadow.name);
   }

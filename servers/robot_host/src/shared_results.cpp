@@ -77,6 +77,11 @@ void SharedResults::Impl::note_step(const sim::WorldAuthority& authority) {
   seen.clear();
   if (record) record->step(done - 1, kinds, events, authority.hash().value());
   facts.events.insert(facts.events.end(), events.begin(), events.end());
+  facts.inputs_by_hand += static_cast<std::uint64_t>(
+      std::ranges::count_if(authority.events(), [](const sim::Event& event) {
+        return (sim::is_of_obstacle(event.kind) || event.kind == sim::EventKind::kChanged) &&
+               event.text.ends_with("(by hand)");
+      }));
 }
 
 Result<RunFacts> SharedResults::Impl::read(const SharedHost& host,
@@ -143,6 +148,11 @@ bool SharedResults::after_step(const sim::WorldAuthority& authority) {
   impl_->capture->look(authority.snapshot(), authority.steps_done());
   impl_->seen = impl_->capture->events();
   return impl_->capture->ends_run();
+}
+
+void SharedResults::learn(const world::WorldModel& world) {
+  impl_->spec.world = world;
+  impl_->kinds.learn(world);
 }
 
 void SharedResults::at_end(const sim::WorldAuthority& authority) {

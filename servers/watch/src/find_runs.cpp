@@ -55,14 +55,15 @@ Result<std::vector<FoundRun>> find_runs(bus::BusConfig config, Duration patience
   RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
   RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(*bus));
   RAVE_TRY(waits.add_events());
-  auto end = Clock::now() + std::chrono::nanoseconds(patience.ns);
+  const auto latest = Clock::now() + std::chrono::nanoseconds(patience.ns);
+  auto end = latest;
   std::size_t known = 0;
   for (;;) {
     static_cast<void>(bus->take_events());
     const std::size_t processes = bus->processes().size();
     if (processes > known) {
       known = processes;
-      if (!runs_of(bus->processes()).empty()) end = std::min(end, Clock::now() + kMoment);
+      if (!runs_of(bus->processes()).empty()) end = std::min(latest, Clock::now() + kMoment);
     }
     const auto left = std::chrono::duration_cast<std::chrono::nanoseconds>(end - Clock::now());
     if (left.count() <= 0 || stop.stop_requested()) break;

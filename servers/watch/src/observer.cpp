@@ -43,10 +43,6 @@ struct Observer::Impl {
 };
 
 void Observer::Impl::take() {
-  // Who is gone may have said something last, and may be back under another number.
-  for (const bus::BusEvent& event : bus->take_events()) {
-    if (event.kind == bus::EventKind::kParticipantLost) model.lose(event.writer);
-  }
   const std::int64_t now_ns = ns_of(Clock::now());
   infos.take([&](const bus::HostInfo& info) { model.hear(info); });
   runs.take([&](const bus::RunState& state) { model.hear(state, now_ns); });
@@ -58,6 +54,10 @@ void Observer::Impl::take() {
   processes.take([&](const bus::ProcessState& state, const dds_sample_info_t& info) {
     model.hear(state, now_ns, delay_of(info));
   });
+  // Last, since who is gone may have said something before.
+  for (const bus::BusEvent& event : bus->take_events()) {
+    if (event.kind == bus::EventKind::kParticipantLost) model.lose(event.writer);
+  }
 }
 
 Observer::Observer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

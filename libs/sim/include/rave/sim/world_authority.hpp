@@ -47,6 +47,9 @@ class WorldAuthority {
   /// `state`: the reports of the step after `world` come next. Errors: kInvalidArgument (a world of
   /// another spec); then nothing has changed.
   Status resume(const WorldStep& world, const AuthorityState& state);
+  /// After resume(): what the scenario had to change before is made with the next step, for nobody
+  /// else has made it.
+  void repeat_schedule() noexcept;
 
   /// Asks something of robots or obstacles, from the next step on; returns its number. That it
   /// cannot be done is known two steps later at the latest, see refusals(). Errors:

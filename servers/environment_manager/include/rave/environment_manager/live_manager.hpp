@@ -45,6 +45,8 @@ struct LiveManagerOptions {
   /// Told about ten times a second, in the calling thread: time of the run, and for whom it waits;
   /// may be empty.
   std::function<void(SimTime, const std::string&)> on_progress;
+  /// The world with all that came, when the run has ended; may be empty.
+  std::function<void(const world::WorldModel&)> on_end;
 };
 
 /// What came of a run.

@@ -73,6 +73,9 @@ class SharedResults {
   /// ... and makes none any more.
   void at_end(const sim::WorldAuthority& authority);
 
+  /// In real time: the world that the manager had at the end.
+  void learn(const world::WorldModel& world);
+
   /// Once, when all hosts that will have ended. Errors: kIo.
   [[nodiscard]] Result<RunOutcome> write(const SharedEnd& end);
 

@@ -18,8 +18,9 @@ class EditLimits {
   using Clock = std::chrono::steady_clock;
   static constexpr double kPerSecond = 200;  ///< And as many at once after a quiet second.
   static constexpr double kBytesPerSecond = 4e6;
-  static constexpr std::size_t kMostOpen = 4096;       ///< That wait for the next step.
-  static constexpr std::size_t kMostEntries = 60'000;  ///< Obstacles that are not as at the start.
+  static constexpr std::size_t kMostOpen = 4096;  ///< That wait for the next step.
+  /// Two for an obstacle that came, one for others that changed.
+  static constexpr std::size_t kMostEntries = 60'000;
 
   /// Whether one more may be asked for now; then it is counted. Errors: kState (too fast; too many
   /// or too much in all), kInvalidArgument (what lock_step::check_fits() says).

@@ -2,6 +2,11 @@
 #include "hit_counter.hpp"
 
 namespace rave::robot_host {
+namespace {
+
+constexpr std::string_view kNothing = "nothing";
+
+}  // namespace
 
 void HitCounter::after_step(sim::Engine& engine) {
   const sim::EngineSpec& spec = engine.spec();
@@ -16,13 +21,23 @@ void HitCounter::after_step(sim::Engine& engine) {
       const bool due =
           step >= sensor.phase_steps && (step - sensor.phase_steps) % sensor.period_steps == 0;
       if (sample.bodies.empty() || !due || !engine.snapshot().robot(RobotId(r)).present) continue;
-      const std::string_view who = type.simulated ? "simulated" : "real";
+      Counters& counters = type.simulated ? simulated_ : real_;
       for (const std::uint32_t body : sample.bodies) {
-        const std::string_view what = body == BodyId::kNone ? "nothing" : kinds_->word(body);
-        ++counts_[{who, what}];
+        ++*count_of(counters, body == BodyId::kNone ? kNothing : kinds_->word(body));
       }
     }
   }
+}
+
+/// There are a handful of words, and each ray of each robot asks: they are told apart by where they
+/// stand.
+std::uint64_t* HitCounter::count_of(Counters& counters, std::string_view what) {
+  for (const auto& [word, count] : counters.known) {
+    if (word == what.data()) return count;
+  }
+  std::uint64_t* const count = &counts_[{counters.who, what}];
+  counters.known.emplace_back(what.data(), count);
+  return count;
 }
 
 std::map<std::string, std::map<std::string, std::uint64_t>> HitCounter::counts() const {

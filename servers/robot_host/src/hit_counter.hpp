@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "kinds.hpp"
 #include "observer.hpp"
@@ -22,8 +24,17 @@ class HitCounter final : public Observer {
   [[nodiscard]] std::map<std::string, std::map<std::string, std::uint64_t>> counts() const;
 
  private:
+  /// Where the counts of those who look are, by the address of the word.
+  struct Counters {
+    std::string_view who;
+    std::vector<std::pair<const char*, std::uint64_t*>> known{};
+  };
+  std::uint64_t* count_of(Counters& counters, std::string_view what);
+
   const BodyKinds* kinds_;
   std::map<std::pair<std::string_view, std::string_view>, std::uint64_t> counts_;
+  Counters real_{"real"};
+  Counters simulated_{"simulated"};
 };
 
 }  // namespace rave::robot_host

@@ -114,7 +114,7 @@ HostOutcome judge(const Journey& journey) {
 
 /// What this host knows when all is over. Changes what the engine shows of robots.
 RunFacts facts_of(Journey& journey, const std::string& record_problem) {
-  RunFacts facts = gather(journey.observers, journey.engine, journey.options.run.picture);
+  RunFacts facts = gather(journey.observers, journey.engine);
   if (!record_problem.empty()) facts.problems.push_back(record_problem);
   if (!journey.came_to_end || !has_radio(journey.engine.spec())) return facts;
   // Who hears what was sent in the last step is decided with the world after it.
@@ -171,7 +171,7 @@ Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::C
   RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(built.spec)));
   RAVE_TRY_ASSIGN(const auto port, HostPort::open(options.bus, std::move(self), &console));
   RAVE_TRY_ASSIGN(const auto ros2, Ros2Face::open(scenario, *engine, options.host));
-  Observers observers(scenario, built.robot_kinds, engine->spec());
+  Observers observers(scenario, built.robot_kinds, engine->spec(), run.picture);
   std::unique_ptr<RecordKeeper> record;
   if (run.record) {
     RAVE_TRY_ASSIGN(auto hosts, hosts_for_record(scenario));

@@ -25,6 +25,7 @@ BodyKinds::BodyKinds(const sim::EngineSpec& spec, const std::vector<std::string>
 }
 
 void BodyKinds::set_reality(RobotId robot, bool simulated) {
+  ++revision_;
   const std::uint32_t body = body_of(robot);
   words_[body] = simulated ? "simulated" : "real";
   kinds_[body] = hunters_[robot.value()] != 0
@@ -41,6 +42,7 @@ void BodyKinds::follow(const sim::Engine& engine) {
 }
 
 void BodyKinds::add(const world::Body& obstacle) {
+  ++revision_;
   const bool real = obstacle.layer == Layer::kMappedReal;
   const bool landmark = real && obstacle.code.has_value();
   words_.emplace_back(landmark ? "landmark" : (real ? "mapped_wall" : "virtual_obstacle"));

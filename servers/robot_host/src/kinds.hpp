@@ -35,6 +35,8 @@ class BodyKinds {
   [[nodiscard]] std::uint32_t count() const noexcept {
     return static_cast<std::uint32_t>(words_.size());
   }
+  /// Another number whenever a body came or became another kind.
+  [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
 
  private:
   void add(const world::Body& obstacle);
@@ -43,6 +45,7 @@ class BodyKinds {
 
   std::uint32_t first_robot_ = 0;
   std::uint32_t first_added_ = 0;  ///< Behind the robots.
+  std::uint64_t revision_ = 0;
   std::vector<std::string_view> words_;
   std::vector<report::Kind> kinds_;
   std::vector<std::string> colours_;

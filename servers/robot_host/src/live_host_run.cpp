@@ -215,7 +215,7 @@ Result<HostOutcome> go(const LiveHost& host, sim::Engine& engine, HostLink& link
                        const BuiltScenario& built, bool begun, std::function<void()>& look) {
   const RunOptions& run = host.options.run;
   RAVE_TRY_ASSIGN(const auto ros2, Ros2Face::open(host.scenario, engine, host.options.host));
-  Observers observers(host.scenario, built.robot_kinds, engine.spec());
+  Observers observers(host.scenario, built.robot_kinds, engine.spec(), run.picture);
   std::unique_ptr<RecordKeeper> record;
   if (run.record) {
     RAVE_TRY_ASSIGN(auto hosts, hosts_for_record(host.scenario));
@@ -245,7 +245,7 @@ Result<HostOutcome> go(const LiveHost& host, sim::Engine& engine, HostLink& link
   engine.halt();
   host.console.attach(nullptr);
   HostOutcome outcome = judge(journey, built.live_reason);
-  RunFacts facts = gather(observers, engine, run.picture);
+  RunFacts facts = gather(observers, engine);
   facts.first_step = journey.first;
   facts.problems = journey.problems;
   if (record) {

@@ -59,9 +59,11 @@ void keep_history_for_observers(config::ScenarioFile& scenario) {
 }
 
 Observers::Observers(const config::ExpandedScenario& scenario,
-                     const std::vector<std::string>& robot_kinds, const sim::EngineSpec& spec)
+                     const std::vector<std::string>& robot_kinds, const sim::EngineSpec& spec,
+                     bool with_tracks)
     : kinds(spec, robot_kinds),
-      tracks(kinds, spec, scenario.scenario.duration_s, odometry_sensor(scenario.scenario)),
+      tracks(kinds, spec,
+             {scenario.scenario.duration_s, odometry_sensor(scenario.scenario), with_tracks}),
       encounters(kinds, spec),
       hits(kinds),
       goals(scenario, spec) {
@@ -83,7 +85,7 @@ void Observers::after_step(sim::Engine& engine) {
   if (capture) capture->after_step(engine);
 }
 
-RunFacts gather(const Observers& observers, const sim::Engine& engine, bool with_tracks) {
+RunFacts gather(const Observers& observers, const sim::Engine& engine) {
   RunFacts facts;
   facts.steps = engine.steps_done();
   facts.has_world = !engine.spec().local;
@@ -100,7 +102,7 @@ RunFacts gather(const Observers& observers, const sim::Engine& engine, bool with
   facts.goals = observers.goals.facts();
   if (observers.capture) facts.capture = observers.capture->facts();
   if (observers.instant) facts.instant = observers.instant->facts();
-  if (with_tracks) facts.tracks = observers.tracks.facts();
+  facts.tracks = observers.tracks.facts();
   return facts;
 }
 

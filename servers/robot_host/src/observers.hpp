@@ -28,9 +28,10 @@ struct Observers {
   std::optional<InstantKeeper> instant;
   std::optional<CaptureWatch> capture;  ///< Only where all robots are.
 
-  /// `spec`: of the engine that is looked at. Refers to it and to itself.
+  /// `spec`: of the engine that is looked at. `with_tracks`: where robots were is kept, for the
+  /// picture. Refers to the engine's and to itself.
   Observers(const config::ExpandedScenario& scenario, const std::vector<std::string>& robot_kinds,
-            const sim::EngineSpec& spec);
+            const sim::EngineSpec& spec, bool with_tracks);
   Observers(const Observers&) = delete;
   Observers& operator=(const Observers&) = delete;
 
@@ -41,8 +42,6 @@ struct Observers {
 void keep_history_for_observers(config::ScenarioFile& scenario);
 
 /// What is known of the robots that run here when all steps are done, but for events and problems.
-/// `with_tracks`: they are for the picture alone.
-[[nodiscard]] RunFacts gather(const Observers& observers, const sim::Engine& engine,
-                              bool with_tracks);
+[[nodiscard]] RunFacts gather(const Observers& observers, const sim::Engine& engine);
 
 }  // namespace rave::robot_host

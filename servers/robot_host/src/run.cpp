@@ -213,7 +213,7 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
   }
   RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(built.spec)));
 
-  Onlookers observers(adjusted, built.robot_kinds, engine->spec());
+  Onlookers observers(adjusted, built.robot_kinds, engine->spec(), options.picture);
   RAVE_TRY_ASSIGN(observers.ros2, Ros2Face::open(adjusted, *engine));
   RAVE_TRY_ASSIGN(observers.shadows, Shadows::create(adjusted, catalogue, *engine, &console));
   if (options.record) {
@@ -235,7 +235,7 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
   engine->halt();
   if (options.control != nullptr) options.control->end();
   console.attach(nullptr);
-  RunFacts facts = gather(observers, *engine, options.picture);
+  RunFacts facts = gather(observers, *engine);
   facts.events = std::move(journey.events);
   if (observers.record) {
     const auto hash = live ? std::nullopt : std::optional(engine->hash().value());

@@ -17,9 +17,9 @@ constexpr double kGapShare = 0.3;
 
 }  // namespace
 
-TrackRecorder::TrackRecorder(const BodyKinds& kinds, const sim::EngineSpec& spec, double duration_s,
-                             const std::string& odometry_sensor) {
-  const double interval_s = std::max(kLeastInterval_s, duration_s / kMostPoints);
+TrackRecorder::TrackRecorder(const BodyKinds& kinds, const sim::EngineSpec& spec, const Wish& wish)
+    : wanted_(wish.tracks) {
+  const double interval_s = std::max(kLeastInterval_s, wish.duration_s / kMostPoints);
   every_ = std::max<std::uint64_t>(
       1, static_cast<std::uint64_t>(std::llround(interval_s / spec.step.seconds())));
   const std::size_t count = spec.robots.size();
@@ -44,7 +44,7 @@ TrackRecorder::TrackRecorder(const BodyKinds& kinds, const sim::EngineSpec& spec
     odometry_tracks_[r].odometry_only = true;
     const sim::RobotType& type = spec.types[spec.robots[r].type];
     for (std::uint32_t s = 0; s < type.sensors.size(); ++s) {
-      if (type.sensors[s].name == odometry_sensor &&
+      if (wanted_ && type.sensors[s].name == wish.odometry_sensor &&
           type.sensors[s].kind == ReadingKind::kVelocity) {
         odometry_[r] = Odometry{s, std::nullopt};
       }
@@ -53,7 +53,7 @@ TrackRecorder::TrackRecorder(const BodyKinds& kinds, const sim::EngineSpec& spec
 }
 
 void TrackRecorder::after_step(sim::Engine& engine) {
-  const bool keep = (engine.steps_done() - 1) % every_ == 0;
+  const bool keep = wanted_ && (engine.steps_done() - 1) % every_ == 0;
   for (std::uint32_t r = 0; r < poses_.size(); ++r) {
     if (told_[r] != 0) reported_[r] = engine.reported(RobotId(r));
     if (here_[r] == 0 || !engine.snapshot().robot(RobotId(r)).present) continue;
@@ -69,6 +69,7 @@ void TrackRecorder::follow_pose(const sim::Engine& engine, std::uint32_t robot, 
     way_m_[robot] += std::sqrt(squared_norm(X_WR.position() - last_[robot]->position()));
   }
   last_[robot] = X_WR;
+  if (!wanted_) return;
   report::PictureTrack& track = poses_[robot];
   const sim::ReportedPose& reported = engine.reported(RobotId(robot));
   const std::int64_t stamp_ns = reported.stamp.ns;
@@ -103,6 +104,7 @@ void TrackRecorder::follow_odometry(const sim::Engine& engine, std::uint32_t rob
 
 std::vector<TrackFacts> TrackRecorder::facts() const {
   std::vector<TrackFacts> all;
+  if (!wanted_) return all;
   for (std::uint32_t r = 0; r < poses_.size(); ++r) {
     if (here_[r] != 0) all.push_back({r, poses_[r]});
   }

@@ -16,14 +16,17 @@ namespace rave::robot_host {
 /// and, for real robots, the track that their commanded velocity alone would give.
 class TrackRecorder final : public Observer {
  public:
-  /// `spec.local` says which robots run here. `odometry_sensor`: name of the sensor whose velocity
-  /// is integrated; empty for none.
-  TrackRecorder(const BodyKinds& kinds, const sim::EngineSpec& spec, double duration_s,
-                const std::string& odometry_sensor);
+  struct Wish {
+    double duration_s = 0;        ///< Of the run.
+    std::string odometry_sensor;  ///< Whose velocity is integrated; empty for none.
+    bool tracks = true;           ///< False: only the length of each way is wanted.
+  };
+  /// `spec.local` says which robots run here.
+  TrackRecorder(const BodyKinds& kinds, const sim::EngineSpec& spec, const Wish& wish);
 
   void after_step(sim::Engine& engine) override;
 
-  /// Of robots that run here: one track each, then the odometry-only ones.
+  /// Of robots that run here: one track each, then the odometry-only ones; none if none are wanted.
   [[nodiscard]] std::vector<TrackFacts> facts() const;
 
   /// Where a robot that something tells its pose was said to be in the last step; null: it is told
@@ -43,6 +46,7 @@ class TrackRecorder final : public Observer {
   void follow_pose(const sim::Engine& engine, std::uint32_t robot, bool keep);
   void follow_odometry(const sim::Engine& engine, std::uint32_t robot, bool keep);
 
+  bool wanted_ = true;
   std::uint64_t every_ = 1;
   std::vector<report::PictureTrack> poses_;
   std::vector<report::PictureTrack> odometry_tracks_;

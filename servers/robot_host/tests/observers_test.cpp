@@ -47,14 +47,15 @@ TEST(Encounters, KeepsTheClosestOfEachKindOfPair) {
     encounters.after_step(*engine);
   }
   // What hangs above the robots is no encounter.
-  ASSERT_EQ(encounters.closest().size(), 2U);
-  const Encounter& robots = encounters.closest().at("simulated-simulated");
+  const auto closest = encounters.closest();
+  ASSERT_EQ(closest.size(), 2U);
+  const Encounter& robots = closest.at("simulated-simulated");
   EXPECT_NEAR(robots.gap_m, 0.2, 1e-9);
   EXPECT_NEAR(robots.centres_m, 0.5, 1e-9);
   EXPECT_EQ(robots.time_s, 0);
   EXPECT_EQ(kinds.name(robots.a), "b");
   EXPECT_EQ(kinds.name(robots.b), "c");
-  EXPECT_NEAR(encounters.closest().at("simulated-virtual_obstacle").gap_m, 0.55, 1e-9);
+  EXPECT_NEAR(closest.at("simulated-virtual_obstacle").gap_m, 0.55, 1e-9);
   EXPECT_EQ(encounters.headline(), "closest simulated-simulated 0.20 m");
 }
 

@@ -3,6 +3,7 @@
 #include "../src/hit_counter.hpp"
 #include "../src/sighting_check.hpp"
 #include "host_fixture.hpp"
+#include "rave/world/touching.hpp"
 
 namespace rave::robot_host::testing {
 namespace {
@@ -57,6 +58,59 @@ TEST(Encounters, KeepsTheClosestOfEachKindOfPair) {
   EXPECT_EQ(kinds.name(robots.b), "c");
   EXPECT_NEAR(closest.at("simulated-virtual_obstacle").gap_m, 0.55, 1e-9);
   EXPECT_EQ(encounters.headline(), "closest simulated-simulated 0.20 m");
+}
+
+/// The least gap of all pairs of robots, or of robots and obstacles, by trying each pair.
+double least_gap_m(const sim::Engine& engine, bool among_robots) {
+  const world::Snapshot& world = engine.snapshot();
+  const world::WorldModel& model = world.model();
+  const auto obstacles = static_cast<std::uint32_t>(model.obstacles.size());
+  const auto robots = static_cast<std::uint32_t>(model.robots.size());
+  const std::uint32_t begin = among_robots ? obstacles : 0;
+  const std::uint32_t end = among_robots ? obstacles + robots : obstacles;
+  double least_m = 10;
+  for (std::uint32_t robot = 0; robot < robots; ++robot) {
+    for (std::uint32_t body = begin; body < end; ++body) {
+      if (body == obstacles + robot) continue;
+      const Pose2 X_WB =
+          among_robots ? world.pose(RobotId(body - obstacles)) : world.obstacle_pose(BodyId(body));
+      const double gap_m =
+          world::separation(model.robots[robot], world.pose(RobotId(robot)), model.body(body), X_WB)
+              .distance_m;
+      least_m = std::min(least_m, gap_m);
+    }
+  }
+  return least_m;
+}
+
+TEST(Encounters, MissesNobodyWhoComesNearerStill) {
+  Host host;
+  std::string robots;
+  for (int robot = 0; robot < 5; ++robot) {
+    robots += standing(fmt::format("r{}", robot), robot, 0.7 * (robot % 2),
+                       ", program: {driver: wander, period_s: 0.05}" + laser());
+  }
+  const auto engine = host.engine_of(scenario_text(
+      robots, "obstacles: [{name: crate, box_m: [1, 1], x_m: 2, y_m: 2, z_m: [0, 1]}]\n"));
+  ASSERT_NE(engine, nullptr);
+  const BodyKinds kinds(engine->spec(), host.kinds());
+  Encounters encounters(kinds, engine->spec());
+  double among_robots_m = 10;
+  double to_obstacles_m = 10;
+  int nearer = 0;
+  for (int k = 0; k < 600; ++k) {
+    ASSERT_TRUE(engine->step().has_value());
+    encounters.after_step(*engine);
+    const double gap_m = least_gap_m(*engine, true);
+    if (gap_m < among_robots_m) ++nearer;
+    among_robots_m = std::min(among_robots_m, gap_m);
+    to_obstacles_m = std::min(to_obstacles_m, least_gap_m(*engine, false));
+    const auto closest = encounters.closest();
+    ASSERT_NEAR(closest.at("simulated-simulated").gap_m, among_robots_m, 1e-12) << k;
+    if (to_obstacles_m >= 1) continue;  // it has come within reach
+    ASSERT_NEAR(closest.at("simulated-virtual_obstacle").gap_m, to_obstacles_m, 1e-12) << k;
+  }
+  EXPECT_GT(nearer, 3) << "nobody moved";
 }
 
 TEST(HitCounter, CountsEachScanOnceByWhatItMet) {

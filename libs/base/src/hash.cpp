@@ -4,9 +4,19 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "hash_avx2.hpp"
+
 namespace rave {
 
 std::uint64_t content_hash(std::span<const std::byte> bytes) noexcept {
+#if RAVE_HASH_AVX2
+  // Shorter input is not hashed by vectors; the value is the same whichever way.
+  constexpr std::size_t kVectorsFrom = 241;
+  static const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
+  if (bytes.size() >= kVectorsFrom && has_avx2) {
+    return content_hash_avx2(bytes.data(), bytes.size());
+  }
+#endif
   return XXH3_64bits(bytes.data(), bytes.size());
 }
 

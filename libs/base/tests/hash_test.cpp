@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
 #include <array>
 #include <vector>
 
@@ -21,6 +24,18 @@ TEST(RunHash, DoesNotDependOnTheOrderOfItems) {
   for (std::uint32_t i = 0; i < 100; ++i) forward.add(pose_item(7, i, 0.5 * i));
   for (std::uint32_t i = 100; i-- > 0;) backward.add(pose_item(7, i, 0.5 * i));
   EXPECT_EQ(forward, backward);
+}
+
+/// Whichever instructions a length is hashed by.
+TEST(ContentHash, IsXxh3OfAnyLength) {
+  std::vector<std::byte> bytes(3000);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::byte>(i * 37 + i / 7);
+  for (std::size_t length = 0; length <= bytes.size(); ++length) {
+    const std::size_t begin = bytes.size() - length;  // at any alignment
+    ASSERT_EQ(content_hash(std::span(bytes).subspan(begin)),
+              XXH3_64bits(bytes.data() + begin, length))
+        << length;
+  }
 }
 
 TEST(RunHash, PartialSumsOfProcessesAddUp) {

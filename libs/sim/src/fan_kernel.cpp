@@ -21,6 +21,8 @@ namespace rave::sim::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using Floats = hn::CappedTag<float, kRayPadding>;
 using Words = hn::RebindToUnsigned<Floats>;
+// What is seen among many rays covers a few of them: of wider groups most would be tried in vain.
+using Rays = hn::CappedTag<float, 8>;
 // The edges of a polygon are looked at in groups of so many.
 using Quads = hn::CappedTag<double, world::kVertexPadding + 1>;
 using QuadFloats = hn::Rebind<float, Quads>;
@@ -40,16 +42,16 @@ struct Point {
 
 /// A point of the world in the sensor frame. The difference is taken in double: far from the origin
 /// a float could not hold it.
-HWY_INLINE Point to_sensor(const FanPlace& place, double x_W, double y_W) {
-  const auto dx = static_cast<float>(x_W - place.x_m);
-  const auto dy = static_cast<float>(y_W - place.y_m);
+HWY_INLINE Point to_sensor(const FanPlace& place, Vec2 p_W) {
+  const auto dx = static_cast<float>(p_W.x - place.x_m);
+  const auto dy = static_cast<float>(p_W.y - place.y_m);
   return {place.cos * dx + place.sin * dy, place.cos * dy - place.sin * dx};
 }
 
 /// Which of two is nearer: the larger inverse, and whose it is.
 template <class V, class W>
 HWY_INLINE void keep_nearer(V inverse, std::uint32_t body, V& nearest, W& nearest_body) {
-  const Words words;
+  const hn::DFromV<W> words;
   const auto nearer = hn::Gt(inverse, nearest);
   nearest = hn::IfThenElse(nearer, inverse, nearest);
   nearest_body = hn::IfThenElse(hn::RebindMask(words, nearer), hn::Set(words, body), nearest_body);
@@ -57,34 +59,13 @@ HWY_INLINE void keep_nearer(V inverse, std::uint32_t body, V& nearest, W& neares
 
 template <class V>
 HWY_INLINE void keep(const FanView& fan, std::size_t ray, V inverse, std::uint32_t body) {
-  const Floats d;
-  const Words words;
+  const hn::DFromV<V> d;
+  const hn::RebindToUnsigned<hn::DFromV<V>> words;
   auto nearest = hn::LoadU(d, fan.inverse + ray);
   auto nearest_body = hn::LoadU(words, fan.body + ray);
   keep_nearer(inverse, body, nearest, nearest_body);
   hn::StoreU(nearest, d, fan.inverse + ray);
   hn::StoreU(nearest_body, words, fan.body + ray);
-}
-
-/// Calls `cast(first, last)` for the rays between two bearings, counter-clockwise from `right` to
-/// `left`; whole groups, so some rays more.
-template <class Cast>
-HWY_INLINE void for_rays_between(const FanView& fan, Point right, Point left, const Cast& cast) {
-  if (fan.first_ray == nullptr) {
-    cast(std::size_t{0}, fan.padded);
-    return;
-  }
-  const std::size_t from = bearing_bucket(bearing_scale(right.x, right.y));
-  const std::size_t to = bearing_bucket(bearing_scale(left.x, left.y));
-  const std::size_t group = ~(hn::Lanes(Floats()) - 1);
-  const std::size_t first = fan.first_ray[from];
-  const std::size_t last = fan.first_ray[to + 1];
-  if (from <= to) {
-    if (first < last) cast(first & group, last);
-    return;
-  }
-  if (last > 0) cast(std::size_t{0}, last);
-  if (first < fan.first_ray[kBearingBuckets]) cast(first & group, fan.padded);
 }
 
 /// How a sensor sees a piece.
@@ -108,14 +89,14 @@ struct SeenDisc {
     const double r = static_cast<double>(piece.radius_m);
     outside = dx * dx + dy * dy - r * r;
     if (outside <= 0) return Sight::kInside;
-    centre = to_sensor(place, piece.centre_W.x, piece.centre_W.y);
+    centre = to_sensor(place, piece.centre_W);
     radius = piece.radius_m;
     scale = static_cast<float>(1.0 / outside);
     return Sight::kOutside;
   }
   template <class V>
   HWY_INLINE V inverse(V cos, V sin) const {
-    const Floats d;
+    const hn::DFromV<V> d;
     const auto cx = hn::Set(d, centre.x);
     const auto cy = hn::Set(d, centre.y);
     const auto zero = hn::Zero(d);
@@ -135,15 +116,18 @@ struct SeenPolygon {
   float
       x[ConvexPolygon::kMaxVertices + 2];  ///< n/c of each: its line is met at 1/range = (x, y).d.
   float y[ConvexPolygon::kMaxVertices + 2];
-  std::size_t count;  ///< At least 3; where fewer face the sensor, one is there more than once.
-  Point right;
+  std::size_t count;    ///< At least 3; where fewer face the sensor, one is there more than once.
+  const Vec2* right_W;  ///< The outermost vertices.
+  const Vec2* left_W;
+  Point right;  ///< The same, in the sensor frame.
   Point left;
 
+  /// All but `right` and `left`.
   HWY_INLINE Sight see(const world::ShapePiece& piece, const Vec2* vertices_W,
                        const Vec2* normals_W, const FanPlace& place);
   template <class V>
   HWY_INLINE V inverse(V cos, V sin) const {
-    const Floats d;
+    const hn::DFromV<V> d;
     const auto zero = hn::Zero(d);
     const auto from_right =
         hn::Sub(hn::Mul(hn::Set(d, right.x), sin), hn::Mul(hn::Set(d, right.y), cos));
@@ -237,27 +221,209 @@ HWY_INLINE Sight SeenPolygon::see(const world::ShapePiece& piece, const Vec2* ve
     leftmost = hwy::Num0BitsBelowLS1Bit_Nonzero64(begin);
     rightmost = hwy::Num0BitsBelowLS1Bit_Nonzero64(end);
   }
-  left = to_sensor(place, vertices[leftmost].x, vertices[leftmost].y);
-  right = to_sensor(place, vertices[rightmost].x, vertices[rightmost].y);
+  right_W = vertices + rightmost;
+  left_W = vertices + leftmost;
   return Sight::kOutside;
 }
 
-/// Puts what the rays between two bearings meet of a shape into the fan.
+/// So many shapes are made out together.
+constexpr std::size_t kBatch = 8;
+using Eight = hn::CappedTag<double, kBatch>;
+using EightFloats = hn::Rebind<float, Eight>;
+
+/// Points of the world, relative to the sensor, and where they are in its frame. The difference is
+/// taken in double, as in to_sensor().
+struct Points {
+  HWY_ALIGN double dx[kBatch] = {};
+  HWY_ALIGN double dy[kBatch] = {};
+  HWY_ALIGN float x[kBatch] = {};
+  HWY_ALIGN float y[kBatch] = {};
+
+  HWY_INLINE void put(std::size_t at, Vec2 p_W, const FanPlace& place) {
+    dx[at] = p_W.x - place.x_m;
+    dy[at] = p_W.y - place.y_m;
+  }
+  [[nodiscard]] HWY_INLINE Point operator[](std::size_t at) const { return {x[at], y[at]}; }
+  HWY_INLINE void turn(const FanPlace& place) {
+    const Eight d;
+    const EightFloats floats;
+    const auto cos = hn::Set(floats, place.cos);
+    const auto sin = hn::Set(floats, place.sin);
+    for (std::size_t i = 0; i < kBatch; i += hn::Lanes(d)) {
+      const auto ux = hn::DemoteTo(floats, hn::LoadU(d, dx + i));
+      const auto uy = hn::DemoteTo(floats, hn::LoadU(d, dy + i));
+      hn::StoreU(hn::Add(hn::Mul(cos, ux), hn::Mul(sin, uy)), floats, x + i);
+      hn::StoreU(hn::Sub(hn::Mul(cos, uy), hn::Mul(sin, ux)), floats, y + i);
+    }
+  }
+};
+
+/// The buckets of bearings, as bearing_bucket() has them.
+struct Buckets {
+  HWY_ALIGN std::int32_t number[kBatch];
+
+  HWY_INLINE void find(const float* x, const float* y) {
+    const hn::CappedTag<float, kBatch> d;
+    const hn::RebindToSigned<hn::CappedTag<float, kBatch>> ints;
+    const auto zero = hn::Zero(d);
+    const auto one = hn::Set(d, 1.0F);
+    const auto per_unit = hn::Set(d, static_cast<float>(kBearingBuckets) / 4.0F);
+    const auto last = hn::Set(ints, static_cast<std::int32_t>(kBearingBuckets) - 1);
+    for (std::size_t i = 0; i < kBatch; i += hn::Lanes(d)) {
+      const auto px = hn::LoadU(d, x + i);
+      const auto py = hn::LoadU(d, y + i);
+      const auto sum = hn::Add(hn::Abs(px), hn::Abs(py));
+      const auto part = hn::IfThenElse(hn::Gt(sum, zero), hn::Div(px, sum), one);
+      const auto scale =
+          hn::IfThenElse(hn::Lt(py, zero), hn::Add(one, part), hn::Sub(hn::Set(d, 3.0F), part));
+      const auto bucket = hn::ConvertTo(ints, hn::Mul(scale, per_unit));
+      hn::StoreU(hn::Max(hn::Min(bucket, last), hn::Zero(ints)), ints, number + i);
+    }
+  }
+};
+
+/// Up to kBatch discs.
+struct SeenDiscs {
+  Points centre;
+  HWY_ALIGN float radius[kBatch] = {};
+  HWY_ALIGN double outside[kBatch] = {};
+  HWY_ALIGN float scale[kBatch] = {};
+  Buckets right;
+  Buckets left;
+
+  HWY_INLINE void see(Pieces pieces, const FanPlace& place) {
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      centre.put(i, pieces[i]->centre_W, place);
+      radius[i] = pieces[i]->radius_m;
+    }
+    centre.turn(place);
+    const Eight d;
+    const EightFloats floats;
+    for (std::size_t i = 0; i < kBatch; i += hn::Lanes(d)) {
+      const auto dx = hn::LoadU(d, centre.dx + i);
+      const auto dy = hn::LoadU(d, centre.dy + i);
+      const auto r = hn::PromoteTo(d, hn::LoadU(floats, radius + i));
+      const auto out = hn::Sub(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(r, r));
+      hn::StoreU(out, d, outside + i);
+      hn::StoreU(hn::DemoteTo(floats, hn::Div(hn::Set(d, 1.0), out)), floats, scale + i);
+    }
+    find_edges();
+  }
+
+  /// Between which bearings they are seen.
+  HWY_INLINE void find_edges() {
+    const Eight d;
+    const EightFloats floats;
+    HWY_ALIGN float right_x[kBatch];
+    HWY_ALIGN float right_y[kBatch];
+    HWY_ALIGN float left_x[kBatch];
+    HWY_ALIGN float left_y[kBatch];
+    for (std::size_t i = 0; i < kBatch; i += hn::Lanes(d)) {
+      const auto r = hn::LoadU(floats, radius + i);
+      const auto out = hn::LoadU(d, outside + i);
+      const auto tangent = hn::DemoteTo(floats, hn::Sqrt(hn::Max(out, hn::Zero(d))));
+      const auto cx = hn::LoadU(floats, centre.x + i);
+      const auto cy = hn::LoadU(floats, centre.y + i);
+      hn::StoreU(hn::Add(hn::Mul(cx, tangent), hn::Mul(cy, r)), floats, right_x + i);
+      hn::StoreU(hn::Sub(hn::Mul(cy, tangent), hn::Mul(cx, r)), floats, right_y + i);
+      hn::StoreU(hn::Sub(hn::Mul(cx, tangent), hn::Mul(cy, r)), floats, left_x + i);
+      hn::StoreU(hn::Add(hn::Mul(cy, tangent), hn::Mul(cx, r)), floats, left_y + i);
+    }
+    right.find(right_x, right_y);
+    left.find(left_x, left_y);
+  }
+  [[nodiscard]] HWY_INLINE SeenDisc operator[](std::size_t at) const {
+    return {centre[at], radius[at], outside[at], scale[at]};
+  }
+};
+
+/// Puts what the rays between the buckets of two bearings, counter-clockwise from `right` to
+/// `left`, meet of a shape into the fan; whole groups, so some rays more.
 template <class Seen>
-HWY_INLINE void cast_between(const FanView& fan, Point right, Point left, const Seen& seen,
-                             std::uint32_t body) {
-  const Floats d;
-  for_rays_between(fan, right, left, [&](std::size_t first, std::size_t last) HWY_ATTR {
+HWY_INLINE void cast_between(const FanView& fan, std::int32_t right, std::int32_t left,
+                             const Seen& seen, std::uint32_t body) {
+  const Rays d;
+  const auto cast = [&](std::size_t first, std::size_t last) HWY_ATTR {
     for (std::size_t ray = first; ray < last; ray += hn::Lanes(d)) {
       keep(fan, ray, seen.inverse(hn::LoadU(d, fan.cos + ray), hn::LoadU(d, fan.sin + ray)), body);
     }
-  });
+  };
+  if (fan.first_ray == nullptr) {
+    cast(std::size_t{0}, fan.padded);
+    return;
+  }
+  const std::size_t group = ~(hn::Lanes(d) - 1);
+  const std::size_t first = fan.first_ray[right];
+  const std::size_t last = fan.first_ray[left + 1];
+  if (right <= left) {
+    if (first < last) cast(first & group, last);
+    return;
+  }
+  if (last > 0) cast(std::size_t{0}, last);
+  if (first < fan.first_ray[kBearingBuckets]) cast(first & group, fan.padded);
 }
 
 HWY_INLINE void keep_all_inside(const FanView& fan, std::uint32_t body) {
-  const Floats d;
+  const Rays d;
   const auto inside = hn::Set(d, std::numeric_limits<float>::infinity());
   for (std::size_t ray = 0; ray < fan.padded; ray += hn::Lanes(d)) keep(fan, ray, inside, body);
+}
+
+HWY_INLINE void cast_discs(Pieces discs, const FanPlace& place, const FanView& fan) {
+  SeenDiscs seen;
+  for (std::size_t begin = 0; begin < discs.size(); begin += kBatch) {
+    const Pieces batch = discs.subspan(begin, std::min(kBatch, discs.size() - begin));
+    seen.see(batch, place);
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      if (seen.outside[i] <= 0) {
+        keep_all_inside(fan, batch[i]->body);
+      } else {
+        cast_between(fan, seen.right.number[i], seen.left.number[i], seen[i], batch[i]->body);
+      }
+    }
+  }
+}
+
+/// Up to kBatch polygons.
+struct SeenPolygons {
+  SeenPolygon polygon[kBatch];
+  Sight sight[kBatch];
+  Points right;
+  Points left;
+
+  HWY_INLINE void see(Pieces pieces, const Vec2* vertices_W, const Vec2* normals_W,
+                      const FanPlace& place) {
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      sight[i] = polygon[i].see(*pieces[i], vertices_W, normals_W, place);
+      if (sight[i] != Sight::kOutside) continue;
+      right.put(i, *polygon[i].right_W, place);
+      left.put(i, *polygon[i].left_W, place);
+    }
+    right.turn(place);
+    left.turn(place);
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      polygon[i].right = right[i];
+      polygon[i].left = left[i];
+    }
+  }
+};
+
+HWY_INLINE void cast_polygons(Pieces polygons, const Vec2* vertices_W, const Vec2* normals_W,
+                              const FanPlace& place, const FanView& fan) {
+  SeenPolygons seen;
+  Buckets from;
+  Buckets to;
+  for (std::size_t begin = 0; begin < polygons.size(); begin += kBatch) {
+    const Pieces batch = polygons.subspan(begin, std::min(kBatch, polygons.size() - begin));
+    seen.see(batch, vertices_W, normals_W, place);
+    from.find(seen.right.x, seen.right.y);
+    to.find(seen.left.x, seen.left.y);
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      if (seen.sight[i] == Sight::kInside) keep_all_inside(fan, batch[i]->body);
+      if (seen.sight[i] != Sight::kOutside) continue;
+      cast_between(fan, from.number[i], to.number[i], seen.polygon[i], batch[i]->body);
+    }
+  }
 }
 
 /// Many rays: of each shape those that could meet it.
@@ -265,30 +431,14 @@ void cast_many(Pieces discs, Pieces polygons, const Vec2* vertices_W, const Vec2
                const FanPlace& place, const FanView& fan) {
   std::fill_n(fan.inverse, fan.padded, 0.0F);
   std::fill_n(fan.body, fan.padded, BodyId::kNone);
-  SeenDisc disc;
-  for (const world::ShapePiece* const piece : discs) {
-    if (disc.see(*piece, place) == Sight::kInside) {
-      keep_all_inside(fan, piece->body);
-      continue;
-    }
-    const float tangent = static_cast<float>(std::sqrt(disc.outside));
-    const Point c = disc.centre;
-    const float r = disc.radius;
-    cast_between(fan, {c.x * tangent + c.y * r, c.y * tangent - c.x * r},
-                 {c.x * tangent - c.y * r, c.y * tangent + c.x * r}, disc, piece->body);
-  }
-  SeenPolygon polygon;
-  for (const world::ShapePiece* const piece : polygons) {
-    const Sight sight = polygon.see(*piece, vertices_W, normals_W, place);
-    if (sight == Sight::kInside) keep_all_inside(fan, piece->body);
-    if (sight != Sight::kOutside) continue;
-    cast_between(fan, polygon.right, polygon.left, polygon, piece->body);
-  }
+  cast_discs(discs, place, fan);
+  cast_polygons(polygons, vertices_W, normals_W, place, fan);
 }
 
 #if !HWY_HAVE_SCALABLE
 /// Few rays, kGroups registers of them: all are tried against every shape, and what they have met
-/// stays in registers.
+/// stays in registers. Such sensors mostly see a handful of shapes, too few to make them out
+/// together.
 template <std::size_t kGroups>
 void cast_few(Pieces discs, Pieces polygons, const Vec2* vertices_W, const Vec2* normals_W,
               const FanPlace& place, const FanView& fan) {
@@ -325,6 +475,8 @@ void cast_few(Pieces discs, Pieces polygons, const Vec2* vertices_W, const Vec2*
     const Sight sight = polygon.see(*piece, vertices_W, normals_W, place);
     if (sight == Sight::kInside) keep_inside(piece->body);
     if (sight != Sight::kOutside) continue;
+    polygon.right = to_sensor(place, *polygon.right_W);
+    polygon.left = to_sensor(place, *polygon.left_W);
     for (std::size_t g = 0; g < kGroups; ++g) {
       keep_nearer(polygon.inverse(cos[g], sin[g]), piece->body, inverse[g], body[g]);
     }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/bus/config.hpp"
 
-#include <cctype>
 #include <string_view>
+
+#include "rave/base/control_characters.hpp"
 
 namespace rave::bus {
 namespace {
@@ -32,10 +33,7 @@ std::string escape(std::string_view text) {
 
 /// Control characters have no business in names, and `$` starts the name of a variable there.
 bool plain(std::string_view text) {
-  for (const char c : text) {
-    if (std::iscntrl(static_cast<unsigned char>(c)) != 0 || c == '$') return false;
-  }
-  return true;
+  return !has_control_characters(text) && text.find('$') == std::string_view::npos;
 }
 
 bool is_address(std::string_view text) {

@@ -34,6 +34,7 @@ TEST(ShortText, NumbersWithThreeDigits) {
 
 TEST(ShortText, NoNameMovesTheCursorOrIsTooWide) {
   EXPECT_EQ(fitted("a\x1b[2Jb\n", 10), "a[2Jb");
+  EXPECT_EQ(fitted("a\xc2\x9b" "2Jb", 10), "a2Jb");
   EXPECT_EQ(fitted("Roboter-Größe", 13), "Roboter-Größe");
   EXPECT_EQ(fitted("Größe", 4), "Grö…");
   EXPECT_EQ(fitted("abc", 0), "");

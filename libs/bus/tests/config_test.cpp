@@ -37,6 +37,7 @@ TEST(BusConfig, StaysOnThisMachineByDefault) {
   EXPECT_TRUE(has(xml, "<ParticipantIndex>auto</ParticipantIndex>"));
   EXPECT_TRUE(has(xml, "<MaxAutoParticipantIndex>63</MaxAutoParticipantIndex>"));
   EXPECT_TRUE(has(xml, "<LeaseDuration>1000ms</LeaseDuration>"));
+  EXPECT_TRUE(has(xml, "<WhcAdaptive>false</WhcAdaptive>"));
 }
 
 TEST(BusConfig, NamesInterfacesAndPeers) {

@@ -52,6 +52,7 @@ struct HostLink::Impl {
   bus::Writer<bus::HostInfo> own_info;
   bus::Reader<bus::HostInfo> infos;
   bus::Writer<bus::HostState> states;
+  lock_step::Roster roster;
   bus::HostInfo introduced{};  ///< What the others were told of this process.
   // Of a managed run.
   std::optional<bus::Writer<bus::ClockPing>> pings{};
@@ -409,8 +410,10 @@ Result<std::unique_ptr<HostLink>> HostLink::open(Options options, LiveWorld& wor
   RAVE_TRY_ASSIGN(auto own_info, bus::Writer<bus::HostInfo>::create(*bus));
   RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
   RAVE_TRY_ASSIGN(auto states, bus::Writer<bus::HostState>::create(*bus));
+  RAVE_TRY_ASSIGN(auto roster, lock_step::Roster::create(*bus, options.self.host));
   std::unique_ptr<Impl> impl(new Impl{std::move(options), world, std::move(bus),
-                                      std::move(own_info), std::move(infos), std::move(states)});
+                                      std::move(own_info), std::move(infos), std::move(states),
+                                      std::move(roster)});
   RAVE_TRY(impl->open_endpoints());
   return std::unique_ptr<HostLink>(new HostLink(std::move(impl)));
 }
@@ -439,6 +442,7 @@ Result<bool> HostLink::await_start(const std::function<bool()>& stopping) {
 std::chrono::steady_clock::time_point HostLink::zero() const noexcept {
   return Clock::time_point(std::chrono::nanoseconds(impl_->zero_ns));
 }
+lock_step::Roster& HostLink::roster() noexcept { return impl_->roster; }
 std::span<const RobotSight> HostLink::starts() const noexcept { return impl_->starts; }
 
 void HostLink::listen_until(std::chrono::steady_clock::time_point due) {

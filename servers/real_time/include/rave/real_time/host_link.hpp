@@ -15,6 +15,7 @@
 #include "rave/bus/clock_offset.hpp"
 #include "rave/bus/config.hpp"
 #include "rave/lock_step/introduction.hpp"
+#include "rave/lock_step/roster.hpp"
 #include "rave/real_time/live_world.hpp"
 #include "rave/sim/engine.hpp"
 
@@ -41,6 +42,9 @@ class HostLink {
   HostLink(const HostLink&) = delete;
   HostLink& operator=(const HostLink&) = delete;
   ~HostLink();
+
+  /// What is told of the robots of this host, which nobody in the run waits for.
+  [[nodiscard]] lock_step::Roster& roster() noexcept;
 
   /// Waits until the run has a time, all obstacles and, if it sees, a first world; from then on
   /// zero() stands.

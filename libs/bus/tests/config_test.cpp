@@ -113,7 +113,9 @@ TEST(BusConfig, RefusesWhatCannotWork) {
   config.interface = "${HOME}";
   EXPECT_EQ(reason(config), "interface: control characters and `$` cannot be in it");
   config = good();
-  config.participant = "host\xc2\x9b" "2J";
+  config.participant =
+      "host\xc2\x9b"
+      "2J";
   EXPECT_EQ(reason(config), "participant: control characters and `$` cannot be in it");
   config = good();
   config.interface = "192.168.0.1";

@@ -222,7 +222,9 @@ TEST(Validate, RosterEntriesHaveNamesThatCanBeShown) {
   EXPECT_EQ(reason(entry), "name is empty");
   put_text(entry.name, "ann\x1b[2J");
   EXPECT_EQ(reason(entry), "name has control characters");
-  put_text(entry.name, "ann\xc2\x9b" "2J");
+  put_text(entry.name,
+           "ann\xc2\x9b"
+           "2J");
   EXPECT_EQ(reason(entry), "name has control characters") << "U+009B is ESC [ in one";
   put_text(entry.name, "anna");
   EXPECT_EQ(reason(entry), "accepted");

@@ -120,6 +120,7 @@ TEST(Page, RobotsHaveATableOfTheirOwn) {
   RobotView robot;
   robot.number = 7;
   robot.host = "left";
+  robot.team = "blue";
   robot.age_s = 2.5;
   robot.stale = true;
   view.robots.push_back(robot);

@@ -92,6 +92,7 @@ struct HostLink::Impl {
   std::map<RobotId, TalkLimit> talk{};  ///< Of robots here that have said something.
   std::vector<RobotId> flooders{};
   std::uint64_t packets_withheld = 0;
+  std::uint64_t packets_unsent = 0;
   std::map<std::uint64_t, std::uint64_t> packets_heard{};  ///< By process: the newest number.
   std::uint64_t packets_lost = 0;
 
@@ -494,7 +495,12 @@ void HostLink::send(const sim::SentPackets& sent) {
     }
     bus::Packet message =
         packet_of(packet, sent.bytes_of(packet), ++link.packets_sent, link.shift());
-    static_cast<void>(link.packets_out->write(message));
+    if (link.packets_out->write(message)) continue;
+    // Nobody waits for a reader that is stuck; the others miss the number.
+    if (link.packets_unsent++ > 0) continue;
+    link.tell(LogLevel::kWarning,
+              "some other process is too slow for what robots here say: messages are dropped until "
+              "it is faster, or taken for dead");
   }
 }
 
@@ -517,6 +523,7 @@ std::optional<bus::ClockReading> HostLink::clock() const { return impl_->time.re
 const std::optional<HostLink::Ending>& HostLink::ending() const noexcept { return impl_->ending; }
 std::vector<RobotId> HostLink::take_flooders() { return std::exchange(impl_->flooders, {}); }
 std::uint64_t HostLink::withheld_packets() const noexcept { return impl_->packets_withheld; }
+std::uint64_t HostLink::unsent_packets() const noexcept { return impl_->packets_unsent; }
 std::uint64_t HostLink::lost_packets() const noexcept { return impl_->packets_lost; }
 std::uint64_t HostLink::worlds() const noexcept { return impl_->world_count; }
 std::uint64_t HostLink::losses() const noexcept { return impl_->losses; }

@@ -176,6 +176,7 @@ Status write_results(const LiveJourney& journey, const RunFacts& facts,
     json["radio"]["transmitters"] = transmitters_json(journey.engine.spec(), facts.transmitters);
   }
   json["lost_packets"] = journey.link.lost_packets();
+  json["unsent_packets"] = journey.link.unsent_packets();
   json["withheld_packets"] = journey.link.withheld_packets();
   json["dropped_packets"] = journey.live.dropped_packets();
   json["events"] = journey.events.size();

@@ -65,7 +65,8 @@ class HostLink {
   /// Tells where robots of this engine are, as its last step sensed; those without a pose are left
   /// out. Nothing for an empty list.
   void tell(const sim::Engine& engine, std::span<const RobotId> robots);
-  /// Sends what robots here said in a step, of each as much as its TalkLimit lets pass.
+  /// Sends what robots here said in a step, of each as much as its TalkLimit lets pass. Waits for
+  /// nobody.
   void send(const sim::SentPackets& sent);
   /// Who has exceeded it since the last call; each robot once in a run.
   [[nodiscard]] std::vector<RobotId> take_flooders();
@@ -86,6 +87,8 @@ class HostLink {
   [[nodiscard]] const std::optional<Ending>& ending() const noexcept;
   /// How many messages of robots here were dropped since they had exceeded it.
   [[nodiscard]] std::uint64_t withheld_packets() const noexcept;
+  /// How many messages of robots here were dropped since some other process does not keep up.
+  [[nodiscard]] std::uint64_t unsent_packets() const noexcept;
   /// How many messages of robots of other hosts were on the bus and did not get here.
   [[nodiscard]] std::uint64_t lost_packets() const noexcept;
   /// How many worlds have come, and how often they failed to for longer than three periods and half

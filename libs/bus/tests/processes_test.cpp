@@ -2,6 +2,7 @@
 // The bus between processes: who hears whom, and who notices what.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <map>
 #include <thread>
@@ -48,6 +49,52 @@ TEST(Processes, APacketGoesThereAndBack) {
   const auto bus = Bus::open(domain.config());
   ASSERT_TRUE(bus) << bus.error().text();
   EXPECT_EQ(round_trip(**bus), std::string(64, 'r'));
+  EXPECT_EQ(peer.end(), 0);
+}
+
+TEST(Processes, AStuckReaderHoldsNobodyUpAndHearsAgainLater) {
+  const TestDomain domain;
+  PeerProcess peer(domain, "echo", "stuck", {"lease_s=600"});
+  ASSERT_EQ(peer.line(), "ready");
+  const auto bus = Bus::open(domain.config());
+  ASSERT_TRUE(bus) << bus.error().text();
+  auto writer = Writer<Packet>::create(**bus);
+  auto reader = Reader<Packet>::create(**bus);
+  std::uint64_t number = 0;
+  std::uint64_t echoed = 0;
+  const auto say = [&](std::vector<std::uint8_t>& payload) {
+    Packet packet{};
+    packet.number = ++number;
+    packet.from_robot = 3;
+    borrow(packet.payload, payload);
+    return writer->write(packet);
+  };
+  const auto listen = [&] {
+    reader->take([&](const Packet& answer) { echoed = std::max(echoed, answer.number); });
+  };
+  std::vector<std::uint8_t> word(64, 'w');
+  ASSERT_TRUE(eventually([&] { return static_cast<void>(say(word)), listen(), echoed > 0; }));
+
+  peer.pause();
+  // Ten times what a writer keeps for it. If it waited half a second for each, the test would not
+  // see its end.
+  std::vector<std::uint8_t> page(60'000, 'p');
+  int sent = 0;
+  int refused = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Status status = say(page);
+    sent += status ? 1 : 0;
+    refused += status ? 0 : 1;
+    if (!status) {
+      ASSERT_EQ(status.error().code, ErrorCode::kTimeout) << status.error().text();
+    }
+  }
+  EXPECT_GT(sent, 200) << "16 MB have room";
+  EXPECT_GT(refused, 2000);
+
+  peer.resume();
+  const std::uint64_t last = number;
+  EXPECT_TRUE(eventually([&] { return static_cast<void>(say(word)), listen(), echoed > last; }));
   EXPECT_EQ(peer.end(), 0);
 }
 

@@ -300,6 +300,24 @@ TEST(Processes, AProcessHasOneBusInADomain) {
   EXPECT_NE(second.error().message.find("has a bus in domain"), std::string::npos);
 }
 
+TEST(Processes, BusesBesideTakeNoNumberFromOthers) {
+  const TestDomain domain;
+  BusConfig beside = domain.config("driver");
+  beside.beside = true;
+  const auto first = Bus::open(beside);
+  const auto second = Bus::open(beside);
+  ASSERT_TRUE(first) << first.error().text();
+  ASSERT_TRUE(second) << second.error().text();
+  // They are in one domain, as two processes would be.
+  EXPECT_EQ(await_event(**second, EventKind::kParticipantAppeared).participant, "driver");
+  for (const std::uint32_t number : {domain.domain, 230U, 229U}) {
+    BusConfig other = domain.config("host");
+    other.domain = number;
+    const auto bus = Bus::open(other);
+    EXPECT_TRUE(bus) << number << ": " << bus.error().text();
+  }
+}
+
 TEST(Processes, ASampleThatIsTooLongIsNotSent) {
   const TestDomain domain;
   const auto bus = Bus::open(domain.config());

@@ -279,7 +279,9 @@ RunView RunModel::view(std::int64_t now_ns, bool with_robots) const {
     for (const auto& [number, sight] : state_->hosts) hosts.insert(number);
   }
   for (const auto& [writer, process] : processes_) {
-    if (process.host != rave_wire_kNone) hosts.insert(process.host);
+    // Who describes robots and says nothing else is no host yet.
+    const bool speaks = process.introduced || process.state || process.reported > 0;
+    if (speaks && process.host != rave_wire_kNone) hosts.insert(process.host);
   }
   if (const Process* const manager = speaker_of(rave_wire_kNone)) {
     view.hosts.push_back(manager_view(*manager, now_ns));

@@ -81,9 +81,7 @@ std::size_t columns_of(std::string_view text) noexcept {
   return columns;
 }
 
-std::string without_controls(std::string_view text) {
-  return without_control_characters(text, "");
-}
+std::string without_controls(std::string_view text) { return without_control_characters(text, ""); }
 
 std::string clip_to_columns(std::string_view text, std::size_t columns) {
   if (columns_of(text) <= columns) return std::string(text);

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
 namespace rave {
 
 // Characters that steer a terminal instead of being shown: those below U+0020, and U+007F to
-// U+009F; in UTF-8, in more bytes than it needs, or as a single byte that is no UTF-8, which is what
-// an old terminal sees. Pure; any thread.
+// U+009F; in UTF-8, in more bytes than it needs, or as a single byte that is no UTF-8, which is
+// what an old terminal sees. Pure; any thread.
 
 [[nodiscard]] bool has_control_characters(std::string_view text) noexcept;
 

@@ -5,6 +5,8 @@
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 
+#include "rave/base/control_characters.hpp"
+
 namespace rave::cli {
 namespace {
 
@@ -27,13 +29,7 @@ spdlog::level::level_enum level_of(LogLevel level) noexcept {
 }
 
 /// No message may move the cursor or begin a line of its own.
-std::string one_line(std::string_view text) {
-  std::string clean(text);
-  for (char& c : clean) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  }
-  return clean;
-}
+std::string one_line(std::string_view text) { return without_control_characters(text, " "); }
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <optional>
 
+#include "rave/base/control_characters.hpp"
 #include "rave/base/file.hpp"
 
 namespace rave::cli {
@@ -34,10 +35,12 @@ std::optional<std::string> source_line(const SourceLocation& where) {
     rest.remove_prefix(end + 1);
   }
   std::string text(rest.substr(0, rest.find('\n')));
-  // Whatever a file contains, it must not steer the terminal.
-  std::replace_if(
-      text.begin(), text.end(),
-      [](char c) { return (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7f; }, ' ');
+  // Whatever a file contains, it must not steer the terminal; the caret counts its bytes.
+  for (std::size_t at = 0; at < text.size();) {
+    const TextCharacter here = character_at(text, at);
+    if (here.control && text[at] != '\t') text.replace(at, here.bytes, here.bytes, ' ');
+    at += here.bytes;
+  }
   return text;
 }
 

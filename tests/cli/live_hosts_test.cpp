@@ -6,7 +6,9 @@
 #include <cstring>
 
 #include "live_listener.hpp"
+#include "onlooker.hpp"
 #include "rave/bus/sequence.hpp"
+#include "rave/bus/writer.hpp"
 #include "recorded_run.hpp"
 #include "shared_world.hpp"
 
@@ -289,6 +291,34 @@ TEST_F(LiveHosts, ASecondProcessForAHostIsNotLetIn) {
   wait_until_it_moves(kLeft);
   ::kill(id_of("second"), SIGKILL);
   end_all({"one", "two", "env"});
+}
+
+TEST_F(LiveHosts, ARobotThatIsThereAlreadyIsRefusedWithOneLine) {
+  begin_all();
+  auto stranger = join_as_onlooker(run_, apart());
+  ASSERT_TRUE(stranger) << stranger.error().text();
+  auto roster = bus::Writer<bus::RosterEntry>::create(**stranger);
+  ASSERT_TRUE(roster) << roster.error().text();
+  std::vector<double> x_m = {0, 1, 0};
+  std::vector<double> y_m = {0, 0, 1};
+  std::vector<rave_wire_Prism> body(1);
+  bus::borrow(body[0].x_m, x_m);
+  bus::borrow(body[0].y_m, y_m);
+  for (const std::uint32_t robot : {kLeft, kRight}) {
+    bus::RosterEntry entry{};
+    entry.robot = robot;
+    entry.host = robot;
+    bus::put_text(entry.name, robot == kLeft ? "left" : "right");
+    bus::borrow(entry.body, body);
+    ASSERT_TRUE(roster->write(entry));
+  }
+  wait_for_line("env", ": its host `");
+  wait_until_it_moves(kLeft);
+  end_all({"one", "two", "env"});
+  const std::string said = console("env");
+  const std::size_t first = said.find("a second robot `");
+  ASSERT_NE(first, std::string::npos) << said;
+  EXPECT_EQ(said.find("a second robot `", first + 1), std::string::npos) << said;
 }
 
 }  // namespace

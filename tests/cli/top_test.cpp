@@ -47,6 +47,12 @@ class Top : public SharedWorld {
     }
     return {{"state", "not listed"}};
   }
+  static Json robot(const Json& document, const std::string& name) {
+    for (const Json& robot : document.value("robots", Json::array())) {
+      if (robot["name"] == name) return robot;
+    }
+    return Json::object({{"host", "not listed"}});
+  }
 };
 
 TEST_F(Top, SaysSoIfThereIsNoRunAndHowToStartOne) {
@@ -71,7 +77,9 @@ TEST_F(Top, HostsOfARunInRealTimeAndTheDeathOfOne) {
         return host(seen, "one")["state"] == "here" && host(seen, "one")["cores"].is_number() &&
                host(seen, "one")["asked_rate_hz"].is_number() &&
                host(seen, "one")["clock_bound_s"].is_number() &&
-               host(seen, "one")["round_trip_s"].is_number();
+               host(seen, "one")["round_trip_s"].is_number() &&
+               robot(seen, "left").value("age_s", Json()).is_number() &&
+               robot(seen, "right")["host"] == "two";
       },
       "all is known of host `one`");
   const Json seen = last_of("watched");
@@ -84,6 +92,8 @@ TEST_F(Top, HostsOfARunInRealTimeAndTheDeathOfOne) {
   EXPECT_NEAR(one["asked_rate_hz"].get<double>(), 10, 1e-9) << one.dump();
   EXPECT_GT(one["memory_mb"], 1);
   EXPECT_EQ(seen["robots"].size(), 2U);
+  EXPECT_EQ(robot(seen, "left")["host"], "one") << seen.dump();
+  EXPECT_EQ(robot(seen, "left")["simulated"], true) << seen.dump();
 
   signal("one", SIGKILL);
   wait_until([this] { return host(last_of("watched"), "one")["state"] == "gone"; },
@@ -109,10 +119,11 @@ TEST_F(Top, ATableOfARunInLockStep) {
   }
   wait_for_line("env", "host `two` is here");
   // By the name of its scenario, which is known only inside of the run.
-  const Ended ended = look({"crowd", "--once"});
+  const Ended ended = look({"crowd", "--once", "--robots"});
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
-  for (const char* const word : {"crowd   goes", "in lock-step", "HOST", "manager", "one", "two",
-                                 "here", "STEP", "RATE /s"}) {
+  for (const char* const word :
+       {"crowd   goes", "in lock-step", "HOST", "manager", "one", "two", "here", "STEP", "RATE /s",
+        "KIND", "left-1 ", "right-20", "simulated"}) {
     EXPECT_NE(ended.out.find(word), std::string::npos) << word << "\n" << ended.out;
   }
   EXPECT_EQ(ended.out.find('\x1b'), std::string::npos) << "no terminal, no colours";

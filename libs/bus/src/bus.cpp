@@ -13,9 +13,16 @@
 namespace rave::bus {
 namespace {
 
-/// The number that the domain of a bus beside others has within this process: this one or the next
-/// one below that is free. DDS Security asks for permission under it, which is given for 0 to 230.
-constexpr std::uint32_t kHighestDomain = 230;
+/// The numbers that domains of buses beside others have within this process, which say nothing of
+/// ports: these and up, where no other bus can have its own. DDS Security asks for permission under
+/// that number, which is given for 0 to 230: with it the highest one that is free is taken.
+constexpr std::uint32_t kFirstBeside = 5000;
+constexpr std::uint32_t kMostBeside = 200;
+constexpr std::uint32_t kHighestSecured = 230;
+
+std::uint32_t number_beside(const BusConfig& config, std::uint32_t attempt) {
+  return config.security.empty() ? kFirstBeside + attempt : kHighestSecured - attempt;
+}
 
 constexpr std::uint32_t kReaderStatus =
     DDS_SUBSCRIPTION_MATCHED_STATUS | DDS_REQUESTED_INCOMPATIBLE_QOS_STATUS;
@@ -72,11 +79,12 @@ Result<std::unique_ptr<Bus>> Bus::open(const BusConfig& config) {
 
 Status Bus::open_domain() {
   const std::string settings = cyclone_xml(config_);
-  if (config_.beside) number_ = kHighestDomain;
-  domain_ = dds_create_domain(number_, settings.c_str());
-  while (config_.beside && domain_ == DDS_RETCODE_PRECONDITION_NOT_MET && number_ > 0) {
-    domain_ = dds_create_domain(--number_, settings.c_str());
-  }
+  std::uint32_t attempt = 0;
+  do {
+    if (config_.beside) number_ = number_beside(config_, attempt);
+    domain_ = dds_create_domain(number_, settings.c_str());
+  } while (config_.beside && domain_ == DDS_RETCODE_PRECONDITION_NOT_MET &&
+           ++attempt < kMostBeside);
   if (domain_ < 0) return refused(domain_);
   return {};
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/bus/config.hpp"
 
-#include <cctype>
 #include <string_view>
+
+#include "rave/base/control_characters.hpp"
 
 namespace rave::bus {
 namespace {
@@ -32,10 +33,7 @@ std::string escape(std::string_view text) {
 
 /// Control characters have no business in names, and `$` starts the name of a variable there.
 bool plain(std::string_view text) {
-  for (const char c : text) {
-    if (std::iscntrl(static_cast<unsigned char>(c)) != 0 || c == '$') return false;
-  }
-  return true;
+  return !has_control_characters(text) && text.find('$') == std::string_view::npos;
 }
 
 bool is_address(std::string_view text) {
@@ -97,14 +95,17 @@ std::string discovery(const BusConfig& config) {
 }
 
 /// A world of 10 000 robots is half a megabyte: the usual limits would stop a writer after one, and
-/// a sample of many megabytes is no message of ours. Where many processes join at once, each is
+/// a sample of many megabytes is no message of ours. The limit stays what it is: Cyclone DDS would
+/// lower it to almost nothing where messages get lost, and writers that do not wait would drop
+/// what has room. Where many processes join at once, each is
 /// asked by all others again and again what it has got; ten times a second is more than fifty of
 /// them can answer before they are taken for dead. Longer breaks would delay two that just miss
 /// each other.
 std::string internals() {
   return "<Internal><SocketReceiveBufferSize max=\"8MiB\"/>"
          "<HeartbeatInterval>200ms</HeartbeatInterval>"
-         "<Watermarks><WhcHigh>16MB</WhcHigh><WhcHighInit>16MB</WhcHighInit></Watermarks>"
+         "<Watermarks><WhcHigh>16MB</WhcHigh><WhcHighInit>16MB</WhcHighInit>"
+         "<WhcAdaptive>false</WhcAdaptive></Watermarks>"
          "<MaxSampleSize>16MiB</MaxSampleSize></Internal>"
          "<SharedMemory><Enable>false</Enable></SharedMemory>"
          "<Tracing><Verbosity>none</Verbosity></Tracing>";

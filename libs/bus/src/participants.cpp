@@ -7,6 +7,8 @@
 #include <charconv>
 #include <memory>
 
+#include "rave/base/control_characters.hpp"
+
 namespace rave::bus {
 namespace {
 
@@ -36,11 +38,8 @@ Identity read_identity(const dds_qos_t* qos) {
   char* name = nullptr;
   if (dds_qget_entity_name(qos, &name) && name != nullptr) {
     const std::unique_ptr<char, DdsFree> owner(name);
-    identity.name = std::string_view(name).substr(0, 256);
     // It is shown to people, and comes from anybody.
-    for (char& c : identity.name) {
-      if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-    }
+    identity.name = without_control_characters(std::string_view(name).substr(0, 256), "?");
   }
   void* data = nullptr;
   std::size_t size = 0;

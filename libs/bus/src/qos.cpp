@@ -14,7 +14,7 @@ Qos make_qos(const QosProfile& profile) {
   Qos qos(dds_create_qos());
   dds_qset_reliability(qos.get(),
                        profile.reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT,
-                       DDS_MSECS(500));
+                       profile.waits ? DDS_MSECS(500) : 0);
   const dds_history_kind_t history =
       profile.depth == 0 ? DDS_HISTORY_KEEP_ALL : DDS_HISTORY_KEEP_LAST;
   const std::int32_t depth = profile.depth == 0 ? 1 : profile.depth;

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "rave/base/control_characters.hpp"
 #include "rave/bus/sequence.hpp"
 #include "rave/bus/validate.hpp"
 
@@ -81,12 +82,8 @@ inline Status check_twists(std::string_view list, const rave_wire_PlanarTwists& 
 /// Names end up in logs and on terminals.
 inline Status check_label(std::string_view field, std::string_view text, bool needed) {
   if (needed && text.empty()) return invalid(fmt::format("{} is empty", field));
-  for (const char c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
-      return invalid(fmt::format("{} has control characters", field));
-    }
-  }
-  return {};
+  if (!has_control_characters(text)) return {};
+  return invalid(fmt::format("{} has control characters", field));
 }
 
 inline Status check_id(std::string_view field, std::uint32_t id) {

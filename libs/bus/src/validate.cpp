@@ -138,6 +138,7 @@ Status validate(const World& sample) {
 Status validate(const RosterEntry& sample) {
   RAVE_TRY(check_writer(sample));
   RAVE_TRY(check_id("robot", sample.robot));
+  RAVE_TRY(check_id("host", sample.host));
   RAVE_TRY(check_label("name", sample.name, true));
   RAVE_TRY(check_label("team", sample.team, false));
   if (sample.kind > rave_wire_ROBOT_SHADOW) return invalid("kind is unknown");

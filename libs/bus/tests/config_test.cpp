@@ -37,6 +37,7 @@ TEST(BusConfig, StaysOnThisMachineByDefault) {
   EXPECT_TRUE(has(xml, "<ParticipantIndex>auto</ParticipantIndex>"));
   EXPECT_TRUE(has(xml, "<MaxAutoParticipantIndex>63</MaxAutoParticipantIndex>"));
   EXPECT_TRUE(has(xml, "<LeaseDuration>1000ms</LeaseDuration>"));
+  EXPECT_TRUE(has(xml, "<WhcAdaptive>false</WhcAdaptive>"));
 }
 
 TEST(BusConfig, NamesInterfacesAndPeers) {
@@ -111,6 +112,11 @@ TEST(BusConfig, RefusesWhatCannotWork) {
   config = good();
   config.interface = "${HOME}";
   EXPECT_EQ(reason(config), "interface: control characters and `$` cannot be in it");
+  config = good();
+  config.participant =
+      "host\xc2\x9b"
+      "2J";
+  EXPECT_EQ(reason(config), "participant: control characters and `$` cannot be in it");
   config = good();
   config.interface = "192.168.0.1";
   EXPECT_TRUE(has(reason(config), "peers: without multicast nobody is found on 192.168.0.1"));

@@ -21,6 +21,9 @@ int main(int argc, char** argv) {
   config.tag = arguments["tag"];
   if (!arguments["peer"].empty()) config.peers = {arguments["peer"]};
   config.security = arguments["security"];
+  if (const int lease_s = std::atoi(arguments["lease_s"].c_str()); lease_s > 0) {
+    config.lease = rave::from_seconds(lease_s);
+  }
   const auto run = RunId::parse(arguments["run"]);
   if (!run) return 2;
   config.run = *run;

@@ -74,6 +74,14 @@ std::string PeerProcess::line() {
 
 void PeerProcess::poke() const { static_cast<void>(!::write(input_, "x", 1)); }
 
+void PeerProcess::pause() const {
+  ::kill(process_, SIGSTOP);
+  // All its threads stand when this returns.
+  ::waitpid(process_, nullptr, WUNTRACED);
+}
+
+void PeerProcess::resume() const { ::kill(process_, SIGCONT); }
+
 int PeerProcess::end() {
   ::close(std::exchange(input_, -1));
   int status = 0;

@@ -38,6 +38,9 @@ class PeerProcess {
   [[nodiscard]] std::string line();
   /// Gives it a byte to read.
   void poke() const;
+  /// It does nothing any more, and is not gone, until it resumes.
+  void pause() const;
+  void resume() const;
   /// Lets it end in order, and waits for that; its exit code.
   int end();
   void kill();

@@ -2,6 +2,7 @@
 // The bus between processes: who hears whom, and who notices what.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <map>
 #include <thread>
@@ -48,6 +49,52 @@ TEST(Processes, APacketGoesThereAndBack) {
   const auto bus = Bus::open(domain.config());
   ASSERT_TRUE(bus) << bus.error().text();
   EXPECT_EQ(round_trip(**bus), std::string(64, 'r'));
+  EXPECT_EQ(peer.end(), 0);
+}
+
+TEST(Processes, AStuckReaderHoldsNobodyUpAndHearsAgainLater) {
+  const TestDomain domain;
+  PeerProcess peer(domain, "echo", "stuck", {"lease_s=600"});
+  ASSERT_EQ(peer.line(), "ready");
+  const auto bus = Bus::open(domain.config());
+  ASSERT_TRUE(bus) << bus.error().text();
+  auto writer = Writer<Packet>::create(**bus);
+  auto reader = Reader<Packet>::create(**bus);
+  std::uint64_t number = 0;
+  std::uint64_t echoed = 0;
+  const auto say = [&](std::vector<std::uint8_t>& payload) {
+    Packet packet{};
+    packet.number = ++number;
+    packet.from_robot = 3;
+    borrow(packet.payload, payload);
+    return writer->write(packet);
+  };
+  const auto listen = [&] {
+    reader->take([&](const Packet& answer) { echoed = std::max(echoed, answer.number); });
+  };
+  std::vector<std::uint8_t> word(64, 'w');
+  ASSERT_TRUE(eventually([&] { return static_cast<void>(say(word)), listen(), echoed > 0; }));
+
+  peer.pause();
+  // Ten times what a writer keeps for it. If it waited half a second for each, the test would not
+  // see its end.
+  std::vector<std::uint8_t> page(60'000, 'p');
+  int sent = 0;
+  int refused = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Status status = say(page);
+    sent += status ? 1 : 0;
+    refused += status ? 0 : 1;
+    if (!status) {
+      ASSERT_EQ(status.error().code, ErrorCode::kTimeout) << status.error().text();
+    }
+  }
+  EXPECT_GT(sent, 200) << "16 MB have room";
+  EXPECT_GT(refused, 2000);
+
+  peer.resume();
+  const std::uint64_t last = number;
+  EXPECT_TRUE(eventually([&] { return static_cast<void>(say(word)), listen(), echoed > last; }));
   EXPECT_EQ(peer.end(), 0);
 }
 
@@ -251,6 +298,24 @@ TEST(Processes, AProcessHasOneBusInADomain) {
   ASSERT_FALSE(second);
   EXPECT_EQ(second.error().code, ErrorCode::kState);
   EXPECT_NE(second.error().message.find("has a bus in domain"), std::string::npos);
+}
+
+TEST(Processes, BusesBesideTakeNoNumberFromOthers) {
+  const TestDomain domain;
+  BusConfig beside = domain.config("driver");
+  beside.beside = true;
+  const auto first = Bus::open(beside);
+  const auto second = Bus::open(beside);
+  ASSERT_TRUE(first) << first.error().text();
+  ASSERT_TRUE(second) << second.error().text();
+  // They are in one domain, as two processes would be.
+  EXPECT_EQ(await_event(**second, EventKind::kParticipantAppeared).participant, "driver");
+  for (const std::uint32_t number : {domain.domain, 230U, 229U}) {
+    BusConfig other = domain.config("host");
+    other.domain = number;
+    const auto bus = Bus::open(other);
+    EXPECT_TRUE(bus) << number << ": " << bus.error().text();
+  }
 }
 
 TEST(Processes, ASampleThatIsTooLongIsNotSent) {

@@ -222,8 +222,14 @@ TEST(Validate, RosterEntriesHaveNamesThatCanBeShown) {
   EXPECT_EQ(reason(entry), "name is empty");
   put_text(entry.name, "ann\x1b[2J");
   EXPECT_EQ(reason(entry), "name has control characters");
+  put_text(entry.name,
+           "ann\xc2\x9b"
+           "2J");
+  EXPECT_EQ(reason(entry), "name has control characters") << "U+009B is ESC [ in one";
   put_text(entry.name, "anna");
   EXPECT_EQ(reason(entry), "accepted");
+  entry.host = rave_wire_kNone;
+  EXPECT_EQ(reason(entry), "host is none");
 }
 
 TEST(Validate, Edits) {

@@ -9,6 +9,7 @@
 
 #include "numbers.hpp"
 #include "rave/base/check.hpp"
+#include "rave/base/control_characters.hpp"
 
 namespace rave::config {
 namespace {
@@ -37,10 +38,7 @@ std::string excerpt(std::string_view text) {
     part.resize(cut);
     part += "...";
   }
-  for (char& c : part) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
-  }
-  return part;
+  return without_control_characters(part, " ");
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "rave/base/control_characters.hpp"
 #include "rave/config/yaml.hpp"
 #include "utf8.hpp"
 
@@ -222,11 +223,15 @@ std::optional<Error> check_characters(std::string_view text, std::string_view fi
   if (bad < text.size()) {
     return Error{ErrorCode::kParse, "the file is not UTF-8 text", place_of(text, bad, file_name)};
   }
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto c = static_cast<unsigned char>(text[i]);
-    if ((c >= 0x20 && c != 0x7F) || c == '\t' || c == '\n' || c == '\r') continue;
-    return Error{ErrorCode::kParse, fmt::format("found a control character (code {})", c),
-                 place_of(text, i, file_name)};
+  for (std::size_t i = 0; i < text.size();) {
+    const TextCharacter here = character_at(text, i);
+    // Those that can be are their last byte.
+    const auto c = static_cast<unsigned char>(text[i + here.bytes - 1]);
+    if (here.control && c != '\t' && c != '\n' && c != '\r') {
+      return Error{ErrorCode::kParse, fmt::format("found a control character (code {})", c),
+                   place_of(text, i, file_name)};
+    }
+    i += here.bytes;
   }
   return std::nullopt;
 }

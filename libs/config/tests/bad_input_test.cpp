@@ -189,6 +189,8 @@ const Case kCases[] = {
     {"NotUtf8", "frame: base\nrole: \xff\n", "a.yaml:2:7: the file is not UTF-8 text"},
     {"ControlCharacter", "frame: base\nrole: a\x01\n",
      "a.yaml:2:8: found a control character (code 1)"},
+    {"ControlCharacterOfTwoBytes", "frame: base\nrole: a\xc2\x9b\n",
+     "a.yaml:2:8: found a control character (code 155)"},
 };
 
 INSTANTIATE_TEST_SUITE_P(Config, BadInput, testing::ValuesIn(kCases),

@@ -5,6 +5,8 @@
 #include <array>
 #include <cstdint>
 
+#include "rave/base/control_characters.hpp"
+
 namespace rave::report {
 namespace {
 
@@ -79,13 +81,7 @@ std::size_t columns_of(std::string_view text) noexcept {
   return columns;
 }
 
-std::string without_controls(std::string_view text) {
-  std::string clean;
-  for (const char c : text) {
-    if (static_cast<unsigned char>(c) >= 0x20 && c != 0x7F) clean += c;
-  }
-  return clean;
-}
+std::string without_controls(std::string_view text) { return without_control_characters(text, ""); }
 
 std::string clip_to_columns(std::string_view text, std::size_t columns) {
   if (columns_of(text) <= columns) return std::string(text);

@@ -5,6 +5,7 @@
 #include <span>
 #include <string_view>
 
+#include "rave/base/control_characters.hpp"
 #include "rave/bus/sequence.hpp"
 
 namespace rave::ros2 {
@@ -34,12 +35,8 @@ Status check_text(std::string_view field, const char* text, std::size_t longest)
 /// Names end up in logs and on terminals.
 Status check_frame(std::string_view field, const char* frame) {
   RAVE_TRY(check_text(field, frame, kLongestFrame));
-  for (const char c : std::string_view(frame == nullptr ? "" : frame)) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
-      return fail(kBad, "{} has control characters", field);
-    }
-  }
-  return {};
+  if (!has_control_characters(frame == nullptr ? "" : frame)) return {};
+  return fail(kBad, "{} has control characters", field);
 }
 
 Status check_stamp(std::string_view field, const Time& stamp) {

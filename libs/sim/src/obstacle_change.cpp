@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/sim/obstacle_change.hpp"
 
-#include <algorithm>
 #include <cmath>
 
+#include "rave/base/control_characters.hpp"
 #include "rave/sim/event.hpp"
 
 namespace rave::sim {
@@ -21,8 +21,7 @@ Status check_name(const ObstacleChange& change) {
                 "the name of an obstacle has {} bytes; expected at most {}", name.size(),
                 ObstacleChange::kMostNameBytes);
   }
-  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
-  if (std::any_of(name.begin(), name.end(), is_control)) {
+  if (has_control_characters(name)) {
     return fail(ErrorCode::kInvalidArgument, "the name of an obstacle has a control character");
   }
   return {};

@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
+#include "rave/base/control_characters.hpp"
+
 namespace rave::doctor {
 namespace {
 
@@ -48,9 +50,7 @@ class Fields {
     good_ = good_ && value != nullptr && value->is_string();
     if (!good_) return;
     text = value->get<std::string>();
-    good_ = text.size() <= kLongestText && std::ranges::none_of(text, [](char c) {
-              return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-            });
+    good_ = text.size() <= kLongestText && !has_control_characters(text);
   }
   [[nodiscard]] const Json* find(const char* key) {
     const auto found = good_ ? json_.find(key) : json_.end();

@@ -57,6 +57,7 @@ TEST(Letter, WhatIsNoneIsRefused) {
   EXPECT_EQ(reason(with("\"sent_ns\":-5", "\"sent_ns\":9223372036854775807")),
             "a field is missing or of another type");
   EXPECT_EQ(reason(with("lab-1", "lab\\u001bJ")), "it says too little") << "control characters";
+  EXPECT_EQ(reason(with("lab-1", "lab\\u009bJ")), "it says too little");
   EXPECT_EQ(reason(with("7411", "74110")), "it says too little");
 }
 

@@ -7,6 +7,16 @@
 #include "rave/bus/sequence.hpp"
 
 namespace rave::environment_manager {
+namespace {
+
+std::vector<RosterBook::Robot> planned_robots(const LiveManagerOptions& options) {
+  std::vector<RosterBook::Robot> robots;
+  for (const auto& robot : options.robots) robots.push_back({robot.name, robot.simulated});
+  return robots;
+}
+
+}  // namespace
+
 struct LiveBoard::Parts {
   std::unique_ptr<bus::Bus> bus;
   bus::Writer<bus::HostInfo> own_info;
@@ -18,6 +28,7 @@ struct LiveBoard::Parts {
   bus::Reader<bus::ClockPing> pings;
   bus::Reader<bus::HostState> states;
   bus::Reader<bus::LastObstacle> handed_in;
+  bus::Reader<bus::RosterEntry> roster;
   lock_step::Pulse pulse;
 };
 
@@ -33,12 +44,14 @@ LiveBoard::LiveBoard(const LiveManagerOptions& options, Parts parts)
       pings_(std::move(parts.pings)),
       states_(std::move(parts.states)),
       handed_in_(std::move(parts.handed_in)),
+      roster_(std::move(parts.roster)),
       pulse_(std::move(parts.pulse)),
       claims_(static_cast<std::uint32_t>(options.hosts.size())),
       seat_of_(options.robots.size()),
       robots_(options.robots.size()),
       known_(options.robots.size()),
-      said_by_(options.robots.size()) {
+      said_by_(options.robots.size()),
+      book_(planned_robots(options), options.hosts) {
   for (std::uint32_t h = 0; h < options.hosts.size(); ++h) {
     const config::PlannedHost& host = options.hosts[h];
     LiveSeat& seat = seats_.emplace_back();
@@ -62,11 +75,12 @@ Result<std::unique_ptr<LiveBoard>> LiveBoard::open(const LiveManagerOptions& opt
   RAVE_TRY_ASSIGN(auto pings, bus::Reader<bus::ClockPing>::create(*bus));
   RAVE_TRY_ASSIGN(auto states, bus::Reader<bus::HostState>::create(*bus));
   RAVE_TRY_ASSIGN(auto handed_in, bus::Reader<bus::LastObstacle>::create(*bus));
+  RAVE_TRY_ASSIGN(auto roster, bus::Reader<bus::RosterEntry>::create(*bus));
   RAVE_TRY_ASSIGN(auto pulse, lock_step::Pulse::create(*bus, options.identity));
   std::unique_ptr<LiveBoard> board(new LiveBoard(
       options, {std::move(bus), std::move(own_info), std::move(worlds), std::move(runs),
                 std::move(pongs), std::move(obstacles), std::move(infos), std::move(pings),
-                std::move(states), std::move(handed_in), std::move(pulse)}));
+                std::move(states), std::move(handed_in), std::move(roster), std::move(pulse)}));
   RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(*board->bus_));
   RAVE_TRY(waits.add(board->pings_));
   RAVE_TRY(waits.add(board->states_));
@@ -118,6 +132,7 @@ void LiveBoard::lose(std::uint64_t writer, bool goes) {
   host_of_.erase(writer);
   refused_.erase(writer);
   claims_.release(writer);
+  book_.lose(writer);
   for (LiveSeat& seat : seats_) {
     if (seat.writer != writer) continue;
     seat.writer = 0;
@@ -147,6 +162,7 @@ bool LiveBoard::sit_down(const bus::ClockPing& ping) {
       return false;
     }
     seat.writer = ping.writer;
+    book_.stir();
     news_ = true;
     if (options_.log != nullptr) {
       options_.log->info(kSource, "host `{}` is {}, with {} real and {} simulated robots",
@@ -160,6 +176,14 @@ bool LiveBoard::sit_down(const bus::ClockPing& ping) {
   seat.obstacle_revision = ping.obstacle_revision;
   seat.obstacles_ns = ping.obstacles_ns;
   return true;
+}
+
+void LiveBoard::take_roster(robot_host::RunControl* control) {
+  const auto serving = [this](std::uint32_t host) {
+    return host < seats_.size() ? seats_[host].writer : 0;
+  };
+  read_roster(roster_, book_, serving);
+  show_kinds(book_, serving, control);
 }
 
 void LiveBoard::take_states() {

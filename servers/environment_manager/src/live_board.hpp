@@ -16,6 +16,7 @@
 #include "rave/lock_step/obstacle_messages.hpp"
 #include "rave/lock_step/pulse.hpp"
 #include "rave/real_time/messages.hpp"
+#include "roster_book.hpp"
 
 namespace rave::environment_manager {
 
@@ -57,8 +58,11 @@ class LiveBoard {
   /// free.
   bool sit_down(const bus::ClockPing& ping);
   void answer(bus::ClockPong& pong) { static_cast<void>(pongs_.write(pong)); }
-  /// Takes in what hosts say of their robots.
+  /// Takes in where hosts say that their robots are.
   void take_states();
+  /// Takes in what hosts say of their robots, and tells it those who ask for the status; `control`
+  /// has begun, or is null.
+  void take_roster(robot_host::RunControl* control);
   /// Sends where all robots are that were heard of. `stale`: by robot.
   void send_world(std::uint64_t number, SimTime now, std::span<const std::uint8_t> stale);
   /// Fills in how it stands with the hosts, and sends it.
@@ -107,6 +111,7 @@ class LiveBoard {
   bus::Reader<bus::ClockPing> pings_;
   bus::Reader<bus::HostState> states_;
   bus::Reader<bus::LastObstacle> handed_in_;
+  bus::Reader<bus::RosterEntry> roster_;
   lock_step::Pulse pulse_;
   std::optional<bus::WaitSet> waits_;
   bus::HostInfo introduced_{};  ///< What the others were told of this process.
@@ -118,6 +123,7 @@ class LiveBoard {
   std::vector<real_time::RobotSight> robots_;       ///< By robot, as heard last.
   std::vector<bool> known_;
   std::vector<std::uint64_t> said_by_;  ///< By robot: the process that spoke of it last.
+  RosterBook book_;
   real_time::RobotColumns columns_;
   std::vector<std::uint32_t> stale_;
   lock_step::ObstacleParts parts_;

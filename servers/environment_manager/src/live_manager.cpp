@@ -142,6 +142,7 @@ Status LiveRun::listen() {
   // Towards the end each host goes when it is done.
   const bool over = ended_ || (begun_ && options_.duration - Duration{now().ns} < kDeparture);
   RAVE_TRY(board_->look_at_processes(begun_ && !over));
+  board_->take_roster(begun_ && !ended_ ? options_.control : nullptr);
   if (board_->take_news()) next_tell_ = {};
   return {};
 }

@@ -22,6 +22,14 @@ using std::chrono::milliseconds;
 /// A host that has not got a step is sent it again, but not more often than this.
 constexpr milliseconds kAgain{20};
 
+std::vector<RosterBook::Robot> planned_robots(const sim::EngineSpec& spec) {
+  std::vector<RosterBook::Robot> robots;
+  for (const sim::RobotSpec& robot : spec.robots) {
+    robots.push_back({robot.name, spec.types[robot.type].simulated});
+  }
+  return robots;
+}
+
 double seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
 /// One run, from the first report to the last step.
@@ -34,7 +42,8 @@ class Run {
         board_(std::move(board)),
         seats_(make_seats(options.hosts)),
         wishes_(options.control, options.log),
-        claims_(static_cast<std::uint32_t>(options.hosts.size())) {}
+        claims_(static_cast<std::uint32_t>(options.hosts.size())),
+        roster_(planned_robots(authority_->spec()), options.hosts) {}
 
   Result<ManagerOutcome> go();
   /// The run cannot go on: tells everybody why, unless another manager has it.
@@ -46,6 +55,7 @@ class Run {
   Result<Gathered> gather();
   Status listen();
   Status look();
+  void look_at_roster();
   void miss(std::uint64_t writer);
   void see_off();
   Status hear(const bus::HostReport& message);
@@ -83,6 +93,7 @@ class Run {
   sim::HostReport heard_;  ///< Before it is known whether it can be used.
   Wishes wishes_;
   bus::HostClaims claims_;
+  RosterBook roster_;
   std::uint64_t step_ = 0;  ///< For which reports are gathered.
   bool begun_ = false;      ///< All hosts have been there at once.
   bool lost_any_ = false;
@@ -99,6 +110,7 @@ class Run {
   std::uint64_t first_step_ = 0;
   Clock::time_point next_tell_;
   Clock::time_point next_progress_;
+  Clock::time_point next_roster_;
   Clock::time_point resend_at_;
   bool asked_again_ = false;
   bool newcomer_ = false;  ///< Somebody has to be told of all obstacles.
@@ -163,6 +175,7 @@ void Run::lose(Seat& seat, std::string_view why) {
   claims_.release(seat.writer);
   seat.last_writer = seat.writer;
   seat.writer = 0;
+  roster_.stir();
   constexpr std::string_view kThen[] = {"all wait until it is back",
                                         "its robots stand from this step on",
                                         "its robots stand until it is back"};
@@ -200,6 +213,7 @@ Status Run::sit_down(Seat& seat, const bus::HostReport& message) {
   log(LogLevel::kInfo, "host `{}` is {}, with {} robots", seat.name,
       seat.state == SeatState::kLost ? fmt::format("back in step {}", step_) : "here", seat.robots);
   seat.writer = message.writer;
+  roster_.stir();
   seat.state = SeatState::kRuns;
   seat.reported = false;
   next_tell_ = {};
@@ -281,13 +295,28 @@ void Run::miss(std::uint64_t writer) {
 Status Run::look() {
   RAVE_TRY_ASSIGN(const auto gone, board_->look_at_processes(begun_));
   if (!begun_) handed_over_ = board_->take_last_world(world_, state_, handed_over_) || handed_over_;
-  for (const std::uint64_t writer : gone) miss(writer);
+  for (const std::uint64_t writer : gone) {
+    miss(writer);
+    roster_.lose(writer);
+  }
+  look_at_roster();
   if (asked_again_ && Clock::now() >= resend_at_) {
     asked_again_ = false;
     resend_at_ = Clock::now() + kAgain;
     RAVE_TRY(resend());
   }
   return {};
+}
+
+void Run::look_at_roster() {
+  const auto now = Clock::now();
+  if (now < next_roster_) return;
+  next_roster_ = now + kLook;
+  const auto serving = [this](std::uint32_t host) {
+    return host < seats_.size() ? seats_[host].writer : 0;
+  };
+  board_->take_roster(roster_, serving);
+  if (begun_ && !over_) show_kinds(roster_, serving, options_.control);
 }
 
 /// The last world again, for whoever has not got it.

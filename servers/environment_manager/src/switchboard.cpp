@@ -22,6 +22,7 @@ struct Switchboard::Parts {
   bus::Reader<bus::HostReport> reports;
   bus::Reader<bus::LastWorld> last_worlds;
   bus::Reader<bus::HostInfo> infos;
+  bus::Reader<bus::RosterEntry> roster;
   bus::WaitSet waits;
   bus::HostInfo introduced;
   lock_step::Pulse pulse;
@@ -37,6 +38,7 @@ Switchboard::Switchboard(Parts parts)
       reports_(std::move(parts.reports)),
       last_worlds_(std::move(parts.last_worlds)),
       infos_(std::move(parts.infos)),
+      roster_(std::move(parts.roster)),
       waits_(std::move(parts.waits)),
       introduced_(parts.introduced),
       epoch_(bus::random_writer_id()),
@@ -51,6 +53,7 @@ Result<std::unique_ptr<Switchboard>> Switchboard::open(const bus::BusConfig& con
   RAVE_TRY_ASSIGN(auto reports, bus::Reader<bus::HostReport>::create(*bus));
   RAVE_TRY_ASSIGN(auto last_worlds, bus::Reader<bus::LastWorld>::create(*bus));
   RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
+  RAVE_TRY_ASSIGN(auto roster, bus::Reader<bus::RosterEntry>::create(*bus));
   RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(*bus));
   RAVE_TRY(waits.add(reports));
   RAVE_TRY(waits.add(last_worlds));
@@ -62,7 +65,7 @@ Result<std::unique_ptr<Switchboard>> Switchboard::open(const bus::BusConfig& con
   return std::unique_ptr<Switchboard>(new Switchboard(
       {std::move(identity), log, std::move(bus), std::move(worlds), std::move(states),
        std::move(own_info), std::move(reports), std::move(last_worlds), std::move(infos),
-       std::move(waits), info, std::move(pulse)}));
+       std::move(roster), std::move(waits), info, std::move(pulse)}));
 }
 
 Result<std::vector<std::uint64_t>> Switchboard::look_at_processes(bool begun) {

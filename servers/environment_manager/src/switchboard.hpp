@@ -15,6 +15,7 @@
 #include "rave/lock_step/introduction.hpp"
 #include "rave/lock_step/messages.hpp"
 #include "rave/lock_step/pulse.hpp"
+#include "roster_book.hpp"
 #include "seats.hpp"
 
 namespace rave::environment_manager {
@@ -48,6 +49,10 @@ class Switchboard {
   /// Reads what a host hands over of the manager before into `world` and `authority` if it is newer
   /// than what is there; returns whether it was.
   bool take_last_world(sim::WorldStep& world, sim::AuthorityState& authority, bool has_one);
+  /// Takes in what hosts say of their robots.
+  void take_roster(RosterBook& book, const Serving& serving) {
+    read_roster(roster_, book, serving);
+  }
   void refuse(const bus::HostReport& report, std::string_view why) { reports_.refuse(report, why); }
 
   /// Sends a step of the world, and remembers it for resend(). Errors: kInvalidArgument (larger
@@ -72,6 +77,7 @@ class Switchboard {
   bus::Reader<bus::HostReport> reports_;
   bus::Reader<bus::LastWorld> last_worlds_;
   bus::Reader<bus::HostInfo> infos_;
+  bus::Reader<bus::RosterEntry> roster_;
   bus::WaitSet waits_;
   bus::HostInfo introduced_;  ///< What the others were told of this process.
   lock_step::WorldMessage message_;

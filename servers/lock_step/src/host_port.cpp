@@ -44,6 +44,7 @@ struct HostPort::Impl {
   bus::Reader<bus::HostInfo> infos;
   bus::WaitSet waits;
   Pulse pulse;
+  Roster roster;
   bus::HostInfo introduced;  ///< What the others were told of this process.
   ReportMessage message{};
   WorldMessage last_message{};
@@ -215,6 +216,7 @@ Result<std::unique_ptr<HostPort>> HostPort::open(const bus::BusConfig& config, I
   RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
   RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(*bus));
   RAVE_TRY_ASSIGN(auto pulse, Pulse::create(*bus, identity));
+  RAVE_TRY_ASSIGN(auto roster, Roster::create(*bus, identity.host));
   RAVE_TRY(waits.add(worlds));
   RAVE_TRY(waits.add(states));
   RAVE_TRY(waits.add(infos));
@@ -224,7 +226,7 @@ Result<std::unique_ptr<HostPort>> HostPort::open(const bus::BusConfig& config, I
   return std::unique_ptr<HostPort>(new HostPort(std::unique_ptr<Impl>(
       new Impl{std::move(identity), log, std::move(bus), std::move(reports), std::move(own_info),
                std::move(last_worlds), std::move(worlds), std::move(states), std::move(infos),
-               std::move(waits), std::move(pulse), info})));
+               std::move(waits), std::move(pulse), std::move(roster), info})));
 }
 
 Result<HostPort::Answer> HostPort::exchange(const sim::HostReport& report, std::uint64_t hash,
@@ -253,6 +255,7 @@ Result<HostPort::Answer> HostPort::exchange(const sim::HostReport& report, std::
   }
 }
 
+Roster& HostPort::roster() noexcept { return impl_->roster; }
 const sim::AuthorityState& HostPort::authority() const noexcept { return impl_->authority; }
 const HostPort::Ending& HostPort::ending() const noexcept { return impl_->ending; }
 

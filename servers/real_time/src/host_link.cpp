@@ -52,6 +52,7 @@ struct HostLink::Impl {
   bus::Writer<bus::HostInfo> own_info;
   bus::Reader<bus::HostInfo> infos;
   bus::Writer<bus::HostState> states;
+  lock_step::Roster roster;
   bus::HostInfo introduced{};  ///< What the others were told of this process.
   // Of a managed run.
   std::optional<bus::Writer<bus::ClockPing>> pings{};
@@ -91,6 +92,7 @@ struct HostLink::Impl {
   std::map<RobotId, TalkLimit> talk{};  ///< Of robots here that have said something.
   std::vector<RobotId> flooders{};
   std::uint64_t packets_withheld = 0;
+  std::uint64_t packets_unsent = 0;
   std::map<std::uint64_t, std::uint64_t> packets_heard{};  ///< By process: the newest number.
   std::uint64_t packets_lost = 0;
 
@@ -409,8 +411,10 @@ Result<std::unique_ptr<HostLink>> HostLink::open(Options options, LiveWorld& wor
   RAVE_TRY_ASSIGN(auto own_info, bus::Writer<bus::HostInfo>::create(*bus));
   RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
   RAVE_TRY_ASSIGN(auto states, bus::Writer<bus::HostState>::create(*bus));
+  RAVE_TRY_ASSIGN(auto roster, lock_step::Roster::create(*bus, options.self.host));
   std::unique_ptr<Impl> impl(new Impl{std::move(options), world, std::move(bus),
-                                      std::move(own_info), std::move(infos), std::move(states)});
+                                      std::move(own_info), std::move(infos), std::move(states),
+                                      std::move(roster)});
   RAVE_TRY(impl->open_endpoints());
   return std::unique_ptr<HostLink>(new HostLink(std::move(impl)));
 }
@@ -439,6 +443,7 @@ Result<bool> HostLink::await_start(const std::function<bool()>& stopping) {
 std::chrono::steady_clock::time_point HostLink::zero() const noexcept {
   return Clock::time_point(std::chrono::nanoseconds(impl_->zero_ns));
 }
+lock_step::Roster& HostLink::roster() noexcept { return impl_->roster; }
 std::span<const RobotSight> HostLink::starts() const noexcept { return impl_->starts; }
 
 void HostLink::listen_until(std::chrono::steady_clock::time_point due) {
@@ -490,7 +495,12 @@ void HostLink::send(const sim::SentPackets& sent) {
     }
     bus::Packet message =
         packet_of(packet, sent.bytes_of(packet), ++link.packets_sent, link.shift());
-    static_cast<void>(link.packets_out->write(message));
+    if (link.packets_out->write(message)) continue;
+    // Nobody waits for a reader that is stuck; the others miss the number.
+    if (link.packets_unsent++ > 0) continue;
+    link.tell(LogLevel::kWarning,
+              "some other process is too slow for what robots here say: messages are dropped until "
+              "it is faster, or taken for dead");
   }
 }
 
@@ -513,6 +523,7 @@ std::optional<bus::ClockReading> HostLink::clock() const { return impl_->time.re
 const std::optional<HostLink::Ending>& HostLink::ending() const noexcept { return impl_->ending; }
 std::vector<RobotId> HostLink::take_flooders() { return std::exchange(impl_->flooders, {}); }
 std::uint64_t HostLink::withheld_packets() const noexcept { return impl_->packets_withheld; }
+std::uint64_t HostLink::unsent_packets() const noexcept { return impl_->packets_unsent; }
 std::uint64_t HostLink::lost_packets() const noexcept { return impl_->packets_lost; }
 std::uint64_t HostLink::worlds() const noexcept { return impl_->world_count; }
 std::uint64_t HostLink::losses() const noexcept { return impl_->losses; }

@@ -7,9 +7,35 @@
 #include "facts_file.hpp"
 #include "rave/base/file.hpp"
 #include "rave/base/names.hpp"
+#include "rave/robot_host/parameter_key.hpp"
 #include "requests.hpp"
 
 namespace rave::robot_host {
+namespace {
+
+void warn(LogSink& log, const Status& told) {
+  if (!told) log.warn("roster", "{}", told.error().message);
+}
+
+/// Whoever looks on is told what a robot has become.
+void keep_roster(HostJourney& journey, std::span<const sim::ResizedRobot> resized) {
+  const sim::Engine& engine = journey.engine;
+  const auto note = [&](RobotId robot) {
+    if (robot.valid() && engine.is_local(robot)) journey.roster.note(robot);
+  };
+  for (const sim::Event& event : engine.events()) {
+    if (event.kind == sim::EventKind::kHandedOver || event.kind == sim::EventKind::kChanged) {
+      note(event.robot);
+    }
+  }
+  for (const sim::ResizedRobot& robot : resized) note(robot.robot);
+  if (!journey.roster.due()) return;
+  warn(journey.console, journey.roster.tell(engine.spec(), [&](RobotId robot) {
+    return present_values(engine, robot);
+  }));
+}
+
+}  // namespace
 
 Result<Seat> find_seat(const config::ExpandedScenario& scenario, const std::string& name) {
   RAVE_TRY_ASSIGN(const auto hosts, config::plan_hosts(scenario));
@@ -39,6 +65,14 @@ std::uint32_t real_robots(const sim::EngineSpec& spec, std::span<const RobotId> 
   }));
 }
 
+void introduce_robots(lock_step::Roster& roster, const sim::EngineSpec& spec,
+                      std::span<const RobotId> robots, LogSink& log) {
+  roster.note(robots);
+  warn(log, roster.tell(spec, [&](RobotId robot) {
+    return first_values(spec.types[spec.robots[robot.value()].type]);
+  }));
+}
+
 void serve_requests(HostJourney& journey) {
   RunControl* const control = journey.options.run.control;
   if (control == nullptr) return;
@@ -54,7 +88,8 @@ void serve_requests(HostJourney& journey) {
       [&journey](RunStatus& status) { refresh_status(journey.engine, status); });
 }
 
-void look_back(HostJourney& journey, std::span<const sim::Event> beside) {
+void look_back(HostJourney& journey, std::span<const sim::Event> beside,
+               std::span<const sim::ResizedRobot> resized) {
   sim::Engine& engine = journey.engine;
   RunControl* const control = journey.options.run.control;
   if (control != nullptr) control->set_time(engine.time().seconds());
@@ -66,6 +101,7 @@ void look_back(HostJourney& journey, std::span<const sim::Event> beside) {
   }
   tell_events(engine, engine.events(), &journey.console, journey.events);
   tell_events(engine, beside, &journey.console, journey.events);
+  keep_roster(journey, resized);
   for (const sim::Event& event : engine.events()) {
     if (event.kind != sim::EventKind::kProgramFailed &&
         event.kind != sim::EventKind::kDriverFailed) {

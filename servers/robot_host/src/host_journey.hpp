@@ -8,6 +8,7 @@
 #include "console_tee.hpp"
 #include "observers.hpp"
 #include "rave/config/expanded_scenario.hpp"
+#include "rave/lock_step/roster.hpp"
 #include "rave/robot_host/build.hpp"
 #include "rave/robot_host/host_run.hpp"
 #include "rave/sim/engine.hpp"
@@ -38,6 +39,7 @@ struct HostJourney {
   Observers& observers;
   RecordKeeper* record;  ///< May be null.
   Ros2Face* ros2;        ///< May be null.
+  lock_step::Roster& roster;
   const HostOptions& options;
   ConsoleTee& console;
   std::uint64_t run_number;  ///< shared_number() of its scenario.
@@ -53,12 +55,19 @@ struct HostJourney {
   }
 };
 
+/// Describes robots that nothing runs yet, as their files have them, to whoever looks on. Nobody
+/// waits for that, and what is wrong with it is a warning in `log`.
+void introduce_robots(lock_step::Roster& roster, const sim::EngineSpec& spec,
+                      std::span<const RobotId> robots, LogSink& log);
+
 /// Does what somebody has asked for since the last step.
 void serve_requests(HostJourney& journey);
 
 /// A step is done (EngineSpec::on_step_done): all look at it, it is recorded, its events are told,
-/// and those that `beside` the engine has.
-void look_back(HostJourney& journey, std::span<const sim::Event> beside = {});
+/// and those that `beside` the engine has. `resized`: who has another size in this step, robots of
+/// other hosts too.
+void look_back(HostJourney& journey, std::span<const sim::Event> beside = {},
+               std::span<const sim::ResizedRobot> resized = {});
 
 /// What ended a host's part beside its losses: that it was stopped, or how the manager ended it.
 void note_end(const HostJourney& journey, std::string_view ending, bool good, HostOutcome& outcome);

@@ -170,6 +170,7 @@ Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::C
   built.spec.on_step_done = [&look] { look(); };
   RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(built.spec)));
   RAVE_TRY_ASSIGN(const auto port, HostPort::open(options.bus, std::move(self), &console));
+  introduce_robots(port->roster(), engine->spec(), seat.robots, console);
   RAVE_TRY_ASSIGN(const auto ros2, Ros2Face::open(scenario, *engine, options.host));
   Observers observers(scenario, built.robot_kinds, engine->spec(), run.picture);
   std::unique_ptr<RecordKeeper> record;
@@ -183,12 +184,12 @@ Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::C
                     run.log));
   }
   const RecordedConsole recorded(console, record ? &record->recorder() : nullptr);
-  Journey journey(
-      {*engine, observers, record.get(), ros2.get(), options, console, shared_number(scenario)},
-      *port);
+  Journey journey({*engine, observers, record.get(), ros2.get(), port->roster(), options, console,
+                   shared_number(scenario)},
+                  *port);
   journey.report.host = seat.number;
   journey.world_tells = true;
-  look = [&journey] { look_back(journey, obstacle_events(journey.world)); };
+  look = [&journey] { look_back(journey, obstacle_events(journey.world), journey.world.resized); };
   const ControlledHost controlled(*engine, scenario.scenario, run.control, false);
   tell_who_waits(*engine, run, console);
   const Status went = go_through(journey);

@@ -176,6 +176,7 @@ Status write_results(const LiveJourney& journey, const RunFacts& facts,
     json["radio"]["transmitters"] = transmitters_json(journey.engine.spec(), facts.transmitters);
   }
   json["lost_packets"] = journey.link.lost_packets();
+  json["unsent_packets"] = journey.link.unsent_packets();
   json["withheld_packets"] = journey.link.withheld_packets();
   json["dropped_packets"] = journey.live.dropped_packets();
   json["events"] = journey.events.size();
@@ -228,10 +229,10 @@ Result<HostOutcome> go(const LiveHost& host, sim::Engine& engine, HostLink& link
   }
   const RecordedConsole recorded(host.console, record ? &record->recorder() : nullptr);
   const config::ScenarioFile& file = host.scenario.scenario;
-  LiveJourney journey({engine, observers, record.get(), ros2.get(), host.options, host.console,
-                       shared_number(host.scenario)},
+  LiveJourney journey({engine, observers, record.get(), ros2.get(), link.roster(), host.options,
+                       host.console, shared_number(host.scenario)},
                       link, live, host.pace, report_groups(host.scenario, host.seat));
-  look = [&journey] { look_back(journey, journey.live.events()); };
+  look = [&journey] { look_back(journey, journey.live.events(), journey.world.resized); };
   journey.steps = static_cast<std::uint64_t>(std::llround(file.duration_s / file.step_s.value));
   const ControlledHost controlled(engine, file, run.control, true);
   tell_who_waits(engine, run, host.console);
@@ -270,6 +271,7 @@ Result<HostOutcome> run_live_host(const LiveHost& host, BuiltScenario built) {
   built.spec.own_authority = true;
   RAVE_TRY_ASSIGN(const auto live, LiveWorld::create(built.spec, !needs_manager(built)));
   RAVE_TRY_ASSIGN(const auto link, HostLink::open(link_options(host, built), *live));
+  introduce_robots(link->roster(), built.spec, host.seat.robots, host.console);
   // The run starts when all devices are open here, and everywhere.
   RunControl* const control = host.options.run.control;
   Result<bool> begun = false;

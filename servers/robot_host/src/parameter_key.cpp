@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "devices.hpp"
 #include "rave/base/names.hpp"
 
@@ -50,6 +52,35 @@ struct ToValue {
   sim::ParameterValue operator()(const std::vector<double>& value) const { return value; }
 };
 
+std::string text_of(const ParamSpec& spec, const ParamValue& value) {
+  switch (spec.type) {
+    case ParamType::kBool:
+      return value.number != 0 ? "true" : "false";
+    case ParamType::kText:
+    case ParamType::kChoice:
+      return value.text;
+    case ParamType::kNumbers:
+      return sim::to_string(std::vector<double>(value.list, value.list + value.list_size));
+    default:
+      return sim::to_string(value.number);
+  }
+}
+
+/// What the files give to the part that a parameter is of.
+std::span<const ParamValue> values_of(const sim::RobotType& type, const Known& known) {
+  switch (known.part) {
+    case Part::kProgram:
+      return type.program->params.values();
+    case Part::kController:
+      return type.controllers[known.index].params.values();
+    case Part::kActuator:
+      return type.actuators[known.index].params.values();
+    case Part::kBody:
+      break;
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<RobotId> find_robot(const sim::EngineSpec& spec, std::string_view name) {
@@ -94,6 +125,33 @@ std::vector<std::string> parameter_keys(const sim::RobotType& type) {
   std::vector<std::string> keys;
   for (const Known& known : known_parameters(type)) keys.push_back(known.key);
   return keys;
+}
+
+std::vector<std::pair<std::string, std::string>> first_values(const sim::RobotType& type) {
+  std::vector<std::pair<std::string, std::string>> texts;
+  for (const Known& known : known_parameters(type)) {
+    if (known.part == Part::kBody) {
+      texts.emplace_back(known.key, "1");
+      continue;
+    }
+    const auto values = values_of(type, known);
+    const auto value = std::ranges::find_if(values, [&](const ParamValue& one) {
+      return known.spec->name == std::string_view(one.name);
+    });
+    if (value != values.end()) texts.emplace_back(known.key, text_of(*known.spec, *value));
+  }
+  return texts;
+}
+
+std::vector<std::pair<std::string, std::string>> present_values(const sim::Engine& engine,
+                                                                RobotId robot) {
+  std::vector<std::pair<std::string, std::string>> texts;
+  const sim::EngineSpec& spec = engine.spec();
+  for (const Known& known : known_parameters(spec.types[spec.robots[robot.value()].type])) {
+    texts.emplace_back(known.key,
+                       engine.parameter(robot, known.part, known.index, known.spec->name));
+  }
+  return texts;
 }
 
 }  // namespace rave::robot_host

@@ -33,6 +33,30 @@ TEST(Changes, BecomePartOfTheEngine) {
   EXPECT_EQ(changes[2].changes.size(), 2U);
 }
 
+TEST(Changes, ParametersHaveTheValuesOfTheFilesAtFirst) {
+  Host host;
+  auto built = host.build_text(with(""));
+  ASSERT_TRUE(built) << built.error().text();
+  const std::uint32_t anna = built->spec.robots[0].type;
+  const auto first = first_values(built->spec.types[anna]);
+  const auto engine = sim::Engine::create(std::move(built->spec));
+  ASSERT_TRUE(engine) << engine.error().text();
+  EXPECT_EQ(present_values(**engine, RobotId(0)), first);
+  const auto named = [](const auto& values, std::string_view key) -> std::string {
+    for (const auto& [name, value] : values) {
+      if (name == key) return value;
+    }
+    return "missing";
+  };
+  EXPECT_EQ(named(first, "body.scale"), "1");
+  ASSERT_NE(named(first, "program.cruise_mps"), "missing");
+  const auto change = parse_change((*engine)->spec().types[anna], "program.cruise_mps",
+                                   config::RawNode::number(0.25));
+  ASSERT_TRUE(change) << change.error().text();
+  ASSERT_TRUE((*engine)->set_parameters(RobotId(0), std::span(&*change, 1)));
+  EXPECT_EQ(named(present_values(**engine, RobotId(0)), "program.cruise_mps"), "0.25");
+}
+
 TEST(Changes, ErrorsPointAtTheFileAndNameTheNearest) {
   Host host;
   EXPECT_EQ(host.error_of(with("changes:\n  - {at_s: 0, robot: ana, set: {body.scale: 2}}\n")),

@@ -99,14 +99,21 @@ Grid hosts_grid(const RunView& view) {
   return grid;
 }
 
+/// Nothing of one whose place nobody says, as in lock-step.
+Cell state_cell(const RobotView& robot) {
+  if (!robot.age_s && !robot.stale) return {};
+  return {robot.stale ? "stale" : "heard", robot.stale ? Tone::kBad : Tone::kGood};
+}
+
 std::vector<Cell> row_of(const RobotView& robot) {
   const auto place = [](double value) { return fmt::format("{:.2f}", value); };
   const std::string name = robot.name.empty() ? fmt::format("#{}", robot.number) : robot.name;
   const std::string kind = !robot.simulated ? "" : (*robot.simulated ? "simulated" : "real");
   return {{fitted(name, kLongestName)},
+          {fitted(robot.team, kLongestName)},
           {fitted(robot.host, kLongestName)},
           {kind},
-          {robot.stale ? "stale" : "heard", robot.stale ? Tone::kBad : Tone::kGood},
+          state_cell(robot),
           cell(robot.age_s, time_text),
           rate_cell(robot.rate_hz, robot.asked_rate_hz),
           cell(robot.x_m, place),
@@ -115,9 +122,9 @@ std::vector<Cell> row_of(const RobotView& robot) {
 
 Grid robots_grid(const RunView& view) {
   Grid grid;
-  grid.columns = {{"ROBOT", false, 100}, {"ON HOST", false, 60}, {"KIND", false, 50},
-                  {"STATE", false, 90},  {"AGE", true, 80},      {"RATE /s", true, 70},
-                  {"X m", true, 45},     {"Y m", true, 40}};
+  grid.columns = {{"ROBOT", false, 100}, {"TEAM", false, 35},  {"ON HOST", false, 60},
+                  {"KIND", false, 50},   {"STATE", false, 90}, {"AGE", true, 80},
+                  {"RATE /s", true, 70}, {"X m", true, 45},    {"Y m", true, 40}};
   for (const RobotView& robot : view.robots) grid.rows.push_back(row_of(robot));
   return grid;
 }

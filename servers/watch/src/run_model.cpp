@@ -17,7 +17,12 @@ constexpr std::size_t kMostRobots = rave_wire_kMaxRobots;
 
 void Rate::add(std::int64_t now_ns, double count) {
   if (!readings_.empty() && count < readings_.back().count) readings_.clear();
-  readings_.push_back({now_ns, count});
+  const std::size_t size = readings_.size();
+  if (size > 1 && now_ns - readings_[size - 2].at_ns < kApart_ns) {
+    readings_.back() = {now_ns, count};
+  } else {
+    readings_.push_back({now_ns, count});
+  }
   const auto window_ns = static_cast<std::int64_t>(kWindow_s * 1e9);
   while (readings_.size() > 2 && readings_.front().at_ns < now_ns - window_ns) {
     readings_.pop_front();
@@ -39,7 +44,10 @@ std::optional<double> Rate::at(std::int64_t now_ns) const {
 RunModel::Process& RunModel::process_of(std::uint64_t writer) {
   const auto found = processes_.find(writer);
   if (found != processes_.end()) return found->second;
-  if (processes_.size() >= kMostProcesses) processes_.erase(processes_.begin());
+  if (processes_.size() >= kMostProcesses) {
+    described_ -= processes_.begin()->second.roster.size();
+    processes_.erase(processes_.begin());
+  }
   Process& process = processes_[writer];
   process.order = ++arrivals_;
   return process;
@@ -155,11 +163,14 @@ void RunModel::hear(const bus::World& world, std::int64_t now_ns) {
 }
 
 void RunModel::hear(const bus::RosterEntry& entry) {
-  if (robots_.size() >= kMostRobots && !robots_.contains(entry.robot)) return;
-  Robot& robot = robots_[entry.robot];
-  robot.name = entry.name;
-  robot.host = entry.host;
-  robot.simulated = entry.kind == rave_wire_ROBOT_SIMULATED;
+  Process& process = process_of(entry.writer);
+  if (!process.introduced) process.host = entry.host;
+  const auto known = process.roster.find(entry.robot);
+  if (known == process.roster.end()) {
+    if (described_ >= kMostRobots) return;
+    ++described_;
+  }
+  process.roster[entry.robot] = {entry.name, entry.team, entry.kind != rave_wire_ROBOT_REAL};
 }
 
 void RunModel::lose(std::uint64_t writer) {

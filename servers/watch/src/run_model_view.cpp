@@ -163,6 +163,11 @@ HostView RunModel::host_view(std::uint32_t host, std::int64_t now_ns) const {
   if (process != nullptr) {
     tell_process(*process, view, now_ns);
     if (process->introduced && !view.robots) view.robots = process->robots;
+    // Kinds as they are now, once all robots are known.
+    if (view.real_robots && process->roster.size() == view.robots) {
+      view.real_robots = static_cast<std::uint32_t>(std::ranges::count_if(
+          process->roster, [](const auto& r) { return !r.second.simulated; }));
+    }
     view.rate_hz = process->steps.at(now_ns);
     if (process->real_time) view.rate_hz.reset();
     if (process->reported > 0) tell_reports(host, *process, view, now_ns);
@@ -177,13 +182,8 @@ HostView RunModel::host_view(std::uint32_t host, std::int64_t now_ns) const {
   return view;
 }
 
-RobotView RunModel::robot_view(std::uint32_t number, const Robot& robot,
-                               std::int64_t now_ns) const {
+RobotView RunModel::robot_view(const Robot& robot, std::int64_t now_ns) const {
   RobotView view;
-  view.number = number;
-  view.name = robot.name;
-  view.host = name_of(robot.host);
-  view.simulated = robot.simulated;
   view.stale = robot.stale;
   view.rate_hz = robot.reports.at(now_ns);
   view.asked_rate_hz = asked_of(robot);
@@ -195,6 +195,50 @@ RobotView RunModel::robot_view(std::uint32_t number, const Robot& robot,
   view.y_m = robot.y_m;
   view.yaw_rad = robot.yaw_rad;
   return view;
+}
+
+std::map<std::uint32_t, RunModel::Told> RunModel::roster(
+    const std::set<std::uint32_t>& hosts) const {
+  std::map<std::uint32_t, Told> roster;
+  for (const std::uint32_t host : hosts) {
+    const Process* const process = speaker_of(host);
+    if (process == nullptr) continue;
+    for (const auto& [number, robot] : process->roster) roster.emplace(number, Told{host, &robot});
+  }
+  return roster;
+}
+
+void RunModel::tell_robots(const std::set<std::uint32_t>& hosts, RunView& view,
+                           std::int64_t now_ns) const {
+  std::map<std::uint32_t, std::string> names;
+  const auto name = [&](std::uint32_t host) {
+    const auto [place, fresh] = names.try_emplace(host);
+    if (fresh) place->second = name_of(host);
+    return place->second;
+  };
+  const std::map<std::uint32_t, Told> described = roster(hosts);
+  const auto add = [&](std::uint32_t number, RobotView robot, std::optional<std::uint32_t> host) {
+    robot.number = number;
+    const auto told = described.find(number);
+    if (told != described.end() && (!host || *host == told->second.host)) {
+      host = told->second.host;
+      robot.name = told->second.robot->name;
+      robot.team = told->second.robot->team;
+      robot.simulated = told->second.robot->simulated;
+    }
+    if (host) robot.host = name(*host);
+    view.robots.push_back(std::move(robot));
+  };
+  for (const auto& [number, robot] : robots_) {
+    const bool reported = robot.reported > 0;
+    add(number, robot_view(robot, now_ns), reported ? std::optional(robot.host) : std::nullopt);
+  }
+  for (const auto& [number, told] : described) {
+    if (!robots_.contains(number)) add(number, {}, told.host);
+  }
+  std::ranges::stable_sort(view.robots, [](const RobotView& a, const RobotView& b) {
+    return std::tuple(a.stale, a.age_s.value_or(0)) > std::tuple(b.stale, b.age_s.value_or(0));
+  });
 }
 
 void RunModel::tell_run(RunView& view, std::int64_t now_ns) const {
@@ -235,19 +279,16 @@ RunView RunModel::view(std::int64_t now_ns, bool with_robots) const {
     for (const auto& [number, sight] : state_->hosts) hosts.insert(number);
   }
   for (const auto& [writer, process] : processes_) {
-    if (process.host != rave_wire_kNone) hosts.insert(process.host);
+    // Who describes robots and says nothing else is no host yet.
+    const bool speaks = process.introduced || process.state || process.reported > 0;
+    if (speaks && process.host != rave_wire_kNone) hosts.insert(process.host);
   }
   if (const Process* const manager = speaker_of(rave_wire_kNone)) {
     view.hosts.push_back(manager_view(*manager, now_ns));
   }
   for (const std::uint32_t host : hosts) view.hosts.push_back(host_view(host, now_ns));
   if (!with_robots) return view;
-  for (const auto& [number, robot] : robots_) {
-    view.robots.push_back(robot_view(number, robot, now_ns));
-  }
-  std::ranges::stable_sort(view.robots, [](const RobotView& a, const RobotView& b) {
-    return std::tuple(a.stale, a.age_s.value_or(0)) > std::tuple(b.stale, b.age_s.value_or(0));
-  });
+  tell_robots(hosts, view, now_ns);
   return view;
 }
 

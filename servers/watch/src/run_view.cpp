@@ -44,6 +44,7 @@ Json json_of(const RobotView& robot) {
   Json json;
   json["number"] = robot.number;
   json["name"] = known(robot.name);
+  json["team"] = known(robot.team);
   json["host"] = known(robot.host);
   json["simulated"] = known(robot.simulated);
   json["stale"] = robot.stale;

@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "rave/base/control_characters.hpp"
+
 namespace rave::watch {
 namespace {
 
@@ -54,10 +56,7 @@ std::size_t columns_of(std::string_view text) noexcept {
 }
 
 std::string fitted(std::string_view text, std::size_t width) {
-  std::string clean;
-  for (const char c : text) {
-    if (static_cast<unsigned char>(c) >= 0x20 && c != 0x7f) clean += c;
-  }
+  const std::string clean = without_control_characters(text, "");
   if (columns_of(clean) <= width) return clean;
   std::size_t end = 0;
   for (std::size_t columns = 0; end < clean.size(); ++end) {

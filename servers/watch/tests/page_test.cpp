@@ -120,11 +120,12 @@ TEST(Page, RobotsHaveATableOfTheirOwn) {
   RobotView robot;
   robot.number = 7;
   robot.host = "left";
+  robot.team = "blue";
   robot.age_s = 2.5;
   robot.stale = true;
   view.robots.push_back(robot);
   const std::string text = text_of(render_page(view, {80, 0, false, ""}));
-  EXPECT_NE(text.find("ROBOT  ON HOST  STATE    AGE\n#7     left     stale  2.5 s\n"),
+  EXPECT_NE(text.find("ROBOT  TEAM  ON HOST  STATE    AGE\n#7     blue  left     stale  2.5 s\n"),
             std::string::npos)
       << text;
 }

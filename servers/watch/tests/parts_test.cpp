@@ -34,6 +34,10 @@ TEST(ShortText, NumbersWithThreeDigits) {
 
 TEST(ShortText, NoNameMovesTheCursorOrIsTooWide) {
   EXPECT_EQ(fitted("a\x1b[2Jb\n", 10), "a[2Jb");
+  EXPECT_EQ(fitted("a\xc2\x9b"
+                   "2Jb",
+                   10),
+            "a2Jb");
   EXPECT_EQ(fitted("Roboter-Größe", 13), "Roboter-Größe");
   EXPECT_EQ(fitted("Größe", 4), "Grö…");
   EXPECT_EQ(fitted("abc", 0), "");
@@ -50,6 +54,15 @@ TEST(Rate, CountsPerSecondAndFallsInSilence) {
   EXPECT_DOUBLE_EQ(*rate.at(2 * kOneSecond), 50);
   EXPECT_DOUBLE_EQ(*rate.at(3 * kOneSecond), 50) << "the next one may be on its way";
   EXPECT_DOUBLE_EQ(*rate.at(12 * kOneSecond), 10);
+}
+
+TEST(Rate, KeepsFewReadingsHoweverManyCome) {
+  Rate rate;
+  for (int i = 0; i <= 60'000; ++i) rate.add(i * (kOneSecond / 5000), i);
+  EXPECT_NEAR(*rate.at(12 * kOneSecond), 5000, 1);
+  EXPECT_LE(rate.kept(), 55U);
+  // What stops is seen as soon as before.
+  EXPECT_LT(*rate.at(17 * kOneSecond), 2600);
 }
 
 TEST(Rate, ForgetsWhatIsLongAgoAndBeginsAnew) {

@@ -197,6 +197,58 @@ TEST_F(RunModelTest, JsonHasNothingForWhatIsNotKnown) {
   EXPECT_EQ(json["robots"], nlohmann::json::array());
 }
 
+bus::RosterEntry entry_of(std::uint64_t writer, std::uint32_t robot, std::uint32_t host,
+                          const char* name, rave_wire_RobotKind kind = rave_wire_ROBOT_SIMULATED) {
+  bus::RosterEntry entry{};
+  entry.writer = writer;
+  entry.robot = robot;
+  entry.host = host;
+  bus::put_text(entry.name, name);
+  bus::put_text(entry.team, "blue");
+  entry.kind = kind;
+  return entry;
+}
+
+TEST_F(RunModelTest, RobotsHaveTheNamesThatTheirHostsSay) {
+  model_.hear(entry_of(2, 1, 0, "bob", rave_wire_ROBOT_REAL));
+  model_.hear(entry_of(2, 0, 0, "anna"));
+  // Before its process has introduced itself.
+  model_.hear(entry_of(3, 2, 1, "carl"));
+  const auto robots = model_.view(0, true).robots;
+  ASSERT_EQ(robots.size(), 3U) << "in lock-step nobody says where they are";
+  EXPECT_EQ(robots[0].name, "anna");
+  EXPECT_EQ(robots[0].host, "left");
+  EXPECT_EQ(robots[0].team, "blue");
+  EXPECT_EQ(robots[0].simulated, true);
+  EXPECT_EQ(robots[1].name, "bob");
+  EXPECT_EQ(robots[1].simulated, false);
+  EXPECT_EQ(robots[2].host, "right");
+  const auto json = nlohmann::json::parse(to_json(model_.view(0, true)));
+  EXPECT_EQ(json["robots"][1]["name"], "bob");
+  EXPECT_EQ(json["robots"][1]["team"], "blue");
+  EXPECT_EQ(json["robots"][1]["simulated"], false);
+  EXPECT_EQ(json["robots"][1]["age_s"], nullptr);
+}
+
+TEST_F(RunModelTest, AHandOverIsSeen) {
+  model_.hear(process_of(2, 1, 100), 0, 0);
+  for (const std::uint32_t robot : {0U, 1U, 2U}) model_.hear(entry_of(2, robot, 0, "anna"));
+  EXPECT_EQ(host(0, 0).real_robots, 0U) << "the process said 1 when it started";
+  model_.hear(entry_of(2, 1, 0, "anna", rave_wire_ROBOT_REAL));
+  EXPECT_EQ(host(0, 0).real_robots, 1U);
+  EXPECT_EQ(model_.view(0, true).robots[1].simulated, false);
+}
+
+TEST_F(RunModelTest, WhatASecondProcessSaysCountsWhenTheFirstIsGone) {
+  model_.hear(entry_of(2, 0, 0, "anna"));
+  model_.hear(process_of(2, 1, 100), kSecond, 0);
+  model_.hear(info_of(9, 0, "left", false));
+  model_.hear(entry_of(9, 0, 0, "eve"));
+  EXPECT_EQ(model_.view(kSecond, true).robots.at(0).name, "anna");
+  model_.lose(2);
+  EXPECT_EQ(model_.view(kSecond, true).robots.at(0).name, "eve");
+}
+
 class LiveRunModelTest : public RunModelTest {
  protected:
   LiveRunModelTest() : RunModelTest(true) {}
@@ -275,6 +327,19 @@ TEST_F(LiveRunModelTest, StaleRobotsComeFirst) {
   EXPECT_TRUE(robots[0].stale);
   EXPECT_EQ(robots[0].host, "left");
   EXPECT_DOUBLE_EQ(robots[1].age_s.value(), 1);
+}
+
+TEST_F(LiveRunModelTest, RobotsThatTheWorldAloneShowsHaveTheirHostFromTheRoster) {
+  report(10, 5 * kSecond, 6 * kSecond);
+  send_world(1, 6 * kSecond, 6 * kSecond, {});
+  model_.hear(entry_of(3, 9, 1, "nina"));
+  model_.hear(entry_of(3, 4, 1, "eve"));
+  const auto robots = model_.view(6 * kSecond, true).robots;
+  ASSERT_EQ(robots.size(), 3U);
+  for (const RobotView& robot : robots) {
+    EXPECT_EQ(robot.host, robot.number == 9 ? "right" : "left") << robot.number;
+    EXPECT_EQ(robot.name, robot.number == 9 ? "nina" : "") << "only its own host names a robot";
+  }
 }
 
 TEST_F(LiveRunModelTest, ClocksAsTheManagerKnowsThem) {

@@ -18,19 +18,25 @@ struct QosProfile {
   std::int32_t depth = 1;
   /// 0: no limit but `depth`.
   std::int32_t max_samples = 0;
+  /// Where readers have not confirmed `max_samples`, or 16 MB, a writer waits for them up to half a
+  /// second; otherwise not at all. What has no room then is dropped, and the writer is told.
+  bool waits = false;
 };
 
 /// The newest of each instance, resent until it is there.
 inline constexpr QosProfile kNewest{};
 /// The newest of each instance, also for those who come later.
-inline constexpr QosProfile kDurable{.durable = true};
+inline constexpr QosProfile kDurable{.durable = true, .waits = true};
+/// The same from those who have no time to wait, and say again what did not get through.
+inline constexpr QosProfile kDescription{.durable = true};
 /// The last few of each instance: what is left out of one is in another one.
 inline constexpr QosProfile kLately{.depth = 8};
 /// Everything, in order. A writer waits when 4096 samples are not confirmed, and then fails.
-inline constexpr QosProfile kEverything{.depth = 0, .max_samples = 4096};
+inline constexpr QosProfile kEverything{.depth = 0, .max_samples = 4096, .waits = true};
 /// The last few of each instance: bursts get through, a stuck reader holds nobody up.
 inline constexpr QosProfile kRecent{.depth = 256};
-/// The same where the robots of a whole host send through one writer at once.
+/// The same where the robots of a whole host send through one writer at once: of what a stuck
+/// reader has not confirmed, the oldest beyond this and the newest beyond 16 MB are lost.
 inline constexpr QosProfile kCrowd{.depth = 16'384};
 /// Sent once; late or lost means useless.
 inline constexpr QosProfile kOnce{.reliable = false};

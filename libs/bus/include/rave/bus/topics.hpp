@@ -68,7 +68,7 @@ inline TopicSpec topic_of<World>() {
 }
 template <>
 inline TopicSpec topic_of<RosterEntry>() {
-  return {"rave/roster", &rave_wire_RosterEntry_desc, kDurable};
+  return {"rave/roster", &rave_wire_RosterEntry_desc, kDescription};
 }
 template <>
 inline TopicSpec topic_of<Obstacle>() {

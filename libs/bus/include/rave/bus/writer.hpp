@@ -41,8 +41,8 @@ class Writer {
   }
 
   /// Sends a sample after filling in its run and writer. Its sequences stay the caller's; they are
-  /// read during the call only. Errors: kTimeout (a reader of a topic that keeps everything does
-  /// not keep up), kInvalidArgument (a sequence is longer than its bound).
+  /// read during the call only. Errors: kTimeout (a reader does not keep up, and there is no
+  /// room for more; see QosProfile::waits), kInvalidArgument (a sequence is longer than its bound).
   [[nodiscard]] Status write(Message& sample) {
     sign(sample);
     return core_.write(&sample);

@@ -10,6 +10,7 @@
 #include "rave/base/result.hpp"
 #include "rave/bus/bus.hpp"
 #include "rave/lock_step/introduction.hpp"
+#include "rave/lock_step/roster.hpp"
 #include "rave/sim/authority_state.hpp"
 #include "rave/sim/host_report.hpp"
 #include "rave/sim/world_step.hpp"
@@ -42,6 +43,8 @@ class HostPort {
   [[nodiscard]] Result<Answer> exchange(const sim::HostReport& report, std::uint64_t hash,
                                         sim::WorldStep& world,
                                         const std::function<bool()>& stopping);
+  /// What is told of the robots of this host, which nobody in the run waits for.
+  [[nodiscard]] Roster& roster() noexcept;
   /// What the authority knew beside the last world, with the obstacles of before only if this host
   /// had missed some.
   [[nodiscard]] const sim::AuthorityState& authority() const noexcept;

@@ -15,6 +15,7 @@
 #include "rave/bus/clock_offset.hpp"
 #include "rave/bus/config.hpp"
 #include "rave/lock_step/introduction.hpp"
+#include "rave/lock_step/roster.hpp"
 #include "rave/real_time/live_world.hpp"
 #include "rave/sim/engine.hpp"
 
@@ -42,6 +43,9 @@ class HostLink {
   HostLink& operator=(const HostLink&) = delete;
   ~HostLink();
 
+  /// What is told of the robots of this host, which nobody in the run waits for.
+  [[nodiscard]] lock_step::Roster& roster() noexcept;
+
   /// Waits until the run has a time, all obstacles and, if it sees, a first world; from then on
   /// zero() stands.
   /// `stopping` is asked ten times a second. False: somebody wants to stop. The log is told for
@@ -61,7 +65,8 @@ class HostLink {
   /// Tells where robots of this engine are, as its last step sensed; those without a pose are left
   /// out. Nothing for an empty list.
   void tell(const sim::Engine& engine, std::span<const RobotId> robots);
-  /// Sends what robots here said in a step, of each as much as its TalkLimit lets pass.
+  /// Sends what robots here said in a step, of each as much as its TalkLimit lets pass. Waits for
+  /// nobody.
   void send(const sim::SentPackets& sent);
   /// Who has exceeded it since the last call; each robot once in a run.
   [[nodiscard]] std::vector<RobotId> take_flooders();
@@ -82,6 +87,8 @@ class HostLink {
   [[nodiscard]] const std::optional<Ending>& ending() const noexcept;
   /// How many messages of robots here were dropped since they had exceeded it.
   [[nodiscard]] std::uint64_t withheld_packets() const noexcept;
+  /// How many messages of robots here were dropped since some other process does not keep up.
+  [[nodiscard]] std::uint64_t unsent_packets() const noexcept;
   /// How many messages of robots of other hosts were on the bus and did not get here.
   [[nodiscard]] std::uint64_t lost_packets() const noexcept;
   /// How many worlds have come, and how often they failed to for longer than three periods and half

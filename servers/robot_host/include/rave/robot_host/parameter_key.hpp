@@ -3,10 +3,12 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "rave/base/result.hpp"
 #include "rave/config/raw_node.hpp"
+#include "rave/sim/engine.hpp"
 #include "rave/sim/engine_spec.hpp"
 
 namespace rave::robot_host {
@@ -23,5 +25,13 @@ namespace rave::robot_host {
 
 /// All keys that parse_change takes for a robot of this type.
 [[nodiscard]] std::vector<std::string> parameter_keys(const sim::RobotType& type);
+
+/// The values of these parameters as text, by key: those that the files give to each robot of this
+/// type.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> first_values(
+    const sim::RobotType& type);
+/// The same of one robot that `engine` runs, as they are now.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> present_values(
+    const sim::Engine& engine, RobotId robot);
 
 }  // namespace rave::robot_host

@@ -5,6 +5,7 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "rave/bus/topics.hpp"
@@ -18,10 +19,16 @@ class Rate {
   /// Readings of the last so many seconds count.
   static constexpr double kWindow_s = 5;
 
+  /// No two readings are kept that are nearer than this but the last: more would cost memory and
+  /// say nothing new.
+  static constexpr std::int64_t kApart_ns = 100'000'000;
+
   /// A number below the one before begins anew.
   void add(std::int64_t now_ns, double count);
   /// Per second; nothing before the second reading. Falls when no readings come.
   [[nodiscard]] std::optional<double> at(std::int64_t now_ns) const;
+  /// How many readings are kept.
+  [[nodiscard]] std::size_t kept() const noexcept { return readings_.size(); }
 
  private:
   struct Reading {
@@ -55,6 +62,12 @@ class RunModel {
   [[nodiscard]] RunView view(std::int64_t now_ns, bool with_robots) const;
 
  private:
+  /// A robot as its host describes it.
+  struct Described {
+    std::string name;
+    std::string team;
+    bool simulated = true;
+  };
   /// One start of one process.
   struct Process {
     bool introduced = false;
@@ -74,13 +87,13 @@ class RunModel {
     Rate reports;  ///< Of all its robots together.
     double reported = 0;
     std::optional<std::int64_t> newest_stamp_ns;
-    std::optional<std::int64_t> reported_ns;  ///< When its last report came.
-    std::optional<std::int64_t> moved_ns;     ///< When it was in a new step.
+    std::optional<std::int64_t> reported_ns;    ///< When its last report came.
+    std::optional<std::int64_t> moved_ns;       ///< When it was in a new step.
+    std::map<std::uint32_t, Described> roster;  ///< Its robots, by number.
   };
+  /// A robot that was said to be somewhere.
   struct Robot {
-    std::uint32_t host = 0;
-    std::string name;
-    std::optional<bool> simulated;
+    std::uint32_t host = 0;  ///< If it has `reported`.
     bool stale = false;
     std::uint64_t last_step = 0;
     std::uint64_t least_gap = 0;  ///< Steps between two reports; 0: not known.
@@ -111,7 +124,16 @@ class RunModel {
     std::map<std::uint32_t, Sight> hosts;
   };
 
+  /// Who describes a robot.
+  struct Told {
+    std::uint32_t host = 0;
+    const Described* robot = nullptr;
+  };
+
   Process& process_of(std::uint64_t writer);
+  /// By number of the robot: what those say that serve the hosts.
+  [[nodiscard]] std::map<std::uint32_t, Told> roster(const std::set<std::uint32_t>& hosts) const;
+  void tell_robots(const std::set<std::uint32_t>& hosts, RunView& view, std::int64_t now_ns) const;
   void place(const rave_wire_PlanarRobots& robots, std::size_t i, std::int64_t now_ns);
   [[nodiscard]] const Process* speaker_of(std::uint32_t host) const;
   [[nodiscard]] bool manager_here() const;
@@ -124,8 +146,7 @@ class RunModel {
                     std::int64_t now_ns) const;
   [[nodiscard]] HostView manager_view(const Process& process, std::int64_t now_ns) const;
   [[nodiscard]] HostView host_view(std::uint32_t host, std::int64_t now_ns) const;
-  [[nodiscard]] RobotView robot_view(std::uint32_t number, const Robot& robot,
-                                     std::int64_t now_ns) const;
+  [[nodiscard]] RobotView robot_view(const Robot& robot, std::int64_t now_ns) const;
   [[nodiscard]] std::string name_of(std::uint32_t host) const;
   [[nodiscard]] std::optional<double> asked_of(const Robot& robot) const;
   void tell_run(RunView& view, std::int64_t now_ns) const;
@@ -133,6 +154,7 @@ class RunModel {
   std::string run_;
   std::map<std::uint64_t, Process> processes_;  ///< By writer.
   std::uint64_t arrivals_ = 0;
+  std::size_t described_ = 0;  ///< Robots, of all processes.
   std::optional<State> state_;
   Rate run_steps_;
   std::map<std::uint32_t, Robot> robots_;  ///< By number.

@@ -61,6 +61,7 @@ struct HostView {
 struct RobotView {
   std::uint32_t number = 0;
   std::string name;  ///< Empty if nobody has said it.
+  std::string team;  ///< The same; a robot need not have one.
   std::string host;  ///< The same.
   std::optional<bool> simulated;
   bool stale = false;

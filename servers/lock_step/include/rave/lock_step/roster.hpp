@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <set>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rave/base/result.hpp"
+#include "rave/bus/writer.hpp"
+#include "rave/sim/engine_spec.hpp"
+
+namespace rave::lock_step {
+
+/// Parameters of a robot by name, as text.
+using NamedValues = std::vector<std::pair<std::string, std::string>>;
+
+/// A robot as a message that borrows memory of this object. One owner thread.
+class RobotDescription {
+ public:
+  /// Holds until the next call; revision and host are the caller's. What the bus has no room for
+  /// is left out: shapes, sensors and parameters beyond the bounds of the wire type, the ends of
+  /// long texts. Values are on one line.
+  bus::RosterEntry& fill(const sim::EngineSpec& spec, RobotId robot, const NamedValues& parameters);
+
+ private:
+  void put_shape(const world::Shape& shape);
+  void put_body(const world::Body& body);
+  void put_sensors(const sim::RobotType& type);
+
+  bus::RosterEntry entry_{};
+  std::vector<rave_wire_Prism> prisms_;
+  std::vector<double> x_m_, y_m_;
+  std::vector<rave_wire_SensorMount> sensors_;
+  std::vector<rave_wire_Parameter> parameters_;
+};
+
+/// A host describes its robots to whoever looks on (topic rave/roster): each once, and again when
+/// something of it has changed. Must be gone before its bus; thread: that of the bus.
+class Roster {
+ public:
+  /// `host`: its number in the scenario. Errors: those of bus::Writer::create().
+  [[nodiscard]] static Result<Roster> create(bus::Bus& bus, std::uint32_t host);
+
+  /// A robot of this host is new, or has changed.
+  void note(RobotId robot) { due_.insert(robot.value()); }
+  void note(std::span<const RobotId> robots) {
+    for (const RobotId robot : robots) note(robot);
+  }
+  /// Whether anything is to be told.
+  [[nodiscard]] bool due() const noexcept { return !due_.empty(); }
+
+  /// Tells what was noted, as it is now. Waits for nobody: what does not get through, since a
+  /// reader does not keep up, stays due. `parameters_of` is asked for each robot. Error
+  /// kInvalidArgument: some robot cannot be described; it is left out.
+  Status tell(const sim::EngineSpec& spec,
+              const std::function<NamedValues(RobotId)>& parameters_of);
+
+ private:
+  Roster(bus::Writer<bus::RosterEntry> writer, std::uint32_t host)
+      : writer_(std::move(writer)), host_(host) {}
+
+  bus::Writer<bus::RosterEntry> writer_;
+  std::uint32_t host_;
+  std::uint64_t revision_ = 0;  ///< Of all entries of this process.
+  std::set<std::uint32_t> due_;
+  RobotDescription description_;
+};
+
+}  // namespace rave::lock_step

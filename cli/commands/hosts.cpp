@@ -48,6 +48,7 @@ int robot(const RobotCommand& options) {
   const std::string name = fmt::format("{}-{}", scenario->scenario.name.value, options.host);
   robot_host::HostOptions how;
   how.host = options.host;
+  how.manager_patience = from_seconds(options.manager_patience_s);
   how.others = std::move(others);
   auto bus = bus_config(run.bus, options.host, robot_host::shared_number(*scenario));
   if (!bus) return complain(bus.error());

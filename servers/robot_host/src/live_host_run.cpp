@@ -206,6 +206,7 @@ HostLink::Options link_options(const LiveHost& host, const BuiltScenario& built)
     options.talks = options.talks || !built.spec.types[type].communicators.empty();
   }
   options.world_period = from_seconds(host.scenario.scenario.world_period_s);
+  options.manager_patience = host.options.manager_patience;
   options.log = &host.console;
   return options;
 }

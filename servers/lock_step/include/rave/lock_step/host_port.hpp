@@ -8,6 +8,7 @@
 
 #include "rave/base/log.hpp"
 #include "rave/base/result.hpp"
+#include "rave/base/time.hpp"
 #include "rave/bus/bus.hpp"
 #include "rave/lock_step/introduction.hpp"
 #include "rave/sim/authority_state.hpp"
@@ -26,9 +27,12 @@ class HostPort {
     kEnded,    ///< The run has ended; ending() says how.
   };
 
-  /// Goes on the bus. `log` is not owned and may be null. Errors: those of bus::Bus::open().
+  /// Goes on the bus. `log` is not owned and may be null. `patience`: without an environment
+  /// manager for longer than this the run has ended for this host; 0: it waits without limit.
+  /// Errors: those of bus::Bus::open().
   [[nodiscard]] static Result<std::unique_ptr<HostPort>> open(const bus::BusConfig& bus,
-                                                              Identity identity, LogSink* log);
+                                                              Identity identity, LogSink* log,
+                                                              Duration patience = {});
   HostPort(const HostPort&) = delete;
   HostPort& operator=(const HostPort&) = delete;
   ~HostPort();

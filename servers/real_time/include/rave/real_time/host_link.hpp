@@ -33,7 +33,10 @@ class HostLink {
     bool sees = true;                           ///< A robot here has use of where the others are.
     bool talks = true;                          ///< A robot here has communicators.
     Duration world_period = from_seconds(0.1);  ///< At which worlds should come.
-    LogSink* log = nullptr;                     ///< Not owned; may be null.
+    /// Before the start, without an environment manager for longer than this the run has ended for
+    /// this host; 0: it waits without limit.
+    Duration manager_patience{};
+    LogSink* log = nullptr;  ///< Not owned; may be null.
   };
   /// Goes on the bus. `world` hears of other robots and what they say, inside the calls of this
   /// object; not owned. Errors: those of bus::Bus::open().

@@ -8,6 +8,7 @@
 #include "rave/bus/sequence.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/writer.hpp"
+#include "rave/lock_step/findings.hpp"
 #include "rave/lock_step/messages.hpp"
 #include "rave/lock_step/pulse.hpp"
 #include "rave/lock_step/run_words.hpp"
@@ -45,6 +46,7 @@ struct HostPort::Impl {
   bus::Reader<bus::HostInfo> infos;
   bus::WaitSet waits;
   Pulse pulse;
+  FindingsSender findings;
   bus::HostInfo introduced;  ///< What the others were told of this process.
   ReportMessage message{};
   WorldMessage last_message{};
@@ -232,6 +234,7 @@ Result<std::unique_ptr<HostPort>> HostPort::open(const bus::BusConfig& config, I
   RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
   RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(*bus));
   RAVE_TRY_ASSIGN(auto pulse, Pulse::create(*bus, identity));
+  RAVE_TRY_ASSIGN(auto findings, FindingsSender::create(*bus));
   RAVE_TRY(waits.add(worlds));
   RAVE_TRY(waits.add(states));
   RAVE_TRY(waits.add(infos));
@@ -241,7 +244,7 @@ Result<std::unique_ptr<HostPort>> HostPort::open(const bus::BusConfig& config, I
   std::unique_ptr<HostPort> port(new HostPort(std::unique_ptr<Impl>(
       new Impl{std::move(identity), log, std::move(bus), std::move(reports), std::move(own_info),
                std::move(last_worlds), std::move(worlds), std::move(states), std::move(infos),
-               std::move(waits), std::move(pulse), info})));
+               std::move(waits), std::move(pulse), std::move(findings), info})));
   port->impl_->patience = patience;
   return port;
 }
@@ -275,6 +278,12 @@ Result<HostPort::Answer> HostPort::exchange(const sim::HostReport& report, std::
 
 const sim::AuthorityState& HostPort::authority() const noexcept { return impl_->authority; }
 const HostPort::Ending& HostPort::ending() const noexcept { return impl_->ending; }
+
+Status HostPort::deliver(std::span<const std::byte> findings) {
+  Impl& port = *impl_;
+  if (!port.has_world) return {};
+  return port.findings.send(port.self.host, findings, kFindingsPatience);
+}
 
 void HostPort::farewell(const sim::HostReport& report, std::uint64_t hash) {
   Impl& port = *impl_;

@@ -9,6 +9,7 @@
 #include "rave/bus/sequence.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/writer.hpp"
+#include "rave/lock_step/findings.hpp"
 #include "rave/lock_step/pulse.hpp"
 #include "rave/lock_step/run_words.hpp"
 #include "rave/math/transform.hpp"
@@ -60,6 +61,7 @@ struct HostLink::Impl {
   std::optional<bus::Reader<bus::RunState>> runs{};
   std::optional<bus::Reader<bus::Obstacle>> obstacles{};  ///< Made anew for each manager.
   std::optional<bus::Writer<bus::LastObstacle>> last_obstacles{};
+  std::optional<lock_step::FindingsSender> findings{};
   std::optional<bus::Reader<bus::World>> worlds{};        // if it sees
   std::optional<bus::Writer<bus::Packet>> packets_out{};  // if it talks
   std::optional<bus::Reader<bus::Packet>> packets_in{};
@@ -142,6 +144,7 @@ Status HostLink::Impl::open_endpoints() {
     RAVE_TRY(make(pongs, *bus));
     RAVE_TRY(make(runs, *bus));
     RAVE_TRY(make(last_obstacles, *bus));
+    RAVE_TRY(make(findings, *bus));
     RAVE_TRY(set.add(*pongs));
     RAVE_TRY(set.add(*runs));
   }
@@ -524,6 +527,12 @@ void HostLink::obstacles_shown() {
   link.shown_revision = shown;
   link.shown_since = link.time.at(local_ns());
   link.ping_at = {};
+}
+
+Status HostLink::deliver(std::span<const std::byte> findings) {
+  Impl& link = *impl_;
+  if (!link.findings || !link.started) return {};
+  return link.findings->send(link.options.self.host, findings, lock_step::kFindingsPatience);
 }
 
 Duration HostLink::world_age() const {

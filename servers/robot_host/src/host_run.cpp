@@ -204,7 +204,8 @@ Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::C
   if (!record_problem.empty()) outcome.problems.push_back(record_problem);
   outcome.whole = outcome.whole && outcome.problems.empty();
   RAVE_TRY(write_results(journey, outcome));
-  RAVE_TRY(write_facts(journey, facts_of(journey, record_problem)));
+  RAVE_TRY(leave_facts(journey, encode_facts(journey, facts_of(journey, record_problem)),
+                       [&port](std::span<const std::byte> facts) { return port->deliver(facts); }));
   if (!went) return tl::unexpected(went.error());
   return outcome;
 }

@@ -258,7 +258,8 @@ Result<HostOutcome> go(const LiveHost& host, sim::Engine& engine, HostLink& link
   }
   outcome.whole = outcome.whole && outcome.problems.empty();
   RAVE_TRY(write_results(journey, facts, outcome));
-  RAVE_TRY(write_facts(journey, std::move(facts)));
+  RAVE_TRY(leave_facts(journey, encode_facts(journey, std::move(facts)),
+                       [&link](std::span<const std::byte> bytes) { return link.deliver(bytes); }));
   if (!went) return tl::unexpected(went.error());
   return outcome;
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "rave/base/log.hpp"
@@ -59,6 +61,11 @@ class HostPort {
   /// Sends a last report without waiting for an answer: `state` says that this host is done or has
   /// failed.
   void farewell(const sim::HostReport& report, std::uint64_t hash);
+
+  /// Sends what this host knows of the run to the environment manager, once, when the run is over
+  /// for it: waits until that has it, ten seconds at most. Nothing for a host that never took part.
+  /// Errors: those of FindingsSender::send().
+  [[nodiscard]] Status deliver(std::span<const std::byte> findings);
 
  private:
   struct Impl;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -72,6 +73,11 @@ class HostLink {
   /// The last step has the obstacles of LiveWorld::shown_revision() around its robots; the manager
   /// is told when that is more than before.
   void obstacles_shown();
+
+  /// Sends what this host knows of the run to the environment manager, once, when the run is over
+  /// for it: waits until that has it, ten seconds at most. Nothing without a manager, or before the
+  /// start. Errors: those of lock_step::FindingsSender::send().
+  [[nodiscard]] Status deliver(std::span<const std::byte> findings);
 
   /// For how long no world has come; 0 if it does not see.
   [[nodiscard]] Duration world_age() const;

@@ -270,7 +270,11 @@ LiveManagerOutcome LiveRun::outcome() {
   outcome.problems = problems_;
   outcome.whole = over && problems_.empty();
   // Who only stops managing leaves the hosts to their run.
-  if (!over && !options_.ends_hosts) return outcome;
+  if (!over && !options_.ends_hosts) {
+    board_->take_findings();
+    outcome.findings = board_->findings().hand_out();
+    return outcome;
+  }
   tell_state(over ? rave_wire_RUN_ENDED : rave_wire_RUN_FAILED,
              over || problems_.empty() ? std::string() : problems_.front());
   see_off();

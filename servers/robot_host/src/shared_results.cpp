@@ -2,6 +2,7 @@
 #include "rave/robot_host/shared_results.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "capture_watch.hpp"
 #include "facts_file.hpp"
@@ -65,12 +66,11 @@ struct SharedResults::Impl {
 void SharedResults::Impl::note_step(const sim::WorldAuthority& authority) {
   const std::uint64_t done = authority.steps_done();
   kinds.learn(authority.world());
-  if (!begun || done == noted) {
-    // The first world, of this run or of one that somebody else began.
-    begun = true;
-    noted = done;
-    return;
-  }
+  const bool first = !std::exchange(begun, true);
+  // The step that a manager before left unfinished has been finished here.
+  if (first && done > 0) facts.world_from = done - 1;
+  // With the first world of a run no step is done.
+  if (first ? done == 0 : done == noted) return;
   noted = done;
   std::vector<sim::Event> events(authority.events().begin(), authority.events().end());
   events.insert(events.end(), seen.begin(), seen.end());

@@ -112,7 +112,7 @@ int env(const EnvCommand& options) {
   if (!managed) return complain(managed.error());
   const auto outcome = managed->results->write(managed->end);
   if (!outcome) return complain(outcome.error());
-  // What the hosts know is with them: a check that needs it is theirs who put it all together.
+  // A host that sent nothing is a problem; a check that could not be made has not failed.
   return tell(run, outcome->whole && !outcome->checks_fail, outcome->summary, outcome->problems,
               folder->path());
 }

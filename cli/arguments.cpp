@@ -104,6 +104,10 @@ void add_hosts(CLI::App& root, Everything& all) {
   host.add_option("--host", all.robot.host, "Which one, as the scenario names it")
       ->required()
       ->type_name("NAME");
+  host.add_option("--wait-for-manager", all.robot.manager_patience_s,
+                  "Give up after so many seconds without an environment manager [never]")
+      ->type_name("S")
+      ->check(CLI::Range(0.1, 1e9));
   add_run_options(host, robot);
   host.add_option("--processes", robot.processes, "As of `rave env`")
       ->type_name("N")

@@ -47,6 +47,14 @@ lock_step::Identity manager_of(const config::ExpandedScenario& scenario, bool re
           real_time};
 }
 
+/// What processes of hosts have sent goes to the host that it is of.
+void take_findings(std::vector<lock_step::Findings> findings, ManagedEnd& end) {
+  for (lock_step::Findings& sent : findings) {
+    if (sent.host >= end.end.hosts.size()) continue;
+    end.end.hosts[sent.host].findings.push_back(std::move(sent.bytes));
+  }
+}
+
 Result<ManagedEnd> manage_steps(const ManagedRun& run, robot_host::BuiltScenario built,
                                 std::vector<config::PlannedHost> hosts) {
   ManagedEnd end;
@@ -80,6 +88,9 @@ Result<ManagedEnd> manage_steps(const ManagedRun& run, robot_host::BuiltScenario
   end.end.steps = outcome.steps;
   end.end.wall_s = outcome.wall_s;
   end.end.problems = std::move(outcome.problems);
+  // A run that never began left nothing to wait for.
+  for (robot_host::SharedHost& host : end.end.hosts) host.awaited = outcome.steps > 0;
+  take_findings(std::move(outcome.findings), end);
   return end;
 }
 
@@ -97,9 +108,11 @@ Result<ManagedEnd> begin_live(const ManagedRun& run, const robot_host::BuiltScen
 
 /// What is known of it then; without a manager the hosts alone know more.
 void note_outcome(LiveManagerOutcome outcome, ManagedEnd& end) {
+  take_findings(std::move(outcome.findings), end);
   for (robot_host::SharedHost& host : end.end.hosts) {
     for (const LiveManagerOutcome::Host& met : outcome.hosts) {
       if (met.name != host.name) continue;
+      host.awaited = outcome.saw_off && met.heard;
       host.heard = met.heard;
       host.losses = met.losses;
       if (met.bound_s < 0) continue;

@@ -24,11 +24,12 @@ namespace {
 class Crew {
  public:
   Crew(const RunCommand& options, const bus::BusConfig& bus, std::filesystem::path folder,
-       bool restarts, Console& console)
+       const config::ScenarioFile& scenario, Console& console)
       : options_(options),
         bus_(bus),
         folder_(std::move(folder)),
-        restarts_(restarts),
+        restarts_(scenario.on_lost_host == config::LostHost::kRestart),
+        patience_s_(std::max(kLeastPatience_s, scenario.host_timeout_s)),
         console_(console) {}
 
   Status start(const config::PlannedHost& host) {
@@ -105,6 +106,8 @@ class Crew {
 
  private:
   static constexpr int kMostStarts = 10;
+  /// If this process is killed, its hosts wait so long for somebody who goes on in its place.
+  static constexpr double kLeastPatience_s = 60;
   struct Member {
     std::string name;
     int starts = 0;
@@ -125,6 +128,8 @@ class Crew {
                                       member.name,
                                       "--output",
                                       member.folders.back().string(),
+                                      "--wait-for-manager",
+                                      fmt::format("{}", patience_s_),
                                       "--quiet"};
     for (const std::string& word : words_of(options_.bus, bus_.run)) words.push_back(word);
     for (const std::string& plugins : options_.plugins) {
@@ -143,6 +148,7 @@ class Crew {
   const bus::BusConfig& bus_;
   std::filesystem::path folder_;
   bool restarts_;
+  double patience_s_;
   Console& console_;
   std::vector<Member> members_;
 };
@@ -186,8 +192,7 @@ int run_shared(const RunCommand& options, const config::ExpandedScenario& scenar
       !written) {
     return complain(written.error());
   }
-  Crew crew(options, *bus, folder->path(),
-            scenario.scenario.on_lost_host == config::LostHost::kRestart, console);
+  Crew crew(options, *bus, folder->path(), scenario.scenario, console);
   for (const config::PlannedHost& host : hosts) {
     if (host.elsewhere) {
       console.warn("run", "{}", invitation(scenario, host, options, *bus));

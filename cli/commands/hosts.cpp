@@ -48,6 +48,7 @@ int robot(const RobotCommand& options) {
   const std::string name = fmt::format("{}-{}", scenario->scenario.name.value, options.host);
   robot_host::HostOptions how;
   how.host = options.host;
+  how.manager_patience = from_seconds(options.manager_patience_s);
   how.others = std::move(others);
   auto bus = bus_config(run.bus, options.host, robot_host::shared_number(*scenario));
   if (!bus) return complain(bus.error());
@@ -111,7 +112,7 @@ int env(const EnvCommand& options) {
   if (!managed) return complain(managed.error());
   const auto outcome = managed->results->write(managed->end);
   if (!outcome) return complain(outcome.error());
-  // What the hosts know is with them: a check that needs it is theirs who put it all together.
+  // A host that sent nothing is a problem; a check that could not be made has not failed.
   return tell(run, outcome->whole && !outcome->checks_fail, outcome->summary, outcome->problems,
               folder->path());
 }

@@ -12,6 +12,7 @@ namespace rave::cli {
 struct RobotCommand {
   RunCommand run;
   std::string host;
+  double manager_patience_s = 0;  ///< Without an environment manager; 0: without limit.
 };
 
 /// `rave env`: the environment manager of a scenario that hosts share.

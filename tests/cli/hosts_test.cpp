@@ -3,6 +3,7 @@
 #include <csignal>
 #include <filesystem>
 #include <limits>
+#include <sstream>
 
 #include "shared_world.hpp"
 #include "wrong_host.hpp"
@@ -38,6 +39,16 @@ class Hosts : public SharedWorld {
   void wait_for_more(const std::string& host) {
     const auto before = record_size(host);
     wait_until([&] { return record_size(host) > before + 100'000; }, host + " goes on");
+  }
+  /// How many contacts the log of a run has from then on.
+  [[nodiscard]] std::size_t contacts_from(const std::string& name, double t_s) const {
+    std::istringstream lines(content_of(folder(name) + "/events.log"));
+    std::size_t count = 0;
+    for (std::string line; std::getline(lines, line);) {
+      const bool contact = line.find(" contact ") != std::string::npos;
+      if (contact && std::stod(line) > t_s - 1e-6) ++count;
+    }
+    return count;
   }
   void write_policy(const std::string& policy, double timeout_s) {
     scenario_ = crowd_with_policy(policy, timeout_s);
@@ -122,8 +133,11 @@ TEST_F(Hosts, AHostLoadsItsOwnPluginsAndTheManagerNone) {
 
 TEST_F(Hosts, AManagerThatIsKilledIsReplacedAndNothingIsLost) {
   const Words span = {"--duration", "40"};
-  const std::string alone = hash_alone("crowd.yaml", span);
-  ASSERT_EQ(alone.size(), 16U);
+  const Ended one_process =
+      run_rave({"run", "crowd.yaml", "--output", folder("alone"), "--processes", "1", "--pace",
+                "max", "--no-record", "--no-picture", "--duration", "40"});
+  ASSERT_EQ(one_process.exit_code, 0) << one_process.err;
+  const std::string alone = result("alone")["hash"].get<std::string>();
   start("env", "env", "crowd.yaml", span);
   start_host("one", "crowd.yaml", span);
   start_host("two", "crowd.yaml", span);
@@ -137,6 +151,95 @@ TEST_F(Hosts, AManagerThatIsKilledIsReplacedAndNothingIsLost) {
   EXPECT_EQ(result("second")["hash"], alone);
   EXPECT_EQ(end_of("one"), 0) << console("one");
   EXPECT_EQ(end_of("two"), 0) << console("two");
+  // It says from when on it knows of contacts, and from then on it knows them all.
+  const auto json = result("second");
+  ASSERT_TRUE(json.contains("world_from_step")) << json.dump(1);
+  const auto from = json["world_from_step"].get<double>();
+  EXPECT_GT(from, 0);
+  EXPECT_NE(content_of(folder("second") + "/summary.txt").find("the manager before is gone"),
+            std::string::npos);
+  EXPECT_FALSE(result("alone").contains("world_from_step"));
+  EXPECT_EQ(contacts_from("second", 0),
+            contacts_from("alone", from * json["step_s"].get<double>()));
+  for (const auto& host : json["hosts"]) EXPECT_EQ(host["found"], true) << host;
+}
+
+TEST_F(Hosts, AManagerOfAnotherScenarioIsNotBelieved) {
+  start_crowd({"--run", "crowd"});
+  signal("env", SIGKILL);
+  EXPECT_EQ(end_of("env"), -1);
+  for (const char* const host : {"one", "two"}) {
+    wait_for_line(host, "the environment manager is gone");
+  }
+  start("stranger", "env", scenario_,
+        {"--run", "crowd", "--duration", "100000", "--seed", "3", "--no-record"});
+  for (const char* const host : {"one", "two"}) {
+    wait_for_line(host, "refused: `environment manager` has another scenario");
+  }
+  // It says that the run has failed when it goes.
+  signal("stranger", SIGINT);
+  EXPECT_EQ(end_of("stranger"), 1);
+  start("second", "env", scenario_, {"--run", "crowd", "--duration", "100000"});
+  wait_for_line("second", "takes over from a manager that is gone");
+  wait_for_more("one");
+  wait_for_more("two");
+  signal("second", SIGINT);
+  EXPECT_EQ(end_of("second"), 1);
+  EXPECT_EQ(end_of("one"), 0) << console("one");
+  EXPECT_EQ(end_of("two"), 0) << console("two");
+}
+
+TEST_F(Hosts, AHostGivesUpWithoutAManagerIfItWasToldTo) {
+  const Words span = {"--duration", "100000"};
+  start("env", "env", scenario_, span);
+  start_host("two", scenario_, span);
+  wait_for_line("env", "host `two` is here");
+  Words words = span;
+  words.insert(words.end(), {"--wait-for-manager", "5"});
+  start_host("one", scenario_, words);
+  wait_for_steps();
+  signal("env", SIGKILL);
+  EXPECT_EQ(end_of("env"), -1);
+  EXPECT_EQ(end_of("one"), 1);
+  EXPECT_NE(console("one").find("gives up: there was no environment manager for 5 s"),
+            std::string::npos)
+      << console("one");
+  EXPECT_EQ(result("one")["ending"], "there was no environment manager for 5 s");
+  const Ended info = run_rave({"info", folder("one") + "/run.mcap"});
+  EXPECT_EQ(info.exit_code, 0) << "its record is whole: " << info.err;
+  // The other one goes on waiting.
+  wait_for_line("two", "the environment manager is gone");
+  EXPECT_EQ(console("two").find("gives up"), std::string::npos);
+  signal("two", SIGINT);
+  EXPECT_EQ(end_of("two"), 1);
+}
+
+TEST_F(Hosts, HostsOfARunThatIsKilledWaitForAnotherManagerForAMinute) {
+  start("run", "run", scenario_, {"--duration", "100000", "--run", "crowd", "--no-picture"});
+  for (const char* const host : {"run/hosts/one", "run/hosts/two"}) {
+    wait_until([&] { return record_size(host) > 100'000; }, std::string(host) + " runs");
+  }
+  const std::string task = "/proc/" + std::to_string(id_of("run")) + "/task/";
+  std::istringstream children(content_of(task + std::to_string(id_of("run")) + "/children"));
+  std::vector<std::string> hosts;
+  for (std::string child; children >> child;) hosts.push_back("/proc/" + child + "/cmdline");
+  ASSERT_EQ(hosts.size(), 2U);
+  using namespace std::string_literals;
+  for (const std::string& host : hosts) {
+    EXPECT_NE(content_of(host).find("--wait-for-manager\0"s + "60\0"s), std::string::npos) << host;
+  }
+  signal("run", SIGKILL);
+  EXPECT_EQ(end_of("run"), -1);
+  wait_for_line("run/hosts/one", "the environment manager is gone");
+  start("second", "env", scenario_, {"--duration", "100000", "--run", "crowd", "--no-picture"});
+  wait_for_line("second", "takes over from a manager that is gone");
+  signal("second", SIGINT);
+  EXPECT_EQ(end_of("second"), 1);
+  // Of a process that has ended nothing is left but its number.
+  for (const std::string& host : hosts) {
+    wait_until([&] { return content_of(host).empty(); }, host + " ends");
+  }
+  EXPECT_EQ(result("run/hosts/one")["whole"], true);
 }
 
 TEST_F(Hosts, AllWaitForAHostThatIsKilledUntilItIsBack) {
@@ -164,6 +267,12 @@ TEST_F(Hosts, TheOthersGoOnWithoutAHostThatIsDropped) {
   wait_for_more("two");
   signal("env", SIGINT);
   EXPECT_EQ(end_of("env"), 1);
+  // What the other one knows is here; what the first knew has died with it, and that is said.
+  const auto json = result("env");
+  EXPECT_EQ(json["hosts"][0]["found"], false) << json["hosts"];
+  EXPECT_EQ(json["hosts"][1]["found"], true) << json["hosts"];
+  EXPECT_NE(json["problems"].dump().find("host `one` has not sent its findings"), std::string::npos)
+      << json["problems"];
 }
 
 TEST_F(Hosts, AHostThatHangsIsDroppedAfterItsTime) {

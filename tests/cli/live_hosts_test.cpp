@@ -98,7 +98,12 @@ TEST_F(LiveHosts, EachSeesTheRobotsOfTheOther) {
     first.resize(std::min<std::size_t>(first.size(), 100));
     EXPECT_LT(*std::min_element(first.begin(), first.end()), 2.9F);
   }
-  EXPECT_EQ(result("env")["hosts"].size(), 2U);
+  const auto managed = result("env");
+  ASSERT_EQ(managed["hosts"].size(), 2U);
+  for (const auto& host : managed["hosts"]) {
+    EXPECT_EQ(host["found"], true) << "they were interrupted while it was there: " << host;
+  }
+  ASSERT_EQ(managed["robots"].size(), 2U) << managed.dump(1);
   EXPECT_NE(console("one").find("clock of the environment manager"), std::string::npos);
 }
 

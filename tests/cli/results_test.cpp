@@ -136,23 +136,26 @@ TEST_F(Results, ChecksThatHoldAndChecksThatFail) {
   EXPECT_EQ(checks[1]["holds"], false);
 }
 
-TEST_F(Results, WhatAHostElsewhereKnowsIsSaidToBeThere) {
+TEST_F(Results, OfHostsThatWriteElsewhereAreThoseOfOneProcess) {
   const std::string scenario = checked_crowd();
+  const Ended alone = run_in("alone", scenario, 1, {});
+  ASSERT_EQ(alone.exit_code, 1) << alone.out << alone.err;
   const Words words = {"--processes", "2"};
   start("env", "env", scenario, words);
   start_host("host-1", scenario, words);
   start_host("host-2", scenario, words);
   EXPECT_EQ(end_of("host-1"), 0) << console("host-1");
   EXPECT_EQ(end_of("host-2"), 0) << console("host-2");
-  EXPECT_EQ(end_of("env"), 1) << "the check of the touches, which needs no host, fails";
+  EXPECT_EQ(end_of("env"), 1) << "a check fails, as in one process";
   const Json json = result("env");
   EXPECT_EQ(json["whole"], true) << json["problems"];
-  EXPECT_EQ(json["checks_hold"], false);
-  EXPECT_EQ(json["hosts"][0]["found"], false);
-  EXPECT_EQ(json["checks"][0]["holds"], true);
-  EXPECT_EQ(json["checks"][1]["holds"], false);
-  EXPECT_EQ(json["checks"][2]["holds"], nullptr);
-  EXPECT_NE(json["checks"][2]["text"].get<std::string>().find("not made"), std::string::npos);
+  for (const Json& host : json["hosts"]) EXPECT_EQ(host["found"], true) << host;
+  EXPECT_EQ(result_of("alone").dump(1), result_of("env").dump(1));
+  EXPECT_EQ(summary_of("alone"), summary_of("env"));
+  for (const char* const file : {"events.log", "picture.svg", "picture.png"}) {
+    EXPECT_EQ(content_of(folder("alone") + "/" + file), content_of(folder("env") + "/" + file))
+        << file;
+  }
 }
 
 TEST_F(Results, RecordsThatAreMissingOrTornAreNamedAndTheRestIsRead) {

@@ -2,6 +2,7 @@
 // The record has both parts and the result of every reading; the program has one reading.
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "hybrid_fixture.hpp"
@@ -85,6 +86,41 @@ TEST_F(Parts, ComeBackBitForBit) {
   EXPECT_EQ(summary->hybrids, (record::StringMap{{"anna/eye",
                                                   "hybrid_ranges of still_ranges (real) and "
                                                   "virtual_laser (virtual)"}}));
+}
+
+TEST_F(Parts, AreRecordedOnceWhenAnotherRobotIsHandedOver) {
+  const std::string wheels =
+      "{body: {shapes: [{disc_radius_m: 0.15, z_m: [0, 0.2]}]}, actuators: [{name: wheels, driver: "
+      "differential_drive}], controllers: [{name: drive, driver: velocity, actuator: wheels}]}";
+  const auto expanded = expand(
+      text() + "  - {name: bert, pose: {x_m: 9, y_m: 9}, robot: " + wheels +
+      ", twin_robot: " + wheels + "}\nchanges: [{at_s: 0.52, robot: bert, hand_over: twin}]\n");
+  ASSERT_TRUE(expanded) << expanded.error().text();
+  robot_host::RunOptions options;
+  options.output = folder_ / "run";
+  options.picture = false;
+  const auto outcome = robot_host::run(*expanded, *catalogue_, options);
+  ASSERT_TRUE(outcome) << outcome.error().text();
+  std::ifstream log(folder_ / "run/events.log");
+  const std::string events{std::istreambuf_iterator<char>(log), {}};
+  EXPECT_NE(events.find("handed over"), std::string::npos) << events;
+  auto reader = record::McapReader::open(folder_ / "run/run.mcap");
+  ASSERT_TRUE(reader) << reader.error().text();
+  auto cursor = reader->messages({{reader->channel(record::topic::kPercepts)->id}});
+  std::array<std::uint32_t, 3> last{};
+  int parts = 0;
+  for (auto message = cursor.next(); message && *message; message = cursor.next()) {
+    const auto step = record::decode_percepts((*message)->bytes);
+    ASSERT_TRUE(step) << step.error().text();
+    for (const record::Percept& percept : step->items) {
+      if (percept.part == record::PerceptPart::kResult) continue;
+      std::uint32_t& before = last.at(static_cast<std::size_t>(percept.part));
+      EXPECT_GT(percept.header.sequence, before) << "in step " << step->step;
+      before = percept.header.sequence;
+      ++parts;
+    }
+  }
+  EXPECT_EQ(parts, 2 * 34);
 }
 
 TEST_F(Parts, TheProgramGetsOneReadingWithoutATraceOfIt) {

@@ -140,6 +140,9 @@ class Machines(unittest.TestCase):
         result = json.loads((self.folder / "env" / "result.json").read_text())
         self.assertTrue(result["whole"], result)
         self.assertEqual(result["hash"], ALONE)
+        # What each machine knows of its robots has come to the manager.
+        self.assertEqual([host["found"] for host in result["hosts"]], [True, True], result)
+        self.assertEqual(len(result["robots"]), 10, result)
 
     def console(self, name):
         file = self.folder / name / "console.log"

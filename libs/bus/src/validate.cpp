@@ -246,6 +246,25 @@ Status validate(const ClockPong& sample) {
   return check_time("zero_ns", sample.zero_ns);
 }
 
+Status validate(const FindingsPart& sample) {
+  constexpr std::uint64_t kPart = rave_wire_kMaxFindingsPart;
+  constexpr std::uint64_t kMost = kPart * rave_wire_kMaxFindingsParts;
+  RAVE_TRY(check_writer(sample));
+  RAVE_TRY(check_id("host", sample.host));
+  if (sample.size == 0 || sample.size > kMost) {
+    return invalid(fmt::format("size is {}, not within 1 and {}", sample.size, kMost));
+  }
+  const std::uint64_t parts = (sample.size + kPart - 1) / kPart;
+  if (sample.part >= parts) {
+    return invalid(
+        fmt::format("part is {}, but {} bytes have {} parts", sample.part, sample.size, parts));
+  }
+  const std::uint64_t expected = std::min(kPart, sample.size - sample.part * kPart);
+  if (sample.bytes._length == expected) return {};
+  return invalid(fmt::format("bytes has {} entries in part {}, not {}", sample.bytes._length,
+                             sample.part, expected));
+}
+
 Status check_step(std::uint64_t step, std::uint64_t now, std::uint64_t behind,
                   std::uint64_t ahead) {
   if (step < now && now - step > behind) {

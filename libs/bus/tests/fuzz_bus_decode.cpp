@@ -19,11 +19,11 @@ void receive(std::span<const std::byte> bytes, bool swapped) {
 }
 
 using Receive = void (*)(std::span<const std::byte>, bool);
-constexpr Receive kTopics[] = {receive<HostState>, receive<World>,       receive<RosterEntry>,
-                               receive<Obstacle>,  receive<Edit>,        receive<Command>,
-                               receive<Packet>,    receive<HostInfo>,    receive<ClockPing>,
-                               receive<ClockPong>, receive<HostReport>,  receive<WorldStep>,
-                               receive<RunState>,  receive<ProcessState>};
+constexpr Receive kTopics[] = {receive<HostState>, receive<World>,        receive<RosterEntry>,
+                               receive<Obstacle>,  receive<Edit>,         receive<Command>,
+                               receive<Packet>,    receive<HostInfo>,     receive<ClockPing>,
+                               receive<ClockPong>, receive<HostReport>,   receive<WorldStep>,
+                               receive<RunState>,  receive<ProcessState>, receive<FindingsPart>};
 
 }  // namespace
 

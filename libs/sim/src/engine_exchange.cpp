@@ -23,6 +23,12 @@ Status check_readings(const RobotGroup& group, const RobotGroup& other) {
   for (std::size_t s = 0; s < other.sensors.size(); ++s) {
     const SensorInfo& told = group.sensor_infos[s];
     const SensorInfo& info = other.sensors[s].info;
+    // What each value means follows from its place, and the program was told how many there are.
+    if (info.kind == ReadingKind::kValues && info.capacity != told.capacity) {
+      return fail(ErrorCode::kInvalidArgument,
+                  "sensor `{}` gives up to {} values, but the program was told of {}", told.name,
+                  info.capacity, told.capacity);
+    }
     if (info.kind != ReadingKind::kRanges) {
       const bool isolated = group.program.spec != nullptr && group.program.spec->isolate;
       if (!isolated || info.capacity <= told.capacity) continue;
@@ -110,6 +116,7 @@ void Engine::Impl::close_twins() noexcept {
   for (Twin& twin : twins) {
     if (twin.work.valid()) twin.work.wait();
     twin.work = {};
+    twin.given_up = false;
     close_group(twin.other);
   }
 }

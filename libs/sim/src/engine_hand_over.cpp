@@ -14,6 +14,8 @@
 namespace rave::sim {
 namespace {
 
+/// How long drivers may take to be opened: hardware that is there answers within seconds.
+constexpr Duration kOpen{30'000'000'000};
 /// How long the pose source of a set that was opened may be silent.
 constexpr Duration kListen{5'000'000'000};
 /// How long a robot may take to come to stand.
@@ -47,6 +49,12 @@ Status Engine::Impl::hand_over(RobotId robot, DriverSet to, Author author) {
   if (twin->stage != Twin::Stage::kIdle) {
     return fail(ErrorCode::kState, "robot `{}` is being handed over already", name);
   }
+  if (twin->given_up) {
+    return fail(ErrorCode::kState,
+                "the {} drivers of robot `{}` are still being opened for a hand-over that was "
+                "given up",
+                reality_of(target), name);
+  }
   if (twin->state.active == to) {
     return fail(ErrorCode::kState, "robot `{}` has its {} drivers already", name,
                 reality_of(target));
@@ -58,6 +66,7 @@ Status Engine::Impl::hand_over(RobotId robot, DriverSet to, Author author) {
   if (author == Author::kHand) ++by_hand;
   twin->by_hand = author == Author::kHand;
   twin->state.under_way = true;
+  twin->state.by_hand = twin->by_hand;
   twin->state.to = to;
   twin->heard.reset();
   begin_stage(*twin, Twin::Stage::kOpening);
@@ -84,13 +93,26 @@ void Engine::Impl::begin_stage(Twin& twin, Twin::Stage stage) {
 
 void Engine::Impl::advance_hand_overs() {
   for (Twin& twin : twins) {
+    if (twin.given_up) close_late(twin);
     if (twin.stage != Twin::Stage::kIdle) advance(twin);
   }
 }
 
+/// Drivers that were open too late for the hand-over that waited for them.
+void Engine::Impl::close_late(Twin& twin) {
+  if (twin.work.wait_for(std::chrono::seconds(0)) == std::future_status::timeout) return;
+  twin.given_up = false;
+  // Who could not be opened has been closed by whoever tried.
+  if (twin.work.get()) close_other(twin);
+}
+
 void Engine::Impl::advance(Twin& twin) {
   if (twin.stage == Twin::Stage::kOpening) {
-    if (twin.work.wait_for(std::chrono::seconds(0)) == std::future_status::timeout) return;
+    if (twin.work.wait_for(std::chrono::seconds(0)) == std::future_status::timeout) {
+      if (now - twin.since <= kOpen) return;
+      twin.given_up = true;
+      return refuse(twin, fmt::format("its drivers were not open within {} s", kOpen.seconds()));
+    }
     const Status opened = twin.work.get();
     if (!opened) return refuse(twin, opened.error().text());
     begin_stage(twin, Twin::Stage::kListening);
@@ -184,7 +206,8 @@ bool Engine::Impl::moves_seen(const RobotGroup& group, std::uint32_t robot) cons
 }
 
 void Engine::Impl::refuse(Twin& twin, const std::string& why) {
-  if (twin.made) close_other(twin);
+  // What is still being opened belongs to who opens it.
+  if (!twin.given_up && twin.made) close_other(twin);
   ++twin.state.refused;
   const std::string from(reality_of(*group_of_twin(twin).type));
   end_hand_over(twin, EventKind::kHandOverRefused,

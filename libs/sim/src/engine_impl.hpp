@@ -191,6 +191,7 @@ struct Engine::Impl {
   void begin_hand_overs();
   void advance_hand_overs();
   void advance(Twin& twin);
+  void close_late(Twin& twin);
   void begin_stage(Twin& twin, Twin::Stage stage);
   Status listen(Twin& twin);
   [[nodiscard]] bool is_heard(const Twin& twin) const noexcept;

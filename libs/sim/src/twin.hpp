@@ -33,6 +33,7 @@ struct Twin {
   Stage stage = Stage::kIdle;
   SimTime since;  ///< When the stage began.
   std::future<Status> work;
+  bool given_up = false;  ///< `work` still opens the set for a hand-over that was refused.
   bool by_hand = false;
   std::optional<PoseReading> heard;  ///< By the pose source of the other set, in its frame.
   SimTime heard_at;

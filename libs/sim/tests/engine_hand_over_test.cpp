@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <atomic>
+#include <chrono>
 #include <cmath>
+#include <thread>
 
 #include "engine_fixture.hpp"
 
@@ -150,6 +153,97 @@ TEST(HandOver, OfRangesThatTheProgramWasNotToldOfIsRefused) {
   const auto refused = of_kind(run(*engine, 3), EventKind::kHandOverRefused);
   ASSERT_EQ(refused.size(), 1U);
   EXPECT_NE(refused.front().text.find("17 ranges"), std::string::npos) << refused.front().text;
+}
+
+TEST(HandOver, OfAnotherNumberOfValuesIsRefused) {
+  const auto with_values = [](double room) {
+    RobotType type = simulated_type();
+    type.sensors.push_back(real_sensor<Ticker>("ticker", {{"period_s", 0.01}, {"room", room}}));
+    return type;
+  };
+  EngineSpec spec;
+  const RobotId robot = add_robot(spec, with_values(4));
+  add_drivers(spec, with_values(2));
+  const auto engine = make_engine(std::move(spec));
+  ASSERT_TRUE(engine->hand_over(robot, DriverSet::kTwin));
+  const auto refused = of_kind(run(*engine, 3), EventKind::kHandOverRefused);
+  ASSERT_EQ(refused.size(), 1U);
+  EXPECT_NE(refused.front().text.find("`ticker` gives up to 2 values"), std::string::npos)
+      << refused.front().text;
+}
+
+/// A pose source that is not open before the test lets it.
+class LateToOpen final : public HardwareSensor {
+ public:
+  static constexpr ReadingKind kReading = ReadingKind::kPose;
+  static std::atomic<bool> may_open;
+  static std::atomic<int> closed;
+  Status configure(const HardwareSetup&, HardwareDeclaration& declaration) override {
+    declaration.clock = DriverClock::kLive;
+    return {};
+  }
+  Status open(SampleSink&) override {
+    may_open.wait(false);
+    return {};
+  }
+  void close() override { ++closed; }
+};
+std::atomic<bool> LateToOpen::may_open = false;
+std::atomic<int> LateToOpen::closed = 0;
+
+/// Lets it, also when a test fails.
+struct OpenAtLast {
+  OpenAtLast() = default;
+  OpenAtLast(const OpenAtLast&) = delete;
+  OpenAtLast& operator=(const OpenAtLast&) = delete;
+  ~OpenAtLast() { let(); }
+  static void let() {
+    LateToOpen::may_open = true;
+    LateToOpen::may_open.notify_all();
+  }
+};
+
+class ClockAtZero final : public RunClock {
+ public:
+  [[nodiscard]] SimTime now() const noexcept override { return {}; }
+  [[nodiscard]] std::chrono::steady_clock::time_point wall_time_of(
+      SimTime) const noexcept override {
+    return {};
+  }
+};
+
+TEST(HandOver, ToDriversThatDoNotOpenIsGivenUpAndTheOldOnesStay) {
+  const ClockAtZero clock;
+  EngineSpec spec;
+  spec.live_clock = &clock;
+  RobotType simulated = simulated_type();
+  simulated.sensors.push_back(virtual_sensor<Beacon>("mocap"));
+  RobotType real = real_type({});
+  real.sensors.front() = real_sensor<LateToOpen>("mocap", {});
+  const RobotId robot = add_robot(spec, std::move(simulated));
+  add_drivers(spec, std::move(real));
+  const auto engine = make_engine(std::move(spec));
+  const OpenAtLast opened;
+  ASSERT_TRUE(engine->hand_over(robot, DriverSet::kTwin));
+  const auto refused = of_kind(run(*engine, 3005), EventKind::kHandOverRefused);
+  ASSERT_EQ(refused.size(), 1U);
+  EXPECT_NE(refused.front().text.find("were not open within 30 s"), std::string::npos)
+      << refused.front().text;
+  EXPECT_EQ(engine->hand_over_state(robot)->active, DriverSet::kFirst);
+  EXPECT_FALSE(engine->hand_over_state(robot)->under_way);
+  const Status again = engine->hand_over(robot, DriverSet::kTwin);
+  ASSERT_FALSE(again);
+  EXPECT_NE(again.error().text().find("are still being opened"), std::string::npos);
+  EXPECT_EQ(LateToOpen::closed, 0);
+  // What opens at last is closed again, and may be asked for.
+  OpenAtLast::let();
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (LateToOpen::closed == 0 && std::chrono::steady_clock::now() < end) {
+    run(*engine, 1);
+    std::this_thread::yield();
+  }
+  EXPECT_EQ(LateToOpen::closed, 1);
+  EXPECT_TRUE(engine->hand_over(robot, DriverSet::kTwin));
 }
 
 TEST(HandOver, IsForOneProcess) {

@@ -30,6 +30,7 @@ struct LiveBoard::Parts {
   bus::Reader<bus::LastObstacle> handed_in;
   bus::Reader<bus::RosterEntry> roster;
   lock_step::Pulse pulse;
+  lock_step::FindingsCollector findings;
 };
 
 LiveBoard::LiveBoard(const LiveManagerOptions& options, Parts parts)
@@ -46,6 +47,7 @@ LiveBoard::LiveBoard(const LiveManagerOptions& options, Parts parts)
       handed_in_(std::move(parts.handed_in)),
       roster_(std::move(parts.roster)),
       pulse_(std::move(parts.pulse)),
+      findings_(std::move(parts.findings)),
       claims_(static_cast<std::uint32_t>(options.hosts.size())),
       seat_of_(options.robots.size()),
       robots_(options.robots.size()),
@@ -77,13 +79,16 @@ Result<std::unique_ptr<LiveBoard>> LiveBoard::open(const LiveManagerOptions& opt
   RAVE_TRY_ASSIGN(auto handed_in, bus::Reader<bus::LastObstacle>::create(*bus));
   RAVE_TRY_ASSIGN(auto roster, bus::Reader<bus::RosterEntry>::create(*bus));
   RAVE_TRY_ASSIGN(auto pulse, lock_step::Pulse::create(*bus, options.identity));
+  RAVE_TRY_ASSIGN(auto findings, lock_step::FindingsCollector::create(*bus));
   std::unique_ptr<LiveBoard> board(new LiveBoard(
-      options, {std::move(bus), std::move(own_info), std::move(worlds), std::move(runs),
-                std::move(pongs), std::move(obstacles), std::move(infos), std::move(pings),
-                std::move(states), std::move(handed_in), std::move(roster), std::move(pulse)}));
+      options,
+      {std::move(bus), std::move(own_info), std::move(worlds), std::move(runs), std::move(pongs),
+       std::move(obstacles), std::move(infos), std::move(pings), std::move(states),
+       std::move(handed_in), std::move(roster), std::move(pulse), std::move(findings)}));
   RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(*board->bus_));
   RAVE_TRY(waits.add(board->pings_));
   RAVE_TRY(waits.add(board->states_));
+  RAVE_TRY(board->findings_.wake(waits));
   board->waits_.emplace(std::move(waits));
   board->introduced_ = lock_step::introduction(options.identity);
   RAVE_TRY(board->own_info_.write(board->introduced_));
@@ -163,6 +168,7 @@ bool LiveBoard::sit_down(const bus::ClockPing& ping) {
     }
     seat.writer = ping.writer;
     book_.stir();
+    seat.sat.push_back(ping.writer);
     news_ = true;
     if (options_.log != nullptr) {
       options_.log->info(kSource, "host `{}` is {}, with {} real and {} simulated robots",
@@ -184,6 +190,13 @@ void LiveBoard::take_roster(robot_host::RunControl* control) {
   };
   read_roster(roster_, book_, serving);
   show_kinds(book_, serving, control);
+}
+
+void LiveBoard::take_findings() {
+  findings_.take([this](std::uint64_t writer, std::uint32_t host) {
+    return host < seats_.size() && std::find(seats_[host].sat.begin(), seats_[host].sat.end(),
+                                             writer) != seats_[host].sat.end();
+  });
 }
 
 void LiveBoard::take_states() {

@@ -13,6 +13,7 @@
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/writer.hpp"
 #include "rave/environment_manager/live_manager.hpp"
+#include "rave/lock_step/findings.hpp"
 #include "rave/lock_step/obstacle_messages.hpp"
 #include "rave/lock_step/pulse.hpp"
 #include "rave/real_time/messages.hpp"
@@ -24,9 +25,10 @@ namespace rave::environment_manager {
 struct LiveSeat {
   std::string name;
   std::uint32_t robots = 0;
-  std::uint32_t real = 0;    ///< Of these.
-  std::uint64_t writer = 0;  ///< The process; 0: nobody.
-  bool heard = false;        ///< Somebody was there.
+  std::uint32_t real = 0;            ///< Of these.
+  std::uint64_t writer = 0;          ///< The process; 0: nobody.
+  bool heard = false;                ///< Somebody was there.
+  std::vector<std::uint64_t> sat{};  ///< All that have sat here.
   std::uint64_t losses = 0;
   std::uint64_t last_step = 0;
   std::int64_t offset_ns = 0;  ///< Our clock minus its own, as it says.
@@ -81,6 +83,9 @@ class LiveBoard {
   /// Tells all hosts, those that come later too, how an obstacle stands. Errors: kInvalidArgument
   /// (larger than the bus carries), kIo.
   Status publish(const real_time::ObstacleSight& sight);
+  /// Takes in what hosts know of the run when it is over for them.
+  void take_findings();
+  [[nodiscard]] lock_step::FindingsCollector& findings() noexcept { return findings_; }
   /// Takes in what hosts hand over of the manager that was here before.
   void take_handed();
   /// All of that, by number.
@@ -113,6 +118,7 @@ class LiveBoard {
   bus::Reader<bus::LastObstacle> handed_in_;
   bus::Reader<bus::RosterEntry> roster_;
   lock_step::Pulse pulse_;
+  lock_step::FindingsCollector findings_;
   std::optional<bus::WaitSet> waits_;
   bus::HostInfo introduced_{};  ///< What the others were told of this process.
   std::vector<LiveSeat> seats_;

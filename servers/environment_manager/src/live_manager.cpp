@@ -137,6 +137,7 @@ Status LiveRun::listen() {
   board_->take_pings([this](const bus::ClockPing& ping) { hear(ping); });
   board_->take_states();
   board_->take_handed();
+  board_->take_findings();
   if (Clock::now() < next_look_) return {};
   next_look_ = Clock::now() + kLook;
   // Towards the end each host goes when it is done.
@@ -199,15 +200,22 @@ void LiveRun::tell_progress() {
   if (options_.on_progress) options_.on_progress(begun_ ? now() : SimTime{}, missing());
 }
 
-/// Hosts hear of the end before this process goes.
+/// Hosts hear of the end before this process goes, and what they know reaches it.
 void LiveRun::see_off() {
-  constexpr std::chrono::seconds kFarewell{3};
-  const auto end = Clock::now() + kFarewell;
+  const auto began = Clock::now();
+  const auto& seats = board_->seats();
   const auto here = [](const LiveSeat& seat) { return seat.writer != 0; };
-  while (Clock::now() < end && std::any_of(board_->seats().begin(), board_->seats().end(), here)) {
+  const auto owes = [this](const LiveSeat& seat) {
+    return seat.writer != 0 && !board_->findings().done_with(seat.writer);
+  };
+  while (std::any_of(seats.begin(), seats.end(), here)) {
+    const bool any_owes = begun_ && std::any_of(seats.begin(), seats.end(), owes);
+    if (Clock::now() - began >= (any_owes ? kLongFarewell : kFarewell)) break;
     board_->wait(Duration{std::chrono::nanoseconds(kLook).count()});
-    if (!listen()) return;
+    if (!listen()) break;
   }
+  // What a process sent before it went is here.
+  board_->take_findings();
 }
 
 Result<LiveManagerOutcome> LiveRun::go() {
@@ -263,10 +271,16 @@ LiveManagerOutcome LiveRun::outcome() {
   outcome.problems = problems_;
   outcome.whole = over && problems_.empty();
   // Who only stops managing leaves the hosts to their run.
-  if (!over && !options_.ends_hosts) return outcome;
+  if (!over && !options_.ends_hosts) {
+    board_->take_findings();
+    outcome.findings = board_->findings().hand_out();
+    return outcome;
+  }
   tell_state(over ? rave_wire_RUN_ENDED : rave_wire_RUN_FAILED,
              over || problems_.empty() ? std::string() : problems_.front());
   see_off();
+  outcome.saw_off = true;
+  outcome.findings = board_->findings().hand_out();
   return outcome;
 }
 

@@ -57,7 +57,8 @@ class Run {
   Status look();
   void look_at_roster();
   void miss(std::uint64_t writer);
-  void see_off();
+  void see_off(bool awaits_findings);
+  void take_findings();
   Status hear(const bus::HostReport& message);
   Status sit_down(Seat& seat, const bus::HostReport& message);
   void lose(Seat& seat, std::string_view why);
@@ -214,6 +215,7 @@ Status Run::sit_down(Seat& seat, const bus::HostReport& message) {
       seat.state == SeatState::kLost ? fmt::format("back in step {}", step_) : "here", seat.robots);
   seat.writer = message.writer;
   roster_.stir();
+  seat.sat.push_back(message.writer);
   seat.state = SeatState::kRuns;
   seat.reported = false;
   next_tell_ = {};
@@ -291,8 +293,16 @@ void Run::miss(std::uint64_t writer) {
   for (const Seat& seat : seats_) newest_report_ = std::max(newest_report_, seat.last_step);
 }
 
+void Run::take_findings() {
+  board_->findings().take([this](std::uint64_t writer, std::uint32_t host) {
+    return host < seats_.size() && std::find(seats_[host].sat.begin(), seats_[host].sat.end(),
+                                             writer) != seats_[host].sat.end();
+  });
+}
+
 /// What can wait until nothing else is to be done.
 Status Run::look() {
+  take_findings();
   RAVE_TRY_ASSIGN(const auto gone, board_->look_at_processes(begun_));
   if (!begun_) handed_over_ = board_->take_last_world(world_, state_, handed_over_) || handed_over_;
   for (const std::uint64_t writer : gone) {
@@ -369,16 +379,22 @@ Result<Run::Gathered> Run::gather() {
   return Gathered::kAll;
 }
 
-/// The last step reaches everybody before this process goes: until the hosts are gone, or for as
-/// long as one can expect of them.
-void Run::see_off() {
-  constexpr std::chrono::seconds kFarewell{3};
-  const auto end = Clock::now() + kFarewell;
+/// The last step reaches everybody before this process goes, and what hosts know reaches it: until
+/// they are gone, or for as long as one can expect of them.
+void Run::see_off(bool awaits_findings) {
+  const auto began = Clock::now();
   const auto here = [](const Seat& seat) { return seat.writer != 0; };
-  while (Clock::now() < end && std::any_of(seats_.begin(), seats_.end(), here)) {
+  const auto owes = [this](const Seat& seat) {
+    return seat.writer != 0 && !board_->findings().done_with(seat.writer);
+  };
+  while (std::any_of(seats_.begin(), seats_.end(), here)) {
+    const bool any_owes = awaits_findings && std::any_of(seats_.begin(), seats_.end(), owes);
+    if (Clock::now() - began >= (any_owes ? kLongFarewell : kFarewell)) break;
     board_->wait(Duration{std::chrono::nanoseconds(kLook).count()});
-    if (!listen() || !look()) return;
+    if (!listen() || !look()) break;
   }
+  // What a process sent before it went is here.
+  take_findings();
 }
 
 /// All hosts are there. Where they come from a manager that was here before, its world is taken
@@ -510,7 +526,7 @@ void Run::give_up(const Error& error) {
   // The hosts are in good hands.
   if (board_->is_second()) return;
   tell_state(rave_wire_RUN_FAILED, error.message);
-  see_off();
+  see_off(false);
 }
 
 ManagerOutcome Run::outcome() {
@@ -534,7 +550,8 @@ ManagerOutcome Run::outcome() {
   over_ = true;
   tell_state(outcome.whole ? rave_wire_RUN_ENDED : rave_wire_RUN_FAILED,
              problems_.empty() ? std::string() : problems_.back());
-  see_off();
+  see_off(begun_);
+  outcome.findings = board_->findings().hand_out();
   return outcome;
 }
 

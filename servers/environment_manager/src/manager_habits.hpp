@@ -13,4 +13,9 @@ inline constexpr std::chrono::milliseconds kLook{100};
 /// How often all processes are told how the run goes.
 inline constexpr std::chrono::milliseconds kTell{500};
 
+/// How long they wait at the end for hosts that are still there: until these are gone, and longer
+/// if one has not sent yet what it knows of the run.
+inline constexpr std::chrono::seconds kFarewell{3};
+inline constexpr std::chrono::seconds kLongFarewell{20};
+
 }  // namespace rave::environment_manager

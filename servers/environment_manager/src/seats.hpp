@@ -25,12 +25,13 @@ struct Seat {
   std::string name;
   std::uint32_t robots = 0;
   SeatState state = SeatState::kMissing;
-  std::uint64_t writer = 0;       ///< The process; 0: nobody.
-  std::uint64_t last_writer = 0;  ///< Of a lost one.
-  std::string loss;               ///< How it was lost; empty if nothing came of it.
-  std::uint64_t last_step = 0;    ///< Of its last report.
-  bool reported = false;          ///< `report` is what comes next.
-  std::uint64_t hash = 0;         ///< Of its part of the steps that are done.
+  std::uint64_t writer = 0;        ///< The process; 0: nobody.
+  std::uint64_t last_writer = 0;   ///< Of a lost one.
+  std::vector<std::uint64_t> sat;  ///< All that have sat here.
+  std::string loss;                ///< How it was lost; empty if nothing came of it.
+  std::uint64_t last_step = 0;     ///< Of its last report.
+  bool reported = false;           ///< `report` is what comes next.
+  std::uint64_t hash = 0;          ///< Of its part of the steps that are done.
   sim::HostReport report;
 
   /// The run does not go on without it.

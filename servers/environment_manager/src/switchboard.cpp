@@ -26,6 +26,7 @@ struct Switchboard::Parts {
   bus::WaitSet waits;
   bus::HostInfo introduced;
   lock_step::Pulse pulse;
+  lock_step::FindingsCollector findings;
 };
 
 Switchboard::Switchboard(Parts parts)
@@ -42,7 +43,8 @@ Switchboard::Switchboard(Parts parts)
       waits_(std::move(parts.waits)),
       introduced_(parts.introduced),
       epoch_(bus::random_writer_id()),
-      pulse_(std::move(parts.pulse)) {}
+      pulse_(std::move(parts.pulse)),
+      findings_(std::move(parts.findings)) {}
 
 Result<std::unique_ptr<Switchboard>> Switchboard::open(const bus::BusConfig& config,
                                                        lock_step::Identity identity, LogSink* log) {
@@ -58,6 +60,8 @@ Result<std::unique_ptr<Switchboard>> Switchboard::open(const bus::BusConfig& con
   RAVE_TRY(waits.add(reports));
   RAVE_TRY(waits.add(last_worlds));
   RAVE_TRY(waits.add(infos));
+  RAVE_TRY_ASSIGN(auto findings, lock_step::FindingsCollector::create(*bus));
+  RAVE_TRY(findings.wake(waits));
   RAVE_TRY(waits.add_events());
   RAVE_TRY_ASSIGN(auto pulse, lock_step::Pulse::create(*bus, identity));
   bus::HostInfo info = introduction(identity);
@@ -65,7 +69,7 @@ Result<std::unique_ptr<Switchboard>> Switchboard::open(const bus::BusConfig& con
   return std::unique_ptr<Switchboard>(new Switchboard(
       {std::move(identity), log, std::move(bus), std::move(worlds), std::move(states),
        std::move(own_info), std::move(reports), std::move(last_worlds), std::move(infos),
-       std::move(roster), std::move(waits), info, std::move(pulse)}));
+       std::move(roster), std::move(waits), info, std::move(pulse), std::move(findings)}));
 }
 
 Result<std::vector<std::uint64_t>> Switchboard::look_at_processes(bool begun) {

@@ -12,6 +12,7 @@
 #include "rave/base/result.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/writer.hpp"
+#include "rave/lock_step/findings.hpp"
 #include "rave/lock_step/introduction.hpp"
 #include "rave/lock_step/messages.hpp"
 #include "rave/lock_step/pulse.hpp"
@@ -55,6 +56,9 @@ class Switchboard {
   }
   void refuse(const bus::HostReport& report, std::string_view why) { reports_.refuse(report, why); }
 
+  /// What hosts know of the run when it is over for them.
+  [[nodiscard]] lock_step::FindingsCollector& findings() noexcept { return findings_; }
+
   /// Sends a step of the world, and remembers it for resend(). Errors: kInvalidArgument (larger
   /// than the bus carries).
   Status send(const sim::WorldStep& world, const sim::AuthorityState& authority,
@@ -85,6 +89,7 @@ class Switchboard {
   std::vector<std::uint64_t> writers_;
   std::uint64_t epoch_;
   lock_step::Pulse pulse_;
+  lock_step::FindingsCollector findings_;
   std::uint64_t step_ = 0;  ///< That was sent last.
   std::set<std::uint64_t> fitting_;
   std::map<std::uint64_t, std::string> told_;  ///< By writer: what the log had of it last.

@@ -8,8 +8,10 @@
 #include "rave/bus/sequence.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/writer.hpp"
+#include "rave/lock_step/findings.hpp"
 #include "rave/lock_step/messages.hpp"
 #include "rave/lock_step/pulse.hpp"
+#include "rave/lock_step/run_words.hpp"
 #include "rave/sim/obstacle_history.hpp"
 
 namespace rave::lock_step {
@@ -45,6 +47,7 @@ struct HostPort::Impl {
   bus::WaitSet waits;
   Pulse pulse;
   Roster roster;
+  FindingsSender findings;
   bus::HostInfo introduced;  ///< What the others were told of this process.
   ReportMessage message{};
   WorldMessage last_message{};
@@ -56,14 +59,18 @@ struct HostPort::Impl {
   bool has_world = false;
   std::uint64_t epoch = 0;    ///< Of the authority that answered last; 0: it is gone.
   std::uint64_t manager = 0;  ///< Its process; 0: nobody has been heard of.
-  std::string told{};         ///< What the log was told last.
+  RunWords words{};           ///< What is said of the run, and by whom.
+  Duration patience{};        ///< Without a manager; 0: without limit.
+  Clock::time_point alone_since = Clock::now();  ///< While there is none.
+  std::string told{};                            ///< What the log was told last.
   Ending ending{};
   std::optional<Error> unfit{};
 
   void tell(LogLevel level, const std::string& text);
   void look_at_processes();
   void meet(const bus::HostInfo& info);
-  void hear(const bus::RunState& state);
+  void hear(const RunWord& word);
+  void look_at_patience();
   Status send(const sim::HostReport& report, std::uint64_t hash, const sim::WorldStep& last);
   Status follow_obstacles(const sim::WorldStep& world, sim::AuthorityState& state);
   [[nodiscard]] bool take_world(const sim::HostReport& report, sim::WorldStep& world);
@@ -82,10 +89,12 @@ void HostPort::Impl::tell(LogLevel level, const std::string& text) {
 void HostPort::Impl::meet(const bus::HostInfo& info) {
   if (info.host == rave_wire_kNone) {
     if (auto fits = check_fits(self, info); !fits) {
+      words.shut_out(info.writer);
       if (has_world) return tell(LogLevel::kError, "refused: " + fits.error().message);
       unfit = std::move(fits).error();
       return;
     }
+    words.welcome(info.writer);
     // Another one counts when the one before has been missed, and not before.
     if (manager != 0) return;
     manager = info.writer;
@@ -102,38 +111,39 @@ void HostPort::Impl::meet(const bus::HostInfo& info) {
                 {}};
 }
 
-void HostPort::Impl::hear(const bus::RunState& state) {
-  if (manager == 0) manager = state.writer;
-  if (state.writer != manager) return;
-  for (const auto& host : bus::elements(state.hosts)) {
-    if (host.host != self.host || host.phase != rave_wire_HOST_DROPPED) continue;
+void HostPort::Impl::hear(const RunWord& word) {
+  if (manager == 0) manager = word.writer;
+  if (word.writer != manager) return;
+  if (word.without_us) {
     ended_ = true;
     ending = {false, "it went on without this host, which was late or gone"};
   }
-  switch (state.phase) {
+  switch (word.phase) {
     case rave_wire_RUN_GOES:
       told.clear();
       return;
     case rave_wire_RUN_GATHERS:
     case rave_wire_RUN_WAITS:
-      tell(LogLevel::kWarning, state.text);
+      tell(LogLevel::kWarning, word.text);
       return;
     case rave_wire_RUN_ENDED:
     case rave_wire_RUN_FAILED:
       ended_ = true;
-      ending = {state.phase == rave_wire_RUN_ENDED, state.text};
+      ending = {word.phase == rave_wire_RUN_ENDED, word.text};
       return;
   }
 }
 
 void HostPort::Impl::look_at_processes() {
   infos.take([this](const bus::HostInfo& info) { meet(info); });
-  states.take([this](const bus::RunState& state) { hear(state); });
+  states.take([this](const bus::RunState& state) { words.hear(run_word(state, self.host)); });
+  for (const RunWord& word : words.take()) hear(word);
   for (const bus::BusEvent& event : bus->take_events()) {
     const bool lost = event.kind == bus::EventKind::kParticipantLost;
     if (lost && event.writer != 0 && event.writer == manager) {
       manager = 0;
       epoch = 0;
+      alone_since = Clock::now();
       if (!ended_) {
         tell(LogLevel::kError, "the environment manager is gone; robots stand until one is back");
       }
@@ -144,6 +154,15 @@ void HostPort::Impl::look_at_processes() {
                        event.kind == kForeignRun || event.kind == kNotice;
     if (worth && log != nullptr) log->warn("bus", "{}", event.line());
   }
+}
+
+/// Who was started for a run that is no more does not wait for ever.
+void HostPort::Impl::look_at_patience() {
+  if (ended_ || patience.ns <= 0 || manager != 0) return;
+  if (Clock::now() - alone_since < std::chrono::nanoseconds(patience.ns)) return;
+  ended_ = true;
+  ending = {false, fmt::format("there was no environment manager for {} s", patience.seconds())};
+  tell(LogLevel::kError, fmt::format("gives up: {}", ending.text));
 }
 
 Status HostPort::Impl::send(const sim::HostReport& report, std::uint64_t hash,
@@ -206,7 +225,7 @@ HostPort::HostPort(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 HostPort::~HostPort() = default;
 
 Result<std::unique_ptr<HostPort>> HostPort::open(const bus::BusConfig& config, Identity identity,
-                                                 LogSink* log) {
+                                                 LogSink* log, Duration patience) {
   RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
   RAVE_TRY_ASSIGN(auto reports, bus::Writer<bus::HostReport>::create(*bus));
   RAVE_TRY_ASSIGN(auto own_info, bus::Writer<bus::HostInfo>::create(*bus));
@@ -217,16 +236,19 @@ Result<std::unique_ptr<HostPort>> HostPort::open(const bus::BusConfig& config, I
   RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(*bus));
   RAVE_TRY_ASSIGN(auto pulse, Pulse::create(*bus, identity));
   RAVE_TRY_ASSIGN(auto roster, Roster::create(*bus, identity.host));
+  RAVE_TRY_ASSIGN(auto findings, FindingsSender::create(*bus));
   RAVE_TRY(waits.add(worlds));
   RAVE_TRY(waits.add(states));
   RAVE_TRY(waits.add(infos));
   RAVE_TRY(waits.add_events());
   bus::HostInfo info = introduction(identity);
   RAVE_TRY(own_info.write(info));
-  return std::unique_ptr<HostPort>(new HostPort(std::unique_ptr<Impl>(
+  std::unique_ptr<HostPort> port(new HostPort(std::unique_ptr<Impl>(
       new Impl{std::move(identity), log, std::move(bus), std::move(reports), std::move(own_info),
                std::move(last_worlds), std::move(worlds), std::move(states), std::move(infos),
-               std::move(waits), std::move(pulse), std::move(roster), info})));
+               std::move(waits), std::move(pulse), std::move(roster), std::move(findings), info})));
+  port->impl_->patience = patience;
+  return port;
 }
 
 Result<HostPort::Answer> HostPort::exchange(const sim::HostReport& report, std::uint64_t hash,
@@ -248,6 +270,7 @@ Result<HostPort::Answer> HostPort::exchange(const sim::HostReport& report, std::
       return Answer::kWorld;
     }
     port.look_at_processes();
+    port.look_at_patience();
     if (port.unfit) return tl::unexpected(*port.unfit);
     if (port.ended()) return Answer::kEnded;
     // Asked seldom: a step is answered long before.
@@ -258,6 +281,12 @@ Result<HostPort::Answer> HostPort::exchange(const sim::HostReport& report, std::
 Roster& HostPort::roster() noexcept { return impl_->roster; }
 const sim::AuthorityState& HostPort::authority() const noexcept { return impl_->authority; }
 const HostPort::Ending& HostPort::ending() const noexcept { return impl_->ending; }
+
+Status HostPort::deliver(std::span<const std::byte> findings) {
+  Impl& port = *impl_;
+  if (!port.has_world) return {};
+  return port.findings.send(port.self.host, findings, kFindingsPatience);
+}
 
 void HostPort::farewell(const sim::HostReport& report, std::uint64_t hash) {
   Impl& port = *impl_;

@@ -9,7 +9,9 @@
 #include "rave/bus/sequence.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/writer.hpp"
+#include "rave/lock_step/findings.hpp"
 #include "rave/lock_step/pulse.hpp"
+#include "rave/lock_step/run_words.hpp"
 #include "rave/math/transform.hpp"
 #include "rave/real_time/messages.hpp"
 #include "rave/real_time/shared_time.hpp"
@@ -60,6 +62,7 @@ struct HostLink::Impl {
   std::optional<bus::Reader<bus::RunState>> runs{};
   std::optional<bus::Reader<bus::Obstacle>> obstacles{};  ///< Made anew for each manager.
   std::optional<bus::Writer<bus::LastObstacle>> last_obstacles{};
+  std::optional<lock_step::FindingsSender> findings{};
   std::optional<bus::Reader<bus::World>> worlds{};        // if it sees
   std::optional<bus::Writer<bus::Packet>> packets_out{};  // if it talks
   std::optional<bus::Reader<bus::Packet>> packets_in{};
@@ -69,8 +72,10 @@ struct HostLink::Impl {
   std::uint64_t last_world_number = 0;  ///< Of this manager; 0: none yet.
 
   SharedTime time{};
-  std::vector<bus::HostInfo> managers{};  ///< That are there; the first is listened to.
-  std::uint64_t manager = 0;              ///< Its process; 0: nobody.
+  std::vector<bus::HostInfo> managers{};         ///< That are there; the first is listened to.
+  std::uint64_t manager = 0;                     ///< Its process; 0: nobody.
+  lock_step::RunWords words{};                   ///< What is said of the run, and by whom.
+  Clock::time_point alone_since = Clock::now();  ///< While there is no manager.
   std::optional<Error> unfit{};
   std::optional<Ending> ending{};
   std::string told{};
@@ -110,7 +115,8 @@ struct HostLink::Impl {
   void hear(const bus::Obstacle& sample);
   void take_packets();
   void note_number(const bus::Packet& packet);
-  void hear(const bus::RunState& state);
+  void hear(const lock_step::RunWord& word);
+  void look_at_patience();
   void look();
   void listen_to_first();
   void lose(std::uint64_t writer);
@@ -140,6 +146,7 @@ Status HostLink::Impl::open_endpoints() {
     RAVE_TRY(make(pongs, *bus));
     RAVE_TRY(make(runs, *bus));
     RAVE_TRY(make(last_obstacles, *bus));
+    RAVE_TRY(make(findings, *bus));
     RAVE_TRY(set.add(*pongs));
     RAVE_TRY(set.add(*runs));
   }
@@ -164,10 +171,12 @@ void HostLink::Impl::meet(const bus::HostInfo& info) {
   if (info.host == rave_wire_kNone) {
     if (!options.managed) return;
     if (auto fits = lock_step::check_fits(options.self, info); !fits) {
+      words.shut_out(info.writer);
       if (started) tell_once(LogLevel::kError, "refused: " + fits.error().message);
       unfit = std::move(fits).error();
       return;
     }
+    words.welcome(info.writer);
     const auto same = [&](const auto& known) { return known.writer == info.writer; };
     if (std::any_of(managers.begin(), managers.end(), same)) return;
     managers.push_back(info);
@@ -269,18 +278,18 @@ void HostLink::Impl::take_packets() {
   });
 }
 
-void HostLink::Impl::hear(const bus::RunState& state) {
-  if (manager != 0 && state.writer != manager) return;
-  switch (state.phase) {
+void HostLink::Impl::hear(const lock_step::RunWord& word) {
+  if (manager != 0 && word.writer != manager) return;
+  switch (word.phase) {
     case rave_wire_RUN_GOES:
       return;
     case rave_wire_RUN_GATHERS:
     case rave_wire_RUN_WAITS:
-      if (!started) tell_once(LogLevel::kWarning, state.text);
+      if (!started) tell_once(LogLevel::kWarning, word.text);
       return;
     case rave_wire_RUN_ENDED:
     case rave_wire_RUN_FAILED:
-      ending = Ending{state.phase == rave_wire_RUN_ENDED, state.text};
+      ending = Ending{word.phase == rave_wire_RUN_ENDED, word.text};
       return;
   }
 }
@@ -305,6 +314,7 @@ void HostLink::Impl::lose(std::uint64_t writer) {
   std::erase_if(managers, [&](const auto& info) { return info.writer == writer; });
   if (writer != manager) return;
   manager = 0;
+  alone_since = Clock::now();
   if (!ending) {
     tell_once(LogLevel::kError,
               started ? "the environment manager is gone; this host goes on without the others "
@@ -315,10 +325,25 @@ void HostLink::Impl::lose(std::uint64_t writer) {
   if (!managers.empty()) listen_to_first();
 }
 
+/// Who was started for a run that is no more does not wait for ever for its beginning.
+void HostLink::Impl::look_at_patience() {
+  const Duration longest = options.manager_patience;
+  if (!options.managed || ending || longest.ns <= 0 || manager != 0) return;
+  if (Clock::now() - alone_since < std::chrono::nanoseconds(longest.ns)) return;
+  ending =
+      Ending{false, fmt::format("there was no environment manager for {} s", longest.seconds())};
+  tell(LogLevel::kError, "gives up: " + ending->text);
+}
+
 /// What can wait until nothing else is to be done.
 void HostLink::Impl::look() {
   take_infos();
-  if (runs) runs->take([this](const bus::RunState& state) { hear(state); });
+  if (runs) {
+    runs->take([this](const bus::RunState& state) {
+      words.hear(lock_step::run_word(state, options.self.host));
+    });
+  }
+  for (const lock_step::RunWord& word : words.take()) hear(word);
   for (const bus::BusEvent& event : bus->take_events()) {
     using enum bus::EventKind;
     if (event.kind == kParticipantLost && event.writer != 0) {
@@ -432,6 +457,7 @@ Result<bool> HostLink::await_start(const std::function<bool()>& stopping) {
     link.ping();
     if (Clock::now() >= look_at) {
       look_at += kLook;
+      link.look_at_patience();
       if (stopping() || link.ending) return false;
     }
     static_cast<void>(link.waits->wait(Duration{std::chrono::nanoseconds(kHurry).count()}));
@@ -511,6 +537,12 @@ void HostLink::obstacles_shown() {
   link.shown_revision = shown;
   link.shown_since = link.time.at(local_ns());
   link.ping_at = {};
+}
+
+Status HostLink::deliver(std::span<const std::byte> findings) {
+  Impl& link = *impl_;
+  if (!link.findings || !link.started) return {};
+  return link.findings->send(link.options.self.host, findings, lock_step::kFindingsPatience);
 }
 
 Duration HostLink::world_age() const {

@@ -119,6 +119,7 @@ void merge(RunFacts from, RunFacts& into) {
   into.first_step = std::min(into.first_step, from.first_step);
   into.steps = std::max(into.steps, from.steps);
   into.has_world = into.has_world || from.has_world;
+  into.world_from = std::max(into.world_from, from.world_from);
   append(into.problems, std::move(from.problems));
   merge_events(std::move(from.events), into.events);
   append_by_robot(into.robots, std::move(from.robots));

@@ -136,6 +136,9 @@ struct RunFacts {
   std::uint64_t first_step = 0;  ///< Of one that came later.
   std::uint64_t steps = 0;       ///< The step that would have come next.
   bool has_world = false;        ///< Contacts of all robots are among the events.
+  /// From this step on they and captures are known; above 0: to a manager that took the place of
+  /// another. Of who puts the results together; in no file.
+  std::uint64_t world_from = 0;
   std::vector<std::string> problems;
   std::vector<sim::Event> events;  ///< By step; in a step by robot, captures last.
   std::vector<RobotFacts> robots;  ///< By robot; the same of the following three.

@@ -157,6 +157,16 @@ void note_lost(const std::vector<RobotId>& robots, const sim::EngineSpec& spec,
   }
 }
 
+/// The same if contacts are known only since a manager took over.
+void note_unknown(const RunFacts& facts, CheckResult& result) {
+  if (facts.world_from == 0) return;
+  result.holds = false;
+  result.made = false;
+  result.text = fmt::format(
+      "not made: contacts before step {} are known to the manager alone that was there before",
+      facts.world_from);
+}
+
 }  // namespace
 
 std::vector<CheckResult> goal_results(const config::ExpandedScenario& scenario,
@@ -170,6 +180,8 @@ std::vector<CheckResult> goal_results(const config::ExpandedScenario& scenario,
     std::uint64_t count = i < facts.goals.touches.size() ? facts.goals.touches[i] : 0;
     if (!file.sensor) count = count_contacts(spec, facts.events, robots);
     results.push_back(touches_result(file, count));
+    const bool exceeds = static_cast<std::int64_t>(count) > file.most;
+    if (!file.sensor && !exceeds) note_unknown(facts, results.back());
     if (file.sensor || !facts.has_world) note_lost(robots, spec, lost, results.back());
   }
   std::size_t next = 0;

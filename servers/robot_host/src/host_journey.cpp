@@ -125,7 +125,7 @@ void note_end(const HostJourney& journey, std::string_view ending, bool good,
   outcome.whole = outcome.problems.empty();
 }
 
-Status write_facts(const HostJourney& journey, RunFacts facts) {
+std::vector<std::byte> encode_facts(const HostJourney& journey, RunFacts facts) {
   const HostOptions& options = journey.options;
   facts.events = journey.events;
   if (journey.world_tells) {
@@ -134,10 +134,20 @@ Status write_facts(const HostJourney& journey, RunFacts facts) {
   for (std::string& problem : facts.problems) {
     problem = fmt::format("host `{}`: {}", options.host, problem);
   }
-  const FactsOf about{journey.run_number, options.host};
-  const std::vector<std::byte> bytes = encode_facts(about, facts);
-  return write_file_atomically(options.run.output / kFactsFile,
-                               {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  return encode_facts(FactsOf{journey.run_number, options.host}, facts);
+}
+
+Status leave_facts(const HostJourney& journey, std::span<const std::byte> bytes,
+                   const std::function<Status(std::span<const std::byte>)>& deliver) {
+  // First of all where a process that dies now has them.
+  const Status written =
+      write_file_atomically(journey.options.run.output / kFactsFile,
+                            {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  if (const Status sent = deliver(bytes); !sent) {
+    journey.console.warn("host", "the environment manager has not got its findings: {}",
+                         sent.error().message);
+  }
+  return written;
 }
 
 std::vector<sim::Event> obstacle_events(const sim::WorldStep& world) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -72,8 +74,13 @@ void look_back(HostJourney& journey, std::span<const sim::Event> beside = {},
 /// What ended a host's part beside its losses: that it was stopped, or how the manager ended it.
 void note_end(const HostJourney& journey, std::string_view ending, bool good, HostOutcome& outcome);
 
-/// Leaves what this host knows of the run for the results of the whole (read_facts()).
-Status write_facts(const HostJourney& journey, RunFacts facts);
+/// What this host knows of the run, as bytes for the results of the whole (facts_file.hpp).
+[[nodiscard]] std::vector<std::byte> encode_facts(const HostJourney& journey, RunFacts facts);
+
+/// Leaves them in the folder of this host, and lets `deliver` send them to the environment manager;
+/// the log is told if they do not get there. Errors: kIo (they could not be left; they were sent).
+Status leave_facts(const HostJourney& journey, std::span<const std::byte> bytes,
+                   const std::function<Status(std::span<const std::byte>)>& deliver);
 
 /// What the world says of obstacles in its step; an engine that is one of several hosts has no
 /// events of them.

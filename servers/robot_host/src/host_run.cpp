@@ -169,7 +169,8 @@ Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::C
   std::function<void()> look;
   built.spec.on_step_done = [&look] { look(); };
   RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(built.spec)));
-  RAVE_TRY_ASSIGN(const auto port, HostPort::open(options.bus, std::move(self), &console));
+  RAVE_TRY_ASSIGN(const auto port,
+                  HostPort::open(options.bus, std::move(self), &console, options.manager_patience));
   introduce_robots(port->roster(), engine->spec(), seat.robots, console);
   RAVE_TRY_ASSIGN(const auto ros2, Ros2Face::open(scenario, *engine, options.host));
   Observers observers(scenario, built.robot_kinds, engine->spec(), run.picture);
@@ -204,7 +205,8 @@ Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::C
   if (!record_problem.empty()) outcome.problems.push_back(record_problem);
   outcome.whole = outcome.whole && outcome.problems.empty();
   RAVE_TRY(write_results(journey, outcome));
-  RAVE_TRY(write_facts(journey, facts_of(journey, record_problem)));
+  RAVE_TRY(leave_facts(journey, encode_facts(journey, facts_of(journey, record_problem)),
+                       [&port](std::span<const std::byte> facts) { return port->deliver(facts); }));
   if (!went) return tl::unexpected(went.error());
   return outcome;
 }

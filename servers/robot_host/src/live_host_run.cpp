@@ -207,6 +207,7 @@ HostLink::Options link_options(const LiveHost& host, const BuiltScenario& built)
     options.talks = options.talks || !built.spec.types[type].communicators.empty();
   }
   options.world_period = from_seconds(host.scenario.scenario.world_period_s);
+  options.manager_patience = host.options.manager_patience;
   options.log = &host.console;
   return options;
 }
@@ -258,7 +259,8 @@ Result<HostOutcome> go(const LiveHost& host, sim::Engine& engine, HostLink& link
   }
   outcome.whole = outcome.whole && outcome.problems.empty();
   RAVE_TRY(write_results(journey, facts, outcome));
-  RAVE_TRY(write_facts(journey, std::move(facts)));
+  RAVE_TRY(leave_facts(journey, encode_facts(journey, std::move(facts)),
+                       [&link](std::span<const std::byte> bytes) { return link.deliver(bytes); }));
   if (!went) return tl::unexpected(went.error());
   return outcome;
 }

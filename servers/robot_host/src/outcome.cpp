@@ -25,13 +25,22 @@ void fail_check(RunOutcome& outcome, bool made, std::string problem) {
 void judge_capture(const Findings& findings, RunOutcome& outcome) {
   const auto& check = findings.scenario.scenario.checks.capture;
   if (!check) return;
-  if (!findings.facts.capture) {
+  const RunFacts& facts = findings.facts;
+  if (!facts.capture) {
     fail_check(outcome, false, "the capture check was not made: nobody saw all of the robots");
-  } else if (!holds(*check, *findings.facts.capture)) {
-    fail_check(
-        outcome, true,
-        fmt::format("the capture check fails: nobody was captured before {} s", *check->before_s));
+    return;
   }
+  if (holds(*check, *facts.capture)) return;
+  if (facts.world_from > 0) {
+    fail_check(outcome, false,
+               fmt::format("the capture check was not made: captures before step {} are known to "
+                           "the manager alone that was there before",
+                           facts.world_from));
+    return;
+  }
+  fail_check(
+      outcome, true,
+      fmt::format("the capture check fails: nobody was captured before {} s", *check->before_s));
 }
 
 void judge_sightings(const Findings& findings, RunOutcome& outcome) {

@@ -28,6 +28,25 @@ PartKeeper::PartKeeper(const sim::EngineSpec& spec) {
   });
 }
 
+void PartKeeper::follow(const sim::EngineSpec& spec) {
+  PartKeeper now(spec);
+  for (Hybrid& hybrid : now.hybrids_) {
+    for (const Hybrid& before : hybrids_) {
+      const bool same = before.robot == hybrid.robot && before.sensor == hybrid.sensor;
+      if (same) hybrid.seen = before.seen;
+    }
+  }
+  // Of a sensor that is no hybrid at present it is still known what was kept.
+  for (const Hybrid& before : hybrids_) {
+    const bool gone =
+        std::none_of(now.hybrids_.begin(), now.hybrids_.end(), [&](const Hybrid& hybrid) {
+          return before.robot == hybrid.robot && before.sensor == hybrid.sensor;
+        });
+    if (gone) now.hybrids_.push_back(before);
+  }
+  hybrids_ = std::move(now.hybrids_);
+}
+
 Status PartKeeper::describe(const sim::EngineSpec& spec, record::RunRecorder& recorder) {
   record::StringMap about;
   each_hybrid(spec, [&](std::uint32_t robot, std::uint32_t, const sim::SensorSpec& sensor) {
@@ -41,8 +60,10 @@ Status PartKeeper::describe(const sim::EngineSpec& spec, record::RunRecorder& re
 void PartKeeper::keep(const sim::Engine& engine, record::RunRecorder& recorder) {
   for (Hybrid& hybrid : hybrids_) {
     const sim::SensorParts parts = engine.sensor_parts(hybrid.robot, hybrid.sensor);
-    // Made together, so the later of the two tells that both are there.
-    if (parts.imagined->sequence == hybrid.seen) continue;
+    if (parts.imagined == nullptr) continue;  // it has other drivers at present
+    // Made together, so the later of the two tells that both are there. Drivers that were opened
+    // for a hand-over have made none yet.
+    if (parts.imagined->sequence <= hybrid.seen) continue;
     hybrid.seen = parts.imagined->sequence;
     const auto put = [&](record::PerceptPart part, const SampleHeader& header,
                          const void* records) {

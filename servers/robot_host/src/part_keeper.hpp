@@ -17,6 +17,9 @@ class PartKeeper {
 
   /// Notes in the record which sensors are hybrids and of what (metadata `rave.hybrid`).
   static Status describe(const sim::EngineSpec& spec, record::RunRecorder& recorder);
+  /// A robot has its other set of drivers: `spec` is that of the engine from now on. Readings of a
+  /// sensor go on counting, so what was kept is not kept again.
+  void follow(const sim::EngineSpec& spec);
   /// After a step of the engine, between begin_step() and end_step() of the recorder.
   void keep(const sim::Engine& engine, record::RunRecorder& recorder);
 

@@ -111,7 +111,7 @@ void RecordKeeper::follow(const sim::Engine& engine) {
     const sim::RobotType& type = spec.types[spec.robots[event.robot.value()].type];
     told_truth_[event.robot.value()] = type.simulated && !type.pose_from ? 1 : 0;
     with_real_ = with_real_ || !type.simulated;
-    parts_ = PartKeeper(spec);
+    parts_.follow(spec);
   }
 }
 

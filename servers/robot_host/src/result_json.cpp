@@ -149,7 +149,7 @@ Json capture_json(const Findings& findings) {
                {"captures", Json::array()}};
   if (!findings.facts.capture) return json;
   const CaptureFacts& facts = *findings.facts.capture;
-  json["holds"] = holds(check, facts);
+  if (holds(check, facts) || findings.facts.world_from == 0) json["holds"] = holds(check, facts);
   if (facts.closest_m.value_or(1e9) < 1e9) json["closest_m"] = rounded(*facts.closest_m, 1e-4);
   for (const Capture& capture : facts.captures) {
     if (json["captured_at_s"].is_null()) json["captured_at_s"] = capture.time_s;
@@ -217,6 +217,8 @@ std::string result_json(const Findings& findings, const RunOutcome& outcome) {
   json["seed"] = scenario.seed;
   json["step_s"] = scenario.step_s.value;
   json["steps"] = findings.facts.steps;
+  // Contacts, changes of the world and captures before it are not known here.
+  if (findings.facts.world_from > 0) json["world_from_step"] = findings.facts.world_from;
   json["simulated_s"] = findings.done_s();
   json["wall_s"] = rounded(findings.wall_s, 1e-3);
   json["threads"] = findings.spec.threads;

@@ -156,6 +156,26 @@ Status go_through(Journey& journey) {
   return {};
 }
 
+/// Hand-overs that the end of the run has cut off, as events of the step that does not come any
+/// more. No part of the hash.
+std::vector<sim::Event> unfinished_hand_overs(const sim::Engine& engine) {
+  const sim::EngineSpec& spec = engine.spec();
+  const auto word = [&spec](std::uint32_t type) {
+    return spec.types[type].simulated ? "simulated" : "real";
+  };
+  std::vector<sim::Event> events;
+  for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
+    const auto state = engine.hand_over_state(RobotId(r));
+    if (!state || !state->under_way) continue;
+    const sim::RobotSpec& robot = spec.robots[r];
+    events.push_back(
+        {engine.steps_done(), RobotId(r), sim::EventKind::kHandOverRefused, BodyId(),
+         fmt::format("{} -> {}: the run ended before that was done{}", word(robot.type),
+                     word(robot.twin.value_or(robot.type)), state->by_hand ? " (by hand)" : "")});
+  }
+  return events;
+}
+
 /// Lets others control a run as long as it goes.
 class Controlled {
  public:
@@ -231,6 +251,7 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
   const Controlled controlled(journey);
   tell_who_waits(*engine, options, console);
   RAVE_TRY(go_through(journey));
+  tell_events(*engine, unfinished_hand_overs(*engine), &console, journey.events);
   // Writing the results takes a while; nobody drives on meanwhile.
   engine->halt();
   if (options.control != nullptr) options.control->end();

@@ -114,6 +114,11 @@ std::string summary_text(const Findings& findings, const RunOutcome& outcome) {
   table.rows.push_back(
       {"contacts, pins", fmt::format("{}, {}", findings.count(sim::EventKind::kContact),
                                      findings.count(sim::EventKind::kPinned))});
+  if (findings.facts.world_from > 0) {
+    table.rows.push_back(
+        {"", fmt::format("and captures, from step {} on: the manager before is gone with the rest",
+                         findings.facts.world_from)});
+  }
   if (has_radio(findings.spec)) {
     table.rows.push_back({"messages", radio_line(findings.facts.radio)});
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "obstacle_order.hpp"
 #include "rave/math/transform.hpp"
 
 namespace rave::robot_host {
@@ -190,10 +191,9 @@ Status ShadowWorld::step(const sim::Engine& engine, std::optional<Pose2> start, 
 
 void ShadowWorld::mirror_obstacles(const sim::Engine& engine) {
   using Kind = sim::ObstacleChange::Kind;
-  for (const sim::Event& event : engine.events()) {
+  for (const sim::Event& event : obstacle_events_in_order(engine.events())) {
     const bool added = event.kind == sim::EventKind::kObstacleAdded;
     const bool removed = event.kind == sim::EventKind::kObstacleRemoved;
-    if (!added && !removed && event.kind != sim::EventKind::kObstacleMoved) continue;
     const world::Obstacle* const obstacle = engine.spec().world.obstacle(event.other.value());
     sim::WorldInput input;
     input.kind = sim::WorldInput::Kind::kObstacle;

@@ -2,6 +2,7 @@
 #include "rave/robot_host/shared_results.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "capture_watch.hpp"
 #include "facts_file.hpp"
@@ -44,7 +45,7 @@ struct SharedResults::Impl {
   }
 
   void note_step(const sim::WorldAuthority& authority);
-  Result<RunFacts> read(const SharedHost& host, const std::filesystem::path& folder) const;
+  Status add(const SharedHost& host, std::string bytes, std::vector<std::string>& added);
   [[nodiscard]] HostShare share_of(const SharedHost& host) const;
   void take(const SharedHost& host, const std::vector<std::size_t>& robots, Findings& findings);
 
@@ -65,12 +66,11 @@ struct SharedResults::Impl {
 void SharedResults::Impl::note_step(const sim::WorldAuthority& authority) {
   const std::uint64_t done = authority.steps_done();
   kinds.learn(authority.world());
-  if (!begun || done == noted) {
-    // The first world, of this run or of one that somebody else began.
-    begun = true;
-    noted = done;
-    return;
-  }
+  const bool first = !std::exchange(begun, true);
+  // The step that a manager before left unfinished has been finished here.
+  if (first && done > 0) facts.world_from = done - 1;
+  // With the first world of a run no step is done.
+  if (first ? done == 0 : done == noted) return;
   noted = done;
   std::vector<sim::Event> events(authority.events().begin(), authority.events().end());
   events.insert(events.end(), seen.begin(), seen.end());
@@ -84,11 +84,17 @@ void SharedResults::Impl::note_step(const sim::WorldAuthority& authority) {
       }));
 }
 
-Result<RunFacts> SharedResults::Impl::read(const SharedHost& host,
-                                           const std::filesystem::path& folder) const {
-  RAVE_TRY_ASSIGN(const std::string text, read_file(folder / kFactsFile));
-  return decode_facts(std::as_bytes(std::span(text)), {shared_number(scenario), host.name},
-                      {static_cast<std::uint32_t>(spec.robots.size()), kinds.count()});
+/// What one process of a host knows; each once, whichever way it came.
+Status SharedResults::Impl::add(const SharedHost& host, std::string bytes,
+                                std::vector<std::string>& added) {
+  if (std::ranges::find(added, bytes) != added.end()) return {};
+  RAVE_TRY_ASSIGN(
+      RunFacts found,
+      decode_facts(std::as_bytes(std::span(bytes)), {shared_number(scenario), host.name},
+                   {static_cast<std::uint32_t>(spec.robots.size()), kinds.count()}));
+  merge(std::move(found), facts);
+  added.push_back(std::move(bytes));
+  return {};
 }
 
 HostShare SharedResults::Impl::share_of(const SharedHost& host) const {
@@ -107,23 +113,32 @@ HostShare SharedResults::Impl::share_of(const SharedHost& host) const {
 void SharedResults::Impl::take(const SharedHost& host, const std::vector<std::size_t>& robots,
                                Findings& findings) {
   HostShare share = share_of(host);
+  std::vector<std::string> added;
   for (const auto& folder : host.folders) {
-    auto found = read(host, folder);
-    if (found) {
-      share.found = true;
-      merge(*std::move(found), facts);
-    } else if (found.error().code != ErrorCode::kNotFound) {
-      facts.problems.push_back(fmt::format("host `{}`: `{}`: {}", host.name,
-                                           (folder / kFactsFile).string(), found.error().message));
-    }
+    auto text = read_file(folder / kFactsFile);
+    if (!text && text.error().code == ErrorCode::kNotFound) continue;
+    const Status status =
+        text ? add(host, *std::move(text), added) : Status(tl::unexpected(text.error()));
+    if (status) continue;
+    facts.problems.push_back(fmt::format("host `{}`: `{}`: {}", host.name,
+                                         (folder / kFactsFile).string(), status.error().message));
   }
+  for (const std::vector<std::byte>& bytes : host.findings) {
+    const Status status =
+        add(host, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, added);
+    if (status) continue;
+    facts.problems.push_back(
+        fmt::format("host `{}`: what it has sent: {}", host.name, status.error().message));
+  }
+  share.found = !added.empty();
   if (!share.found) {
     findings.lost.resize(spec.robots.size());
     for (const std::size_t robot : robots) findings.lost[robot] = 1;
-    // What a host elsewhere knows lies there; that is as it should be.
-    if (!host.folders.empty()) {
-      facts.problems.push_back(fmt::format(
-          "host `{}` left no findings: nothing is known of its robots here", host.name));
+    // What a host elsewhere knows lies there if nobody could ask it for that.
+    if (!host.folders.empty() || host.awaited) {
+      facts.problems.push_back(
+          fmt::format("host `{}` {}: nothing is known of its robots here", host.name,
+                      host.folders.empty() ? "has not sent its findings" : "left no findings"));
     }
   }
   findings.hosts.push_back(std::move(share));

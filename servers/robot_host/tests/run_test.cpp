@@ -38,6 +38,24 @@ Json result_of(const std::string& text, const std::string& name, RunOutcome& out
   return Json::parse(json.value_or("{}"));
 }
 
+TEST(Run, AHandOverThatTheEndCutsOffIsAProblem) {
+  RunOutcome outcome;
+  const Json result = result_of(
+      "name: cut\nduration_s: 1\nstep_s: 0.01\npace: max\n"
+      "changes:\n  - {at_s: 0.99, robot: anna, hand_over: twin}\n"
+      "robots:\n  - {name: anna, file: ../robots/wanderer.yaml, twin: ../robots/wanderer.yaml, "
+      "pose: {x_m: 0, y_m: 0}}\n",
+      "cut", outcome);
+  EXPECT_FALSE(outcome.whole);
+  ASSERT_EQ(outcome.problems.size(), 1U);
+  EXPECT_NE(outcome.problems[0].find("robot `anna` at 1.00 s was not handed over: simulated -> "
+                                     "simulated: the run ended before that was done"),
+            std::string::npos)
+      << outcome.problems[0];
+  ASSERT_EQ(result.at("hand_overs").size(), 1U);
+  EXPECT_EQ(result.at("hand_overs")[0].at("made"), false);
+}
+
 TEST(Run, ResultHasEverythingThatAnExperimenterNeeds) {
   RunOutcome outcome;
   const Json result = result_of(

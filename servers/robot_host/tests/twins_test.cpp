@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../src/obstacle_order.hpp"
 #include "host_fixture.hpp"
 
 namespace rave::robot_host::testing {
@@ -40,6 +41,31 @@ TEST(Twins, SurviveTheExpandedScenario) {
   ASSERT_TRUE(again) << again.error().text();
   EXPECT_EQ(again->groups, scenario->groups);
   EXPECT_EQ(again->scenario.changes, scenario->scenario.changes);
+}
+
+TEST(Twins, ShadowsSeeObstaclesGoBeforeOthersOfTheirNameCome) {
+  using Kind = sim::EventKind;
+  const auto event = [](Kind kind, std::uint32_t obstacle) {
+    return sim::Event{7, RobotId(), kind, BodyId(obstacle), "", 0};
+  };
+  // Number 1 goes and 5 comes in its place, goes, and 6 comes; 0 moves; 2 moves and goes. Sorted by
+  // kind, as an engine has them.
+  const std::vector<sim::Event> events = {{7, RobotId(0), Kind::kContact, BodyId(3), "", 0},
+                                          event(Kind::kObstacleAdded, 5),
+                                          event(Kind::kObstacleAdded, 6),
+                                          event(Kind::kObstacleMoved, 0),
+                                          event(Kind::kObstacleMoved, 2),
+                                          event(Kind::kObstacleRemoved, 1),
+                                          event(Kind::kObstacleRemoved, 2),
+                                          event(Kind::kObstacleRemoved, 5)};
+  std::vector<std::pair<Kind, std::uint32_t>> made;
+  for (const sim::Event& done : obstacle_events_in_order(events)) {
+    made.emplace_back(done.kind, done.other.value());
+  }
+  const std::vector<std::pair<Kind, std::uint32_t>> expected = {
+      {Kind::kObstacleRemoved, 1}, {Kind::kObstacleRemoved, 2}, {Kind::kObstacleMoved, 0},
+      {Kind::kObstacleAdded, 5},   {Kind::kObstacleRemoved, 5}, {Kind::kObstacleAdded, 6}};
+  EXPECT_EQ(made, expected);
 }
 
 TEST(TwinErrors, PointAtTheScenario) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "idl/rave/command.h"
+#include "idl/rave/findings.h"
 #include "idl/rave/host.h"
 #include "idl/rave/lock_step.h"
 #include "idl/rave/obstacle.h"
@@ -29,6 +30,7 @@ using HostInfo = rave_wire_HostInfo;
 using ProcessState = rave_wire_ProcessState;
 using ClockPing = rave_wire_ClockPing;
 using ClockPong = rave_wire_ClockPong;
+using FindingsPart = rave_wire_FindingsPart;
 
 /// A topic as the bus needs it: where it is found, what it carries, how it is delivered.
 struct TopicSpec {
@@ -105,6 +107,10 @@ inline TopicSpec topic_of<ClockPing>() {
 template <>
 inline TopicSpec topic_of<ClockPong>() {
   return {"rave/clock_pong", &rave_wire_ClockPong_desc, kOnce};
+}
+template <>
+inline TopicSpec topic_of<FindingsPart>() {
+  return {"rave/findings", &rave_wire_FindingsPart_desc, kDurable};
 }
 
 }  // namespace rave::bus

@@ -25,6 +25,7 @@ struct ScheduledHandOver {
 struct HandOverState {
   DriverSet active = DriverSet::kFirst;
   bool under_way = false;
+  bool by_hand = false;              ///< While it is under way: somebody asked for it.
   DriverSet to = DriverSet::kFirst;  ///< While it is under way: where it leads.
   std::uint32_t made = 0;
   std::uint32_t refused = 0;

@@ -11,6 +11,7 @@
 #include "rave/base/time.hpp"
 #include "rave/bus/config.hpp"
 #include "rave/config/expanded_scenario.hpp"
+#include "rave/lock_step/findings.hpp"
 #include "rave/lock_step/introduction.hpp"
 #include "rave/robot_host/run_control.hpp"
 #include "rave/sim/engine_spec.hpp"
@@ -73,6 +74,10 @@ struct LiveManagerOutcome {
   };
   Edits edits;
   std::vector<std::string> problems;  ///< One sentence each; empty if all is well.
+  /// What processes of hosts have sent of what they know; of all that were there at the end if
+  /// `saw_off`: this manager stayed until the hosts had gone.
+  std::vector<lock_step::Findings> findings;
+  bool saw_off = false;
 };
 
 /// Serves a run in real time, in the calling thread: gives it its time, which is that of this

@@ -11,6 +11,7 @@
 #include "rave/base/result.hpp"
 #include "rave/bus/config.hpp"
 #include "rave/config/expanded_scenario.hpp"
+#include "rave/lock_step/findings.hpp"
 #include "rave/lock_step/introduction.hpp"
 #include "rave/robot_host/run_control.hpp"
 #include "rave/sim/engine_spec.hpp"
@@ -56,6 +57,8 @@ struct ManagerOutcome {
   std::uint64_t contacts = 0;         ///< That began.
   double wall_s = 0;                  ///< From the first step to the last.
   std::vector<std::string> problems;  ///< One sentence each; empty if all is well.
+  /// What processes of hosts have sent of what they know, by host.
+  std::vector<lock_step::Findings> findings;
 };
 
 /// Holds the world of a run for its hosts, from the first report to the last step, in the calling

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "rave/base/log.hpp"
 #include "rave/base/result.hpp"
+#include "rave/base/time.hpp"
 #include "rave/bus/bus.hpp"
 #include "rave/lock_step/introduction.hpp"
 #include "rave/lock_step/roster.hpp"
@@ -27,9 +30,12 @@ class HostPort {
     kEnded,    ///< The run has ended; ending() says how.
   };
 
-  /// Goes on the bus. `log` is not owned and may be null. Errors: those of bus::Bus::open().
+  /// Goes on the bus. `log` is not owned and may be null. `patience`: without an environment
+  /// manager for longer than this the run has ended for this host; 0: it waits without limit.
+  /// Errors: those of bus::Bus::open().
   [[nodiscard]] static Result<std::unique_ptr<HostPort>> open(const bus::BusConfig& bus,
-                                                              Identity identity, LogSink* log);
+                                                              Identity identity, LogSink* log,
+                                                              Duration patience = {});
   HostPort(const HostPort&) = delete;
   HostPort& operator=(const HostPort&) = delete;
   ~HostPort();
@@ -58,6 +64,11 @@ class HostPort {
   /// Sends a last report without waiting for an answer: `state` says that this host is done or has
   /// failed.
   void farewell(const sim::HostReport& report, std::uint64_t hash);
+
+  /// Sends what this host knows of the run to the environment manager, once, when the run is over
+  /// for it: waits until that has it, ten seconds at most. Nothing for a host that never took part.
+  /// Errors: those of FindingsSender::send().
+  [[nodiscard]] Status deliver(std::span<const std::byte> findings);
 
  private:
   struct Impl;

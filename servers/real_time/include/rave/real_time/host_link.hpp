@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -34,7 +35,10 @@ class HostLink {
     bool sees = true;                           ///< A robot here has use of where the others are.
     bool talks = true;                          ///< A robot here has communicators.
     Duration world_period = from_seconds(0.1);  ///< At which worlds should come.
-    LogSink* log = nullptr;                     ///< Not owned; may be null.
+    /// Before the start, without an environment manager for longer than this the run has ended for
+    /// this host; 0: it waits without limit.
+    Duration manager_patience{};
+    LogSink* log = nullptr;  ///< Not owned; may be null.
   };
   /// Goes on the bus. `world` hears of other robots and what they say, inside the calls of this
   /// object; not owned. Errors: those of bus::Bus::open().
@@ -74,6 +78,11 @@ class HostLink {
   /// The last step has the obstacles of LiveWorld::shown_revision() around its robots; the manager
   /// is told when that is more than before.
   void obstacles_shown();
+
+  /// Sends what this host knows of the run to the environment manager, once, when the run is over
+  /// for it: waits until that has it, ten seconds at most. Nothing without a manager, or before the
+  /// start. Errors: those of lock_step::FindingsSender::send().
+  [[nodiscard]] Status deliver(std::span<const std::byte> findings);
 
   /// For how long no world has come; 0 if it does not see.
   [[nodiscard]] Duration world_age() const;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "rave/base/time.hpp"
 #include "rave/bus/config.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/plugin/catalogue.hpp"
@@ -19,6 +20,10 @@ struct HostOptions {
   RunOptions run;  ///< `picture`: leave what it needs. `on_progress` does not count.
   bus::BusConfig bus;
   std::string host;  ///< Its name in the scenario.
+  /// How long it waits for an environment manager that is not there, before the run and, in
+  /// lock-step, when that is gone; then its robots are stopped and the record is closed. 0: without
+  /// limit.
+  Duration manager_patience{};
   /// Where the drivers of the other hosts' robots are looked up while the scenario is built;
   /// unloaded afterwards. Null: in the catalogue of the run.
   std::unique_ptr<plugin::Catalogue> others;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -22,6 +23,10 @@ struct SharedHost {
   std::string name;
   /// Where it left what it knows, in the order in which it was started; empty: it is elsewhere.
   std::vector<std::filesystem::path> folders;
+  /// What its processes have sent of what they know: the same bytes as lie in its folders, wherever
+  /// these are.
+  std::vector<std::vector<std::byte>> findings;
+  bool awaited = false;  ///< They were waited for.
   // Of a run in real time:
   std::optional<double> offset_s;  ///< Of its clock against that of the manager.
   std::optional<double> bound_s;

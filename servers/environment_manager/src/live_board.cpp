@@ -17,7 +17,6 @@ struct LiveBoard::Parts {
   bus::Reader<bus::HostInfo> infos;
   bus::Reader<bus::ClockPing> pings;
   bus::Reader<bus::HostState> states;
-  bus::Reader<bus::LastObstacle> handed_in;
   lock_step::Pulse pulse;
 };
 
@@ -32,7 +31,6 @@ LiveBoard::LiveBoard(const LiveManagerOptions& options, Parts parts)
       infos_(std::move(parts.infos)),
       pings_(std::move(parts.pings)),
       states_(std::move(parts.states)),
-      handed_in_(std::move(parts.handed_in)),
       pulse_(std::move(parts.pulse)),
       claims_(static_cast<std::uint32_t>(options.hosts.size())),
       seat_of_(options.robots.size()),
@@ -61,12 +59,11 @@ Result<std::unique_ptr<LiveBoard>> LiveBoard::open(const LiveManagerOptions& opt
   RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
   RAVE_TRY_ASSIGN(auto pings, bus::Reader<bus::ClockPing>::create(*bus));
   RAVE_TRY_ASSIGN(auto states, bus::Reader<bus::HostState>::create(*bus));
-  RAVE_TRY_ASSIGN(auto handed_in, bus::Reader<bus::LastObstacle>::create(*bus));
   RAVE_TRY_ASSIGN(auto pulse, lock_step::Pulse::create(*bus, options.identity));
   std::unique_ptr<LiveBoard> board(new LiveBoard(
       options, {std::move(bus), std::move(own_info), std::move(worlds), std::move(runs),
                 std::move(pongs), std::move(obstacles), std::move(infos), std::move(pings),
-                std::move(states), std::move(handed_in), std::move(pulse)}));
+                std::move(states), std::move(pulse)}));
   RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(*board->bus_));
   RAVE_TRY(waits.add(board->pings_));
   RAVE_TRY(waits.add(board->states_));
@@ -117,6 +114,7 @@ Status LiveBoard::look_at_processes(bool goes) {
 void LiveBoard::lose(std::uint64_t writer, bool goes) {
   host_of_.erase(writer);
   refused_.erase(writer);
+  wrong_hands_.erase(writer);
   claims_.release(writer);
   for (LiveSeat& seat : seats_) {
     if (seat.writer != writer) continue;
@@ -148,6 +146,7 @@ bool LiveBoard::sit_down(const bus::ClockPing& ping) {
     }
     seat.writer = ping.writer;
     news_ = true;
+    all_asked_ = false;
     if (options_.log != nullptr) {
       options_.log->info(kSource, "host `{}` is {}, with {} real and {} simulated robots",
                          seat.name, seat.heard ? "back" : "here", seat.real,
@@ -157,7 +156,8 @@ bool LiveBoard::sit_down(const bus::ClockPing& ping) {
   }
   seat.offset_ns = ping.offset_ns;
   seat.bound_ns = ping.bound_ns;
-  seat.obstacle_revision = ping.obstacle_revision;
+  seat.obstacle_revision =
+      std::min(ping.obstacle_revision, real_time::ObstacleSight::kMostRevision);
   seat.obstacles_ns = ping.obstacles_ns;
   return true;
 }
@@ -220,17 +220,41 @@ Status LiveBoard::publish(const real_time::ObstacleSight& sight) {
   return obstacles_.write(message);
 }
 
-void LiveBoard::take_handed() {
-  const auto hear = [this](const bus::LastObstacle& sample) {
+Status LiveBoard::ask_for_handed() {
+  if (std::exchange(all_asked_, true)) return {};
+  // A new reader is told all that hosts keep, also what came before they were known.
+  handed_in_.reset();
+  RAVE_TRY_ASSIGN(auto reader, bus::Reader<bus::LastObstacle>::create(*bus_));
+  handed_in_.emplace(std::move(reader));
+  return {};
+}
+
+void LiveBoard::take_handed(const std::function<Status(const real_time::ObstacleSight&)>& check) {
+  if (!handed_in_) return;
+  const auto hear = [this, &check](const bus::LastObstacle& sample) {
+    if (!host_of_.contains(sample.writer)) return;
     auto sight = real_time::read_obstacle(sample);
-    if (!sight) {
-      handed_in_.refuse(sample, sight.error().message);
+    const Status fits = sight ? check(*sight) : Status(tl::unexpected(sight.error()));
+    if (!fits) {
+      refuse_handed(sample.writer, fits.error().message);
       return;
     }
-    real_time::ObstacleSight& known = handed_[sample.id];
+    real_time::ObstacleSight& known = handed_[sight->stands.id.value()];
     if (sight->revision > known.revision) known = *std::move(sight);
   };
-  while (handed_in_.take(hear) > 0) continue;
+  // Enough for all that a run may have; who sends without end is heard of again at the next look.
+  constexpr int kMostRounds = 32;
+  for (int round = 0; round < kMostRounds && handed_in_->take(hear) > 0; ++round) continue;
+}
+
+void LiveBoard::refuse_handed(std::uint64_t writer, std::string_view why) {
+  if (!wrong_hands_.insert(writer).second || options_.log == nullptr) return;
+  options_.log->error(kSource, "refused what the process {:016x} hands over: {}", writer, why);
+}
+
+void LiveBoard::end_handing() {
+  handed_in_.reset();
+  handed_.clear();
 }
 
 std::uint64_t LiveBoard::shown_revision() const noexcept {

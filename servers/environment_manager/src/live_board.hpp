@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -53,6 +55,8 @@ class LiveBoard {
   void take_pings(Visit&& visit) {
     pings_.take(std::forward<Visit>(visit));
   }
+  /// What its messages are signed with.
+  [[nodiscard]] std::uint64_t writer() const noexcept { return bus_->writer(); }
   /// Whether a process that asks for the time sits in its host's place, as it does now if that was
   /// free.
   bool sit_down(const bus::ClockPing& ping);
@@ -77,9 +81,15 @@ class LiveBoard {
   /// Tells all hosts, those that come later too, how an obstacle stands. Errors: kInvalidArgument
   /// (larger than the bus carries), kIo.
   Status publish(const real_time::ObstacleSight& sight);
-  /// Takes in what hosts hand over of the manager that was here before.
-  void take_handed();
-  /// All of that, by number.
+  /// Asks the hosts that sit here what they know of the obstacles of the manager that was here
+  /// before; again if others have sat down since the last call. Errors: kState, kIo.
+  Status ask_for_handed();
+  /// Takes in what has come of that, of processes that fit. `check` says what cannot be; a process
+  /// that hands over such is named once in the log.
+  void take_handed(const std::function<Status(const real_time::ObstacleSight&)>& check);
+  /// Nothing is handed over any more, and what was is forgotten.
+  void end_handing();
+  /// All that was handed over, by number.
   [[nodiscard]] const std::map<std::uint32_t, real_time::ObstacleSight>& handed_obstacles()
       const noexcept {
     return handed_;
@@ -95,6 +105,7 @@ class LiveBoard {
   LiveBoard(const LiveManagerOptions& options, Parts parts);
   void lose(std::uint64_t writer, bool goes);
   void take_in(const bus::HostState& state);
+  void refuse_handed(std::uint64_t writer, std::string_view why);
 
   const LiveManagerOptions& options_;
   std::unique_ptr<bus::Bus> bus_;
@@ -106,7 +117,7 @@ class LiveBoard {
   bus::Reader<bus::HostInfo> infos_;
   bus::Reader<bus::ClockPing> pings_;
   bus::Reader<bus::HostState> states_;
-  bus::Reader<bus::LastObstacle> handed_in_;
+  std::optional<bus::Reader<bus::LastObstacle>> handed_in_;  ///< While something is handed over.
   lock_step::Pulse pulse_;
   std::optional<bus::WaitSet> waits_;
   bus::HostInfo introduced_{};  ///< What the others were told of this process.
@@ -122,6 +133,8 @@ class LiveBoard {
   std::vector<std::uint32_t> stale_;
   lock_step::ObstacleParts parts_;
   std::map<std::uint32_t, real_time::ObstacleSight> handed_;
+  bool all_asked_ = false;               ///< Who sits here, what it has to hand over.
+  std::set<std::uint64_t> wrong_hands_;  ///< Processes that handed over what cannot be.
   std::uint64_t states_taken_ = 0;
   std::uint64_t worlds_sent_ = 0;
   bool news_ = false;

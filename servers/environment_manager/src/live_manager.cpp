@@ -136,7 +136,6 @@ void LiveRun::hear(const bus::ClockPing& ping) {
 Status LiveRun::listen() {
   board_->take_pings([this](const bus::ClockPing& ping) { hear(ping); });
   board_->take_states();
-  board_->take_handed();
   if (Clock::now() < next_look_) return {};
   next_look_ = Clock::now() + kLook;
   // Towards the end each host goes when it is done.

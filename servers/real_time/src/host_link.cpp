@@ -78,6 +78,7 @@ struct HostLink::Impl {
   std::uint64_t pings_sent = 0;         ///< To this manager.
   std::uint64_t pongs_heard = 0;        ///< From it.
   std::uint64_t obstacle_revision = 0;  ///< That it says there is.
+  bool wrong_obstacles = false;         ///< It has told of some that cannot be.
   std::uint64_t shown_revision = 0;     ///< That the robots here have around them,
   SimTime shown_since{};                ///< by the time of the run.
   Clock::time_point ping_at{};
@@ -247,6 +248,13 @@ void HostLink::Impl::hear(const bus::Obstacle& sample) {
     obstacles->refuse(sample, sight.error().message);
     return;
   }
+  if (const Status possible = live.check(*sight); !possible) {
+    // Once of each manager: what does not fit comes in numbers.
+    if (!std::exchange(wrong_obstacles, true)) {
+      tell(LogLevel::kWarning, "refused of the environment manager: " + possible.error().message);
+    }
+    return;
+  }
   if (!live.see(*std::move(sight))) return;
   // For a manager that takes the place of this one.
   bus::LastObstacle kept{};
@@ -288,6 +296,7 @@ void HostLink::Impl::listen_to_first() {
   pings_sent = 0;
   pongs_heard = 0;
   last_world_number = 0;
+  wrong_obstacles = false;
   ping_at = {};
   // A new reader is told of all obstacles, also of those that came before anybody listened to this
   // manager.

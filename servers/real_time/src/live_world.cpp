@@ -76,6 +76,26 @@ sim::EngineSpec world_of(const sim::EngineSpec& spec, const std::vector<std::uin
 
 }  // namespace
 
+Status check_sight(const ObstacleSight& sight, const world::WorldModel& start) {
+  const std::uint32_t id = sight.stands.id.value();
+  const bool adds = sight.stands.kind == sim::ObstacleChange::Kind::kAdd;
+  const std::size_t first_added = start.obstacles.size() + start.robots.size();
+  const bool possible =
+      adds ? id >= first_added && id - first_added < sim::ObstacleChange::kMostAdded
+           : id < start.obstacles.size();
+  if (!possible) {
+    return fail(ErrorCode::kInvalidArgument, "{} {} is none of the run",
+                adds ? "an obstacle that came with the number" : "obstacle", id);
+  }
+  if (sight.revision == 0 || sight.revision > ObstacleSight::kMostRevision) {
+    return fail(ErrorCode::kInvalidArgument,
+                "obstacle {} as it stands since change {}; expected 1 "
+                "to {}",
+                id, sight.revision, ObstacleSight::kMostRevision);
+  }
+  return sim::check_obstacle_change(sight.stands);
+}
+
 LiveWorld::LiveWorld(const sim::EngineSpec& spec, std::unique_ptr<sim::WorldAuthority> authority)
     : authority_(std::move(authority)),
       local_(local_robots(spec)),
@@ -123,13 +143,13 @@ bool LiveWorld::see(const RobotSight& sight) {
   return true;
 }
 
+Status LiveWorld::check(const ObstacleSight& sight) const {
+  return check_sight(sight, authority_->world());
+}
+
 bool LiveWorld::see(ObstacleSight sight) {
-  const world::WorldModel& world = authority_->spec().world;
+  if (!check(sight)) return false;
   const std::uint32_t id = sight.stands.id.value();
-  const bool adds = sight.stands.kind == sim::ObstacleChange::Kind::kAdd;
-  const auto first_added = static_cast<std::uint32_t>(world.obstacles.size() + world.robots.size());
-  const bool possible = adds ? id >= first_added : id < world.obstacles.size();
-  if (!possible || !sim::check_obstacle_change(sight.stands)) return false;
   std::uint64_t& known = revision_of_[id];
   if (sight.revision <= known) return false;
   known = sight.revision;

@@ -134,6 +134,16 @@ TEST_F(LiveObstacles, WhatCannotBeIsNotTakenIn) {
   ObstacleSight robot = crate(2, 1);
   robot.stands.kind = Kind::kRemove;
   EXPECT_FALSE(live_->see(robot));
+  constexpr auto kMost = static_cast<std::uint32_t>(sim::ObstacleChange::kMostAdded);
+  EXPECT_TRUE(live_->check(crate(3 + kMost - 1, 1)));
+  const Status beyond = live_->check(crate(3 + kMost, 1));
+  ASSERT_FALSE(beyond);
+  EXPECT_NE(beyond.error().message.find("number 100003 is none of the run"), std::string::npos)
+      << beyond.error().message;
+  EXPECT_FALSE(live_->see(crate(3 + kMost, 1)));
+  EXPECT_FALSE(live_->see(crate(3, 0)));
+  EXPECT_FALSE(live_->see(crate(3, ObstacleSight::kMostRevision + 1)));
+  EXPECT_EQ(live_->heard_revision(), 0U);
   EXPECT_TRUE(step().empty());
 }
 

@@ -24,11 +24,19 @@ struct RobotSight {
 
 /// How an obstacle stands that is not as it was at the start, as the manager of the run says.
 struct ObstacleSight {
+  /// More changes than any run makes.
+  static constexpr std::uint64_t kMostRevision = std::uint64_t{1} << 40U;
+
   std::uint64_t scheduled = 0;  ///< How many changes of the scenario were due by then.
   std::uint64_t revision = 0;   ///< Of all obstacles: each change has the next, from 1.
   sim::ObstacleChange stands;   ///< An addition at the present place, a move, or a removal.
   bool removed = false;         ///< It came, and is gone.
 };
+
+/// Whether an obstacle of a run that began in `start` can stand so: its number is that of one of
+/// the start, or of one of those that a run may add, and sim::check_obstacle_change(). Error
+/// kInvalidArgument says what is wrong.
+[[nodiscard]] Status check_sight(const ObstacleSight& sight, const world::WorldModel& start);
 
 /// The world of one host in real time. It is the authority for the robots that run here and knows
 /// all others only by what their hosts say, when that arrives: they are where their last velocity
@@ -51,6 +59,8 @@ class LiveWorld {
   /// Takes in how an obstacle stands, for the next step; whoever stands there. False: more recent
   /// things are known of it, or it cannot be.
   bool see(ObstacleSight sight);
+  /// check_sight() for the world of this run.
+  [[nodiscard]] Status check(const ObstacleSight& sight) const;
   /// The latest revision that was heard of, and that of the last step: all obstacles stand as they
   /// should as far as this.
   [[nodiscard]] std::uint64_t heard_revision() const noexcept { return heard_revision_; }

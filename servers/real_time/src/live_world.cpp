@@ -159,12 +159,13 @@ bool LiveWorld::see(ObstacleSight sight) {
 }
 
 /// Those that came are numbered in a row; one whose forerunner is not there yet waits for it.
-void LiveWorld::adopt_obstacles() {
+void LiveWorld::adopt_obstacles(std::uint64_t step) {
   if (news_.empty()) return;
   std::uint32_t next = authority_->world().body_count();
   for (auto it = news_.begin(); it != news_.end() && it->first <= next; it = news_.erase(it)) {
     const bool is_new = it->first == next;
     adopt(it->second, is_new);
+    adopted_.push_back({step, it->second.stands.id, it->second.revision});
     if (is_new) ++next;
   }
   if (news_.empty()) shown_revision_ = heard_revision_;
@@ -342,12 +343,24 @@ Status LiveWorld::step(const sim::HostReport& own, sim::WorldStep& world) {
   events_.clear();
   std::array<const sim::HostReport*, 2> reports = {&own, &others_report_};
   if (!others_.empty()) report_others(own.step);
-  adopt_obstacles();
+  adopt_obstacles(own.step);
   RAVE_TRY(authority_->step(std::span(reports).first(others_.empty() ? 1 : 2), world));
-  for (const sim::Event& event : authority_->events()) {
-    if (!event.robot.valid() || local_[event.robot.value()] != 0) events_.push_back(event);
-  }
+  take_events(own.step);
   return {};
+}
+
+/// Each host is told of a change when it comes; the number says that it is the same.
+void LiveWorld::take_events(std::uint64_t step) {
+  for (const sim::Event& event : authority_->events()) {
+    if (event.robot.valid() && local_[event.robot.value()] == 0) continue;
+    sim::Event& taken = events_.emplace_back(event);
+    if (!is_of_obstacle(event.kind)) continue;
+    const auto change = std::find_if(adopted_.begin(), adopted_.end(), [&](const Adopted& one) {
+      return one.step == event.step && one.id == event.other;
+    });
+    if (change != adopted_.end()) taken.detail = static_cast<std::uint32_t>(change->revision);
+  }
+  std::erase_if(adopted_, [step](const Adopted& one) { return one.step < step; });
 }
 
 }  // namespace rave::real_time

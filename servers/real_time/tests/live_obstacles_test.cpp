@@ -80,8 +80,12 @@ TEST_F(LiveObstacles, OneComesMovesAndGoes) {
   ASSERT_TRUE(live_->see(gone));
   ASSERT_EQ(step().size(), 1U);
   EXPECT_EQ(world_.obstacles[0].kind, Kind::kRemove);
+  ASSERT_EQ(live_->events().size(), 1U);
+  EXPECT_EQ(live_->events()[0].detail, 2U) << "which change it was, also if the next has come";
   EXPECT_TRUE(step().empty());
   EXPECT_EQ(live_->shown_revision(), 3U);
+  ASSERT_EQ(live_->events().size(), 1U);
+  EXPECT_EQ(live_->events()[0].detail, 3U);
 }
 
 TEST_F(LiveObstacles, WhatIsOldIsNotTakenBack) {
@@ -177,6 +181,7 @@ TEST_F(LiveObstacles, WithoutAManagerThoseOfTheScenarioAreMadeHere) {
   EXPECT_TRUE(step().empty());
   ASSERT_EQ(live_->events().size(), 1U);
   EXPECT_EQ(live_->events()[0].text.find("by hand"), std::string::npos);
+  EXPECT_EQ(live_->events()[0].detail, 0U) << "nobody counts";
   number_ = 0;
   make(spec, false);
   for (int i = 0; i < 4; ++i) EXPECT_TRUE(step().empty()) << "the manager makes them";

@@ -108,6 +108,12 @@ class LiveWorld {
     std::int64_t sample_ns = 0;  ///< Of the last sample that was handed on.
     TalkLimit talk{TalkLimit::kOnReception};
   };
+  /// A change of an obstacle that counts from a step on.
+  struct Adopted {
+    std::uint64_t step = 0;
+    BodyId id;
+    std::uint64_t revision = 0;
+  };
   struct Counted {
     std::uint64_t writer = 0;
     std::uint32_t sequence = 0;
@@ -120,8 +126,9 @@ class LiveWorld {
   void report_place(Other& other, std::uint64_t step);
   void report_samples(SimTime now);
   void report_packets(std::uint64_t step);
-  void adopt_obstacles();
+  void adopt_obstacles(std::uint64_t step);
   void adopt(const ObstacleSight& sight, bool is_new);
+  void take_events(std::uint64_t step);
 
   std::unique_ptr<sim::WorldAuthority> authority_;
   std::vector<std::uint8_t> local_;       ///< By robot: it runs here.
@@ -138,6 +145,7 @@ class LiveWorld {
   std::vector<RobotId> flooders_;                       ///< Not asked for yet.
   std::map<std::uint32_t, ObstacleSight> news_;         ///< Of obstacles, by number.
   std::map<std::uint32_t, std::uint64_t> revision_of_;  ///< The same, of all that was heard.
+  std::vector<Adopted> adopted_;  ///< Of which the events come with the next step.
   std::uint64_t heard_revision_ = 0;
   std::uint64_t shown_revision_ = 0;
 };

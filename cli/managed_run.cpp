@@ -112,6 +112,7 @@ void note_outcome(LiveManagerOutcome outcome, ManagedEnd& end) {
   end.end.edits = robot_host::SharedEdits{outcome.edits.made, outcome.edits.confirmed,
                                           outcome.edits.slowest_s, outcome.edits.sum_s};
   end.end.wall_s = outcome.end.seconds();
+  end.end.events = std::move(outcome.refused);
   end.end.problems = std::move(outcome.problems);
 }
 

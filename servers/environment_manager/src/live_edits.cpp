@@ -177,6 +177,12 @@ void LiveEdits::make_scheduled(SimTime now) {
     if (due_ns > std::max<std::int64_t>(0, now.ns)) return;
     ++next_scheduled_;
     const auto made = make(scheduled.change, now);
+    if (!made) {
+      const auto step =
+          static_cast<std::uint64_t>(std::max<std::int64_t>(0, now.ns) / spec.step.ns);
+      refused_.push_back(
+          {step, RobotId(), sim::EventKind::kChangeRefused, BodyId(), made.error().text()});
+    }
     if (options_.log == nullptr) continue;
     if (made) options_.log->info("scenario", "{:.2f} s: {}", now.seconds(), *made);
     if (!made) options_.log->error("scenario", "{:.2f} s: {}", now.seconds(), made.error().message);

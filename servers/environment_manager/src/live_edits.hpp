@@ -42,6 +42,8 @@ class LiveEdits {
   [[nodiscard]] std::uint64_t revision() const noexcept {
     return takes_over_ ? board_.shown_revision() : published_;
   }
+  /// Changes of the scenario that could not be made.
+  [[nodiscard]] const std::vector<sim::Event>& refused() const noexcept { return refused_; }
   /// Of changes by hand.
   [[nodiscard]] const LiveManagerOutcome::Edits& edits() const noexcept { return edits_; }
 
@@ -85,6 +87,7 @@ class LiveEdits {
   EditLimits limits_;
   std::vector<Waiting> waiting_;
   LiveManagerOutcome::Edits edits_;
+  std::vector<sim::Event> refused_;
 };
 
 }  // namespace rave::environment_manager

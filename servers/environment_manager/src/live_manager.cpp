@@ -243,6 +243,7 @@ LiveManagerOutcome LiveRun::outcome() {
   if (options_.on_end) options_.on_end(edits_->world());
   LiveManagerOutcome outcome;
   outcome.edits = edits_->edits();
+  outcome.refused = edits_->refused();
   if (begun_) outcome.end = now();
   outcome.worlds = worlds_;
   outcome.states = board_->states();
@@ -259,7 +260,7 @@ LiveManagerOutcome LiveRun::outcome() {
   }
   const bool over = begun_ && now().ns >= options_.duration.ns;
   outcome.problems = problems_;
-  outcome.whole = over && problems_.empty();
+  outcome.whole = over && problems_.empty() && outcome.refused.empty();
   // Who only stops managing leaves the hosts to their run.
   if (!over && !options_.ends_hosts) return outcome;
   tell_state(over ? rave_wire_RUN_ENDED : rave_wire_RUN_FAILED,

@@ -14,6 +14,7 @@
 #include "rave/lock_step/introduction.hpp"
 #include "rave/robot_host/run_control.hpp"
 #include "rave/sim/engine_spec.hpp"
+#include "rave/sim/event.hpp"
 
 namespace rave::environment_manager {
 
@@ -51,7 +52,7 @@ struct LiveManagerOptions {
 
 /// What came of a run.
 struct LiveManagerOutcome {
-  bool whole = false;  ///< It went to its end here, with all hosts.
+  bool whole = false;  ///< It went to its end here, with all hosts and all of its changes.
   SimTime end;         ///< Time of the run when this manager ended.
   std::uint64_t worlds = 0;
   std::uint64_t states = 0;  ///< Of hosts, that were taken in.
@@ -72,7 +73,8 @@ struct LiveManagerOutcome {
     double sum_s = 0;  ///< Of all that were confirmed.
   };
   Edits edits;
-  std::vector<std::string> problems;  ///< One sentence each; empty if all is well.
+  std::vector<sim::Event> refused;    ///< Changes of the scenario that could not be made.
+  std::vector<std::string> problems;  ///< What else is wrong, one sentence each.
 };
 
 /// Serves a run in real time, in the calling thread: gives it its time, which is that of this

@@ -62,6 +62,7 @@ struct HostLink::Impl {
   std::optional<bus::Reader<bus::World>> worlds{};        // if it sees
   std::optional<bus::Writer<bus::Packet>> packets_out{};  // if it talks
   std::optional<bus::Reader<bus::Packet>> packets_in{};
+  std::optional<Roster> roster{};       // if drivers may change
   std::optional<bus::WaitSet> waits{};  // behind all that it waits for
   std::optional<lock_step::Pulse> pulse{};
   lock_step::Pulse::Facts facts{};      ///< For those who look on.
@@ -150,6 +151,10 @@ Status HostLink::Impl::open_endpoints() {
     RAVE_TRY(make(packets_out, *bus));
     RAVE_TRY(make(packets_in, *bus));
     RAVE_TRY(set.add(*packets_in));
+  }
+  if (!options.host_of.empty()) {
+    RAVE_TRY_ASSIGN(Roster made, Roster::create(*bus, options.self.host, options.host_of));
+    roster.emplace(std::move(made));
   }
   RAVE_TRY(set.add_events());
   waits.emplace(std::move(set));
@@ -343,6 +348,7 @@ void HostLink::Impl::take() {
   if (pongs) take_pongs();
   if (worlds) take_worlds();
   if (packets_in) take_packets();
+  if (roster) roster->hear();
   look();
   if (obstacles) take_obstacles();
 }
@@ -510,6 +516,14 @@ void HostLink::obstacles_shown() {
   link.shown_revision = shown;
   link.shown_since = link.time.at(local_ns());
   link.ping_at = {};
+}
+
+void HostLink::tell_reality(const sim::Engine& engine, RobotId robot) {
+  if (impl_->roster) impl_->roster->tell(engine, robot);
+}
+
+std::vector<RobotReality> HostLink::take_realities() {
+  return impl_->roster ? impl_->roster->take() : std::vector<RobotReality>();
 }
 
 Duration HostLink::world_age() const {

@@ -228,6 +228,25 @@ bool LiveWorld::hear(std::uint64_t writer, const sim::SentPacket& packet,
   return true;
 }
 
+Status LiveWorld::serve(RobotId robot, std::uint32_t type, const Pose2& X_WR) {
+  const std::uint32_t r = robot.value();
+  if (r >= local_.size() || local_[r] == 0) {
+    return fail(ErrorCode::kInvalidArgument, "robot {} does not run here", r);
+  }
+  RAVE_TRY(authority_->change_type(robot, type, X_WR));
+  std::erase(simulated_, robot);
+  if (!authority_->spec().types[type].simulated) return {};
+  simulated_.insert(std::lower_bound(simulated_.begin(), simulated_.end(), robot), robot);
+  return {};
+}
+
+bool LiveWorld::set_reality(RobotId robot, bool simulated) {
+  const std::uint32_t r = robot.value();
+  if (r >= other_of_.size() || other_of_[r] == kNone) return false;
+  others_[other_of_[r]].real = !simulated;
+  return true;
+}
+
 Status LiveWorld::begin_at(std::uint64_t step, std::span<const RobotSight> starts,
                            sim::HostReport& own) {
   if (step == 0) return {};

@@ -16,6 +16,7 @@
 #include "rave/bus/config.hpp"
 #include "rave/lock_step/introduction.hpp"
 #include "rave/real_time/live_world.hpp"
+#include "rave/real_time/roster.hpp"
 #include "rave/sim/engine.hpp"
 
 namespace rave::real_time {
@@ -30,8 +31,11 @@ class HostLink {
     /// The run has an environment manager, whose clock is that of the run. Without one the time of
     /// each host is its own.
     bool managed = true;
-    bool sees = true;                           ///< A robot here has use of where the others are.
-    bool talks = true;                          ///< A robot here has communicators.
+    bool sees = true;   ///< A robot here has use of where the others are.
+    bool talks = true;  ///< A robot here has communicators.
+    /// By robot, the number of its host; of a run in which a robot has two sets of drivers. Empty:
+    /// none has.
+    std::vector<std::uint32_t> host_of = {};
     Duration world_period = from_seconds(0.1);  ///< At which worlds should come.
     LogSink* log = nullptr;                     ///< Not owned; may be null.
   };
@@ -69,6 +73,11 @@ class HostLink {
   /// The last step has the obstacles of LiveWorld::shown_revision() around its robots; the manager
   /// is told when that is more than before.
   void obstacles_shown();
+
+  /// Tells whether a robot of this host is real or simulated now; see Options::host_of.
+  void tell_reality(const sim::Engine& engine, RobotId robot);
+  /// What hosts have said of theirs since the last call.
+  [[nodiscard]] std::vector<RobotReality> take_realities();
 
   /// For how long no world has come; 0 if it does not see.
   [[nodiscard]] Duration world_age() const;

@@ -74,6 +74,13 @@ class LiveWorld {
   /// the robot has exceeded its TalkLimit, or all together what one step takes.
   bool hear(std::uint64_t writer, const sim::SentPacket& packet, std::span<const std::byte> bytes);
 
+  /// A robot that runs here has the drivers of another type of the spec, and is there, from the
+  /// next report of this host on. Error kInvalidArgument: there is no such robot here, or no such
+  /// type.
+  Status serve(RobotId robot, std::uint32_t type, const Pose2& X_WR);
+  /// Its host says of a robot whether it is real. False: it runs here or does not exist.
+  bool set_reality(RobotId robot, bool simulated);
+
   /// A host that comes late begins with a later step than 0: makes `own`, its report of step 0, one
   /// of `step`, in which its simulated robots stand at their start or at a place of `starts`. To be
   /// followed by step() and Engine::join(). Errors: kInvalidArgument.

@@ -224,7 +224,12 @@ void Engine::Impl::change_drivers(Twin& twin) {
   group.X_WM = place.X_WM;
   truth.set_reality(twin.robot, type.simulated, place.X_WR);
   body_changed(twin.robot);
-  if (host) host->set_type(twin.robot, type);
+  if (host) {
+    host->set_type(twin.robot, type);
+    // What the other drivers said since the last report is nothing that these can say.
+    std::erase_if(host->samples,
+                  [&twin](const PoseSample& sample) { return sample.robot == twin.robot; });
+  }
   reported[r] = {{place.X_WR.x, place.X_WR.y, place.X_WR.yaw, place.variance.variance_xy_m2,
                   place.variance.variance_yaw_rad2},
                  {},
@@ -247,18 +252,19 @@ void Engine::Impl::change_drivers(Twin& twin) {
   end_hand_over(twin, EventKind::kHandedOver, std::move(text));
 }
 
-void Engine::show_reality(RobotId robot, bool simulated) {
+bool Engine::show_reality(RobotId robot, bool simulated) {
   Impl& engine = *impl_;
   const std::uint32_t r = robot.value();
   RAVE_CHECK(r < engine.spec.robots.size() && !engine.is_local(r));
   RobotSpec& its = engine.spec.robots[r];
-  const bool has_it = its.twin && engine.spec.types[*its.twin].simulated == simulated;
-  if (!has_it || engine.spec.types[its.type].simulated == simulated) return;
+  if (engine.spec.types[its.type].simulated == simulated) return true;
+  if (!its.twin || engine.spec.types[*its.twin].simulated != simulated) return false;
   std::swap(its.type, *its.twin);
   const bool present = engine.truth.movers[r].present;
   engine.truth.set_reality(robot, simulated, engine.truth.movers[r].X_WR);
   engine.truth.movers[r].present = present;
   engine.body_changed(robot);
+  return true;
 }
 
 void Engine::Impl::close_other(Twin& twin) {

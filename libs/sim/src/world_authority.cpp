@@ -504,6 +504,9 @@ Status WorldAuthority::change_type(RobotId robot, std::uint32_t type, const Pose
                 spec.robots.size(), spec.types.size());
   }
   const RobotType& its = spec.types[type];
+  // As in an engine, the other type stays known.
+  std::uint32_t& twin = spec.robots[r].twin.emplace(spec.robots[r].twin.value_or(type));
+  if (twin == type) twin = spec.robots[r].type;
   spec.robots[r].type = type;
   authority.hosts[authority.host_of[r]].set_type(robot, its);
   authority.truth.set_reality(robot, its.simulated, X_WR);

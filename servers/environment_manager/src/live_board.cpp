@@ -68,6 +68,12 @@ Result<std::unique_ptr<LiveBoard>> LiveBoard::open(const LiveManagerOptions& opt
   RAVE_TRY(waits.add(board->pings_));
   RAVE_TRY(waits.add(board->states_));
   board->waits_.emplace(std::move(waits));
+  const auto& robots = options.robots;
+  if (std::any_of(robots.begin(), robots.end(), [](const auto& robot) { return robot.twin; })) {
+    RAVE_TRY_ASSIGN(auto roster, real_time::Roster::create(*board->bus_, options.identity.host,
+                                                           board->seat_of_));
+    board->roster_.emplace(std::move(roster));
+  }
   board->introduced_ = lock_step::introduction(options.identity);
   RAVE_TRY(board->own_info_.write(board->introduced_));
   return board;
@@ -189,6 +195,12 @@ void LiveBoard::take_in(const bus::HostState& state) {
     known_[robot] = true;
     said_by_[robot] = state.writer;
   }
+}
+
+std::vector<real_time::RobotReality> LiveBoard::take_realities() {
+  if (!roster_) return {};
+  roster_->hear();
+  return roster_->take();
 }
 
 void LiveBoard::send_world(std::uint64_t number, SimTime now, std::span<const std::uint8_t> stale) {

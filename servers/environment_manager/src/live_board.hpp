@@ -18,6 +18,7 @@
 #include "rave/lock_step/obstacle_messages.hpp"
 #include "rave/lock_step/pulse.hpp"
 #include "rave/real_time/messages.hpp"
+#include "rave/real_time/roster.hpp"
 
 namespace rave::environment_manager {
 
@@ -63,6 +64,8 @@ class LiveBoard {
   void answer(bus::ClockPong& pong) { static_cast<void>(pongs_.write(pong)); }
   /// Takes in what hosts say of their robots.
   void take_states();
+  /// What hosts have said since the last call of robots with two sets of drivers.
+  [[nodiscard]] std::vector<real_time::RobotReality> take_realities();
   /// Sends where all robots are that were heard of. `stale`: by robot.
   void send_world(std::uint64_t number, SimTime now, std::span<const std::uint8_t> stale);
   /// Fills in how it stands with the hosts, and sends it.
@@ -118,6 +121,7 @@ class LiveBoard {
   bus::Reader<bus::ClockPing> pings_;
   bus::Reader<bus::HostState> states_;
   std::optional<bus::Reader<bus::LastObstacle>> handed_in_;  ///< While something is handed over.
+  std::optional<real_time::Roster> roster_;  ///< If a robot has two sets of drivers.
   lock_step::Pulse pulse_;
   std::optional<bus::WaitSet> waits_;
   bus::HostInfo introduced_{};  ///< What the others were told of this process.

@@ -157,6 +157,7 @@ Status LiveEdits::publish(const real_time::ObstacleSight& sight) {
 
 Status LiveEdits::look(SimTime now) {
   if (!begun_) return {};
+  follow_hand_overs();
   if (takes_over_) RAVE_TRY(gather_handed());
   if (takes_over_ && handed_over()) RAVE_TRY(take_over(now));
   if (!takes_over_) make_scheduled(now);
@@ -186,6 +187,26 @@ void LiveEdits::make_scheduled(SimTime now) {
     if (options_.log == nullptr) continue;
     if (made) options_.log->info("scenario", "{:.2f} s: {}", now.seconds(), *made);
     if (!made) options_.log->error("scenario", "{:.2f} s: {}", now.seconds(), made.error().message);
+  }
+}
+
+/// Obstacles may be put where real robots are, and people see what a robot is now.
+void LiveEdits::follow_hand_overs() {
+  for (const real_time::RobotReality& said : board_.take_realities()) {
+    const std::uint32_t r = said.robot.value();
+    const sim::EngineSpec& spec = authority_->spec();
+    const sim::RobotSpec& its = spec.robots[r];
+    const bool changes = its.twin && spec.types[its.type].simulated != said.simulated &&
+                         spec.types[*its.twin].simulated == said.simulated;
+    if (!changes) continue;
+    const Status changed =
+        authority_->change_type(said.robot, *its.twin, authority_->pose(said.robot));
+    if (!changed) continue;
+    authority_->place(said.robot, authority_->pose(said.robot), board_.sight_of(r) != nullptr);
+    if (!serves_) continue;
+    options_.control->refresh([&said, r](robot_host::RunStatus& status) {
+      if (r < status.robots.size()) status.robots[r].simulated = said.simulated;
+    });
   }
 }
 

@@ -70,6 +70,7 @@ class LiveEdits {
   Result<std::string> make(const sim::ObstacleChange& change, SimTime now);
   void note(const sim::ObstacleChange& made);
   void place_robots(SimTime now);
+  void follow_hand_overs();
   void answer_waiting(SimTime now);
   [[nodiscard]] std::vector<std::string_view> hosts_without(std::uint64_t revision) const;
 

@@ -244,6 +244,9 @@ bool LiveWorld::set_reality(RobotId robot, bool simulated) {
   const std::uint32_t r = robot.value();
   if (r >= other_of_.size() || other_of_[r] == kNone) return false;
   others_[other_of_[r]].real = !simulated;
+  if (simulated) {
+    std::erase_if(samples_, [robot](const sim::PoseSample& one) { return one.robot == robot; });
+  }
   return true;
 }
 

@@ -26,8 +26,8 @@ Status LiveTwins::follow(sim::Engine& engine, real_time::LiveWorld& live,
     link.tell_reality(engine, one.robot);
   }
   for (const real_time::RobotReality& heard : link.take_realities()) {
-    if (live.set_reality(heard.robot, heard.simulated)) {
-      engine.show_reality(heard.robot, heard.simulated);
+    if (engine.show_reality(heard.robot, heard.simulated)) {
+      live.set_reality(heard.robot, heard.simulated);
     }
   }
   return {};

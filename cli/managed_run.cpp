@@ -125,6 +125,7 @@ void note_outcome(LiveManagerOutcome outcome, ManagedEnd& end) {
   end.end.edits = robot_host::SharedEdits{outcome.edits.made, outcome.edits.confirmed,
                                           outcome.edits.slowest_s, outcome.edits.sum_s};
   end.end.wall_s = outcome.end.seconds();
+  end.end.events = std::move(outcome.refused);
   end.end.problems = std::move(outcome.problems);
 }
 
@@ -166,7 +167,7 @@ Result<ManagedEnd> manage_time(const ManagedRun& run, robot_host::BuiltScenario 
   how.hosts = std::move(hosts);
   for (const sim::RobotSpec& robot : built.spec.robots) {
     const sim::RobotType& type = built.spec.types[robot.type];
-    how.robots.push_back({robot.name, type.staleness, type.simulated});
+    how.robots.push_back({robot.name, type.staleness, type.simulated, robot.twin.has_value()});
   }
   how.step = built.spec.step;
   how.duration = from_seconds(file.duration_s);

@@ -3,12 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
 
 #include "error_text.hpp"
+#include "rave/base/names.hpp"
 #include "rave/math/scalar.hpp"
 #include "rave/report/table.hpp"
 #include "rave/run_control/client.hpp"
@@ -44,6 +47,39 @@ std::optional<RunStatus::HandOver> hand_over_of(const RunStatus& status, const s
     if (one.name == robot) return one.hand_over;
   }
   return std::nullopt;
+}
+
+using Has = std::function<bool(const RunStatus::Robot&)>;
+
+bool has_one(const RunStatus& status, const Has& has) {
+  return std::any_of(status.robots.begin(), status.robots.end(), has);
+}
+
+/// The process of a run that has what is asked for: in real time over several hosts that is the
+/// host of the robot, and whoever types the name of the run, or nothing, means it. Errors: those of
+/// find_run(), kNotFound (more than one has it).
+Result<std::string> find_process(const std::string& word, const Has& has) {
+  auto run = run_control::find_run(word);
+  if (!run && !word.empty()) return run;
+  std::string scenario;
+  if (run) {
+    const auto status = status_of(*run);
+    const bool is_it = !status || has_one(*status, has) || run->find('@') != std::string::npos;
+    if (is_it) return run;
+    scenario = status->scenario;
+  }
+  RAVE_TRY_ASSIGN(const auto all, run_control::running_runs());
+  std::vector<std::string_view> found;
+  for (const std::string& one : all) {
+    if (one.find('@') == std::string::npos) continue;
+    // One that has just ended has nothing.
+    const auto status = status_of(one);
+    const bool of_run = status && (scenario.empty() || status->scenario == scenario);
+    if (of_run && has_one(*status, has)) found.emplace_back(one);
+  }
+  if (found.empty()) return run;
+  if (found.size() == 1) return std::string(found.front());
+  return fail(ErrorCode::kNotFound, "several processes have it: {}; say which", join_names(found));
 }
 
 /// Waits for the end of the hand-over that was begun after `before`.
@@ -95,7 +131,9 @@ void add_rows(const RunStatus& status, const RunStatus::Robot& robot, report::Ta
 }  // namespace
 
 int hand_over(const HandOverCommand& options) {
-  const auto run = run_control::find_run(options.run);
+  const auto run = find_process(options.run, [&options](const RunStatus::Robot& robot) {
+    return robot.name == options.robot && robot.hand_over;
+  });
   if (!run) return complain(run.error());
   const auto status = status_of(*run);
   if (!status) return complain(status.error());
@@ -109,7 +147,9 @@ int hand_over(const HandOverCommand& options) {
 }
 
 int show_shadows(const ShadowCommand& options) {
-  const auto run = run_control::find_run(options.run);
+  const auto run = find_process(options.run, [&options](const RunStatus::Robot& robot) {
+    return (options.robot.empty() || robot.name == options.robot) && robot.shadow;
+  });
   if (!run) return complain(run.error());
   if (options.reset) {
     const auto answer =

@@ -405,6 +405,23 @@ TEST_F(LiveEdits, AManagerThatTakesOverKnowsTheObstacles) {
   end_by_hand("second");
 }
 
+TEST_F(LiveEdits, WhatTheScenarioCannotChangeIsAProblemOfTheRun) {
+  start("run", "run", "live_edited.yaml");
+  EXPECT_EQ(end_of("run"), 1) << console("run");
+  const auto result = this->result("run");
+  EXPECT_EQ(result["whole"], false);
+  ASSERT_EQ(result["problems"].size(), 1U) << result.dump();
+  const auto problem = result["problems"][0].get<std::string>();
+  EXPECT_NE(problem.find("the change at "), std::string::npos) << problem;
+  EXPECT_NE(problem.find("was refused: obstacle `lid` would overlap"), std::string::npos)
+      << problem;
+  // What all hosts had came once, whenever each of them had it.
+  const std::string events = content_of(folder("run") + "/events.log");
+  const std::size_t added = events.find("obstacle added `bale`");
+  ASSERT_NE(added, std::string::npos) << events;
+  EXPECT_EQ(events.find("obstacle added `bale`", added + 1), std::string::npos) << events;
+}
+
 TEST_F(LiveEdits, NonsenseIsRefusedWithALogLine) {
   begin_all();
   Nonsense nonsense;

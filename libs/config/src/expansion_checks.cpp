@@ -63,14 +63,7 @@ class Checks {
     }
   }
 
-  void twin(const RobotGroup& group) {
-    timing(group.twin->robot);
-    if (!scenario_.processes && scenario_.hosts.empty()) return;
-    report(group.name.where,
-           "robot `{}` has a `twin`, whose drivers only a run in one process can change; expected "
-           "neither `processes` nor `hosts`",
-           *group.name);
-  }
+  void twin(const RobotGroup& group) { timing(group.twin->robot); }
 
   void twins_exist(const Located<std::string>& name) {
     for (const std::size_t r : robots_named(expanded_, *name)) {

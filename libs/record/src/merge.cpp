@@ -2,7 +2,9 @@
 #include "rave/record/merge.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 
 #include "once.hpp"
@@ -105,6 +107,7 @@ class Merger {
   void write_poses(RunRecorder& recorder);
   void write_hash(RunRecorder& recorder);
   void write_inputs(RunRecorder& recorder, bool before_first);
+  [[nodiscard]] bool was_told(const Part& part, const RunEvent& event);
   [[nodiscard]] std::vector<std::string> notes() const;
 
   std::vector<std::unique_ptr<Part>> parts_;
@@ -112,6 +115,8 @@ class Merger {
   std::vector<std::string> hosts_;               ///< All that the run has.
   std::vector<const std::string*> owner_;        ///< By robot: its host's name, or null.
   std::vector<std::optional<RobotPose>> poses_;  ///< By robot, of one moment.
+  /// Who told first of changes of obstacles in real time, and when.
+  std::map<std::vector<double>, std::pair<const Part*, std::uint64_t>> told_;
   std::uint64_t time_ns_ = 0;
   bool hashed_ = true;  ///< Each step had the hashes of all.
 };
@@ -242,6 +247,17 @@ void Merger::write_inputs(RunRecorder& recorder, bool before_first) {
   for (const RunInput& input : once.items()) static_cast<void>(recorder.input(input));
 }
 
+/// In real time each host has a change of an obstacle when it comes: the first one tells of it. The
+/// event then says which obstacle it is, and which change.
+bool Merger::was_told(const Part& part, const RunEvent& event) {
+  const bool counted =
+      !event.robot.valid() && event.kind.starts_with("obstacle ") && event.values.size() == 2 &&
+      std::ranges::all_of(event.values, [](double value) { return std::isfinite(value); });
+  if (!counted) return false;
+  const std::pair<const Part*, std::uint64_t> now(&part, time_ns_);
+  return told_.try_emplace(event.values, now).first->second != now;
+}
+
 Status Merger::write_moment(RunRecorder& recorder) {
   const std::int64_t step_ns = from_seconds(parts_.front()->info.step_s).ns;
   const auto step = time_ns_ / static_cast<std::uint64_t>(step_ns);
@@ -264,7 +280,8 @@ Status Merger::write_moment(RunRecorder& recorder) {
     for (const RunEvent& event : all.items) {
       // What happens to the world the authority knows best.
       const bool of_world = !event.robot.valid();
-      if (!of_world || !authority || part.host.empty()) events.add(&part, event);
+      if (of_world && authority && !part.host.empty()) continue;
+      if (!was_told(part, event)) events.add(&part, event);
     }
   });
   std::ranges::stable_sort(events.items(), {}, &RunEvent::robot);

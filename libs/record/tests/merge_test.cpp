@@ -109,6 +109,36 @@ TEST_F(Merged, EachStreamIsThereOnceAndPosesAreThoseOfTheHostThatRunsTheRobot) {
   }
 }
 
+TEST_F(Merged, AnObstacleThatHostsHadAtDifferentStepsCameOnce) {
+  const auto say = [](RunRecorder& recorder, const std::string& kind, double revision) {
+    ASSERT_TRUE(recorder.event({RobotId(), "obstacle " + kind, "`crate`", {3, revision}}));
+  };
+  write("hosts/a/run.mcap", "a", 6, [&](RunRecorder& recorder, std::uint64_t step) {
+    if (step == 1) say(recorder, "added", 1);
+    if (step == 2) say(recorder, "moved", 2);
+    if (step == 3) say(recorder, "moved", 3);
+    if (step == 5) say(recorder, "removed", 4);
+  });
+  // The second one came late, and when the obstacle was where it is since change 3.
+  write("hosts/b/run.mcap", "b", 6, [&](RunRecorder& recorder, std::uint64_t step) {
+    if (step == 4) say(recorder, "added", 3);
+    if (step == 4) say(recorder, "removed", 4);
+  });
+  const auto reader = McapReader::open(open().file);
+  ASSERT_TRUE(reader);
+  std::vector<std::string> events;
+  ASSERT_TRUE(for_each_message(*reader, topic::kEvents, [&](const MessageView& message) -> Status {
+    const auto step = decode_event(message.bytes);
+    EXPECT_TRUE(step);
+    for (const RunEvent& event : step->items) {
+      events.push_back(fmt::format("{} {} {}", step->step, event.kind, event.values.at(1)));
+    }
+    return {};
+  }));
+  EXPECT_EQ(events, (std::vector<std::string>{"1 obstacle added 1", "2 obstacle moved 2",
+                                              "3 obstacle moved 3", "4 obstacle removed 4"}));
+}
+
 TEST_F(Merged, IsMadeAgainOnlyIfAPartHasChanged) {
   write_host("a", 2, 5);
   write_host("b", 2, 7);

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "engine_impl.hpp"
+#include "rave/base/check.hpp"
 #include "rave/math/scalar.hpp"
 #include "rave/math/transform.hpp"
 
@@ -92,7 +93,7 @@ void carry_sample(const SensorSlots& from, SensorSlots& to) {
 
 void Engine::Impl::make_twins() {
   for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
-    if (!spec.robots[r].twin) continue;
+    if (!spec.robots[r].twin || !is_local(r)) continue;
     Twin& twin = twins.emplace_back();
     twin.robot = RobotId(r);
     twin.types = {spec.robots[r].type, *spec.robots[r].twin};
@@ -132,6 +133,7 @@ void Engine::Impl::restore_twins() {
       const bool simulated = group.type->simulated;
       truth.set_reality(twin.robot, simulated, spec.robots[twin.robot.value()].X_WR);
       body_changed(twin.robot);
+      if (host) host->set_type(twin.robot, *group.type);
     }
     group_of_twin(twin).X_WM.reset();
     twin.stage = Twin::Stage::kIdle;
@@ -229,6 +231,12 @@ void Engine::Impl::change_drivers(Twin& twin) {
   group.X_WM = place.X_WM;
   truth.set_reality(twin.robot, type.simulated, place.X_WR);
   body_changed(twin.robot);
+  if (host) {
+    host->set_type(twin.robot, type);
+    // What the other drivers said since the last report is nothing that these can say.
+    std::erase_if(host->samples,
+                  [&twin](const PoseSample& sample) { return sample.robot == twin.robot; });
+  }
   reported[r] = {{place.X_WR.x, place.X_WR.y, place.X_WR.yaw, place.variance.variance_xy_m2,
                   place.variance.variance_yaw_rad2},
                  {},
@@ -249,6 +257,21 @@ void Engine::Impl::change_drivers(Twin& twin) {
       rad_to_deg(place.X_WR.yaw), jump_m, rad_to_deg(turn_rad));
   if (!guard_states[r].armed) text += "; it stands until somebody arms it";
   end_hand_over(twin, EventKind::kHandedOver, std::move(text));
+}
+
+bool Engine::show_reality(RobotId robot, bool simulated) {
+  Impl& engine = *impl_;
+  const std::uint32_t r = robot.value();
+  RAVE_CHECK(r < engine.spec.robots.size() && !engine.is_local(r));
+  RobotSpec& its = engine.spec.robots[r];
+  if (engine.spec.types[its.type].simulated == simulated) return true;
+  if (!its.twin || engine.spec.types[*its.twin].simulated != simulated) return false;
+  std::swap(its.type, *its.twin);
+  const bool present = engine.truth.movers[r].present;
+  engine.truth.set_reality(robot, simulated, engine.truth.movers[r].X_WR);
+  engine.truth.movers[r].present = present;
+  engine.body_changed(robot);
+  return true;
 }
 
 void Engine::Impl::close_other(Twin& twin) {

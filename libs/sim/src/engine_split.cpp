@@ -75,6 +75,10 @@ Status Engine::Impl::propose(HostReport& report, PhaseTimer& phase) {
   // What hardware says of the next step does not depend on where the authority lets robots go, and
   // the authority needs to know where the real ones are.
   now = step_time(step);
+  if (!twins.empty()) {
+    begin_hand_overs();
+    advance_hand_overs();
+  }
   past_valid = false;
   if (fusion_world) fusion_world->valid = false;
   RAVE_TRY(ingest_sensors(false));

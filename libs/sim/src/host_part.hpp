@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "message_checks.hpp"
 #include "rave/base/hash.hpp"
 #include "rave/sim/engine.hpp"
 #include "rave/sim/host_report.hpp"
@@ -11,7 +12,7 @@
 namespace rave::sim {
 
 /// What an engine that is one of several hosts has beyond one that is alone.
-struct HostPart {
+struct HostPart : HostRobots {
   /// `local`: by robot, 1 if it runs here.
   HostPart(const EngineSpec& spec, const std::vector<std::uint8_t>& local) {
     for (std::uint32_t r = 0; r < local.size(); ++r) {
@@ -35,10 +36,7 @@ struct HostPart {
     obstacle_changes = 0;
   }
 
-  // Robots that run here, ascending:
-  std::vector<RobotId> robots;
-  std::vector<RobotId> simulated;
-  std::vector<RobotId> told;  ///< Something says where they are.
+  std::vector<RobotId> robots;  ///< That run here, ascending.
 
   bool begun = false;     ///< A step has begun with apply() and is not done yet.
   bool proposed = false;  ///< The authority has been told; its answer comes next.

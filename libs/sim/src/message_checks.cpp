@@ -248,6 +248,17 @@ Status check_obstacles(const EngineSpec& spec, const WorldStep& world) {
 
 }  // namespace
 
+void HostRobots::set_type(RobotId robot, const RobotType& type) {
+  const auto put = [robot](std::vector<RobotId>& robots, bool is_one) {
+    const auto place = std::lower_bound(robots.begin(), robots.end(), robot);
+    const bool was_one = place != robots.end() && *place == robot;
+    if (is_one && !was_one) robots.insert(place, robot);
+    if (!is_one && was_one) robots.erase(place);
+  };
+  put(simulated, type.simulated);
+  put(told, type.pose_from.has_value());
+}
+
 Status check_report(const EngineSpec& spec, const HostRobots& own,
                     std::span<const std::uint32_t> host_of, const HostReport& report) {
   RAVE_TRY(check_proposals(spec, own, host_of, report));

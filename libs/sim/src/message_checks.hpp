@@ -16,6 +16,9 @@ namespace rave::sim {
 struct HostRobots {
   std::vector<RobotId> simulated;
   std::vector<RobotId> told;  ///< Something says where they are.
+
+  /// A robot of this host has such drivers from now on.
+  void set_type(RobotId robot, const RobotType& type);
 };
 
 /// A report for `step` of the host that runs `own`; whether its number and step are right has been

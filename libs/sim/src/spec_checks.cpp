@@ -78,9 +78,10 @@ Status check_twins(const EngineSpec& spec) {
       RAVE_CHECK(other == r || (spec.robots[other].type != spec.robots[r].type &&
                                 spec.robots[other].type != *spec.robots[r].twin));
     }
-    if (!spec.local) continue;
+    if (!spec.local || spec.own_authority) continue;
     return fail(ErrorCode::kInvalidArgument,
-                "robot `{}` has two sets of drivers, which only a run in one process can change",
+                "robot `{}` has two sets of drivers, which hosts in lock-step cannot change; "
+                "expected one process, or a run in real time",
                 spec.robots[r].name);
   }
   return {};

@@ -494,6 +494,25 @@ Status WorldAuthority::put_obstacles(std::span<const ObstacleChange> changes, Si
   return {};
 }
 
+Status WorldAuthority::change_type(RobotId robot, std::uint32_t type, const Pose2& X_WR) {
+  Impl& authority = *impl_;
+  EngineSpec& spec = authority.spec;
+  const std::uint32_t r = robot.value();
+  if (r >= spec.robots.size() || type >= spec.types.size()) {
+    return fail(ErrorCode::kInvalidArgument,
+                "robot {} of type {}: there are {} robots and {} types", r, type,
+                spec.robots.size(), spec.types.size());
+  }
+  const RobotType& its = spec.types[type];
+  // As in an engine, the other type stays known.
+  std::uint32_t& twin = spec.robots[r].twin.emplace(spec.robots[r].twin.value_or(type));
+  if (twin == type) twin = spec.robots[r].type;
+  spec.robots[r].type = type;
+  authority.hosts[authority.host_of[r]].set_type(robot, its);
+  authority.truth.set_reality(robot, its.simulated, X_WR);
+  return {};
+}
+
 std::span<const InputRefusal> WorldAuthority::refusals() const noexcept { return impl_->refusals; }
 void WorldAuthority::reset() { impl_->begin(); }
 const EngineSpec& WorldAuthority::spec() const noexcept { return impl_->spec; }

@@ -27,7 +27,6 @@ struct LiveBoard::Parts {
   bus::Reader<bus::HostInfo> infos;
   bus::Reader<bus::ClockPing> pings;
   bus::Reader<bus::HostState> states;
-  bus::Reader<bus::LastObstacle> handed_in;
   bus::Reader<bus::RosterEntry> roster;
   lock_step::Pulse pulse;
   lock_step::FindingsCollector findings;
@@ -44,7 +43,6 @@ LiveBoard::LiveBoard(const LiveManagerOptions& options, Parts parts)
       infos_(std::move(parts.infos)),
       pings_(std::move(parts.pings)),
       states_(std::move(parts.states)),
-      handed_in_(std::move(parts.handed_in)),
       roster_(std::move(parts.roster)),
       pulse_(std::move(parts.pulse)),
       findings_(std::move(parts.findings)),
@@ -54,6 +52,9 @@ LiveBoard::LiveBoard(const LiveManagerOptions& options, Parts parts)
       known_(options.robots.size()),
       said_by_(options.robots.size()),
       book_(planned_robots(options), options.hosts) {
+  for (std::uint32_t r = 0; r < options.robots.size(); ++r) {
+    if (options.robots[r].twin) twins_.push_back({RobotId(r), options.robots[r].simulated});
+  }
   for (std::uint32_t h = 0; h < options.hosts.size(); ++h) {
     const config::PlannedHost& host = options.hosts[h];
     LiveSeat& seat = seats_.emplace_back();
@@ -76,15 +77,13 @@ Result<std::unique_ptr<LiveBoard>> LiveBoard::open(const LiveManagerOptions& opt
   RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
   RAVE_TRY_ASSIGN(auto pings, bus::Reader<bus::ClockPing>::create(*bus));
   RAVE_TRY_ASSIGN(auto states, bus::Reader<bus::HostState>::create(*bus));
-  RAVE_TRY_ASSIGN(auto handed_in, bus::Reader<bus::LastObstacle>::create(*bus));
   RAVE_TRY_ASSIGN(auto roster, bus::Reader<bus::RosterEntry>::create(*bus));
   RAVE_TRY_ASSIGN(auto pulse, lock_step::Pulse::create(*bus, options.identity));
   RAVE_TRY_ASSIGN(auto findings, lock_step::FindingsCollector::create(*bus));
   std::unique_ptr<LiveBoard> board(new LiveBoard(
-      options,
-      {std::move(bus), std::move(own_info), std::move(worlds), std::move(runs), std::move(pongs),
-       std::move(obstacles), std::move(infos), std::move(pings), std::move(states),
-       std::move(handed_in), std::move(roster), std::move(pulse), std::move(findings)}));
+      options, {std::move(bus), std::move(own_info), std::move(worlds), std::move(runs),
+                std::move(pongs), std::move(obstacles), std::move(infos), std::move(pings),
+                std::move(states), std::move(roster), std::move(pulse), std::move(findings)}));
   RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(*board->bus_));
   RAVE_TRY(waits.add(board->pings_));
   RAVE_TRY(waits.add(board->states_));
@@ -136,6 +135,7 @@ Status LiveBoard::look_at_processes(bool goes) {
 void LiveBoard::lose(std::uint64_t writer, bool goes) {
   host_of_.erase(writer);
   refused_.erase(writer);
+  wrong_hands_.erase(writer);
   claims_.release(writer);
   book_.lose(writer);
   for (LiveSeat& seat : seats_) {
@@ -170,6 +170,7 @@ bool LiveBoard::sit_down(const bus::ClockPing& ping) {
     book_.stir();
     seat.sat.push_back(ping.writer);
     news_ = true;
+    all_asked_ = false;
     if (options_.log != nullptr) {
       options_.log->info(kSource, "host `{}` is {}, with {} real and {} simulated robots",
                          seat.name, seat.heard ? "back" : "here", seat.real,
@@ -179,7 +180,8 @@ bool LiveBoard::sit_down(const bus::ClockPing& ping) {
   }
   seat.offset_ns = ping.offset_ns;
   seat.bound_ns = ping.bound_ns;
-  seat.obstacle_revision = ping.obstacle_revision;
+  seat.obstacle_revision =
+      std::min(ping.obstacle_revision, real_time::ObstacleSight::kMostRevision);
   seat.obstacles_ns = ping.obstacles_ns;
   return true;
 }
@@ -228,6 +230,16 @@ void LiveBoard::take_in(const bus::HostState& state) {
   }
 }
 
+std::vector<real_time::RobotReality> LiveBoard::take_realities() {
+  std::vector<real_time::RobotReality> changed;
+  for (real_time::RobotReality& twin : twins_) {
+    const std::uint32_t r = twin.robot.value();
+    const bool simulated = book_.simulated(r, seats_[seat_of_[r]].writer);
+    if (std::exchange(twin.simulated, simulated) != simulated) changed.push_back(twin);
+  }
+  return changed;
+}
+
 void LiveBoard::send_world(std::uint64_t number, SimTime now, std::span<const std::uint8_t> stale) {
   columns_.clear();
   stale_.clear();
@@ -257,17 +269,41 @@ Status LiveBoard::publish(const real_time::ObstacleSight& sight) {
   return obstacles_.write(message);
 }
 
-void LiveBoard::take_handed() {
-  const auto hear = [this](const bus::LastObstacle& sample) {
+Status LiveBoard::ask_for_handed() {
+  if (std::exchange(all_asked_, true)) return {};
+  // A new reader is told all that hosts keep, also what came before they were known.
+  handed_in_.reset();
+  RAVE_TRY_ASSIGN(auto reader, bus::Reader<bus::LastObstacle>::create(*bus_));
+  handed_in_.emplace(std::move(reader));
+  return {};
+}
+
+void LiveBoard::take_handed(const std::function<Status(const real_time::ObstacleSight&)>& check) {
+  if (!handed_in_) return;
+  const auto hear = [this, &check](const bus::LastObstacle& sample) {
+    if (!host_of_.contains(sample.writer)) return;
     auto sight = real_time::read_obstacle(sample);
-    if (!sight) {
-      handed_in_.refuse(sample, sight.error().message);
+    const Status fits = sight ? check(*sight) : Status(tl::unexpected(sight.error()));
+    if (!fits) {
+      refuse_handed(sample.writer, fits.error().message);
       return;
     }
-    real_time::ObstacleSight& known = handed_[sample.id];
+    real_time::ObstacleSight& known = handed_[sight->stands.id.value()];
     if (sight->revision > known.revision) known = *std::move(sight);
   };
-  while (handed_in_.take(hear) > 0) continue;
+  // Enough for all that a run may have; who sends without end is heard of again at the next look.
+  constexpr int kMostRounds = 32;
+  for (int round = 0; round < kMostRounds && handed_in_->take(hear) > 0; ++round) continue;
+}
+
+void LiveBoard::refuse_handed(std::uint64_t writer, std::string_view why) {
+  if (!wrong_hands_.insert(writer).second || options_.log == nullptr) return;
+  options_.log->error(kSource, "refused what the process {:016x} hands over: {}", writer, why);
+}
+
+void LiveBoard::end_handing() {
+  handed_in_.reset();
+  handed_.clear();
 }
 
 std::uint64_t LiveBoard::shown_revision() const noexcept {

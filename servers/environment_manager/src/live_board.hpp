@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,6 +19,7 @@
 #include "rave/lock_step/obstacle_messages.hpp"
 #include "rave/lock_step/pulse.hpp"
 #include "rave/real_time/messages.hpp"
+#include "rave/real_time/realities.hpp"
 #include "roster_book.hpp"
 
 namespace rave::environment_manager {
@@ -56,6 +59,8 @@ class LiveBoard {
   void take_pings(Visit&& visit) {
     pings_.take(std::forward<Visit>(visit));
   }
+  /// What its messages are signed with.
+  [[nodiscard]] std::uint64_t writer() const noexcept { return bus_->writer(); }
   /// Whether a process that asks for the time sits in its host's place, as it does now if that was
   /// free.
   bool sit_down(const bus::ClockPing& ping);
@@ -65,6 +70,8 @@ class LiveBoard {
   /// Takes in what hosts say of their robots, and tells it those who ask for the status; `control`
   /// has begun, or is null.
   void take_roster(robot_host::RunControl* control);
+  /// What hosts have said since the last call of robots with two sets of drivers.
+  [[nodiscard]] std::vector<real_time::RobotReality> take_realities();
   /// Sends where all robots are that were heard of. `stale`: by robot.
   void send_world(std::uint64_t number, SimTime now, std::span<const std::uint8_t> stale);
   /// Fills in how it stands with the hosts, and sends it.
@@ -86,9 +93,15 @@ class LiveBoard {
   /// Takes in what hosts know of the run when it is over for them.
   void take_findings();
   [[nodiscard]] lock_step::FindingsCollector& findings() noexcept { return findings_; }
-  /// Takes in what hosts hand over of the manager that was here before.
-  void take_handed();
-  /// All of that, by number.
+  /// Asks the hosts that sit here what they know of the obstacles of the manager that was here
+  /// before; again if others have sat down since the last call. Errors: kState, kIo.
+  Status ask_for_handed();
+  /// Takes in what has come of that, of processes that fit. `check` says what cannot be; a process
+  /// that hands over such is named once in the log.
+  void take_handed(const std::function<Status(const real_time::ObstacleSight&)>& check);
+  /// Nothing is handed over any more, and what was is forgotten.
+  void end_handing();
+  /// All that was handed over, by number.
   [[nodiscard]] const std::map<std::uint32_t, real_time::ObstacleSight>& handed_obstacles()
       const noexcept {
     return handed_;
@@ -104,6 +117,7 @@ class LiveBoard {
   LiveBoard(const LiveManagerOptions& options, Parts parts);
   void lose(std::uint64_t writer, bool goes);
   void take_in(const bus::HostState& state);
+  void refuse_handed(std::uint64_t writer, std::string_view why);
 
   const LiveManagerOptions& options_;
   std::unique_ptr<bus::Bus> bus_;
@@ -115,7 +129,7 @@ class LiveBoard {
   bus::Reader<bus::HostInfo> infos_;
   bus::Reader<bus::ClockPing> pings_;
   bus::Reader<bus::HostState> states_;
-  bus::Reader<bus::LastObstacle> handed_in_;
+  std::optional<bus::Reader<bus::LastObstacle>> handed_in_;  ///< While something is handed over.
   bus::Reader<bus::RosterEntry> roster_;
   lock_step::Pulse pulse_;
   lock_step::FindingsCollector findings_;
@@ -130,10 +144,13 @@ class LiveBoard {
   std::vector<bool> known_;
   std::vector<std::uint64_t> said_by_;  ///< By robot: the process that spoke of it last.
   RosterBook book_;
+  std::vector<real_time::RobotReality> twins_;  ///< Robots with two sets of drivers, as told last.
   real_time::RobotColumns columns_;
   std::vector<std::uint32_t> stale_;
   lock_step::ObstacleParts parts_;
   std::map<std::uint32_t, real_time::ObstacleSight> handed_;
+  bool all_asked_ = false;               ///< Who sits here, what it has to hand over.
+  std::set<std::uint64_t> wrong_hands_;  ///< Processes that handed over what cannot be.
   std::uint64_t states_taken_ = 0;
   std::uint64_t worlds_sent_ = 0;
   bool news_ = false;

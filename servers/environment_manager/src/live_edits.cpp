@@ -79,24 +79,54 @@ void LiveEdits::end() {
   if (std::exchange(serves_, false)) options_.control->end();
 }
 
-/// Whether nothing is to be waited for any more.
-bool LiveEdits::handed_over() const {
-  const auto since = std::chrono::steady_clock::now() - began_;
+bool LiveEdits::all_may_be_there() const {
   const bool all = std::all_of(board_.seats().begin(), board_.seats().end(),
                                [](const LiveSeat& seat) { return seat.writer != 0; });
-  if (!all && since < kComing) return false;
+  return all || std::chrono::steady_clock::now() - began_ >= kComing;
+}
+
+/// Hears what hosts have to hand over, once they are there.
+Status LiveEdits::gather_handed() {
+  if (!all_may_be_there()) return {};
+  RAVE_TRY(board_.ask_for_handed());
+  board_.take_handed([this](const real_time::ObstacleSight& sight) {
+    return real_time::check_sight(sight, authority_->world());
+  });
+  return {};
+}
+
+/// Whether nothing is to be waited for any more.
+bool LiveEdits::handed_over() const {
+  if (!all_may_be_there()) return false;
+  const auto since = std::chrono::steady_clock::now() - began_;
   return newest_of(board_.handed_obstacles()) >= board_.shown_revision() || since >= kHandingOver;
+}
+
+/// Those that came are numbered in a row, and no host can show one whose forerunner is missing.
+void LiveEdits::drop_orphans() {
+  std::uint32_t next = authority_->world().body_count();
+  auto it = obstacles_.lower_bound(next);
+  for (; it != obstacles_.end() && it->first == next; ++it) ++next;
+  const auto orphans = std::distance(it, obstacles_.end());
+  obstacles_.erase(it, obstacles_.end());
+  if (orphans == 0 || options_.log == nullptr) return;
+  options_.log->error(kSource,
+                      "{} obstacles that hosts handed over are left out: nobody knows of the one "
+                      "with the number {}, which came before them",
+                      orphans, next);
 }
 
 /// What the manager before had told the hosts; theirs are all that is left of it.
 Status LiveEdits::take_over(SimTime now) {
   obstacles_ = board_.handed_obstacles();
+  board_.end_handing();
   revision_ = newest_of(obstacles_);
   if (revision_ < board_.shown_revision() && options_.log != nullptr) {
     options_.log->error(kSource, "hosts have obstacles up to change {}, but handed over only {}",
                         board_.shown_revision(), revision_);
   }
   revision_ = std::max(revision_, board_.shown_revision());
+  drop_orphans();
   const std::vector<sim::ObstacleChange> changes = changes_of(obstacles_);
   if (auto put = authority_->put_obstacles(changes, now); !put) {
     // The run goes on: hosts have their obstacles, and this manager those of the start.
@@ -113,14 +143,22 @@ Status LiveEdits::take_over(SimTime now) {
     next_scheduled_ = std::max(
         next_scheduled_,
         std::min<std::size_t>(sight.scheduled, authority_->spec().obstacle_changes.size()));
-    RAVE_TRY(board_.publish(sight));
+    RAVE_TRY(publish(sight));
   }
   takes_over_ = false;
   return {};
 }
 
+Status LiveEdits::publish(const real_time::ObstacleSight& sight) {
+  RAVE_TRY(board_.publish(sight));
+  published_ = std::max(published_, sight.revision);
+  return {};
+}
+
 Status LiveEdits::look(SimTime now) {
   if (!begun_) return {};
+  follow_hand_overs();
+  if (takes_over_) RAVE_TRY(gather_handed());
   if (takes_over_ && handed_over()) RAVE_TRY(take_over(now));
   if (!takes_over_) make_scheduled(now);
   if (!serves_) return {};
@@ -140,9 +178,31 @@ void LiveEdits::make_scheduled(SimTime now) {
     if (due_ns > std::max<std::int64_t>(0, now.ns)) return;
     ++next_scheduled_;
     const auto made = make(scheduled.change, now);
+    if (!made) {
+      const auto step =
+          static_cast<std::uint64_t>(std::max<std::int64_t>(0, now.ns) / spec.step.ns);
+      refused_.push_back(
+          {step, RobotId(), sim::EventKind::kChangeRefused, BodyId(), made.error().text()});
+    }
     if (options_.log == nullptr) continue;
     if (made) options_.log->info("scenario", "{:.2f} s: {}", now.seconds(), *made);
     if (!made) options_.log->error("scenario", "{:.2f} s: {}", now.seconds(), made.error().message);
+  }
+}
+
+/// Obstacles may be put where real robots are.
+void LiveEdits::follow_hand_overs() {
+  for (const real_time::RobotReality& said : board_.take_realities()) {
+    const std::uint32_t r = said.robot.value();
+    const sim::EngineSpec& spec = authority_->spec();
+    const sim::RobotSpec& its = spec.robots[r];
+    const bool changes = its.twin && spec.types[its.type].simulated != said.simulated &&
+                         spec.types[*its.twin].simulated == said.simulated;
+    if (!changes) continue;
+    const Status changed =
+        authority_->change_type(said.robot, *its.twin, authority_->pose(said.robot));
+    if (!changed) continue;
+    authority_->place(said.robot, authority_->pose(said.robot), board_.sight_of(r) != nullptr);
   }
 }
 
@@ -182,7 +242,7 @@ void LiveEdits::note(const sim::ObstacleChange& made) {
   }
   sight.revision = ++revision_;
   sight.scheduled = next_scheduled_;
-  const Status told = board_.publish(sight);
+  const Status told = publish(sight);
   if (!told && options_.log != nullptr) {
     options_.log->error(kSource, "obstacle `{}` was not sent: {}", made.name, told.error().message);
   }

@@ -37,10 +37,13 @@ class LiveEdits {
   /// With the obstacles that came.
   [[nodiscard]] const world::WorldModel& world() const { return authority_->world(); }
 
-  /// The last change that hosts are told of.
+  /// The last change that hosts are told of, and have to hear of before they begin; while this
+  /// manager takes over, the last that any of them has.
   [[nodiscard]] std::uint64_t revision() const noexcept {
-    return takes_over_ ? board_.shown_revision() : revision_;
+    return takes_over_ ? board_.shown_revision() : published_;
   }
+  /// Changes of the scenario that could not be made.
+  [[nodiscard]] const std::vector<sim::Event>& refused() const noexcept { return refused_; }
   /// Of changes by hand.
   [[nodiscard]] const LiveManagerOutcome::Edits& edits() const noexcept { return edits_; }
 
@@ -55,14 +58,19 @@ class LiveEdits {
   LiveEdits(const LiveManagerOptions& options, LiveBoard& board,
             std::unique_ptr<sim::WorldAuthority> authority)
       : options_(options), board_(board), authority_(std::move(authority)) {}
+  Status gather_handed();
+  [[nodiscard]] bool all_may_be_there() const;
   [[nodiscard]] bool handed_over() const;
   Status take_over(SimTime now);
+  void drop_orphans();
+  Status publish(const real_time::ObstacleSight& sight);
   void make_scheduled(SimTime now);
   void serve(robot_host::RunControl::Asked asked, SimTime now);
   Result<std::string> edit(const robot_host::RunRequest& request, SimTime now);
   Result<std::string> make(const sim::ObstacleChange& change, SimTime now);
   void note(const sim::ObstacleChange& made);
   void place_robots(SimTime now);
+  void follow_hand_overs();
   void answer_waiting(SimTime now);
   [[nodiscard]] std::vector<std::string_view> hosts_without(std::uint64_t revision) const;
 
@@ -73,12 +81,14 @@ class LiveEdits {
   bool serves_ = false;
   bool takes_over_ = false;  ///< Hosts still hand over what they know.
   std::chrono::steady_clock::time_point began_{};
-  std::uint64_t revision_ = 0;
+  std::uint64_t revision_ = 0;   ///< Of the last change that was made, here or before.
+  std::uint64_t published_ = 0;  ///< Of the last that this manager has sent.
   std::size_t next_scheduled_ = 0;
   std::map<std::uint32_t, real_time::ObstacleSight> obstacles_;  ///< That are not as at the start.
   EditLimits limits_;
   std::vector<Waiting> waiting_;
   LiveManagerOutcome::Edits edits_;
+  std::vector<sim::Event> refused_;
 };
 
 }  // namespace rave::environment_manager

@@ -136,7 +136,6 @@ void LiveRun::hear(const bus::ClockPing& ping) {
 Status LiveRun::listen() {
   board_->take_pings([this](const bus::ClockPing& ping) { hear(ping); });
   board_->take_states();
-  board_->take_handed();
   board_->take_findings();
   if (Clock::now() < next_look_) return {};
   next_look_ = Clock::now() + kLook;
@@ -253,6 +252,7 @@ LiveManagerOutcome LiveRun::outcome() {
   if (options_.on_end) options_.on_end(edits_->world());
   LiveManagerOutcome outcome;
   outcome.edits = edits_->edits();
+  outcome.refused = edits_->refused();
   if (begun_) outcome.end = now();
   outcome.worlds = worlds_;
   outcome.states = board_->states();
@@ -269,7 +269,7 @@ LiveManagerOutcome LiveRun::outcome() {
   }
   const bool over = begun_ && now().ns >= options_.duration.ns;
   outcome.problems = problems_;
-  outcome.whole = over && problems_.empty();
+  outcome.whole = over && problems_.empty() && outcome.refused.empty();
   // Who only stops managing leaves the hosts to their run.
   if (!over && !options_.ends_hosts) {
     board_->take_findings();

@@ -66,7 +66,8 @@ struct HostLink::Impl {
   std::optional<bus::Reader<bus::World>> worlds{};        // if it sees
   std::optional<bus::Writer<bus::Packet>> packets_out{};  // if it talks
   std::optional<bus::Reader<bus::Packet>> packets_in{};
-  std::optional<bus::WaitSet> waits{};  // behind all that it waits for
+  std::optional<Realities> realities{};  // if drivers may change
+  std::optional<bus::WaitSet> waits{};   // behind all that it waits for
   std::optional<lock_step::Pulse> pulse{};
   lock_step::Pulse::Facts facts{};      ///< For those who look on.
   std::uint64_t last_world_number = 0;  ///< Of this manager; 0: none yet.
@@ -84,6 +85,7 @@ struct HostLink::Impl {
   std::uint64_t pings_sent = 0;         ///< To this manager.
   std::uint64_t pongs_heard = 0;        ///< From it.
   std::uint64_t obstacle_revision = 0;  ///< That it says there is.
+  bool wrong_obstacles = false;         ///< It has told of some that cannot be.
   std::uint64_t shown_revision = 0;     ///< That the robots here have around them,
   SimTime shown_since{};                ///< by the time of the run.
   Clock::time_point ping_at{};
@@ -158,6 +160,10 @@ Status HostLink::Impl::open_endpoints() {
     RAVE_TRY(make(packets_out, *bus));
     RAVE_TRY(make(packets_in, *bus));
     RAVE_TRY(set.add(*packets_in));
+  }
+  if (!options.host_of.empty()) {
+    RAVE_TRY_ASSIGN(Realities made, Realities::create(*bus, options.self.host, options.host_of));
+    realities.emplace(std::move(made));
   }
   RAVE_TRY(set.add_events());
   waits.emplace(std::move(set));
@@ -258,6 +264,13 @@ void HostLink::Impl::hear(const bus::Obstacle& sample) {
     obstacles->refuse(sample, sight.error().message);
     return;
   }
+  if (const Status possible = live.check(*sight); !possible) {
+    // Once of each manager: what does not fit comes in numbers.
+    if (!std::exchange(wrong_obstacles, true)) {
+      tell(LogLevel::kWarning, "refused of the environment manager: " + possible.error().message);
+    }
+    return;
+  }
   if (!live.see(*std::move(sight))) return;
   // For a manager that takes the place of this one.
   bus::LastObstacle kept{};
@@ -299,6 +312,7 @@ void HostLink::Impl::listen_to_first() {
   pings_sent = 0;
   pongs_heard = 0;
   last_world_number = 0;
+  wrong_obstacles = false;
   ping_at = {};
   // A new reader is told of all obstacles, also of those that came before anybody listened to this
   // manager.
@@ -361,6 +375,7 @@ void HostLink::Impl::take() {
   if (pongs) take_pongs();
   if (worlds) take_worlds();
   if (packets_in) take_packets();
+  if (realities) realities->hear();
   look();
   if (obstacles) take_obstacles();
 }
@@ -543,6 +558,10 @@ Status HostLink::deliver(std::span<const std::byte> findings) {
   Impl& link = *impl_;
   if (!link.findings || !link.started) return {};
   return link.findings->send(link.options.self.host, findings, lock_step::kFindingsPatience);
+}
+
+std::vector<RobotReality> HostLink::take_realities() {
+  return impl_->realities ? impl_->realities->take() : std::vector<RobotReality>();
 }
 
 Duration HostLink::world_age() const {

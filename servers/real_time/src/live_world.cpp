@@ -76,6 +76,26 @@ sim::EngineSpec world_of(const sim::EngineSpec& spec, const std::vector<std::uin
 
 }  // namespace
 
+Status check_sight(const ObstacleSight& sight, const world::WorldModel& start) {
+  const std::uint32_t id = sight.stands.id.value();
+  const bool adds = sight.stands.kind == sim::ObstacleChange::Kind::kAdd;
+  const std::size_t first_added = start.obstacles.size() + start.robots.size();
+  const bool possible =
+      adds ? id >= first_added && id - first_added < sim::ObstacleChange::kMostAdded
+           : id < start.obstacles.size();
+  if (!possible) {
+    return fail(ErrorCode::kInvalidArgument, "{} {} is none of the run",
+                adds ? "an obstacle that came with the number" : "obstacle", id);
+  }
+  if (sight.revision == 0 || sight.revision > ObstacleSight::kMostRevision) {
+    return fail(ErrorCode::kInvalidArgument,
+                "obstacle {} as it stands since change {}; expected 1 "
+                "to {}",
+                id, sight.revision, ObstacleSight::kMostRevision);
+  }
+  return sim::check_obstacle_change(sight.stands);
+}
+
 LiveWorld::LiveWorld(const sim::EngineSpec& spec, std::unique_ptr<sim::WorldAuthority> authority)
     : authority_(std::move(authority)),
       local_(local_robots(spec)),
@@ -123,13 +143,13 @@ bool LiveWorld::see(const RobotSight& sight) {
   return true;
 }
 
+Status LiveWorld::check(const ObstacleSight& sight) const {
+  return check_sight(sight, authority_->world());
+}
+
 bool LiveWorld::see(ObstacleSight sight) {
-  const world::WorldModel& world = authority_->spec().world;
+  if (!check(sight)) return false;
   const std::uint32_t id = sight.stands.id.value();
-  const bool adds = sight.stands.kind == sim::ObstacleChange::Kind::kAdd;
-  const auto first_added = static_cast<std::uint32_t>(world.obstacles.size() + world.robots.size());
-  const bool possible = adds ? id >= first_added : id < world.obstacles.size();
-  if (!possible || !sim::check_obstacle_change(sight.stands)) return false;
   std::uint64_t& known = revision_of_[id];
   if (sight.revision <= known) return false;
   known = sight.revision;
@@ -139,12 +159,13 @@ bool LiveWorld::see(ObstacleSight sight) {
 }
 
 /// Those that came are numbered in a row; one whose forerunner is not there yet waits for it.
-void LiveWorld::adopt_obstacles() {
+void LiveWorld::adopt_obstacles(std::uint64_t step) {
   if (news_.empty()) return;
   std::uint32_t next = authority_->world().body_count();
   for (auto it = news_.begin(); it != news_.end() && it->first <= next; it = news_.erase(it)) {
     const bool is_new = it->first == next;
     adopt(it->second, is_new);
+    adopted_.push_back({step, it->second.stands.id, it->second.revision});
     if (is_new) ++next;
   }
   if (news_.empty()) shown_revision_ = heard_revision_;
@@ -204,6 +225,28 @@ bool LiveWorld::hear(std::uint64_t writer, const sim::SentPacket& packet,
     return false;
   }
   heard_.add(packet, bytes);
+  return true;
+}
+
+Status LiveWorld::serve(RobotId robot, std::uint32_t type, const Pose2& X_WR) {
+  const std::uint32_t r = robot.value();
+  if (r >= local_.size() || local_[r] == 0) {
+    return fail(ErrorCode::kInvalidArgument, "robot {} does not run here", r);
+  }
+  RAVE_TRY(authority_->change_type(robot, type, X_WR));
+  std::erase(simulated_, robot);
+  if (!authority_->spec().types[type].simulated) return {};
+  simulated_.insert(std::lower_bound(simulated_.begin(), simulated_.end(), robot), robot);
+  return {};
+}
+
+bool LiveWorld::set_reality(RobotId robot, bool simulated) {
+  const std::uint32_t r = robot.value();
+  if (r >= other_of_.size() || other_of_[r] == kNone) return false;
+  others_[other_of_[r]].real = !simulated;
+  if (simulated) {
+    std::erase_if(samples_, [robot](const sim::PoseSample& one) { return one.robot == robot; });
+  }
   return true;
 }
 
@@ -322,12 +365,24 @@ Status LiveWorld::step(const sim::HostReport& own, sim::WorldStep& world) {
   events_.clear();
   std::array<const sim::HostReport*, 2> reports = {&own, &others_report_};
   if (!others_.empty()) report_others(own.step);
-  adopt_obstacles();
+  adopt_obstacles(own.step);
   RAVE_TRY(authority_->step(std::span(reports).first(others_.empty() ? 1 : 2), world));
-  for (const sim::Event& event : authority_->events()) {
-    if (!event.robot.valid() || local_[event.robot.value()] != 0) events_.push_back(event);
-  }
+  take_events(own.step);
   return {};
+}
+
+/// Each host is told of a change when it comes; the number says that it is the same.
+void LiveWorld::take_events(std::uint64_t step) {
+  for (const sim::Event& event : authority_->events()) {
+    if (event.robot.valid() && local_[event.robot.value()] == 0) continue;
+    sim::Event& taken = events_.emplace_back(event);
+    if (!is_of_obstacle(event.kind)) continue;
+    const auto change = std::find_if(adopted_.begin(), adopted_.end(), [&](const Adopted& one) {
+      return one.step == event.step && one.id == event.other;
+    });
+    if (change != adopted_.end()) taken.detail = static_cast<std::uint32_t>(change->revision);
+  }
+  std::erase_if(adopted_, [step](const Adopted& one) { return one.step < step; });
 }
 
 }  // namespace rave::real_time

@@ -80,8 +80,12 @@ TEST_F(LiveObstacles, OneComesMovesAndGoes) {
   ASSERT_TRUE(live_->see(gone));
   ASSERT_EQ(step().size(), 1U);
   EXPECT_EQ(world_.obstacles[0].kind, Kind::kRemove);
+  ASSERT_EQ(live_->events().size(), 1U);
+  EXPECT_EQ(live_->events()[0].detail, 2U) << "which change it was, also if the next has come";
   EXPECT_TRUE(step().empty());
   EXPECT_EQ(live_->shown_revision(), 3U);
+  ASSERT_EQ(live_->events().size(), 1U);
+  EXPECT_EQ(live_->events()[0].detail, 3U);
 }
 
 TEST_F(LiveObstacles, WhatIsOldIsNotTakenBack) {
@@ -134,6 +138,16 @@ TEST_F(LiveObstacles, WhatCannotBeIsNotTakenIn) {
   ObstacleSight robot = crate(2, 1);
   robot.stands.kind = Kind::kRemove;
   EXPECT_FALSE(live_->see(robot));
+  constexpr auto kMost = static_cast<std::uint32_t>(sim::ObstacleChange::kMostAdded);
+  EXPECT_TRUE(live_->check(crate(3 + kMost - 1, 1)));
+  const Status beyond = live_->check(crate(3 + kMost, 1));
+  ASSERT_FALSE(beyond);
+  EXPECT_NE(beyond.error().message.find("number 100003 is none of the run"), std::string::npos)
+      << beyond.error().message;
+  EXPECT_FALSE(live_->see(crate(3 + kMost, 1)));
+  EXPECT_FALSE(live_->see(crate(3, 0)));
+  EXPECT_FALSE(live_->see(crate(3, ObstacleSight::kMostRevision + 1)));
+  EXPECT_EQ(live_->heard_revision(), 0U);
   EXPECT_TRUE(step().empty());
 }
 
@@ -167,6 +181,7 @@ TEST_F(LiveObstacles, WithoutAManagerThoseOfTheScenarioAreMadeHere) {
   EXPECT_TRUE(step().empty());
   ASSERT_EQ(live_->events().size(), 1U);
   EXPECT_EQ(live_->events()[0].text.find("by hand"), std::string::npos);
+  EXPECT_EQ(live_->events()[0].detail, 0U) << "nobody counts";
   number_ = 0;
   make(spec, false);
   for (int i = 0; i < 4; ++i) EXPECT_TRUE(step().empty()) << "the manager makes them";

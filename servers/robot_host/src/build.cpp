@@ -199,6 +199,10 @@ Result<BuiltScenario> build(const config::ExpandedScenario& scenario, plugin::Ca
   for (std::size_t g = 0; g < here.size(); ++g) {
     if (here[g] == 0) let_go_of_plugins(spec.types[g]);
   }
+  for (std::size_t r = 0; r < spec.robots.size(); ++r) {
+    const auto& twin = spec.robots[r].twin;
+    if (twin && here[scenario.robots[r].group] == 0) let_go_of_plugins(spec.types[*twin]);
+  }
   return built;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 #include <tuple>
 
 namespace rave::robot_host {
@@ -27,7 +28,48 @@ void append_by_robot(std::vector<T>& into, std::vector<T> from) {
                    [](const T& a, const T& b) { return a.robot < b.robot; });
 }
 
+/// A change of an obstacle in real time: which obstacle, and which change of all.
+using Change = std::pair<BodyId, std::uint32_t>;
+/// What a process says first of it.
+using Word = std::tuple<std::uint64_t, sim::EventKind, std::string>;
+
+bool is_counted(const sim::Event& event) {
+  return sim::is_of_obstacle(event.kind) && event.detail != 0;
+}
+
+std::map<Change, Word> words_of(const std::vector<sim::Event>& events) {
+  std::map<Change, Word> words;
+  for (const sim::Event& event : events) {
+    if (!is_counted(event)) continue;
+    Word word(event.step, event.kind, event.text);
+    const auto [known, is_new] = words.try_emplace({event.other, event.detail}, word);
+    if (!is_new && word < known->second) known->second = std::move(word);
+  }
+  return words;
+}
+
+/// In real time each host has a change when it comes, and who comes late several of them as one:
+/// of each counts what was said first.
+void keep_first_words(std::vector<sim::Event>& from, std::vector<sim::Event>& into) {
+  const std::map<Change, Word> here = words_of(into);
+  std::set<Change> sooner;
+  std::set<Change> later;
+  for (const auto& [change, word] : words_of(from)) {
+    const auto known = here.find(change);
+    if (known == here.end()) continue;
+    (word < known->second ? sooner : later).insert(change);
+  }
+  const auto drop = [](const std::set<Change>& which, std::vector<sim::Event>& events) {
+    std::erase_if(events, [&which](const sim::Event& event) {
+      return is_counted(event) && which.contains({event.other, event.detail});
+    });
+  };
+  drop(later, from);
+  drop(sooner, into);
+}
+
 void merge_events(std::vector<sim::Event> from, std::vector<sim::Event>& into) {
+  keep_first_words(from, into);
   append(into, std::move(from));
   // As an engine that is alone has them, and behind them what was seen by who looked on.
   std::stable_sort(into.begin(), into.end(), [](const sim::Event& a, const sim::Event& b) {
@@ -38,7 +80,7 @@ void merge_events(std::vector<sim::Event> from, std::vector<sim::Event>& into) {
     }
     return std::tie(a.robot, a.kind, a.other, a.text) < std::tie(b.robot, b.kind, b.other, b.text);
   });
-  // In real time every host sees what happens to the world.
+  // Without a manager every host makes what the scenario says of the world.
   const auto same = [](const sim::Event& a, const sim::Event& b) {
     return !a.robot.valid() && !b.robot.valid() && a.step == b.step && a.kind == b.kind &&
            a.other == b.other && a.text == b.text;

@@ -78,6 +78,9 @@ void serve_requests(HostJourney& journey) {
   if (control == nullptr) return;
   control->serve(
       [&journey](const RunRequest& request) {
+        if (request.kind == RunRequest::Kind::kResetShadow && journey.shadows != nullptr) {
+          return journey.shadows->reset(request.robot);
+        }
         auto answer = serve_request(journey.engine, request);
         const bool asks = request.kind == RunRequest::Kind::kList;
         if (answer && !asks && journey.record != nullptr) {
@@ -85,7 +88,12 @@ void serve_requests(HostJourney& journey) {
         }
         return answer;
       },
-      [&journey](RunStatus& status) { refresh_status(journey.engine, status); });
+      [&journey](RunStatus& status) { refresh(journey, status); });
+}
+
+void refresh(const HostJourney& journey, RunStatus& status) {
+  refresh_status(journey.engine, status);
+  if (journey.shadows != nullptr) journey.shadows->refresh(status);
 }
 
 void look_back(HostJourney& journey, std::span<const sim::Event> beside,
@@ -98,6 +106,15 @@ void look_back(HostJourney& journey, std::span<const sim::Event> beside,
   if (journey.record != nullptr) {
     journey.record->after_step(engine);
     journey.record->keep(beside);
+  }
+  if (journey.shadows != nullptr) {
+    Shadows& shadows = *journey.shadows;
+    shadows.after_step(engine, beside);
+    if (journey.record != nullptr) {
+      journey.record->keep(shadows.events());
+      shadows.keep(journey.record->recorder());
+    }
+    tell_events(engine, shadows.events(), &journey.console, journey.events);
   }
   tell_events(engine, engine.events(), &journey.console, journey.events);
   tell_events(engine, beside, &journey.console, journey.events);

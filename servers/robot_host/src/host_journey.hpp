@@ -17,6 +17,7 @@
 #include "rave/sim/world_step.hpp"
 #include "record_keeper.hpp"
 #include "ros2_face.hpp"
+#include "shadows.hpp"
 #include "wall_pace.hpp"
 
 namespace rave::robot_host {
@@ -48,6 +49,7 @@ struct HostJourney {
   std::vector<sim::Event> events{};
   std::vector<std::string> losses{};    ///< Of programs and drivers, which are events, too.
   std::vector<std::string> problems{};  ///< What else is not as it should be.
+  Shadows* shadows = nullptr;           ///< Of a run in real time; may be null.
   bool world_tells = false;             ///< What concerns no robot is for the manager to note.
   bool stopped = false;
   bool ended = false;  ///< By the manager.
@@ -64,6 +66,9 @@ void introduce_robots(lock_step::Roster& roster, const sim::EngineSpec& spec,
 
 /// Does what somebody has asked for since the last step.
 void serve_requests(HostJourney& journey);
+
+/// Brings up to date what others see of this host.
+void refresh(const HostJourney& journey, RunStatus& status);
 
 /// A step is done (EngineSpec::on_step_done): all look at it, it is recorded, its events are told,
 /// and those that `beside` the engine has. `resized`: who has another size in this step, robots of

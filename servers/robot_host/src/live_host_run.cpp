@@ -6,11 +6,14 @@
 
 #include "event_log.hpp"
 #include "host_journey.hpp"
+#include "live_twins.hpp"
 #include "radio_report.hpp"
 #include "rave/base/file.hpp"
 #include "rave/real_time/host_link.hpp"
 #include "rave/robot_host/build.hpp"
 #include "rave/robot_host/provenance.hpp"
+#include "requests.hpp"
+#include "shadows.hpp"
 #include "stall_watch.hpp"
 #include "wall_pace.hpp"
 #include "world_record.hpp"
@@ -24,6 +27,9 @@ using real_time::LiveWorld;
 
 /// Who begins so soon has missed nothing that anybody would miss.
 constexpr std::int64_t kInTime_ns = 1'000'000'000;
+
+/// How old what others see of hand-overs and shadows may be.
+constexpr auto kLiveStatusInterval = std::chrono::milliseconds(50);
 
 /// Local robots that say where they are in the same steps.
 struct ReportGroup {
@@ -47,18 +53,21 @@ std::vector<ReportGroup> report_groups(const config::ExpandedScenario& scenario,
 
 struct LiveJourney : HostJourney {
   LiveJourney(HostJourney host, HostLink& to, LiveWorld& around, WallPace& clock,
-              std::vector<ReportGroup> groups)
+              std::vector<ReportGroup> groups, std::span<const RobotId> own)
       : HostJourney(std::move(host)),
         link(to),
         live(around),
         pace(clock),
         reports(std::move(groups)),
+        twins(engine, own),
         watch(&console) {}
 
   HostLink& link;
   LiveWorld& live;
   WallPace& pace;
   std::vector<ReportGroup> reports;
+  LiveTwins twins;
+  Clock::time_point next_status{};
   StallWatch watch;
   std::uint64_t steps = 0;  ///< In all.
   std::uint64_t first = 0;  ///< The one that this host began with.
@@ -106,10 +115,20 @@ void name_flooders(LiveJourney& journey, const std::vector<RobotId>& robots) {
   }
 }
 
+/// How hand-overs and shadows stand changes though nobody asks for anything.
+void show_status(LiveJourney& journey) {
+  RunControl* const control = journey.options.run.control;
+  const auto now = Clock::now();
+  if (control == nullptr || !journey.twins.any() || now < journey.next_status) return;
+  journey.next_status = now + kLiveStatusInterval;
+  control->refresh([&journey](RunStatus& status) { refresh(journey, status); });
+}
+
 Status make_step(LiveJourney& journey) {
   sim::Engine& engine = journey.engine;
   journey.watch.step_begins(journey.report.step);
   engine.set_world_age(journey.link.world_age());
+  RAVE_TRY(journey.twins.follow(engine, journey.live, journey.link));
   RAVE_TRY(journey.live.step(journey.report, journey.world));
   RAVE_TRY(engine.join(journey.world, {}));
   journey.link.obstacles_shown();
@@ -118,6 +137,7 @@ Status make_step(LiveJourney& journey) {
   journey.link.send(journey.report.sent);
   name_flooders(journey, journey.link.take_flooders());
   name_flooders(journey, journey.live.take_flooders());
+  show_status(journey);
   journey.watch.step_ends();
   return {};
 }
@@ -180,6 +200,9 @@ Status write_results(const LiveJourney& journey, const RunFacts& facts,
   json["withheld_packets"] = journey.link.withheld_packets();
   json["dropped_packets"] = journey.live.dropped_packets();
   json["events"] = journey.events.size();
+  if (journey.shadows != nullptr) {
+    json["shadows"] = nlohmann::ordered_json::parse(journey.shadows->json());
+  }
   json["ending"] = outcome.ending;
   json["problems"] = outcome.problems;
   RAVE_TRY(write_file_atomically(
@@ -188,7 +211,7 @@ Status write_results(const LiveJourney& journey, const RunFacts& facts,
   return write_file_atomically(folder / "result.json", json.dump(2) + "\n");
 }
 
-HostLink::Options link_options(const LiveHost& host, const BuiltScenario& built) {
+Result<HostLink::Options> link_options(const LiveHost& host, const BuiltScenario& built) {
   HostLink::Options options;
   options.bus = host.options.bus;
   options.self = {host.seat.number,
@@ -199,6 +222,7 @@ HostLink::Options link_options(const LiveHost& host, const BuiltScenario& built)
                   true};
   options.self.real_robots = real_robots(built.spec, host.seat.robots);
   options.managed = needs_manager(built);
+  RAVE_TRY_ASSIGN(options.host_of, hosts_of_twins(host.scenario, built.spec));
   options.sees = false;
   options.talks = false;
   for (const RobotId robot : host.seat.robots) {
@@ -217,6 +241,8 @@ Result<HostOutcome> go(const LiveHost& host, sim::Engine& engine, HostLink& link
                        const BuiltScenario& built, bool begun, std::function<void()>& look) {
   const RunOptions& run = host.options.run;
   RAVE_TRY_ASSIGN(const auto ros2, Ros2Face::open(host.scenario, engine, host.options.host));
+  RAVE_TRY_ASSIGN(const auto shadows,
+                  Shadows::create(host.scenario, host.catalogue, engine, &host.console));
   Observers observers(host.scenario, built.robot_kinds, engine.spec(), run.picture);
   std::unique_ptr<RecordKeeper> record;
   if (run.record) {
@@ -232,7 +258,9 @@ Result<HostOutcome> go(const LiveHost& host, sim::Engine& engine, HostLink& link
   const config::ScenarioFile& file = host.scenario.scenario;
   LiveJourney journey({engine, observers, record.get(), ros2.get(), link.roster(), host.options,
                        host.console, shared_number(host.scenario)},
-                      link, live, host.pace, report_groups(host.scenario, host.seat));
+                      link, live, host.pace, report_groups(host.scenario, host.seat),
+                      host.seat.robots);
+  journey.shadows = shadows.get();
   look = [&journey] { look_back(journey, journey.live.events(), journey.world.resized); };
   journey.steps = static_cast<std::uint64_t>(std::llround(file.duration_s / file.step_s.value));
   const ControlledHost controlled(engine, file, run.control, true);
@@ -272,7 +300,8 @@ Result<HostOutcome> run_live_host(const LiveHost& host, BuiltScenario built) {
   for (const std::string& note : built.notes) host.console.warn("scenario", "{}", note);
   built.spec.own_authority = true;
   RAVE_TRY_ASSIGN(const auto live, LiveWorld::create(built.spec, !needs_manager(built)));
-  RAVE_TRY_ASSIGN(const auto link, HostLink::open(link_options(host, built), *live));
+  RAVE_TRY_ASSIGN(auto options, link_options(host, built));
+  RAVE_TRY_ASSIGN(const auto link, HostLink::open(std::move(options), *live));
   introduce_robots(link->roster(), built.spec, host.seat.robots, host.console);
   // The run starts when all devices are open here, and everywhere.
   RunControl* const control = host.options.run.control;

@@ -183,8 +183,10 @@ void record_events(const BodyKinds& kinds, std::span<const sim::Event> events,
     recorded.kind = to_string(event.kind);
     recorded.text = with_whom(kinds, event) + event.text;
     // Names of obstacles may be used again, numbers are not.
-    if (is_of_obstacle(event.kind))
+    if (is_of_obstacle(event.kind)) {
       recorded.values.push_back(static_cast<double>(event.other.value()));
+      if (event.detail != 0) recorded.values.push_back(static_cast<double>(event.detail));
+    }
     static_cast<void>(recorder.event(recorded));
   }
 }

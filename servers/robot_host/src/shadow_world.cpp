@@ -168,9 +168,14 @@ Result<std::unique_ptr<ShadowWorld>> ShadowWorld::create(const sim::Engine& engi
   return shadow;
 }
 
-Status ShadowWorld::step(const sim::Engine& engine, std::optional<Pose2> start, bool driven) {
+Status ShadowWorld::step(const sim::Engine& engine, std::span<const sim::Event> beside,
+                         std::optional<Pose2> start, bool driven) {
   RAVE_TRY(engine_->propose(own_));
-  mirror_obstacles(engine);
+  const std::uint64_t done = engine.steps_done() - 1;
+  const bool later = own_.step < done;
+  if (later) RAVE_TRY(begin_at(done));
+  mirror_obstacles(engine, engine.events());
+  mirror_obstacles(engine, beside);
   report_others(engine);
   const std::array<const sim::HostReport*, 2> reports = {&own_, &others_};
   const std::size_t hosts = engine.spec().robots.size() > 1 ? 2 : 1;
@@ -184,14 +189,36 @@ Status ShadowWorld::step(const sim::Engine& engine, std::optional<Pose2> start, 
     put(*start);
     RAVE_TRY(authority_->resume(world_, authority_->state()));
   }
-  RAVE_TRY(engine_->apply(world_));
+  RAVE_TRY(later ? engine_->join(world_, {}) : engine_->apply(world_));
   listen(engine, driven);
   return {};
 }
 
-void ShadowWorld::mirror_obstacles(const sim::Engine& engine) {
+/// As if all had stood at their starts until then: the host of the robot came later.
+Status ShadowWorld::begin_at(std::uint64_t step) {
+  const sim::EngineSpec& spec = authority_->spec();
+  sim::WorldStep before;
+  before.begin(step - 1, spec.robots.size());
+  for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
+    const Pose2& X_WR = spec.robots[r].X_WR;
+    before.x_m[r] = X_WR.x;
+    before.y_m[r] = X_WR.y;
+    before.yaw_rad[r] = X_WR.yaw;
+    before.flags[r] = RobotId(r) == robot_ ? sim::WorldStep::kPresent : 0;
+  }
+  RAVE_TRY(authority_->resume(before, {}));
+  own_.step = step;
+  own_.proposals.clear();
+  own_.proposals.robots.push_back(robot_.value());
+  own_.proposals.vx_mps.push_back(0);
+  own_.proposals.vy_mps.push_back(0);
+  own_.proposals.wz_radps.push_back(0);
+  return {};
+}
+
+void ShadowWorld::mirror_obstacles(const sim::Engine& engine, std::span<const sim::Event> events) {
   using Kind = sim::ObstacleChange::Kind;
-  for (const sim::Event& event : obstacle_events_in_order(engine.events())) {
+  for (const sim::Event& event : obstacle_events_in_order(events)) {
     const bool added = event.kind == sim::EventKind::kObstacleAdded;
     const bool removed = event.kind == sim::EventKind::kObstacleRemoved;
     const world::Obstacle* const obstacle = engine.spec().world.obstacle(event.other.value());

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "rave/base/log.hpp"
@@ -24,10 +25,12 @@ class ShadowWorld {
                                                                    sim::RobotType simulated,
                                                                    LogSink* log);
 
-  /// Does the step that `engine` has just done. `start`: the twin is put there. `driven`: it is
-  /// told what the robot is told from this step on; else it is told to stand. Errors: those of
-  /// sim::Engine; then no step can follow.
-  Status step(const sim::Engine& engine, std::optional<Pose2> start, bool driven);
+  /// Does the step that `engine` has just done; the first one may be a later one than 0. `beside`:
+  /// events of obstacles that the engine of one of several hosts has not itself. `start`: the twin
+  /// is put there. `driven`: it is told what the robot is told from this step on; else it is told
+  /// to stand. Errors: those of sim::Engine; then no step can follow.
+  Status step(const sim::Engine& engine, std::span<const sim::Event> beside,
+              std::optional<Pose2> start, bool driven);
 
   /// Of the twin; nothing if that is longer ago than a second or has not come.
   [[nodiscard]] std::optional<Pose2> pose_at(SimTime stamp) const;
@@ -40,7 +43,8 @@ class ShadowWorld {
   struct Orders;
 
   ShadowWorld(RobotId robot, LogSink* log) : robot_(robot), log_(log) {}
-  void mirror_obstacles(const sim::Engine& engine);
+  Status begin_at(std::uint64_t step);
+  void mirror_obstacles(const sim::Engine& engine, std::span<const sim::Event> events);
   void report_others(const sim::Engine& engine);
   void put(const Pose2& X_WR);
   void listen(const sim::Engine& engine, bool driven);

@@ -68,7 +68,7 @@ Result<std::unique_ptr<Shadows>> Shadows::create(const config::ExpandedScenario&
   const sim::EngineSpec& spec = engine.spec();
   for (std::uint32_t r = 0; r < scenario.robots.size(); ++r) {
     const config::RobotGroup& group = scenario.group_of(scenario.robots[r]);
-    if (!group.shadow) continue;
+    if (!group.shadow || !engine.is_local(RobotId(r))) continue;
     Shadow shadow;
     shadow.robot = RobotId(r);
     shadow.name = scenario.robots[r].name;
@@ -84,15 +84,15 @@ Result<std::unique_ptr<Shadows>> Shadows::create(const config::ExpandedScenario&
   return shadows;
 }
 
-void Shadows::after_step(sim::Engine& engine) {
+void Shadows::after_step(sim::Engine& engine, std::span<const sim::Event> beside) {
   events_.clear();
   for (Shadow& shadow : shadows_) {
     shadow.fresh = false;
-    if (shadow.world) step(engine, shadow);
+    if (shadow.world) step(engine, beside, shadow);
   }
 }
 
-void Shadows::step(sim::Engine& engine, Shadow& shadow) {
+void Shadows::step(sim::Engine& engine, std::span<const sim::Event> beside, Shadow& shadow) {
   const sim::EngineSpec& spec = engine.spec();
   const sim::ReportedPose& pose = engine.reported(shadow.robot);
   const bool real = !spec.types[spec.robots[shadow.robot.value()].type].simulated;
@@ -104,7 +104,7 @@ void Shadows::step(sim::Engine& engine, Shadow& shadow) {
     start =
         integrate({pose.pose.x_m, pose.pose.y_m, pose.pose.yaw_rad}, pose.velocity, age.seconds());
   }
-  const Status done = shadow.world->step(engine, start, running);
+  const Status done = shadow.world->step(engine, beside, start, running);
   if (!done) {
     if (log_ != nullptr) {
       log_->error("shadow", "the shadow of robot `{}` ends: {}", shadow.name, done.error().text());

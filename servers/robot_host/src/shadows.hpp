@@ -48,13 +48,15 @@ class Shadows final : public Observer {
     double rad = 0;
   };
 
-  /// Null if the scenario has no shadow. `engine`: before its first step. Errors: those of
-  /// ShadowWorld.
+  /// Null if no robot that runs here has a shadow. `engine`: before its first step. Errors: those
+  /// of ShadowWorld.
   [[nodiscard]] static Result<std::unique_ptr<Shadows>> create(
       const config::ExpandedScenario& scenario, plugin::Catalogue& catalogue,
       const sim::Engine& engine, LogSink* log);
 
-  void after_step(sim::Engine& engine) override;
+  void after_step(sim::Engine& engine) override { after_step(engine, {}); }
+  /// The same of an engine that is one of several hosts, which has events of obstacles `beside` it.
+  void after_step(sim::Engine& engine, std::span<const sim::Event> beside);
   /// Writes what the last step found.
   void keep(record::RunRecorder& recorder) const;
   /// What happened to shadows in the last step.
@@ -90,7 +92,7 @@ class Shadows final : public Observer {
   };
 
   explicit Shadows(LogSink* log) : log_(log) {}
-  void step(sim::Engine& engine, Shadow& shadow);
+  void step(sim::Engine& engine, std::span<const sim::Event> beside, Shadow& shadow);
   void begin(const sim::Engine& engine, Shadow& shadow);
   void compare(const sim::Engine& engine, Shadow& shadow);
   void compare_readings(const sim::Engine& engine, Shadow& shadow);

@@ -90,6 +90,28 @@ Result<sim::RobotType> make_twin(const DeviceContext& context, const config::Rob
   return make_type(context, twin_group(group));
 }
 
+bool is_local(const DeviceContext& context, std::size_t robot) {
+  const auto& local = context.options.local;
+  return !local || std::find(local->begin(), local->end(),
+                             RobotId(static_cast<std::uint32_t>(robot))) != local->end();
+}
+
+/// In lock-step the authority would have to learn of a hand-over in the step in which it happens.
+Status check_in_real_time(const DeviceContext& context) {
+  const config::ScenarioFile& file = context.scenario.scenario;
+  const bool shared = context.options.local || file.processes || !file.hosts.empty();
+  if (!shared || !context.built.live_reason.empty()) return {};
+  for (const config::RobotGroup& group : context.scenario.groups) {
+    if (!group.twin) continue;
+    return fail_at(group.name.where, ErrorCode::kInvalidArgument,
+                   "robot `{}` has a `twin`, whose drivers hosts in lock-step cannot change; "
+                   "expected one process (neither `processes` nor `hosts`), or a run in real time "
+                   "(`clock: real_time`)",
+                   group.name.value);
+  }
+  return {};
+}
+
 }  // namespace
 
 config::RobotGroup twin_group(const config::RobotGroup& group) {
@@ -115,12 +137,10 @@ Status add_twins(const DeviceContext& context) {
   for (std::size_t r = 0; r < spec.robots.size(); ++r) {
     const config::RobotGroup& group = context.scenario.group_of(context.scenario.robots[r]);
     if (!group.twin) continue;
-    if (context.options.local) {
-      return fail_at(group.name.where, ErrorCode::kInvalidArgument,
-                     "robot `{}` has a `twin`, whose drivers only a run in one process can change",
-                     group.name.value);
-    }
-    RAVE_TRY_ASSIGN(auto twin, make_twin(context, group));
+    const bool others = context.options.others != nullptr && !is_local(context, r);
+    plugin::Catalogue& drivers = others ? *context.options.others : context.catalogue;
+    RAVE_TRY_ASSIGN(auto twin,
+                    make_twin({context.scenario, drivers, context.options, context.built}, group));
     const sim::RobotType& first = spec.types[spec.robots[r].type];
     RAVE_TRY(check_kinds(group, first, twin));
     if (group.shadow && first.simulated == twin.simulated) {
@@ -134,7 +154,7 @@ Status add_twins(const DeviceContext& context) {
     context.built.sees.push_back(context.built.sees[spec.robots[r].type]);
     spec.types.push_back(std::move(twin));
   }
-  return {};
+  return check_in_real_time(context);
 }
 
 Result<config::HandOverTo> hand_over_word(std::string_view word) {

@@ -92,7 +92,8 @@ Result<sim::WorldInput> input_of(const sim::EngineSpec& spec, const RunRequest& 
     case RunRequest::Kind::kHandOver:
     case RunRequest::Kind::kResetShadow:
       return fail(ErrorCode::kInvalidArgument,
-                  "a robot of several hosts has no twin and no shadow; run it in one process");
+                  "hosts in lock-step cannot hand a robot over; run it in one process or in real "
+                  "time");
     case RunRequest::Kind::kList:
       break;
   }

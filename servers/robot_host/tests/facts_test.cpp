@@ -80,6 +80,41 @@ TEST(Facts, OfTwoHostsAddUpInAnyOrder) {
   EXPECT_EQ(whole.events[1].robot, RobotId(3));
 }
 
+sim::Event obstacle(std::uint64_t step, sim::EventKind kind, std::uint32_t change) {
+  return {step, RobotId(), kind, BodyId(7), "`crate`", change};
+}
+
+TEST(Facts, AnObstacleThatHostsHadAtDifferentStepsCameOnce) {
+  using sim::EventKind;
+  RunFacts first;
+  first.events = {
+      obstacle(10, EventKind::kObstacleAdded, 1), obstacle(20, EventKind::kObstacleMoved, 2),
+      obstacle(31, EventKind::kObstacleMoved, 3), obstacle(40, EventKind::kObstacleRemoved, 4)};
+  RunFacts second;
+  second.events = {obstacle(11, EventKind::kObstacleAdded, 1),
+                   obstacle(30, EventKind::kObstacleMoved, 3)};
+  // It came when the obstacle had gone.
+  RunFacts late;
+  late.events = {obstacle(50, EventKind::kObstacleAdded, 4),
+                 obstacle(50, EventKind::kObstacleRemoved, 4)};
+  const std::vector<const RunFacts*> all = {&first, &second, &late};
+  for (const std::vector<int>& order :
+       {std::vector<int>{0, 1, 2}, {2, 1, 0}, {1, 2, 0}, {2, 0, 1}}) {
+    RunFacts whole;
+    for (const int i : order) merge(*all[static_cast<std::size_t>(i)], whole);
+    std::vector<std::pair<std::uint64_t, EventKind>> events;
+    for (const sim::Event& event : whole.events) events.emplace_back(event.step, event.kind);
+    EXPECT_EQ(events, (std::vector<std::pair<std::uint64_t, EventKind>>{
+                          {10, EventKind::kObstacleAdded},
+                          {20, EventKind::kObstacleMoved},
+                          {30, EventKind::kObstacleMoved},
+                          {40, EventKind::kObstacleRemoved}}));
+  }
+  RunFacts alone;
+  merge(late, alone);
+  EXPECT_EQ(alone.events.size(), 2U) << "what one process says twice is there twice";
+}
+
 TEST(Facts, OfAHostThatCameBackTheLatterCount) {
   RunFacts whole;
   merge(sample_facts(1), whole);

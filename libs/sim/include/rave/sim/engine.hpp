@@ -200,6 +200,10 @@ class Engine {
   Status hand_over(RobotId robot, DriverSet to, Author author = Author::kHand);
   /// Nothing for a robot with one set of drivers.
   [[nodiscard]] std::optional<HandOverState> hand_over_state(RobotId robot) const;
+  /// What somebody says of a robot of another host: whether its real or its simulated drivers serve
+  /// it. From the next step on sensors see it so. Between two steps; false, and nothing has
+  /// changed, if it has no such drivers.
+  bool show_reality(RobotId robot, bool simulated);
   /// The present value of a parameter; empty if there is none of this name.
   [[nodiscard]] std::string parameter(RobotId robot, ParameterChange::Part part,
                                       std::uint32_t index, std::string_view name) const;

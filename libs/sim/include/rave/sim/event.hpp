@@ -46,9 +46,11 @@ struct Event {
   std::uint64_t step = 0;
   RobotId robot;  ///< None: it concerns the world.
   EventKind kind = EventKind::kContact;
-  BodyId other;              ///< Contacts and pins: with whom. Of obstacles: which one.
-  std::string text;          ///< For people. Not part of the run hash.
-  std::uint32_t detail = 0;  ///< Guard: the GuardLimit.
+  BodyId other;      ///< Contacts and pins: with whom. Of obstacles: which one.
+  std::string text;  ///< For people. Not part of the run hash.
+  /// Guard: the GuardLimit. Of obstacles in real time over several hosts: which change it was, of
+  /// all in the run, as its manager counts them; 0: not known.
+  std::uint32_t detail = 0;
 };
 
 }  // namespace rave::sim

@@ -61,6 +61,11 @@ class WorldAuthority {
   /// is that of an obstacle of world(), or the one that comes next.
   void adopt(ObstacleChange change);
 
+  /// A robot has the drivers of another type (EngineSpec::types) from the next report of its host
+  /// on, and is there; for an authority in the process of that host. Errors: kInvalidArgument (no
+  /// such robot or type).
+  Status change_type(RobotId robot, std::uint32_t type, const Pose2& X_WR);
+
   // Where nobody calls step(): an authority over obstacles alone, as a run in real time has one.
 
   /// Where a robot is said to be.

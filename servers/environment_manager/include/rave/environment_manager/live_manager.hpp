@@ -15,6 +15,7 @@
 #include "rave/lock_step/introduction.hpp"
 #include "rave/robot_host/run_control.hpp"
 #include "rave/sim/engine_spec.hpp"
+#include "rave/sim/event.hpp"
 
 namespace rave::environment_manager {
 
@@ -27,8 +28,9 @@ struct LiveManagerOptions {
   /// All robots, by id.
   struct Robot {
     std::string name;
-    Duration staleness;  ///< After which a robot that is not heard of counts as stale.
-    bool simulated = true;
+    Duration staleness;     ///< After which a robot that is not heard of counts as stale.
+    bool simulated = true;  ///< At the start.
+    bool twin = false;      ///< It has two sets of drivers.
   };
   std::vector<Robot> robots;
   Duration step;          ///< Of the hosts; for who looks on.
@@ -52,7 +54,7 @@ struct LiveManagerOptions {
 
 /// What came of a run.
 struct LiveManagerOutcome {
-  bool whole = false;  ///< It went to its end here, with all hosts.
+  bool whole = false;  ///< It went to its end here, with all hosts and all of its changes.
   SimTime end;         ///< Time of the run when this manager ended.
   std::uint64_t worlds = 0;
   std::uint64_t states = 0;  ///< Of hosts, that were taken in.
@@ -73,7 +75,8 @@ struct LiveManagerOutcome {
     double sum_s = 0;  ///< Of all that were confirmed.
   };
   Edits edits;
-  std::vector<std::string> problems;  ///< One sentence each; empty if all is well.
+  std::vector<sim::Event> refused;    ///< Changes of the scenario that could not be made.
+  std::vector<std::string> problems;  ///< What else is wrong, one sentence each.
   /// What processes of hosts have sent of what they know; of all that were there at the end if
   /// `saw_off`: this manager stayed until the hosts had gone.
   std::vector<lock_step::Findings> findings;

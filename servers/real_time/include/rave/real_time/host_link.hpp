@@ -18,6 +18,7 @@
 #include "rave/lock_step/introduction.hpp"
 #include "rave/lock_step/roster.hpp"
 #include "rave/real_time/live_world.hpp"
+#include "rave/real_time/realities.hpp"
 #include "rave/sim/engine.hpp"
 
 namespace rave::real_time {
@@ -32,8 +33,11 @@ class HostLink {
     /// The run has an environment manager, whose clock is that of the run. Without one the time of
     /// each host is its own.
     bool managed = true;
-    bool sees = true;                           ///< A robot here has use of where the others are.
-    bool talks = true;                          ///< A robot here has communicators.
+    bool sees = true;   ///< A robot here has use of where the others are.
+    bool talks = true;  ///< A robot here has communicators.
+    /// By robot, the number of its host; of a run in which a robot has two sets of drivers. Empty:
+    /// none has.
+    std::vector<std::uint32_t> host_of = {};
     Duration world_period = from_seconds(0.1);  ///< At which worlds should come.
     /// Before the start, without an environment manager for longer than this the run has ended for
     /// this host; 0: it waits without limit.
@@ -83,6 +87,9 @@ class HostLink {
   /// for it: waits until that has it, ten seconds at most. Nothing without a manager, or before the
   /// start. Errors: those of lock_step::FindingsSender::send().
   [[nodiscard]] Status deliver(std::span<const std::byte> findings);
+
+  /// What hosts have said of theirs since the last call; see Options::host_of.
+  [[nodiscard]] std::vector<RobotReality> take_realities();
 
   /// For how long no world has come; 0 if it does not see.
   [[nodiscard]] Duration world_age() const;

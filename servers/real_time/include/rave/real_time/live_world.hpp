@@ -24,11 +24,19 @@ struct RobotSight {
 
 /// How an obstacle stands that is not as it was at the start, as the manager of the run says.
 struct ObstacleSight {
+  /// More changes than any run makes.
+  static constexpr std::uint64_t kMostRevision = std::uint64_t{1} << 40U;
+
   std::uint64_t scheduled = 0;  ///< How many changes of the scenario were due by then.
   std::uint64_t revision = 0;   ///< Of all obstacles: each change has the next, from 1.
   sim::ObstacleChange stands;   ///< An addition at the present place, a move, or a removal.
   bool removed = false;         ///< It came, and is gone.
 };
+
+/// Whether an obstacle of a run that began in `start` can stand so: its number is that of one of
+/// the start, or of one of those that a run may add, and sim::check_obstacle_change(). Error
+/// kInvalidArgument says what is wrong.
+[[nodiscard]] Status check_sight(const ObstacleSight& sight, const world::WorldModel& start);
 
 /// The world of one host in real time. It is the authority for the robots that run here and knows
 /// all others only by what their hosts say, when that arrives: they are where their last velocity
@@ -51,6 +59,8 @@ class LiveWorld {
   /// Takes in how an obstacle stands, for the next step; whoever stands there. False: more recent
   /// things are known of it, or it cannot be.
   bool see(ObstacleSight sight);
+  /// check_sight() for the world of this run.
+  [[nodiscard]] Status check(const ObstacleSight& sight) const;
   /// The latest revision that was heard of, and that of the last step: all obstacles stand as they
   /// should as far as this.
   [[nodiscard]] std::uint64_t heard_revision() const noexcept { return heard_revision_; }
@@ -63,6 +73,13 @@ class LiveWorld {
   /// False: it was heard before, nobody here can make anything of it, or there is no room for it:
   /// the robot has exceeded its TalkLimit, or all together what one step takes.
   bool hear(std::uint64_t writer, const sim::SentPacket& packet, std::span<const std::byte> bytes);
+
+  /// A robot that runs here has the drivers of another type of the spec, and is there, from the
+  /// next report of this host on. Error kInvalidArgument: there is no such robot here, or no such
+  /// type.
+  Status serve(RobotId robot, std::uint32_t type, const Pose2& X_WR);
+  /// Its host says of a robot whether it is real. False: it runs here or does not exist.
+  bool set_reality(RobotId robot, bool simulated);
 
   /// A host that comes late begins with a later step than 0: makes `own`, its report of step 0, one
   /// of `step`, in which its simulated robots stand at their start or at a place of `starts`. To be
@@ -98,6 +115,12 @@ class LiveWorld {
     std::int64_t sample_ns = 0;  ///< Of the last sample that was handed on.
     TalkLimit talk{TalkLimit::kOnReception};
   };
+  /// A change of an obstacle that counts from a step on.
+  struct Adopted {
+    std::uint64_t step = 0;
+    BodyId id;
+    std::uint64_t revision = 0;
+  };
   struct Counted {
     std::uint64_t writer = 0;
     std::uint32_t sequence = 0;
@@ -110,8 +133,9 @@ class LiveWorld {
   void report_place(Other& other, std::uint64_t step);
   void report_samples(SimTime now);
   void report_packets(std::uint64_t step);
-  void adopt_obstacles();
+  void adopt_obstacles(std::uint64_t step);
   void adopt(const ObstacleSight& sight, bool is_new);
+  void take_events(std::uint64_t step);
 
   std::unique_ptr<sim::WorldAuthority> authority_;
   std::vector<std::uint8_t> local_;       ///< By robot: it runs here.
@@ -128,6 +152,7 @@ class LiveWorld {
   std::vector<RobotId> flooders_;                       ///< Not asked for yet.
   std::map<std::uint32_t, ObstacleSight> news_;         ///< Of obstacles, by number.
   std::map<std::uint32_t, std::uint64_t> revision_of_;  ///< The same, of all that was heard.
+  std::vector<Adopted> adopted_;  ///< Of which the events come with the next step.
   std::uint64_t heard_revision_ = 0;
   std::uint64_t shown_revision_ = 0;
 };

@@ -53,6 +53,7 @@ struct SharedEnd {
   std::optional<std::uint64_t> worlds;
   std::optional<std::uint64_t> states;
   std::optional<SharedEdits> edits;
+  std::vector<sim::Event> events;  ///< What it saw and no host did.
 };
 
 /// Makes of what the hosts of a run left, and of what its manager saw, the results that the run has

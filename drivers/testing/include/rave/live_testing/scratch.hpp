@@ -8,8 +8,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <thread>
 
+#include "rave/live_testing/await.hpp"
 #include "rave/live_testing/peer_process.hpp"
 
 namespace rave::testing {
@@ -40,14 +40,15 @@ class Scratch {
 
 /// Asks until the answer is as wanted; gives the last one.
 template <class Ask, class Wanted>
-nlohmann::json await_answer(Ask&& ask, Wanted&& wanted) {
-  const auto end = std::chrono::steady_clock::now() + kLong;
-  nlohmann::json now = ask();
-  while (!wanted(now) && std::chrono::steady_clock::now() < end) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    now = ask();
-  }
-  EXPECT_TRUE(wanted(now)) << now.dump();
+nlohmann::json await_answer(Ask&& ask, Wanted&& wanted, std::chrono::milliseconds pause = kOften) {
+  nlohmann::json now;
+  const bool came = await(
+      [&] {
+        now = ask();
+        return wanted(now);
+      },
+      pause);
+  EXPECT_TRUE(came) << now.dump();
   return now;
 }
 

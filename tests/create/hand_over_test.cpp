@@ -114,8 +114,7 @@ TEST_F(HandOver, ToTheRealRobotAndBackKeepsPlaceAndProgram) {
 
   const auto simulated = CreateRun::rave_says("hand-over rosie simulated");
   ASSERT_EQ(simulated.exit_code, 0) << simulated.text;
-  const Json left =
-      run.await_state([](const Json& s) { return s["left_mps"] == 0.0 && s["right_mps"] == 0.0; });
+  const Json left = run.await_state(testing::wheels_stand);
   // The simulated robot ends the way alone.
   await_place([](const Place& at) { return std::hypot(at.x_m - 1, at.y_m - 0.8) < 0.3; });
   EXPECT_NEAR(run.state()["path_m"].get<double>(), left["path_m"].get<double>(), 1e-3);
@@ -169,9 +168,9 @@ TEST_F(HandOver, ARobotThatVanishesAfterwardsIsALossAsAnyOther) {
   await_place([](const Place&) { return true; });
   const auto real = CreateRun::rave_says("hand-over rosie real");
   ASSERT_EQ(real.exit_code, 0) << real.text;
-  run.await_state([](const Json& s) { return std::abs(s["left_mps"].get<double>()) > 0.05; });
+  run.await_state(testing::wheels_turn);
   run.peer->tell("vanish");
-  run.await_state([](const Json& s) { return s["left_mps"] == 0.0 && s["right_mps"] == 0.0; });
+  run.await_state(testing::wheels_stand);
   // Nobody can see whether it stands, so the simulated one does not begin elsewhere.
   const auto simulated = CreateRun::rave_says("hand-over rosie simulated");
   EXPECT_EQ(simulated.exit_code, 1);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -55,6 +56,13 @@ nlohmann::json await_answer(Ask&& ask, Wanted&& wanted, std::chrono::millisecond
 /// What a peer says of itself.
 [[nodiscard]] inline nlohmann::json state_of(PeerProcess& peer) {
   return nlohmann::json::parse(peer.ask("state"));
+}
+/// The same of one that has two wheels.
+[[nodiscard]] inline bool wheels_turn(const nlohmann::json& state) {
+  return std::abs(state["left_mps"].get<double>()) > 0.05;
+}
+[[nodiscard]] inline bool wheels_stand(const nlohmann::json& state) {
+  return state["left_mps"] == 0.0 && state["right_mps"] == 0.0;
 }
 
 }  // namespace rave::testing

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench_arguments.hpp"
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <string>
+
+#include "shared_arguments.hpp"
 
 namespace rave::cli {
 namespace {
@@ -19,17 +18,12 @@ void add_workload(CLI::App& app, swarm::Workload& workload, swarm::RunEnd& end) 
          "A: 16 rays all round, 3 m; B: 180 rays ahead, 8 m [A]")
       ->type_name("A|B")
       ->check(CLI::IsMember({"A", "B"}).description(""));
-  app.add_option("--robots", workload.robots, "How many robots [1000]")
-      ->type_name("N")
+  add_value(app, "--robots", workload.robots, "How many robots [1000]", "N")
       ->check(CLI::Range(std::uint32_t{1}, swarm::kMostRobots));
-  app.add_option("--threads", workload.threads, "Threads; they do not change the result [1]")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1024));
-  auto* const steps = app.add_option("--steps", end.steps, "How many steps of 0.1 s")
-                          ->type_name("K")
+  add_threads(app, workload.threads, "Threads; they do not change the result [1]");
+  auto* const steps = add_value(app, "--steps", end.steps, "How many steps of 0.1 s", "K")
                           ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
-  app.add_option("--seconds", end.seconds, "How long to measure, by the wall [5]")
-      ->type_name("S")
+  add_value(app, "--seconds", end.seconds, "How long to measure, by the wall [5]", "S")
       ->check(CLI::Range(1e-3, 1e6))
       ->excludes(steps);
   app.add_option_function<std::string>(
@@ -40,18 +34,16 @@ void add_workload(CLI::App& app, swarm::Workload& workload, swarm::RunEnd& end) 
          "Of every range: normal, 1 cm [none]")
       ->type_name("none|gaussian")
       ->check(CLI::IsMember({"none", "gaussian"}).description(""));
-  app.add_option("--seed", workload.seed, "Another seed: other places, other chance [1]")
-      ->type_name("N");
+  add_value(app, "--seed", workload.seed, "Another seed: other places, other chance [1]", "N");
 }
 
 void add_swarm(CLI::App& parent, BenchSwarmCommand& c) {
   CLI::App& app = *parent.add_subcommand(
       "swarm", "Measure robots that avoid boxes and one another in an arena");
   add_workload(app, c.workload, c.end);
-  app.add_option(
-         "--write", c.write,
-         "Also write the scenario into this folder, for `rave run`, as long as this run was")
-      ->type_name("DIR");
+  add_value(app, "--write", c.write,
+            "Also write the scenario into this folder, for `rave run`, as long as this run was",
+            "DIR");
   app.footer(
       "Prints one line of JSON. The hash is that of the same steps in `rave run` of the written\n"
       "scenario.\n\n"
@@ -63,13 +55,10 @@ void add_swarm(CLI::App& parent, BenchSwarmCommand& c) {
 
 void add_compare(CLI::App& parent, BenchCompareCommand& c) {
   CLI::App& app = *parent.add_subcommand("compare", "Measure two builds in turn");
-  app.add_option("a", c.options.a, "A folder of a build, or an executable")
-      ->required()
-      ->type_name("BUILD_A");
-  app.add_option("b", c.options.b, "The other one")->required()->type_name("BUILD_B");
+  add_word(app, "a", c.options.a, "A folder of a build, or an executable", "BUILD_A");
+  add_word(app, "b", c.options.b, "The other one", "BUILD_B");
   add_workload(app, c.options.workload, c.options.end);
-  app.add_option("--rounds", c.options.rounds, "How often each runs [7]")
-      ->type_name("N")
+  add_value(app, "--rounds", c.options.rounds, "How often each runs [7]", "N")
       ->check(CLI::Range(1, 1000));
   app.add_flag("--allow-different-hash", c.options.allow_different_hash,
                "Compare them even if they do not do the same");

@@ -1,30 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "keys_arguments.hpp"
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
+#include "shared_arguments.hpp"
 
 namespace rave::cli {
 namespace {
 
 void add_members(CLI::App& app, std::vector<std::string>& members) {
-  app.add_option("members", members, "A name for each process or machine")
-      ->required()
-      ->type_name("MEMBER");
+  add_word(app, "members", members, "A name for each process or machine", "MEMBER");
 }
 
 void add_folder(CLI::App& app, std::string& folder, const char* what) {
-  app.add_option("folder", folder, what)->required()->type_name("DIR");
+  add_word(app, "folder", folder, what, "DIR");
 }
 
 void add_new(CLI::App& parent, KeysNewCommand& c) {
   CLI::App& app = *parent.add_subcommand("new", "Make a set of certificates");
   add_folder(app, c.folder, "Where; it must not be there yet");
   add_members(app, c.members);
-  app.add_option("--name", c.lab, "Of the lab; stands in all certificates [rave]")
-      ->type_name("LAB");
-  app.add_option("--days", c.days, "How long they are valid [3650]")->type_name("N");
+  add_value(app, "--name", c.lab, "Of the lab; stands in all certificates [rave]", "LAB");
+  add_value(app, "--days", c.days, "How long they are valid [3650]", "N");
   app.footer(
       "Makes DIR/ca, with which members are made, and a folder for each member. Copy these to\n"
       "where they are used, and keep DIR/ca to yourself.\n\n"
@@ -37,7 +32,7 @@ void add_add(CLI::App& parent, KeysAddCommand& c) {
   CLI::App& app = *parent.add_subcommand("add", "Add members to a set");
   add_folder(app, c.folder, "The set, with its ca");
   add_members(app, c.members);
-  app.add_option("--days", c.days, "How long they are valid [as long as the ca]")->type_name("N");
+  add_value(app, "--days", c.days, "How long they are valid [as long as the ca]", "N");
   app.footer("Example:\n  rave keys add lab-keys gui");
 }
 

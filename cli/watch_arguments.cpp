@@ -1,25 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "watch_arguments.hpp"
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
-
 #include "bus_arguments.hpp"
+#include "shared_arguments.hpp"
 
 namespace rave::cli {
 
 void add_top(CLI::App& root, TopCommand& c) {
   CLI::App& app = *root.add_subcommand("top", "Show how the hosts and robots of a run fare");
-  app.add_option("run", c.run,
-                 "Its name of --run, the first digits of its number, or its scenario; not needed "
-                 "for the only one")
-      ->type_name("RUN");
+  add_value(app, "run", c.run,
+            "Its name of --run, the first digits of its number, or its scenario; not needed "
+            "for the only one",
+            "RUN");
   app.add_flag("--once", c.once, "Look on for a moment, print one table and end");
   app.add_flag("--json", c.json, "One JSON document in a line each time");
   app.add_flag("--robots", c.robots, "Also each robot");
-  app.add_option("--interval", c.interval_s, "Seconds between two looks [1; with --once 2.5]")
-      ->type_name("S")
+  add_value(app, "--interval", c.interval_s, "Seconds between two looks [1; with --once 2.5]", "S")
       ->check(CLI::Range(0.1, 3600.0));
   add_network_options(app, c.bus);
   app.footer(
@@ -33,11 +29,8 @@ void add_top(CLI::App& root, TopCommand& c) {
 
 void add_doctor(CLI::App& root, DoctorCommand& c) {
   CLI::App& app = *root.add_subcommand("doctor", "Find out why two machines do not see each other");
-  app.add_option("--peers", c.bus.peers, "The other machines, as `a,b`, or one at a time")
-      ->type_name("ADDR")
-      ->delimiter(',')
-      ->take_all()
-      ->allow_extra_args(false);
+  add_values(app, "--peers", c.bus.peers, "The other machines, as `a,b`, or one at a time", "ADDR")
+      ->delimiter(',');
   add_network_options(app, c.bus);
   app.add_flag("--listen", c.listen, "Answer the doctor of another machine, until Ctrl-C");
   app.add_flag("--json", c.json, "Print the findings as JSON");

@@ -2,9 +2,9 @@
 #include "create_oi/create_device.hpp"
 
 #include <algorithm>
-#include <system_error>
 
 #include "line/backoff.hpp"
+#include "rave/base/thread.hpp"
 
 namespace rave::oi {
 namespace {
@@ -69,13 +69,9 @@ Status CreateDevice::open() {
   lost_ = false;
   forget_order();
   note([](DeviceState& state) { state = {}; });
-  try {
-    thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
-  } catch (const std::system_error& e) {
-    return fail(ErrorCode::kIo, "cannot start the thread of the robot: {}", e.what());
-  }
+  RAVE_TRY(start_thread(thread_, "the robot", [this](const std::stop_token& stop) { run(stop); }));
   std::unique_lock lock(state_mutex_);
-  if (state_changed_.wait_for(lock, std::chrono::duration<double>(options_.start_timeout_s),
+  if (state_changed_.wait_for(lock, std::chrono::duration<double>(options_.timing.start_timeout_s),
                               [&] { return state_.frames > 0; })) {
     return {};
   }
@@ -85,7 +81,7 @@ Status CreateDevice::open() {
   return fail(ErrorCode::kTimeout,
               "no robot with the Open Interface answered at `{}` within {} s: "
               "{}",
-              options_.address.text(), options_.start_timeout_s, trouble);
+              options_.address.text(), options_.timing.start_timeout_s, trouble);
 }
 
 void CreateDevice::close() { stop_thread(); }
@@ -161,9 +157,11 @@ bool CreateDevice::pause(Wait wait, const std::stop_token& stop) {
 }
 
 void CreateDevice::lost(const Error& why) {
-  if (lost_ || line::host_now() < line::after_seconds(last_frame_, options_.lost_after_s)) return;
+  if (lost_ || line::host_now() < line::after_seconds(last_frame_, options_.timing.lost_after_s)) {
+    return;
+  }
   const std::string text = fmt::format("{} has been away for more than {} s: {}", name(),
-                                       options_.lost_after_s, why.message);
+                                       options_.timing.lost_after_s, why.message);
   const std::lock_guard lock(listeners_mutex_);
   lost_ = true;
   for (FrameListener* const listener : listeners_) listener->gone(text);
@@ -234,7 +232,7 @@ void CreateDevice::take(const Frame& frame, OiSession& session) {
   }
   robot_ = state;
   last_frame_ = line::host_now();
-  const double moment_s = session.times().next(frame.began_s) - options_.latency_s;
+  const double moment_s = session.times().next(frame.began_s) - options_.timing.latency_s;
   if (lost_) found();
   {
     const std::lock_guard lock(listeners_mutex_);

@@ -5,6 +5,7 @@
 
 #include "create_oi/oi_code.hpp"
 #include "line/address.hpp"
+#include "line/timing.hpp"
 #include "rave/plugin/params.hpp"
 
 namespace rave::oi {
@@ -14,7 +15,7 @@ inline constexpr std::array<const char*, 2> kDriveModes{"safe", "full"};
 inline constexpr std::array<ParamSpec, 12> kDeviceParams{
     text_param("device", "", "Serial device, such as /dev/ttyUSB0; or give `address`."),
     integer_param("baud", 115200, 1200, 115200, "Bit rate of a serial line."),
-    text_param("address", "", "TCP server, `host:port`; or give `device`."),
+    line::kAddressParam,
     choice_param("mode", "safe", kDriveModes,
                  "`safe`: the robot itself stops at cliffs and when it is lifted; `full`: it never "
                  "does."),
@@ -25,12 +26,9 @@ inline constexpr std::array<ParamSpec, 12> kDeviceParams{
     number_param("max_wheel_mps", "m/s", 0.5, 0.01, 0.5, "Largest speed of a wheel."),
     number_param("refresh_s", "s", 0.05, 0.015, 1,
                  "How often the drive command is repeated: what a watchdog on the robot lives on."),
-    number_param("latency_s", "s", 0, 0, 1,
-                 "Known smallest time from a frame's values to its first byte here."),
-    number_param("start_timeout_s", "s", 5, 0.1, 600,
-                 "How long the start of a run waits for the robot."),
-    number_param("lost_after_s", "s", 1, 0.1, 600,
-                 "A robot that is away for longer is reported as gone."),
+    line::latency_param("Known smallest time from a frame's values to its first byte here."),
+    line::start_timeout_param("How long the start of a run waits for the robot."),
+    line::lost_after_param(1, "A robot that is away for longer is reported as gone."),
 };
 
 /// What is to be known of the body for driving and for odometry.
@@ -46,12 +44,10 @@ struct DeviceOptions {
   Mode mode = Mode::kSafe;
   Geometry geometry;
   double refresh_s = 0;
-  double latency_s = 0;
-  double start_timeout_s = 0;
-  double lost_after_s = 0;
+  line::Timing timing;
 };
 
-/// Errors: those of line::parse_address.
+/// Errors: those of line::read_address.
 [[nodiscard]] Result<DeviceOptions> read_options(const Params& params);
 
 }  // namespace rave::oi

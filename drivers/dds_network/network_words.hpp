@@ -2,21 +2,38 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "rave/bus/config.hpp"
+#include "rave/plugin/params.hpp"
 
 namespace rave::dds_network {
 
 /// The choices of a parameter `multicast`.
 inline constexpr std::array<const char*, 3> kMulticasts{"none", "discovery", "data"};
 
+/// The parameter `domain`.
+constexpr ParamSpec domain_param(const char* doc) noexcept {
+  return integer_param("domain", 0, 0, 230, doc);
+}
+
 /// What one of kMulticasts means; any other word is `none`.
 [[nodiscard]] bus::Multicast multicast_of(std::string_view word) noexcept;
 
 /// The addresses in a parameter `peers`, between commas; blanks around them do not count.
 [[nodiscard]] std::vector<std::string> split_peers(std::string_view text);
+
+/// Takes the parameters `domain`, `interface`, `peers` and `multicast` into what has members of
+/// these names, such as bus::BusConfig.
+template <class Network>
+void read_network(const Params& params, Network& network) {
+  network.domain = static_cast<std::uint32_t>(params.integer("domain"));
+  network.interface = params.text("interface");
+  network.peers = split_peers(params.text("peers"));
+  network.multicast = multicast_of(params.text("multicast"));
+}
 
 }  // namespace rave::dds_network

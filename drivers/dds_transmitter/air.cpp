@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <system_error>
 #include <utility>
 
 #include "line/host_clock.hpp"
+#include "rave/base/thread.hpp"
 
 namespace rave::dds_transmitter {
 namespace {
@@ -62,14 +62,13 @@ Status Air::attach(const AirPlace& place) {
     places_.push_back(place);
   }
   if (thread_.joinable()) return {};
-  try {
-    thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
-  } catch (const std::system_error& e) {
+  Status started =
+      start_thread(thread_, "the network", [this](const std::stop_token& stop) { run(stop); });
+  if (!started) {
     const std::lock_guard lock(places_mutex_);
     places_.clear();
-    return fail(ErrorCode::kIo, "cannot start the thread of the network: {}", e.what());
   }
-  return {};
+  return started;
 }
 
 void Air::detach(const AirPlace& place) {

@@ -25,10 +25,7 @@ Result<AirOptions> read_options(const HardwareSetup& setup) {
     if (!run) return tl::unexpected(std::move(run).error().with_context("`run`"));
     options.run = *run;
   }
-  options.domain = static_cast<std::uint32_t>(params.integer("domain"));
-  options.interface = params.text("interface");
-  options.peers = dds_network::split_peers(params.text("peers"));
-  options.multicast = dds_network::multicast_of(params.text("multicast"));
+  dds_network::read_network(params, options);
   if (const std::string_view folder = params.text("security"); !folder.empty()) {
     options.security = (std::filesystem::path(setup.folder) / folder).string();
   }

@@ -13,7 +13,7 @@ constexpr ParamSpec kParams[] = {
     text_param("network", "rave",
                "Robots whose transmitters name the same network are in one air."),
     text_param("run", "", "32 hexadecimal digits in place of those made of `network`."),
-    integer_param("domain", 0, 0, 230, "Domain of DDS: chooses the UDP ports."),
+    dds_network::domain_param("Domain of DDS: chooses the UDP ports."),
     text_param("interface", "127.0.0.1",
                "Network interface, by address or name; the default is this machine."),
     text_param("peers", "", "Addresses to look for other machines at, between commas."),

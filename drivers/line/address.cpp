@@ -82,4 +82,8 @@ Result<Address> parse_address(std::string_view device, std::int64_t baud,
   return serial;
 }
 
+Result<Address> read_address(const Params& params) {
+  return parse_address(params.text("device"), params.integer("baud"), params.text("address"));
+}
+
 }  // namespace rave::line

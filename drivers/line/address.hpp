@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "rave/base/result.hpp"
+#include "rave/plugin/params.hpp"
 
 namespace rave::line {
 
@@ -26,6 +27,13 @@ struct Address {
 /// has, an address that is none.
 [[nodiscard]] Result<Address> parse_address(std::string_view device, std::int64_t baud,
                                             std::string_view address);
+
+/// The parameter `address` of those that also have `device`.
+inline constexpr ParamSpec kAddressParam =
+    text_param("address", "", "TCP server, `host:port`; or give `device`.");
+
+/// The same from all parameters of a driver that has the three.
+[[nodiscard]] Result<Address> read_address(const Params& params);
 
 /// The constant of termios for a bit rate; 0 if there is none.
 [[nodiscard]] unsigned speed_of(std::int64_t baud) noexcept;

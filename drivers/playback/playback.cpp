@@ -3,10 +3,10 @@
 #include <array>
 #include <limits>
 #include <stop_token>
-#include <system_error>
 #include <thread>
 
 #include "playback/timeline.hpp"
+#include "rave/base/thread.hpp"
 #include "rave/robot/plugin_entry.hpp"
 
 namespace rave::playback {
@@ -77,12 +77,8 @@ class Player final : public HardwareSensor {
 
   Status open(SampleSink& sink) override {
     if (thread_.joinable()) return fail(ErrorCode::kState, "opened twice; close it first");
-    try {
-      thread_ = std::jthread([this, &sink](const std::stop_token& stop) { play(sink, stop); });
-    } catch (const std::system_error& e) {
-      return fail(ErrorCode::kIo, "cannot start the thread of the player: {}", e.what());
-    }
-    return {};
+    return start_thread(thread_, "the player",
+                        [this, &sink](const std::stop_token& stop) { play(sink, stop); });
   }
 
   void close() override {

@@ -24,6 +24,12 @@ inline constexpr std::array<ParamSpec, 5> kPlayParams{
     bool_param("accept_cut", false, "Use the whole lines of a log that ends in the middle of one."),
 };
 
+// What the parameters of pose_doubt mean where a recording has nothing of it.
+inline constexpr const char* kPositionSigmaDoc =
+    "Standard deviation that each of x and y is said to have.";
+inline constexpr const char* kHeadingSigmaDoc =
+    "Standard deviation that the heading is said to have.";
+
 /// One list of parameters behind the other.
 template <std::size_t kFirst, std::size_t kSecond>
 constexpr std::array<ParamSpec, kFirst + kSecond> join_params(

@@ -5,10 +5,10 @@
 #include <limits>
 #include <stop_token>
 #include <string>
-#include <system_error>
 #include <thread>
 #include <utility>
 
+#include "rave/base/thread.hpp"
 #include "rave/robot/hardware_sensor.hpp"
 #include "recording/timeline.hpp"
 
@@ -49,12 +49,8 @@ class Player final : public HardwareSensor {
   Status open(SampleSink& sink) override {
     if (!configured_) return fail(ErrorCode::kState, "opened before it was configured");
     if (thread_.joinable()) return fail(ErrorCode::kState, "opened twice; close it first");
-    try {
-      thread_ = std::jthread([this, &sink](const std::stop_token& stop) { play(sink, stop); });
-    } catch (const std::system_error& e) {
-      return fail(ErrorCode::kIo, "cannot start the thread of the player: {}", e.what());
-    }
-    return {};
+    return start_thread(thread_, "the player",
+                        [this, &sink](const std::stop_token& stop) { play(sink, stop); });
   }
 
   void close() override {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <system_error>
 
+#include "rave/base/thread.hpp"
 #include "rave/ros2/names.hpp"
 
 namespace rave::ros2_driver {
@@ -23,12 +23,7 @@ Status Ros2Device::open() {
   if (!participant_) return fail(ErrorCode::kState, "opened before it was configured");
   if (thread_.joinable()) return fail(ErrorCode::kState, "opened twice; close it first");
   away_ = false;
-  try {
-    thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
-  } catch (const std::system_error& e) {
-    return fail(ErrorCode::kIo, "cannot start the thread of the robot: {}", e.what());
-  }
-  return {};
+  return start_thread(thread_, "the robot", [this](const std::stop_token& stop) { run(stop); });
 }
 
 void Ros2Device::close() { stop_thread(); }
@@ -60,10 +55,10 @@ Status Ros2Device::no_message(std::string_view topic, std::string_view why,
                               std::string_view refused) const {
   if (!refused.empty()) {
     return fail(ErrorCode::kTimeout, "no message on `{}` within {} s could be used: {}", topic,
-                options_.start_timeout_s, refused);
+                options_.timing.start_timeout_s, refused);
   }
   return fail(ErrorCode::kTimeout, "no message came on `{}` within {} s: {}", topic,
-              options_.start_timeout_s, why);
+              options_.timing.start_timeout_s, why);
 }
 
 void Ros2Device::run(const std::stop_token& stop) {

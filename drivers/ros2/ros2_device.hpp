@@ -62,7 +62,8 @@ class Ros2Device final : public HardwareDevice {
   [[nodiscard]] Status await(ros2::Reader<Message>& reader, Suits&& suits) const {
     RAVE_TRY_ASSIGN(const ros2::Waiter waiter, ros2::Waiter::create(participant()));
     RAVE_TRY(waiter.watch(reader.handle()));
-    const line::HostTime end = line::after_seconds(line::host_now(), options_.start_timeout_s);
+    const line::HostTime end =
+        line::after_seconds(line::host_now(), options_.timing.start_timeout_s);
     std::optional<std::string> mismatch;
     while (true) {
       bool found = false;

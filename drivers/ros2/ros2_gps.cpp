@@ -13,12 +13,12 @@ Status Ros2Gps::prepare(const Params& params, HardwareDeclaration& /*declaration
   options.antenna_m = {params.number("antenna_x_m"), params.number("antenna_y_m")};
   options.has_imu = !params.text("imu_topic").empty();
   track_.emplace(frame, options);
-  RAVE_TRY(make_reader(params.text("topic"), fixes_));
+  RAVE_TRY(make_reader(params.text("topic"), main_));
   if (options.has_imu) {
-    RAVE_TRY(make_reader(params.text("imu_topic"), imu_));
-    RAVE_TRY(device().await(*imu_, [this](const ros2::Imu& message) { return hear(message); }));
+    RAVE_TRY(make_reader(params.text("imu_topic"), beside_));
+    RAVE_TRY(device().await(*beside_, [this](const ros2::Imu& message) { return hear(message); }));
   }
-  return device().await(*fixes_, [this](const ros2::NavSatFix& fix) {
+  return device().await(*main_, [this](const ros2::NavSatFix& fix) {
     hear_imu();
     return pose_of(fix).has_value();
   });
@@ -27,24 +27,24 @@ Status Ros2Gps::prepare(const Params& params, HardwareDeclaration& /*declaration
 bool Ros2Gps::hear(const ros2::Imu& message) {
   Status heard = track_->hear(message);
   if (heard) return true;
-  imu_->refuse(std::move(heard).error());
+  beside_->refuse(std::move(heard).error());
   return false;
 }
 
 void Ros2Gps::hear_imu() {
-  if (imu_) imu_->take([this](const ros2::Imu& message) { hear(message); });
+  if (beside_) beside_->take([this](const ros2::Imu& message) { hear(message); });
 }
 
 std::optional<PoseReading> Ros2Gps::pose_of(const ros2::NavSatFix& fix) {
   auto reading = track_->take(fix);
   if (reading) return *reading;
-  fixes_->refuse(std::move(reading).error());
+  main_->refuse(std::move(reading).error());
   return std::nullopt;
 }
 
 void Ros2Gps::drain() {
   hear_imu();
-  fixes_->take([this](const ros2::NavSatFix& fix) {
+  main_->take([this](const ros2::NavSatFix& fix) {
     const auto reading = pose_of(fix);
     if (reading) {
       publish(ros2::nanoseconds(fix.header.stamp), &*reading, 1);
@@ -52,17 +52,6 @@ void Ros2Gps::drain() {
       note_alive();
     }
   });
-}
-
-void Ros2Gps::look_after(TopicState& state) {
-  look_at(*fixes_, state);
-  if (imu_) look_at(*imu_, state);
-}
-
-std::vector<dds_entity_t> Ros2Gps::readers() const {
-  std::vector<dds_entity_t> all{fixes_->handle()};
-  if (imu_) all.push_back(imu_->handle());
-  return all;
 }
 
 }  // namespace rave::ros2_driver

@@ -5,10 +5,15 @@
 #include <string>
 
 #include "dds_network/network_words.hpp"
+#include "line/timing.hpp"
+#include "pose_doubt/pose_doubt.hpp"
 #include "rave/plugin/params.hpp"
 #include "rave/ros2/participant.hpp"
 
 namespace rave::ros2_driver {
+
+using pose_doubt::Doubt;
+using pose_doubt::read_doubt;
 
 inline constexpr std::array<const char*, 3> kVelocityMessages{"auto", "twist", "twist_stamped"};
 inline constexpr std::array<const char*, 2> kCommandMessages{"twist", "twist_stamped"};
@@ -16,7 +21,7 @@ inline constexpr std::array<const char*, 2> kCommandMessages{"twist", "twist_sta
 inline constexpr std::array<const char*, 3> kNodeForms{"none", "humble", "iron"};
 
 inline constexpr std::array<ParamSpec, 9> kDeviceParams{
-    integer_param("domain", 0, 0, 230, "Domain of the robot: its ROS_DOMAIN_ID."),
+    dds_network::domain_param("Domain of the robot: its ROS_DOMAIN_ID."),
     text_param("namespace", "", "Namespace of the robot's topics, such as `/cart`."),
     text_param("interface", "127.0.0.1",
                "Network interface to the robot, by address or name; the default is this machine."),
@@ -26,12 +31,10 @@ inline constexpr std::array<ParamSpec, 9> kDeviceParams{
     choice_param("nodes", "iron", kNodeForms,
                  "How nodes of ROS 2 learn of this one: as of Iron (2023) and later, as of Humble "
                  "and before, or not at all."),
-    number_param("latency_s", "s", 0, 0, 1,
-                 "Known smallest time from the stamp of a message to its arrival."),
-    number_param("start_timeout_s", "s", 5, 0.1, 600,
-                 "How long the start of a run waits for the first message of each topic."),
-    number_param("lost_after_s", "s", 1, 0.1, 600,
-                 "A topic that is silent for longer is reported as gone."),
+    line::latency_param("Known smallest time from the stamp of a message to its arrival."),
+    line::start_timeout_param(
+        "How long the start of a run waits for the first message of each topic."),
+    line::lost_after_param(1, "A topic that is silent for longer is reported as gone."),
 };
 
 /// The parameter that every sensor has, with its own default.
@@ -40,12 +43,11 @@ constexpr ParamSpec topic_param(const char* topic) noexcept {
                     "Topic to read, in the device's namespace unless it begins with a slash.");
 }
 
-inline constexpr ParamSpec kPositionSigma =
-    number_param("position_sigma_m", "m", 0.02, 0, 10,
-                 "Standard deviation of x and y where messages do not have it.");
-inline constexpr ParamSpec kHeadingSigma =
-    number_param("heading_sigma_deg", "deg", 1, 0, 180,
-                 "Standard deviation of the heading where messages do not have it.");
+inline constexpr const char* kPositionSigmaDoc =
+    "Standard deviation of x and y where messages do not have it.";
+inline constexpr ParamSpec kPositionSigma = pose_doubt::position_sigma(0.02, kPositionSigmaDoc);
+inline constexpr ParamSpec kHeadingSigma = pose_doubt::heading_sigma(
+    1, "Standard deviation of the heading where messages do not have it.");
 
 inline constexpr std::array<ParamSpec, 1> kLaserParams{topic_param("scan")};
 inline constexpr std::array<ParamSpec, 1> kRangeParams{topic_param("range")};
@@ -69,8 +71,7 @@ inline constexpr std::array<ParamSpec, 8> kGpsParams{
         "geo_origin", "", -360, 1e5,
         "Of the world: latitude, longitude (deg), altitude (m), yaw of x from east (deg); "
         "without it that of the scenario."),
-    number_param("position_sigma_m", "m", 2.5, 0, 1000,
-                 "Standard deviation of x and y where messages do not have it."),
+    pose_doubt::position_sigma(2.5, kPositionSigmaDoc, 1000),
     kHeadingSigma,
     number_param("course_distance_m", "m", 0.5, 0.01, 1000,
                  "Without `imu_topic`: way between two fixes from which a heading follows."),
@@ -101,19 +102,10 @@ inline constexpr std::array<ParamSpec, 6> kVelocityParams{
 struct DeviceOptions {
   ros2::Network network;
   std::string name_space;
-  double latency_s = 0;
-  double start_timeout_s = 0;
-  double lost_after_s = 0;
+  line::Timing timing;
 };
 
 /// Errors: those of ros2::whole_name() for the namespace.
 [[nodiscard]] Result<DeviceOptions> read_options(const Params& params, const char* robot);
-
-/// Variances of a pose whose message has none.
-struct Doubt {
-  double variance_xy_m2 = 0;
-  double variance_yaw_rad2 = 0;
-};
-[[nodiscard]] Doubt read_doubt(const Params& params);
 
 }  // namespace rave::ros2_driver

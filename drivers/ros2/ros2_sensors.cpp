@@ -49,15 +49,15 @@ Status Ros2TfPose::prepare(const Params& params, HardwareDeclaration& /*declarat
   doubt_ = read_doubt(params);
   map_frame_ = params.text("map_frame");
   base_frame_ = params.text("base_frame");
-  RAVE_TRY(make_reader(params.text("topic"), moving_, ros2::kReadMany));
-  RAVE_TRY(make_reader(params.text("static_topic"), static_, ros2::kReadKept));
+  RAVE_TRY(make_reader(params.text("topic"), main_, ros2::kReadMany));
+  RAVE_TRY(make_reader(params.text("static_topic"), beside_, ros2::kReadKept));
   return await_chain();
 }
 
 Status Ros2TfPose::await_chain() {
   std::string missing;
-  Status heard = device().await(*moving_, [this, &missing](const ros2::TfMessage& message) {
-    add(*static_, true);
+  Status heard = device().await(*main_, [this, &missing](const ros2::TfMessage& message) {
+    add(*beside_, true);
     if (!tree_.add(message, false)) return false;
     const auto found = tree_.find(map_frame_, base_frame_);
     missing = found ? "" : found.error().message;
@@ -75,13 +75,13 @@ void Ros2TfPose::add(ros2::Reader<ros2::TfMessage>& reader, bool is_static) {
 }
 
 void Ros2TfPose::drain() {
-  add(*static_, true);
+  add(*beside_, true);
   // After each message, so that a burst gives each of its poses.
-  moving_->take([this](const ros2::TfMessage& message) {
+  main_->take([this](const ros2::TfMessage& message) {
     Status added = tree_.add(message, false);
     auto found = tree_.find(map_frame_, base_frame_);
     if (!added || !found) {
-      moving_->refuse(added ? std::move(found).error() : std::move(added).error());
+      main_->refuse(added ? std::move(found).error() : std::move(added).error());
       return;
     }
     // Most messages are of other frames.
@@ -93,14 +93,9 @@ void Ros2TfPose::drain() {
   });
 }
 
-void Ros2TfPose::look_after(TopicState& state) {
-  look_at(*moving_, state);
-  look_at(*static_, state);
-}
-
 std::string Ros2TfPose::explain_silence() const {
   const auto found = tree_.find(map_frame_, base_frame_);
-  return found ? moving_->explain_silence() : found.error().message;
+  return found ? main_->explain_silence() : found.error().message;
 }
 
 }  // namespace rave::ros2_driver

@@ -90,28 +90,22 @@ using Ros2Imu = Ros2Values<ros2::Imu, 10, imu_values>;
 /// NaN: not measured.
 using Ros2Battery = Ros2Values<ros2::BatteryState, 6, battery_values>;
 
-/// The pose as the chain of transforms from the map to the robot's body.
-class Ros2TfPose final : public TopicSensor {
+/// The pose as the chain of transforms from the map to the robot's body. Those that never change
+/// are on the topic beside that of the others.
+class Ros2TfPose final : public TwoTopicSensor<ros2::TfMessage, ros2::TfMessage> {
  public:
   static constexpr ReadingKind kReading = ReadingKind::kPose;
 
  private:
   Status prepare(const Params& params, HardwareDeclaration& declaration) override;
   void drain() override;
-  void look_after(TopicState& state) override;
   [[nodiscard]] std::string explain_silence() const override;
-  [[nodiscard]] const std::string& topic() const override { return moving_->topic(); }
-  [[nodiscard]] std::vector<dds_entity_t> readers() const override {
-    return {moving_->handle(), static_->handle()};
-  }
   void add(ros2::Reader<ros2::TfMessage>& reader, bool is_static);
   [[nodiscard]] Status await_chain();
 
   std::string map_frame_;
   std::string base_frame_;
   Doubt doubt_;
-  std::optional<ros2::Reader<ros2::TfMessage>> moving_;
-  std::optional<ros2::Reader<ros2::TfMessage>> static_;
   TfTree tree_;
   std::int64_t newest_ns_ = 0;
 };

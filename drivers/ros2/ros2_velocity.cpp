@@ -55,7 +55,7 @@ Result<bool> Ros2Velocity::find_stamped(const std::string& topic, std::string_vi
   const ros2::Participant& participant = device_->participant();
   RAVE_TRY_ASSIGN(const ros2::Waiter waiter, ros2::Waiter::create(participant));
   RAVE_TRY(waiter.watch(participant.news(false)));
-  const double limit_s = device_->options().start_timeout_s;
+  const double limit_s = device_->options().timing.start_timeout_s;
   const line::HostTime end = line::after_seconds(line::host_now(), limit_s);
   while (true) {
     for (const ros2::RemoteEnd& reader : participant.others(false)) {

@@ -61,13 +61,13 @@ line::HostTime TopicSensor::attend(line::HostTime now) {
     lost_ = false;
     return line::HostTime::max();
   }
-  const line::HostTime lost_at = line::after_seconds(last_, device_->options().lost_after_s);
+  const line::HostTime lost_at = line::after_seconds(last_, device_->options().timing.lost_after_s);
   if (lost_ || now < lost_at) return lost_ ? line::HostTime::max() : lost_at;
   lost_ = true;
   ++state_.losses;
   device_->heard(false);
   state_.trouble = fmt::format("no message has come on `{}` for {} s: {}", topic(),
-                               device_->options().lost_after_s, explain_silence());
+                               device_->options().timing.lost_after_s, explain_silence());
   sink_->fail(state_.trouble.data(), state_.trouble.size());
   return line::HostTime::max();
 }
@@ -86,7 +86,8 @@ void TopicSensor::publish(std::int64_t stamp_ns, const void* records, std::uint3
                      std::chrono::duration<double>(now - first_).count();
   }
   // Moments do not step back, but a better estimate of the clock may say so.
-  const SimTime moment = line::run_stamp(*sink_, taken.host_s - device_->options().latency_s);
+  const SimTime moment =
+      line::run_stamp(*sink_, taken.host_s - device_->options().timing.latency_s);
   last_stamp_ns_ = std::max(moment.ns, last_stamp_ns_);
   (void)sink_->publish(SimTime{last_stamp_ns_}, records, count);
 }

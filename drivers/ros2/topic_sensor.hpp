@@ -130,4 +130,25 @@ class OneTopicSensor : public TopicSensor {
   std::optional<ros2::Reader<Message>> reader_;
 };
 
+/// A sensor that lives on one topic and may read another one beside it. prepare() makes `main_`
+/// and, if there is to be one, `beside_`.
+template <class Message, class Beside>
+class TwoTopicSensor : public TopicSensor {
+ protected:
+  void look_after(TopicState& state) final {
+    look_at(*main_, state);
+    if (beside_) look_at(*beside_, state);
+  }
+  [[nodiscard]] std::string explain_silence() const override { return main_->explain_silence(); }
+  [[nodiscard]] const std::string& topic() const final { return main_->topic(); }
+  [[nodiscard]] std::vector<dds_entity_t> readers() const final {
+    std::vector<dds_entity_t> all{main_->handle()};
+    if (beside_) all.push_back(beside_->handle());
+    return all;
+  }
+
+  std::optional<ros2::Reader<Message>> main_;
+  std::optional<ros2::Reader<Beside>> beside_;
+};
+
 }  // namespace rave::ros2_driver

@@ -7,17 +7,13 @@ namespace rave::scip {
 
 Result<LaserOptions> read_options(const Params& params) {
   LaserOptions options;
-  RAVE_TRY_ASSIGN(
-      options.address,
-      line::parse_address(params.text("device"), params.integer("baud"), params.text("address")));
+  RAVE_TRY_ASSIGN(options.address, line::read_address(params));
   options.continuous = params.text("mode") != "polled";
   options.characters = params.text("characters") == "two" ? 2 : 3;
   options.first_step = static_cast<std::int32_t>(params.integer("first_step"));
   options.last_step = static_cast<std::int32_t>(params.integer("last_step"));
   options.skip_scans = static_cast<std::int32_t>(params.integer("skip_scans"));
-  options.latency_s = params.number("latency_s");
-  options.start_timeout_s = params.number("start_timeout_s");
-  options.lost_after_s = params.number("lost_after_s");
+  options.timing = line::read_timing(params);
   return options;
 }
 

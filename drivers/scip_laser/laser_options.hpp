@@ -4,6 +4,7 @@
 #include <array>
 
 #include "line/address.hpp"
+#include "line/timing.hpp"
 #include "rave/robot/hardware_sensor.hpp"
 #include "scip_laser/scip_parameters.hpp"
 #include "scip_laser/scip_scan.hpp"
@@ -17,7 +18,7 @@ inline constexpr std::array<ParamSpec, 11> kLaserParams{
     text_param("device", "", "Serial device, such as /dev/ttyACM0; or give `address`."),
     integer_param("baud", 115200, 1200, 1000000,
                   "Bit rate of a serial line after power-on; without meaning on USB."),
-    text_param("address", "", "TCP server, `host:port`; or give `device`."),
+    line::kAddressParam,
     choice_param("mode", "continuous", kModes,
                  "Whether the device sends by itself (MD, MS) or is asked for each scan (GD, GS)."),
     choice_param("characters", "three", kEncodings,
@@ -25,12 +26,9 @@ inline constexpr std::array<ParamSpec, 11> kLaserParams{
     integer_param("first_step", -1, -1, 9999, "First step to read; -1: the device's first."),
     integer_param("last_step", -1, -1, 9999, "Last step to read; -1: the device's last."),
     integer_param("skip_scans", 0, 0, 9, "Scans left out between two, in continuous mode."),
-    number_param("latency_s", "s", 0, 0, 1,
-                 "Known smallest time from the stamp of a scan to its first byte here."),
-    number_param("start_timeout_s", "s", 5, 0.1, 600,
-                 "How long the start of a run waits for the device."),
-    number_param("lost_after_s", "s", 2, 0.1, 600,
-                 "A device that is away for longer is reported as gone."),
+    line::latency_param("Known smallest time from the stamp of a scan to its first byte here."),
+    line::start_timeout_param("How long the start of a run waits for the device."),
+    line::lost_after_param(2, "A device that is away for longer is reported as gone."),
 };
 
 /// The parameters, read and checked.
@@ -41,12 +39,10 @@ struct LaserOptions {
   std::int32_t first_step = -1;
   std::int32_t last_step = -1;
   std::int32_t skip_scans = 0;
-  double latency_s = 0;
-  double start_timeout_s = 0;
-  double lost_after_s = 0;
+  line::Timing timing;
 };
 
-/// Errors: those of line::parse_address.
+/// Errors: those of line::read_address.
 [[nodiscard]] Result<LaserOptions> read_options(const Params& params);
 
 /// What to ask of a device. Error (kInvalidArgument): steps that it does not have.

@@ -4,12 +4,12 @@
 #include <limits>
 #include <mutex>
 #include <stop_token>
-#include <system_error>
 #include <thread>
 #include <vector>
 
 #include "line/backoff.hpp"
 #include "line/clock_offset.hpp"
+#include "rave/base/thread.hpp"
 #include "rave/robot/plugin_entry.hpp"
 #include "scip_laser/laser_options.hpp"
 #include "scip_laser/laser_report.hpp"
@@ -80,7 +80,7 @@ class ScipLaser final : public HardwareSensor {
 };
 
 Result<Identity> ScipLaser::find_device() {
-  const HostTime end = line::after_seconds(line::host_now(), options_.start_timeout_s);
+  const HostTime end = line::after_seconds(line::host_now(), options_.timing.start_timeout_s);
   line::Backoff backoff;
   while (true) {
     auto found = [&]() -> Result<Identity> {
@@ -91,7 +91,7 @@ Result<Identity> ScipLaser::find_device() {
     if (found) return found;
     if (line::host_now() >= end) {
       return fail(ErrorCode::kTimeout, "no SCIP 2.0 device answered at `{}` within {} s: {}",
-                  options_.address.text(), options_.start_timeout_s, found.error().message);
+                  options_.address.text(), options_.timing.start_timeout_s, found.error().message);
     }
     (void)wake_.wait(std::min(backoff.next(), line::until(end)));
   }
@@ -122,12 +122,8 @@ Status ScipLaser::open(SampleSink& sink) {
   last_stamp_ns_ = std::numeric_limits<std::int64_t>::min();
   loss_reported_ = false;
   note([](LaserState& state) { state = {}; });
-  try {
-    thread_ = std::jthread([this, &sink](const std::stop_token& stop) { run(sink, stop); });
-  } catch (const std::system_error& e) {
-    return fail(ErrorCode::kIo, "cannot start the thread of the laser: {}", e.what());
-  }
-  return {};
+  return start_thread(thread_, "the laser",
+                      [this, &sink](const std::stop_token& stop) { run(sink, stop); });
 }
 
 void ScipLaser::close() {
@@ -159,12 +155,14 @@ void ScipLaser::run(SampleSink& sink, const std::stop_token& stop) {
 }
 
 void ScipLaser::report_loss(SampleSink& sink, HostTime last_scan, const Error& why) {
-  if (loss_reported_ || line::host_now() < line::after_seconds(last_scan, options_.lost_after_s)) {
+  if (loss_reported_ ||
+      line::host_now() < line::after_seconds(last_scan, options_.timing.lost_after_s)) {
     return;
   }
   loss_reported_ = true;
-  const std::string text = fmt::format("the laser at `{}` has been away for more than {} s: {}",
-                                       options_.address.text(), options_.lost_after_s, why.message);
+  const std::string text =
+      fmt::format("the laser at `{}` has been away for more than {} s: {}", options_.address.text(),
+                  options_.timing.lost_after_s, why.message);
   sink.fail(text.data(), text.size());
 }
 
@@ -241,7 +239,7 @@ bool ScipLaser::take(const ScipSession::Next& next, Stretch& stretch, SampleSink
   if (stretch.scans++ == 0) stretch.first_device_s = device_s;
   stretch.last_device_s = device_s;
   stretch.clock.add(device_s, line::host_seconds(next.arrived));
-  const double host_s = device_s + stretch.clock.offset_s(device_s) - options_.latency_s;
+  const double host_s = device_s + stretch.clock.offset_s(device_s) - options_.timing.latency_s;
   const SimTime stamp = line::run_stamp(sink, host_s);
   const bool in_order = stamp.ns > last_stamp_ns_;
   if (in_order) {

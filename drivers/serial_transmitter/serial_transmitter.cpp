@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stop_token>
-#include <system_error>
 #include <thread>
 
 #include "line/backoff.hpp"
 #include "line/byte_line.hpp"
+#include "rave/base/thread.hpp"
 #include "rave/robot/plugin_entry.hpp"
 #include "serial_transmitter/serial_frame.hpp"
 
@@ -84,8 +84,7 @@ Status SerialTransmitter::configure(const HardwareSetup& setup,
                                     TransmitterDeclaration& declaration) {
   const Params params = setup.parameters();
   const bool serial = !params.text("device").empty();
-  RAVE_TRY_ASSIGN(address_, line::parse_address(params.text("device"), params.integer("baud"),
-                                                params.text("address")));
+  RAVE_TRY_ASSIGN(address_, line::read_address(params));
   byte_rate_ = params.number("byte_rate");
   // Eight data bits between a start and a stop bit.
   const double line_rate = serial ? static_cast<double>(params.integer("baud")) / 10 : 0;
@@ -118,14 +117,10 @@ Status SerialTransmitter::open(PacketSink& sink) {
     connected_ = true;
   }
   free_at_ = line::host_now();
-  try {
-    thread_ = std::jthread([this, opened = std::move(line)](const std::stop_token& stop) mutable {
-      run(std::move(opened), stop);
-    });
-  } catch (const std::system_error& e) {
-    return fail(ErrorCode::kIo, "cannot start the thread of the line: {}", e.what());
-  }
-  return {};
+  return start_thread(thread_, "the line",
+                      [this, opened = std::move(line)](const std::stop_token& stop) mutable {
+                        run(std::move(opened), stop);
+                      });
 }
 
 Status SerialTransmitter::send(std::span<const std::byte> packet) {

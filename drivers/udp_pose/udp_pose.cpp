@@ -5,14 +5,16 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <stop_token>
-#include <system_error>
 #include <thread>
 
-#include "rave/math/scalar.hpp"
+#include "line/datagram_socket.hpp"
+#include "line/timing.hpp"
+#include "pose_doubt/pose_doubt.hpp"
+#include "rave/base/thread.hpp"
 #include "rave/robot/plugin_entry.hpp"
 #include "udp_pose/pose_stream.hpp"
-#include "udp_pose/udp_socket.hpp"
 
 namespace rave::udp_pose {
 namespace {
@@ -22,15 +24,14 @@ constexpr std::array<ParamSpec, 8> kParams{
     required(integer_param("port", 0, 0, 65535, "UDP port to listen on; 0: a free one.")),
     text_param("listen", "127.0.0.1",
                "Numeric address to listen on; 0.0.0.0 takes datagrams of other machines."),
-    number_param("position_sigma_m", "m", 0.001, 0, 10,
-                 "Standard deviation of x and y where a datagram has no `cov`."),
-    number_param("heading_sigma_deg", "deg", 0.5, 0, 180,
-                 "Standard deviation of the heading where a datagram has no `cov`."),
+    pose_doubt::position_sigma(0.001,
+                               "Standard deviation of x and y where a datagram has no `cov`."),
+    pose_doubt::heading_sigma(0.5,
+                              "Standard deviation of the heading where a datagram has no `cov`."),
     number_param("max_delay_s", "s", 0.2, 0.001, 60,
                  "A sample that took longer, beyond the smallest delay, is dropped."),
-    number_param("latency_s", "s", 0, 0, 10, "Known smallest time from a pose to its arrival."),
-    number_param("lost_after_s", "s", 2, 0.1, 600,
-                 "A stream that is silent for longer is reported as gone."),
+    line::latency_param("Known smallest time from a pose to its arrival.", 10),
+    line::lost_after_param(2, "A stream that is silent for longer is reported as gone."),
 };
 
 /// Poses that somebody else measures and sends. configure(), open(), close() and report() belong
@@ -52,12 +53,11 @@ class UdpPose final : public HardwareSensor {
 
   std::string body_;
   std::string listen_;
-  double variance_xy_m2_ = 0;
-  double variance_yaw_rad2_ = 0;
+  pose_doubt::Doubt doubt_;
   double max_delay_s_ = 0;
   double latency_s_ = 0;
   double lost_after_s_ = 0;
-  std::optional<UdpSocket> socket_;
+  std::optional<line::DatagramSocket> socket_;
   line::Wake wake_;
   std::int64_t last_stamp_ns_ = 0;  // of the driver's thread
 
@@ -71,17 +71,14 @@ Status UdpPose::configure(const HardwareSetup& setup, HardwareDeclaration& decla
   body_ = params.text("body");
   if (body_.empty()) return fail(ErrorCode::kInvalidArgument, "`body` is empty");
   listen_ = params.text("listen");
-  const double sigma_m = params.number("position_sigma_m");
-  const double sigma_rad = deg_to_rad(params.number("heading_sigma_deg"));
-  variance_xy_m2_ = sigma_m * sigma_m;
-  variance_yaw_rad2_ = sigma_rad * sigma_rad;
+  doubt_ = pose_doubt::read_doubt(params);
   max_delay_s_ = params.number("max_delay_s");
   latency_s_ = params.number("latency_s");
   lost_after_s_ = params.number("lost_after_s");
   RAVE_TRY(wake_.open());
   // Here and not in open(), so that a port in use is an error of the start and keeps its number.
-  RAVE_TRY_ASSIGN(socket_,
-                  UdpSocket::listen(listen_, static_cast<std::uint16_t>(params.integer("port"))));
+  const auto port = static_cast<std::uint16_t>(params.integer("port"));
+  RAVE_TRY_ASSIGN(socket_, line::DatagramSocket::open(listen_, port, nullptr));
   declaration.capacity = 1;
   declaration.clock = DriverClock::kLive;
   return {};
@@ -96,12 +93,8 @@ Status UdpPose::open(SampleSink& sink) {
     const std::lock_guard lock(mutex_);
     state_ = {};
   }
-  try {
-    thread_ = std::jthread([this, &sink](const std::stop_token& stop) { run(sink, stop); });
-  } catch (const std::system_error& e) {
-    return fail(ErrorCode::kIo, "cannot start the thread of the pose stream: {}", e.what());
-  }
-  return {};
+  return start_thread(thread_, "the pose stream",
+                      [this, &sink](const std::stop_token& stop) { run(sink, stop); });
 }
 
 void UdpPose::close() {
@@ -114,7 +107,8 @@ void UdpPose::close() {
 void UdpPose::run(SampleSink& sink, const std::stop_token& stop) {
   PoseStream stream(body_, max_delay_s_);
   PoseDatagram datagram;
-  std::array<char, kMaxDatagram + 1> room{};  // one more: a longer one must not look whole
+  std::array<char, kMaxDatagram + 1> text{};  // one more: a longer one must not look whole
+  const auto room = std::as_writable_bytes(std::span(text));
   std::uint64_t held_back = 0;
   bool silence_reported = false;
   line::HostTime silent_at = line::after_seconds(line::host_now(), lost_after_s_);
@@ -127,7 +121,7 @@ void UdpPose::run(SampleSink& sink, const std::stop_token& stop) {
     if (got.end == line::ReadEnd::kWoken) return;
     if (got.end == line::ReadEnd::kBytes) {
       const double now_s = line::host_seconds(line::host_now());
-      const auto taken = stream.take({room.data(), got.size}, now_s, datagram);
+      const auto taken = stream.take({text.data(), got.size}, now_s, datagram);
       if (taken.verdict == PoseStream::Verdict::kAccepted) {
         if (!publish(datagram, taken.host_s, sink)) ++held_back;
         silent_at = line::after_seconds(line::host_now(), lost_after_s_);
@@ -149,8 +143,8 @@ bool UdpPose::publish(const PoseDatagram& datagram, double host_s, SampleSink& s
   const SimTime stamp = line::run_stamp(sink, host_s - latency_s_);
   if (stamp.ns <= last_stamp_ns_) return false;
   last_stamp_ns_ = stamp.ns;
-  PoseReading pose{datagram.x_m, datagram.y_m, datagram.yaw_rad, variance_xy_m2_,
-                   variance_yaw_rad2_};
+  PoseReading pose{datagram.x_m, datagram.y_m, datagram.yaw_rad, doubt_.variance_xy_m2,
+                   doubt_.variance_yaw_rad2};
   if (datagram.variance) {
     // One number stands for both axes: the larger, which promises no more than the sender does.
     pose.variance_xy_m2 = std::max(datagram.variance->x_m2, datagram.variance->y_m2);

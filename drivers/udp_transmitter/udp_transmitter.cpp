@@ -5,11 +5,11 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stop_token>
-#include <system_error>
 #include <thread>
 
+#include "line/datagram_socket.hpp"
+#include "rave/base/thread.hpp"
 #include "rave/robot/plugin_entry.hpp"
-#include "udp_transmitter/datagram_socket.hpp"
 
 namespace rave::udp_transmitter {
 namespace {
@@ -32,13 +32,13 @@ class UdpTransmitter final : public Transmitter {
  public:
   Status configure(const HardwareSetup& setup, TransmitterDeclaration& declaration) override {
     const Params params = setup.parameters();
-    auto peers = parse_peers(params.text("peers"));
+    auto peers = line::parse_peers(params.text("peers"));
     if (!peers) return tl::unexpected(std::move(peers).error().with_context("`peers`"));
     peers_ = *std::move(peers);
-    std::optional<Peer> group;
+    std::optional<line::Peer> group;
     auto port = static_cast<std::uint16_t>(params.integer("port"));
     if (!params.text("group").empty()) {
-      auto parsed = parse_peer(params.text("group"));
+      auto parsed = line::parse_peer(params.text("group"));
       if (!parsed) return tl::unexpected(std::move(parsed).error().with_context("`group`"));
       if (port != 0) {
         return fail(ErrorCode::kInvalidArgument, "`port` is that of `group`: give one of both");
@@ -51,8 +51,8 @@ class UdpTransmitter final : public Transmitter {
                   "expected `peers`, `group` or `port`: it would neither send nor be found");
     }
     RAVE_TRY(wake_.open());
-    RAVE_TRY_ASSIGN(socket_, DatagramSocket::open(std::string(params.text("listen")), port,
-                                                  group ? &*group : nullptr));
+    RAVE_TRY_ASSIGN(socket_, line::DatagramSocket::open(std::string(params.text("listen")), port,
+                                                        group ? &*group : nullptr));
     declaration.max_packet_bytes = kMaxPacket;
     declaration.byte_rate = params.number("byte_rate");
     declaration.network = radio_name_hash(params.text("network"));
@@ -66,17 +66,12 @@ class UdpTransmitter final : public Transmitter {
     wake_.clear();
     sink_ = &sink;
     failed_ = false;
-    try {
-      thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
-    } catch (const std::system_error& e) {
-      return fail(ErrorCode::kIo, "cannot start the thread of the socket: {}", e.what());
-    }
-    return {};
+    return start_thread(thread_, "the socket", [this](const std::stop_token& stop) { run(stop); });
   }
 
   Status send(std::span<const std::byte> packet) override {
     Status worst;
-    for (const Peer& peer : peers_) {
+    for (const line::Peer& peer : peers_) {
       Status status = socket_->send(packet, peer);
       if (!status) worst = std::move(status);
     }
@@ -123,8 +118,8 @@ class UdpTransmitter final : public Transmitter {
     }
   }
 
-  std::vector<Peer> peers_;
-  std::optional<DatagramSocket> socket_;
+  std::vector<line::Peer> peers_;
+  std::optional<line::DatagramSocket> socket_;
   line::Wake wake_;
   PacketSink* sink_ = nullptr;
   bool failed_ = false;  // of the host's thread, as the next two

@@ -25,6 +25,11 @@ class DeviceUnderTest {
     setup.step_s = step_s;
     return setup;
   }
+  void start() {
+    const DeviceSetup device = setup();
+    ErrorText error;
+    ASSERT_EQ(ops().start(instance(), &device, &error), 0) << error.text;
+  }
 
  private:
   PluginUnderTest plugin_;
@@ -42,11 +47,6 @@ class ControllerUnderTest : public DeviceUnderTest<ControllerOps, DriverKind::kC
  public:
   using DeviceUnderTest::DeviceUnderTest;
 
-  void start() {
-    const DeviceSetup device = setup();
-    ErrorText error;
-    ASSERT_EQ(ops().start(instance(), &device, &error), 0) << error.text;
-  }
   Command control(const ControlInput& input) {
     Command output;
     std::uint8_t failed = 0;
@@ -61,11 +61,6 @@ class ActuatorUnderTest : public DeviceUnderTest<VirtualActuatorOps, DriverKind:
  public:
   using DeviceUnderTest::DeviceUnderTest;
 
-  void start() {
-    const DeviceSetup device = setup();
-    ErrorText error;
-    ASSERT_EQ(ops().start(instance(), &device, &error), 0) << error.text;
-  }
   Twist2 propose(const MotionInput& input) {
     Twist2 output;
     std::uint8_t failed = 0;

@@ -4,6 +4,7 @@
 #include <arpa/inet.h>
 #include <sys/socket.h>
 
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -31,6 +32,9 @@ inline int free_port() {
 }
 
 using testing::RaveRun;
+
+/// Between two looks at a run through a process of `rave`.
+inline constexpr std::chrono::milliseconds kAskRave{50};
 
 /// The robot as a peer, and a scenario that it takes part in.
 class CreateRun : public testing::ScenarioRun {

@@ -25,8 +25,8 @@ struct Place {
   double yaw_rad = 0;
 };
 
-/// Where the robot is, as `rave ps` says.
-std::optional<Place> place_of(const CreateRun& run) {
+/// Where the robot of the only run is, as `rave ps` says.
+std::optional<Place> place_of_rosie() {
   const std::string text = CreateRun::rave_says("ps --robots").text;
   std::size_t at = text.find("rosie");
   if (at == std::string::npos) return std::nullopt;
@@ -39,26 +39,26 @@ std::optional<Place> place_of(const CreateRun& run) {
     return std::nullopt;
   }
   place.yaw_rad = yaw_deg * 3.14159265358979 / 180;
-  static_cast<void>(run);
   return place;
 }
 
 template <class Wanted>
-Place await_place(const CreateRun& run, Wanted wanted) {
-  const auto end = std::chrono::steady_clock::now() + testing::kLong;
-  std::optional<Place> now = place_of(run);
-  while ((!now || !wanted(*now)) && std::chrono::steady_clock::now() < end) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    now = place_of(run);
-  }
-  EXPECT_TRUE(now && wanted(*now)) << (now ? now->x_m : -1) << " " << (now ? now->y_m : -1);
+Place await_place(Wanted wanted) {
+  std::optional<Place> now;
+  const bool came = testing::await(
+      [&] {
+        now = place_of_rosie();
+        return now && wanted(*now);
+      },
+      kAskRave);
+  EXPECT_TRUE(came) << (now ? now->x_m : -1) << " " << (now ? now->y_m : -1);
   return now.value_or(Place{});
 }
 
 /// Waits until it is at one place in two looks.
-Place await_standing(const CreateRun& run) {
+Place await_standing() {
   std::optional<Place> before;
-  return await_place(run, [&](const Place& now) {
+  return await_place([&](const Place& now) {
     const bool stands = before && std::hypot(now.x_m - before->x_m, now.y_m - before->y_m) < 1e-3;
     before = now;
     return stands;
@@ -94,9 +94,9 @@ TEST_F(HandOver, ToTheRealRobotAndBackKeepsPlaceAndProgram) {
   CreateRun run("create-simulated", 600, {"--slip", "0.02,0.04"}, "", "", "create", "", kGoals);
   run.start();
   // Past the first goal, and then held where it is.
-  await_place(run, [](const Place& at) { return at.x_m > 1.9; });
+  await_place([](const Place& at) { return at.x_m > 1.9; });
   EXPECT_EQ(CreateRun::rave_says("stop --robot rosie").exit_code, 0);
-  const Place stands = await_standing(run);
+  const Place stands = await_standing();
   run.peer->tell("place " + std::to_string(stands.x_m) + " " + std::to_string(stands.y_m) + " " +
                  std::to_string(stands.yaw_rad));
   const double path_before_m = run.state()["path_m"];
@@ -114,10 +114,9 @@ TEST_F(HandOver, ToTheRealRobotAndBackKeepsPlaceAndProgram) {
 
   const auto simulated = CreateRun::rave_says("hand-over rosie simulated");
   ASSERT_EQ(simulated.exit_code, 0) << simulated.text;
-  const Json left =
-      run.await_state([](const Json& s) { return s["left_mps"] == 0.0 && s["right_mps"] == 0.0; });
+  const Json left = run.await_state(testing::wheels_stand);
   // The simulated robot ends the way alone.
-  await_place(run, [](const Place& at) { return std::hypot(at.x_m - 1, at.y_m - 0.8) < 0.3; });
+  await_place([](const Place& at) { return std::hypot(at.x_m - 1, at.y_m - 0.8) < 0.3; });
   EXPECT_NEAR(run.state()["path_m"].get<double>(), left["path_m"].get<double>(), 1e-3);
   EXPECT_EQ(run.state()["mode"], "passive") << "it is left at rest";
   run.rave->interrupt();
@@ -137,19 +136,19 @@ TEST_F(HandOver, ToARobotThatIsNotThereIsRefusedAndTheRunGoesOn) {
   CreateRun run("create-simulated", 600, {}, "", "", "create");
   run.peer->tell("vanish");
   run.start();
-  await_place(run, [](const Place&) { return true; });
+  await_place([](const Place&) { return true; });
   const auto real = CreateRun::rave_says("hand-over rosie real");
   EXPECT_EQ(real.exit_code, 1);
   EXPECT_NE(real.text.find("no robot with the Open Interface answered"), std::string::npos)
       << real.text;
-  const Place before = await_place(run, [](const Place&) { return true; });
-  await_place(run, [&](const Place& now) {
+  const Place before = await_place([](const Place&) { return true; });
+  await_place([&](const Place& now) {
     return std::hypot(now.x_m - before.x_m, now.y_m - before.y_m) > 0.1;
   });
   // It comes back, but stands elsewhere: so does the answer.
   run.peer->tell("return");
   EXPECT_EQ(CreateRun::rave_says("stop --robot rosie").exit_code, 0);
-  const Place stands = await_standing(run);
+  const Place stands = await_standing();
   run.peer->tell("place " + std::to_string(stands.x_m > 2 ? 0.5 : 3.5) + " 0.5 0");
   const auto far = CreateRun::rave_says("hand-over rosie real");
   EXPECT_EQ(far.exit_code, 1);
@@ -166,12 +165,12 @@ TEST_F(HandOver, ARobotThatVanishesAfterwardsIsALossAsAnyOther) {
   CreateRun run("create-simulated", 600, {}, "", "", "create",
                 "    hand_over: {within_m: 5, within_deg: 180}\n");
   run.start();
-  await_place(run, [](const Place&) { return true; });
+  await_place([](const Place&) { return true; });
   const auto real = CreateRun::rave_says("hand-over rosie real");
   ASSERT_EQ(real.exit_code, 0) << real.text;
-  run.await_state([](const Json& s) { return std::abs(s["left_mps"].get<double>()) > 0.05; });
+  run.await_state(testing::wheels_turn);
   run.peer->tell("vanish");
-  run.await_state([](const Json& s) { return s["left_mps"] == 0.0 && s["right_mps"] == 0.0; });
+  run.await_state(testing::wheels_stand);
   // Nobody can see whether it stands, so the simulated one does not begin elsewhere.
   const auto simulated = CreateRun::rave_says("hand-over rosie simulated");
   EXPECT_EQ(simulated.exit_code, 1);

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "create_run.hpp"
 
 namespace rave::tests {
 namespace {
 
 using Json = nlohmann::json;
-
-bool drives(const Json& s) { return std::abs(s["left_mps"].get<double>()) > 0.05; }
-bool stands(const Json& s) { return s["left_mps"] == 0.0 && s["right_mps"] == 0.0; }
 
 TEST(CreateRun, TheRealRobotObeysItsProgramAndTouchesNothing) {
   CreateRun run("create", 8,
@@ -29,7 +24,7 @@ TEST(CreateRun, TheRealRobotObeysItsProgramAndTouchesNothing) {
   EXPECT_EQ(device["device"], "base");
   EXPECT_EQ(device["driver"], "create_oi");
   EXPECT_GT(device["frames"], 50);
-  const Json truth = run.await_state(stands);
+  const Json truth = run.await_state(testing::wheels_stand);
   EXPECT_GT(truth["path_m"], 0.2);
   EXPECT_EQ(truth["touches"], 0);
   EXPECT_EQ(truth["mode"], "passive") << "it is left at rest";
@@ -53,9 +48,9 @@ TEST(CreateRun, AKilledDriverStopsTheRobotWithin300Milliseconds) {
   for (int times = 0; times < 3; ++times) {
     CreateRun run("create", 600);
     run.start();
-    run.await_state(drives);
+    run.await_state(testing::wheels_turn);
     run.rave->kill();
-    const Json now = run.await_state(stands);
+    const Json now = run.await_state(testing::wheels_stand);
     EXPECT_EQ(now["mode"], "safe") << "nobody told it to stop";
     EXPECT_GE(now["watchdog_stops"], 1);
     // From the last drive command to standstill, by the robot's own clock.
@@ -67,12 +62,12 @@ TEST(CreateRun, AKilledDriverStopsTheRobotWithin300Milliseconds) {
 TEST(CreateRun, ARobotThatVanishesAndReturnsDrivesOn) {
   CreateRun run("create", 600);
   run.start();
-  run.await_state(drives);
+  run.await_state(testing::wheels_turn);
   run.peer->tell("vanish");
-  run.await_state(stands);
+  run.await_state(testing::wheels_stand);
   std::this_thread::sleep_for(std::chrono::milliseconds(1500));  // it is away for longer than 1 s
   run.peer->tell("return");
-  run.await_state(drives);
+  run.await_state(testing::wheels_turn);
   run.rave->interrupt();
   EXPECT_EQ(run.rave->wait(), 1) << "a loss is a problem of the run";
   const Json result = run.result();

@@ -90,24 +90,22 @@ TEST(Shadow, IsALiveNumberThatCanBeginAnew) {
   CreateRun run("create", 600, {"--slip", "0.02,0.12"}, "", "", "create-simulated",
                 "    shadow: true\n");
   run.start();
-  const auto await = [&](auto wanted) {
-    const auto end = std::chrono::steady_clock::now() + testing::kLong;
-    Json now;
-    while (std::chrono::steady_clock::now() < end) {
-      const auto said = CreateRun::rave_says("shadow " + run.run_name() + " --json");
-      now = Json::parse(said.text, nullptr, false);
-      if (now.is_array() && now.size() == 1 && wanted(now[0])) return now[0];
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
-    ADD_FAILURE() << now.dump();
-    return now;
+  // Null as long as the run does not answer.
+  const auto shadow = [&]() -> Json {
+    const auto said = CreateRun::rave_says("shadow " + run.run_name() + " --json");
+    const Json all = Json::parse(said.text, nullptr, false);
+    return all.is_array() && all.size() == 1 ? all[0] : Json();
   };
-  const Json grown = await([](const Json& s) { return s["m"].get<double>() > 0.2; });
+  const auto await_shadow = [&](auto wanted) {
+    return testing::await_answer(
+        shadow, [&](const Json& s) { return s.is_object() && wanted(s); }, kAskRave);
+  };
+  const Json grown = await_shadow([](const Json& s) { return s["m"].get<double>() > 0.2; });
   EXPECT_TRUE(grown["running"]);
   const auto reset = CreateRun::rave_says("shadow " + run.run_name() + " --reset");
   EXPECT_EQ(reset.exit_code, 0) << reset.text;
   const Json anew =
-      await([&](const Json& s) { return s["since_s"].get<double>() > grown["since_s"]; });
+      await_shadow([&](const Json& s) { return s["since_s"].get<double>() > grown["since_s"]; });
   EXPECT_LT(anew["m"].get<double>(), 0.15);
   EXPECT_EQ(CreateRun::rave_says("shadow " + run.run_name() + " --reset --robot rosy").exit_code,
             1);

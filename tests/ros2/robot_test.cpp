@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // A robot of ROS 2 as a real robot of ours.
-#include <cmath>
 
 #include "ros2_run.hpp"
 
@@ -8,9 +7,6 @@ namespace rave::tests {
 namespace {
 
 using Json = nlohmann::json;
-
-bool drives(const Json& s) { return std::abs(s["left_mps"].get<double>()) > 0.05; }
-bool stands(const Json& s) { return s["left_mps"] == 0.0 && s["right_mps"] == 0.0; }
 
 /// robots/ros2-cart.yaml in the empty room of the peer, 6 m by 3 m, where a wall stands at x = 3 m
 /// that is virtual.
@@ -48,7 +44,7 @@ TEST(Ros2Robot, DrivesByItsProgramAndFeelsAVirtualWall) {
   EXPECT_TRUE(robot["obeys"]);
   EXPECT_GT(robot["way_m"], 1);
   EXPECT_EQ(result["devices"][0]["driver"], "ros2");
-  const Json truth = run.await_state(stands);
+  const Json truth = run.await_state(testing::wheels_stand);
   EXPECT_GT(truth["farthest_x"], 2.2) << "it drove up to the wall";
   EXPECT_LT(truth["farthest_x"], 3.0 - 0.174) << "and not into it, though the real laser saw none";
   EXPECT_EQ(truth["touches"], 0);
@@ -60,7 +56,7 @@ TEST(Ros2Robot, DrivesByItsProgramAndFeelsAVirtualWall) {
 TEST(Ros2Robot, ARobotThatIsKilledIsMarkedAndTheRunGoesOn) {
   CartRun run;
   ASSERT_NO_FATAL_FAILURE(run.start(600));
-  run.await_state(drives);
+  run.await_state(testing::wheels_turn);
   run.peer->tell("die");
   // The pose is stale after 0.5 s, and what reads a topic says so after 1 s.
   run.await_console("driver failed", 4);
@@ -76,9 +72,9 @@ TEST(Ros2Robot, ARobotThatIsKilledIsMarkedAndTheRunGoesOn) {
 TEST(Ros2Robot, ARobotWhoseHostIsKilledStopsByItself) {
   CartRun run;
   ASSERT_NO_FATAL_FAILURE(run.start(600));
-  run.await_state(drives);
+  run.await_state(testing::wheels_turn);
   run.rave->kill();
-  const Json now = run.await_state(stands);
+  const Json now = run.await_state(testing::wheels_stand);
   EXPECT_GE(now["watchdog_stops"], 1);
 }
 

@@ -3,7 +3,7 @@
 #include <span>
 
 #include "carmen/plugins/play.hpp"
-#include "rave/math/scalar.hpp"
+#include "pose_doubt/pose_doubt.hpp"
 #include "rave/robot/plugin_entry.hpp"
 #include "recording/player.hpp"
 
@@ -12,10 +12,8 @@ namespace {
 
 constexpr auto kParams = recording::join_params(
     kLogParams, std::array<ParamSpec, 2>{
-                    number_param("position_sigma_m", "m", 0.03, 0, 10,
-                                 "Standard deviation that each of x and y is said to have."),
-                    number_param("heading_sigma_deg", "deg", 0.3, 0, 180,
-                                 "Standard deviation that the heading is said to have."),
+                    pose_doubt::position_sigma(0.03, recording::kPositionSigmaDoc),
+                    pose_doubt::heading_sigma(0.3, recording::kHeadingSigmaDoc),
                 });
 
 /// Where the laser was at each scan, in the frame of the log.
@@ -27,11 +25,10 @@ struct Poses {
 
   static Result<recording::Played<PoseReading>> load(const HardwareSetup& setup) {
     RAVE_TRY_ASSIGN(const LogPlay play, load_play(setup));
-    const double sigma_m = setup.parameters().number("position_sigma_m");
-    const double sigma_rad = deg_to_rad(setup.parameters().number("heading_sigma_deg"));
+    const pose_doubt::Doubt doubt = pose_doubt::read_doubt(setup.parameters());
     const auto convert = [=](const Scan& scan) {
-      return PoseReading{scan.X_WL.x, scan.X_WL.y, scan.X_WL.yaw, sigma_m * sigma_m,
-                         sigma_rad * sigma_rad};
+      return PoseReading{scan.X_WL.x, scan.X_WL.y, scan.X_WL.yaw, doubt.variance_xy_m2,
+                         doubt.variance_yaw_rad2};
     };
     return recording::Played<PoseReading>{
         recording::state_timeline<PoseReading>(std::span(play.log.scans), play.log.start_ns,

@@ -4,11 +4,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <thread>
-
 #include "dds_transmitter/air_options.hpp"
 #include "rave/bus/reader.hpp"
 #include "rave/bus/writer.hpp"
+#include "rave/live_testing/await.hpp"
 #include "rave/live_testing/live_transmitter.hpp"
 #include "rave/robot/radio_packet.hpp"
 
@@ -44,111 +43,88 @@ std::string payload_of(const std::string& bytes) {
   return {reinterpret_cast<const char*>(packet->payload.data()), packet->payload.size()};
 }
 
-/// A hang guard of a minute.
-template <class Condition>
-bool wait_for(Condition condition) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+/// A transmitter in an air of its test, and what it hears. One with another queue has a participant
+/// of its own, as if it were in another process.
+struct Station {
+  explicit Station(const std::string& air, double queue_bytes = 100'000) {
+    EXPECT_EQ(radio.configure({{"network", network(air)}, {"queue_bytes", queue_bytes}}), "");
+    open();
   }
-  return true;
-}
+  void open() { EXPECT_EQ(radio.open(port), ""); }
+  /// Whether it comes to know so many other participants.
+  bool meets(int others) {
+    return await([&] { return radio.report()["others"] == others; });
+  }
+  [[nodiscard]] std::string heard(std::size_t packet) const {
+    return payload_of(port.packets()[packet]);
+  }
 
-bool hears(LiveTransmitter& transmitter, int others) {
-  return wait_for([&] { return transmitter.report()["others"] == others; });
-}
-
-/// A participant of its own in the same air.
-Given apart(const std::string& name, double queue_bytes) {
-  return {{"network", network(name)}, {"queue_bytes", queue_bytes}};
-}
+  LivePort port;  // before what hands packets to it
+  LiveTransmitter radio{"dds_transmitter"};
+};
 
 TEST(DdsTransmitter, CarriesPacketsBetweenProcessesAndWithinOne) {
-  LivePort ports[3];
-  LiveTransmitter a("dds_transmitter");
-  LiveTransmitter b("dds_transmitter");
-  LiveTransmitter c("dds_transmitter");
-  ASSERT_EQ(a.configure(apart("both", 100'000)), "");
-  ASSERT_EQ(b.configure(apart("both", 100'000)), "");
-  ASSERT_EQ(c.configure(apart("both", 200'000)), "");
-  ASSERT_EQ(a.open(ports[0]), "");
-  ASSERT_EQ(b.open(ports[1]), "");
-  ASSERT_EQ(c.open(ports[2]), "");
-  ASSERT_TRUE(hears(a, 1));
-  ASSERT_TRUE(hears(c, 1));
-  EXPECT_EQ(a.send(packet_from("anna", 1, "to both")), "");
-  ASSERT_TRUE(ports[1].wait_packets(1));
-  ASSERT_TRUE(ports[2].wait_packets(1));
-  EXPECT_EQ(payload_of(ports[1].packets()[0]), "to both");
-  EXPECT_EQ(payload_of(ports[2].packets()[0]), "to both");
-  EXPECT_EQ(read(ports[2].packets()[0])->network, c.declaration().network);
-  EXPECT_EQ(read(ports[2].packets()[0])->sender, radio_name_hash("anna"));
-  EXPECT_EQ(c.send(packet_from("carl", 1, std::string(1400 - 56, 'c'))), "");
-  for (LivePort* port : {&ports[0], &ports[1]}) ASSERT_TRUE(port->wait_packets(1));
-  EXPECT_EQ(payload_of(ports[0].packets()[0]), std::string(1400 - 56, 'c'));
+  Station a("both");
+  Station b("both");
+  Station c("both", 200'000);
+  ASSERT_TRUE(a.meets(1));
+  ASSERT_TRUE(c.meets(1));
+  EXPECT_EQ(a.radio.send(packet_from("anna", 1, "to both")), "");
+  for (Station* station : {&b, &c}) {
+    ASSERT_TRUE(station->port.wait_packets(1));
+    EXPECT_EQ(station->heard(0), "to both");
+  }
+  EXPECT_EQ(read(c.port.packets()[0])->network, c.radio.declaration().network);
+  EXPECT_EQ(read(c.port.packets()[0])->sender, radio_name_hash("anna"));
+  EXPECT_EQ(c.radio.send(packet_from("carl", 1, std::string(1400 - 56, 'c'))), "");
+  for (Station* station : {&a, &b}) ASSERT_TRUE(station->port.wait_packets(1));
+  EXPECT_EQ(a.heard(0), std::string(1400 - 56, 'c'));
   // Its own words do not come back.
-  EXPECT_EQ(ports[2].packets().size(), 1U);
-  EXPECT_EQ(a.send(packet_from("anna", 2, std::string(1400 - 55, 'c'))),
+  EXPECT_EQ(c.port.packets().size(), 1U);
+  EXPECT_EQ(a.radio.send(packet_from("anna", 2, std::string(1400 - 55, 'c'))),
             "1401 bytes that are no packet of at most 1400");
-  EXPECT_EQ(a.send("hello"), "5 bytes that are no packet of at most 1400");
+  EXPECT_EQ(a.radio.send("hello"), "5 bytes that are no packet of at most 1400");
   // Closed and opened again, as a reset of the run does.
-  a.close();
-  EXPECT_EQ(c.send(packet_from("carl", 2, "to b")), "");
-  ASSERT_TRUE(ports[1].wait_packets(3));
-  ASSERT_EQ(a.open(ports[0]), "");
-  EXPECT_EQ(c.send(packet_from("carl", 3, "again")), "");
-  ASSERT_TRUE(ports[0].wait_packets(2));
-  EXPECT_EQ(payload_of(ports[0].packets()[1]), "again");
+  a.radio.close();
+  EXPECT_EQ(c.radio.send(packet_from("carl", 2, "to b")), "");
+  ASSERT_TRUE(b.port.wait_packets(3));
+  a.open();
+  EXPECT_EQ(c.radio.send(packet_from("carl", 3, "again")), "");
+  ASSERT_TRUE(a.port.wait_packets(2));
+  EXPECT_EQ(a.heard(1), "again");
 }
 
 TEST(DdsTransmitter, TenThousandPacketsArriveOnceAndInTheirOrder) {
-  LivePort ports[2];
-  LiveTransmitter a("dds_transmitter");
-  LiveTransmitter b("dds_transmitter");
-  ASSERT_EQ(a.configure(apart("many", 4'000'000)), "");
-  ASSERT_EQ(b.configure(apart("many", 5'000'000)), "");
-  ASSERT_EQ(a.open(ports[0]), "");
-  ASSERT_EQ(b.open(ports[1]), "");
-  ASSERT_TRUE(hears(a, 1));
-  ASSERT_TRUE(hears(b, 1));
+  Station a("many", 4'000'000);
+  Station b("many", 5'000'000);
+  ASSERT_TRUE(a.meets(1));
+  ASSERT_TRUE(b.meets(1));
   constexpr std::uint32_t kCount = 10'000;
   for (std::uint32_t i = 1; i <= kCount; ++i) {
-    ASSERT_EQ(a.send(packet_from("anna", i, std::to_string(i))), "");
+    ASSERT_EQ(a.radio.send(packet_from("anna", i, std::to_string(i))), "");
   }
-  ASSERT_TRUE(ports[1].wait_packets(kCount));
-  const auto packets = ports[1].packets();
+  ASSERT_TRUE(b.port.wait_packets(kCount));
+  const auto packets = b.port.packets();
   ASSERT_EQ(packets.size(), kCount);
   for (std::uint32_t i = 0; i < kCount; ++i) {
     ASSERT_EQ(payload_of(packets[i]), std::to_string(i + 1));
   }
-  EXPECT_EQ(a.report()["sent"], kCount);
+  EXPECT_EQ(a.radio.report()["sent"], kCount);
 }
 
 TEST(DdsTransmitter, AnotherNetworkIsAnotherAir) {
-  LivePort ports[2];
-  LiveTransmitter a("dds_transmitter");
-  LiveTransmitter near("dds_transmitter");
-  LiveTransmitter far("dds_transmitter");
-  ASSERT_EQ(a.configure(apart("here", 100'000)), "");
-  ASSERT_EQ(near.configure(apart("here", 200'000)), "");
-  ASSERT_EQ(far.configure(apart("there", 100'000)), "");
-  LivePort port;
-  ASSERT_EQ(a.open(port), "");
-  ASSERT_EQ(near.open(ports[0]), "");
-  ASSERT_EQ(far.open(ports[1]), "");
-  ASSERT_TRUE(hears(a, 1));
-  EXPECT_EQ(a.send(packet_from("anna", 1, "hello")), "");
-  ASSERT_TRUE(ports[0].wait_packets(1));
-  EXPECT_EQ(ports[1].packets().size(), 0U);
-  EXPECT_EQ(far.report()["others"], 0);
+  Station a("here");
+  Station near("here", 200'000);
+  Station far("there");
+  ASSERT_TRUE(a.meets(1));
+  EXPECT_EQ(a.radio.send(packet_from("anna", 1, "hello")), "");
+  ASSERT_TRUE(near.port.wait_packets(1));
+  EXPECT_EQ(far.port.packets().size(), 0U);
+  EXPECT_EQ(far.radio.report()["others"], 0);
 }
 
 TEST(DdsTransmitter, GarbageAndSamplesOfOtherRunsAreCountedAndDropped) {
-  LivePort port;
-  LiveTransmitter a("dds_transmitter");
-  ASSERT_EQ(a.configure({{"network", network("loud")}}), "");
-  ASSERT_EQ(a.open(port), "");
+  Station a("loud", 1'048'576);
   // Somebody of another make in the same air.
   dds_transmitter::AirOptions options;
   options.run = dds_transmitter::run_of_network(network("loud"));
@@ -157,7 +133,7 @@ TEST(DdsTransmitter, GarbageAndSamplesOfOtherRunsAreCountedAndDropped) {
   ASSERT_TRUE(bus) << bus.error().text();
   auto writer = bus::Writer<bus::Packet>::create(**bus);
   ASSERT_TRUE(writer);
-  ASSERT_TRUE(wait_for([&] { return writer->readers() == 1; }));
+  ASSERT_TRUE(await([&] { return writer->readers() == 1; }));
   bus::Packet sample{};
   ASSERT_TRUE(writer->write(sample)) << "a robot without a name";
   sample.from_robot = sample.communicator = 5;
@@ -173,11 +149,11 @@ TEST(DdsTransmitter, GarbageAndSamplesOfOtherRunsAreCountedAndDropped) {
   ASSERT_EQ(dds_write(writer->handle(), &sample), DDS_RETCODE_OK) << "of another run";
   sample.sequence_number = 9;
   ASSERT_TRUE(writer->write(sample));
-  ASSERT_TRUE(port.wait_packets(1));
-  EXPECT_EQ(read(port.packets()[0])->sequence, 9U);
-  EXPECT_TRUE(wait_for([&] { return a.report()["refused"] == 3; })) << a.report();
-  EXPECT_EQ(a.report()["foreign"], 1);
-  EXPECT_EQ(port.packets().size(), 1U);
+  ASSERT_TRUE(a.port.wait_packets(1));
+  EXPECT_EQ(read(a.port.packets()[0])->sequence, 9U);
+  EXPECT_TRUE(await([&] { return a.radio.report()["refused"] == 3; })) << a.radio.report();
+  EXPECT_EQ(a.radio.report()["foreign"], 1);
+  EXPECT_EQ(a.port.packets().size(), 1U);
 }
 
 TEST(DdsTransmitter, SaysWhatIsWrongWithItsParameters) {

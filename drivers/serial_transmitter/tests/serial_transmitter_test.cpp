@@ -9,8 +9,8 @@
 
 #include <chrono>
 #include <filesystem>
-#include <thread>
 
+#include "rave/live_testing/await.hpp"
 #include "rave/live_testing/live_transmitter.hpp"
 
 namespace rave::testing {
@@ -109,10 +109,7 @@ TEST_F(SerialTransmitter, WhatOneSendsAnotherHears) {
   ASSERT_TRUE(port_b.wait_packets(3));
   EXPECT_EQ(port_b.packets(), (std::vector<std::string>{"first", "third", "third"}));
   // Counted when the line has taken it, which may be after it arrived.
-  for (int i = 0; i < 500 && a.report()["sent"] != 3; ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  EXPECT_EQ(a.report()["sent"], 3);
+  EXPECT_TRUE(await([&] { return a.report()["sent"] == 3; })) << a.report();
   EXPECT_EQ(a.report()["sent_bytes"], first.size() + second.size() + third.size());
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
-#include <numbers>
 
+#include "pose_doubt/pose_doubt.hpp"
 #include "rave/robot/plugin_entry.hpp"
 #include "utias/plugins/stream.hpp"
 
@@ -10,10 +10,8 @@ namespace {
 
 constexpr auto kParams = recording::join_params(
     kPlaybackParams, std::array<ParamSpec, 2>{
-                         number_param("position_sigma_m", "m", 0.001, 0, 10,
-                                      "Standard deviation that each of x and y is said to have."),
-                         number_param("heading_sigma_deg", "deg", 0.5, 0, 180,
-                                      "Standard deviation that the heading is said to have."),
+                         pose_doubt::position_sigma(0.001, recording::kPositionSigmaDoc),
+                         pose_doubt::heading_sigma(0.5, recording::kHeadingSigmaDoc),
                      });
 
 /// The poses of the motion capture, in its frame.
@@ -27,13 +25,12 @@ struct Mocap {
   static CodeMeaning code_meaning(const Params&) { return CodeMeaning::kBarcode; }
 
   static recording::Timeline<PoseReading> timeline(const Params& params, const Playback& playback) {
-    const double sigma_m = params.number("position_sigma_m");
-    const double sigma_rad = params.number("heading_sigma_deg") * (std::numbers::pi / 180);
+    const pose_doubt::Doubt doubt = pose_doubt::read_doubt(params);
     return recording::state_timeline<PoseReading>(
         playback.robot().poses.samples(), playback.data.start_ns, playback.data.end_ns,
         [=](const PoseSample& sample) {
-          return PoseReading{sample.pose.x, sample.pose.y, sample.pose.yaw, sigma_m * sigma_m,
-                             sigma_rad * sigma_rad};
+          return PoseReading{sample.pose.x, sample.pose.y, sample.pose.yaw, doubt.variance_xy_m2,
+                             doubt.variance_yaw_rad2};
         });
   }
 };

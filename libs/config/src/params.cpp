@@ -2,6 +2,7 @@
 #include "rave/config/params.hpp"
 
 #include <algorithm>
+#include <type_traits>
 
 #include "known_keys.hpp"
 #include "rave/config/codecs.hpp"
@@ -26,68 +27,49 @@ std::vector<std::string_view> views_of(const std::vector<std::string>& names) {
   return {names.begin(), names.end()};
 }
 
-template <class T>
-ParamValue read_as(const ReadContext& context, const RawNode& node) {
-  T value{};
-  Codec<T>::read(context, node, value);
-  return value;
+/// What `f` gives for the C++ type of a parameter; an enum is a text.
+template <class F>
+auto with_type(ParamType type, F&& f) {
+  switch (type) {
+    case ParamType::kBool:
+      return f(std::type_identity<bool>());
+    case ParamType::kInt:
+      return f(std::type_identity<std::int64_t>());
+    case ParamType::kDouble:
+      return f(std::type_identity<double>());
+    case ParamType::kDoubleList:
+      return f(std::type_identity<std::vector<double>>());
+    case ParamType::kString:
+    case ParamType::kEnum:
+      break;
+  }
+  return f(std::type_identity<std::string>());
 }
 
 ParamValue read_value(const ReadContext& context, const RawNode& node, const FieldSpec& spec) {
-  switch (spec.type) {
-    case ParamType::kBool:
-      return read_as<bool>(context, node);
-    case ParamType::kInt:
-      return read_as<std::int64_t>(context, node);
-    case ParamType::kDouble:
-      return read_as<double>(context, node);
-    case ParamType::kString:
-      return read_as<std::string>(context, node);
-    case ParamType::kDoubleList:
-      return read_as<std::vector<double>>(context, node);
-    case ParamType::kEnum:
-      break;
+  if (spec.type == ParamType::kEnum) {
+    const int row = detail::read_enum(context, node, views_of(spec.choices));
+    return row < 0 ? std::string{} : spec.choices[static_cast<std::size_t>(row)];
   }
-  const int row = detail::read_enum(context, node, views_of(spec.choices));
-  return row < 0 ? std::string{} : spec.choices[static_cast<std::size_t>(row)];
+  return with_type(spec.type, [&]<class T>(std::type_identity<T> /*type*/) -> ParamValue {
+    T value{};
+    Codec<T>::read(context, node, value);
+    return value;
+  });
 }
 
 std::string expectation_of(const FieldSpec& spec) {
-  const FieldOptions options = options_of(spec);
-  switch (spec.type) {
-    case ParamType::kBool:
-      return Codec<bool>::expectation(options);
-    case ParamType::kInt:
-      return Codec<std::int64_t>::expectation(options);
-    case ParamType::kDouble:
-      return Codec<double>::expectation(options);
-    case ParamType::kString:
-      return Codec<std::string>::expectation(options);
-    case ParamType::kDoubleList:
-      return Codec<std::vector<double>>::expectation(options);
-    case ParamType::kEnum:
-      break;
-  }
-  return detail::enum_expectation(views_of(spec.choices));
+  if (spec.type == ParamType::kEnum) return detail::enum_expectation(views_of(spec.choices));
+  return with_type(spec.type, [&]<class T>(std::type_identity<T> /*type*/) -> std::string {
+    return Codec<T>::expectation(options_of(spec));
+  });
 }
 
 RawNode schema_of(const FieldSpec& spec) {
-  const FieldOptions options = options_of(spec);
-  switch (spec.type) {
-    case ParamType::kBool:
-      return Codec<bool>::schema(options);
-    case ParamType::kInt:
-      return Codec<std::int64_t>::schema(options);
-    case ParamType::kDouble:
-      return Codec<double>::schema(options);
-    case ParamType::kString:
-      return Codec<std::string>::schema(options);
-    case ParamType::kDoubleList:
-      return Codec<std::vector<double>>::schema(options);
-    case ParamType::kEnum:
-      break;
-  }
-  return detail::enum_schema(views_of(spec.choices));
+  if (spec.type == ParamType::kEnum) return detail::enum_schema(views_of(spec.choices));
+  return with_type(spec.type, [&]<class T>(std::type_identity<T> /*type*/) -> RawNode {
+    return Codec<T>::schema(options_of(spec));
+  });
 }
 
 RawNode node_of(const ParamValue& value) {
@@ -96,20 +78,9 @@ RawNode node_of(const ParamValue& value) {
 }
 
 bool has_type(const ParamValue& value, ParamType type) {
-  switch (type) {
-    case ParamType::kBool:
-      return std::holds_alternative<bool>(value);
-    case ParamType::kInt:
-      return std::holds_alternative<std::int64_t>(value);
-    case ParamType::kDouble:
-      return std::holds_alternative<double>(value);
-    case ParamType::kDoubleList:
-      return std::holds_alternative<std::vector<double>>(value);
-    case ParamType::kString:
-    case ParamType::kEnum:
-      break;
-  }
-  return std::holds_alternative<std::string>(value);
+  return with_type(type, [&]<class T>(std::type_identity<T> /*type*/) {
+    return std::holds_alternative<T>(value);
+  });
 }
 
 Status check_default(const FieldSpec& spec) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -26,5 +28,29 @@ namespace rave::robot_host {
 /// Notes the first driver that runs by the clock on the wall.
 void note_clock(const DeviceContext& context, const config::RobotGroup& group,
                 const std::string& device, const DriverInfo& info, const plugin::ParamSet& params);
+/// A time of the scenario in its steps; 1 where there is none.
+[[nodiscard]] std::uint32_t in_steps(const DeviceContext& context,
+                                     const std::optional<config::Located<double>>& time_s);
+
+/// Begins what is served by a driver of one kind: its name, its driver and the functions of that.
+/// Errors: those of find_driver().
+template <class File, class Spec>
+[[nodiscard]] Result<const plugin::Driver*> begin_device(const DeviceContext& context,
+                                                         DriverKind kind, const File& file,
+                                                         Spec& spec) {
+  RAVE_TRY_ASSIGN(const plugin::Driver* const driver,
+                  find_driver(context, std::span(&kind, 1), file.driver));
+  spec.name = file.name.value;
+  spec.driver = driver->info.name;
+  spec.ops = static_cast<decltype(spec.ops)>(driver->ops);
+  return driver;
+}
+
+/// When what does something every so often does it.
+template <class File, class Spec>
+void set_rhythm(const DeviceContext& context, const File& file, Spec& spec) {
+  spec.period_steps = in_steps(context, file.period_s);
+  spec.phase_steps = file.phase_s.value == 0 ? 0 : in_steps(context, file.phase_s);
+}
 
 }  // namespace rave::robot_host

@@ -8,7 +8,6 @@
 #include "device_tools.hpp"
 #include "hybrid_device.hpp"
 #include "rave/base/names.hpp"
-#include "rave/isolation/isolated_program.hpp"
 #include "rave/math/scalar.hpp"
 #include "shared_device.hpp"
 
@@ -17,47 +16,7 @@ namespace {
 
 using plugin::Driver;
 
-struct AddValue {
-  plugin::ParamSet& set;
-  const std::string& name;
-
-  void operator()(bool value) const { set.add_number(name, value ? 1 : 0); }
-  void operator()(std::int64_t value) const { set.add_number(name, static_cast<double>(value)); }
-  void operator()(double value) const { set.add_number(name, value); }
-  void operator()(const std::string& value) const { set.add_text(name, value); }
-  void operator()(const std::vector<double>& value) const { set.add_list(name, value); }
-};
-
 }  // namespace
-
-Result<plugin::ParamSet> read_params(const Driver& driver, const config::RawNode& params) {
-  const auto specs = field_specs(driver.info);
-  RAVE_TRY_ASSIGN(const auto values,
-                  config::read_params(params, specs, fmt::format("driver `{}`", driver.info.name)));
-  plugin::ParamSet set;
-  for (const config::Param& param : values.all()) {
-    std::visit(AddValue{set, param.name}, param.value);
-  }
-  return set;
-}
-
-Result<plugin::ParamSet> read_sensor_params(const DeviceContext& context, const Driver& driver,
-                                            const config::RawNode& params) {
-  constexpr std::string_view kOrigin = "geo_origin";
-  const auto& origin = context.scenario.scenario.geo_origin;
-  const auto specs = driver.info.param_specs();
-  const bool wants = std::any_of(specs.begin(), specs.end(),
-                                 [&](const ParamSpec& spec) { return spec.name == kOrigin; });
-  if (!wants || !origin || params.find(kOrigin) != nullptr) return read_params(driver, params);
-  config::RawNode numbers = config::RawNode::sequence();
-  for (const double number :
-       {origin->latitude_deg, origin->longitude_deg, origin->altitude_m, origin->yaw_deg}) {
-    numbers.push_back(config::RawNode::number(number));
-  }
-  config::RawNode all = params.is_mapping() ? params : config::RawNode::mapping();
-  all.append(std::string(kOrigin), std::move(numbers));
-  return read_params(driver, all);
-}
 
 Result<const Driver*> find_driver(const DeviceContext& context, std::span<const DriverKind> kinds,
                                   const config::Located<std::string>& name) {
@@ -109,14 +68,14 @@ void note_clock(const DeviceContext& context, const config::RobotGroup& group,
   }
 }
 
-namespace {
-
 std::uint32_t in_steps(const DeviceContext& context,
                        const std::optional<config::Located<double>>& time_s) {
   if (!time_s) return 1;
   return static_cast<std::uint32_t>(
       std::lround(time_s->value / context.scenario.scenario.step_s.value));
 }
+
+namespace {
 
 ProcessingSpec processing_of(const config::SensorFile& sensor) {
   ProcessingSpec spec;
@@ -138,13 +97,10 @@ ProcessingSpec processing_of(const config::SensorFile& sensor) {
 
 Status add_shared(const DeviceContext& context, const config::RobotGroup& group,
                   sim::RobotType& type) {
-  constexpr std::array kKinds = {DriverKind::kDevice};
   for (const config::DeviceFile& file : group.robot.devices) {
-    RAVE_TRY_ASSIGN(const Driver* const driver, find_driver(context, kKinds, file.driver));
     sim::DeviceSpec device;
-    device.name = file.name.value;
-    device.driver = driver->info.name;
-    device.ops = static_cast<const HardwareDeviceOps*>(driver->ops);
+    RAVE_TRY_ASSIGN(const Driver* const driver,
+                    begin_device(context, DriverKind::kDevice, file, device));
     RAVE_TRY_ASSIGN(device.params, read_params(*driver, file.params));
     note_clock(context, group, device.name, driver->info, device.params);
     type.devices.push_back(std::move(device));
@@ -192,8 +148,7 @@ Result<sim::SensorSpec> make_sensor(const DeviceContext& context, const config::
   const config::MountFile& mount = file.mount.value;
   sensor.X_RS = {mount.x_m, mount.y_m, wrap_angle(deg_to_rad(mount.yaw_deg))};
   sensor.z_m = mount.z_m;
-  sensor.period_steps = in_steps(context, file.period_s);
-  sensor.phase_steps = file.phase_s.value == 0 ? 0 : in_steps(context, file.phase_s);
+  set_rhythm(context, file, sensor);
   sensor.processing = processing_of(file);
   return sensor;
 }
@@ -237,13 +192,10 @@ Status add_actuators(const DeviceContext& context, const config::RobotGroup& gro
 
 Status add_controllers(const DeviceContext& context, const config::RobotGroup& group,
                        sim::RobotType& type) {
-  constexpr std::array kKinds = {DriverKind::kController};
   for (const config::ControllerFile& file : group.robot.controllers) {
-    RAVE_TRY_ASSIGN(const Driver* const driver, find_driver(context, kKinds, file.driver));
     sim::ControllerSpec controller;
-    controller.name = file.name.value;
-    controller.driver = driver->info.name;
-    controller.ops = static_cast<const ControllerOps*>(driver->ops);
+    RAVE_TRY_ASSIGN(const Driver* const driver,
+                    begin_device(context, DriverKind::kController, file, controller));
     controller.accepts = static_cast<CommandKind>(driver->info.data_kind);
     for (std::uint32_t a = 0; a < type.actuators.size(); ++a) {
       if (type.actuators[a].name == file.actuator.value) controller.actuator = a;
@@ -263,50 +215,6 @@ Status add_controllers(const DeviceContext& context, const config::RobotGroup& g
     controller.param_specs = driver->info.param_specs();
     type.controllers.push_back(std::move(controller));
   }
-  return {};
-}
-
-/// Adapts a program in a process of its own to what the engine asks for.
-class Isolated final : public sim::ProgramProcess {
- public:
-  explicit Isolated(std::unique_ptr<isolation::IsolatedProgram> program)
-      : program_(std::move(program)) {}
-  Status begin(const DecideItem& item) override { return program_->begin_decide(item); }
-  Status end(const DecideItem& item) override { return program_->end_decide(item); }
-  Status update(std::span<const ParamValue> params, double radius_m) override {
-    return program_->update(params, radius_m);
-  }
-
- private:
-  std::unique_ptr<isolation::IsolatedProgram> program_;
-};
-
-sim::ProgramProcessFactory isolated_factory(const DeviceContext& context, const Driver& driver) {
-  isolation::IsolationOptions options;
-  options.runner = context.options.program_runner;
-  options.plugin = driver.file;
-  options.program = driver.info.name;
-  return [options](const ProgramSetup& setup) -> Result<std::unique_ptr<sim::ProgramProcess>> {
-    RAVE_TRY_ASSIGN(auto program, isolation::IsolatedProgram::start(options, setup));
-    return std::make_unique<Isolated>(std::move(program));
-  };
-}
-
-Status add_program(const DeviceContext& context, const config::RobotGroup& group,
-                   sim::RobotType& type) {
-  if (!group.robot.program) return {};
-  const config::ProgramFile& file = *group.robot.program;
-  constexpr std::array kKinds = {DriverKind::kProgram};
-  RAVE_TRY_ASSIGN(const Driver* const driver, find_driver(context, kKinds, file.driver));
-  sim::ProgramSpec program;
-  program.driver = driver->info.name;
-  program.ops = static_cast<const ProgramOps*>(driver->ops);
-  RAVE_TRY_ASSIGN(program.params, read_params(*driver, file.params));
-  program.param_specs = driver->info.param_specs();
-  program.period_steps = in_steps(context, file.period_s);
-  program.phase_steps = file.phase_s.value == 0 ? 0 : in_steps(context, file.phase_s);
-  if (file.isolate) program.isolate = isolated_factory(context, *driver);
-  type.program = std::move(program);
   return {};
 }
 
@@ -350,52 +258,6 @@ Status set_pose_source(const config::RobotGroup& group, sim::RobotType& type) {
 }
 
 }  // namespace
-
-config::FieldSpec field_spec(const ParamSpec& spec) {
-  config::FieldSpec field;
-  field.name = spec.name;
-  field.doc = spec.doc;
-  field.unit = spec.unit;
-  const bool numeric = spec.type == ParamType::kInteger || spec.type == ParamType::kNumber ||
-                       spec.type == ParamType::kNumbers;
-  if (numeric && std::isfinite(spec.min)) field.min = spec.min;
-  if (numeric && std::isfinite(spec.max)) field.max = spec.max;
-  switch (spec.type) {
-    case ParamType::kBool:
-      field.type = config::ParamType::kBool;
-      field.default_value = spec.default_number != 0;
-      break;
-    case ParamType::kInteger:
-      field.type = config::ParamType::kInt;
-      field.default_value = static_cast<std::int64_t>(spec.default_number);
-      break;
-    case ParamType::kNumber:
-      field.type = config::ParamType::kDouble;
-      field.default_value = spec.default_number;
-      break;
-    case ParamType::kText:
-      field.type = config::ParamType::kString;
-      field.default_value = std::string(spec.default_text);
-      break;
-    case ParamType::kChoice:
-      field.type = config::ParamType::kEnum;
-      field.choices.assign(spec.choices, spec.choices + spec.choice_count);
-      field.default_value = std::string(spec.default_text);
-      break;
-    case ParamType::kNumbers:
-      field.type = config::ParamType::kDoubleList;
-      field.default_value = std::vector<double>{};
-      break;
-  }
-  if (spec.required != 0) field.default_value.reset();
-  return field;
-}
-
-std::vector<config::FieldSpec> field_specs(const DriverInfo& info) {
-  std::vector<config::FieldSpec> fields;
-  for (const ParamSpec& spec : info.param_specs()) fields.push_back(field_spec(spec));
-  return fields;
-}
 
 Status add_devices(const DeviceContext& context, const config::RobotGroup& group,
                    sim::RobotType& type) {

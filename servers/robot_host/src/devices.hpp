@@ -16,7 +16,8 @@ struct DeviceContext {
   BuiltScenario& built;
 };
 
-/// The description of one parameter in the terms of the configuration library.
+/// The description of one parameter in the terms of the configuration library. In
+/// driver_params.cpp.
 [[nodiscard]] config::FieldSpec field_spec(const ParamSpec& spec);
 
 /// The description of a driver's parameters in the terms of the configuration library.
@@ -25,6 +26,10 @@ struct DeviceContext {
 /// Fills in transmitters and communicators of `type`. In radio_devices.cpp.
 Status add_radio(const DeviceContext& context, const config::RobotGroup& group,
                  sim::RobotType& type);
+
+/// Fills in the program of `type`, if there is one. In program_device.cpp.
+Status add_program(const DeviceContext& context, const config::RobotGroup& group,
+                   sim::RobotType& type);
 
 /// Fills in sensors, actuators, controllers, program and pose source of `type`.
 Status add_devices(const DeviceContext& context, const config::RobotGroup& group,

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <array>
-
 #include "device_tools.hpp"
 
 namespace rave::robot_host {
@@ -10,17 +8,14 @@ using plugin::Driver;
 
 Status add_transmitter(const DeviceContext& context, const config::RobotGroup& group,
                        const config::TransmitterFile& file, sim::RobotType& type) {
-  constexpr std::array kKinds = {DriverKind::kTransmitter};
-  RAVE_TRY_ASSIGN(const Driver* const driver, find_driver(context, kKinds, file.driver));
+  sim::TransmitterSpec transmitter;
+  RAVE_TRY_ASSIGN(const Driver* const driver,
+                  begin_device(context, DriverKind::kTransmitter, file, transmitter));
   if (file.device) {
     return fail_at(file.device->where, ErrorCode::kInvalidArgument,
                    "the driver `{}` is part of no device: expected no `device:`",
                    driver->info.name);
   }
-  sim::TransmitterSpec transmitter;
-  transmitter.name = file.name.value;
-  transmitter.driver = driver->info.name;
-  transmitter.ops = static_cast<const TransmitterOps*>(driver->ops);
   RAVE_TRY_ASSIGN(transmitter.params, read_params(*driver, file.params));
   note_clock(context, group, transmitter.name, driver->info, transmitter.params);
   type.transmitters.push_back(std::move(transmitter));
@@ -29,12 +24,9 @@ Status add_transmitter(const DeviceContext& context, const config::RobotGroup& g
 
 Status add_communicator(const DeviceContext& context, const config::CommunicatorFile& file,
                         sim::RobotType& type) {
-  constexpr std::array kKinds = {DriverKind::kCommunicator};
-  RAVE_TRY_ASSIGN(const Driver* const driver, find_driver(context, kKinds, file.driver));
   sim::CommunicatorSpec communicator;
-  communicator.name = file.name.value;
-  communicator.driver = driver->info.name;
-  communicator.ops = static_cast<const CommunicatorOps*>(driver->ops);
+  RAVE_TRY_ASSIGN(const Driver* const driver,
+                  begin_device(context, DriverKind::kCommunicator, file, communicator));
   RAVE_TRY_ASSIGN(communicator.params, read_params(*driver, file.params));
   // The reader of the file has checked that there is one of this name.
   for (std::uint32_t t = 0; t < type.transmitters.size(); ++t) {

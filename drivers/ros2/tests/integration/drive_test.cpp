@@ -5,7 +5,6 @@ namespace rave::ros2_driver {
 namespace {
 
 bool drives(const nlohmann::json& s) { return s["left_mps"] > 0.1; }
-bool stands(const nlohmann::json& s) { return s["left_mps"] == 0.0 && s["right_mps"] == 0.0; }
 
 void expect_drives_and_knows_where(std::vector<std::string> options) {
   Ros2Bench bench(std::move(options));
@@ -55,7 +54,7 @@ TEST(Ros2Drive, ClosingTellsTheRobotToStand) {
   ASSERT_EQ(bench.drive.write(velocity_command(0.4, 0)), "");
   bench.await_state(drives);
   bench.close();
-  bench.await_state(stands);
+  bench.await_state(testing::wheels_stand);
   ASSERT_NO_FATAL_FAILURE(bench.open());
   ASSERT_EQ(bench.drive.write(velocity_command(0.4, 0)), "") << "after a reset of the run";
   bench.await_state(drives);

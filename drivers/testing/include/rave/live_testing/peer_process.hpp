@@ -12,12 +12,11 @@
 #include <string>
 #include <vector>
 
+#include "rave/live_testing/await.hpp"
+
 extern char** environ;
 
 namespace rave::testing {
-
-// Far beyond what any test needs: a wait that ends by it has failed.
-inline constexpr std::chrono::seconds kLong{100};
 
 /// A peer (tests/peers) as a process: commands to its input, lines from its output. It ends when
 /// this object does.

@@ -61,8 +61,7 @@ class RobotBench {
     return await_answer([this] { return state(); }, wanted);
   }
   nlohmann::json await_standstill() {
-    auto now = await_state(
-        [](const nlohmann::json& s) { return s["left_mps"] == 0.0 && s["right_mps"] == 0.0; });
+    auto now = await_state(wheels_stand);
     poses->await_more(3);  // by now one came that was made after it
     return now;
   }

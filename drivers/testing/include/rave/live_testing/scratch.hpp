@@ -4,12 +4,13 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <thread>
 
+#include "rave/live_testing/await.hpp"
 #include "rave/live_testing/peer_process.hpp"
 
 namespace rave::testing {
@@ -40,20 +41,28 @@ class Scratch {
 
 /// Asks until the answer is as wanted; gives the last one.
 template <class Ask, class Wanted>
-nlohmann::json await_answer(Ask&& ask, Wanted&& wanted) {
-  const auto end = std::chrono::steady_clock::now() + kLong;
-  nlohmann::json now = ask();
-  while (!wanted(now) && std::chrono::steady_clock::now() < end) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    now = ask();
-  }
-  EXPECT_TRUE(wanted(now)) << now.dump();
+nlohmann::json await_answer(Ask&& ask, Wanted&& wanted, std::chrono::milliseconds pause = kOften) {
+  nlohmann::json now;
+  const bool came = await(
+      [&] {
+        now = ask();
+        return wanted(now);
+      },
+      pause);
+  EXPECT_TRUE(came) << now.dump();
   return now;
 }
 
 /// What a peer says of itself.
 [[nodiscard]] inline nlohmann::json state_of(PeerProcess& peer) {
   return nlohmann::json::parse(peer.ask("state"));
+}
+/// The same of one that has two wheels.
+[[nodiscard]] inline bool wheels_turn(const nlohmann::json& state) {
+  return std::abs(state["left_mps"].get<double>()) > 0.05;
+}
+[[nodiscard]] inline bool wheels_stand(const nlohmann::json& state) {
+  return state["left_mps"] == 0.0 && state["right_mps"] == 0.0;
 }
 
 }  // namespace rave::testing

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "udp_transmitter/datagram_socket.hpp"
+#include "line/datagram_socket.hpp"
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
@@ -9,12 +9,13 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <memory>
 #include <utility>
 
-namespace rave::udp_transmitter {
+namespace rave::line {
 namespace {
 
 using Found = std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)>;
@@ -68,7 +69,7 @@ bool is_passing(int error) {
 }  // namespace
 
 Result<Peer> parse_peer(std::string_view text) {
-  const auto parts = line::parse_address("", 0, text);
+  const auto parts = parse_address("", 0, text);
   if (!parts) {
     return fail(ErrorCode::kInvalidArgument,
                 "expected an address such as 127.0.0.1:4711, found `{}`", text);
@@ -145,16 +146,16 @@ DatagramSocket::~DatagramSocket() {
   if (fd_ >= 0) ::close(fd_);
 }
 
-line::ReadResult DatagramSocket::receive(std::span<std::byte> room, line::Wait limit,
-                                         const line::Wake& wake) const noexcept {
-  const line::HostTime end = line::host_now() + limit;
+ReadResult DatagramSocket::receive(std::span<std::byte> room, Wait limit,
+                                   const Wake& wake) const noexcept {
+  const HostTime end = host_now() + limit;
   while (true) {
-    const int ready = line::detail::wait_ready(fd_, POLLIN, end, &wake);
-    if (ready < 0) return {line::ReadEnd::kWoken, 0};
-    if (ready == 0) return {line::ReadEnd::kTimeout, 0};
+    const int ready = detail::wait_ready(fd_, POLLIN, end, &wake);
+    if (ready < 0) return {ReadEnd::kWoken, 0};
+    if (ready == 0) return {ReadEnd::kTimeout, 0};
     const ssize_t size = ::recv(fd_, room.data(), room.size(), 0);
-    if (size >= 0) return {line::ReadEnd::kBytes, static_cast<std::size_t>(size)};
-    if (!is_passing(errno)) return {line::ReadEnd::kLost, 0};
+    if (size >= 0) return {ReadEnd::kBytes, static_cast<std::size_t>(size)};
+    if (!is_passing(errno)) return {ReadEnd::kLost, 0};
   }
 }
 
@@ -165,4 +166,4 @@ Status DatagramSocket::send(std::span<const std::byte> bytes, const Peer& to) co
   return fail(ErrorCode::kIo, "cannot send to {}: {}", to.text, std::strerror(errno));
 }
 
-}  // namespace rave::udp_transmitter
+}  // namespace rave::line

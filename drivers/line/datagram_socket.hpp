@@ -12,7 +12,7 @@
 
 #include "line/byte_line.hpp"
 
-namespace rave::udp_transmitter {
+namespace rave::line {
 
 /// Where datagrams go: a numeric IPv4 or IPv6 address with its port.
 struct Peer {
@@ -44,8 +44,8 @@ class DatagramSocket {
   ~DatagramSocket();
 
   /// Takes the next datagram, cut off at the room there is; ends as ByteLine::read does.
-  [[nodiscard]] line::ReadResult receive(std::span<std::byte> room, line::Wait limit,
-                                         const line::Wake& wake) const noexcept;
+  [[nodiscard]] ReadResult receive(std::span<std::byte> room, Wait limit,
+                                   const Wake& wake) const noexcept;
   /// Error: kIo. That nobody listens there, or that the way is full, is none: datagrams get lost.
   [[nodiscard]] Status send(std::span<const std::byte> bytes, const Peer& to) const;
   [[nodiscard]] std::uint16_t port() const noexcept { return port_; }
@@ -57,4 +57,4 @@ class DatagramSocket {
   std::uint16_t port_ = 0;
 };
 
-}  // namespace rave::udp_transmitter
+}  // namespace rave::line

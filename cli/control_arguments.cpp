@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control_arguments.hpp"
+
+#include "shared_arguments.hpp"
+
+namespace rave::cli {
+namespace {
+
+void add_run_name(CLI::App& app, std::string& run) {
+  add_value(app, "run", run, "Its name, process id or scenario; not needed for the only one",
+            "RUN");
+}
+
+void add_robot_name(CLI::App& app, std::string& robot) {
+  add_value(app, "--robot", robot, "Only this one [all]", "NAME");
+}
+
+void add_ps(CLI::App& root, PsCommand& c) {
+  CLI::App& app = *root.add_subcommand("ps", "List the runs that go on");
+  app.add_flag("--robots", c.robots, "Also each robot, and whether it may move");
+}
+
+void add_stop(CLI::App& root, StopCommand& c) {
+  CLI::App& app = *root.add_subcommand("stop", "Make robots of a run stand until released");
+  add_run_name(app, c.run);
+  add_robot_name(app, c.robot);
+  app.add_flag("--all", c.all, "Every robot of every run");
+  app.footer(
+      "No program can move a stopped robot. `rave arm --release` lets it go again.\n\n"
+      "Examples:\n"
+      "  rave stop\n"
+      "  rave stop predator-prey --robot predator");
+}
+
+void add_arm(CLI::App& root, ArmCommand& c) {
+  CLI::App& app = *root.add_subcommand("arm", "Let real robots of a run move");
+  add_run_name(app, c.run);
+  add_robot_name(app, c.robot);
+  app.add_flag("--release", c.release, "Also those that were stopped");
+}
+
+void add_set(CLI::App& root, SetCommand& c) {
+  CLI::App& app = *root.add_subcommand("set", "Change a parameter of a robot while it runs");
+  add_word(app, "words", c.words, "[RUN] ROBOT KEY VALUE", "WORD")->expected(3, 4);
+  app.footer(
+      "KEY is program.PARAM, controller.NAME.PARAM, actuator.NAME.PARAM or body.scale.\n\n"
+      "Examples:\n"
+      "  rave set prey program.max_speed_mps 0.6\n"
+      "  rave set predator-prey prey body.scale 1.5");
+}
+
+void add_hold(CLI::App& root, HoldCommand& c) {
+  add_run_name(*root.add_subcommand("pause", "Hold a run that is not live"), c.run);
+  add_run_name(*root.add_subcommand("resume", "Let a paused run go on"), c.run);
+  CLI::App& step = *root.add_subcommand("step", "Do steps of a paused run");
+  add_run_name(step, c.run);
+  add_value(step, "--count", c.count, "How many [1]", "N")->check(CLI::Range(1, 1'000'000'000));
+}
+
+void add_hand_over(CLI::App& root, HandOverCommand& c) {
+  CLI::App& app = *root.add_subcommand("hand-over", "Give a robot its other drivers while it runs");
+  add_word(app, "robot", c.robot, "One whose entry in the scenario has `twin:`", "ROBOT");
+  add_word(app, "to", c.to, "real or simulated; or first (those of `file:`) or twin", "DRIVERS");
+  add_value(app, "--run", c.run, "Name, process id or scenario of the run [the only one]", "RUN");
+  app.footer(
+      "The drivers are opened, the robot is brought to stand, and between two steps it changes.\n"
+      "Its program and its controllers go on. What keeps it from changing is told, and then\n"
+      "everything is as it was.\n\n"
+      "Examples:\n"
+      "  rave hand-over create real\n"
+      "  rave hand-over create simulated --run corridor");
+}
+
+void add_shadow(CLI::App& root, ShadowCommand& c) {
+  CLI::App& app = *root.add_subcommand(
+      "shadow", "How far real robots are from their simulated twins that run beside them");
+  add_run_name(app, c.run);
+  add_robot_name(app, c.robot);
+  app.add_flag("--reset", c.reset, "Put the twin where the robot is");
+  app.add_flag("--json", c.json, "Print the numbers as JSON");
+}
+
+void add_name(CLI::App& app, std::string& name) {
+  add_word(app, "name", name, "Of the obstacle; `rave edit list` has them all", "NAME");
+}
+
+void add_place(CLI::App& app, std::string& at) {
+  add_word(app, "--at", at, "X,Y or X,Y,DEG in metres and degrees; without DEG it is not turned",
+           "PLACE");
+}
+
+void add_edit(CLI::App& root, EditCommand& c) {
+  CLI::App& app =
+      *root.add_subcommand("edit", "Add, move and remove obstacles of a run while it goes");
+  add_run_name(app, c.run);
+  app.require_subcommand(1);
+  CLI::App& add = *app.add_subcommand("add", "Put an obstacle somewhere");
+  add_word(add, "shape", c.shape, "box, disc or polygon", "SHAPE")
+      ->check(CLI::IsMember({"box", "disc", "polygon"}));
+  add_word(add, "--name", c.name, "What no other obstacle is called", "NAME");
+  add_place(add, c.at);
+  add_value(add, "--size", c.size, "LxW of a box, the radius of a disc, in metres", "SIZE");
+  add_value(add, "--corners", c.corners, "Of a polygon, such as \"0,0 1,0 0.5,1\"", "PLACES");
+  add_value(add, "--height", c.height, "LOW,HIGH above the floor [0,0.5]", "HEIGHT");
+  add_value(add, "--layer", c.layer, "virtual_obstacles or mapped_real [virtual_obstacles]",
+            "LAYER");
+  add_value(add, "--colour", c.colour, "For pictures, #rrggbb", "COLOUR");
+  add_value(add, "--barcode", c.barcode, "What landmark cameras read on it [none]", "N");
+  CLI::App& move = *app.add_subcommand("move", "Put an obstacle elsewhere");
+  add_name(move, c.name);
+  add_place(move, c.at);
+  add_name(*app.add_subcommand("remove", "Take an obstacle away"), c.name);
+  app.add_subcommand("list", "Say which obstacles stand where");
+  app.footer(
+      "A change counts from the next step on; the answer says which that is. What would overlap a\n"
+      "simulated robot is refused. Exit code: 0 if it was done, 1 if the run refuses, 2 for bad "
+      "input.\n\n"
+      "Examples:\n"
+      "  rave edit add box --name crate --at 1,2,30 --size 0.5x0.3\n"
+      "  rave edit move crate --at 2,2\n"
+      "  rave edit predator-prey remove crate");
+}
+
+}  // namespace
+
+void add_control_commands(CLI::App& root, ControlCommands& commands) {
+  add_ps(root, commands.ps);
+  add_stop(root, commands.stop);
+  add_arm(root, commands.arm);
+  add_set(root, commands.set);
+  add_hold(root, commands.hold);
+  add_hand_over(root, commands.hand_over);
+  add_shadow(root, commands.shadow);
+  add_edit(root, commands.edit);
+}
+
+}  // namespace rave::cli

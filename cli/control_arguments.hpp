@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "commands/control.hpp"
+#include "commands/edit.hpp"
+#include "commands/hand_over.hpp"
+
+namespace CLI {  // its own name. NOLINT(readability-identifier-naming)
+class App;
+}
+
+namespace rave::cli {
+
+/// What those that reach into a run that goes on are given.
+struct ControlCommands {
+  PsCommand ps;
+  StopCommand stop;
+  ArmCommand arm;
+  SetCommand set;
+  HoldCommand hold;  ///< Of `pause`, `resume` and `step`.
+  HandOverCommand hand_over;
+  ShadowCommand shadow;
+  EditCommand edit;
+};
+
+/// Adds `ps`, `stop`, `arm`, `set`, `pause`, `resume`, `step`, `hand-over`, `shadow` and `edit`,
+/// which write what they are given to `commands`.
+void add_control_commands(CLI::App& root, ControlCommands& commands);
+
+}  // namespace rave::cli

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <string>
+#include <vector>
+
+/// What the arguments of several subcommands have in common. All write to what they are given.
+namespace rave::cli {
+
+/// A word or an option that may be missing. `type`: what help calls its value.
+template <class T>
+CLI::Option* add_value(CLI::App& app, const char* name, T& value, const char* what,
+                       const char* type) {
+  return app.add_option(name, value, what)->type_name(type);
+}
+
+/// The same, but it must be there.
+template <class T>
+CLI::Option* add_word(CLI::App& app, const char* name, T& value, const char* what,
+                      const char* type) {
+  return add_value(app, name, value, what, type)->required();
+}
+
+/// An option that may be repeated, with one value each time.
+inline CLI::Option* add_values(CLI::App& app, const char* name, std::vector<std::string>& values,
+                               const char* what, const char* type) {
+  return add_value(app, name, values, what, type)->take_all()->allow_extra_args(false);
+}
+
+/// Of a number or an optional one.
+template <class T>
+void add_threads(CLI::App& app, T& threads,
+                 const char* what = "Threads; they do not change the result") {
+  add_value(app, "--threads", threads, what, "N")->check(CLI::Range(1, 1024));
+}
+
+/// Folders of plug-ins beside those that are found anyway.
+void add_plugins(CLI::App& app, std::vector<std::string>& folders);
+
+/// The scenario that a subcommand is about.
+void add_scenario(CLI::App& app, std::string& scenario);
+
+/// The record that a subcommand is about.
+void add_record(CLI::App& app, std::string& file);
+
+}  // namespace rave::cli

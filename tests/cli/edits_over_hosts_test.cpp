@@ -422,6 +422,26 @@ TEST_F(LiveEdits, WhatTheScenarioCannotChangeIsAProblemOfTheRun) {
   EXPECT_EQ(events.find("obstacle added `bale`", added + 1), std::string::npos) << events;
 }
 
+TEST_F(LiveEdits, ARobotIsHandedOverByTheHostThatRunsIt) {
+  const Words words = {"--run", run_.text()};
+  start("env", "env", "live_twins.yaml", words);
+  start_host("one", "live_twins.yaml", words);
+  start_host("two", "live_twins.yaml", words);
+  wait_for_line("env", "all hosts are there");
+  wait_until_it_runs();
+  wait_for_line("two", "handed over: simulated -> simulated");
+  // The run has three processes here; nobody needs to know which of them it is.
+  const Ended made = rave({"hand-over", "left", "twin"});
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_NE(made.out.find("live_twins@one"), std::string::npos) << made.out;
+  EXPECT_NE(made.out.find("simulated -> simulated"), std::string::npos) << made.out;
+  EXPECT_NE(console("one").find("handed over"), std::string::npos);
+  const Ended again = rave({"hand-over", "left", "twin"});
+  EXPECT_EQ(again.exit_code, 1) << again.out;
+  EXPECT_NE(again.err.find("drivers already"), std::string::npos) << again.err;
+  end_by_hand("env");
+}
+
 TEST_F(LiveEdits, NonsenseIsRefusedWithALogLine) {
   begin_all();
   Nonsense nonsense;

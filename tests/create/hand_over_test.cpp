@@ -2,10 +2,13 @@
 // A Create changes between its simulated and its real drivers while the run goes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <optional>
 
 #include "create_run.hpp"
+#include "recorded_run.hpp"
 
 namespace rave::tests {
 namespace {
@@ -130,6 +133,73 @@ TEST_F(HandOver, ToTheRealRobotAndBackKeepsPlaceAndProgram) {
   }
   EXPECT_EQ(result["events"]["program_failed"], 0);
   EXPECT_EQ(result["events"]["driver_failed"], 0) << result["problems"].dump();
+}
+
+/// Stands in a corner, on a host of its own, and sees real robots alone.
+constexpr const char* kGuest =
+    "  - name: guest\n"
+    "    pose: {x_m: 3.7, y_m: 0.3, yaw_deg: 135}\n"
+    "    robot:\n"
+    "      body: {shapes: [{disc_radius_m: 0.1, z_m: [0, 0.3]}]}\n"
+    "      sensors:\n"
+    "        - name: laser\n"
+    "          driver: virtual_laser\n"
+    "          mount: {z_m: 0.05}\n"
+    "          period_s: 0.1\n"
+    "          senses: [real_robots]\n"
+    "          params: {fov_deg: 180, rays: 361, range_max_m: 6}\n";
+
+/// How many scans of the guest met something, and how many met nothing.
+std::pair<int, int> scans_of_guest(const CreateRun& run) {
+  const auto all = cli_test::readings_of(run.file("out/hosts/lab/run.mcap"));
+  const auto scans = all.find("guest/laser");
+  if (scans == all.end()) return {0, 0};
+  std::pair<int, int> counts{0, 0};
+  for (const cli_test::Reading& reading : scans->second) {
+    const std::string& bytes = std::get<3>(reading);
+    std::vector<float> ranges(bytes.size() / sizeof(float));
+    std::memcpy(ranges.data(), bytes.data(), ranges.size() * sizeof(float));
+    const bool met =
+        std::any_of(ranges.begin(), ranges.end(), [](float range_m) { return range_m < 5.9F; });
+    ++(met ? counts.first : counts.second);
+  }
+  return counts;
+}
+
+TEST_F(HandOver, OnAHostOfItsOwnIsSeenByTheOthers) {
+  CreateRun run("create-simulated", 600, {}, kGuest,
+                "hosts:\n  - {name: base, robots: [rosie]}\n  - {name: lab, robots: [guest]}\n",
+                "create", "    shadow: true\n    hand_over: {within_m: 5, within_deg: 180}\n");
+  run.start();
+  const auto says = [](const std::string& words) {
+    return testing::await_answer([&] { return Json(CreateRun::rave_says(words).text); },
+                                 [](const Json&) { return true; });
+  };
+  testing::await_answer([&] { return says("ps"); },
+                        [](const Json& text) {
+                          return text.get<std::string>().find("create@base") != std::string::npos;
+                        });
+  const auto real = CreateRun::rave_says("hand-over rosie real");
+  ASSERT_EQ(real.exit_code, 0) << real.text;
+  EXPECT_NE(real.text.find("create@base"), std::string::npos) << real.text;
+  EXPECT_NE(real.text.find("simulated -> real"), std::string::npos) << real.text;
+  run.await_state([](const Json& s) { return s["path_m"].get<double>() > 0.3; });
+  testing::await_answer([&] { return says("shadow --json"); },
+                        [](const Json& text) {
+                          return text.get<std::string>().find("\"running\": true") !=
+                                 std::string::npos;
+                        });
+  const auto simulated = CreateRun::rave_says("hand-over rosie simulated");
+  EXPECT_EQ(simulated.exit_code, 0) << simulated.text;
+  run.rave->interrupt();
+  EXPECT_EQ(run.rave->wait(), 1);
+  const Json result = run.result();
+  ASSERT_TRUE(result.is_object());
+  ASSERT_EQ(result["hand_overs"].size(), 2U) << result["hand_overs"].dump();
+  for (const Json& hand_over : result["hand_overs"]) EXPECT_TRUE(hand_over["made"]);
+  const auto [met, missed] = scans_of_guest(run);
+  EXPECT_GT(met, 0) << "while it was real";
+  EXPECT_GT(missed, 0) << "while it was simulated";
 }
 
 TEST_F(HandOver, ToARobotThatIsNotThereIsRefusedAndTheRunGoesOn) {

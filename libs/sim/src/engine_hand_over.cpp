@@ -226,6 +226,7 @@ void Engine::Impl::begin_hand_overs() {
   for (; next_hand_over < spec.hand_overs.size() && spec.hand_overs[next_hand_over].step <= step;
        ++next_hand_over) {
     const ScheduledHandOver& asked = spec.hand_overs[next_hand_over];
+    if (!is_local(asked.robot.value())) continue;
     const Status begun = hand_over(asked.robot, asked.to, Author::kRun);
     if (begun) continue;
     if (Twin* const twin = find_twin(asked.robot)) ++twin->state.refused;

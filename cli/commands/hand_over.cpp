@@ -25,7 +25,7 @@ using run_control::Request;
 
 constexpr auto kLook = std::chrono::milliseconds(50);
 
-Request request_of(Request::What what, const std::string& robot) {
+Request hand_over_request(Request::What what, const std::string& robot) {
   Request request;
   request.what = what;
   request.robot = robot;
@@ -38,7 +38,8 @@ int refused(const std::string& run, const std::string& text) {
 }
 
 Result<RunStatus> status_of(const std::string& run) {
-  RAVE_TRY_ASSIGN(auto answer, run_control::ask(run, request_of(Request::What::kStatus, "")));
+  RAVE_TRY_ASSIGN(auto answer,
+                  run_control::ask(run, hand_over_request(Request::What::kStatus, "")));
   return std::move(answer.status);
 }
 
@@ -138,7 +139,7 @@ int hand_over(const HandOverCommand& options) {
   const auto status = status_of(*run);
   if (!status) return complain(status.error());
   const auto before = hand_over_of(*status, options.robot).value_or(RunStatus::HandOver{});
-  Request request = request_of(Request::What::kHandOver, options.robot);
+  Request request = hand_over_request(Request::What::kHandOver, options.robot);
   request.value = options.to;
   const auto answer = run_control::ask(*run, request);
   if (!answer) return complain(answer.error());
@@ -153,7 +154,7 @@ int show_shadows(const ShadowCommand& options) {
   if (!run) return complain(run.error());
   if (options.reset) {
     const auto answer =
-        run_control::ask(*run, request_of(Request::What::kResetShadow, options.robot));
+        run_control::ask(*run, hand_over_request(Request::What::kResetShadow, options.robot));
     if (!answer) return complain(answer.error());
     if (!answer->good) return refused(*run, answer->text);
     put(stdout, fmt::format("{}: {}\n", *run, answer->text));

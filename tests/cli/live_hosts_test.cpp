@@ -300,7 +300,7 @@ TEST_F(LiveHosts, ASecondProcessForAHostIsNotLetIn) {
 
 TEST_F(LiveHosts, ARobotThatIsThereAlreadyIsRefusedWithOneLine) {
   begin_all();
-  auto stranger = join_as_onlooker(run_, apart());
+  auto stranger = join_as_onlooker(run_, apart(), true);
   ASSERT_TRUE(stranger) << stranger.error().text();
   auto roster = bus::Writer<bus::RosterEntry>::create(**stranger);
   ASSERT_TRUE(roster) << roster.error().text();

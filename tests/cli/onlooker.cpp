@@ -4,8 +4,10 @@
 namespace rave::cli_test {
 
 Result<std::unique_ptr<bus::Bus>> join_as_onlooker(const bus::RunId& run,
-                                                   const std::vector<std::string>& apart) {
+                                                   const std::vector<std::string>& apart,
+                                                   bool beside) {
   bus::BusConfig config;
+  config.beside = beside;
   config.participant = "listener";
   config.run = run;
   config.max_processes = 100;

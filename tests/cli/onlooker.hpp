@@ -15,8 +15,9 @@
 namespace rave::cli_test {
 
 /// This process on the bus of a test's run. `apart`: the words that keep a test's run apart.
+/// `beside`: it is there already, and joins once more.
 [[nodiscard]] Result<std::unique_ptr<bus::Bus>> join_as_onlooker(
-    const bus::RunId& run, const std::vector<std::string>& apart);
+    const bus::RunId& run, const std::vector<std::string>& apart, bool beside = false);
 
 /// Somebody who counts the steps of a run in lock-step, from this process.
 class StepListener {

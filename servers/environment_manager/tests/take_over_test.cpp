@@ -143,7 +143,7 @@ TEST_F(TakeOver, ObstaclesThatCannotBeSpoilNothing) {
   host_->hand_over(kFirstAdded + 5, 5);
   host_->hand_over(kFirstAdded, 6);
   take_over(6, 6);
-  EXPECT_TRUE(has(kFirstAdded));
+  go_until([this] { return has(kFirstAdded); }, "what was handed over is there");
   EXPECT_FALSE(has(kFirstAdded + 1));
   EXPECT_TRUE(board_->handed_obstacles().empty()) << "nobody needs them any more";
   const std::size_t told = ears_.heard.find("refused what the process");

@@ -32,9 +32,8 @@ sim::EngineSpec one_robot() {
   world::Body& body = spec.world.robots.emplace_back();
   body.shapes.push_back(world::make_disc({1, 2}, 0.5, 0, 0.2).value());
   const std::vector<Vec2> box = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  for (const world::Shape& shape : world::make_prisms(box, 0.1, 1e300).value()) {
-    body.shapes.push_back(shape);
-  }
+  const auto prisms = world::make_prisms(box, 0.1, 1e300);
+  for (const world::Shape& shape : prisms.value()) body.shapes.push_back(shape);
   return spec;
 }
 

@@ -36,7 +36,7 @@ inline constexpr QosProfile kEverything{.depth = 0, .max_samples = 4096, .waits 
 /// The last few of each instance: bursts get through, a stuck reader holds nobody up.
 inline constexpr QosProfile kRecent{.depth = 256};
 /// The same where the robots of a whole host send through one writer at once: of what a stuck
-/// reader has not confirmed, the oldest beyond this and the newest beyond 16 MB are lost.
+/// reader has not confirmed, the oldest beyond this are lost.
 inline constexpr QosProfile kCrowd{.depth = 16'384};
 /// Sent once; late or lost means useless.
 inline constexpr QosProfile kOnce{.reliable = false};

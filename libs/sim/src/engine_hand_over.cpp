@@ -111,7 +111,8 @@ void Engine::Impl::advance(Twin& twin) {
     if (twin.work.wait_for(std::chrono::seconds(0)) == std::future_status::timeout) {
       if (now - twin.since <= kOpen) return;
       twin.given_up = true;
-      return refuse(twin, fmt::format("its drivers were not open within {:.0f} s", kOpen.seconds()));
+      return refuse(twin,
+                    fmt::format("its drivers were not open within {:.0f} s", kOpen.seconds()));
     }
     const Status opened = twin.work.get();
     if (!opened) return refuse(twin, opened.error().text());

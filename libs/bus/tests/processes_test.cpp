@@ -81,7 +81,9 @@ TEST(Processes, AStuckReaderHoldsNobodyUpAndHearsAgainLater) {
   std::vector<std::uint8_t> page(60'000, 'p');
   for (int i = 0; i < 3000; ++i) {
     const Status status = say(page);
-    if (!status) ASSERT_EQ(status.error().code, ErrorCode::kTimeout) << status.error().text();
+    if (!status) {
+      ASSERT_EQ(status.error().code, ErrorCode::kTimeout) << status.error().text();
+    }
   }
 
   peer.resume();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bus_options.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "rave/base/names.hpp"
@@ -35,14 +36,20 @@ Result<bus::BusConfig> read_bus_options(const BusOptions& options, std::string p
   config.peers = options.peers;
   config.security = options.security;
   config.tag = options.tag;
-  // Each costs a look now and then; a lab does not run more on one machine.
-  config.max_processes = 100;
   RAVE_TRY_ASSIGN(config.multicast, multicast_of(options.multicast));
   const auto digits = bus::RunId::parse(options.run);
   config.run = digits                ? *digits
                : options.run.empty() ? bus::run_of_number(scenario)
                                      : bus::run_of_name(options.run);
   return config;
+}
+
+void make_room(bus::BusConfig& config, std::size_t hosts) {
+  // The manager, those who look on, and another small run.
+  constexpr std::size_t kOthers = 14;
+  constexpr std::size_t kMost = 119;
+  config.max_processes =
+      std::max(config.max_processes, static_cast<int>(std::min(hosts + kOthers, kMost)));
 }
 
 std::vector<std::string> words_of(const BusOptions& options, const bus::RunId& run) {

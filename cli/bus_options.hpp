@@ -31,6 +31,10 @@ struct BusOptions {
                                                       std::string participant,
                                                       std::uint64_t scenario);
 
+/// Lets so many hosts find one another if all run on this machine. Each process that there may be
+/// costs every other one a look now and then.
+void make_room(bus::BusConfig& config, std::size_t hosts);
+
 /// The same as words for the command line of another process of the run.
 [[nodiscard]] std::vector<std::string> words_of(const BusOptions& options, const bus::RunId& run);
 

@@ -178,9 +178,9 @@ int run_shared(const RunCommand& options, const config::ExpandedScenario& scenar
   BusOptions bus_options = options.bus;
   // A run that this process starts is one of its own, whoever runs the same scenario beside it.
   if (bus_options.run.empty()) bus_options.run = bus::RunId::random().text();
-  const auto bus =
-      bus_config(bus_options, "environment manager", robot_host::shared_number(scenario));
+  auto bus = bus_config(bus_options, "environment manager", robot_host::shared_number(scenario));
   if (!bus) return complain(bus.error());
+  make_room(*bus, hosts.size());
   const auto folder = RunFolder::create(options.output, scenario.scenario.name.value);
   if (!folder) return complain(folder.error());
   Console console(options.quiet);

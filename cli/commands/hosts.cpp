@@ -32,6 +32,14 @@ int tell(const RunCommand& options, bool whole, const std::string& summary,
   return whole ? kGood : kNotGood;
 }
 
+Result<bus::BusConfig> bus_of_run(const BusOptions& options, const std::string& participant,
+                                  const config::ExpandedScenario& scenario) {
+  RAVE_TRY_ASSIGN(const auto hosts, config::plan_hosts(scenario));
+  RAVE_TRY_ASSIGN(auto bus, bus_config(options, participant, robot_host::shared_number(scenario)));
+  make_room(bus, hosts.size());
+  return bus;
+}
+
 }  // namespace
 
 int robot(const RobotCommand& options) {
@@ -50,7 +58,7 @@ int robot(const RobotCommand& options) {
   how.host = options.host;
   how.manager_patience = from_seconds(options.manager_patience_s);
   how.others = std::move(others);
-  auto bus = bus_config(run.bus, options.host, robot_host::shared_number(*scenario));
+  auto bus = bus_of_run(run.bus, options.host, *scenario);
   if (!bus) return complain(bus.error());
   how.bus = *bus;
   const auto folder = RunFolder::create(run.output, name);
@@ -85,7 +93,7 @@ int env(const EnvCommand& options) {
   const RunCommand& run = options.run;
   auto scenario = read_scenario(run);
   if (!scenario) return complain(scenario.error());
-  auto bus = bus_config(run.bus, "environment manager", robot_host::shared_number(*scenario));
+  auto bus = bus_of_run(run.bus, "environment manager", *scenario);
   if (!bus) return complain(bus.error());
   const auto folder = RunFolder::create(run.output, scenario->scenario.name.value + "-env");
   if (!folder) return complain(folder.error());

@@ -10,7 +10,6 @@ Result<std::unique_ptr<bus::Bus>> join_as_onlooker(const bus::RunId& run,
   config.beside = beside;
   config.participant = "listener";
   config.run = run;
-  config.max_processes = 100;
   for (std::size_t i = 0; i + 1 < apart.size(); ++i) {
     if (apart[i] == "--bus-tag") config.tag = apart[i + 1];
     if (apart[i] == "--domain")

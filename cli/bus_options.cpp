@@ -45,7 +45,7 @@ Result<bus::BusConfig> read_bus_options(const BusOptions& options, std::string p
 }
 
 void make_room(bus::BusConfig& config, std::size_t hosts) {
-  // The manager, those who look on, and another small run.
+  // The manager, and those who look on.
   constexpr std::size_t kOthers = 14;
   constexpr std::size_t kMost = 119;
   config.max_processes =

@@ -31,6 +31,9 @@ struct BusOptions {
                                                       std::string participant,
                                                       std::uint64_t scenario);
 
+/// As many processes as one command starts; who looks on may look for all of them.
+inline constexpr std::size_t kMostHosts = 100;
+
 /// Lets so many hosts find one another if all run on this machine. Each process that there may be
 /// costs every other one a look now and then.
 void make_room(bus::BusConfig& config, std::size_t hosts);

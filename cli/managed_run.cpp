@@ -167,7 +167,9 @@ Result<ManagedEnd> manage_time(const ManagedRun& run, robot_host::BuiltScenario 
   how.hosts = std::move(hosts);
   for (const sim::RobotSpec& robot : built.spec.robots) {
     const sim::RobotType& type = built.spec.types[robot.type];
-    how.robots.push_back({robot.name, type.staleness, type.simulated, robot.twin.has_value()});
+    const sim::RobotType& other = built.spec.types[robot.twin.value_or(robot.type)];
+    how.robots.push_back(
+        {robot.name, type.staleness, type.simulated, robot.twin.has_value(), other.staleness});
   }
   how.step = built.spec.step;
   how.duration = from_seconds(file.duration_s);

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "error_text.hpp"
+#include "rave/base/control_characters.hpp"
 
 namespace rave::cli {
 namespace {
@@ -37,8 +38,8 @@ int report_outcome(const RunCommand& options, const robot_host::RunOutcome& outc
   }
   const Terminal errors = terminal_of(stderr);
   for (const std::string& problem : outcome.problems) {
-    put(stderr,
-        fmt::format("{} {}\n", good ? errors.yellow("note:") : errors.red("problem:"), problem));
+    put(stderr, fmt::format("{} {}\n", good ? errors.yellow("note:") : errors.red("problem:"),
+                            without_control_characters(problem, " ")));
   }
   if (!good) {
     const std::string_view what =

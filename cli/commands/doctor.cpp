@@ -79,8 +79,9 @@ int listen(const bus::BusConfig& config, doctor::About about) {
 
 int doctor(const DoctorCommand& options) {
   const std::string name = fmt::format("rave doctor {:.8}", bus::RunId::random().text());
-  const auto config = read_bus_options(options.bus, name, 0);
+  auto config = read_bus_options(options.bus, name, 0);
   if (!config) return complain(config.error());
+  make_room(*config, kMostHosts);
   const doctor::About here = doctor::about_here(*config, robot_host::interface_stamp());
   if (options.listen) return listen(*config, here);
   const doctor::Findings findings = doctor::examine(doctor::this_machine(), *config, here);

@@ -58,11 +58,11 @@ bool has_one(const RunStatus& status, const Has& has) {
 
 /// The process of a run that has what is asked for: in real time over several hosts that is the
 /// host of the robot, and whoever types the name of the run, or nothing, means it. Errors: those of
-/// find_run(), kNotFound (more than one has it).
+/// find_run(), kNotFound (more than one has it, or it cannot be told whose hosts are here).
 Result<std::string> find_process(const std::string& word, const Has& has) {
   auto run = run_control::find_run(word);
-  if (!run && !word.empty()) return run;
-  std::string scenario;
+  // Where a manager runs elsewhere, its hosts are known by the scenario.
+  std::string scenario = word;
   if (run) {
     const auto status = status_of(*run);
     const bool is_it = !status || has_one(*status, has) || run->find('@') != std::string::npos;
@@ -71,14 +71,23 @@ Result<std::string> find_process(const std::string& word, const Has& has) {
   }
   RAVE_TRY_ASSIGN(const auto all, run_control::running_runs());
   std::vector<std::string_view> found;
+  std::size_t runs = 0;
   for (const std::string& one : all) {
-    if (one.find('@') == std::string::npos) continue;
     // One that has just ended has nothing.
     const auto status = status_of(one);
-    const bool of_run = status && (scenario.empty() || status->scenario == scenario);
-    if (of_run && has_one(*status, has)) found.emplace_back(one);
+    if (!status || !(scenario.empty() || status->scenario == scenario)) continue;
+    const bool is_host = one.find('@') != std::string::npos;
+    if (!is_host) ++runs;
+    // With a run that was found, the hosts of it alone; without, whoever has it.
+    if ((is_host || !run) && has_one(*status, has)) found.emplace_back(one);
   }
   if (found.empty()) return run;
+  if (run && runs > 1) {
+    return fail(ErrorCode::kNotFound,
+                "{} runs of `{}` are here, and whose hosts are whose cannot be told; say which of "
+                "{}",
+                runs, scenario, join_names(found));
+  }
   if (found.size() == 1) return std::string(found.front());
   return fail(ErrorCode::kNotFound, "several processes have it: {}; say which", join_names(found));
 }

@@ -10,6 +10,7 @@
 #include "interrupt.hpp"
 #include "managed_run.hpp"
 #include "places.hpp"
+#include "rave/base/control_characters.hpp"
 #include "rave/robot_host/build.hpp"
 #include "rave/robot_host/host_run.hpp"
 #include "rave/run_control/folder.hpp"
@@ -26,7 +27,8 @@ int tell(const RunCommand& options, bool whole, const std::string& summary,
   const Terminal errors = terminal_of(stderr);
   if (!options.quiet) put(stdout, summary + fmt::format("{}\n", folder.string()));
   for (const std::string& problem : problems) {
-    put(stderr, fmt::format("{} {}\n", errors.red("problem:"), problem));
+    put(stderr,
+        fmt::format("{} {}\n", errors.red("problem:"), without_control_characters(problem, " ")));
   }
   if (whole && !options.quiet) put(stdout, terminal_of(stdout).green("done") + "\n");
   return whole ? kGood : kNotGood;

@@ -168,6 +168,7 @@ int top(const TopCommand& options) {
   KeyWatch keys(live && ::isatty(STDIN_FILENO) == 1);
   auto config = bus_config(options.bus, "rave top", 0);
   if (!config) return complain(config.error());
+  make_room(*config, kMostHosts);
   const auto look = find_run(options, *config, keys.end());
   if (keys.ended()) return kGood;
   if (!look) return complain(look.error());

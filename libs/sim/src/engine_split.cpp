@@ -140,6 +140,10 @@ Status Engine::join(const WorldStep& world, const AuthorityState& state) {
   PhaseTimer phase(engine.spec.phase_clock, engine.phase_times);
   engine.step = world.step;
   engine.now = engine.step_time(world.step);
+  // The time that this host was not there is none in which a hand-over came to nothing.
+  for (Twin& twin : engine.twins) {
+    if (twin.stage != Twin::Stage::kIdle) twin.since = twin.moved_at = engine.now;
+  }
   RAVE_TRY(engine.catch_up(world, state));
   RAVE_TRY(engine.take_newer_samples());
   // The authority has had what it needs of that time from nobody, and needs it no more.

@@ -57,10 +57,10 @@ HWY_INLINE void keep_nearer(V inverse, std::uint32_t body, V& nearest, W& neares
   nearest_body = hn::IfThenElse(hn::RebindMask(words, nearer), hn::Set(words, body), nearest_body);
 }
 
-template <class V>
-HWY_INLINE void keep(const FanView& fan, std::size_t ray, V inverse, std::uint32_t body) {
-  const hn::DFromV<V> d;
-  const hn::RebindToUnsigned<hn::DFromV<V>> words;
+/// `d` is given: from a vector of no fixed size one does not learn how much of it is used.
+template <class D, class V>
+HWY_INLINE void keep(D d, const FanView& fan, std::size_t ray, V inverse, std::uint32_t body) {
+  const hn::RebindToUnsigned<D> words;
   auto nearest = hn::LoadU(d, fan.inverse + ray);
   auto nearest_body = hn::LoadU(words, fan.body + ray);
   keep_nearer(inverse, body, nearest, nearest_body);
@@ -345,7 +345,8 @@ HWY_INLINE void cast_between(const FanView& fan, std::int32_t right, std::int32_
   const Rays d;
   const auto cast = [&](std::size_t first, std::size_t last) HWY_ATTR {
     for (std::size_t ray = first; ray < last; ray += hn::Lanes(d)) {
-      keep(fan, ray, seen.inverse(hn::LoadU(d, fan.cos + ray), hn::LoadU(d, fan.sin + ray)), body);
+      keep(d, fan, ray, seen.inverse(hn::LoadU(d, fan.cos + ray), hn::LoadU(d, fan.sin + ray)),
+           body);
     }
   };
   if (fan.first_ray == nullptr) {
@@ -366,7 +367,7 @@ HWY_INLINE void cast_between(const FanView& fan, std::int32_t right, std::int32_
 HWY_INLINE void keep_all_inside(const FanView& fan, std::uint32_t body) {
   const Rays d;
   const auto inside = hn::Set(d, std::numeric_limits<float>::infinity());
-  for (std::size_t ray = 0; ray < fan.padded; ray += hn::Lanes(d)) keep(fan, ray, inside, body);
+  for (std::size_t ray = 0; ray < fan.padded; ray += hn::Lanes(d)) keep(d, fan, ray, inside, body);
 }
 
 HWY_INLINE void cast_discs(Pieces discs, const FanPlace& place, const FanView& fan) {

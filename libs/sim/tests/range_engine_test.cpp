@@ -175,6 +175,15 @@ world::WorldModel random_world(std::uint32_t seed, Vec2 centre) {
   return model;
 }
 
+/// More of them than are made out together.
+void add_discs(std::uint32_t seed, Vec2 centre, world::WorldModel& model) {
+  RandomStream random(seed, 7, 7, 7);
+  for (int i = 0; i < 20; ++i) {
+    model.obstacles.push_back(disc_at(centre.x + random.uniform(-6, 6),
+                                      centre.y + random.uniform(-6, 6), random.uniform(0.05, 0.3)));
+  }
+}
+
 /// The reference: every shape, one ray at a time, in double.
 double brute_force(const world::Snapshot& world, Vec2 p, Vec2 direction, double inflate_m) {
   double nearest = world::kNoHit;
@@ -205,6 +214,7 @@ TEST(CastFan, AgreesWithBruteForceInRandomWorlds) {
     const Vec2 centre = seed % 2 == 0 ? Vec2{0, 0} : Vec2{700, -750};
     world::WorldModel model = random_world(seed, centre);
     // Far from where the index begins, candidates are found in another way.
+    if (seed % 5 == 0) add_discs(seed, centre, model);
     if (seed % 7 == 0) model.obstacles.push_back(disc_at(centre.x - 3000, centre.y - 3000, 1));
     const world::Snapshot world(model);
     RandomStream random(seed, 9, 9, 9);
@@ -261,7 +271,8 @@ TEST(CastFan, WidestAndNarrowestInstructionsGiveTheSameBits) {
     hwy::GetChosenTarget().DeInit();
     std::vector<Reading> readings;
     for (std::uint32_t seed = 0; seed < 300; ++seed) {
-      const world::WorldModel model = random_world(seed, {40, -30});
+      world::WorldModel model = random_world(seed, {40, -30});
+      add_discs(seed, {40, -30}, model);
       const world::Snapshot world(model);
       RandomStream random(seed, 9, 9, 9);
       const Pose2 X_WS{random.uniform(35, 45), random.uniform(-35, -25), random.uniform(-kPi, kPi)};

@@ -5,6 +5,7 @@
 
 #include "manager_habits.hpp"
 #include "rave/bus/sequence.hpp"
+#include "sat.hpp"
 
 namespace rave::environment_manager {
 namespace {
@@ -53,6 +54,7 @@ LiveBoard::LiveBoard(const LiveManagerOptions& options, Parts parts)
       said_by_(options.robots.size()),
       book_(planned_robots(options), options.hosts) {
   for (std::uint32_t r = 0; r < options.robots.size(); ++r) {
+    staleness_.push_back(options.robots[r].staleness);
     if (options.robots[r].twin) twins_.push_back({RobotId(r), options.robots[r].simulated});
   }
   for (std::uint32_t h = 0; h < options.hosts.size(); ++h) {
@@ -168,7 +170,7 @@ bool LiveBoard::sit_down(const bus::ClockPing& ping) {
     }
     seat.writer = ping.writer;
     book_.stir();
-    seat.sat.push_back(ping.writer);
+    note_sitting(seat.sat, ping.writer);
     news_ = true;
     all_asked_ = false;
     if (options_.log != nullptr) {
@@ -195,10 +197,8 @@ void LiveBoard::take_roster(robot_host::RunControl* control) {
 }
 
 void LiveBoard::take_findings() {
-  findings_.take([this](std::uint64_t writer, std::uint32_t host) {
-    return host < seats_.size() && std::find(seats_[host].sat.begin(), seats_[host].sat.end(),
-                                             writer) != seats_[host].sat.end();
-  });
+  findings_.take(
+      [this](std::uint64_t writer, std::uint32_t host) { return has_sat(seats_, writer, host); });
 }
 
 void LiveBoard::take_states() {
@@ -235,7 +235,10 @@ std::vector<real_time::RobotReality> LiveBoard::take_realities() {
   for (real_time::RobotReality& twin : twins_) {
     const std::uint32_t r = twin.robot.value();
     const bool simulated = book_.simulated(r, seats_[seat_of_[r]].writer);
-    if (std::exchange(twin.simulated, simulated) != simulated) changed.push_back(twin);
+    if (std::exchange(twin.simulated, simulated) == simulated) continue;
+    const LiveManagerOptions::Robot& robot = options_.robots[r];
+    staleness_[r] = simulated == robot.simulated ? robot.staleness : robot.other_staleness;
+    changed.push_back(twin);
   }
   return changed;
 }

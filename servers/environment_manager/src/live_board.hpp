@@ -28,10 +28,11 @@ namespace rave::environment_manager {
 struct LiveSeat {
   std::string name;
   std::uint32_t robots = 0;
-  std::uint32_t real = 0;            ///< Of these.
-  std::uint64_t writer = 0;          ///< The process; 0: nobody.
-  bool heard = false;                ///< Somebody was there.
-  std::vector<std::uint64_t> sat{};  ///< All that have sat here.
+  std::uint32_t real = 0;    ///< Of these.
+  std::uint64_t writer = 0;  ///< The process; 0: nobody.
+  bool heard = false;        ///< Somebody was there.
+  /// All that have sat here, in the order of their first times.
+  std::vector<std::uint64_t> sat{};
   std::uint64_t losses = 0;
   std::uint64_t last_step = 0;
   std::int64_t offset_ns = 0;  ///< Our clock minus its own, as it says.
@@ -72,6 +73,8 @@ class LiveBoard {
   void take_roster(robot_host::RunControl* control);
   /// What hosts have said since the last call of robots with two sets of drivers.
   [[nodiscard]] std::vector<real_time::RobotReality> take_realities();
+  /// After which a robot that is not heard of counts as stale, with the drivers that it has.
+  [[nodiscard]] Duration staleness(std::size_t robot) const { return staleness_[robot]; }
   /// Sends where all robots are that were heard of. `stale`: by robot.
   void send_world(std::uint64_t number, SimTime now, std::span<const std::uint8_t> stale);
   /// Fills in how it stands with the hosts, and sends it.
@@ -144,6 +147,7 @@ class LiveBoard {
   std::vector<bool> known_;
   std::vector<std::uint64_t> said_by_;  ///< By robot: the process that spoke of it last.
   RosterBook book_;
+  std::vector<Duration> staleness_;             ///< By robot.
   std::vector<real_time::RobotReality> twins_;  ///< Robots with two sets of drivers, as told last.
   real_time::RobotColumns columns_;
   std::vector<std::uint32_t> stale_;

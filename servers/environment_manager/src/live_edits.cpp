@@ -212,7 +212,7 @@ void LiveEdits::place_robots(SimTime now) {
     const real_time::RobotSight* const sight = board_.sight_of(r);
     if (sight == nullptr) continue;
     const std::int64_t age_ns =
-        std::clamp<std::int64_t>((now - sight->stamp).ns, 0, options_.robots[r].staleness.ns);
+        std::clamp<std::int64_t>((now - sight->stamp).ns, 0, board_.staleness(r).ns);
     authority_->place(RobotId(r),
                       integrate(sight->X_WR, sight->velocity, Duration{age_ns}.seconds()), true);
   }

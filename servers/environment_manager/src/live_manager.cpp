@@ -9,6 +9,7 @@
 #include "manager_habits.hpp"
 #include "rave/base/names.hpp"
 #include "rave/bus/sequence.hpp"
+#include "sat.hpp"
 
 namespace rave::environment_manager {
 namespace {
@@ -162,7 +163,7 @@ void LiveRun::look_for_stale(SimTime now) {
   for (std::size_t r = 0; r < stale_.size(); ++r) {
     const auto stamp = board_->stamp_of(r);
     if (!stamp) continue;
-    const bool stale = now - *stamp > options_.robots[r].staleness;
+    const bool stale = now - *stamp > board_->staleness(r);
     if (stale == (stale_[r] != 0)) continue;
     stale_[r] = stale ? 1 : 0;
     (stale ? silent : back).push_back(options_.robots[r].name);
@@ -207,9 +208,19 @@ void LiveRun::see_off() {
   const auto owes = [this](const LiveSeat& seat) {
     return seat.writer != 0 && !board_->findings().done_with(seat.writer);
   };
+  bool told = false;
   while (std::any_of(seats.begin(), seats.end(), here)) {
     const bool any_owes = begun_ && std::any_of(seats.begin(), seats.end(), owes);
     if (Clock::now() - began >= (any_owes ? kLongFarewell : kFarewell)) break;
+    if (Clock::now() - began >= kFarewell && !std::exchange(told, true) &&
+        options_.log != nullptr) {
+      std::vector<std::string_view> names;
+      for (const LiveSeat& seat : seats) {
+        if (owes(seat)) names.emplace_back(seat.name);
+      }
+      options_.log->warn(kSource, "waits up to {} s for what {} know of the run",
+                         kLongFarewell.count(), join_names(names));
+    }
     board_->wait(Duration{std::chrono::nanoseconds(kLook).count()});
     if (!listen()) break;
   }
@@ -274,6 +285,7 @@ LiveManagerOutcome LiveRun::outcome() {
   if (!over && !options_.ends_hosts) {
     board_->take_findings();
     outcome.findings = board_->findings().hand_out();
+    order_by_sitting(board_->seats(), outcome.findings);
     return outcome;
   }
   tell_state(over ? rave_wire_RUN_ENDED : rave_wire_RUN_FAILED,
@@ -281,6 +293,7 @@ LiveManagerOutcome LiveRun::outcome() {
   see_off();
   outcome.saw_off = true;
   outcome.findings = board_->findings().hand_out();
+  order_by_sitting(board_->seats(), outcome.findings);
   return outcome;
 }
 

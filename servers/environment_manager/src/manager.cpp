@@ -8,6 +8,7 @@
 #include "rave/base/names.hpp"
 #include "rave/bus/sequence.hpp"
 #include "rave/sim/world_authority.hpp"
+#include "sat.hpp"
 #include "seats.hpp"
 #include "switchboard.hpp"
 #include "wishes.hpp"
@@ -215,7 +216,7 @@ Status Run::sit_down(Seat& seat, const bus::HostReport& message) {
       seat.state == SeatState::kLost ? fmt::format("back in step {}", step_) : "here", seat.robots);
   seat.writer = message.writer;
   roster_.stir();
-  seat.sat.push_back(message.writer);
+  note_sitting(seat.sat, message.writer);
   seat.state = SeatState::kRuns;
   seat.reported = false;
   next_tell_ = {};
@@ -232,6 +233,7 @@ Status Run::hear(const bus::HostReport& message) {
   seat.last_step = message.step;
   newest_report_ = std::max(newest_report_, message.step);
   if (message.state == rave_wire_REPORT_FAILED) {
+    if (over_) return {};  // nothing depends on it any more, and it still says what it knows
     if (options_.on_lost_host == LostHost::kWait) {
       return fail(ErrorCode::kState, "host `{}` cannot go on: {}", seat.name, message.text);
     }
@@ -294,10 +296,8 @@ void Run::miss(std::uint64_t writer) {
 }
 
 void Run::take_findings() {
-  board_->findings().take([this](std::uint64_t writer, std::uint32_t host) {
-    return host < seats_.size() && std::find(seats_[host].sat.begin(), seats_[host].sat.end(),
-                                             writer) != seats_[host].sat.end();
-  });
+  board_->findings().take(
+      [this](std::uint64_t writer, std::uint32_t host) { return has_sat(seats_, writer, host); });
 }
 
 /// What can wait until nothing else is to be done.
@@ -387,9 +387,14 @@ void Run::see_off(bool awaits_findings) {
   const auto owes = [this](const Seat& seat) {
     return seat.writer != 0 && !board_->findings().done_with(seat.writer);
   };
+  bool told = false;
   while (std::any_of(seats_.begin(), seats_.end(), here)) {
     const bool any_owes = awaits_findings && std::any_of(seats_.begin(), seats_.end(), owes);
     if (Clock::now() - began >= (any_owes ? kLongFarewell : kFarewell)) break;
+    if (Clock::now() - began >= kFarewell && !std::exchange(told, true)) {
+      log(LogLevel::kWarning, "waits up to {} s for what {} know of the run", kLongFarewell.count(),
+          join_names(names_of(seats_, owes)));
+    }
     board_->wait(Duration{std::chrono::nanoseconds(kLook).count()});
     if (!listen() || !look()) break;
   }
@@ -552,6 +557,7 @@ ManagerOutcome Run::outcome() {
              problems_.empty() ? std::string() : problems_.back());
   see_off(begun_);
   outcome.findings = board_->findings().hand_out();
+  order_by_sitting(seats_, outcome.findings);
   return outcome;
 }
 

@@ -27,7 +27,7 @@ struct Seat {
   SeatState state = SeatState::kMissing;
   std::uint64_t writer = 0;        ///< The process; 0: nobody.
   std::uint64_t last_writer = 0;   ///< Of a lost one.
-  std::vector<std::uint64_t> sat;  ///< All that have sat here.
+  std::vector<std::uint64_t> sat;  ///< All that have sat here, in the order of their first times.
   std::string loss;                ///< How it was lost; empty if nothing came of it.
   std::uint64_t last_step = 0;     ///< Of its last report.
   bool reported = false;           ///< `report` is what comes next.

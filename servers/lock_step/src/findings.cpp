@@ -52,6 +52,9 @@ Status FindingsSender::send(std::uint32_t host, std::span<const std::byte> bytes
     if (!written && written.error().code == ErrorCode::kTimeout) return too_late(patience);
     RAVE_TRY(std::move(written));
   }
+  if (writer_.readers() == 0) {
+    return fail(ErrorCode::kState, "no environment manager is there that would take them");
+  }
   const auto left = std::chrono::duration_cast<std::chrono::nanoseconds>(end - Clock::now());
   const dds_return_t confirmed =
       dds_wait_for_acks(writer_.handle(), std::max<std::int64_t>(0, left.count()));
@@ -116,7 +119,11 @@ void FindingsCollector::take(const std::function<bool(std::uint64_t, std::uint32
       reader_.refuse(part, added.error().message);
     }
   };
-  while (reader_.take(hear) == bus::ReaderCore::kMostAtOnce) continue;
+  // Whoever never stops sending does not keep the caller here.
+  constexpr int kMostRounds = 32;
+  for (int round = 0; round < kMostRounds; ++round) {
+    if (reader_.take(hear) < bus::ReaderCore::kMostAtOnce) break;
+  }
 }
 
 }  // namespace rave::lock_step

@@ -361,6 +361,7 @@ void HostLink::Impl::look() {
   for (const bus::BusEvent& event : bus->take_events()) {
     using enum bus::EventKind;
     if (event.kind == kParticipantLost && event.writer != 0) {
+      if (realities) realities->lose(event.writer);
       lose(event.writer);
       continue;
     }

@@ -110,7 +110,11 @@ LiveWorld::LiveWorld(const sim::EngineSpec& spec, std::unique_ptr<sim::WorldAuth
     other_of_[r] = static_cast<std::uint32_t>(others_.size());
     Other& other = others_.emplace_back();
     other.last.robot = RobotId(r);
+    const sim::RobotType& twin = spec.types[spec.robots[r].twin.value_or(spec.robots[r].type)];
     other.staleness = type.staleness;
+    other.staleness_of.fill(type.staleness);
+    other.staleness_of[twin.simulated ? 1 : 0] = twin.staleness;
+    other.staleness_of[type.simulated ? 1 : 0] = type.staleness;
     other.real = !type.simulated;
     other.sample_ns = INT64_MIN;
   }
@@ -243,7 +247,9 @@ Status LiveWorld::serve(RobotId robot, std::uint32_t type, const Pose2& X_WR) {
 bool LiveWorld::set_reality(RobotId robot, bool simulated) {
   const std::uint32_t r = robot.value();
   if (r >= other_of_.size() || other_of_[r] == kNone) return false;
-  others_[other_of_[r]].real = !simulated;
+  Other& other = others_[other_of_[r]];
+  other.real = !simulated;
+  other.staleness = other.staleness_of[simulated ? 1 : 0];
   if (simulated) {
     std::erase_if(samples_, [robot](const sim::PoseSample& one) { return one.robot == robot; });
   }

@@ -12,6 +12,7 @@
 #include "rave/math/scalar.hpp"
 #include "rave/math/transform.hpp"
 #include "rave/sim/virtual_sensor.hpp"
+#include "sees_others.hpp"
 #include "twins.hpp"
 
 namespace rave::robot_host {
@@ -121,15 +122,6 @@ void let_go_of_plugins(sim::RobotType& type) {
   type.program->ops = nullptr;
   type.program->param_specs = {};
   type.program->isolate = nullptr;
-}
-
-/// Whether it matters to a robot where others are.
-bool sees_others(const sim::RobotType& type) {
-  const auto looks = [](const sim::SensorSpec& sensor) {
-    return sensor.virtual_ops != nullptr || sensor.hybrid.has_value();
-  };
-  return std::any_of(type.sensors.begin(), type.sensors.end(), looks) ||
-         (type.guard && type.guard->separation_m >= 0);
 }
 
 Status add_groups(const config::ExpandedScenario& scenario, plugin::Catalogue& catalogue,

@@ -102,7 +102,9 @@ Status write_results(const Journey& journey, const HostOutcome& outcome) {
   RAVE_TRY(write_file_atomically(
       folder / "events.log",
       events_log(journey.engine.spec(), journey.observers.kinds, journey.events)));
-  return write_file_atomically(folder / "result.json", json.dump(2) + "\n");
+  return write_file_atomically(
+      folder / "result.json",
+      json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 HostOutcome judge(const Journey& journey) {
@@ -204,9 +206,11 @@ Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::C
   }
   if (!record_problem.empty()) outcome.problems.push_back(record_problem);
   outcome.whole = outcome.whole && outcome.problems.empty();
-  RAVE_TRY(write_results(journey, outcome));
+  // A full disk here is no reason to keep from others what this host knows.
+  const Status written = write_results(journey, outcome);
   RAVE_TRY(leave_facts(journey, encode_facts(journey, facts_of(journey, record_problem)),
                        [&port](std::span<const std::byte> facts) { return port->deliver(facts); }));
+  RAVE_TRY(written);
   if (!went) return tl::unexpected(went.error());
   return outcome;
 }

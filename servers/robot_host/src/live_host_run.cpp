@@ -208,7 +208,9 @@ Status write_results(const LiveJourney& journey, const RunFacts& facts,
   RAVE_TRY(write_file_atomically(
       folder / "events.log",
       events_log(journey.engine.spec(), journey.observers.kinds, journey.events)));
-  return write_file_atomically(folder / "result.json", json.dump(2) + "\n");
+  return write_file_atomically(
+      folder / "result.json",
+      json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 Result<HostLink::Options> link_options(const LiveHost& host, const BuiltScenario& built) {
@@ -286,9 +288,11 @@ Result<HostOutcome> go(const LiveHost& host, sim::Engine& engine, HostLink& link
     }
   }
   outcome.whole = outcome.whole && outcome.problems.empty();
-  RAVE_TRY(write_results(journey, facts, outcome));
+  // A full disk here is no reason to keep from others what this host knows.
+  const Status written = write_results(journey, facts, outcome);
   RAVE_TRY(leave_facts(journey, encode_facts(journey, std::move(facts)),
                        [&link](std::span<const std::byte> bytes) { return link.deliver(bytes); }));
+  RAVE_TRY(written);
   if (!went) return tl::unexpected(went.error());
   return outcome;
 }

@@ -255,7 +255,8 @@ std::string result_json(const Findings& findings, const RunOutcome& outcome) {
   if (findings.states) json["states"] = *findings.states;
   if (findings.edits) add_edits(*findings.edits, json);
   if (!findings.hosts.empty()) json["hosts"] = hosts_json(findings);
-  return json.dump(2) + "\n";
+  // What came from other processes may be no text.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace rave::robot_host

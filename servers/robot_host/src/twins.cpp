@@ -8,6 +8,7 @@
 #include "guards.hpp"
 #include "rave/base/names.hpp"
 #include "rave/math/scalar.hpp"
+#include "sees_others.hpp"
 
 namespace rave::robot_host {
 namespace {
@@ -151,7 +152,10 @@ Status add_twins(const DeviceContext& context) {
     }
     spec.robots[r].twin = static_cast<std::uint32_t>(spec.types.size());
     spec.robots[r].hand_over = {group.hand_over.within_m, deg_to_rad(group.hand_over.within_deg)};
-    context.built.sees.push_back(context.built.sees[spec.robots[r].type]);
+    // With either set of drivers it may have to know where others are.
+    const std::uint32_t type = spec.robots[r].type;
+    if (sees_others(twin)) context.built.sees[type] = 1;
+    context.built.sees.push_back(std::uint8_t{context.built.sees[type]});
     spec.types.push_back(std::move(twin));
   }
   return check_in_real_time(context);

@@ -167,10 +167,19 @@ void RunModel::hear(const bus::RosterEntry& entry) {
   if (!process.introduced) process.host = entry.host;
   const auto known = process.roster.find(entry.robot);
   if (known == process.roster.end()) {
+    if (described_ >= kMostRobots) forget_rosters_of_the_gone(entry.writer);
     if (described_ >= kMostRobots) return;
     ++described_;
   }
   process.roster[entry.robot] = {entry.name, entry.team, entry.kind != rave_wire_ROBOT_REAL};
+}
+
+void RunModel::forget_rosters_of_the_gone(std::uint64_t but) {
+  for (auto& [writer, process] : processes_) {
+    if (!process.gone || writer == but) continue;
+    described_ -= process.roster.size();
+    process.roster.clear();
+  }
 }
 
 void RunModel::lose(std::uint64_t writer) {

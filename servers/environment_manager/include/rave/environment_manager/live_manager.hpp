@@ -28,9 +28,10 @@ struct LiveManagerOptions {
   /// All robots, by id.
   struct Robot {
     std::string name;
-    Duration staleness;     ///< After which a robot that is not heard of counts as stale.
-    bool simulated = true;  ///< At the start.
-    bool twin = false;      ///< It has two sets of drivers.
+    Duration staleness;          ///< After which a robot that is not heard of counts as stale.
+    bool simulated = true;       ///< At the start.
+    bool twin = false;           ///< It has two sets of drivers.
+    Duration other_staleness{};  ///< With its other set.
   };
   std::vector<Robot> robots;
   Duration step;          ///< Of the hosts; for who looks on.

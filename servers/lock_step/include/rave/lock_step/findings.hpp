@@ -22,8 +22,8 @@ namespace rave::lock_step {
 inline constexpr std::uint64_t kMostFindings =
     std::uint64_t{rave_wire_kMaxFindingsPart} * rave_wire_kMaxFindingsParts;
 
-/// How long a host waits until a manager has them. A manager waits a little longer for hosts that
-/// are still there.
+/// How long a host waits until a manager has them, once it has written its own files. A manager
+/// waits for hosts that are still there for 20 s from the end of the run on.
 inline constexpr Duration kFindingsPatience{10'000'000'000};
 
 /// What one process knows of its run when that is over: bytes for the results of the whole.
@@ -41,7 +41,8 @@ class FindingsSender {
 
   /// Sends what this process knows, and waits until all managers that are there have got it, but
   /// not for longer than `patience`. Once. Errors: kInvalidArgument (nothing, or more than
-  /// kMostFindings), kTimeout (who listens does not keep up).
+  /// kMostFindings), kTimeout (who listens does not keep up), kState
+  /// (nobody listens).
   [[nodiscard]] Status send(std::uint32_t host, std::span<const std::byte> bytes,
                             Duration patience);
 

@@ -38,7 +38,7 @@ class RobotDescription {
   std::vector<rave_wire_Parameter> parameters_;
 };
 
-/// A host describes its robots to whoever looks on (topic rave/roster): each once, and again when
+/// A host describes its robots to the others (topic rave/roster): each once, and again when
 /// something of it has changed. Must be gone before its bus; thread: that of the bus.
 class Roster {
  public:

@@ -108,6 +108,7 @@ class LiveWorld {
   struct Other {
     RobotSight last;
     Duration staleness;
+    std::array<Duration, 2> staleness_of;  ///< By whether it is simulated.
     bool real = false;
     bool known = false;
     bool stale = false;

@@ -30,7 +30,12 @@ class Realities {
   /// Takes in what others say. Who speaks of a robot that its host does not run is refused, and
   /// told once as an event of the bus.
   void hear();
-  /// What was heard since the last call, of each robot the last; ascending.
+  /// Takes in what was heard, as hear() does with each sample of the topic.
+  void hear(const bus::RosterEntry& entry);
+  /// A process is gone, with what it said.
+  void lose(std::uint64_t writer);
+  /// What is otherwise than at the last call; ascending. Of several processes that speak for a
+  /// host, such as one that was started by mistake, the one counts that was heard first.
   [[nodiscard]] std::vector<RobotReality> take();
 
  private:
@@ -41,7 +46,14 @@ class Realities {
   std::uint32_t own_host_;
   std::vector<std::uint32_t> host_of_;
   bus::Reader<bus::RosterEntry> reader_;
-  std::map<RobotId, bool> heard_;  ///< Simulated?
+  /// What one process said of its robots: which are simulated.
+  struct Book {
+    std::uint64_t writer = 0;
+    std::uint32_t host = 0;
+    std::map<RobotId, bool> said;
+  };
+  std::vector<Book> books_;        ///< In the order in which they were begun.
+  std::map<RobotId, bool> shown_;  ///< As handed out last.
   bool refused_ = false;
 };
 

@@ -154,6 +154,9 @@ class RunModel {
   std::string run_;
   std::map<std::uint64_t, Process> processes_;  ///< By writer.
   std::uint64_t arrivals_ = 0;
+  /// Makes room for those who come; `but`: a process that is not to be forgotten.
+  void forget_rosters_of_the_gone(std::uint64_t but);
+
   std::size_t described_ = 0;  ///< Robots, of all processes.
   std::optional<State> state_;
   Rate run_steps_;

@@ -155,6 +155,13 @@ TEST_F(LiveRadio, WhenAHostIsKilledTheOthersHearEachOther) {
   }
 }
 
+/// Beside a flood; sanitizers leave the hosts of this machine little time to speak.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr std::size_t kLeastSaid = 60;
+#else
+constexpr std::size_t kLeastSaid = 300;
+#endif
+
 TEST_F(LiveRadio, WhoFloodsIsLimitedAndNamedAndTheOthersHearEachOther) {
   begin("run", "flood.yaml");
   ASSERT_EQ(end_of("run"), 0) << console("run");
@@ -170,7 +177,7 @@ TEST_F(LiveRadio, WhoFloodsIsLimitedAndNamedAndTheOthersHearEachOther) {
     for (const auto& [from, other] : host_of) {
       if (from == to) continue;
       Numbers said = talks[from].said[from];
-      ASSERT_GT(said.size(), 300U) << from;
+      ASSERT_GT(said.size(), kLeastSaid) << from;
       said.resize(said.size() - 50);
       Numbers heard = talks[to].heard[{to, from}];
       ASSERT_GE(heard.size(), said.size()) << from << " to " << to;

@@ -75,7 +75,7 @@ class Run {
   [[nodiscard]] std::stop_token asked() const {
     return options_.control != nullptr ? options_.control->asked() : std::stop_token();
   }
-  void tell_state(rave_wire_RunPhase phase, std::string text);
+  void tell_state(rave_wire_RunPhase phase, std::string_view text);
   void tell_progress(std::string waiting);
   [[nodiscard]] std::string waited_for() const;
   [[nodiscard]] bool complete() const;
@@ -137,7 +137,7 @@ bool Run::complete() const {
                      [all](const Seat& seat) { return seat.reported || !seat.needed(all); });
 }
 
-void Run::tell_state(rave_wire_RunPhase phase, std::string text) {
+void Run::tell_state(rave_wire_RunPhase phase, std::string_view text) {
   bus::RunState state{};
   bus::put_text(state.scenario, options_.scenario);
   state.phase = phase;

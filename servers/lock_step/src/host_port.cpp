@@ -49,6 +49,7 @@ struct HostPort::Impl {
   Roster roster;
   FindingsSender findings;
   bus::HostInfo introduced;  ///< What the others were told of this process.
+  Duration patience;         ///< Without a manager; 0: without limit.
   ReportMessage message{};
   WorldMessage last_message{};
   /// Of the last world; with obstacles only if it brought them.
@@ -60,7 +61,6 @@ struct HostPort::Impl {
   std::uint64_t epoch = 0;    ///< Of the authority that answered last; 0: it is gone.
   std::uint64_t manager = 0;  ///< Its process; 0: nobody has been heard of.
   RunWords words{};           ///< What is said of the run, and by whom.
-  Duration patience{};        ///< Without a manager; 0: without limit.
   Clock::time_point alone_since = Clock::now();  ///< While there is none.
   std::string told{};                            ///< What the log was told last.
   Ending ending{};
@@ -74,9 +74,9 @@ struct HostPort::Impl {
   Status send(const sim::HostReport& report, std::uint64_t hash, const sim::WorldStep& last);
   Status follow_obstacles(const sim::WorldStep& world, sim::AuthorityState& state);
   [[nodiscard]] bool take_world(const sim::HostReport& report, sim::WorldStep& world);
-  [[nodiscard]] bool ended() const noexcept { return ended_; }
+  [[nodiscard]] bool ended() const noexcept { return over; }
 
-  bool ended_ = false;
+  bool over = false;
 };
 
 /// Each thing once, until something else is said.
@@ -115,7 +115,7 @@ void HostPort::Impl::hear(const RunWord& word) {
   if (manager == 0) manager = word.writer;
   if (word.writer != manager) return;
   if (word.without_us) {
-    ended_ = true;
+    over = true;
     ending = {false, "it went on without this host, which was late or gone"};
   }
   switch (word.phase) {
@@ -128,7 +128,7 @@ void HostPort::Impl::hear(const RunWord& word) {
       return;
     case rave_wire_RUN_ENDED:
     case rave_wire_RUN_FAILED:
-      ended_ = true;
+      over = true;
       ending = {word.phase == rave_wire_RUN_ENDED, word.text};
       return;
   }
@@ -144,7 +144,7 @@ void HostPort::Impl::look_at_processes() {
       manager = 0;
       epoch = 0;
       alone_since = Clock::now();
-      if (!ended_) {
+      if (!over) {
         tell(LogLevel::kError, "the environment manager is gone; robots stand until one is back");
       }
       continue;
@@ -158,9 +158,9 @@ void HostPort::Impl::look_at_processes() {
 
 /// Who was started for a run that is no more does not wait for ever.
 void HostPort::Impl::look_at_patience() {
-  if (ended_ || patience.ns <= 0 || manager != 0) return;
+  if (over || patience.ns <= 0 || manager != 0) return;
   if (Clock::now() - alone_since < std::chrono::nanoseconds(patience.ns)) return;
-  ended_ = true;
+  over = true;
   ending = {false, fmt::format("there was no environment manager for {} s", patience.seconds())};
   tell(LogLevel::kError, fmt::format("gives up: {}", ending.text));
 }
@@ -243,12 +243,11 @@ Result<std::unique_ptr<HostPort>> HostPort::open(const bus::BusConfig& config, I
   RAVE_TRY(waits.add_events());
   bus::HostInfo info = introduction(identity);
   RAVE_TRY(own_info.write(info));
-  std::unique_ptr<HostPort> port(new HostPort(std::unique_ptr<Impl>(
+  return std::unique_ptr<HostPort>(new HostPort(std::unique_ptr<Impl>(
       new Impl{std::move(identity), log, std::move(bus), std::move(reports), std::move(own_info),
                std::move(last_worlds), std::move(worlds), std::move(states), std::move(infos),
-               std::move(waits), std::move(pulse), std::move(roster), std::move(findings), info})));
-  port->impl_->patience = patience;
-  return port;
+               std::move(waits), std::move(pulse), std::move(roster), std::move(findings), info,
+               patience})));
 }
 
 Result<HostPort::Answer> HostPort::exchange(const sim::HostReport& report, std::uint64_t hash,

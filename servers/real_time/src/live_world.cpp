@@ -179,11 +179,8 @@ void LiveWorld::adopt(const ObstacleSight& sight, bool is_new) {
   using Kind = sim::ObstacleChange::Kind;
   const world::Obstacle* const obstacle = authority_->world().obstacle(sight.stands.id.value());
   sim::ObstacleChange change = sight.stands;
-  if (is_new) {
-    authority_->adopt(change);
-  } else if (obstacle == nullptr || obstacle->removed) {
-    return;
-  } else if (change.kind == Kind::kAdd) {
+  if (!is_new && (obstacle == nullptr || obstacle->removed)) return;
+  if (!is_new && change.kind == Kind::kAdd) {
     change.body = {};
     change.kind = Kind::kMove;
     if (!sight.removed) authority_->adopt(change);

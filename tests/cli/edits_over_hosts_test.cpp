@@ -181,12 +181,17 @@ TEST_F(EditsOverHosts, AManagerThatIsKilledIsReplacedByOneThatKnowsTheObstacles)
   const std::string alone = hash_alone("edited.yaml", span);
   ASSERT_EQ(alone.size(), 16U);
   start_all("edited.yaml", span);
-  for (const char* const host : {"one", "two"}) wait_for_line(host, "obstacle removed: `pillar`");
+  // In the step in which a change is refused.
+  for (const char* const host : {"one", "two"}) wait_for_line(host, "obstacle moved: `east`");
   signal("env", SIGKILL);
   EXPECT_EQ(end_of("env"), -1);
   wait_for_line("one", "the environment manager is gone");
   start("second", "env", "edited.yaml", span);
-  EXPECT_EQ(end_of("second"), 1) << "of the change that is refused";
+  EXPECT_EQ(end_of("second"), 1) << "of the change that was refused before";
+  EXPECT_GE(result("second")["world_from_step"].get<double>(), 69);
+  EXPECT_NE(result("second")["problems"].dump().find("obstacle `lid` would overlap"),
+            std::string::npos)
+      << result("second")["problems"];
   EXPECT_EQ(result("second")["hash"], alone);
   EXPECT_EQ(end_of("one"), 0) << console("one");
   EXPECT_EQ(end_of("two"), 0) << console("two");

@@ -80,14 +80,23 @@ Status check_named(std::string_view list, const Sequence& sequence, std::size_t 
 }
 
 /// As check_named(), but an event may concern the world and no robot.
-Status check_events(const rave_wire_AuthorityState& authority, std::size_t robots) {
-  const auto events = elements(authority.events);
+template <class Sequence>
+Status check_events(std::string_view list, const Sequence& sequence, std::size_t robots) {
+  const auto events = elements(sequence);
   for (std::size_t i = 0; i < events.size(); ++i) {
     if (events[i].robot < robots || events[i].robot == rave_wire_kNone) continue;
-    return invalid(fmt::format("authority.events[{}] is of robot {}, but there are {}", i,
-                               events[i].robot, robots));
+    return invalid(
+        fmt::format("{}[{}] is of robot {}, but there are {}", list, i, events[i].robot, robots));
   }
   return {};
+}
+
+Status check_refused(const rave_wire_AuthorityState& authority, std::size_t robots) {
+  RAVE_TRY(check_events("authority.refused", authority.refused, robots));
+  const std::size_t told = authority.refused._length;
+  if (told <= authority.refused_count) return {};
+  return invalid(fmt::format("authority.refused are {}, more than the {} that there were", told,
+                             authority.refused_count));
 }
 
 Status check_inputs(const WorldStep& world) {
@@ -122,7 +131,8 @@ Status validate(const WorldStep& sample) {
   RAVE_TRY(check_named("poses", sample.poses, robots));
   RAVE_TRY(check_named("samples", sample.samples, robots));
   RAVE_TRY(check_named("resized", sample.resized, robots));
-  RAVE_TRY(check_events(sample.authority, robots));
+  RAVE_TRY(check_events("authority.events", sample.authority.events, robots));
+  RAVE_TRY(check_refused(sample.authority, robots));
   RAVE_TRY(check_named("authority.scales", sample.authority.scales, robots));
   RAVE_TRY(check_sent(sample.sent));
   RAVE_TRY(check_poses(sample.poses));

@@ -327,10 +327,17 @@ Status check_taken_over(const EngineSpec& spec, const WorldStep& world, const Au
   const bool sizes = std::all_of(state.scales.begin(), state.scales.end(), [&](const auto& robot) {
     return robot.robot.value() < robots && std::isfinite(robot.scale);
   });
-  const bool events = std::all_of(state.events.begin(), state.events.end(), [&](const auto& event) {
+  const auto exists = [&](const Event& event) {
     return !event.robot.valid() || event.robot.value() < robots;
-  });
-  if (pinned && sizes && events) return {};
+  };
+  const bool events = std::ranges::all_of(state.events, exists);
+  const bool refused = std::ranges::all_of(
+      state.refused, [&](const Event& event) { return exists(event) && event.step <= world.step; });
+  if (state.refused.size() > std::min<std::uint64_t>(state.refused_count, state.kMostRefused)) {
+    return fail(ErrorCode::kInvalidArgument, "{} refused changes of {} are told",
+                state.refused.size(), state.refused_count);
+  }
+  if (pinned && sizes && events && refused) return {};
   return fail(ErrorCode::kInvalidArgument, "a state with robots that do not exist");
 }
 

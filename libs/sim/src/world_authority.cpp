@@ -39,12 +39,14 @@ struct WorldAuthority::Impl {
   [[nodiscard]] Status check(std::span<const HostReport* const> reports);
   void finish_step();
   void take_over(const WorldStep& world);
+  void put_refusal_texts(std::uint64_t in_step);
   void make_changes(WorldStep& world);
   void do_input(WorldInput& input, WorldStep& world);
   Status change_body(RobotId robot, std::span<const ParameterChange> changes, Author author,
                      WorldStep& world);
   Status change_obstacle(const ObstacleChange& change, Author author, WorldStep& world);
   void make_obstacle_changes(WorldStep& world);
+  void refuse(RobotId robot, const Error& why);
   void take_over_obstacles(WorldStep& world);
   void close_obstacles();
   void place_real_robots();
@@ -72,6 +74,8 @@ struct WorldAuthority::Impl {
   std::vector<ObstacleChange> last_obstacles;  ///< Of that world.
   std::vector<ObstacleChange> adopted;         ///< Of another authority, for the next step.
   std::vector<InputRefusal> refusals;
+  std::uint64_t refused_count = 0;  ///< Changes of the scenario, in all steps.
+  std::vector<Event> refused;       ///< The first of them.
   std::vector<std::pair<const SentPacket*, const SentPackets*>> sent;  ///< During step() alone.
   std::vector<std::uint32_t> seen;  ///< Robots that were pushed, with repetition.
 };
@@ -108,6 +112,8 @@ void WorldAuthority::Impl::begin() {
   last_obstacles.clear();
   adopted.clear();
   refusals.clear();
+  refused_count = 0;
+  refused.clear();
 }
 
 Status WorldAuthority::Impl::check(const HostReport& report) const {
@@ -176,8 +182,7 @@ void WorldAuthority::Impl::make_changes(WorldStep& world) {
     if (scheduled.changes.empty() || !is_of_body(scheduled.changes.front())) continue;
     const Status status = change_body(scheduled.robot, scheduled.changes, Author::kRun, world);
     if (status) continue;
-    events.push_back(noted_input(step, scheduled.robot, EventKind::kChangeRefused,
-                                 status.error().text(), Author::kRun, hash));
+    refuse(scheduled.robot, status.error());
   }
 }
 
@@ -188,9 +193,15 @@ void WorldAuthority::Impl::make_obstacle_changes(WorldStep& world) {
     const Status status =
         change_obstacle(spec.obstacle_changes[next_obstacle].change, Author::kRun, world);
     if (status) continue;
-    events.push_back(noted_input(step, RobotId(), EventKind::kChangeRefused, status.error().text(),
-                                 Author::kRun, hash));
+    refuse(RobotId(), status.error());
   }
+}
+
+/// A change of the scenario that cannot be made.
+void WorldAuthority::Impl::refuse(RobotId robot, const Error& why) {
+  events.push_back(
+      noted_input(step, robot, EventKind::kChangeRefused, why.text(), Author::kRun, hash));
+  if (refused_count++ < AuthorityState::kMostRefused) refused.push_back(events.back());
 }
 
 Status WorldAuthority::Impl::change_obstacle(const ObstacleChange& change, Author author,
@@ -362,6 +373,8 @@ AuthorityState WorldAuthority::state(bool with_obstacles) const {
   state.inputs = authority.inputs;
   state.obstacle_changes = authority.history.count();
   if (with_obstacles) state.obstacles = authority.history.changes();
+  state.refused_count = authority.refused_count;
+  state.refused = authority.refused;
   return state;
 }
 
@@ -389,6 +402,9 @@ Status WorldAuthority::resume(const WorldStep& world, const AuthorityState& stat
   authority.hash = state.hash;
   authority.done_hash = state.hash;
   authority.events = state.events;
+  authority.refused_count = state.refused_count;
+  authority.refused = state.refused;
+  authority.put_refusal_texts(world.step);
   authority.inputs = state.inputs;
   const auto& changes = authority.spec.changes;
   while (authority.next_change < changes.size() &&
@@ -401,6 +417,15 @@ Status WorldAuthority::resume(const WorldStep& world, const AuthorityState& stat
     ++authority.next_obstacle;
   }
   return {};
+}
+
+/// Of events the texts are not told, but those of changes that were refused are, and in their
+/// order.
+void WorldAuthority::Impl::put_refusal_texts(std::uint64_t in_step) {
+  auto next = std::ranges::find_if(refused, [&](const Event& one) { return one.step == in_step; });
+  for (Event& event : events) {
+    if (event.kind == EventKind::kChangeRefused && next != refused.end()) event.text = next++->text;
+  }
 }
 
 /// Where everybody is, as its own write_poses() and write_contacts() told it.
@@ -513,6 +538,8 @@ Status WorldAuthority::change_type(RobotId robot, std::uint32_t type, const Pose
   return {};
 }
 
+std::span<const Event> WorldAuthority::refused() const noexcept { return impl_->refused; }
+std::uint64_t WorldAuthority::refused_count() const noexcept { return impl_->refused_count; }
 std::span<const InputRefusal> WorldAuthority::refusals() const noexcept { return impl_->refusals; }
 void WorldAuthority::reset() { impl_->begin(); }
 const EngineSpec& WorldAuthority::spec() const noexcept { return impl_->spec; }

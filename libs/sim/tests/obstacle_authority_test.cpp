@@ -111,5 +111,32 @@ TEST(ObstacleAuthority, WhoIsNotToldOfObstaclesDoesNotGoOn) {
   EXPECT_EQ(first->state().obstacle_changes, 2U);
 }
 
+TEST(ObstacleAuthority, WhoGoesOnKnowsWhatWasRefusedBefore) {
+  const auto first = authority();
+  WorldStep world;
+  world.begin(4, 2);
+  AuthorityState state;
+  const auto refused = [](std::uint64_t step, std::string text) {
+    return Event{step, RobotId(), EventKind::kChangeRefused, BodyId(), std::move(text), 0};
+  };
+  state.events = {refused(4, "")};
+  state.refused = {refused(2, "in the way"), refused(4, "no such name")};
+  state.refused_count = 1;
+  EXPECT_FALSE(first->resume(world, state)) << "more are told than there were";
+  state.refused_count = 2;
+  state.refused.back().step = 5;
+  EXPECT_FALSE(first->resume(world, state)) << "of a step that nobody has made";
+  state.refused.back().step = 4;
+  ASSERT_TRUE(first->resume(world, state));
+  ASSERT_EQ(first->refused().size(), 2U);
+  EXPECT_EQ(first->refused()[0].text, "in the way");
+  const AuthorityState again = first->state();
+  EXPECT_EQ(again.refused_count, 2U);
+  EXPECT_EQ(again.events.at(0).text, "no such name");
+  first->reset();
+  EXPECT_TRUE(first->refused().empty());
+  EXPECT_EQ(first->refused_count(), 0U);
+}
+
 }  // namespace
 }  // namespace rave::sim::testing

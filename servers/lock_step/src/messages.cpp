@@ -310,6 +310,15 @@ Status WorldMessage::fill_authority(const sim::AuthorityState& authority) {
   message_.authority.obstacle_changes = authority.obstacle_changes;
   RAVE_TRY(obstacles_before_.fill(authority.obstacles));
   borrow(message_.authority.obstacles, obstacles_before_.changes());
+  message_.authority.refused_count = authority.refused_count;
+  refused_.resize(authority.refused.size());
+  for (std::size_t i = 0; i < refused_.size(); ++i) {
+    const sim::Event& event = authority.refused[i];
+    refused_[i].step = event.step;
+    refused_[i].robot = event.robot.value();
+    put_text(refused_[i].text, event.text);
+  }
+  borrow(message_.authority.refused, refused_);
   return {};
 }
 
@@ -395,6 +404,11 @@ Status read_authority(const rave_wire_AuthorityState& message, std::uint64_t ste
   for (const std::uint32_t robot : elements(message.pinned)) authority.pinned.emplace_back(robot);
   read_sizes(message.scales, authority.scales);
   authority.obstacle_changes = message.obstacle_changes;
+  authority.refused_count = message.refused_count;
+  for (const auto& refused : elements(message.refused)) {
+    authority.refused.push_back({refused.step, RobotId(refused.robot),
+                                 sim::EventKind::kChangeRefused, BodyId(), refused.text, 0});
+  }
   return read_obstacles(message.obstacles, authority.obstacles);
 }
 

@@ -117,6 +117,9 @@ inline sim::AuthorityState example_authority() {
   moved.name = "door";
   moved.X_WB = {4, 5, -0.25};
   state.obstacles = {moved};
+  state.refused_count = 3;
+  state.refused = {{7, RobotId(2), sim::EventKind::kChangeRefused, BodyId(), "too large", 0},
+                   {40, RobotId(), sim::EventKind::kChangeRefused, BodyId(), "in the way", 0}};
   return state;
 }
 

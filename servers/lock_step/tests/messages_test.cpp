@@ -116,8 +116,11 @@ std::string text_of(const sim::WorldStep& world) {
 }
 
 std::string text_of(const sim::AuthorityState& state) {
-  std::string text =
-      fmt::format("{:x} {} {} ", state.hash.value(), state.inputs, state.obstacle_changes);
+  std::string text = fmt::format("{:x} {} {} {} ", state.hash.value(), state.inputs,
+                                 state.obstacle_changes, state.refused_count);
+  for (const sim::Event& event : state.refused) {
+    text += fmt::format("{} {} {} ", event.step, event.robot.value(), event.text);
+  }
   put(text, state.obstacles);
   for (const sim::Event& event : state.events) {
     text += fmt::format("event {} {} {} {} ", event.step, event.robot.value(),

@@ -45,6 +45,7 @@ struct SharedResults::Impl {
   }
 
   void note_step(const sim::WorldAuthority& authority);
+  void note_take_over(const sim::WorldAuthority& authority, std::uint64_t from);
   Status add(const SharedHost& host, std::string bytes, std::vector<std::string>& added);
   [[nodiscard]] HostShare share_of(const SharedHost& host) const;
   void take(const SharedHost& host, const std::vector<std::size_t>& robots, Findings& findings);
@@ -62,13 +63,26 @@ struct SharedResults::Impl {
   std::uint64_t noted = 0;  ///< Steps whose events have been taken.
 };
 
+/// What a manager before knew and is a problem of the run.
+void SharedResults::Impl::note_take_over(const sim::WorldAuthority& authority, std::uint64_t from) {
+  facts.world_from = from;
+  const auto told = authority.refused();
+  for (const sim::Event& event : told) {
+    if (event.step < from) facts.events.push_back(event);
+  }
+  if (authority.refused_count() <= told.size()) return;
+  facts.problems.push_back(
+      fmt::format("{} changes of the scenario were refused until step {}; the first {} are told",
+                  authority.refused_count(), from + 1, told.size()));
+}
+
 /// The step that is done now.
 void SharedResults::Impl::note_step(const sim::WorldAuthority& authority) {
   const std::uint64_t done = authority.steps_done();
   kinds.learn(authority.world());
   const bool first = !std::exchange(begun, true);
   // The step that a manager before left unfinished has been finished here.
-  if (first && done > 0) facts.world_from = done - 1;
+  if (first && done > 0) note_take_over(authority, done - 1);
   // With the first world of a run no step is done.
   if (first ? done == 0 : done == noted) return;
   noted = done;

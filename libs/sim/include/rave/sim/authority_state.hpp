@@ -14,6 +14,7 @@ namespace rave::sim {
 /// What an authority knows beside the last WorldStep that it made. With both another one can go on
 /// in its place, to the bit.
 struct AuthorityState {
+  static constexpr std::size_t kMostRefused = 64;
   RunHash hash;                      ///< With what has been noted in the step of the world.
   std::vector<Event> events;         ///< Noted so far in that step; their texts do not matter.
   std::vector<RobotId> pinned;       ///< Who could not get out of a real robot's way; ascending.
@@ -24,6 +25,10 @@ struct AuthorityState {
   /// What leads from the obstacles of the spec to those before the world, see ObstacleHistory.
   /// Left out (empty although there were changes) where everybody knows them.
   std::vector<ObstacleChange> obstacles;
+  /// How many changes of the scenario could not be made in all steps so far, and the first of them:
+  /// EventKind::kChangeRefused, in order.
+  std::uint64_t refused_count = 0;
+  std::vector<Event> refused;
 };
 
 }  // namespace rave::sim

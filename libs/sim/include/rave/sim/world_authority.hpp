@@ -81,6 +81,11 @@ class WorldAuthority {
   /// What hosts and authority said in the last step to inputs that came by hand.
   [[nodiscard]] std::span<const InputRefusal> refusals() const noexcept;
 
+  /// How many changes of the scenario could not be made in all steps, also by an authority in whose
+  /// place this one goes on; and the first AuthorityState::kMostRefused of them, in order.
+  [[nodiscard]] std::uint64_t refused_count() const noexcept;
+  [[nodiscard]] std::span<const Event> refused() const noexcept;
+
   /// Back to the state after create().
   void reset();
 

@@ -58,20 +58,23 @@ Result<FrontRays> front_rays_of(const SensorInfo& sensor, double front_rad) {
 
 /// The least of the ranges; infinity if there are none. What is not a number does not count.
 float nearest_of(std::span<const float> ranges_m) noexcept {
-  // Several at a time, so that no comparison waits for the one before.
-  constexpr std::size_t kLanes = 8;
-  float least_m[kLanes];
-  std::fill(std::begin(least_m), std::end(least_m), std::numeric_limits<float>::infinity());
+  constexpr float kNone_m = std::numeric_limits<float>::infinity();
+  float nearest_m = kNone_m;
   std::size_t i = 0;
-  for (; i + kLanes <= ranges_m.size(); i += kLanes) {
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      least_m[k] = ranges_m[i + k] < least_m[k] ? ranges_m[i + k] : least_m[k];
+  // Of many several at a time, so that no comparison waits for the one before.
+  constexpr std::size_t kLanes = 8;
+  if (ranges_m.size() >= 2 * kLanes) {
+    float least_m[kLanes];
+    std::fill(std::begin(least_m), std::end(least_m), kNone_m);
+    for (; i + kLanes <= ranges_m.size(); i += kLanes) {
+      for (std::size_t k = 0; k < kLanes; ++k) {
+        least_m[k] = ranges_m[i + k] < least_m[k] ? ranges_m[i + k] : least_m[k];
+      }
     }
+    nearest_m = *std::min_element(std::begin(least_m), std::end(least_m));
   }
-  for (; i < ranges_m.size(); ++i) {
-    least_m[0] = ranges_m[i] < least_m[0] ? ranges_m[i] : least_m[0];
-  }
-  return *std::min_element(std::begin(least_m), std::end(least_m));
+  for (; i < ranges_m.size(); ++i) nearest_m = ranges_m[i] < nearest_m ? ranges_m[i] : nearest_m;
+  return nearest_m;
 }
 
 /// Drives straight on; turns to the freer side for a random time when something is near ahead.

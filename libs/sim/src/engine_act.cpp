@@ -87,6 +87,7 @@ void Engine::Impl::control(RobotGroup& group, const Block& block, Worker& worker
 }
 
 void Engine::Impl::actuate(RobotGroup& group, const Block& block, Worker& worker) {
+  const double dt_s = spec.step.seconds();
   for (std::uint32_t a = 0; a < group.actuators.size(); ++a) {
     ActuatorSlots& slots = group.actuators[a];
     for (std::uint32_t m = block.begin; m < block.end; ++m) {
@@ -98,17 +99,22 @@ void Engine::Impl::actuate(RobotGroup& group, const Block& block, Worker& worker
           active = &controller;
         }
       }
-      slots.commands[m] = guarded(group, slots, m, active, worker);
-      if (slots.spec->virtual_ops == nullptr) continue;
       const std::uint32_t r = group.members[m].value();
-      slots.inputs[m] = {slots.commands[m],
-                         truth.velocity[r],
-                         spec.step.seconds(),
-                         spec.seed,
-                         r,
-                         a | 0x4000'0000U,
-                         static_cast<std::uint32_t>(step),
-                         truth.limited[r]};
+      if (active != nullptr && is_unguarded(slots, m, r)) {
+        slots.commands[m] = active->outputs[m];
+      } else {
+        slots.commands[m] = guarded(group, slots, m, active, worker);
+      }
+      if (slots.spec->virtual_ops == nullptr) continue;
+      MotionInput& input = slots.inputs[m];
+      input.command = slots.commands[m];
+      input.velocity = truth.velocity[r];
+      input.dt_s = dt_s;
+      input.seed = spec.seed;
+      input.robot = r;
+      input.device = a | 0x4000'0000U;
+      input.step = static_cast<std::uint32_t>(step);
+      input.contact = truth.limited[r];
     }
     if (slots.spec->virtual_ops == nullptr) continue;
     ErrorText error;

@@ -161,6 +161,13 @@ struct Engine::Impl {
 
   // engine_guard.cpp: the limits of commands
   void set_up_guards();
+  /// Whether nothing stands between a controller and its actuator.
+  [[nodiscard]] bool is_unguarded(const ActuatorSlots& slots, std::uint32_t member,
+                                  std::uint32_t robot) const noexcept {
+    const GuardState& state = guard_states[robot];
+    return !state.held && !state.stopped &&
+           (slots.obeys[member] == 0 || !guards[spec.robots[robot].type]);
+  }
   [[nodiscard]] Command guarded(const RobotGroup& group, const ActuatorSlots& slots,
                                 std::uint32_t member, const ControllerSlots* controller,
                                 Worker& worker);

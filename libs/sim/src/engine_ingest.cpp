@@ -197,7 +197,18 @@ void Engine::Impl::refresh_reported() {
 
 void Engine::Impl::refresh_true(std::uint32_t robot) {
   const Pose2& X_WR = truth.movers[robot].X_WR;
-  reported[robot] = {{X_WR.x, X_WR.y, X_WR.yaw, 0, 0}, truth.velocity[robot], now, true, false};
+  // Number by number: a whole one would be put together elsewhere, and read back in larger parts
+  // than it was written in, for which a processor waits.
+  ReportedPose& told = reported[robot];
+  told.pose.x_m = X_WR.x;
+  told.pose.y_m = X_WR.y;
+  told.pose.yaw_rad = X_WR.yaw;
+  told.pose.variance_xy_m2 = 0;
+  told.pose.variance_yaw_rad2 = 0;
+  told.velocity = truth.velocity[robot];
+  told.stamp = now;
+  told.known = true;
+  told.stale = false;
 }
 
 void Engine::Impl::refresh_told(const Block& block, Worker& worker) {

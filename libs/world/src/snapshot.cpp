@@ -214,11 +214,6 @@ void Snapshot::set_robot(RobotId robot, const RobotState& state) noexcept {
   set_robot(robot, state, sincos(state.X_WR.yaw));
 }
 
-void Snapshot::set_robot(RobotId robot, const RobotState& state, SinCos turn) noexcept {
-  robots_[robot.value()] = state;
-  turns_[robot.value()] = turn;
-}
-
 void Snapshot::set_touch(RobotId robot, const TouchState& touch) noexcept {
   touch_[robot.value()] = touch;
 }

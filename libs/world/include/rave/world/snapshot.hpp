@@ -33,7 +33,10 @@ class Snapshot final : public WorldView {
   void set_time(SimTime time) noexcept { time_ = time; }
   void set_robot(RobotId robot, const RobotState& state) noexcept;
   /// The same for who has `turn`, which must be sincos(state.X_WR.yaw), already.
-  void set_robot(RobotId robot, const RobotState& state, SinCos turn) noexcept;
+  void set_robot(RobotId robot, const RobotState& state, SinCos turn) noexcept {
+    robots_[robot.value()] = state;
+    turns_[robot.value()] = turn;
+  }
   void set_touch(RobotId robot, const TouchState& touch) noexcept;
   /// The model has another body of this robot, with as many shapes and corners as before; it counts
   /// from the next rebuild() on.

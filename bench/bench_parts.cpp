@@ -9,6 +9,7 @@
 #include "contact_arena.hpp"
 #include "engine_drivers.hpp"
 #include "instances.hpp"
+#include "listed_fan.hpp"
 #include "rave/sim/range_engine.hpp"
 
 namespace {
@@ -110,15 +111,10 @@ void index_sort(benchmark::State& state) {
 }
 BENCHMARK(index_sort)->Arg(1000)->Arg(10'000)->Arg(100'000);
 
-/// The fans of all robots of a field: arguments are robots, rays, degrees, metres.
-void range_kernel(benchmark::State& state) {
-  const auto robots = static_cast<std::uint32_t>(state.range(0));
-  const auto rays = static_cast<std::uint32_t>(state.range(1));
-  const bool full_circle = state.range(2) == 360;
-  const double field_rad = deg_to_rad(static_cast<double>(state.range(2)));
-  const auto arena = field(robots);
+FanTable fan_of(std::uint32_t rays, std::int64_t degrees, std::int64_t metres) {
+  const double field_rad = deg_to_rad(static_cast<double>(degrees));
+  const double gaps = degrees == 360 ? rays : std::max(rays - 1, 1U);
   std::vector<double> bearings_rad;
-  const double gaps = full_circle ? rays : rays - 1;
   for (std::uint32_t i = 0; i < rays; ++i) {
     bearings_rad.push_back(field_rad * (double{1} * i / gaps - 0.5));
   }
@@ -126,26 +122,72 @@ void range_kernel(benchmark::State& state) {
   query.bearings_rad = bearings_rad.data();
   query.ray_count = rays;
   query.rays_per_reading = 1;
-  query.range_max_m = static_cast<double>(state.range(3));
-  const FanTable fan = FanTable::make(query, kAllLayers);
+  query.range_max_m = static_cast<double>(metres);
+  return FanTable::make(query, kAllLayers);
+}
+
+/// The fans of all robots of a field.
+void cast_all(benchmark::State& state, std::uint32_t robots, const FanTable& fan,
+              decltype(&cast_fan_along) cast) {
+  const auto arena = field(robots);
   FanScratch scratch;
-  std::vector<float> ranges(rays);
-  std::vector<std::uint32_t> bodies(rays);
+  std::vector<float> ranges(fan.rays);
+  std::vector<std::uint32_t> bodies(fan.rays);
   for (auto _ : state) {
     for (std::uint32_t r = 0; r < robots; ++r) {
-      cast_fan(*arena->snapshot, fan, sensor_place(arena->movers[r].X_WR, Pose2{}), 0.1,
-               arena->snapshot->body_of(RobotId(r)), scratch, ranges, bodies);
+      cast(*arena->snapshot, fan, sensor_place(arena->movers[r].X_WR, Pose2{}), 0.1,
+           arena->snapshot->body_of(RobotId(r)), scratch, ranges, bodies);
     }
     benchmark::DoNotOptimize(ranges.data());
   }
   per_item(state, "ns_per_robot", robots);
-  per_item(state, "ns_per_ray", static_cast<double>(robots) * rays);
+  per_item(state, "ns_per_ray", static_cast<double>(robots) * fan.rays);
+}
+
+/// Arguments are robots, rays, degrees, metres.
+void range_kernel(benchmark::State& state) {
+  cast_all(state, static_cast<std::uint32_t>(state.range(0)),
+           fan_of(static_cast<std::uint32_t>(state.range(1)), state.range(2), state.range(3)),
+           cast_fan);
 }
 BENCHMARK(range_kernel)
     ->Args({1000, 16, 360, 3})
     ->Args({10'000, 16, 360, 3})
     ->Args({1000, 180, 180, 8})
     ->Args({10'000, 180, 180, 8});
+
+/// Few rays over a long way. Arguments are rays, degrees, metres, and 0 to look all around, 1 to
+/// look along each ray, 2 for what is expected to take less.
+void ray_walk(benchmark::State& state) {
+  using Cast = decltype(&cast_fan_along);
+  constexpr Cast kWays[] = {cast_fan_around, cast_fan_along, cast_fan};
+  cast_all(state, 1000,
+           fan_of(static_cast<std::uint32_t>(state.range(0)), state.range(1), state.range(2)),
+           kWays[state.range(3)]);
+}
+BENCHMARK(ray_walk)->ArgsProduct({{1, 4, 16}, {60}, {3, 8, 30, 100}, {0, 1, 2}});
+
+/// A line of sight from each of 1000 robots to one so many metres away.
+void line_of_sight(benchmark::State& state) {
+  constexpr std::uint32_t kRobots = 1000;
+  const auto arena = field(kRobots);
+  const auto metres = static_cast<double>(state.range(0));
+  for (auto _ : state) {
+    int seen = 0;
+    for (std::uint32_t r = 0; r < kRobots; ++r) {
+      const Pose2& X_WR = arena->movers[r].X_WR;
+      const SinCos turn = sincos(X_WR.yaw);
+      const Vec2 there = X_WR.position() + metres * Vec2{turn.cos, turn.sin};
+      seen += arena->snapshot->visible(X_WR.position(), there, 0.1, kAllLayers,
+                                       arena->snapshot->body_of(RobotId(r)), BodyId())
+                  ? 1
+                  : 0;
+    }
+    benchmark::DoNotOptimize(seen);
+  }
+  per_item(state, "ns_per_robot", kRobots);
+}
+BENCHMARK(line_of_sight)->Arg(3)->Arg(10)->Arg(30)->Arg(100);
 
 /// Streams as a sensor makes them: one per robot and sample, here with 16 draws each.
 void random_numbers(benchmark::State& state) {

@@ -42,6 +42,7 @@ const NearLists* Engine::Impl::find_places(const RobotGroup& group, SensorSlots&
                      truth.snapshot.turn_WR(members[i]), sensor.X_RS.position(), mounting);
     worker.places_W[i] = worker.places[i].p_WS;
   }
+  if (walk_pays(truth.snapshot, slots.fan)) return nullptr;
   const double margin_m = NearLists::margin_for(moves_m * sensor.period_steps,
                                                 0.25 * static_cast<double>(slots.fan.range_max_m));
   if (margin_m == 0) return nullptr;

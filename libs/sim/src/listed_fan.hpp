@@ -22,4 +22,16 @@ void cast_fan(const world::Snapshot& world, const FanTable& fan, const SensorPla
               const NearLists& lists, std::size_t asker, FanScratch& scratch,
               std::span<float> ranges, std::span<std::uint32_t> bodies);
 
+/// The two ways of cast_fan(), with the same bits: to look for what is near all around, or beside
+/// each ray, part by part, until it has met something. The latter for at most kMostWalked rays.
+inline constexpr std::uint32_t kMostWalked = 16;
+void cast_fan_around(const world::Snapshot& world, const FanTable& fan, const SensorPlace& place,
+                     double z_m, BodyId owner, FanScratch& scratch, std::span<float> ranges,
+                     std::span<std::uint32_t> bodies);
+void cast_fan_along(const world::Snapshot& world, const FanTable& fan, const SensorPlace& place,
+                    double z_m, BodyId owner, FanScratch& scratch, std::span<float> ranges,
+                    std::span<std::uint32_t> bodies);
+/// Whether the second is expected to take less time: for few rays and long ranges.
+[[nodiscard]] bool walk_pays(const world::Snapshot& world, const FanTable& fan) noexcept;
+
 }  // namespace rave::sim

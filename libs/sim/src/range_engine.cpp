@@ -47,6 +47,7 @@ FanField field_of(const FanQuery& query) {
   const double left_rad = bearings_rad[query.ray_count - 1];
   field.limited = left_rad - right_rad < 2 * kPi - kLeastOpen_rad;
   field.beyond_half = left_rad - right_rad > kPi;
+  field.part = field.limited ? (left_rad - right_rad) / (2 * kPi) : 1;
   field.right = sincos(right_rad);
   field.left = sincos(left_rad);
   return field;
@@ -150,17 +151,26 @@ void collect(const world::ShapeGrid& grid, const Surroundings& around, Candidate
   for (std::size_t i = 0; i < count; ++i) candidates.add(grid.piece(scratch.near[i]));
 }
 
+/// Of what is equally near the first is seen: that must not depend on how it was found. Each shape
+/// once.
+void put_in_order(FanScratch& scratch) {
+  const auto order = [](std::vector<const world::ShapePiece*>& list, std::size_t& count) {
+    const auto begin = list.begin();
+    const auto end = begin + static_cast<std::ptrdiff_t>(count);
+    std::sort(begin, end, [](const auto* a, const auto* b) { return a->shape < b->shape; });
+    const auto last =
+        std::unique(begin, end, [](const auto* a, const auto* b) { return a->shape == b->shape; });
+    count = static_cast<std::size_t>(last - begin);
+  };
+  order(scratch.discs, scratch.disc_count);
+  order(scratch.polygons, scratch.polygon_count);
+}
+
 void collect(const world::Snapshot& world, const Surroundings& around, Candidates candidates,
              FanScratch& scratch) {
   collect(world.standing(), around, candidates, scratch);
   collect(world.moving(), around, candidates, scratch);
-  // Of what is equally near the first is seen: that must not depend on how it was found.
-  const auto sort = [](std::vector<const world::ShapePiece*>& list, std::size_t count) {
-    std::sort(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(count),
-              [](const auto* a, const auto* b) { return a->shape < b->shape; });
-  };
-  sort(scratch.discs, scratch.disc_count);
-  sort(scratch.polygons, scratch.polygon_count);
+  put_in_order(scratch);
 }
 
 /// Of the listed pieces those that the fan could meet. A shape of several pieces is listed once, by
@@ -222,29 +232,39 @@ FanTable FanTable::make(const FanQuery& query, LayerMask layers) {
 
 namespace {
 
-/// Casts the fan at the candidates.
-void cast_candidates(const world::Snapshot& world, const FanTable& fan, const SensorPlace& place,
-                     FanScratch& scratch, std::span<float> ranges,
-                     std::span<std::uint32_t> bodies) {
-  const std::size_t size = fan.cos.size();
-  scratch.inverse.resize(size);
-  scratch.body.resize(size);
-  scratch.ranges_m.resize(size);
-  // What has room for the padding is written where it belongs.
-  const bool exact = fan.rays_per_reading == 1 && ranges.size() == size && bodies.size() == size;
-  float* const ranges_m = exact ? ranges.data() : scratch.ranges_m.data();
-  FanView view{fan.cos.data(),
-               fan.sin.data(),
-               size,
-               fan.first_ray.empty() ? nullptr : fan.first_ray.data(),
-               scratch.inverse.data(),
-               exact ? bodies.data() : scratch.body.data()};
+/// Casts the rays of the fan at the candidates; what each met stands in the scratch, and whose it
+/// is in `bodies`, one per ray and padded.
+FanView cast_rays(const world::Snapshot& world, const FanTable& fan, const SensorPlace& place,
+                  FanScratch& scratch, std::uint32_t* bodies) {
+  const FanView view{fan.cos.data(),         fan.sin.data(),
+                     fan.cos.size(),         fan.first_ray.empty() ? nullptr : fan.first_ray.data(),
+                     scratch.inverse.data(), bodies};
   cast_pieces({scratch.discs.data(), scratch.disc_count},
               {scratch.polygons.data(), scratch.polygon_count}, world.vertices_W(),
               world.normals_W(),
               {place.p_WS.x, place.p_WS.y, static_cast<float>(place.turn.cos),
                static_cast<float>(place.turn.sin)},
               view);
+  return view;
+}
+
+/// Room for what rays meet.
+void make_ray_room(const FanTable& fan, FanScratch& scratch) {
+  scratch.inverse.resize(fan.cos.size());
+  scratch.body.resize(fan.cos.size());
+  scratch.ranges_m.resize(fan.cos.size());
+}
+
+/// Casts the fan at the candidates.
+void cast_candidates(const world::Snapshot& world, const FanTable& fan, const SensorPlace& place,
+                     FanScratch& scratch, std::span<float> ranges,
+                     std::span<std::uint32_t> bodies) {
+  make_ray_room(fan, scratch);
+  const std::size_t size = fan.cos.size();
+  // What has room for the padding is written where it belongs.
+  const bool exact = fan.rays_per_reading == 1 && ranges.size() == size && bodies.size() == size;
+  float* const ranges_m = exact ? ranges.data() : scratch.ranges_m.data();
+  FanView view = cast_rays(world, fan, place, scratch, exact ? bodies.data() : scratch.body.data());
   if (fan.rays_per_reading > 1) {
     join_cones(fan, scratch);
     view.padded = padded(ranges.size());
@@ -255,13 +275,95 @@ void cast_candidates(const world::Snapshot& world, const FanTable& fan, const Se
   std::copy_n(scratch.body.begin(), bodies.size(), bodies.begin());
 }
 
+/// Adds the pieces that lie beside one part of a ray.
+void collect_along(const world::Snapshot& world, Vec2 p_W, Vec2 direction,
+                   const world::RayParts& part, Candidates& candidates, FanScratch& scratch) {
+  // The kernel has directions in floats.
+  constexpr double kDirection = 1e-6;
+  world.for_each_along(p_W, direction, part.from_m, part.to_m, kRounding_m + kDirection * part.to_m,
+                       [&](const world::ShapePiece& piece) {
+                         make_room(scratch, 1);
+                         candidates.add(piece);
+                       });
+}
+
+/// What looking for candidates, and trying the rays at them, takes: about so many nanoseconds.
+struct LookCost {
+  double around = 0;
+  double along = 0;
+};
+
+LookCost cost_of(const world::Snapshot& world, const FanTable& fan) noexcept {
+  // Measured by `bench_parts --benchmark_filter=ray_walk`.
+  constexpr double kSelect = 0.6;     // a piece of the rows about the sensor
+  constexpr double kBeside = 3;       // a piece of the cells beside a ray
+  constexpr double kCandidate = 20;   // to try up to 16 rays at one
+  constexpr double kPart = 60;        // to begin with a part of a ray
+  constexpr double kFreePaths = 2.5;  // few rays go farther
+  const auto range_m = static_cast<double>(fan.range_max_m);
+  const double first_m = world.parts_of({}, std::numeric_limits<double>::infinity()).step_m;
+  const double length_m = std::min(range_m, kFreePaths * first_m);
+  LookCost cost;
+  double met = 0;
+  for (const world::ShapeGrid* const grid : {&world.standing(), &world.moving()}) {
+    const auto size = static_cast<double>(grid->size());
+    const double reach_m = range_m + grid->largest_radius_m();
+    const double rows = std::min(size, 4 * reach_m * reach_m * grid->pieces_per_m2());
+    const double disc = std::min(size, kPi * reach_m * reach_m * grid->pieces_per_m2());
+    cost.around += kSelect * rows + kCandidate * fan.field.part * disc;
+    const double width_m = 2 * (grid->largest_radius_m() + grid->cell_m());
+    cost.along += kBeside * std::min(size, width_m * length_m * grid->pieces_per_m2());
+    met += 2 * grid->mean_radius_m() * length_m * grid->pieces_per_m2();
+  }
+  cost.along = fan.rays * (kPart + cost.along + kCandidate * met);
+  return cost;
+}
+
 }  // namespace
+
+bool walk_pays(const world::Snapshot& world, const FanTable& fan) noexcept {
+  if (fan.rays > kMostWalked) return false;
+  const LookCost cost = cost_of(world, fan);
+  return cost.along < cost.around;
+}
+
+void cast_fan_around(const world::Snapshot& world, const FanTable& fan, const SensorPlace& place,
+                     double z_m, BodyId owner, FanScratch& scratch, std::span<float> ranges,
+                     std::span<std::uint32_t> bodies) {
+  collect(world, what_sees(fan, place), {fan, static_cast<float>(z_m), owner, scratch}, scratch);
+  cast_candidates(world, fan, place, scratch, ranges, bodies);
+}
+
+void cast_fan_along(const world::Snapshot& world, const FanTable& fan, const SensorPlace& place,
+                    double z_m, BodyId owner, FanScratch& scratch, std::span<float> ranges,
+                    std::span<std::uint32_t> bodies) {
+  make_ray_room(fan, scratch);
+  Candidates candidates(fan, static_cast<float>(z_m), owner, scratch);
+  std::uint32_t open = (1U << fan.rays) - 1;  // rays that have met nothing in the parts behind
+  world::RayParts part = world.parts_of(place.p_WS, static_cast<double>(fan.range_max_m));
+  while (open != 0 && part.next()) {
+    for (std::uint32_t ray = 0; ray < fan.rays; ++ray) {
+      if ((open >> ray & 1U) == 0) continue;
+      const Vec2 direction = rotate(
+          place.turn, {static_cast<double>(fan.cos[ray]), static_cast<double>(fan.sin[ray])});
+      collect_along(world, place.p_WS, direction, part, candidates, scratch);
+    }
+    put_in_order(scratch);
+    if (!(part.to_m < part.end_m)) break;
+    cast_rays(world, fan, place, scratch, scratch.body.data());
+    const double sure_m = part.to_m - 2 * kRounding_m - 1e-6 * part.to_m;
+    for (std::uint32_t ray = 0; ray < fan.rays; ++ray) {
+      if (static_cast<double>(scratch.inverse[ray]) * sure_m >= 1) open &= ~(1U << ray);
+    }
+  }
+  cast_candidates(world, fan, place, scratch, ranges, bodies);
+}
 
 void cast_fan(const world::Snapshot& world, const FanTable& fan, const SensorPlace& place,
               double z_m, BodyId owner, FanScratch& scratch, std::span<float> ranges,
               std::span<std::uint32_t> bodies) {
-  collect(world, what_sees(fan, place), {fan, static_cast<float>(z_m), owner, scratch}, scratch);
-  cast_candidates(world, fan, place, scratch, ranges, bodies);
+  const auto cast = walk_pays(world, fan) ? cast_fan_along : cast_fan_around;
+  cast(world, fan, place, z_m, owner, scratch, ranges, bodies);
 }
 
 void list_near(const world::Snapshot& world, const FanTable& fan, double z_m,

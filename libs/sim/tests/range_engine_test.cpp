@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "listed_fan.hpp"
 #include "rave/base/random.hpp"
 #include "rave/math/scalar.hpp"
 
@@ -243,6 +244,76 @@ TEST(CastFan, AgreesWithBruteForceInRandomWorlds) {
     }
   }
   EXPECT_EQ(checked, 1000U * (16 + 61 + 100));
+}
+
+/// A wide field: shapes on one in some 20 m², and a long wall across it now and then.
+world::WorldModel wide_world(std::uint32_t seed, Vec2 centre) {
+  RandomStream random(seed, 6, 6, 6);
+  world::WorldModel model;
+  for (std::uint32_t i = 0; i < 12; ++i) {
+    world::WorldModel some = random_world(
+        17 * seed + i, {centre.x + random.uniform(-40, 40), centre.y + random.uniform(-40, 40)});
+    for (world::Obstacle& obstacle : some.obstacles) model.obstacles.push_back(std::move(obstacle));
+  }
+  if (seed % 3 == 0)
+    model.obstacles.push_back(polygon_at({centre.x, centre.y + 30, 0.1}, box(90, 0.2)));
+  return model;
+}
+
+/// One ray, several, several that are no fan, and cones; up to farther than the world.
+FanTable walked_fan(std::uint32_t seed) {
+  const double range_m = seed % 4 == 0 ? 5 : seed % 4 == 1 ? 40 : seed % 4 == 2 ? 300 : 1e4;
+  switch (seed % 5) {
+    case 0:
+      return fan_of(1, 0, range_m).table;
+    case 1:
+      return fan_of(3, 0.2, range_m).table;
+    case 2:
+      return fan_of(kMostWalked, 2 * kPi * 15 / 16, range_m).table;
+    case 3:
+      return fan_of(14, 0.5, range_m, 7).table;
+    default:
+      return fan_of(8, 2 * kPi, range_m).table;  // the first and the last are one
+  }
+}
+
+TEST(CastFan, AlongItsRaysItFindsToTheBitWhatIsAllAround) {
+  std::size_t hits = 0;
+  std::size_t none = 0;
+  for (std::uint32_t seed = 0; seed < 2000; ++seed) {
+    const Vec2 centre = seed % 2 == 0 ? Vec2{0, 0} : Vec2{5000, -750};
+    const world::WorldModel model = wide_world(seed, centre);
+    const world::Snapshot world(model);
+    RandomStream random(seed, 8, 8, 8);
+    const SensorPlace place =
+        sensor_place(Pose2{centre.x + random.uniform(-60, 60), centre.y + random.uniform(-60, 60),
+                           random.uniform(-kPi, kPi)},
+                     Pose2{});
+    const FanTable fan = walked_fan(seed);
+    FanScratch scratch;
+    Reading around{std::vector<float>(fan.readings()), std::vector<std::uint32_t>(fan.readings())};
+    Reading along = around;
+    cast_fan_around(world, fan, place, 0.5, BodyId(seed % 40), scratch, around.ranges,
+                    around.bodies);
+    cast_fan_along(world, fan, place, 0.5, BodyId(seed % 40), scratch, along.ranges, along.bodies);
+    ASSERT_EQ(std::memcmp(around.ranges.data(), along.ranges.data(),
+                          around.ranges.size() * sizeof(float)),
+              0)
+        << "world " << seed;
+    ASSERT_EQ(around.bodies, along.bodies) << "world " << seed;
+    for (const float range_m : along.ranges) ++(std::isfinite(range_m) ? hits : none);
+  }
+  EXPECT_GT(hits, 1000U);
+  EXPECT_GT(none, 1000U);
+}
+
+TEST(CastFan, WalksWhereThatIsExpectedToTakeLess) {
+  const world::WorldModel model = wide_world(1, {});
+  const world::Snapshot world(model);
+  EXPECT_TRUE(walk_pays(world, fan_of(1, 0, 100).table));
+  EXPECT_TRUE(walk_pays(world, fan_of(4, 0.2, 1000).table));
+  EXPECT_FALSE(walk_pays(world, fan_of(16, 2 * kPi * 15 / 16, 3).table));
+  EXPECT_FALSE(walk_pays(world, fan_of(180, kPi, 100).table)) << "more rays than are walked";
 }
 
 TEST(CastFan, FindsWhatOnlyJustComesIntoRange) {

@@ -86,16 +86,26 @@ bool ShapeGrid::lay_cells(std::span<const ShapePiece> pieces, double cell_m) {
   Vec2 low{kInfinity, kInfinity};
   Vec2 high{-kInfinity, -kInfinity};
   float largest_m = 0;
+  double radii_m = 0;
+  std::size_t count = 0;
   for (const ShapePiece& piece : pieces) {
     if (piece.pieces == 0) continue;
     low = {std::min(low.x, piece.centre_W.x), std::min(low.y, piece.centre_W.y)};
     high = {std::max(high.x, piece.centre_W.x), std::max(high.y, piece.centre_W.y)};
     largest_m = std::max(largest_m, piece.radius_m);
+    radii_m += static_cast<double>(piece.radius_m);
+    ++count;
   }
   width_ = 0;
   height_ = 0;
   largest_m_ = static_cast<double>(largest_m);
+  mean_radius_m_ = 0;
+  pieces_per_m2_ = 0;
   if (!(low.x <= high.x)) return false;
+  mean_radius_m_ = radii_m / static_cast<double>(count);
+  // One metre more, or pieces in a row would have no room at all.
+  pieces_per_m2_ = static_cast<double>(count) / ((high.x - low.x + 1) * (high.y - low.y + 1));
+  size_ = high - low;
   const double cell =
       std::max(cell_m, std::sqrt((high.x - low.x) * (high.y - low.y) / kMaxCells) + 1e-9);
   origin_ = low;
@@ -103,6 +113,14 @@ bool ShapeGrid::lay_cells(std::span<const ShapePiece> pieces, double cell_m) {
   width_ = static_cast<int>(std::min((high.x - low.x) * cells_per_m_, kMaxCells)) + 1;
   height_ = static_cast<int>(std::min((high.y - low.y) * cells_per_m_, kMaxCells)) + 1;
   return true;
+}
+
+double ShapeGrid::farthest_m(Vec2 p) const noexcept {
+  if (width_ == 0) return 0;
+  const Vec2 apart = p - origin_;
+  const Vec2 far{std::max(std::abs(apart.x), std::abs(apart.x - size_.x)),
+                 std::max(std::abs(apart.y), std::abs(apart.y - size_.y))};
+  return std::sqrt(squared_norm(far)) + largest_m_;
 }
 
 void ShapeGrid::build(std::span<const ShapePiece> pieces, double cell_m) {

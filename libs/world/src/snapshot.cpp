@@ -16,6 +16,8 @@ constexpr double kCellSize_m = 2.0;
 constexpr double kLargestPiece_m = 1.0;
 /// Who goes farther than this at once has jumped.
 constexpr double kJump_m = 1.0;
+/// So much beside a ray, pieces are looked at all the same; more than their radii were rounded by.
+constexpr double kRounding_m = 1e-4;
 /// Robots that are not in the world are parked where no query reaches.
 constexpr Vec2 kNowhere{1e12, 1e12};
 
@@ -293,18 +295,40 @@ void Snapshot::gather(Vec2 p_W, double radius_m, std::vector<std::uint32_t>& fou
 RayHit Snapshot::nearest(Vec2 p_W, Vec2 direction, double z_m, double range_max_m, LayerMask layers,
                          BodyId a, BodyId b) const {
   std::vector<std::uint32_t>& found = scratch();
-  gather(p_W + 0.5 * range_max_m * direction, 0.5 * range_max_m, found);
   RayHit hit;
-  for (const std::uint32_t index : found) {
-    const PlacedShape& candidate = shapes_[index];
-    if (!contains(layers, candidate.layer) || !candidate.at_height(z_m)) continue;
-    if (candidate.body == a.value() || candidate.body == b.value()) continue;
-    const double range = candidate.kind == ShapeKind::kDisc
-                             ? cast_disc(p_W, direction, candidate.centre_W, candidate.radius_m)
-                             : cast_polygon(p_W, direction, vertices_W(candidate));
-    if (range <= range_max_m && range < hit.range_m) hit = {range, BodyId(candidate.body)};
+  std::uint32_t nearest = 0;
+  for (RayParts parts = parts_of(p_W, range_max_m); parts.next();) {
+    found.clear();
+    for_each_along(p_W, direction, parts.from_m, parts.to_m, kRounding_m,
+                   [&](const ShapePiece& piece) { found.push_back(piece.shape); });
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    for (const std::uint32_t index : found) {
+      const PlacedShape& candidate = shapes_[index];
+      if (!contains(layers, candidate.layer) || !candidate.at_height(z_m)) continue;
+      if (candidate.body == a.value() || candidate.body == b.value()) continue;
+      const double range = candidate.kind == ShapeKind::kDisc
+                               ? cast_disc(p_W, direction, candidate.centre_W, candidate.radius_m)
+                               : cast_polygon(p_W, direction, vertices_W(candidate));
+      // Of what is equally near the first, in whichever part it was found.
+      const bool nearer = range < hit.range_m || (range == hit.range_m && index < nearest);
+      if (!(range <= range_max_m && nearer)) continue;
+      hit = {range, BodyId(candidate.body)};
+      nearest = index;
+    }
+    if (hit.range_m <= parts.to_m - kRounding_m) break;
   }
   return hit;
+}
+
+RayParts Snapshot::parts_of(Vec2 p_W, double range_max_m) const noexcept {
+  // A ray meets the discs that lie beside it.
+  const double met_per_m = 2 * (fixed_.pieces_per_m2() * fixed_.mean_radius_m() +
+                                moving_.pieces_per_m2() * moving_.mean_radius_m());
+  RayParts parts;
+  parts.end_m = std::min(range_max_m, std::max(fixed_.farthest_m(p_W), moving_.farthest_m(p_W)));
+  parts.step_m = std::max({1 / std::max(met_per_m, 1e-9), fixed_.cell_m(), moving_.cell_m()});
+  return parts;
 }
 
 std::uint32_t Snapshot::robot_count() const noexcept {

@@ -115,6 +115,51 @@ void scatter(Snapshot& world) {
   }
 }
 
+/// Rays of all lengths over a field of discs and walls: what a look at every shape finds.
+TEST(Snapshot, ARayIsFollowedToWhatALinearSearchFinds) {
+  std::size_t hits = 0;
+  for (std::uint32_t seed = 0; seed < 400; ++seed) {
+    RandomStream random(seed, 5, 5, 5);
+    WorldModel model;
+    for (int i = 0; i < 60; ++i) {
+      const Pose2 X_WB{random.uniform(-40, 40), random.uniform(-40, 40), random.uniform(-kPi, kPi)};
+      if (i % 3 != 0) {
+        model.obstacles.push_back(
+            {disc_body(random.uniform(0.05, 2), Layer::kVirtualObstacles), X_WB});
+        continue;
+      }
+      const double x = random.uniform(0.1, 6);
+      Body wall;
+      wall.shapes =
+          make_prisms(std::vector<Vec2>{{-x, -0.1}, {x, -0.1}, {x, 0.1}, {-x, 0.1}}, 0, 1).value();
+      wall.layer = Layer::kVirtualObstacles;
+      model.obstacles.push_back({wall, X_WB});
+    }
+    const Snapshot world(model);
+    for (int ray = 0; ray < 40; ++ray) {
+      const Vec2 p{random.uniform(-60, 60), random.uniform(-60, 60)};
+      // Now and then along the axes of the grid.
+      const double bearing = ray % 4 == 0 ? kPi / 2 * (ray / 4) : random.uniform(-kPi, kPi);
+      const double most_m = ray % 5 == 0 ? kNoHit : random.uniform(0, 120);
+      const SinCos turn = sincos(bearing);
+      RayHit expected;
+      for (std::uint32_t i = 0; i < world.shapes().size(); ++i) {
+        const PlacedShape& shape = world.shape(i);
+        const Vec2 direction{turn.cos, turn.sin};
+        const double range = shape.kind == ShapeKind::kDisc
+                                 ? cast_disc(p, direction, shape.centre_W, shape.radius_m)
+                                 : cast_polygon(p, direction, world.vertices_W(shape));
+        if (range <= most_m && range < expected.range_m) expected = {range, BodyId(shape.body)};
+      }
+      const RayHit hit = world.cast(p, 0.5, bearing, most_m, kAllLayers, BodyId());
+      ASSERT_EQ(hit.body, expected.body) << "field " << seed << " ray " << ray;
+      ASSERT_EQ(hit.range_m, expected.range_m) << "field " << seed << " ray " << ray;
+      hits += hit.body.valid() ? 1 : 0;
+    }
+  }
+  EXPECT_GT(hits, 1000U);
+}
+
 TEST(Snapshot, PlacedInPartsIsTheSameAsRebuilt) {
   WorldModel model;
   const std::array<Vec2, 4> square = {{{0, 0}, {3, 0}, {3, 1}, {0, 1}}};

@@ -16,6 +16,7 @@ namespace rave::sim {
 struct FanField {
   bool limited = false;      ///< False: all around, or not known.
   bool beyond_half = false;  ///< More than half a circle.
+  double part = 1;           ///< Of a circle; 1 if not limited.
   SinCos right;
   SinCos left;
 };

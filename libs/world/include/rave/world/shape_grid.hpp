@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -107,7 +108,62 @@ class ShapeGrid {
     }
   }
 
+  /// Calls `visit(piece)` for each piece whose disc comes within `width_m` of the way from p along
+  /// `direction`, a unit vector, between `from_m` and `to_m`: row by row of the cells beside that
+  /// way (as the walk of J. Amanatides and A. Woo, Eurographics 1987, but of a ray that has a
+  /// width, since a piece lies in the cell of its centre alone).
+  template <class Visit>
+  void for_each_along(Vec2 p, Vec2 direction, double from_m, double to_m, double width_m,
+                      Visit&& visit) const {
+    if (width_ == 0) return;
+    const double reach_m = largest_m_ + width_m;
+    const Vec2 a = p + from_m * direction - origin_;
+    const Vec2 b = p + to_m * direction - origin_;
+    const int last_row = cell_of(std::max(a.y, b.y) + reach_m, height_);
+    for (int y = cell_of(std::min(a.y, b.y) - reach_m, height_); y <= last_row; ++y) {
+      const Span part = part_beside_row(a, b, y, reach_m);
+      if (!(part.first <= part.last)) continue;
+      const double x_m[2] = {a.x + part.first * (b.x - a.x), a.x + part.last * (b.x - a.x)};
+      const CellBlock cells{cell_of(std::min(x_m[0], x_m[1]) - reach_m, width_),
+                            cell_of(std::max(x_m[0], x_m[1]) + reach_m, width_), y, y};
+      const PieceRow row = row_of(cells, y);
+      for (std::uint32_t i = row.begin; i < row.end; ++i) {
+        const ShapePiece& piece = sorted_[i];
+        const Vec2 apart = piece.centre_W - p;
+        const double own_m = static_cast<double>(piece.radius_m) + width_m;
+        const double along_m = dot(apart, direction);
+        const bool beside = std::abs(cross(direction, apart)) <= own_m;
+        if (beside && along_m >= from_m - own_m && along_m <= to_m + own_m) visit(piece);
+      }
+    }
+  }
+  /// No piece is farther than this from p; 0 if there are none.
+  [[nodiscard]] double farthest_m(Vec2 p) const noexcept;
+  /// How many pieces there are on a square metre, and their mean radius.
+  [[nodiscard]] double pieces_per_m2() const noexcept { return pieces_per_m2_; }
+  [[nodiscard]] double mean_radius_m() const noexcept { return mean_radius_m_; }
+  [[nodiscard]] double largest_radius_m() const noexcept { return largest_m_; }
+  [[nodiscard]] double cell_m() const noexcept { return 1 / cells_per_m_; }
+
  private:
+  /// A part of the way from one point to another, each 0 to 1; nothing if first > last.
+  struct Span {
+    double first = 0;
+    double last = 1;
+  };
+  /// The part of a way, relative to the origin, that pieces with their centre in a row can touch.
+  [[nodiscard]] Span part_beside_row(Vec2 a, Vec2 b, int y, double reach_m) const noexcept {
+    const double rise_m = b.y - a.y;
+    const double low_m = y * cell_m() - reach_m - a.y;
+    const double high_m = (y + 1) * cell_m() + reach_m - a.y;
+    // Of a way along the row all of it.
+    if (std::abs(rise_m) <= reach_m) return {};
+    const double first = low_m / rise_m;
+    const double last = high_m / rise_m;
+    return {std::clamp(std::min(first, last), 0.0, 1.0),
+            std::clamp(std::max(first, last), 0.0, 1.0)};
+  }
+
   void fill_columns();
   /// Where a piece goes: its cell, and how many pieces of that cell come before it.
   struct Slot {
@@ -124,8 +180,11 @@ class ShapeGrid {
   }
 
   Vec2 origin_;
+  Vec2 size_;  ///< From the origin to the last centre.
   double cells_per_m_ = 1;
   double largest_m_ = 0;
+  double mean_radius_m_ = 0;
+  double pieces_per_m2_ = 0;
   int width_ = 0;
   int height_ = 0;
   std::vector<std::uint32_t> begin_;  ///< Per cell; one more at the end.

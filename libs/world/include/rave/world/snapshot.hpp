@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -19,6 +20,26 @@ struct RobotState {
   Pose2 X_WR;
   Twist2 velocity_W;     ///< Of the origin over ground, axes of W.
   bool present = false;  ///< False before the first pose of a real robot: nobody senses it.
+};
+
+/// A long ray, cut into parts that grow, so that what lies behind the first hit is hardly looked
+/// for.
+struct RayParts {
+  double from_m = 0;
+  double to_m = 0;
+  double step_m = 1;  ///< Length of the next part.
+  double end_m = 0;   ///< Behind this lies nothing.
+  bool begun = false;
+
+  /// On to the next part; false if there is none. There is always a first one.
+  [[nodiscard]] bool next() noexcept {
+    if (begun && !(to_m < end_m)) return false;
+    begun = true;
+    from_m = to_m;
+    to_m = std::min(to_m + step_m, end_m);
+    step_m *= 2;
+    return true;
+  }
 };
 
 /// The world at one instant, ready for queries. Set the robots, then rebuild(), then look at it
@@ -93,6 +114,17 @@ class Snapshot final : public WorldView {
   void for_each_robot_near(Vec2 p_W, double radius_m, Visit&& visit) const {
     moving_.for_each_near(p_W, radius_m, visit);
   }
+  /// Calls `visit(piece)` for each piece of a shape that comes within `width_m` of a part of a ray;
+  /// as for_each_near(), and see ShapeGrid::for_each_along().
+  template <class Visit>
+  void for_each_along(Vec2 p_W, Vec2 direction, double from_m, double to_m, double width_m,
+                      Visit&& visit) const {
+    fixed_.for_each_along(p_W, direction, from_m, to_m, width_m, visit);
+    moving_.for_each_along(p_W, direction, from_m, to_m, width_m, visit);
+  }
+  /// The parts in which to look along a ray that begins at p_W: the first as long as a ray goes on
+  /// average until it comes to something.
+  [[nodiscard]] RayParts parts_of(Vec2 p_W, double range_max_m) const noexcept;
   /// The pieces of obstacles, and those of robots, for queries of their own.
   [[nodiscard]] const ShapeGrid& standing() const noexcept { return fixed_; }
   [[nodiscard]] const ShapeGrid& moving() const noexcept { return moving_; }

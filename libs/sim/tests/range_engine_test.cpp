@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "listed_fan.hpp"
+#include "../src/listed_fan.hpp"
 #include "rave/base/random.hpp"
 #include "rave/math/scalar.hpp"
 
@@ -308,7 +308,9 @@ TEST(CastFan, AlongItsRaysItFindsToTheBitWhatIsAllAround) {
 }
 
 TEST(CastFan, WalksWhereThatIsExpectedToTakeLess) {
-  const world::WorldModel model = wide_world(1, {});
+  world::WorldModel model;
+  for (int i = 0; i < 4900; ++i)
+    model.obstacles.push_back(disc_at(3 * (i % 70), 3 * (i / 70), 0.3));
   const world::Snapshot world(model);
   EXPECT_TRUE(walk_pays(world, fan_of(1, 0, 100).table));
   EXPECT_TRUE(walk_pays(world, fan_of(4, 0.2, 1000).table));

@@ -154,7 +154,7 @@ TEST(Snapshot, ARayIsFollowedToWhatALinearSearchFinds) {
       const RayHit hit = world.cast(p, 0.5, bearing, most_m, kAllLayers, BodyId());
       ASSERT_EQ(hit.body, expected.body) << "field " << seed << " ray " << ray;
       ASSERT_EQ(hit.range_m, expected.range_m) << "field " << seed << " ray " << ray;
-      hits += hit.body.valid() ? 1 : 0;
+      hits += hit.body.valid() ? 1U : 0U;
     }
   }
   EXPECT_GT(hits, 1000U);

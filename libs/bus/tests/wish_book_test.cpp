@@ -12,7 +12,6 @@
 namespace rave::bus {
 namespace {
 
-using std::chrono::milliseconds;
 using std::chrono::seconds;
 using Replies = std::vector<WishBook::Reply>;
 

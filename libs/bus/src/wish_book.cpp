@@ -104,7 +104,9 @@ void WishBook::hear(const Heard& wish, Clock::time_point now) {
   }
   asker->last = number;
   BegunWish begun = begin_(line);
-  if (log_ != nullptr && !begun.told.empty()) {
+  const bool again = !begun.understood && asker->babbled && now - *asker->babbled < kScolding;
+  if (!begun.understood && !again) asker->babbled = now;
+  if (log_ != nullptr && !begun.told.empty() && !again) {
     log_->info("by hand", "from `{}` over the bus: {}", from, for_log(begun.told));
   }
   ++asker->open;

@@ -41,7 +41,7 @@ class WishBookTest : public ::testing::Test {
                                       return waits && !let_ ? std::nullopt
                                                             : std::optional("done: " + text);
                                     },
-                                    line == "look" ? "" : std::string(line)};
+                                    line == "look" ? "" : std::string(line), line != "babble"};
                  },
                  &log_};
 };
@@ -83,6 +83,18 @@ TEST_F(WishBookTest, WhatOnlyLooksIsNotLogged) {
   hear(7, 1, "look");
   EXPECT_EQ(take().size(), 1U);
   EXPECT_TRUE(log_.lines.empty());
+}
+
+TEST_F(WishBookTest, NonsenseIsLoggedOnceASecondOfEach) {
+  for (std::uint64_t number = 1; number <= 4; ++number) hear(7, number, "babble");
+  hear(8, 1, "babble");
+  EXPECT_EQ(log_.lines.size(), 2U);
+  EXPECT_EQ(take().size(), 5U);
+  now_ += seconds(1);
+  hear(7, 5, "babble");
+  hear(7, 6, "stop");
+  hear(7, 7, "stop");
+  EXPECT_EQ(log_.lines.size(), 5U);
 }
 
 TEST_F(WishBookTest, WhatIsLoggedCannotSteerATerminalOrFillALine) {

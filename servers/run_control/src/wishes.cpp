@@ -22,8 +22,8 @@ std::string line_of(const Answer& answer) {
   return without_control_characters(line, " ");
 }
 
-BegunWish answered(const Answer& answer, std::string told) {
-  return {[line = line_of(answer)] { return std::optional(line); }, std::move(told)};
+BegunWish answered(const Answer& answer, std::string told, bool understood = true) {
+  return {[line = line_of(answer)] { return std::optional(line); }, std::move(told), understood};
 }
 
 /// For the log; empty for what only looks.
@@ -41,7 +41,7 @@ bus::BeginWish wishes_of(RunControl& control) {
     const auto request = parse_request(line);
     if (!request) {
       return answered({false, request.error().message, {}},
-                      "something that is not understood: " + request.error().message);
+                      "something that is not understood: " + request.error().message, false);
     }
     if (const auto answer = answer_at_once(control, *request)) {
       return answered(*answer, told_of(*request));
@@ -56,7 +56,7 @@ bus::BeginWish wishes_of(RunControl& control) {
               }
               return line_of(answer_of(awaited->get()));
             },
-            told_of(*request)};
+            told_of(*request), true};
   };
 }
 

@@ -19,7 +19,8 @@ namespace rave::bus {
 struct BegunWish {
   /// Called now and then until it gives the answer, a line of UTF-8 without its end; never waits.
   std::function<std::optional<std::string>()> answer;
-  std::string told;  ///< What the log says was asked; empty: it only looks.
+  std::string told;        ///< What the log says was asked; empty: it only looks.
+  bool understood = true;  ///< False: nothing was begun; the log says so once a second of each.
 };
 
 /// Begins what a line asks, without waiting for it. Whoever calls it does so in one thread.
@@ -77,6 +78,7 @@ class WishBook {
     std::size_t open = 0;
     Clock::time_point heard{};
     std::optional<Clock::time_point> scolded{};  ///< When it was last told that it is too much.
+    std::optional<Clock::time_point> babbled{};  ///< When its nonsense was logged last.
     std::optional<Reply> said{};                 ///< The last answer.
     Clock::time_point said_at{};
   };

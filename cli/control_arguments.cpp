@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control_arguments.hpp"
 
+#include "bus_arguments.hpp"
 #include "shared_arguments.hpp"
 
 namespace rave::cli {
 namespace {
 
 void add_run_name(CLI::App& app, std::string& run) {
-  add_value(app, "run", run, "Its name, process id or scenario; not needed for the only one",
-            "RUN");
+  add_value(app, "run", run,
+            "Its name, process id or scenario, or RUN@HOST; not needed for the only one", "RUN");
 }
 
 void add_robot_name(CLI::App& app, std::string& robot) {
@@ -24,7 +25,8 @@ void add_stop(CLI::App& root, StopCommand& c) {
   CLI::App& app = *root.add_subcommand("stop", "Make robots of a run stand until released");
   add_run_name(app, c.run);
   add_robot_name(app, c.robot);
-  app.add_flag("--all", c.all, "Every robot of every run");
+  app.add_flag("--all", c.all, "Every robot of every run on this machine");
+  add_network_options(app, c.bus);
   app.footer(
       "No program can move a stopped robot. `rave arm --release` lets it go again.\n\n"
       "Examples:\n"
@@ -37,11 +39,13 @@ void add_arm(CLI::App& root, ArmCommand& c) {
   add_run_name(app, c.run);
   add_robot_name(app, c.robot);
   app.add_flag("--release", c.release, "Also those that were stopped");
+  add_network_options(app, c.bus);
 }
 
 void add_set(CLI::App& root, SetCommand& c) {
   CLI::App& app = *root.add_subcommand("set", "Change a parameter of a robot while it runs");
   add_word(app, "words", c.words, "[RUN] ROBOT KEY VALUE", "WORD")->expected(3, 4);
+  add_network_options(app, c.bus);
   app.footer(
       "KEY is program.PARAM, controller.NAME.PARAM, actuator.NAME.PARAM or body.scale.\n\n"
       "Examples:\n"
@@ -50,10 +54,13 @@ void add_set(CLI::App& root, SetCommand& c) {
 }
 
 void add_hold(CLI::App& root, HoldCommand& c) {
-  add_run_name(*root.add_subcommand("pause", "Hold a run that is not live"), c.run);
-  add_run_name(*root.add_subcommand("resume", "Let a paused run go on"), c.run);
+  CLI::App& pause = *root.add_subcommand("pause", "Hold a run that is not live");
+  CLI::App& resume = *root.add_subcommand("resume", "Let a paused run go on");
   CLI::App& step = *root.add_subcommand("step", "Do steps of a paused run");
-  add_run_name(step, c.run);
+  for (CLI::App* const app : {&pause, &resume, &step}) {
+    add_run_name(*app, c.run);
+    add_network_options(*app, c.bus);
+  }
   add_value(step, "--count", c.count, "How many [1]", "N")->check(CLI::Range(1, 1'000'000'000));
 }
 
@@ -62,6 +69,7 @@ void add_hand_over(CLI::App& root, HandOverCommand& c) {
   add_word(app, "robot", c.robot, "One whose entry in the scenario has `twin:`", "ROBOT");
   add_word(app, "to", c.to, "real or simulated; or first (those of `file:`) or twin", "DRIVERS");
   add_value(app, "--run", c.run, "Name, process id or scenario of the run [the only one]", "RUN");
+  add_network_options(app, c.bus);
   app.footer(
       "The drivers are opened, the robot is brought to stand, and between two steps it changes.\n"
       "Its program and its controllers go on. What keeps it from changing is told, and then\n"
@@ -78,6 +86,7 @@ void add_shadow(CLI::App& root, ShadowCommand& c) {
   add_robot_name(app, c.robot);
   app.add_flag("--reset", c.reset, "Put the twin where the robot is");
   app.add_flag("--json", c.json, "Print the numbers as JSON");
+  add_network_options(app, c.bus);
 }
 
 void add_name(CLI::App& app, std::string& name) {
@@ -109,16 +118,22 @@ void add_edit(CLI::App& root, EditCommand& c) {
   CLI::App& move = *app.add_subcommand("move", "Put an obstacle elsewhere");
   add_name(move, c.name);
   add_place(move, c.at);
-  add_name(*app.add_subcommand("remove", "Take an obstacle away"), c.name);
-  app.add_subcommand("list", "Say which obstacles stand where");
+  CLI::App& remove = *app.add_subcommand("remove", "Take an obstacle away");
+  add_name(remove, c.name);
+  CLI::App& list = *app.add_subcommand("list", "Say which obstacles stand where");
+  for (CLI::App* const each : {&add, &move, &remove, &list}) add_network_options(*each, c.bus);
   app.footer(
       "A change counts from the next step on; the answer says which that is. What would overlap a\n"
-      "simulated robot is refused. Exit code: 0 if it was done, 1 if the run refuses, 2 for bad "
-      "input.\n\n"
+      "simulated robot is refused. A run that is not on this machine is looked for on the bus: "
+      "give\n"
+      "--interface and --peer as its processes have them. Exit code: 0 if it was done, 1 if the "
+      "run\n"
+      "refuses, 2 for bad input.\n\n"
       "Examples:\n"
       "  rave edit add box --name crate --at 1,2,30 --size 0.5x0.3\n"
       "  rave edit move crate --at 2,2\n"
-      "  rave edit predator-prey remove crate");
+      "  rave edit predator-prey remove crate\n"
+      "  rave edit warehouse list --interface 192.168.1.9 --peer 192.168.1.2");
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "rave/robot_host/build.hpp"
 #include "rave/robot_host/host_run.hpp"
 #include "rave/run_control/folder.hpp"
+#include "rave/run_control/wishes.hpp"
 
 namespace rave::cli {
 namespace {
@@ -73,6 +74,7 @@ Result<ManagedEnd> manage_steps(const ManagedRun& run, robot_host::BuiltScenario
   how.log = &run.console;
   how.stopping = run.stopping;
   how.control = &run.control;
+  how.begin_wish = run_control::wishes_of(run.control);
   how.on_progress = [&run, &file](const environment_manager::ManagerOptions::Progress& progress) {
     const double sim_s = static_cast<double>(progress.step) * file.step_s.value;
     run.console.show({sim_s / file.duration_s, sim_s, file.duration_s, progress.speed,
@@ -179,6 +181,7 @@ Result<ManagedEnd> manage_time(const ManagedRun& run, robot_host::BuiltScenario 
   how.log = &run.console;
   how.stopping = run.stopping;
   how.control = &run.control;
+  how.begin_wish = run_control::wishes_of(run.control);
   how.on_progress = [&run, &file](SimTime now, const std::string& waiting) {
     run.console.show({now.seconds() / file.duration_s, now.seconds(), file.duration_s, 1,
                       run.scenario.robots.size(),

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "asked_run.hpp"
 #include "error_text.hpp"
 #include "rave/math/scalar.hpp"
 #include "rave/report/table.hpp"
@@ -17,19 +18,19 @@ namespace {
 using run_control::Request;
 
 /// Asks one run and prints its answer.
-int ask_run(const std::string& run, const Request& request) {
-  const auto answer = run_control::ask(run, request);
+int ask_run(const AskedRun& run, const Request& request) {
+  const auto answer = run.ask(request);
   if (!answer) return complain(answer.error());
   if (!answer->good) {
-    complain({ErrorCode::kState, fmt::format("{}: {}", run, answer->text), {}});
+    complain({ErrorCode::kState, fmt::format("{}: {}", run.name(), answer->text), {}});
     return kNotGood;
   }
-  put(stdout, fmt::format("{}: {}\n", run, answer->text));
+  put(stdout, fmt::format("{}: {}\n", run.name(), answer->text));
   return kGood;
 }
 
-int find_and_ask(const std::string& word, const Request& request) {
-  const auto run = run_control::find_run(word);
+int find_and_ask(const std::string& word, const BusOptions& bus, const Request& request) {
+  const auto run = AskedRun::find(word, bus);
   return run ? ask_run(*run, request) : complain(run.error());
 }
 
@@ -115,7 +116,7 @@ int list_runs(const PsCommand& options) {
 
 int stop_robots(const StopCommand& options) {
   const Request request = request_of(Request::What::kStop, options.robot);
-  if (!options.all) return find_and_ask(options.run, request);
+  if (!options.all) return find_and_ask(options.run, options.bus, request);
   if (!options.run.empty() || !options.robot.empty()) {
     return complain({ErrorCode::kInvalidArgument, "`--all` is every robot of every run", {}});
   }
@@ -123,12 +124,12 @@ int stop_robots(const StopCommand& options) {
   if (!runs) return complain(runs.error());
   if (runs->empty()) return complain({ErrorCode::kNotFound, "no run is under way", {}});
   int code = kGood;
-  for (const std::string& run : *runs) code = std::max(code, ask_run(run, request));
+  for (const std::string& run : *runs) code = std::max(code, ask_run(AskedRun(run), request));
   return code;
 }
 
 int arm_robots(const ArmCommand& options) {
-  const auto run = run_control::find_run(options.run);
+  const auto run = AskedRun::find(options.run, options.bus);
   if (!run) return complain(run.error());
   if (options.release) {
     const int code = ask_run(*run, request_of(Request::What::kRelease, options.robot));
@@ -142,7 +143,7 @@ int set_parameter(const SetCommand& options) {
   Request request = request_of(Request::What::kSet, options.words[first]);
   request.key = options.words[first + 1];
   request.value = options.words[first + 2];
-  return find_and_ask(first == 1 ? options.words[0] : "", request);
+  return find_and_ask(first == 1 ? options.words[0] : "", options.bus, request);
 }
 
 int hold_run(const HoldCommand& options) {
@@ -159,7 +160,7 @@ int hold_run(const HoldCommand& options) {
       request.what = Request::What::kStep;
       break;
   }
-  return find_and_ask(options.run, request);
+  return find_and_ask(options.run, options.bus, request);
 }
 
 }  // namespace rave::cli

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "bus_options.hpp"
+
 // What one terminal asks of a run that goes in another.
 namespace rave::cli {
 
@@ -17,7 +19,8 @@ struct PsCommand {
 struct StopCommand {
   std::string run;  ///< Empty: the only one.
   std::string robot;
-  bool all = false;  ///< All robots of all runs.
+  bool all = false;  ///< All robots of all runs on this machine.
+  BusOptions bus;
 };
 
 /// `rave arm`.
@@ -25,11 +28,13 @@ struct ArmCommand {
   std::string run;
   std::string robot;
   bool release = false;  ///< Ends a stop first.
+  BusOptions bus;
 };
 
 /// `rave set`.
 struct SetCommand {
   std::vector<std::string> words;  ///< [RUN] ROBOT KEY VALUE.
+  BusOptions bus;
 };
 
 /// `rave pause`, `rave resume` and `rave step`.
@@ -38,9 +43,11 @@ struct HoldCommand {
   What what = What::kPause;
   std::string run;
   std::uint64_t count = 1;
+  BusOptions bus;
 };
 
-// Each prints what was done. Returns 0; 1 if the run refuses; 2 if there is no such run.
+// `bus` says where to look for a run that is not on this machine. Each prints what was done.
+// Returns 0; 1 if the run refuses; 2 if there is no such run, or it does not answer.
 [[nodiscard]] int list_runs(const PsCommand& options);
 [[nodiscard]] int stop_robots(const StopCommand& options);
 [[nodiscard]] int arm_robots(const ArmCommand& options);

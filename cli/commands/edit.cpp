@@ -8,9 +8,8 @@
 #include <chrono>
 #include <vector>
 
+#include "asked_run.hpp"
 #include "error_text.hpp"
-#include "rave/run_control/client.hpp"
-#include "rave/run_control/folder.hpp"
 
 namespace rave::cli {
 namespace {
@@ -126,20 +125,20 @@ Result<std::string> obstacle_yaml(const EditCommand& options) {
 int edit_world(const EditCommand& options) {
   const auto request = request_of(options);
   if (!request) return complain(request.error());
-  const auto run = run_control::find_run(options.run);
+  const auto run = AskedRun::find(options.run, options.bus);
   if (!run) return complain(run.error());
   const auto asked = std::chrono::steady_clock::now();
-  const auto answer = run_control::ask(*run, *request);
+  const auto answer = run->ask(*request);
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - asked;
   if (!answer) return complain(answer.error());
   if (!answer->good) {
-    complain({ErrorCode::kState, fmt::format("{}: {}", *run, answer->text), {}});
+    complain({ErrorCode::kState, fmt::format("{}: {}", run->name(), answer->text), {}});
     return kNotGood;
   }
   const std::string done = options.what == What::kList
                                ? ""
                                : fmt::format(" ({:.1f} ms after it was asked)", took.count());
-  put(stdout, fmt::format("{}: {}{}\n", *run, answer->text, done));
+  put(stdout, fmt::format("{}: {}{}\n", run->name(), answer->text, done));
   return kGood;
 }
 

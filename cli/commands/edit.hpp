@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "bus_options.hpp"
 #include "rave/base/result.hpp"
 
 // What one terminal changes in the world of a run that goes in another.
@@ -24,10 +25,11 @@ struct EditCommand {
   std::string layer;           ///< kAdd; empty: as in files.
   std::string colour;          ///< kAdd: `#rrggbb`; empty: none.
   std::optional<int> barcode;  ///< kAdd.
+  BusOptions bus;              ///< Where to look for a run that is not on this machine.
 };
 
 /// Prints what was done and how long the run took to do it. Returns 0; 1 if the run refuses; 2 for
-/// bad input, or if there is no such run.
+/// bad input, or if there is no such run or it does not answer.
 [[nodiscard]] int edit_world(const EditCommand& options);
 
 /// What a run is told: the obstacle as a file has it, in one line. Errors: kInvalidArgument.

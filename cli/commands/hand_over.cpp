@@ -10,11 +10,11 @@
 #include <optional>
 #include <thread>
 
+#include "asked_run.hpp"
 #include "error_text.hpp"
 #include "rave/base/names.hpp"
 #include "rave/math/scalar.hpp"
 #include "rave/report/table.hpp"
-#include "rave/run_control/client.hpp"
 #include "rave/run_control/folder.hpp"
 
 namespace rave::cli {
@@ -24,6 +24,8 @@ using robot_host::RunStatus;
 using run_control::Request;
 
 constexpr auto kLook = std::chrono::milliseconds(50);
+/// No more often than a process on the bus answers.
+constexpr auto kLookFar = std::chrono::milliseconds(200);
 
 Request hand_over_request(Request::What what, const std::string& robot) {
   Request request;
@@ -32,16 +34,12 @@ Request hand_over_request(Request::What what, const std::string& robot) {
   return request;
 }
 
-int refused(const std::string& run, const std::string& text) {
-  complain({ErrorCode::kState, fmt::format("{}: {}", run, text), {}});
+int refused(const AskedRun& run, const std::string& text) {
+  complain({ErrorCode::kState, fmt::format("{}: {}", run.name(), text), {}});
   return kNotGood;
 }
 
-Result<RunStatus> status_of(const std::string& run) {
-  RAVE_TRY_ASSIGN(auto answer,
-                  run_control::ask(run, hand_over_request(Request::What::kStatus, "")));
-  return std::move(answer.status);
-}
+Result<RunStatus> status_of(const std::string& local) { return AskedRun(local).status(); }
 
 std::optional<RunStatus::HandOver> hand_over_of(const RunStatus& status, const std::string& robot) {
   for (const RunStatus::Robot& one : status.robots) {
@@ -58,8 +56,8 @@ bool has_one(const RunStatus& status, const Has& has) {
 
 /// The process of a run that has what is asked for: in real time over several hosts that is the
 /// host of the robot, and whoever types the name of the run, or nothing, means it. Errors: those of
-/// find_run(), kNotFound (more than one has it, or it cannot be told whose hosts are here).
-Result<std::string> find_process(const std::string& word, const Has& has) {
+/// find_run(), kState (more than one has it, or it cannot be told whose hosts are here).
+Result<std::string> find_process_here(const std::string& word, const Has& has) {
   auto run = run_control::find_run(word);
   // Where a manager runs elsewhere, its hosts are known by the scenario.
   std::string scenario = word;
@@ -83,28 +81,39 @@ Result<std::string> find_process(const std::string& word, const Has& has) {
   }
   if (found.empty()) return run;
   if (run && runs > 1) {
-    return fail(ErrorCode::kNotFound,
+    return fail(ErrorCode::kState,
                 "{} runs of `{}` are here, and whose hosts are whose cannot be told; say which of "
                 "{}",
                 runs, scenario, join_names(found));
   }
   if (found.size() == 1) return std::string(found.front());
-  return fail(ErrorCode::kNotFound, "several processes have it: {}; say which", join_names(found));
+  return fail(ErrorCode::kState, "several processes have it: {}; say which", join_names(found));
+}
+
+/// The same, or if there is none here on the bus.
+Result<AskedRun> find_process(const std::string& word, const BusOptions& bus, const Has& has) {
+  auto here = find_process_here(word, has);
+  if (here) return AskedRun(*std::move(here));
+  if (here.error().code != ErrorCode::kNotFound || AskedRun::may_be_here(word)) {
+    return tl::unexpected(std::move(here).error());
+  }
+  return AskedRun::find_on_bus(word, bus,
+                               [&has](const RunStatus& status) { return has_one(status, has); });
 }
 
 /// Waits for the end of the hand-over that was begun after `before`.
-int await(const std::string& run, const std::string& robot, const RunStatus::HandOver& before) {
+int await(const AskedRun& run, const std::string& robot, const RunStatus::HandOver& before) {
   while (true) {
-    const auto status = status_of(run);
+    const auto status = run.status();
     if (!status) return complain(status.error());
     const auto now = hand_over_of(*status, robot);
     if (!now) return refused(run, "the run ended before the robot was handed over");
     if (now->made != before.made) {
-      put(stdout, fmt::format("{}: {}: {}\n", run, robot, now->last));
+      put(stdout, fmt::format("{}: {}: {}\n", run.name(), robot, now->last));
       return kGood;
     }
     if (now->refused != before.refused) return refused(run, robot + ": " + now->last);
-    std::this_thread::sleep_for(kLook);
+    std::this_thread::sleep_for(run.on_bus() ? kLookFar : kLook);
   }
 }
 
@@ -141,35 +150,36 @@ void add_rows(const RunStatus& status, const RunStatus::Robot& robot, report::Ta
 }  // namespace
 
 int hand_over(const HandOverCommand& options) {
-  const auto run = find_process(options.run, [&options](const RunStatus::Robot& robot) {
-    return robot.name == options.robot && robot.hand_over;
-  });
+  const auto run =
+      find_process(options.run, options.bus, [&options](const RunStatus::Robot& robot) {
+        return robot.name == options.robot && robot.hand_over;
+      });
   if (!run) return complain(run.error());
-  const auto status = status_of(*run);
+  const auto status = run->status();
   if (!status) return complain(status.error());
   const auto before = hand_over_of(*status, options.robot).value_or(RunStatus::HandOver{});
   Request request = hand_over_request(Request::What::kHandOver, options.robot);
   request.value = options.to;
-  const auto answer = run_control::ask(*run, request);
+  const auto answer = run->ask(request);
   if (!answer) return complain(answer.error());
   if (!answer->good) return refused(*run, answer->text);
   return await(*run, options.robot, before);
 }
 
 int show_shadows(const ShadowCommand& options) {
-  const auto run = find_process(options.run, [&options](const RunStatus::Robot& robot) {
-    return (options.robot.empty() || robot.name == options.robot) && robot.shadow;
-  });
+  const auto run =
+      find_process(options.run, options.bus, [&options](const RunStatus::Robot& robot) {
+        return (options.robot.empty() || robot.name == options.robot) && robot.shadow;
+      });
   if (!run) return complain(run.error());
   if (options.reset) {
-    const auto answer =
-        run_control::ask(*run, hand_over_request(Request::What::kResetShadow, options.robot));
+    const auto answer = run->ask(hand_over_request(Request::What::kResetShadow, options.robot));
     if (!answer) return complain(answer.error());
     if (!answer->good) return refused(*run, answer->text);
-    put(stdout, fmt::format("{}: {}\n", *run, answer->text));
+    put(stdout, fmt::format("{}: {}\n", run->name(), answer->text));
     return kGood;
   }
-  const auto status = status_of(*run);
+  const auto status = run->status();
   if (!status) return complain(status.error());
   report::Table table;
   table.columns = {{"robot", report::Align::kLeft, false},

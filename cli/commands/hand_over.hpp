@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "bus_options.hpp"
+
 // Robots with two sets of drivers, and the shadows of real ones.
 namespace rave::cli {
 
@@ -11,6 +13,7 @@ struct HandOverCommand {
   std::string robot;
   std::string to;   ///< `real`, `simulated`, `first` or `twin`.
   std::string run;  ///< Empty: the only one.
+  BusOptions bus;   ///< Where to look for a run that is not on this machine.
 };
 
 /// `rave shadow`.
@@ -19,6 +22,7 @@ struct ShadowCommand {
   std::string robot;   ///< Empty: all that have one.
   bool reset = false;  ///< Put the shadow where the robot is.
   bool json = false;
+  BusOptions bus;  ///< As of HandOverCommand.
 };
 
 /// Waits until the robot has its other drivers and says so. Returns 0; 1 if that is refused, by the

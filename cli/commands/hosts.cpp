@@ -15,6 +15,7 @@
 #include "rave/robot_host/host_run.hpp"
 #include "rave/run_control/folder.hpp"
 #include "rave/run_control/server.hpp"
+#include "rave/run_control/wishes.hpp"
 #include "run_folder.hpp"
 #include "run_scenario.hpp"
 
@@ -78,6 +79,7 @@ int robot(const RobotCommand& options) {
   how.run.control = &control;
   how.run.arm = run.arm;
   how.run.run_name = run_control::own_run_name(scenario->scenario.name.value, options.host);
+  how.begin_wish = run_control::wishes_of(control);
   auto server = run_control::Server::start(how.run.run_name, control);
   if (!server) {
     console.warn("host", "no other terminal can control this host: {}", server.error().message);

@@ -10,10 +10,10 @@
 #include <memory>
 #include <mutex>
 #include <stop_token>
-#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "bus_search.hpp"
 #include "error_text.hpp"
 #include "key_watch.hpp"
 #include "rave/run_control/folder.hpp"
@@ -62,32 +62,10 @@ Result<Look> join(bus::BusConfig config, const bus::RunId& run) {
   return look_at(std::shared_ptr<watch::Observer>(std::move(observer)));
 }
 
-/// Whether a run is of this scenario, as its manager says.
-Result<bool> is_of(bus::BusConfig config, const watch::FoundRun& run, std::string_view scenario,
-                   const std::stop_token& stop) {
-  config.run = run.run;
-  RAVE_TRY_ASSIGN(const auto observer, watch::Observer::open(config));
-  constexpr int kLooks = 15;
-  for (int look = 0; look < kLooks && !stop.stop_requested(); ++look) {
-    observer->watch(from_seconds(0.1), stop);
-    const std::string found = observer->view(false).scenario;
-    if (!found.empty()) return found == scenario;
-  }
-  return false;
-}
-
 Result<Look> find_shared_run(const bus::BusConfig& config, const std::string& word,
                              const std::stop_token& stop) {
-  RAVE_TRY_ASSIGN(const auto found, watch::find_runs(config, kSearch, stop));
-  const auto chosen = watch::choose_run(found, word);
-  if (chosen) return join(config, *chosen);
-  if (!word.empty()) {
-    for (const watch::FoundRun& run : found) {
-      RAVE_TRY_ASSIGN(const bool fits, is_of(config, run, word, stop));
-      if (fits) return join(config, run.run);
-    }
-  }
-  return tl::unexpected(chosen.error());
+  RAVE_TRY_ASSIGN(const bus::RunId run, find_bus_run(config, word, kSearch, stop));
+  return join(config, run);
 }
 
 /// A run of several processes, or else one that this user has started here as one process.

@@ -109,6 +109,27 @@ Status check_body(const Sequence& body, bool needed) {
   return {};
 }
 
+/// Of a wish or its answer.
+template <class Message>
+Status check_address(const Message& sample) {
+  RAVE_TRY(check_writer(sample));
+  if (sample.target == 0) return invalid("target is 0");
+  if (sample.number == 0) return invalid("number is 0");
+  return {};
+}
+
+/// Text that ends up in logs and on terminals.
+template <class Sequence>
+Status check_line(const Sequence& sequence, std::size_t most) {
+  const std::string_view text = text_of(sequence);
+  if (text.empty()) return invalid("text is empty");
+  if (text.size() > most) {
+    return invalid(fmt::format("text has {} bytes, more than {}", text.size(), most));
+  }
+  if (!has_control_characters(text)) return {};
+  return invalid("text has control characters");
+}
+
 template <class Placed>
 Status check_pose(const Placed& sample) {
   RAVE_TRY(check_number("x_m", sample.x_m, kMaxPosition_m));
@@ -263,6 +284,17 @@ Status validate(const FindingsPart& sample) {
   if (sample.bytes._length == expected) return {};
   return invalid(fmt::format("bytes has {} entries in part {}, not {}", sample.bytes._length,
                              sample.part, expected));
+}
+
+Status validate(const Wish& sample) {
+  RAVE_TRY(check_address(sample));
+  RAVE_TRY(check_label("from", sample.from, true));
+  return check_line(sample.text, rave_wire_kMaxWishBytes);
+}
+
+Status validate(const WishAnswer& sample) {
+  RAVE_TRY(check_address(sample));
+  return check_line(sample.text, rave_wire_kMaxWishAnswerBytes);
 }
 
 Status check_step(std::uint64_t step, std::uint64_t now, std::uint64_t behind,

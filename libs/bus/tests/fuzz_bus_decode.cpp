@@ -23,7 +23,8 @@ constexpr Receive kTopics[] = {receive<HostState>, receive<World>,        receiv
                                receive<Obstacle>,  receive<Edit>,         receive<Command>,
                                receive<Packet>,    receive<HostInfo>,     receive<ClockPing>,
                                receive<ClockPong>, receive<HostReport>,   receive<WorldStep>,
-                               receive<RunState>,  receive<ProcessState>, receive<FindingsPart>};
+                               receive<RunState>,  receive<ProcessState>, receive<FindingsPart>,
+                               receive<Wish>,      receive<WishAnswer>};
 
 }  // namespace
 

@@ -322,5 +322,47 @@ TEST(PutText, CutsAtTheEndOfACharacter) {
   EXPECT_STREQ(field, "ab");
 }
 
+/// A wish, or its answer, with a line of text.
+template <class Message>
+Message wish_with(std::string& text) {
+  auto message = written<Message>();
+  message.target = 2;
+  message.number = 1;
+  message.text._buffer = reinterpret_cast<std::uint8_t*>(text.data());
+  message.text._length = static_cast<std::uint32_t>(text.size());
+  return message;
+}
+
+TEST(Validate, RefusesWishesThatAreForNobodyOrNoLine) {
+  std::string text = R"({"rave":1,"do":"list"})";
+  auto wish = wish_with<Wish>(text);
+  put_text(wish.from, "anna@box");
+  EXPECT_EQ(reason(wish), "accepted");
+  auto nobody = wish;
+  nobody.target = 0;
+  EXPECT_EQ(reason(nobody), "target is 0");
+  auto uncounted = wish;
+  uncounted.number = 0;
+  EXPECT_EQ(reason(uncounted), "number is 0");
+  auto unsigned_one = wish;
+  put_text(unsigned_one.from, "");
+  EXPECT_EQ(reason(unsigned_one), "from is empty");
+  put_text(unsigned_one.from, "\x1b[31m");
+  EXPECT_EQ(reason(unsigned_one), "from has control characters");
+  std::string lines = "a\nb";
+  auto two = wish_with<Wish>(lines);
+  put_text(two.from, "anna");
+  EXPECT_EQ(reason(two), "text has control characters");
+  two.text._length = 0;
+  EXPECT_EQ(reason(two), "text is empty");
+  std::string endless(rave_wire_kMaxWishBytes + 1, 'x');
+  auto much = wish_with<Wish>(endless);
+  put_text(much.from, "anna");
+  EXPECT_EQ(reason(much), "text has 16385 bytes, more than 16384");
+  EXPECT_EQ(reason(wish_with<WishAnswer>(endless)), "accepted");
+  std::string none;
+  EXPECT_EQ(reason(wish_with<WishAnswer>(none)), "text is empty");
+}
+
 }  // namespace
 }  // namespace rave::bus

@@ -90,6 +90,9 @@ Result<std::unique_ptr<LiveBoard>> LiveBoard::open(const LiveManagerOptions& opt
   RAVE_TRY(waits.add(board->pings_));
   RAVE_TRY(waits.add(board->states_));
   RAVE_TRY(board->findings_.wake(waits));
+  RAVE_TRY_ASSIGN(board->wishes_,
+                  bus::WishBox::create(*board->bus_, options.begin_wish, options.log));
+  if (board->wishes_) RAVE_TRY(board->wishes_->wake(waits));
   board->waits_.emplace(std::move(waits));
   board->introduced_ = lock_step::introduction(options.identity);
   RAVE_TRY(board->own_info_.write(board->introduced_));

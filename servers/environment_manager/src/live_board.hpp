@@ -13,6 +13,7 @@
 
 #include "rave/bus/host_claims.hpp"
 #include "rave/bus/wait_set.hpp"
+#include "rave/bus/wish_box.hpp"
 #include "rave/bus/writer.hpp"
 #include "rave/environment_manager/live_manager.hpp"
 #include "rave/lock_step/findings.hpp"
@@ -52,6 +53,10 @@ class LiveBoard {
   void wait(Duration timeout, const std::stop_token& stop = {}) {
     pulse_.beat({worlds_sent_});
     static_cast<void>(waits_->wait(timeout, stop));
+  }
+  /// Begins what others ask on the bus, and answers what is done.
+  void serve_wishes() {
+    if (wishes_) wishes_->serve();
   }
   /// Learns who is there and who is gone; that counts as a loss if the run `goes`. Errors: kState
   /// (another manager).
@@ -136,6 +141,7 @@ class LiveBoard {
   bus::Reader<bus::RosterEntry> roster_;
   lock_step::Pulse pulse_;
   lock_step::FindingsCollector findings_;
+  std::unique_ptr<bus::WishBox> wishes_{};  ///< May be null.
   std::optional<bus::WaitSet> waits_;
   bus::HostInfo introduced_{};  ///< What the others were told of this process.
   std::vector<LiveSeat> seats_;

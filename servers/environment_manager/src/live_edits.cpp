@@ -250,9 +250,11 @@ void LiveEdits::note(const sim::ObstacleChange& made) {
 
 Result<std::string> LiveEdits::edit(const robot_host::RunRequest& request, SimTime now) {
   if (!is_edit(request.kind)) {
-    return fail(ErrorCode::kState,
-                "in real time each host controls its own robots: ask the process of the host that "
-                "runs them, which `rave ps` lists; obstacles are changed here");
+    return fail(
+        ErrorCode::kState,
+        "in real time each host controls its own robots: ask the process of the host that "
+        "runs them, which `rave ps` lists and which is RUN@HOST on the bus; obstacles are changed "
+        "here");
   }
   if (takes_over_) {
     return fail(ErrorCode::kState, "this manager is taking over from another one; ask again");

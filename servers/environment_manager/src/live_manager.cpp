@@ -138,6 +138,7 @@ Status LiveRun::listen() {
   board_->take_pings([this](const bus::ClockPing& ping) { hear(ping); });
   board_->take_states();
   board_->take_findings();
+  board_->serve_wishes();
   if (Clock::now() < next_look_) return {};
   next_look_ = Clock::now() + kLook;
   // Towards the end each host goes when it is done.

@@ -272,6 +272,7 @@ Status Run::listen() {
   board_->take_reports([&](const bus::HostReport& message) {
     if (status) status = hear(message);
   });
+  board_->serve_wishes();
   return status;
 }
 
@@ -581,7 +582,8 @@ Result<ManagerOutcome> manage(sim::EngineSpec spec, const ManagerOptions& option
   }
   RAVE_TRY(check_scheduled(spec));
   RAVE_TRY_ASSIGN(auto authority, sim::WorldAuthority::create(std::move(spec), std::move(host_of)));
-  RAVE_TRY_ASSIGN(auto board, Switchboard::open(options.bus, options.identity, options.log));
+  RAVE_TRY_ASSIGN(auto board, Switchboard::open(options.bus, options.identity, options.log,
+                                                options.begin_wish));
   Run run(options, std::move(authority), std::move(board));
   auto outcome = run.go();
   if (!outcome) run.give_up(outcome.error());

@@ -11,6 +11,7 @@
 #include "rave/base/log.hpp"
 #include "rave/base/result.hpp"
 #include "rave/bus/wait_set.hpp"
+#include "rave/bus/wish_box.hpp"
 #include "rave/bus/writer.hpp"
 #include "rave/lock_step/findings.hpp"
 #include "rave/lock_step/introduction.hpp"
@@ -24,15 +25,21 @@ namespace rave::environment_manager {
 /// What the manager does with the bus. Belongs to one thread.
 class Switchboard {
  public:
-  /// Errors: those of bus::Bus::open().
+  /// `begin_wish` may be empty: nobody on the bus can ask anything. Errors: those of
+  /// bus::Bus::open().
   [[nodiscard]] static Result<std::unique_ptr<Switchboard>> open(const bus::BusConfig& config,
                                                                  lock_step::Identity identity,
-                                                                 LogSink* log);
+                                                                 LogSink* log,
+                                                                 bus::BeginWish begin_wish);
 
   /// Sleeps until something has come, the time is over or `stop` is set.
   void wait(Duration timeout, const std::stop_token& stop = {}) {
     pulse_.beat({step_});
     static_cast<void>(waits_.wait(timeout, stop));
+  }
+  /// Begins what others ask on the bus, and answers what is done.
+  void serve_wishes() {
+    if (wishes_) wishes_->serve();
   }
   /// Learns who is there; returns the processes that are gone. Errors: kState (there is a manager
   /// that started earlier, and this one has not `begun`).
@@ -82,6 +89,7 @@ class Switchboard {
   bus::Reader<bus::LastWorld> last_worlds_;
   bus::Reader<bus::HostInfo> infos_;
   bus::Reader<bus::RosterEntry> roster_;
+  std::unique_ptr<bus::WishBox> wishes_;  ///< May be null.
   bus::WaitSet waits_;
   bus::HostInfo introduced_;  ///< What the others were told of this process.
   lock_step::WorldMessage message_;

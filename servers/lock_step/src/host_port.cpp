@@ -7,6 +7,7 @@
 
 #include "rave/bus/sequence.hpp"
 #include "rave/bus/wait_set.hpp"
+#include "rave/bus/wish_box.hpp"
 #include "rave/bus/writer.hpp"
 #include "rave/lock_step/findings.hpp"
 #include "rave/lock_step/messages.hpp"
@@ -44,6 +45,7 @@ struct HostPort::Impl {
   bus::Reader<bus::WorldStep> worlds;
   bus::Reader<bus::RunState> states;
   bus::Reader<bus::HostInfo> infos;
+  std::unique_ptr<bus::WishBox> wishes;  ///< May be null.
   bus::WaitSet waits;
   Pulse pulse;
   Roster roster;
@@ -225,7 +227,8 @@ HostPort::HostPort(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 HostPort::~HostPort() = default;
 
 Result<std::unique_ptr<HostPort>> HostPort::open(const bus::BusConfig& config, Identity identity,
-                                                 LogSink* log, Duration patience) {
+                                                 LogSink* log, Duration patience,
+                                                 bus::BeginWish begin_wish) {
   RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
   RAVE_TRY_ASSIGN(auto reports, bus::Writer<bus::HostReport>::create(*bus));
   RAVE_TRY_ASSIGN(auto own_info, bus::Writer<bus::HostInfo>::create(*bus));
@@ -237,17 +240,19 @@ Result<std::unique_ptr<HostPort>> HostPort::open(const bus::BusConfig& config, I
   RAVE_TRY_ASSIGN(auto pulse, Pulse::create(*bus, identity));
   RAVE_TRY_ASSIGN(auto roster, Roster::create(*bus, identity.host));
   RAVE_TRY_ASSIGN(auto findings, FindingsSender::create(*bus));
+  RAVE_TRY_ASSIGN(auto wishes, bus::WishBox::create(*bus, std::move(begin_wish), log));
   RAVE_TRY(waits.add(worlds));
   RAVE_TRY(waits.add(states));
   RAVE_TRY(waits.add(infos));
+  if (wishes) RAVE_TRY(wishes->wake(waits));
   RAVE_TRY(waits.add_events());
   bus::HostInfo info = introduction(identity);
   RAVE_TRY(own_info.write(info));
   return std::unique_ptr<HostPort>(new HostPort(std::unique_ptr<Impl>(
       new Impl{std::move(identity), log, std::move(bus), std::move(reports), std::move(own_info),
                std::move(last_worlds), std::move(worlds), std::move(states), std::move(infos),
-               std::move(waits), std::move(pulse), std::move(roster), std::move(findings), info,
-               patience})));
+               std::move(wishes), std::move(waits), std::move(pulse), std::move(roster),
+               std::move(findings), info, patience})));
 }
 
 Result<HostPort::Answer> HostPort::exchange(const sim::HostReport& report, std::uint64_t hash,
@@ -264,6 +269,7 @@ Result<HostPort::Answer> HostPort::exchange(const sim::HostReport& report, std::
       patience = std::min(2 * patience, kLongestPatience);
     }
     const auto woken = port.waits.wait(until(std::min(send_at, Clock::now() + kLook)));
+    if (port.wishes) port.wishes->serve();
     if (port.take_world(report, world)) {
       port.told.clear();
       return Answer::kWorld;

@@ -8,6 +8,7 @@
 
 #include "rave/bus/sequence.hpp"
 #include "rave/bus/wait_set.hpp"
+#include "rave/bus/wish_box.hpp"
 #include "rave/bus/writer.hpp"
 #include "rave/lock_step/findings.hpp"
 #include "rave/lock_step/pulse.hpp"
@@ -66,8 +67,9 @@ struct HostLink::Impl {
   std::optional<bus::Reader<bus::World>> worlds{};        // if it sees
   std::optional<bus::Writer<bus::Packet>> packets_out{};  // if it talks
   std::optional<bus::Reader<bus::Packet>> packets_in{};
-  std::optional<Realities> realities{};  // if drivers may change
-  std::optional<bus::WaitSet> waits{};   // behind all that it waits for
+  std::optional<Realities> realities{};    // if drivers may change
+  std::unique_ptr<bus::WishBox> wishes{};  // if others may ask
+  std::optional<bus::WaitSet> waits{};     // behind all that it waits for
   std::optional<lock_step::Pulse> pulse{};
   lock_step::Pulse::Facts facts{};      ///< For those who look on.
   std::uint64_t last_world_number = 0;  ///< Of this manager; 0: none yet.
@@ -165,6 +167,8 @@ Status HostLink::Impl::open_endpoints() {
     RAVE_TRY_ASSIGN(Realities made, Realities::create(*bus, options.self.host, options.host_of));
     realities.emplace(std::move(made));
   }
+  RAVE_TRY_ASSIGN(wishes, bus::WishBox::create(*bus, options.begin_wish, options.log));
+  if (wishes) RAVE_TRY(wishes->wake(set));
   RAVE_TRY(set.add_events());
   waits.emplace(std::move(set));
   RAVE_TRY(make(pulse, *bus, options.self));
@@ -377,6 +381,7 @@ void HostLink::Impl::take() {
   if (worlds) take_worlds();
   if (packets_in) take_packets();
   if (realities) realities->hear();
+  if (wishes) wishes->serve();
   look();
   if (obstacles) take_obstacles();
 }

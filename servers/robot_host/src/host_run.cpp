@@ -171,8 +171,8 @@ Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::C
   std::function<void()> look;
   built.spec.on_step_done = [&look] { look(); };
   RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(built.spec)));
-  RAVE_TRY_ASSIGN(const auto port,
-                  HostPort::open(options.bus, std::move(self), &console, options.manager_patience));
+  RAVE_TRY_ASSIGN(const auto port, HostPort::open(options.bus, std::move(self), &console,
+                                                  options.manager_patience, options.begin_wish));
   introduce_robots(port->roster(), engine->spec(), seat.robots, console);
   RAVE_TRY_ASSIGN(const auto ros2, Ros2Face::open(scenario, *engine, options.host));
   Observers observers(scenario, built.robot_kinds, engine->spec(), run.picture);

@@ -235,6 +235,7 @@ Result<HostLink::Options> link_options(const LiveHost& host, const BuiltScenario
   options.world_period = from_seconds(host.scenario.scenario.world_period_s);
   options.manager_patience = host.options.manager_patience;
   options.log = &host.console;
+  options.begin_wish = host.options.begin_wish;
   return options;
 }
 

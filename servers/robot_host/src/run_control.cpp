@@ -62,7 +62,7 @@ bool RunControl::paused() const {
   return paused_;
 }
 
-Result<std::string> RunControl::ask(RunRequest request, std::chrono::milliseconds patience) {
+Result<std::future<Result<std::string>>> RunControl::post(RunRequest request) {
   std::future<Result<std::string>> answer;
   std::stop_source wake(std::nostopstate);
   {
@@ -77,6 +77,11 @@ Result<std::string> RunControl::ask(RunRequest request, std::chrono::millisecond
   }
   changed_.notify_all();
   wake.request_stop();
+  return answer;
+}
+
+Result<std::string> RunControl::ask(RunRequest request, std::chrono::milliseconds patience) {
+  RAVE_TRY_ASSIGN(auto answer, post(std::move(request)));
   if (answer.wait_for(patience) == std::future_status::ready) return answer.get();
   return fail(ErrorCode::kTimeout,
               "the run has not come to it for {} ms: a step does not end; it is done before the "

@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "answering.hpp"
 #include "rave/run_control/folder.hpp"
 #include "rave/run_control/protocol.hpp"
 #include "socket.hpp"
@@ -17,8 +18,6 @@ namespace rave::run_control {
 namespace {
 
 namespace fs = std::filesystem;
-using What = Request::What;
-using Kind = robot_host::RunRequest::Kind;
 
 constexpr std::size_t kMaxConnections = 32;
 
@@ -30,68 +29,11 @@ bool is_own(int file) {
   return peer.uid == ::geteuid() || peer.uid == 0;
 }
 
-Answer answer_of(const Result<std::string>& result) {
-  if (result) return {true, *result, {}};
-  return {false, result.error().message, {}};
-}
-
-Kind kind_of(What what) {
-  switch (what) {
-    case What::kRelease:
-      return Kind::kRelease;
-    case What::kArm:
-      return Kind::kArm;
-    case What::kSet:
-      return Kind::kSet;
-    case What::kAdd:
-      return Kind::kAdd;
-    case What::kMove:
-      return Kind::kMove;
-    case What::kRemove:
-      return Kind::kRemove;
-    case What::kList:
-      return Kind::kList;
-    case What::kHandOver:
-      return Kind::kHandOver;
-    case What::kResetShadow:
-      return Kind::kResetShadow;
-    default:
-      return Kind::kStop;
-  }
-}
-
-/// Pause, resume and step: what a live run cannot do.
-Answer hold(robot_host::RunControl& control, const Request& request) {
-  const robot_host::RunStatus status = control.status();
-  if (status.scenario.empty()) return {false, "no run is under way", {}};
-  if (status.live) return {false, "a live run cannot be held: the world outside goes on", {}};
-  if (request.what == What::kPause) {
-    control.pause();
-    return {true, "paused", {}};
-  }
-  if (request.what == What::kResume) {
-    control.resume();
-    return {true, "resumed", {}};
-  }
-  if (!status.paused) return {false, "the run is not paused", {}};
-  control.step(request.count);
-  return {true, fmt::format("{} step{}", request.count, request.count == 1 ? "" : "s"), {}};
-}
-
 Answer answer_line(robot_host::RunControl& control, std::string_view line) {
   const auto request = parse_request(line);
   if (!request) return {false, request.error().message, {}};
-  switch (request->what) {
-    case What::kStatus:
-      return {true, "", control.status()};
-    case What::kPause:
-    case What::kResume:
-    case What::kStep:
-      return hold(control, *request);
-    default:
-      return answer_of(
-          control.ask({kind_of(request->what), request->robot, request->key, request->value}));
-  }
+  if (auto answer = answer_at_once(control, *request)) return *std::move(answer);
+  return answer_of(control.ask(run_request(*request)));
 }
 
 }  // namespace

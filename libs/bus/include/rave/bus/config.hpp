@@ -25,8 +25,9 @@ struct BusConfig {
   std::string participant;
   /// Must not be none, unless `anonymous`.
   RunId run;
-  /// For those who only look: others are told the name alone, so no process takes this one for a
-  /// part of a run, or of another run. Without a run it sees who is there and no samples.
+  /// For those who take no part and only look, or ask: others are told the name alone, so no
+  /// process takes this one for a part of a run, or of another run. Without a run it sees who is
+  /// there and no samples.
   bool anonymous = false;
   /// 0 to 230: chooses the UDP ports, 7400 + 250 * domain and up.
   std::uint32_t domain = 0;

@@ -27,6 +27,14 @@ void borrow(Sequence& sequence, Container& container) noexcept {
   sequence._release = false;
 }
 
+/// A sequence of octets as text, which lives as long as the sample.
+template <class Sequence>
+[[nodiscard]] std::string_view text_of(const Sequence& octets) noexcept {
+  static_assert(sizeof(*octets._buffer) == 1);
+  if (octets._length == 0) return {};
+  return {reinterpret_cast<const char*>(octets._buffer), octets._length};
+}
+
 /// Puts text into a bounded string of a wire type; what does not fit is cut off at the end of a
 /// character. Returns whether all of it fitted.
 template <std::size_t kSize>

@@ -7,6 +7,7 @@
 #include "idl/rave/lock_step.h"
 #include "idl/rave/obstacle.h"
 #include "idl/rave/roster.h"
+#include "idl/rave/wish.h"
 #include "idl/rave/world.h"
 #include "rave/bus/qos.hpp"
 
@@ -31,6 +32,8 @@ using ProcessState = rave_wire_ProcessState;
 using ClockPing = rave_wire_ClockPing;
 using ClockPong = rave_wire_ClockPong;
 using FindingsPart = rave_wire_FindingsPart;
+using Wish = rave_wire_Wish;
+using WishAnswer = rave_wire_WishAnswer;
 
 /// A topic as the bus needs it: where it is found, what it carries, how it is delivered.
 struct TopicSpec {
@@ -111,6 +114,14 @@ inline TopicSpec topic_of<ClockPong>() {
 template <>
 inline TopicSpec topic_of<FindingsPart>() {
   return {"rave/findings", &rave_wire_FindingsPart_desc, kDurable};
+}
+template <>
+inline TopicSpec topic_of<Wish>() {
+  return {"rave/wish", &rave_wire_Wish_desc, kRecent};
+}
+template <>
+inline TopicSpec topic_of<WishAnswer>() {
+  return {"rave/answer", &rave_wire_WishAnswer_desc, kRecent};
 }
 
 }  // namespace rave::bus

@@ -33,6 +33,8 @@ inline constexpr double kMaxTurn_radps = 1e4;
 [[nodiscard]] Status validate(const ClockPing& sample);
 [[nodiscard]] Status validate(const ClockPong& sample);
 [[nodiscard]] Status validate(const FindingsPart& sample);
+[[nodiscard]] Status validate(const Wish& sample);
+[[nodiscard]] Status validate(const WishAnswer& sample);
 
 /// Whether a sample of `step` is of use to somebody at `now`: at most `behind` steps back and
 /// `ahead` steps in front. Error kState.

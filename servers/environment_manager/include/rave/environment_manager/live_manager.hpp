@@ -10,6 +10,7 @@
 #include "rave/base/result.hpp"
 #include "rave/base/time.hpp"
 #include "rave/bus/config.hpp"
+#include "rave/bus/wish_book.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/lock_step/findings.hpp"
 #include "rave/lock_step/introduction.hpp"
@@ -46,6 +47,9 @@ struct LiveManagerOptions {
   std::function<bool()> stopping;
   /// What others ask of the run; not owned, may be null.
   robot_host::RunControl* control = nullptr;
+  /// What is done with what others ask on the bus, in the calling thread; may be empty: they
+  /// cannot.
+  bus::BeginWish begin_wish;
   /// Told about ten times a second, in the calling thread: time of the run, and for whom it waits;
   /// may be empty.
   std::function<void(SimTime, const std::string&)> on_progress;

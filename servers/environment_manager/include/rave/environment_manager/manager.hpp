@@ -10,6 +10,7 @@
 #include "rave/base/log.hpp"
 #include "rave/base/result.hpp"
 #include "rave/bus/config.hpp"
+#include "rave/bus/wish_book.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/lock_step/findings.hpp"
 #include "rave/lock_step/introduction.hpp"
@@ -34,6 +35,9 @@ struct ManagerOptions {
   std::function<bool()> stopping;
   /// What others ask of the run, and how they hold it; not owned, may be null.
   robot_host::RunControl* control = nullptr;
+  /// What is done with what others ask on the bus, in the calling thread; may be empty: they
+  /// cannot.
+  bus::BeginWish begin_wish;
   /// Told about ten times a second, in the calling thread; may be empty.
   struct Progress {
     std::uint64_t step = 0;

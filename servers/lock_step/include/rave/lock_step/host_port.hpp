@@ -12,6 +12,7 @@
 #include "rave/base/result.hpp"
 #include "rave/base/time.hpp"
 #include "rave/bus/bus.hpp"
+#include "rave/bus/wish_book.hpp"
 #include "rave/lock_step/introduction.hpp"
 #include "rave/lock_step/roster.hpp"
 #include "rave/sim/authority_state.hpp"
@@ -32,10 +33,12 @@ class HostPort {
 
   /// Goes on the bus. `log` is not owned and may be null. `patience`: without an environment
   /// manager for longer than this the run has ended for this host; 0: it waits without limit.
-  /// Errors: those of bus::Bus::open().
+  /// `begin_wish`, called in exchange(): what is done with what others ask on the bus; may be
+  /// empty. Errors: those of bus::Bus::open().
   [[nodiscard]] static Result<std::unique_ptr<HostPort>> open(const bus::BusConfig& bus,
                                                               Identity identity, LogSink* log,
-                                                              Duration patience = {});
+                                                              Duration patience = {},
+                                                              bus::BeginWish begin_wish = {});
   HostPort(const HostPort&) = delete;
   HostPort& operator=(const HostPort&) = delete;
   ~HostPort();

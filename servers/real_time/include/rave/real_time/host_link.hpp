@@ -15,6 +15,7 @@
 #include "rave/base/result.hpp"
 #include "rave/bus/clock_offset.hpp"
 #include "rave/bus/config.hpp"
+#include "rave/bus/wish_book.hpp"
 #include "rave/lock_step/introduction.hpp"
 #include "rave/lock_step/roster.hpp"
 #include "rave/real_time/live_world.hpp"
@@ -43,6 +44,8 @@ class HostLink {
     /// this host; 0: it waits without limit.
     Duration manager_patience{};
     LogSink* log = nullptr;  ///< Not owned; may be null.
+    /// What is done with what others ask on the bus, inside the calls of this object; may be empty.
+    bus::BeginWish begin_wish = {};
   };
   /// Goes on the bus. `world` hears of other robots and what they say, inside the calls of this
   /// object; not owned. Errors: those of bus::Bus::open().

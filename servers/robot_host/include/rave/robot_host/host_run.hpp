@@ -8,6 +8,7 @@
 
 #include "rave/base/time.hpp"
 #include "rave/bus/config.hpp"
+#include "rave/bus/wish_book.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/plugin/catalogue.hpp"
 #include "rave/robot_host/build.hpp"
@@ -27,6 +28,9 @@ struct HostOptions {
   /// Where the drivers of the other hosts' robots are looked up while the scenario is built;
   /// unloaded afterwards. Null: in the catalogue of the run.
   std::unique_ptr<plugin::Catalogue> others;
+  /// What is done with what others ask of this host on the bus, in the calling thread; may be
+  /// empty: they cannot.
+  bus::BeginWish begin_wish;
 };
 
 /// How it ended for this host. It leaves result.json, events.log, scenario.yaml, findings.cdr (of

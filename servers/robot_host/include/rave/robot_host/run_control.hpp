@@ -119,6 +119,8 @@ class RunControl {
   /// kState (no run is under way), kTimeout (it has not come to it in `patience`; it will).
   Result<std::string> ask(RunRequest request,
                           std::chrono::milliseconds patience = std::chrono::seconds(10));
+  /// The same without waiting: the answer comes when the run has done it. Error kState.
+  Result<std::future<Result<std::string>>> post(RunRequest request);
   /// What the run looks like now; without a scenario before it has begun and when it has ended.
   [[nodiscard]] RunStatus status() const;
 

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "asked_run.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdlib>
+#include <string_view>
+#include <vector>
+
+#include "bus_search.hpp"
+#include "rave/base/names.hpp"
+#include "rave/run_control/client.hpp"
+#include "rave/run_control/folder.hpp"
+
+namespace rave::cli {
+namespace {
+
+using run_control::Answer;
+using run_control::BusPeer;
+using run_control::BusRun;
+using run_control::Request;
+
+/// Shorter than that of `rave top`: who has mistyped the name of a run waits for it.
+constexpr Duration kPatienceNear = from_seconds(1.5);
+constexpr Duration kPatienceFar = from_seconds(3);
+
+/// Between a run and a host of it.
+constexpr char kOfHost = '@';
+
+/// A run on the bus, and the host of it that was named.
+struct Found {
+  std::shared_ptr<BusRun> bus;
+  std::string run;   ///< For people.
+  std::string host;  ///< Empty: none.
+};
+
+/// Who asks, for the logs of others.
+std::string own_name() {
+  const char* const user = std::getenv("USER");
+  std::array<char, 256> machine{};
+  if (::gethostname(machine.data(), machine.size() - 1) != 0) machine[0] = '\0';
+  return fmt::format("{}@{}", user != nullptr && *user != '\0' ? user : "somebody",
+                     machine[0] != '\0' ? machine.data() : "somewhere");
+}
+
+/// Of those here and of those on the bus there is none.
+tl::unexpected<Error> none_at_all(const std::string& word, const bus::BusConfig& config,
+                                  const Error& error) {
+  const std::string where =
+      fmt::format("on the bus in domain {} at {}", config.domain, config.interface);
+  if (error.code != ErrorCode::kNotFound) {
+    return fail(error.code,
+                "no run is under way on this machine, and none can be looked for {}: {}", where,
+                error.message);
+  }
+  const std::string_view remedy =
+      "to ask one of other machines give --interface and --peer (or --multicast), --domain and "
+      "--security as its processes have them";
+  const auto here = run_control::find_run(word);
+  const auto runs = run_control::running_runs();
+  const bool none = !runs || runs->empty();
+  if (!none && !here) {
+    return fail(ErrorCode::kNotFound, "{}; {}: {}\n{}", here.error().message, where, error.message,
+                remedy);
+  }
+  return fail(ErrorCode::kNotFound, "no run is under way on this machine; {}: {}\n{}", where,
+              error.message, remedy);
+}
+
+Result<Found> search_bus(const std::string& word, const BusOptions& options) {
+  const std::size_t mark = word.rfind(kOfHost);
+  const std::string run_word = word.substr(0, mark);
+  Found found;
+  if (mark != std::string::npos) found.host = word.substr(mark + 1);
+  RAVE_TRY_ASSIGN(auto config, bus_config(options, "rave", 0));
+  make_room(config, kMostHosts);
+  const bool near = config.loopback() && config.peers.empty();
+  const auto run = find_bus_run(config, run_word, near ? kPatienceNear : kPatienceFar);
+  if (!run) return none_at_all(word, config, run.error());
+  config.run = *run;
+  RAVE_TRY_ASSIGN(found.bus, BusRun::open(config, own_name()));
+  // A number means something to nobody who has said a name.
+  const bool named = !run_word.empty() && !run->text().starts_with(run_word);
+  found.run = named ? run_word : run->text().substr(0, 8);
+  return found;
+}
+
+std::string name_of(const Found& found, const BusPeer& peer) {
+  return peer.manager ? found.run : fmt::format("{}{}{}", found.run, kOfHost, peer.name);
+}
+
+}  // namespace
+
+bool AskedRun::may_be_here(const std::string& word) {
+  const auto runs = run_control::running_runs();
+  if (!runs || runs->empty()) return false;
+  if (word.empty() || run_control::find_run(word)) return true;
+  // Of its scenario there are several, and which of them must be said.
+  for (const std::string& run : *runs) {
+    if (run.substr(0, run.rfind('-')) == word) return true;
+  }
+  return false;
+}
+
+Result<AskedRun> AskedRun::find(const std::string& word, const BusOptions& options) {
+  auto here = run_control::find_run(word);
+  if (here) return AskedRun(*std::move(here));
+  // Where the sockets are cannot be looked at, or it is one of those here.
+  if (here.error().code != ErrorCode::kNotFound || may_be_here(word)) {
+    return tl::unexpected(std::move(here).error());
+  }
+  RAVE_TRY_ASSIGN(const Found found, search_bus(word, options));
+  RAVE_TRY_ASSIGN(auto peer, found.bus->find(found.host));
+  std::string name = name_of(found, peer);
+  return AskedRun(std::move(name), found.bus, std::move(peer));
+}
+
+Result<AskedRun> AskedRun::find_on_bus(const std::string& word, const BusOptions& options,
+                                       const Has& has) {
+  RAVE_TRY_ASSIGN(const Found found, search_bus(word, options));
+  if (!found.host.empty()) {
+    RAVE_TRY_ASSIGN(auto peer, found.bus->find(found.host));
+    std::string name = name_of(found, peer);
+    return AskedRun(std::move(name), found.bus, std::move(peer));
+  }
+  std::vector<AskedRun> having;
+  for (const BusPeer& peer : found.bus->all()) {
+    AskedRun run(name_of(found, peer), found.bus, peer);
+    // One that does not answer has nothing.
+    const auto status = run.status();
+    if (status && has(*status)) having.push_back(std::move(run));
+  }
+  if (having.size() == 1) return std::move(having.front());
+  if (having.empty()) {
+    RAVE_TRY_ASSIGN(auto peer, found.bus->find({}));
+    return AskedRun(found.run, found.bus, std::move(peer));
+  }
+  std::vector<std::string_view> names;
+  for (const AskedRun& run : having) names.emplace_back(run.name());
+  return fail(ErrorCode::kNotFound, "several processes have it: {}; say which", join_names(names));
+}
+
+Result<Answer> AskedRun::ask(const Request& request) const {
+  return bus_ ? bus_->ask(peer_, request) : run_control::ask(name_, request);
+}
+
+Result<robot_host::RunStatus> AskedRun::status() const {
+  RAVE_TRY_ASSIGN(auto answer, ask(Request{}));
+  return std::move(answer.status);
+}
+
+}  // namespace rave::cli

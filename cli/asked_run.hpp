@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "bus_options.hpp"
+#include "rave/base/result.hpp"
+#include "rave/run_control/bus_run.hpp"
+#include "rave/run_control/protocol.hpp"
+
+namespace rave::cli {
+
+/// A process of a run that is asked something: of this user on this machine, over its socket, or
+/// else wherever it is, over the bus. One owner thread.
+class AskedRun {
+ public:
+  /// That of a run on this machine, by the name of its socket.
+  explicit AskedRun(std::string local) : name_(std::move(local)) {}
+
+  /// The one that a word stands for: on this machine, as of run_control::find_run(); if nothing
+  /// there can be meant, on the bus: the run, and behind an `@` the host of it, else its
+  /// environment manager. Errors: kNotFound with what there is, those of bus::Bus::open().
+  [[nodiscard]] static Result<AskedRun> find(const std::string& word, const BusOptions& options);
+
+  /// Of a run on the bus, the process whose status has what is looked for; its environment manager
+  /// if none has. Errors: those of find(); kNotFound (several have it).
+  using Has = std::function<bool(const robot_host::RunStatus&)>;
+  [[nodiscard]] static Result<AskedRun> find_on_bus(const std::string& word,
+                                                    const BusOptions& options, const Has& has);
+
+  /// Whether a run on this machine can be meant, which then counts before any on the bus.
+  [[nodiscard]] static bool may_be_here(const std::string& word);
+
+  /// For people.
+  [[nodiscard]] const std::string& name() const noexcept { return name_; }
+  [[nodiscard]] bool on_bus() const noexcept { return bus_ != nullptr; }
+
+  /// Errors: those of run_control::ask() or run_control::BusRun::ask().
+  [[nodiscard]] Result<run_control::Answer> ask(const run_control::Request& request) const;
+  [[nodiscard]] Result<robot_host::RunStatus> status() const;
+
+ private:
+  AskedRun(std::string name, std::shared_ptr<run_control::BusRun> bus, run_control::BusPeer peer)
+      : name_(std::move(name)), bus_(std::move(bus)), peer_(std::move(peer)) {}
+
+  std::string name_;
+  /// Shared by the processes of one run. Null: on this machine.
+  std::shared_ptr<run_control::BusRun> bus_;
+  run_control::BusPeer peer_;
+};
+
+}  // namespace rave::cli

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/bus/wish_book.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "rave/base/control_characters.hpp"
+#include "rave/bus/topics.hpp"
+
+namespace rave::bus {
+namespace {
+
+/// Who is refused again and again is told so no more often than this.
+constexpr std::chrono::seconds kScolding{1};
+/// A line of the log.
+constexpr std::size_t kMostTold = 300;
+
+std::string for_log(std::string text) {
+  if (text.size() > kMostTold) text = text.substr(0, kMostTold) + "...";
+  return without_control_characters(text, " ");
+}
+
+}  // namespace
+
+bool WishBook::Budget::take(double per_second, double most, Clock::time_point now) {
+  if (filled == Clock::time_point{}) {
+    left = most;
+  } else {
+    const double since_s = std::chrono::duration<double>(now - filled).count();
+    left = std::min(most, left + std::max(0.0, since_s) * per_second);
+  }
+  filled = now;
+  if (left < 1) return false;
+  left -= 1;
+  return true;
+}
+
+/// Null: there is no room for another one.
+WishBook::Asker* WishBook::asker_of(std::uint64_t writer, Clock::time_point now) {
+  auto place = askers_.find(writer);
+  if (place == askers_.end()) {
+    if (askers_.size() >= kMostAskers) {
+      auto oldest = askers_.end();
+      for (auto i = askers_.begin(); i != askers_.end(); ++i) {
+        if (i->second.open > 0) continue;
+        if (oldest == askers_.end() || i->second.heard < oldest->second.heard) oldest = i;
+      }
+      if (oldest == askers_.end()) return nullptr;  // not with kMostOpen below kMostAskers
+      askers_.erase(oldest);
+    }
+    place = askers_.try_emplace(writer).first;
+  }
+  place->second.heard = now;
+  return &place->second;
+}
+
+void WishBook::reply(Asker* asker, Reply reply, Clock::time_point now) {
+  if (reply.taken && reply.text.size() > rave_wire_kMaxWishAnswerBytes) {
+    reply.taken = false;
+    reply.text = fmt::format(
+        "it was done, but the answer has {} bytes, and over the bus go {}: ask on the machine "
+        "where "
+        "this process runs",
+        reply.text.size(), rave_wire_kMaxWishAnswerBytes);
+  }
+  if (asker != nullptr) {
+    asker->said = reply;
+    asker->said_at = now;
+  }
+  replies_.push_back(std::move(reply));
+}
+
+void WishBook::refuse(const Heard& wish, Asker& asker, std::string_view why,
+                      Clock::time_point now) {
+  // Without an answer it is asked again, when there may be room.
+  if (asker.scolded && now - *asker.scolded < kScolding) return;
+  asker.scolded = now;
+  asker.last = wish.number;
+  if (log_ != nullptr) log_->warn("by hand", "refused of `{}` over the bus: {}", wish.from, why);
+  reply(&asker, {wish.writer, wish.number, false, std::string(why)}, now);
+}
+
+void WishBook::hear(const Heard& wish, Clock::time_point now) {
+  const auto [writer, number, from, line] = wish;
+  // Who asks too often takes nothing from the others, and who makes up askers is stopped before
+  // anything is kept of them.
+  const bool known = askers_.contains(writer);
+  if (!known && !all_.take(kAllPerSecond, kAllAtOnce, now)) return;
+  Asker* const asker = asker_of(writer, now);
+  if (asker == nullptr) return;
+  const bool in_time = asker->budget.take(kPerSecond, kAtOnce, now) &&
+                       (!known || all_.take(kAllPerSecond, kAllAtOnce, now));
+  if (number <= asker->last) {
+    if (in_time && asker->said && asker->said->number == number) replies_.push_back(*asker->said);
+    return;
+  }
+  if (!in_time) {
+    refuse(wish, *asker, "it asks too often; ask again later", now);
+    return;
+  }
+  if (asker->open >= kMostOpenEach || open_.size() >= kMostOpen) {
+    refuse(wish, *asker, "too much that was asked waits to be done; ask again later", now);
+    return;
+  }
+  asker->last = number;
+  BegunWish begun = begin_(line);
+  const bool again = !begun.understood && asker->babbled && now - *asker->babbled < kScolding;
+  if (!begun.understood && !again) asker->babbled = now;
+  if (log_ != nullptr && !begun.told.empty() && !again) {
+    log_->info("by hand", "from `{}` over the bus: {}", from, for_log(begun.told));
+  }
+  ++asker->open;
+  open_.push_back({writer, number, std::move(begun)});
+}
+
+std::vector<WishBook::Reply> WishBook::take(Clock::time_point now) {
+  std::erase_if(open_, [&](Open& one) {
+    auto text = one.begun.answer();
+    if (!text) return false;
+    const auto place = askers_.find(one.writer);
+    Asker* const asker = place == askers_.end() ? nullptr : &place->second;
+    if (asker != nullptr && asker->open > 0) --asker->open;
+    reply(asker, {one.writer, one.number, true, *std::move(text)}, now);
+    return true;
+  });
+  for (auto& [writer, asker] : askers_) {
+    if (asker.said && now - asker.said_at > kKept) asker.said.reset();
+  }
+  return std::exchange(replies_, {});
+}
+
+}  // namespace rave::bus

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/bus/wish_book.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "rave/bus/topics.hpp"
+
+namespace rave::bus {
+namespace {
+
+using std::chrono::seconds;
+using Replies = std::vector<WishBook::Reply>;
+
+struct Lines final : LogSink {
+  void write(LogLevel, std::string_view, std::string_view message) override {
+    lines.emplace_back(message);
+  }
+  std::vector<std::string> lines;
+};
+
+/// A process that answers at once with what it was asked, but `wait` only when it is let.
+class WishBookTest : public ::testing::Test {
+ protected:
+  void hear(std::uint64_t writer, std::uint64_t number, std::string_view line) {
+    book_.hear({writer, number, "anna@box", line}, now_);
+  }
+  [[nodiscard]] Replies take() { return book_.take(now_); }
+
+  WishBook::Clock::time_point now_{seconds(1000)};
+  bool let_ = false;
+  std::vector<std::string> begun_;
+  Lines log_;
+  WishBook book_{[this](std::string_view line) {
+                   begun_.emplace_back(line);
+                   const bool waits = line == "wait";
+                   return BegunWish{[this, waits, text = std::string(line)] {
+                                      return waits && !let_ ? std::nullopt
+                                                            : std::optional("done: " + text);
+                                    },
+                                    line == "look" ? "" : std::string(line), line != "babble"};
+                 },
+                 &log_};
+};
+
+TEST_F(WishBookTest, WhatIsAskedIsBegunOnceAnsweredAndLogged) {
+  hear(7, 1, "wait");
+  hear(7, 1, "wait");
+  EXPECT_TRUE(take().empty());
+  EXPECT_EQ(book_.open(), 1U);
+  let_ = true;
+  const Replies replies = take();
+  ASSERT_EQ(replies.size(), 1U);
+  EXPECT_EQ(replies[0].target, 7U);
+  EXPECT_EQ(replies[0].number, 1U);
+  EXPECT_TRUE(replies[0].taken);
+  EXPECT_EQ(replies[0].text, "done: wait");
+  EXPECT_EQ(book_.open(), 0U);
+  EXPECT_EQ(begun_.size(), 1U);
+  ASSERT_EQ(log_.lines.size(), 1U);
+  EXPECT_EQ(log_.lines[0], "from `anna@box` over the bus: wait");
+}
+
+TEST_F(WishBookTest, AnAnswerThatWasLostIsGivenAgainForAWhile) {
+  hear(7, 1, "a");
+  ASSERT_EQ(take().size(), 1U);
+  hear(7, 1, "a");
+  const Replies again = take();
+  ASSERT_EQ(again.size(), 1U);
+  EXPECT_EQ(again[0].text, "done: a");
+  EXPECT_EQ(begun_.size(), 1U);
+  now_ += WishBook::kKept + seconds(1);
+  static_cast<void>(take());
+  hear(7, 1, "a");
+  EXPECT_TRUE(take().empty());
+  EXPECT_EQ(begun_.size(), 1U);
+}
+
+TEST_F(WishBookTest, WhatOnlyLooksIsNotLogged) {
+  hear(7, 1, "look");
+  EXPECT_EQ(take().size(), 1U);
+  EXPECT_TRUE(log_.lines.empty());
+}
+
+TEST_F(WishBookTest, NonsenseIsLoggedOnceASecondOfEach) {
+  for (std::uint64_t number = 1; number <= 4; ++number) hear(7, number, "babble");
+  hear(8, 1, "babble");
+  EXPECT_EQ(log_.lines.size(), 2U);
+  EXPECT_EQ(take().size(), 5U);
+  now_ += seconds(1);
+  hear(7, 5, "babble");
+  hear(7, 6, "stop");
+  hear(7, 7, "stop");
+  EXPECT_EQ(log_.lines.size(), 5U);
+}
+
+TEST_F(WishBookTest, WhatIsLoggedCannotSteerATerminalOrFillALine) {
+  hear(7, 1, "red\x1b[31m" + std::string(5000, 'x'));
+  ASSERT_EQ(log_.lines.size(), 1U);
+  EXPECT_EQ(log_.lines[0].find('\x1b'), std::string::npos);
+  EXPECT_LT(log_.lines[0].size(), 400U);
+}
+
+TEST_F(WishBookTest, WhoAsksTooOftenIsRefusedOnceASecondAndOthersAreHeard) {
+  Replies replies;
+  for (std::uint64_t number = 1; number <= 1000; ++number) {
+    hear(7, number, "look");
+    for (WishBook::Reply& reply : take()) replies.push_back(std::move(reply));
+  }
+  const auto refused = std::ranges::count(replies, false, &WishBook::Reply::taken);
+  EXPECT_EQ(refused, 1);
+  EXPECT_EQ(replies.size(), static_cast<std::size_t>(WishBook::kAtOnce) + 1);
+  EXPECT_EQ(begun_.size(), static_cast<std::size_t>(WishBook::kAtOnce));
+  EXPECT_EQ(log_.lines.size(), 1U);
+  EXPECT_NE(log_.lines[0].find("refused of `anna@box`"), std::string::npos) << log_.lines[0];
+  hear(8, 1, "look");
+  const Replies other = take();
+  ASSERT_EQ(other.size(), 1U);
+  EXPECT_TRUE(other[0].taken);
+  // What was refused is not done when it comes again; what was not answered is.
+  now_ += seconds(1);
+  hear(7, static_cast<std::uint64_t>(WishBook::kAtOnce) + 1, "look");
+  EXPECT_EQ(begun_.size(), static_cast<std::size_t>(WishBook::kAtOnce) + 1) << "that of 8";
+  hear(7, 1000, "look");
+  EXPECT_EQ(begun_.size(), static_cast<std::size_t>(WishBook::kAtOnce) + 2);
+}
+
+TEST_F(WishBookTest, TooMuchThatWaitsIsRefused) {
+  for (std::uint64_t number = 1; number <= WishBook::kMostOpenEach + 1; ++number) {
+    hear(7, number, "wait");
+  }
+  EXPECT_EQ(book_.open(), WishBook::kMostOpenEach);
+  const Replies replies = take();
+  ASSERT_EQ(replies.size(), 1U);
+  EXPECT_FALSE(replies[0].taken);
+  EXPECT_EQ(replies[0].number, WishBook::kMostOpenEach + 1);
+  EXPECT_NE(replies[0].text.find("ask again later"), std::string::npos);
+  for (std::uint64_t writer = 100; writer < 140; ++writer) hear(writer, 1, "wait");
+  EXPECT_EQ(book_.open(), WishBook::kMostOpen);
+  let_ = true;
+  static_cast<void>(take());
+  EXPECT_EQ(book_.open(), 0U);
+  hear(7, 100, "look");
+  ASSERT_EQ(take().size(), 1U);
+}
+
+TEST_F(WishBookTest, MadeUpAskersAreStoppedTogether) {
+  const auto ask = [this](std::uint64_t writer) {
+    hear(writer, 1, "look");
+    static_cast<void>(take());
+  };
+  for (std::uint64_t writer = 1; writer <= 10'000; ++writer) ask(writer);
+  EXPECT_EQ(begun_.size(), static_cast<std::size_t>(WishBook::kAllAtOnce));
+  now_ += seconds(1);
+  for (std::uint64_t writer = 20'001; writer <= 30'000; ++writer) ask(writer);
+  EXPECT_EQ(begun_.size(),
+            static_cast<std::size_t>(WishBook::kAllAtOnce + WishBook::kAllPerSecond));
+}
+
+TEST_F(WishBookTest, AnAnswerThatIsTooLongIsNotSent) {
+  hear(7, 1, std::string(rave_wire_kMaxWishAnswerBytes + 1, 'x'));
+  const Replies replies = take();
+  ASSERT_EQ(replies.size(), 1U);
+  EXPECT_FALSE(replies[0].taken);
+  EXPECT_NE(replies[0].text.find("over the bus go 262144"), std::string::npos) << replies[0].text;
+}
+
+}  // namespace
+}  // namespace rave::bus

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "answering.hpp"
+
+namespace rave::run_control {
+namespace {
+
+using What = Request::What;
+using Kind = robot_host::RunRequest::Kind;
+
+Kind kind_of(What what) {
+  switch (what) {
+    case What::kRelease:
+      return Kind::kRelease;
+    case What::kArm:
+      return Kind::kArm;
+    case What::kSet:
+      return Kind::kSet;
+    case What::kAdd:
+      return Kind::kAdd;
+    case What::kMove:
+      return Kind::kMove;
+    case What::kRemove:
+      return Kind::kRemove;
+    case What::kList:
+      return Kind::kList;
+    case What::kHandOver:
+      return Kind::kHandOver;
+    case What::kResetShadow:
+      return Kind::kResetShadow;
+    default:
+      return Kind::kStop;
+  }
+}
+
+/// Pause, resume and step: what a live run cannot do.
+Answer hold(robot_host::RunControl& control, const Request& request) {
+  const robot_host::RunStatus status = control.status();
+  if (status.scenario.empty()) return {false, "no run is under way", {}};
+  if (status.live) return {false, "a live run cannot be held: the world outside goes on", {}};
+  if (request.what == What::kPause) {
+    control.pause();
+    return {true, "paused", {}};
+  }
+  if (request.what == What::kResume) {
+    control.resume();
+    return {true, "resumed", {}};
+  }
+  if (!status.paused) return {false, "the run is not paused", {}};
+  control.step(request.count);
+  return {true, fmt::format("{} step{}", request.count, request.count == 1 ? "" : "s"), {}};
+}
+
+}  // namespace
+
+std::optional<Answer> answer_at_once(robot_host::RunControl& control, const Request& request) {
+  switch (request.what) {
+    case What::kStatus:
+      return Answer{true, "", control.status()};
+    case What::kPause:
+    case What::kResume:
+    case What::kStep:
+      return hold(control, request);
+    default:
+      return std::nullopt;
+  }
+}
+
+robot_host::RunRequest run_request(const Request& request) {
+  return {kind_of(request.what), request.robot, request.key, request.value};
+}
+
+Answer answer_of(const Result<std::string>& result) {
+  if (result) return {true, *result, {}};
+  return {false, result.error().message, {}};
+}
+
+}  // namespace rave::run_control

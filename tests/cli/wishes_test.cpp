@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs are asked from a machine that has none of their processes: all that it shares with them is
+// the bus.
+#include <csignal>
+#include <memory>
+
+#include "rave/bus/reader.hpp"
+#include "rave/bus/sequence.hpp"
+#include "rave/bus/writer.hpp"
+#include "shared_world.hpp"
+
+namespace rave::cli_test {
+namespace {
+
+using Words = std::vector<std::string>;
+
+class Wishes : public SharedWorld {
+ protected:
+  /// `rave` on a machine without runs.
+  [[nodiscard]] Ended far(Words words) const {
+    for (const std::string& word : apart()) words.push_back(word);
+    return run_rave(words, {"XDG_RUNTIME_DIR=" + elsewhere_.path().string()});
+  }
+  /// `rave` beside the processes of the run.
+  [[nodiscard]] Ended near(const Words& words) const {
+    return run_rave(words, {"XDG_RUNTIME_DIR=" + folder_.path().string()});
+  }
+  void start_all(const std::string& scenario, const Words& more) {
+    start("env", "env", scenario, more);
+    start_host("one", scenario, more);
+    start_host("two", scenario, more);
+    wait_until([this] { return far({"edit", "list"}).exit_code == 0; }, "it runs");
+  }
+  void refused(const Words& words, const std::string& why) const {
+    const Ended ended = far(words);
+    EXPECT_EQ(ended.exit_code, 1) << ended.out;
+    EXPECT_NE(ended.err.find(why), std::string::npos) << ended.err;
+  }
+  [[nodiscard]] bool logged(const std::string& who, const std::string& line) const {
+    const std::string log = console(who);
+    return log.find("over the bus: " + line) != std::string::npos;
+  }
+  /// This process on the bus of a run.
+  [[nodiscard]] Result<std::unique_ptr<bus::Bus>> open_bus(const bus::RunId& run) const {
+    bus::BusConfig config;
+    config.participant = "stranger";
+    config.run = run;
+    config.max_processes = 114;
+    const Words words = apart();
+    config.tag = words[1];
+    config.domain = static_cast<std::uint32_t>(std::stoul(words[3]));
+    return bus::Bus::open(config);
+  }
+  void end_by_hand(const std::string& manager) {
+    signal(manager, SIGINT);
+    EXPECT_EQ(end_of(manager), 1) << console(manager);
+  }
+
+  TemporaryFolder elsewhere_;
+};
+
+TEST_F(Wishes, WithoutARunItSaysWhereItHasLooked) {
+  const Ended ended = far({"edit", "list"});
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_NE(ended.err.find("no run is under way on this machine"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("--interface and --peer"), std::string::npos) << ended.err;
+}
+
+TEST_F(Wishes, ARunInLockStepDoesWhatIsAskedFromElsewhere) {
+  start_all("crowd.yaml", {"--duration", "100000", "--no-record"});
+  const Ended added =
+      far({"edit", "crowd", "add", "box", "--name", "bale", "--at", "40,2", "--size", "0.5x0.3"});
+  EXPECT_EQ(added.exit_code, 0) << added.err;
+  EXPECT_NE(added.out.find("crowd: added `bale` at (40, 2)"), std::string::npos) << added.out;
+  EXPECT_NE(added.out.find("counts from step "), std::string::npos) << added.out;
+  EXPECT_EQ(far({"edit", "move", "bale", "--at", "-40,1"}).exit_code, 0);
+  EXPECT_EQ(far({"edit", "remove", "pillar"}).exit_code, 0);
+  for (const Ended& listed : {far({"edit", "list"}), near({"edit", "list"})}) {
+    EXPECT_NE(listed.out.find("(-40.000, 1.000) m"), std::string::npos) << listed.out;
+    EXPECT_EQ(listed.out.find("pillar"), std::string::npos) << listed.out;
+  }
+  const Ended stopped = far({"stop", "--robot", "left-1"});
+  EXPECT_EQ(stopped.exit_code, 0) << stopped.err;
+  EXPECT_NE(stopped.out.find("stopped left-1; counts from step "), std::string::npos);
+  EXPECT_EQ(far({"set", "right-2", "body.scale", "0.8"}).exit_code, 0);
+  // Who asked, and what, is in the log of whoever was asked.
+  EXPECT_TRUE(logged("env", R"({"rave":1,"do":"stop","robot":"left-1"})")) << console("env");
+  EXPECT_TRUE(logged("env", R"({"rave":1,"do":"remove","key":"pillar"})")) << console("env");
+  EXPECT_FALSE(logged("env", R"({"rave":1,"do":"list"})"));
+
+  refused({"edit", "remove", "pillar"}, "there is no obstacle `pillar`");
+  refused({"stop", "--robot", "left-99"}, "there is no robot `left-99`");
+  refused({"set", "left-1", "program.cruise_mps", "0.1"}, "are known where it runs");
+  const Ended there = far({"set", "crowd@one", "left-1", "program.cruise_mps", "0.1"});
+  EXPECT_EQ(there.exit_code, 0) << there.err;
+  EXPECT_TRUE(logged("one", R"({"rave":1,"do":"set","robot":"left-1")")) << console("one");
+  const Ended nobody = far({"stop", "crowd@three"});
+  EXPECT_EQ(nobody.exit_code, 2);
+  EXPECT_NE(nobody.err.find("host `three` of the run is not there"), std::string::npos)
+      << nobody.err;
+
+  EXPECT_EQ(far({"pause"}).exit_code, 0);
+  wait_until([&] { return near({"ps"}).out.find("paused") != std::string::npos; }, "it is paused");
+  EXPECT_EQ(far({"step", "--count", "2"}).exit_code, 0);
+  EXPECT_EQ(far({"resume"}).exit_code, 0);
+  end_by_hand("env");
+  EXPECT_EQ(end_of("one"), 0) << console("one");
+  EXPECT_EQ(end_of("two"), 0) << console("two");
+}
+
+TEST_F(Wishes, ARunInRealTimeDoesWhatIsAskedFromElsewhere) {
+  start_all("live_twins.yaml", {"--no-record"});
+  wait_for_line("env", "all hosts are there");
+  const Ended added =
+      far({"edit", "add", "box", "--name", "bale", "--at", "0,5", "--size", "0.5x0.3"});
+  EXPECT_EQ(added.exit_code, 0) << added.err;
+  EXPECT_NE(added.out.find("around the robots of all 2 hosts "), std::string::npos) << added.out;
+  EXPECT_NE(near({"edit", "live_twins@two", "list"}).out.find("bale"), std::string::npos);
+  EXPECT_NE(console("env").find(R"(over the bus: {"rave":1,"do":"add")"), std::string::npos);
+  refused({"stop", "live_twins"}, "each host controls its own robots");
+  const Ended stopped = far({"stop", "live_twins@one"});
+  EXPECT_EQ(stopped.exit_code, 0) << stopped.err;
+  EXPECT_TRUE(logged("one", R"({"rave":1,"do":"stop"})")) << console("one");
+  end_by_hand("env");
+}
+
+TEST_F(Wishes, ARobotIsHandedOverByItsHostWhoeverAsks) {
+  start_all("live_twins.yaml", {"--no-record"});
+  wait_for_line("two", "handed over: simulated -> simulated");
+  const Ended made = far({"hand-over", "left", "twin"});
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_NE(made.out.find("@one: left: "), std::string::npos) << made.out;
+  EXPECT_NE(made.out.find("simulated -> simulated"), std::string::npos) << made.out;
+  EXPECT_NE(console("one").find("handed over"), std::string::npos);
+  refused({"hand-over", "left", "twin"}, "drivers already");
+  refused({"shadow", "--robot", "left"}, "has no shadow");
+  end_by_hand("env");
+}
+
+TEST_F(Wishes, OfSeveralRunsOneHasToBeNamed) {
+  for (const char* const name : {"morning", "evening"}) {
+    start(name, "env", "crowd.yaml", {"--run", name});
+  }
+  wait_until(
+      [this] {
+        return far({"edit", "list"}).err.find("2 runs are under way, so say which") !=
+               std::string::npos;
+      },
+      "both are there");
+  // It waits for its hosts still, and says what it would say to those beside it.
+  refused({"edit", "morning", "list"}, "morning: no run is under way");
+  const Ended third = far({"edit", "night", "list"});
+  EXPECT_EQ(third.exit_code, 2);
+  EXPECT_NE(third.err.find("there is no run `night`"), std::string::npos) << third.err;
+}
+
+/// A bus in the test's process, from which anything can be sent.
+class StrangeWishes : public Wishes {
+ protected:
+  /// Wishes of the test, and their answers.
+  struct Asker {
+    std::unique_ptr<bus::Bus> bus;
+    bus::Reader<bus::HostInfo> infos;
+    bus::Writer<bus::Wish> wishes;
+    bus::Reader<bus::WishAnswer> answers;
+  };
+  [[nodiscard]] Result<Asker> open_asker(const bus::RunId& run) const {
+    RAVE_TRY_ASSIGN(auto bus, open_bus(run));
+    RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
+    RAVE_TRY_ASSIGN(auto wishes, bus::Writer<bus::Wish>::create(*bus));
+    RAVE_TRY_ASSIGN(auto answers, bus::Reader<bus::WishAnswer>::create(*bus));
+    return Asker{std::move(bus), std::move(infos), std::move(wishes), std::move(answers)};
+  }
+  static void send(Asker& asker, std::uint64_t target, std::uint64_t number, std::string text) {
+    bus::Wish wish{};
+    wish.target = target;
+    wish.number = number;
+    bus::put_text(wish.from, "a stranger");
+    wish.text._buffer = reinterpret_cast<std::uint8_t*>(text.data());
+    wish.text._length = static_cast<std::uint32_t>(text.size());
+    EXPECT_TRUE(asker.wishes.write(wish));
+  }
+  std::uint64_t manager_of(Asker& asker) {
+    std::uint64_t manager = 0;
+    wait_until(
+        [&] {
+          asker.infos.take([&](const bus::HostInfo& info) {
+            if (info.host == rave_wire_kNone) manager = info.writer;
+          });
+          return manager != 0;
+        },
+        "the manager says who it is");
+    return manager;
+  }
+
+  bus::RunId run_ = bus::RunId::random();
+};
+
+TEST_F(StrangeWishes, WhoAsksNonsenseWithoutEndKeepsNobodyFromBeingHeard) {
+  start_all("crowd.yaml", {"--duration", "100000", "--no-record", "--run", run_.text()});
+  auto asker = open_asker(run_);
+  ASSERT_TRUE(asker) << asker.error().text();
+  const std::uint64_t manager = manager_of(*asker);
+  std::string answered;
+  std::string refusal;
+  std::uint64_t number = 0;
+  wait_until(
+      [&] {
+        for (int i = 0; i < 20; ++i) send(*asker, manager, ++number, "utter nonsense");
+        asker->answers.take([&](const bus::WishAnswer& answer) {
+          (answer.taken ? answered : refusal) = bus::text_of(answer.text);
+        });
+        return !answered.empty() && !refusal.empty();
+      },
+      "nonsense is answered, and then is too much");
+  EXPECT_NE(answered.find(R"("good":false)"), std::string::npos) << answered;
+  EXPECT_NE(refusal.find("ask again later"), std::string::npos) << refusal;
+  EXPECT_NE(console("env").find("from `a stranger` over the bus: something that is not understood"),
+            std::string::npos)
+      << console("env");
+  for (int i = 0; i < 200; ++i) send(*asker, manager, ++number, "utter nonsense");
+  EXPECT_EQ(far({"edit", "remove", "pillar"}).exit_code, 0);
+  end_by_hand("env");
+}
+
+TEST_F(StrangeWishes, WhatIsOfAnotherRunOrForAnotherProcessIsNotDone) {
+  start_all("crowd.yaml", {"--duration", "100000", "--no-record", "--run", run_.text()});
+  const std::string stop = R"({"rave":1,"do":"stop"})";
+  std::uint64_t manager = 0;
+  {
+    auto asker = open_asker(run_);
+    ASSERT_TRUE(asker) << asker.error().text();
+    manager = manager_of(*asker);
+    wait_until([&] { return asker->wishes.readers() >= 3; }, "all hear it");
+    send(*asker, manager + 1, 1, stop);
+    send(*asker, manager, 2, R"({"rave":1,"do":"release"})");
+    wait_until([&] { return logged("env", R"({"rave":1,"do":"release"})"); },
+               "the second is heard");
+  }
+  {
+    auto stranger = open_asker(bus::RunId::random());
+    ASSERT_TRUE(stranger) << stranger.error().text();
+    send(*stranger, manager, 1, stop);
+    EXPECT_EQ(far({"edit", run_.text().substr(0, 8), "list"}).exit_code, 0);
+  }
+  EXPECT_FALSE(logged("env", stop)) << console("env");
+  end_by_hand("env");
+}
+
+TEST_F(StrangeWishes, AProcessThatNeverAnswersIsNamedWithWhatCanBeDone) {
+  const auto bus = open_bus(run_);
+  ASSERT_TRUE(bus) << bus.error().text();
+  auto infos = bus::Writer<bus::HostInfo>::create(**bus);
+  ASSERT_TRUE(infos) << infos.error().text();
+  bus::HostInfo info{};
+  info.host = rave_wire_kNone;
+  bus::put_text(info.name, "deaf one");
+  ASSERT_TRUE(infos->write(info));
+  const Ended ended = far({"edit", "list"});
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_NE(ended.err.find("`deaf one` has not answered for 5 s"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("rave top"), std::string::npos) << ended.err;
+}
+
+}  // namespace
+}  // namespace rave::cli_test

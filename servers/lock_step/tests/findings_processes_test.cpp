@@ -21,7 +21,7 @@ using testing::kMuch;
 using testing::made_findings;
 using testing::whole_line;
 
-constexpr const char* kProgram = "peer_findings";
+constexpr const char* kProgram = "peer_lock_step";
 /// Nobody is taken for dead before the test is over.
 constexpr const char* kLongLease = "lease_s=600";
 

@@ -24,7 +24,7 @@ inline std::vector<std::byte> made_findings(std::uint32_t host, std::size_t size
   return bytes;
 }
 
-/// What peer_findings says when it has all of them.
+/// What peer_lock_step says when it has all of them.
 inline std::string whole_line(std::uint32_t host, const std::vector<std::byte>& bytes) {
   return fmt::format("whole {} {} {:016x}", host, bytes.size(), content_hash(bytes));
 }

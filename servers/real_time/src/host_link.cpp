@@ -485,6 +485,7 @@ Result<bool> HostLink::await_start(const std::function<bool()>& stopping) {
 std::chrono::steady_clock::time_point HostLink::zero() const noexcept {
   return Clock::time_point(std::chrono::nanoseconds(impl_->zero_ns));
 }
+void HostLink::count_real(std::uint32_t robots) noexcept { impl_->pulse->count_real(robots); }
 lock_step::Roster& HostLink::roster() noexcept { return impl_->roster; }
 std::span<const RobotSight> HostLink::starts() const noexcept { return impl_->starts; }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The other process of the tests of findings: peer_findings ROLE name=value ...
+// The other process of the tests of what processes say to each other: peer_lock_step ROLE
+// name=value ...
 #include <poll.h>
 #include <unistd.h>
 
@@ -10,6 +11,7 @@
 #include "peer_roles.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/lock_step/findings.hpp"
+#include "rave/lock_step/pulse.hpp"
 
 namespace rave::bus::testing {
 namespace {
@@ -63,10 +65,28 @@ void deliver(Bus& bus, const Arguments& arguments) {
   while (!ended(-1)) continue;
 }
 
+/// A host of three robots. Each byte on the input: one more of them is real.
+void pulse(Bus& bus) {
+  Identity self;
+  self.name = "left";
+  self.robots = 3;
+  auto pulse = Pulse::create(bus, self);
+  std::uint32_t real = 0;
+  while (true) {
+    pulse->beat({});
+    pollfd input{STDIN_FILENO, POLLIN, 0};
+    if (::poll(&input, 1, 5) <= 0) continue;
+    char byte = 0;
+    if (::read(STDIN_FILENO, &byte, 1) <= 0) return;
+    pulse->count_real(++real);
+  }
+}
+
 }  // namespace
 
 bool play(const std::string& role, Bus& bus, const Arguments& arguments) {
   if (role == "collect") return collect(bus, arguments), true;
+  if (role == "pulse") return pulse(bus), true;
   if (role == "deliver") return deliver(bus, arguments), true;
   return false;
 }

@@ -8,10 +8,10 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
 #include <thread>
 
 #include "error_text.hpp"
-#include "rave/base/names.hpp"
 #include "rave/math/scalar.hpp"
 #include "rave/report/table.hpp"
 #include "rave/run_control/client.hpp"
@@ -58,8 +58,9 @@ bool has_one(const RunStatus& status, const Has& has) {
 
 /// The process of a run that has what is asked for: in real time over several hosts that is the
 /// host of the robot, and whoever types the name of the run, or nothing, means it. Errors: those of
-/// find_run(), kNotFound (more than one has it, or it cannot be told whose hosts are here).
-Result<std::string> find_process(const std::string& word, const Has& has) {
+/// find_run(), kNotFound (more than one has it, or it cannot be told whose hosts are here; then it
+/// says how to choose, with the command's `option` for that).
+Result<std::string> find_process(const std::string& word, std::string_view option, const Has& has) {
   auto run = run_control::find_run(word);
   // Where a manager runs elsewhere, its hosts are known by the scenario.
   std::string scenario = word;
@@ -84,12 +85,12 @@ Result<std::string> find_process(const std::string& word, const Has& has) {
   if (found.empty()) return run;
   if (run && runs > 1) {
     return fail(ErrorCode::kNotFound,
-                "{} runs of `{}` are here, and whose hosts are whose cannot be told; say which of "
-                "{}",
-                runs, scenario, join_names(found));
+                "{} runs of `{}` are here, and whose hosts are whose cannot be told: {}", runs,
+                scenario, run_control::choose_one(found, option));
   }
   if (found.size() == 1) return std::string(found.front());
-  return fail(ErrorCode::kNotFound, "several processes have it: {}; say which", join_names(found));
+  return fail(ErrorCode::kNotFound, "several processes have it: {}",
+              run_control::choose_one(found, option));
 }
 
 /// Waits for the end of the hand-over that was begun after `before`.
@@ -141,7 +142,7 @@ void add_rows(const RunStatus& status, const RunStatus::Robot& robot, report::Ta
 }  // namespace
 
 int hand_over(const HandOverCommand& options) {
-  const auto run = find_process(options.run, [&options](const RunStatus::Robot& robot) {
+  const auto run = find_process(options.run, "--run", [&options](const RunStatus::Robot& robot) {
     return robot.name == options.robot && robot.hand_over;
   });
   if (!run) return complain(run.error());
@@ -157,7 +158,7 @@ int hand_over(const HandOverCommand& options) {
 }
 
 int show_shadows(const ShadowCommand& options) {
-  const auto run = find_process(options.run, [&options](const RunStatus::Robot& robot) {
+  const auto run = find_process(options.run, {}, [&options](const RunStatus::Robot& robot) {
     return (options.robot.empty() || robot.name == options.robot) && robot.shadow;
   });
   if (!run) return complain(run.error());

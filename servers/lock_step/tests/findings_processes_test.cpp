@@ -95,12 +95,15 @@ TEST(FindingsProcesses, AManagerThatStandsIsNotWaitedForWithWhatIsMoreThanAWrite
 
 TEST(FindingsProcesses, AManagerThatDiesMeanwhileIsNotWaitedFor) {
   const TestDomain domain;
-  PeerProcess manager(domain, "collect", "manager", {"dies=yes"}, kProgram);
+  PeerProcess manager(domain, "collect", "manager", {"lease_s=5"}, kProgram);
   ASSERT_EQ(manager.line(), "ready");
   Host host(domain);
   ASSERT_TRUE(host.meets(1));
+  const auto bytes = made_findings(3, kMuch);
+  // It is missed when its lease has run out, in the middle of what it should have taken.
+  manager.kill();
   // A patience that no test survives: it is the loss of the manager that ends this.
-  const Status sent = host.sender->send(3, made_findings(3, kMuch), from_seconds(3600));
+  const Status sent = host.sender->send(3, bytes, from_seconds(3600));
   ASSERT_FALSE(sent);
   EXPECT_EQ(sent.error().code, ErrorCode::kState) << sent.error().text();
   EXPECT_EQ(sent.error().message, "the environment manager was gone before it had them");

@@ -4,7 +4,6 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <cstdio>
 
 #include "made_findings.hpp"
@@ -32,18 +31,15 @@ bool ended(int wait_ms) {
   return ::read(STDIN_FILENO, &byte, 1) <= 0;
 }
 
-/// A manager that does nothing but collect. With `dies`, the first part kills it.
-void collect(Bus& bus, const Arguments& arguments) {
+/// A manager that does nothing but collect.
+void collect(Bus& bus) {
   auto collector = FindingsCollector::create(bus);
   auto waits = WaitSet::create(bus);
   static_cast<void>(collector->wake(*waits));
   say("ready");
   while (!ended(0)) {
     static_cast<void>(waits->wait(Duration{20'000'000}));
-    collector->take([&](std::uint64_t, std::uint32_t) {
-      if (arguments.contains("dies")) ::raise(SIGKILL);
-      return true;
-    });
+    collector->take([](std::uint64_t, std::uint32_t) { return true; });
     for (const Findings& whole : collector->hand_out()) say(whole_line(whole.host, whole.bytes));
   }
 }
@@ -85,7 +81,7 @@ void pulse(Bus& bus) {
 }  // namespace
 
 bool play(const std::string& role, Bus& bus, const Arguments& arguments) {
-  if (role == "collect") return collect(bus, arguments), true;
+  if (role == "collect") return collect(bus), true;
   if (role == "pulse") return pulse(bus), true;
   if (role == "deliver") return deliver(bus, arguments), true;
   return false;

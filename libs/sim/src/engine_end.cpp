@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The end of an engine, which a driver that never opens does not hold up.
-#include <dlfcn.h>
-
 #include <chrono>
 #include <utility>
 
@@ -11,27 +9,17 @@
 namespace rave::sim {
 namespace {
 
-/// What this function belongs to stays loaded until the process ends.
-template <class Function>
-void keep_loaded(Function* function) {
-  Dl_info found{};
-  if (function == nullptr) return;
-  if (::dladdr(reinterpret_cast<const void*>(function), &found) == 0) return;
-  if (found.dli_fname == nullptr) return;
-  // Never given back. The program itself cannot be had so, and stays anyway.
-  static_cast<void>(::dlopen(found.dli_fname, RTLD_NOW | RTLD_NOLOAD | RTLD_NODELETE));
+template <class Ops>
+void keep_loaded(const EngineSpec& spec, const Ops* ops) {
+  if (ops != nullptr) spec.keep_loaded(reinterpret_cast<const void*>(ops->open));
 }
 
-void keep_loaded(const RobotType& type) {
-  for (const DeviceSpec& device : type.devices) {
-    if (device.ops != nullptr) keep_loaded(device.ops->open);
-  }
-  for (const SensorSpec& sensor : type.sensors) {
-    if (sensor.hardware_ops != nullptr) keep_loaded(sensor.hardware_ops->open);
-  }
-  for (const ActuatorSpec& actuator : type.actuators) {
-    if (actuator.hardware_ops != nullptr) keep_loaded(actuator.hardware_ops->open);
-  }
+/// What the threads that are left behind run in.
+void keep_loaded(const EngineSpec& spec, const RobotType& type) {
+  if (spec.keep_loaded == nullptr) return;
+  for (const DeviceSpec& device : type.devices) keep_loaded(spec, device.ops);
+  for (const SensorSpec& sensor : type.sensors) keep_loaded(spec, sensor.hardware_ops);
+  for (const ActuatorSpec& actuator : type.actuators) keep_loaded(spec, actuator.hardware_ops);
 }
 
 }  // namespace
@@ -95,7 +83,7 @@ void Engine::Impl::leave_twins() noexcept {
       continue;
     }
     twin.left = true;
-    keep_loaded(*twin.other.type);
+    keep_loaded(spec, *twin.other.type);
     twin.work.leave_alone();
   }
   // Programs in processes of their own end here as they would anyway.

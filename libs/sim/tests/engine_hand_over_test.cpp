@@ -284,6 +284,8 @@ std::atomic<bool> NeverOpens::run_is_over = false;
 std::atomic<bool> NeverOpens::has_spoken = false;
 std::atomic<bool> NeverOpens::at_last = false;  // for good: the thread goes with the process
 
+std::atomic<int> kept_loaded = 0;
+
 TEST(HandOver, ToDriversThatNeverOpenDoesNotHoldUpTheEndOfTheRun) {
   auto clock = std::make_unique<ClockAtZero>();
   auto ears = std::make_unique<Ears>();
@@ -291,6 +293,7 @@ TEST(HandOver, ToDriversThatNeverOpenDoesNotHoldUpTheEndOfTheRun) {
   spec.live_clock = clock.get();
   spec.log = ears.get();
   spec.last_wait = std::chrono::milliseconds(20);
+  spec.keep_loaded = [](const void* function) { kept_loaded += function != nullptr ? 1 : 0; };
   RobotType simulated = simulated_type();
   simulated.sensors.push_back(virtual_sensor<Beacon>("mocap"));
   RobotType real = real_type({});
@@ -311,6 +314,7 @@ TEST(HandOver, ToDriversThatNeverOpenDoesNotHoldUpTheEndOfTheRun) {
       "(driver `mocap`) has not returned; nobody waits for it any more",
       name);
   EXPECT_NE(ears->heard.find(expected), std::string::npos) << ears->heard;
+  EXPECT_GE(kept_loaded, 1) << "the plug-in of a thread that goes on";
   // What it says now reaches nobody, and nothing that is gone.
   ears.reset();
   clock.reset();

@@ -8,11 +8,11 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
 #include <thread>
 
 #include "asked_run.hpp"
 #include "error_text.hpp"
-#include "rave/base/names.hpp"
 #include "rave/math/scalar.hpp"
 #include "rave/report/table.hpp"
 #include "rave/run_control/folder.hpp"
@@ -56,8 +56,10 @@ bool has_one(const RunStatus& status, const Has& has) {
 
 /// The process of a run that has what is asked for: in real time over several hosts that is the
 /// host of the robot, and whoever types the name of the run, or nothing, means it. Errors: those of
-/// find_run(), kState (more than one has it, or it cannot be told whose hosts are here).
-Result<std::string> find_process_here(const std::string& word, const Has& has) {
+/// find_run(), kState (more than one has it, or it cannot be told whose hosts are here; then it
+/// says how to choose, with the command's `option` for that).
+Result<std::string> find_process_here(const std::string& word, std::string_view option,
+                                      const Has& has) {
   auto run = run_control::find_run(word);
   // Where a manager runs elsewhere, its hosts are known by the scenario.
   std::string scenario = word;
@@ -82,17 +84,18 @@ Result<std::string> find_process_here(const std::string& word, const Has& has) {
   if (found.empty()) return run;
   if (run && runs > 1) {
     return fail(ErrorCode::kState,
-                "{} runs of `{}` are here, and whose hosts are whose cannot be told; say which of "
-                "{}",
-                runs, scenario, join_names(found));
+                "{} runs of `{}` are here, and whose hosts are whose cannot be told: {}", runs,
+                scenario, run_control::choose_one(found, option));
   }
   if (found.size() == 1) return std::string(found.front());
-  return fail(ErrorCode::kState, "several processes have it: {}; say which", join_names(found));
+  return fail(ErrorCode::kState, "several processes have it: {}",
+              run_control::choose_one(found, option));
 }
 
 /// The same, or if there is none here on the bus.
-Result<AskedRun> find_process(const std::string& word, const BusOptions& bus, const Has& has) {
-  auto here = find_process_here(word, has);
+Result<AskedRun> find_process(const std::string& word, std::string_view option,
+                              const BusOptions& bus, const Has& has) {
+  auto here = find_process_here(word, option, has);
   if (here) return AskedRun(*std::move(here));
   if (here.error().code != ErrorCode::kNotFound || AskedRun::may_be_here(word)) {
     return tl::unexpected(std::move(here).error());
@@ -151,7 +154,7 @@ void add_rows(const RunStatus& status, const RunStatus::Robot& robot, report::Ta
 
 int hand_over(const HandOverCommand& options) {
   const auto run =
-      find_process(options.run, options.bus, [&options](const RunStatus::Robot& robot) {
+      find_process(options.run, "--run", options.bus, [&options](const RunStatus::Robot& robot) {
         return robot.name == options.robot && robot.hand_over;
       });
   if (!run) return complain(run.error());
@@ -168,7 +171,7 @@ int hand_over(const HandOverCommand& options) {
 
 int show_shadows(const ShadowCommand& options) {
   const auto run =
-      find_process(options.run, options.bus, [&options](const RunStatus::Robot& robot) {
+      find_process(options.run, {}, options.bus, [&options](const RunStatus::Robot& robot) {
         return (options.robot.empty() || robot.name == options.robot) && robot.shadow;
       });
   if (!run) return complain(run.error());

@@ -196,6 +196,50 @@ TEST_F(Control, EditsThatCannotBeDoneSayWhy) {
   end();
 }
 
+/// Another one, killed with the test.
+struct OtherRun {
+  pid_t process = -1;
+  explicit OtherRun(pid_t started) : process(started) {}
+  OtherRun(const OtherRun&) = delete;
+  OtherRun& operator=(const OtherRun&) = delete;
+  ~OtherRun() {
+    if (process <= 0) return;
+    ::kill(process, SIGKILL);
+    static_cast<void>(wait_for(process));
+  }
+};
+
+TEST_F(Control, OfTwoRunsOfOneScenarioOneIsChosenByItsProcess) {
+  start("twins.yaml");
+  const OtherRun other(start_rave({"run", "twins.yaml", "--output", output() + "-2", "--pace",
+                                   "realtime", "--duration", "100000"},
+                                  {setting_}));
+  ASSERT_GT(other.process, 0);
+  const std::string name = "twins-" + std::to_string(other.process);
+  wait_until([&] {
+    const std::string out = rave({"ps"}).out;
+    const std::size_t running = out.find("running");
+    return out.find(name) != std::string::npos && running != std::string::npos &&
+           out.find("running", running + 1) != std::string::npos;
+  });
+  for (const std::vector<std::string>& how :
+       {std::vector<std::string>{}, std::vector<std::string>{"--run", "twins"}}) {
+    std::vector<std::string> words = {"hand-over", "left", "twin"};
+    words.insert(words.end(), how.begin(), how.end());
+    const Ended asked = rave(words);
+    EXPECT_NE(asked.exit_code, 0);
+    for (const pid_t process : {process_, other.process}) {
+      EXPECT_NE(asked.err.find("twins-" + std::to_string(process)), std::string::npos) << asked.err;
+    }
+    EXPECT_NE(asked.err.find("by its name or its process id, such as `--run "), std::string::npos)
+        << asked.err;
+  }
+  const Ended chosen = rave({"hand-over", "left", "twin", "--run", std::to_string(other.process)});
+  EXPECT_EQ(chosen.exit_code, 0) << chosen.err;
+  EXPECT_NE(chosen.out.find(name), std::string::npos) << chosen.out;
+  end();
+}
+
 TEST_F(Control, AKilledRunLeavesNothingBehind) {
   start("good_scenario.yaml");
   ASSERT_EQ(::kill(process_, SIGKILL), 0);

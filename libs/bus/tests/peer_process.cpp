@@ -32,8 +32,8 @@ BusConfig TestDomain::config(const std::string& participant) const {
 }
 
 PeerProcess::PeerProcess(const TestDomain& domain, const std::string& role, const std::string& name,
-                         const std::vector<std::string>& arguments) {
-  std::vector<std::string> words = {std::string(RAVE_BINARY_DIR) + "/tests/peers/peer_bus",
+                         const std::vector<std::string>& arguments, const std::string& program) {
+  std::vector<std::string> words = {std::string(RAVE_BINARY_DIR) + "/tests/peers/" + program,
                                     role,
                                     "name=" + name,
                                     "domain=" + std::to_string(domain.domain),

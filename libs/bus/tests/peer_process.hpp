@@ -25,11 +25,12 @@ struct TestDomain {
   [[nodiscard]] BusConfig config(const std::string& participant = "test") const;
 };
 
-/// The program peer_bus in a process of its own, killed at the end.
+/// The program peer_bus, or another of its kind, in a process of its own, killed at the end.
 class PeerProcess {
  public:
   PeerProcess(const TestDomain& domain, const std::string& role, const std::string& name,
-              const std::vector<std::string>& arguments = {});
+              const std::vector<std::string>& arguments = {},
+              const std::string& program = "peer_bus");
   PeerProcess(const PeerProcess&) = delete;
   PeerProcess& operator=(const PeerProcess&) = delete;
   ~PeerProcess() { kill(); }

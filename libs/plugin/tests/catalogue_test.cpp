@@ -2,6 +2,7 @@
 #include "rave/plugin/catalogue.hpp"
 
 #include "catalogue_fixture.hpp"
+#include "rave/plugin/keep_loaded.hpp"
 
 namespace rave::plugin {
 namespace {
@@ -39,6 +40,25 @@ TEST_F(CatalogueTest, MapsOnlyTheFileThatIsNeededAndUnmapsItAtTheEnd) {
   }
   EXPECT_FALSE(is_mapped("good/pair.so"));
   EXPECT_FALSE(is_mapped("good/bystander.so"));
+}
+
+TEST_F(CatalogueTest, WhatIsToStayIsNotUnmappedAtTheEnd) {
+  // Of its own, for it stays until this process ends.
+  const fs::path file = own_ / "stays.so";
+  fs::copy_file(built("good/bystander.so"), file);
+  const auto use = [&](bool stays) {
+    Catalogue catalogue(host());
+    ASSERT_TRUE(catalogue.add_folder(own_));
+    const auto driver = catalogue.find(kController, "bystander");
+    ASSERT_TRUE(driver) << driver.error().text();
+    if (stays) keep_loaded((*driver)->ops);
+  };
+  use(false);
+  EXPECT_FALSE(is_mapped("stays.so"));
+  use(true);
+  EXPECT_TRUE(is_mapped("stays.so"));
+  keep_loaded(nullptr);
+  keep_loaded(&file);
 }
 
 TEST_F(CatalogueTest, KeepsTheAddressOfADriver) {

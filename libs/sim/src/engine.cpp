@@ -129,23 +129,19 @@ std::string_view to_string(EventKind kind) noexcept {
 
 Engine::Impl::Impl(EngineSpec s)
     : spec(std::move(s)),
+      log_outlet(spec.log),
       local(local_robots(spec)),
       host(spec.local ? std::make_unique<HostPart>(spec, local) : nullptr),
       pool(spec.threads, spec.share_always),
       workers(pool.threads()),
       truth(spec, pool) {
+  const auto changes = [](const RobotSpec& robot) { return robot.twin.has_value(); };
+  if (spec.live_clock != nullptr && std::ranges::any_of(spec.robots, changes)) {
+    spec.live_clock = &clock_outlet.emplace(*spec.live_clock);
+  }
   if (!has_hybrid(spec, local)) return;
   spec.history = std::max(spec.history, kHybridHistory);
   fusion_world = std::make_unique<FusionWorld>(spec.world);
-}
-
-Engine::Impl::~Impl() {
-  tell_complaints();
-  halt();
-  // What serves first: an opening that is under way may take its time.
-  for (RobotGroup& group : groups) close_group(group);
-  close_twins();
-  if (radio) radio->close();
 }
 
 void Engine::Impl::tell_complaints() const {
@@ -188,7 +184,8 @@ Status Engine::Impl::make() {
   for (std::uint32_t r = 0; r < count; ++r) {
     group_index[r] = RobotId::kNone;
     if (!is_local(r)) continue;
-    logs[r] = {spec.log, fmt::format("robot {}", spec.robots[r].name)};
+    logs[r] = {spec.log != nullptr ? &log_outlet : nullptr,
+               fmt::format("robot {}", spec.robots[r].name)};
     std::uint32_t& index = group_of_type[spec.robots[r].type];
     if (index == RobotId::kNone) {
       index = static_cast<std::uint32_t>(groups.size());
@@ -214,7 +211,7 @@ Status Engine::Impl::make() {
 Status Engine::Impl::reset() {
   tell_complaints();
   halt();
-  restore_twins();
+  RAVE_TRY(restore_twins());
   restore_obstacles();
   restore_bodies();
   radio->close();
@@ -262,9 +259,6 @@ void Engine::Impl::set_initial_state() {
     reported[r] = {{X_WR.x, X_WR.y, X_WR.yaw, 0, 0}, {}, {}, true, false};
   }
 }
-
-Engine::Engine(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-Engine::~Engine() = default;
 
 Result<std::unique_ptr<Engine>> Engine::create(EngineSpec spec) {
   RAVE_TRY(check(spec));

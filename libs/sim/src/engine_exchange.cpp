@@ -113,18 +113,12 @@ RobotGroup& Engine::Impl::group_of_twin(const Twin& twin) noexcept {
   return groups[group_index[twin.robot.value()]];
 }
 
-void Engine::Impl::close_twins() noexcept {
-  for (Twin& twin : twins) {
-    if (twin.work.valid()) twin.work.wait();
-    twin.work = {};
-    twin.given_up = false;
-    close_group(twin.other);
-  }
-}
-
 /// The first set serves again, and nothing is under way.
-void Engine::Impl::restore_twins() {
-  close_twins();
+Status Engine::Impl::restore_twins() {
+  if (!close_twins()) {
+    return fail(ErrorCode::kState,
+                "the run cannot begin anew while drivers of a hand-over are being opened");
+  }
   for (Twin& twin : twins) {
     if (twin.state.active != DriverSet::kFirst) {
       RobotGroup& group = group_of_twin(twin);
@@ -139,11 +133,12 @@ void Engine::Impl::restore_twins() {
     twin.stage = Twin::Stage::kIdle;
     twin.state = {};
   }
+  return {};
 }
 
 /// Maybe in a thread of its own: touches nothing but the set that does not serve.
 Status Engine::Impl::open_other(Twin& twin) {
-  const GroupContext context{spec, logs, radio.get()};
+  const GroupContext context{spec, logs, radio.get(), &twin.opening};
   if (!twin.made) {
     Status made = make_body(context, twin.other);
     if (made) made = check_readings(group_of_twin(twin), twin.other);
@@ -156,7 +151,9 @@ Status Engine::Impl::open_other(Twin& twin) {
   }
   Status opened = check_live(twin.other);
   if (opened) opened = open_body(context, twin.other);
-  if (!opened) close_group(twin.other);
+  twin.opening.clear();
+  // After the end of the run nobody else does.
+  if (!opened || twin.left) close_group(twin.other);
   return opened;
 }
 
@@ -276,12 +273,11 @@ bool Engine::show_reality(RobotId robot, bool simulated) {
 
 void Engine::Impl::close_other(Twin& twin) {
   tell_complaints(twin.other);
-  const auto policy = spec.live_clock != nullptr ? std::launch::async : std::launch::deferred;
-  twin.work = std::async(policy, [&twin]() -> Status {
+  if (spec.live_clock == nullptr) return close_group(twin.other);
+  twin.work = SideTask::in_thread([&twin]() -> Status {
     close_group(twin.other);
     return {};
   });
-  if (policy == std::launch::deferred) twin.work.wait();
 }
 
 }  // namespace rave::sim

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A robot changes between two sets of drivers while the run goes.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 
@@ -75,12 +74,12 @@ Status Engine::Impl::hand_over(RobotId robot, DriverSet to, Author author) {
                   [](const SensorSpec& sensor) { return sensor.hardware_ops != nullptr; }) ||
       !target.devices.empty();
   // Hardware may take seconds to be found, for which nobody else shall wait. A stepped run waits.
-  const auto policy =
-      waits && spec.live_clock != nullptr ? std::launch::async : std::launch::deferred;
-  twin->work = std::async(policy, [this, twin, before = std::move(twin->work)]() mutable {
-    if (before.valid()) before.wait();
+  auto open = [this, twin, before = std::move(twin->work)] {
+    before.wait();
     return open_other(*twin);
-  });
+  };
+  twin->work = waits && spec.live_clock != nullptr ? SideTask::in_thread(std::move(open))
+                                                   : SideTask::later(std::move(open));
   return {};
 }
 
@@ -100,7 +99,7 @@ void Engine::Impl::advance_hand_overs() {
 
 /// Drivers that were open too late for the hand-over that waited for them.
 void Engine::Impl::close_late(Twin& twin) {
-  if (twin.work.wait_for(std::chrono::seconds(0)) == std::future_status::timeout) return;
+  if (!twin.work.ready()) return;
   twin.given_up = false;
   // Who could not be opened has been closed by whoever tried.
   if (twin.work.get()) close_other(twin);
@@ -108,7 +107,7 @@ void Engine::Impl::close_late(Twin& twin) {
 
 void Engine::Impl::advance(Twin& twin) {
   if (twin.stage == Twin::Stage::kOpening) {
-    if (twin.work.wait_for(std::chrono::seconds(0)) == std::future_status::timeout) {
+    if (!twin.work.ready()) {
       if (now - twin.since <= kOpen) return;
       twin.given_up = true;
       return refuse(twin,

@@ -11,6 +11,7 @@
 
 #include "history_ring.hpp"
 #include "host_part.hpp"
+#include "outlets.hpp"
 #include "pose_track.hpp"
 #include "rave/base/check.hpp"
 #include "rave/sim/engine.hpp"
@@ -182,8 +183,7 @@ struct Engine::Impl {
     SimTime stamp;
   };
   void make_twins();
-  void close_twins() noexcept;
-  void restore_twins();
+  Status restore_twins();
   Status open_other(Twin& twin);
   void close_other(Twin& twin);
   [[nodiscard]] Arrival arrival(const Twin& twin) const;
@@ -192,6 +192,12 @@ struct Engine::Impl {
   void change_drivers(Twin& twin);
   [[nodiscard]] Twin* find_twin(RobotId robot) noexcept;
   [[nodiscard]] RobotGroup& group_of_twin(const Twin& twin) noexcept;
+
+  // engine_end.cpp
+  [[nodiscard]] bool shut() noexcept;
+  [[nodiscard]] bool close_twins() noexcept;
+  void leave_twins() noexcept;
+  [[nodiscard]] std::string still_busy(const Twin& twin) const;
 
   // engine_hand_over.cpp: how they come to that
   Status hand_over(RobotId robot, DriverSet to, Author author);
@@ -254,6 +260,9 @@ struct Engine::Impl {
   }
 
   EngineSpec spec;
+  LogOutlet log_outlet;                     ///< Of the drivers.
+  std::optional<ClockOutlet> clock_outlet;  ///< In live runs with twins.
+  bool is_shut = false;
   std::vector<std::uint8_t> local;  ///< By robot: runs here.
   std::unique_ptr<HostPart> host;   ///< Null if all run here.
   std::vector<RobotLog> logs;

@@ -169,6 +169,7 @@ Status open_devices(const GroupContext& context, RobotGroup& group) {
     for (std::size_t m = 0; m < group.members.size(); ++m) {
       // close() comes also after an error of open().
       slots.open[m] = 1;
+      context.note("device", slots.spec->name, slots.spec->driver);
       const Status status = called(
           [&](ErrorText* error) { return slots.spec->ops->open(slots.instances.at(m), error); });
       if (!status) {
@@ -308,6 +309,7 @@ Status start_actuators(const GroupContext& context, RobotGroup& group) {
     slots.obeys.assign(count, 1);
     slots.open.assign(count, 0);
     for (std::size_t m = 0; m < count; ++m) {
+      context.note("actuator", slots.spec->name, slots.spec->driver);
       const Status status = start_actuator(context, group, slots, m);
       if (!status) {
         return tl::unexpected(named(context, group.members[m], "actuator", slots.spec->name,
@@ -458,6 +460,7 @@ Status open_sensors(GroupContext context, RobotGroup& group) {
   for (SensorSlots& slots : group.sensors) {
     slots.open.assign(slots.queues.size(), 0);
     for (std::size_t m = 0; m < slots.queues.size(); ++m) {
+      context.note("sensor", slots.spec->name, slots.spec->hardware_driver());
       const Status status = called([&](ErrorText* error) {
         return slots.spec->hardware_ops->open(slots.instances.at(m), slots.queues[m].get(), error);
       });

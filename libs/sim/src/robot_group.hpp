@@ -10,6 +10,7 @@
 #include "fusion.hpp"
 #include "instances.hpp"
 #include "near_lists.hpp"
+#include "opening_note.hpp"
 #include "rave/sim/engine_spec.hpp"
 #include "rave/sim/range_engine.hpp"
 
@@ -138,6 +139,11 @@ struct GroupContext {
   const EngineSpec& spec;
   std::vector<RobotLog>& logs;  ///< By RobotId.
   const Radio* radio = nullptr;
+  OpeningNote* opening = nullptr;  ///< Told of each driver that is about to be opened.
+
+  void note(std::string_view kind, std::string_view name, std::string_view driver) const {
+    if (opening != nullptr) opening->set(kind, name, driver);
+  }
 };
 
 /// The services and the description of one robot, for its drivers.

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
-#include <future>
 #include <optional>
 
+#include "opening_note.hpp"
 #include "rave/sim/hand_over.hpp"
 #include "robot_group.hpp"
+#include "side_task.hpp"
 
 namespace rave::sim {
 
@@ -32,8 +34,10 @@ struct Twin {
   bool made = false;  ///< `other` has instances.
   Stage stage = Stage::kIdle;
   SimTime since;  ///< When the stage began.
-  std::future<Status> work;
-  bool given_up = false;  ///< `work` still opens the set for a hand-over that was refused.
+  SideTask work;
+  OpeningNote opening;             ///< What `work` opens now.
+  std::atomic<bool> left = false;  ///< The run is over, and `work` is not.
+  bool given_up = false;           ///< `work` still opens the set for a hand-over that was refused.
   bool by_hand = false;
   std::optional<PoseReading> heard;  ///< By the pose source of the other set, in its frame.
   SimTime heard_at;

@@ -2,6 +2,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <thread>
 
 #include "engine_fixture.hpp"
@@ -244,6 +245,81 @@ TEST(HandOver, ToDriversThatDoNotOpenIsGivenUpAndTheOldOnesStay) {
   }
   EXPECT_EQ(LateToOpen::closed, 1);
   EXPECT_TRUE(engine->hand_over(robot, DriverSet::kTwin));
+}
+
+/// A pose source that never opens, and still speaks of it when the run is over.
+class NeverOpens final : public HardwareSensor {
+ public:
+  static constexpr ReadingKind kReading = ReadingKind::kPose;
+  static std::atomic<bool> opening;
+  static std::atomic<bool> run_is_over;
+  static std::atomic<bool> has_spoken;
+  static std::atomic<bool> at_last;
+  Status configure(const HardwareSetup& setup, HardwareDeclaration& declaration) override {
+    host_ = setup.host;
+    declaration.clock = DriverClock::kLive;
+    return {};
+  }
+  Status open(SampleSink& sink) override {
+    mark(opening);
+    run_is_over.wait(false);
+    host_.write(LogLevel::kInfo, "not yet");
+    const PoseReading pose{};
+    static_cast<void>(sink.publish(sink.now(), &pose, 1));
+    mark(has_spoken);
+    at_last.wait(false);
+    return {};
+  }
+  void close() override {}
+  static void mark(std::atomic<bool>& what) {
+    what = true;
+    what.notify_all();
+  }
+
+ private:
+  HostServices host_;
+};
+std::atomic<bool> NeverOpens::opening = false;
+std::atomic<bool> NeverOpens::run_is_over = false;
+std::atomic<bool> NeverOpens::has_spoken = false;
+std::atomic<bool> NeverOpens::at_last = false;  // for good: the thread goes with the process
+
+std::atomic<int> kept_loaded = 0;
+
+TEST(HandOver, ToDriversThatNeverOpenDoesNotHoldUpTheEndOfTheRun) {
+  auto clock = std::make_unique<ClockAtZero>();
+  auto ears = std::make_unique<Ears>();
+  EngineSpec spec;
+  spec.live_clock = clock.get();
+  spec.log = ears.get();
+  spec.last_wait = std::chrono::milliseconds(20);
+  spec.keep_loaded = [](const void* function) { kept_loaded += function != nullptr ? 1 : 0; };
+  RobotType simulated = simulated_type();
+  simulated.sensors.push_back(virtual_sensor<Beacon>("mocap"));
+  RobotType real = real_type({});
+  real.sensors.front() = real_sensor<NeverOpens>("mocap", {});
+  const RobotId robot = add_robot(spec, std::move(simulated));
+  const std::string name = spec.robots.back().name;
+  add_drivers(spec, std::move(real));
+  auto engine = make_engine(std::move(spec));
+  ASSERT_TRUE(engine->hand_over(robot, DriverSet::kTwin));
+  NeverOpens::opening.wait(false);
+  run(*engine, 3);
+  const Status again = engine->reset();
+  ASSERT_FALSE(again) << "its drivers are in use";
+  EXPECT_NE(again.error().text().find("cannot begin anew"), std::string::npos);
+  engine.reset();
+  const std::string expected = fmt::format(
+      "robot {}: its real drivers, which do not serve, are still being opened: sensor `mocap` "
+      "(driver `mocap`) has not returned; nobody waits for it any more",
+      name);
+  EXPECT_NE(ears->heard.find(expected), std::string::npos) << ears->heard;
+  EXPECT_GE(kept_loaded, 1) << "the plug-in of a thread that goes on";
+  // What it says now reaches nobody, and nothing that is gone.
+  ears.reset();
+  clock.reset();
+  NeverOpens::mark(NeverOpens::run_is_over);
+  NeverOpens::has_spoken.wait(false);
 }
 
 TEST(HandOver, IsForOneProcess) {

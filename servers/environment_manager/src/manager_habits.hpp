@@ -18,4 +18,8 @@ inline constexpr std::chrono::milliseconds kTell{500};
 inline constexpr std::chrono::seconds kFarewell{3};
 inline constexpr std::chrono::seconds kLongFarewell{20};
 
+[[nodiscard]] inline double seconds(std::chrono::steady_clock::duration duration) {
+  return std::chrono::duration<double>(duration).count();
+}
+
 }  // namespace rave::environment_manager

@@ -20,6 +20,12 @@ Status too_late(Duration patience) {
               patience.seconds());
 }
 
+Status nobody(bool listened) {
+  return fail(ErrorCode::kState, "{}",
+              listened ? "the environment manager was gone before it had them"
+                       : "no environment manager is there that would take them");
+}
+
 }  // namespace
 
 Result<FindingsSender> FindingsSender::create(bus::Bus& bus) {
@@ -39,7 +45,10 @@ Status FindingsSender::send(std::uint32_t host, std::span<const std::byte> bytes
   part.size = bytes.size();
   part.hash = content_hash(bytes);
   std::vector<std::uint8_t> piece;
+  const bool listened = readers() > 0;
   for (std::size_t at = 0; at < bytes.size(); at += kPart, ++part.part) {
+    // Each part may have to wait a little for the one before.
+    if (at > 0 && Clock::now() >= end) return too_late(patience);
     const auto cut = bytes.subspan(at, std::min(kPart, bytes.size() - at));
     const auto* const first = reinterpret_cast<const std::uint8_t*>(cut.data());
     piece.assign(first, first + cut.size());
@@ -52,14 +61,15 @@ Status FindingsSender::send(std::uint32_t host, std::span<const std::byte> bytes
     if (!written && written.error().code == ErrorCode::kTimeout) return too_late(patience);
     RAVE_TRY(std::move(written));
   }
-  if (writer_.readers() == 0) {
-    return fail(ErrorCode::kState, "no environment manager is there that would take them");
-  }
+  if (readers() == 0) return nobody(listened);
   const auto left = std::chrono::duration_cast<std::chrono::nanoseconds>(end - Clock::now());
   const dds_return_t confirmed =
       dds_wait_for_acks(writer_.handle(), std::max<std::int64_t>(0, left.count()));
   if (confirmed == DDS_RETCODE_TIMEOUT) return too_late(patience);
-  if (confirmed == DDS_RETCODE_OK) return {};
+  if (confirmed == DDS_RETCODE_OK) {
+    // Who is gone is not waited for either.
+    return readers() > 0 ? Status{} : nobody(true);
+  }
   return fail(ErrorCode::kIo, "nobody says whether they came: {}", dds_strretcode(confirmed));
 }
 

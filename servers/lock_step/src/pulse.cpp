@@ -46,6 +46,12 @@ Result<Pulse> Pulse::create(bus::Bus& bus, const Identity& self) {
   return Pulse(bus, std::move(writer), self);
 }
 
+void Pulse::count_real(std::uint32_t robots) noexcept {
+  if (state_.real_robots == robots) return;
+  state_.real_robots = robots;
+  next_ = {};
+}
+
 void Pulse::beat(const Facts& facts) {
   const auto now = Clock::now();
   if (now < next_) return;

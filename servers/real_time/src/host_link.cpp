@@ -2,20 +2,10 @@
 #include "rave/real_time/host_link.hpp"
 
 #include <algorithm>
-#include <cstdlib>
-#include <map>
-#include <vector>
 
+#include "host_link_impl.hpp"
 #include "rave/bus/sequence.hpp"
-#include "rave/bus/wait_set.hpp"
-#include "rave/bus/wish_box.hpp"
-#include "rave/bus/writer.hpp"
-#include "rave/lock_step/findings.hpp"
-#include "rave/lock_step/pulse.hpp"
-#include "rave/lock_step/run_words.hpp"
 #include "rave/math/transform.hpp"
-#include "rave/real_time/messages.hpp"
-#include "rave/real_time/shared_time.hpp"
 
 namespace rave::real_time {
 namespace {
@@ -24,112 +14,12 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 constexpr milliseconds kLook{100};
-/// Of so many processes the packets are counted.
-constexpr std::size_t kMostProcesses = 4096;
 /// So many readings of the manager's clock are made in a hurry before the start.
 constexpr std::uint64_t kFirstReadings = 8;
 constexpr milliseconds kHurry{10};
 constexpr milliseconds kLeisure{1000};
-/// Better readings of one clock move it by less.
-constexpr std::int64_t kJump_ns = 1'000'000;
-
-std::int64_t local_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch())
-      .count();
-}
-
-/// A writer or reader that is not always there.
-template <class End, class... More>
-Status make(std::optional<End>& place, bus::Bus& bus, const More&... more) {
-  RAVE_TRY_ASSIGN(End end, End::create(bus, more...));
-  place.emplace(std::move(end));
-  return {};
-}
 
 }  // namespace
-
-struct HostLink::Impl {
-  Options options;
-  LiveWorld& live;
-  std::unique_ptr<bus::Bus> bus;
-  bus::Writer<bus::HostInfo> own_info;
-  bus::Reader<bus::HostInfo> infos;
-  bus::Writer<bus::HostState> states;
-  lock_step::Roster roster;
-  bus::HostInfo introduced{};  ///< What the others were told of this process.
-  // Of a managed run.
-  std::optional<bus::Writer<bus::ClockPing>> pings{};
-  std::optional<bus::Reader<bus::ClockPong>> pongs{};
-  std::optional<bus::Reader<bus::RunState>> runs{};
-  std::optional<bus::Reader<bus::Obstacle>> obstacles{};  ///< Made anew for each manager.
-  std::optional<bus::Writer<bus::LastObstacle>> last_obstacles{};
-  std::optional<lock_step::FindingsSender> findings{};
-  std::optional<bus::Reader<bus::World>> worlds{};        // if it sees
-  std::optional<bus::Writer<bus::Packet>> packets_out{};  // if it talks
-  std::optional<bus::Reader<bus::Packet>> packets_in{};
-  std::optional<Realities> realities{};    // if drivers may change
-  std::unique_ptr<bus::WishBox> wishes{};  // if others may ask
-  std::optional<bus::WaitSet> waits{};     // behind all that it waits for
-  std::optional<lock_step::Pulse> pulse{};
-  lock_step::Pulse::Facts facts{};      ///< For those who look on.
-  std::uint64_t last_world_number = 0;  ///< Of this manager; 0: none yet.
-
-  SharedTime time{};
-  std::vector<bus::HostInfo> managers{};         ///< That are there; the first is listened to.
-  std::uint64_t manager = 0;                     ///< Its process; 0: nobody.
-  lock_step::RunWords words{};                   ///< What is said of the run, and by whom.
-  Clock::time_point alone_since = Clock::now();  ///< While there is no manager.
-  std::optional<Error> unfit{};
-  std::optional<Ending> ending{};
-  std::string told{};
-  bool started = false;
-  std::int64_t zero_ns = 0;             ///< Of this process; stands once it has started.
-  std::uint64_t pings_sent = 0;         ///< To this manager.
-  std::uint64_t pongs_heard = 0;        ///< From it.
-  std::uint64_t obstacle_revision = 0;  ///< That it says there is.
-  bool wrong_obstacles = false;         ///< It has told of some that cannot be.
-  std::uint64_t shown_revision = 0;     ///< That the robots here have around them,
-  SimTime shown_since{};                ///< by the time of the run.
-  Clock::time_point ping_at{};
-  std::vector<RobotSight> starts{};
-  std::uint64_t world_count = 0;
-  std::uint64_t losses = 0;
-  bool world_lost = false;
-  Clock::time_point last_world{};
-  RobotColumns columns{};
-  std::uint64_t packets_sent = 0;
-  std::map<RobotId, TalkLimit> talk{};  ///< Of robots here that have said something.
-  std::vector<RobotId> flooders{};
-  std::uint64_t packets_withheld = 0;
-  std::uint64_t packets_unsent = 0;
-  std::map<std::uint64_t, std::uint64_t> packets_heard{};  ///< By process: the newest number.
-  std::uint64_t packets_lost = 0;
-
-  Status open_endpoints();
-  void tell(LogLevel level, const std::string& text) const;
-  void tell_once(LogLevel level, const std::string& text);
-  /// What is put on a stamp of this process to make it one of the run.
-  [[nodiscard]] Duration shift() const noexcept { return {started ? zero_ns - time.zero_ns() : 0}; }
-  void take();
-  void take_infos();
-  void meet(const bus::HostInfo& info);
-  void take_pongs();
-  void take_worlds();
-  void take_obstacles();
-  void hear(const bus::Obstacle& sample);
-  void take_packets();
-  void note_number(const bus::Packet& packet);
-  void hear(const lock_step::RunWord& word);
-  void look_at_patience();
-  void look();
-  void listen_to_first();
-  void lose(std::uint64_t writer);
-  void ping();
-  void start_clock();
-  [[nodiscard]] bool ready() const;
-  [[nodiscard]] Duration patience() const noexcept;
-  void watch_worlds();
-};
 
 void HostLink::Impl::tell(LogLevel level, const std::string& text) const {
   if (options.log != nullptr) options.log->write(level, "host " + options.self.name, text);
@@ -174,216 +64,6 @@ Status HostLink::Impl::open_endpoints() {
   RAVE_TRY(make(pulse, *bus, options.self));
   introduced = lock_step::introduction(options.self);
   return own_info.write(introduced);
-}
-
-void HostLink::Impl::meet(const bus::HostInfo& info) {
-  const char* const machine = *info.machine != '\0' ? info.machine : "this machine";
-  if (info.host == rave_wire_kNone) {
-    if (!options.managed) return;
-    if (auto fits = lock_step::check_fits(options.self, info); !fits) {
-      words.shut_out(info.writer);
-      if (started) tell_once(LogLevel::kError, "refused: " + fits.error().message);
-      unfit = std::move(fits).error();
-      return;
-    }
-    words.welcome(info.writer);
-    const auto same = [&](const auto& known) { return known.writer == info.writer; };
-    if (std::any_of(managers.begin(), managers.end(), same)) return;
-    managers.push_back(info);
-    if (managers.size() == 1) listen_to_first();
-    return;
-  }
-  // Who is in the run already stays.
-  if (info.host != options.self.host || started || !lock_step::gives_way(introduced, info)) return;
-  unfit = Error{ErrorCode::kState,
-                fmt::format("host `{}` of this run is served already, by a process on {}; end that "
-                            "one first, or choose another host",
-                            options.self.name, machine),
-                {}};
-}
-
-void HostLink::Impl::take_infos() {
-  infos.take([this](const bus::HostInfo& info) { meet(info); });
-}
-
-void HostLink::Impl::take_pongs() {
-  const std::int64_t heard_ns = local_ns();
-  pongs->take([&](const bus::ClockPong& pong) {
-    if (pong.target != bus->writer() || pong.writer != manager) return;
-    const std::int64_t before = time.known() ? time.zero_ns() : 0;
-    const bool was_known = time.known();
-    const Status heard = time.hear(
-        pong.writer, {pong.ping_sent_ns, pong.ping_received_ns, pong.pong_sent_ns, heard_ns},
-        pong.begun, pong.zero_ns);
-    if (!heard) {
-      pongs->refuse(pong, heard.error().message);
-    } else {
-      facts.round_trip_ns =
-          heard_ns - pong.ping_sent_ns - (pong.pong_sent_ns - pong.ping_received_ns);
-    }
-    ++pongs_heard;
-    obstacle_revision = pong.obstacle_revision;
-    // A manager that took over may be a little off, and stamps must not seem to stand still.
-    if (was_known && std::abs(before - time.zero_ns()) > kJump_ns) live.clock_changed();
-  });
-}
-
-void HostLink::Impl::take_worlds() {
-  worlds->take([this](const bus::World& world) {
-    if (world.writer != manager) return;
-    ++world_count;
-    if (last_world_number != 0 && world.step > last_world_number) {
-      facts.missed += world.step - last_world_number - 1;
-    }
-    last_world_number = world.step;
-    last_world = Clock::now();
-    const Duration back{-shift().ns};
-    for (std::size_t i = 0; i < world.robots.id._length; ++i) {
-      const RobotSight sight = read_robot(world.robots, i, back);
-      if (!live.see(sight) && !started) {
-        std::erase_if(starts, [&](const auto& start) { return start.robot == sight.robot; });
-        starts.push_back(sight);
-      }
-    }
-  });
-}
-
-/// Each process numbers what it sends, so a gap is what was lost on the way.
-void HostLink::Impl::note_number(const bus::Packet& packet) {
-  if (packets_heard.size() >= kMostProcesses) packets_heard.clear();
-  std::uint64_t& newest = packets_heard[packet.writer];
-  if (newest != 0 && packet.number > newest + 1) packets_lost += packet.number - newest - 1;
-  newest = std::max(newest, packet.number);
-}
-
-void HostLink::Impl::take_obstacles() {
-  // Before a step all that has come is looked at: of two the later one may stand first.
-  while (obstacles->take([this](const bus::Obstacle& sample) { hear(sample); }) > 0) continue;
-}
-
-void HostLink::Impl::hear(const bus::Obstacle& sample) {
-  if (sample.writer != manager) return;
-  auto sight = read_obstacle(sample);
-  if (!sight) {
-    obstacles->refuse(sample, sight.error().message);
-    return;
-  }
-  if (const Status possible = live.check(*sight); !possible) {
-    // Once of each manager: what does not fit comes in numbers.
-    if (!std::exchange(wrong_obstacles, true)) {
-      tell(LogLevel::kWarning, "refused of the environment manager: " + possible.error().message);
-    }
-    return;
-  }
-  if (!live.see(*std::move(sight))) return;
-  // For a manager that takes the place of this one.
-  bus::LastObstacle kept{};
-  static_cast<bus::Obstacle&>(kept) = sample;
-  if (auto written = last_obstacles->write(kept); !written) {
-    tell(LogLevel::kWarning,
-         "an obstacle cannot be kept for another manager: " + written.error().message);
-  }
-}
-
-void HostLink::Impl::take_packets() {
-  packets_in->take([this](const bus::Packet& packet) {
-    note_number(packet);
-    sim::SentPacket sent = read_packet(packet, Duration{-shift().ns});
-    // Clocks that are not related: it counts as sent when it is heard.
-    if (!options.managed) sent.stamp_ns = INT64_MAX;
-    live.hear(packet.writer, sent, payload_of(packet));
-  });
-}
-
-void HostLink::Impl::hear(const lock_step::RunWord& word) {
-  if (manager != 0 && word.writer != manager) return;
-  switch (word.phase) {
-    case rave_wire_RUN_GOES:
-      return;
-    case rave_wire_RUN_GATHERS:
-    case rave_wire_RUN_WAITS:
-      if (!started) tell_once(LogLevel::kWarning, word.text);
-      return;
-    case rave_wire_RUN_ENDED:
-    case rave_wire_RUN_FAILED:
-      ending = Ending{word.phase == rave_wire_RUN_ENDED, word.text};
-      return;
-  }
-}
-
-void HostLink::Impl::listen_to_first() {
-  manager = managers.front().writer;
-  pings_sent = 0;
-  pongs_heard = 0;
-  last_world_number = 0;
-  wrong_obstacles = false;
-  ping_at = {};
-  // A new reader is told of all obstacles, also of those that came before anybody listened to this
-  // manager.
-  obstacles.reset();
-  if (auto made = make(obstacles, *bus); !made) unfit = std::move(made).error();
-  const char* const machine = managers.front().machine;
-  tell_once(LogLevel::kInfo,
-            fmt::format("the environment manager is `{}` on {}", managers.front().name,
-                        *machine != '\0' ? machine : "this machine"));
-}
-
-void HostLink::Impl::lose(std::uint64_t writer) {
-  std::erase_if(managers, [&](const auto& info) { return info.writer == writer; });
-  if (writer != manager) return;
-  manager = 0;
-  alone_since = Clock::now();
-  if (!ending) {
-    tell_once(LogLevel::kError,
-              started ? "the environment manager is gone; this host goes on without the others "
-                        "until one is back"
-                      : "the environment manager is gone");
-  }
-  // The next one may have come before this one was missed.
-  if (!managers.empty()) listen_to_first();
-}
-
-/// Who was started for a run that is no more does not wait for ever for its beginning.
-void HostLink::Impl::look_at_patience() {
-  const Duration longest = options.manager_patience;
-  if (!options.managed || ending || longest.ns <= 0 || manager != 0) return;
-  if (Clock::now() - alone_since < std::chrono::nanoseconds(longest.ns)) return;
-  ending =
-      Ending{false, fmt::format("there was no environment manager for {} s", longest.seconds())};
-  tell(LogLevel::kError, "gives up: " + ending->text);
-}
-
-/// What can wait until nothing else is to be done.
-void HostLink::Impl::look() {
-  take_infos();
-  if (runs) {
-    runs->take([this](const bus::RunState& state) {
-      words.hear(lock_step::run_word(state, options.self.host));
-    });
-  }
-  for (const lock_step::RunWord& word : words.take()) hear(word);
-  for (const bus::BusEvent& event : bus->take_events()) {
-    using enum bus::EventKind;
-    if (event.kind == kParticipantLost && event.writer != 0) {
-      if (realities) realities->lose(event.writer);
-      lose(event.writer);
-      continue;
-    }
-    const bool worth = event.kind == kRefused || event.kind == kIncompatible ||
-                       event.kind == kForeignRun || event.kind == kNotice;
-    if (worth && options.log != nullptr) options.log->warn("bus", "{}", event.line());
-  }
-}
-
-void HostLink::Impl::take() {
-  pulse->beat(facts);
-  if (pongs) take_pongs();
-  if (worlds) take_worlds();
-  if (packets_in) take_packets();
-  if (realities) realities->hear();
-  if (wishes) wishes->serve();
-  look();
-  if (obstacles) take_obstacles();
 }
 
 void HostLink::Impl::ping() {
@@ -490,6 +170,7 @@ Result<bool> HostLink::await_start(const std::function<bool()>& stopping) {
 std::chrono::steady_clock::time_point HostLink::zero() const noexcept {
   return Clock::time_point(std::chrono::nanoseconds(impl_->zero_ns));
 }
+void HostLink::count_real(std::uint32_t robots) noexcept { impl_->pulse->count_real(robots); }
 lock_step::Roster& HostLink::roster() noexcept { return impl_->roster; }
 std::span<const RobotSight> HostLink::starts() const noexcept { return impl_->starts; }
 

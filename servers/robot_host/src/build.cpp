@@ -11,6 +11,7 @@
 #include "rave/config/map_image.hpp"
 #include "rave/math/scalar.hpp"
 #include "rave/math/transform.hpp"
+#include "rave/plugin/keep_loaded.hpp"
 #include "rave/sim/virtual_sensor.hpp"
 #include "sees_others.hpp"
 #include "twins.hpp"
@@ -162,6 +163,7 @@ Result<BuiltScenario> build(const config::ExpandedScenario& scenario, plugin::Ca
   spec.history = from_seconds(scenario.scenario.history_s);
   spec.log = options.log;
   spec.live_clock = options.live_clock;
+  spec.keep_loaded = [](const void* function) { plugin::keep_loaded(function); };
   for (const config::ObstacleFile& file : scenario.world.obstacles) {
     RAVE_TRY_ASSIGN(auto obstacle, make_obstacle(file));
     spec.world.obstacles.push_back(std::move(obstacle));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <set>
 #include <tuple>
 
@@ -48,6 +49,53 @@ std::map<Change, Word> words_of(const std::vector<sim::Event>& events) {
   return words;
 }
 
+bool is_added(const sim::Event& event) {
+  return event.kind == sim::EventKind::kObstacleAdded && is_counted(event);
+}
+
+/// The event of each obstacle's coming, which is that of its smallest change, as soon as any says
+/// that it was there.
+std::map<BodyId, sim::Event> comings(const std::vector<sim::Event>& one,
+                                     const std::vector<sim::Event>& other) {
+  std::map<BodyId, sim::Event> comings;
+  for (const auto* const events : {&one, &other}) {
+    for (const sim::Event& event : *events) {
+      if (!is_added(event)) continue;
+      const auto [known, is_new] = comings.try_emplace(event.other, event);
+      if (is_new) continue;
+      const std::uint64_t step = std::min(known->second.step, event.step);
+      if (event.detail < known->second.detail) known->second = event;
+      known->second.step = step;
+    }
+  }
+  return comings;
+}
+
+/// An obstacle comes once. Who hears of it when it has been moved or removed already says that it
+/// came with that change; where another knows of the change with which it came, that other one was
+/// what it was.
+void tell_apart(const std::map<BodyId, sim::Event>& comings, std::vector<sim::Event>& events) {
+  std::set<Change> removals;
+  for (const sim::Event& event : events) {
+    const bool removed = event.kind == sim::EventKind::kObstacleRemoved && is_counted(event);
+    if (removed) removals.insert({event.other, event.detail});
+  }
+  const auto came_before = [&comings](const sim::Event& event) {
+    return is_added(event) && comings.at(event.other).detail < event.detail;
+  };
+  std::erase_if(events, [&](const sim::Event& event) {
+    return came_before(event) && removals.contains({event.other, event.detail});
+  });
+  for (sim::Event& event : events) {
+    if (!is_added(event)) continue;
+    if (came_before(event)) {
+      event.kind = sim::EventKind::kObstacleMoved;
+    } else {
+      event.step = comings.at(event.other).step;
+    }
+  }
+}
+
 /// In real time each host has a change when it comes, and who comes late several of them as one:
 /// of each counts what was said first.
 void keep_first_words(std::vector<sim::Event>& from, std::vector<sim::Event>& into) {
@@ -69,6 +117,9 @@ void keep_first_words(std::vector<sim::Event>& from, std::vector<sim::Event>& in
 }
 
 void merge_events(std::vector<sim::Event> from, std::vector<sim::Event>& into) {
+  const std::map<BodyId, sim::Event> came = comings(from, into);
+  tell_apart(came, from);
+  tell_apart(came, into);
   keep_first_words(from, into);
   append(into, std::move(from));
   // As an engine that is alone has them, and behind them what was seen by who looked on.

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 
+#include "host_journey.hpp"
+
 namespace rave::robot_host {
 
-LiveTwins::LiveTwins(const sim::Engine& engine, std::span<const RobotId> own) {
+LiveTwins::LiveTwins(const sim::Engine& engine, std::span<const RobotId> own)
+    : local_(own.begin(), own.end()) {
   for (const RobotId robot : own) {
     const sim::RobotSpec& its = engine.spec().robots[robot.value()];
     if (its.twin) own_.push_back({robot, its.type});
@@ -14,12 +17,15 @@ LiveTwins::LiveTwins(const sim::Engine& engine, std::span<const RobotId> own) {
 
 Status LiveTwins::follow(sim::Engine& engine, real_time::LiveWorld& live,
                          real_time::HostLink& link) {
+  bool changed = false;
   for (Own& one : own_) {
     const std::uint32_t type = engine.spec().robots[one.robot.value()].type;
     if (type == one.type) continue;
     one.type = type;
+    changed = true;
     RAVE_TRY(live.serve(one.robot, type, engine.true_pose(one.robot)));
   }
+  if (changed) link.count_real(real_robots(engine.spec(), local_));
   for (const real_time::RobotReality& heard : link.take_realities()) {
     if (engine.show_reality(heard.robot, heard.simulated)) {
       live.set_reality(heard.robot, heard.simulated);

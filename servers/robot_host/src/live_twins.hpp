@@ -28,7 +28,8 @@ class LiveTwins {
     RobotId robot;
     std::uint32_t type = 0;  ///< That the world knows of.
   };
-  std::vector<Own> own_;
+  std::vector<RobotId> local_;  ///< All robots of this host.
+  std::vector<Own> own_;        ///< Those of them that have two sets.
 };
 
 /// By robot, the number of its host, if a robot of the run has two sets of drivers; else nothing.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <tuple>
 
 #include "facts_sample.hpp"
 
@@ -113,6 +115,48 @@ TEST(Facts, AnObstacleThatHostsHadAtDifferentStepsCameOnce) {
   RunFacts alone;
   merge(late, alone);
   EXPECT_EQ(alone.events.size(), 2U) << "what one process says twice is there twice";
+}
+
+TEST(Facts, AnObstacleThatAHostHadWhenItHadBeenMovedCameOnce) {
+  using sim::EventKind;
+  const auto at = [](std::uint64_t step, EventKind kind, std::uint32_t change, const char* place) {
+    sim::Event event = obstacle(step, kind, change);
+    event.text = place;
+    return event;
+  };
+  // A step of this one fell between its coming and the move.
+  RunFacts between;
+  between.events = {at(11, EventKind::kObstacleAdded, 1, "here"),
+                    at(12, EventKind::kObstacleMoved, 2, "there"),
+                    at(30, EventKind::kObstacleRemoved, 3, "")};
+  // This one heard of both at once, and sooner.
+  RunFacts both;
+  both.events = {at(10, EventKind::kObstacleAdded, 2, "there"),
+                 at(31, EventKind::kObstacleRemoved, 3, "")};
+  // And this one of all three, at the step at which it went.
+  RunFacts all;
+  all.events = {at(30, EventKind::kObstacleAdded, 3, "there"),
+                at(30, EventKind::kObstacleRemoved, 3, "")};
+  const std::vector<const RunFacts*> hosts = {&between, &both, &all};
+  std::vector<int> order = {0, 1, 2};
+  do {
+    RunFacts whole;
+    for (const int i : order) merge(*hosts[static_cast<std::size_t>(i)], whole);
+    std::vector<std::tuple<std::uint64_t, EventKind, std::string>> events;
+    for (const sim::Event& e : whole.events) events.emplace_back(e.step, e.kind, e.text);
+    EXPECT_EQ(events, (std::vector<std::tuple<std::uint64_t, EventKind, std::string>>{
+                          {10, EventKind::kObstacleAdded, "here"},
+                          {10, EventKind::kObstacleMoved, "there"},
+                          {30, EventKind::kObstacleRemoved, ""}}));
+  } while (std::next_permutation(order.begin(), order.end()));
+  // Without anybody who knows more, it came as it was seen to come.
+  RunFacts little;
+  merge(all, little);
+  merge(both, little);
+  ASSERT_EQ(little.events.size(), 2U);
+  EXPECT_EQ(little.events[0].kind, EventKind::kObstacleAdded);
+  EXPECT_EQ(little.events[0].step, 10U);
+  EXPECT_EQ(little.events[0].detail, 2U);
 }
 
 TEST(Facts, OfAHostThatCameBackTheLatterCount) {

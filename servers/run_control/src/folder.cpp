@@ -92,8 +92,7 @@ Result<std::string> find_run(std::string_view word) {
   if (names.empty()) names.assign(runs.begin(), runs.end());
   if (word.empty() && names.size() == 1) return std::string(names.front());
   if (word.empty()) {
-    return fail(ErrorCode::kNotFound, "{} runs are under way, so say which: {}", names.size(),
-                join_names(names));
+    return fail(ErrorCode::kNotFound, "{} runs are under way: {}", names.size(), choose_one(names));
   }
   std::vector<std::string> of_scenario;
   for (const std::string& run : runs) {
@@ -103,10 +102,15 @@ Result<std::string> find_run(std::string_view word) {
   if (of_scenario.size() == 1) return of_scenario.front();
   if (of_scenario.size() > 1) {
     names.assign(of_scenario.begin(), of_scenario.end());
-    return fail(ErrorCode::kNotFound, "several runs are of `{}`: {}", word, join_names(names));
+    return fail(ErrorCode::kNotFound, "several runs are of `{}`: {}", word, choose_one(names));
   }
   names.assign(runs.begin(), runs.end());
   return fail(ErrorCode::kNotFound, "there is no run `{}`{}", word, suggestion(word, names));
+}
+
+std::string choose_one(std::span<const std::string_view> runs, std::string_view option) {
+  return fmt::format("{}; say which by its name or its process id, such as `{}{}{}`",
+                     join_names(runs), option, option.empty() ? "" : " ", process_of(runs.front()));
 }
 
 }  // namespace rave::run_control

@@ -6,7 +6,9 @@
 
 #include <atomic>
 #include <cstdlib>
+#include <string_view>
 #include <thread>
+#include <vector>
 
 #include "../src/socket.hpp"
 #include "rave/run_control/client.hpp"
@@ -101,6 +103,20 @@ TEST_F(ServerTest, AHostOfARunIsNotTakenForIt) {
   EXPECT_EQ(find_run("crowd").value(), own_run_name("crowd"));
   EXPECT_EQ(find_run("crowd@left").value(), own_run_name("crowd", "left"));
   EXPECT_NE(find_run("crowd@lef").error().message.find("crowd@left"), std::string::npos);
+}
+
+TEST_F(ServerTest, WhoHasToChooseIsToldAmongWhatAndHow) {
+  robot_host::RunControl control;
+  const auto one = Server::start("crowd-11", control);
+  const auto two = Server::start("crowd-12", control);
+  ASSERT_TRUE(one && two);
+  const std::string how =
+      "crowd-11 and crowd-12; say which by its name or its process id, such as `11`";
+  EXPECT_EQ(find_run("").error().message, "2 runs are under way: " + how);
+  EXPECT_EQ(find_run("crowd").error().message, "several runs are of `crowd`: " + how);
+  EXPECT_EQ(find_run("12").value(), "crowd-12");
+  const std::vector<std::string_view> runs = {"crowd-11", "crowd-12"};
+  EXPECT_NE(choose_one(runs, "--run").find("such as `--run 11`"), std::string::npos);
 }
 
 TEST_F(ServerTest, AHostAloneIsWhatIsMeant) {

@@ -194,6 +194,14 @@ struct EngineSpec {
   std::function<void()> on_step_done;
   /// How long a stepped hardware driver may take, wall time, before the run is given up.
   std::chrono::milliseconds host_timeout{10'000};
+  /// How long the end of an engine waits, wall time, for drivers of a hand-over that are being
+  /// opened or closed in threads of their own. What is not done then is left behind: the log is
+  /// told which, and the thread, its plug-in and the memory of the engine stay until the process
+  /// ends.
+  std::chrono::milliseconds last_wait{5'000};
+  /// Called at such an end with a function of each of these drivers: its code must stay loaded for
+  /// as long as the process runs. Null: it does so anyway.
+  void (*keep_loaded)(const void* function) = nullptr;
   /// Changes of parameters that belong to the run, by step.
   std::vector<ScheduledChange> changes;
   /// Obstacles that come, move and go as a part of the run, by step.

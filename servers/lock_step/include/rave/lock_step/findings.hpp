@@ -42,9 +42,11 @@ class FindingsSender {
   /// Sends what this process knows, and waits until all managers that are there have got it, but
   /// not for longer than `patience`. Once. Errors: kInvalidArgument (nothing, or more than
   /// kMostFindings), kTimeout (who listens does not keep up), kState
-  /// (nobody listens).
+  /// (nobody listens, or whoever did is gone).
   [[nodiscard]] Status send(std::uint32_t host, std::span<const std::byte> bytes,
                             Duration patience);
+  /// How many managers are known to listen.
+  [[nodiscard]] std::size_t readers() const { return writer_.readers(); }
 
  private:
   explicit FindingsSender(bus::Writer<bus::FindingsPart> writer) : writer_(std::move(writer)) {}

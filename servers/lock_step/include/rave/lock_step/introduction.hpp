@@ -21,7 +21,7 @@ struct Identity {
   bool real_time = false;  ///< Instead of lock-step; on this, too.
   /// When it started, nanoseconds since 1970 by its own clock; 0: introduction() reads the clock.
   std::int64_t started_ns = 0;
-  std::uint32_t real_robots = 0;  ///< Of its robots.
+  std::uint32_t real_robots = 0;  ///< Of its robots, at the start; see Pulse::count_real().
 };
 
 /// A number of what an expanded scenario says; equal scenarios have the same in every process.

@@ -26,6 +26,9 @@ class Pulse {
 
   /// To be called often: sends the facts about once a second, and otherwise only reads the clock.
   void beat(const Facts& facts);
+  /// So many of its robots are real now: told with the next beat, which does not wait for its
+  /// second.
+  void count_real(std::uint32_t robots) noexcept;
 
  private:
   using Clock = std::chrono::steady_clock;

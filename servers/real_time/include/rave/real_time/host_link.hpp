@@ -73,6 +73,8 @@ class HostLink {
   /// Sleeps until `due`, hearing what comes meanwhile; at least once, also if that is past. Returns
   /// early if the run has ended.
   void listen_until(std::chrono::steady_clock::time_point due);
+  /// Tells those who look on how many robots of this host are real now, after a hand-over.
+  void count_real(std::uint32_t robots) noexcept;
   /// Tells where robots of this engine are, as its last step sensed; those without a pose are left
   /// out. Nothing for an empty list.
   void tell(const sim::Engine& engine, std::span<const RobotId> robots);

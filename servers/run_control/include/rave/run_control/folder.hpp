@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,5 +28,10 @@ namespace rave::run_control {
 /// and count as runs only where there is nothing else. Errors: kNotFound with the nearest name or
 /// the list.
 [[nodiscard]] Result<std::string> find_run(std::string_view word);
+
+/// For whoever has to choose: the names of these runs, of which there is at least one, and how to
+/// say which, with a command line's `option` where that takes the run by one.
+[[nodiscard]] std::string choose_one(std::span<const std::string_view> runs,
+                                     std::string_view option = {});
 
 }  // namespace rave::run_control

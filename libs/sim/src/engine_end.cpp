@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// The end of an engine, which a driver that never opens does not hold up.
+#include <chrono>
+#include <utility>
+
+#include "engine_impl.hpp"
+#include "radio.hpp"
+
+namespace rave::sim {
+namespace {
+
+template <class Ops>
+void keep_loaded(const EngineSpec& spec, const Ops* ops) {
+  if (ops != nullptr) spec.keep_loaded(reinterpret_cast<const void*>(ops->open));
+}
+
+/// What the threads that are left behind run in.
+void keep_loaded(const EngineSpec& spec, const RobotType& type) {
+  if (spec.keep_loaded == nullptr) return;
+  for (const DeviceSpec& device : type.devices) keep_loaded(spec, device.ops);
+  for (const SensorSpec& sensor : type.sensors) keep_loaded(spec, sensor.hardware_ops);
+  for (const ActuatorSpec& actuator : type.actuators) keep_loaded(spec, actuator.hardware_ops);
+}
+
+}  // namespace
+
+Engine::Engine(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+
+Engine::~Engine() {
+  if (impl_->shut()) return;
+  // It is what the threads that were left behind work with, for as long as the process is there.
+  static_cast<void>(impl_.release());
+}
+
+Engine::Impl::~Impl() { static_cast<void>(shut()); }
+
+/// Closes all. False: drivers that do not come to an end still use this engine.
+bool Engine::Impl::shut() noexcept {
+  if (std::exchange(is_shut, true)) return true;
+  tell_complaints();
+  halt();
+  // What serves first: an opening that is under way may take its time.
+  for (RobotGroup& group : groups) close_group(group);
+  const bool all = close_twins();
+  if (radio) radio->close();
+  if (!all) leave_twins();
+  return all;
+}
+
+/// Those whose drivers are not done in time stay as they are; the log is told which.
+bool Engine::Impl::close_twins() noexcept {
+  const auto end = std::chrono::steady_clock::now() + spec.last_wait;
+  bool all = true;
+  for (Twin& twin : twins) {
+    if (!twin.work.ready_by(end)) {
+      all = false;
+      if (spec.log == nullptr) continue;
+      spec.log->error(logs[twin.robot.value()].source, "{}; nobody waits for it any more",
+                      still_busy(twin));
+      continue;
+    }
+    twin.work.wait();
+    twin.work = {};
+    twin.given_up = false;
+    close_group(twin.other);
+  }
+  return all;
+}
+
+std::string Engine::Impl::still_busy(const Twin& twin) const {
+  const std::string opening = twin.opening.text();
+  return fmt::format("its {} drivers, which do not serve, are still being {}{}{}",
+                     reality_of(*twin.other.type),
+                     opening.empty() ? "made or closed" : "opened: ", opening,
+                     opening.empty() ? "" : " has not returned");
+}
+
+/// They go on in threads of their own, with this engine and nothing else of the run.
+void Engine::Impl::leave_twins() noexcept {
+  for (Twin& twin : twins) {
+    if (twin.work.ready()) {
+      close_group(twin.other);
+      continue;
+    }
+    twin.left = true;
+    keep_loaded(spec, *twin.other.type);
+    twin.work.leave_alone();
+  }
+  // Programs in processes of their own end here as they would anyway.
+  for (RobotGroup& group : groups) group.program.processes.clear();
+  log_outlet.cut();
+  if (clock_outlet) clock_outlet->cut();
+}
+
+}  // namespace rave::sim

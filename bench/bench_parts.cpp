@@ -165,7 +165,7 @@ void ray_walk(benchmark::State& state) {
            fan_of(static_cast<std::uint32_t>(state.range(0)), state.range(1), state.range(2)),
            kWays[state.range(3)]);
 }
-BENCHMARK(ray_walk)->ArgsProduct({{1, 4, 16}, {60}, {3, 8, 30, 100}, {0, 1, 2}});
+BENCHMARK(ray_walk)->ArgsProduct({{1, 4, 16}, {60, 360}, {3, 8, 30, 100}, {0, 1, 2}});
 
 /// A line of sight from each of 1000 robots to one so many metres away.
 void line_of_sight(benchmark::State& state) {

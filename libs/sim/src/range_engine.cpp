@@ -299,20 +299,26 @@ LookCost cost_of(const world::Snapshot& world, const FanTable& fan) noexcept {
   constexpr double kBeside = 3;       // a piece of the cells beside a ray
   constexpr double kCandidate = 20;   // to try up to 16 rays at one
   constexpr double kPart = 60;        // to begin with a part of a ray
+  constexpr double kRow = 8;          // a row of cells
   constexpr double kFreePaths = 2.5;  // few rays go farther
   const auto range_m = static_cast<double>(fan.range_max_m);
-  const double first_m = world.parts_of({}, std::numeric_limits<double>::infinity()).step_m;
-  const double length_m = std::min(range_m, kFreePaths * first_m);
+  const double length_m = std::min(range_m, kFreePaths * world.first_part_m());
   LookCost cost;
   double met = 0;
   for (const world::ShapeGrid* const grid : {&world.standing(), &world.moving()}) {
     const auto size = static_cast<double>(grid->size());
     const double reach_m = range_m + grid->largest_radius_m();
-    const double rows = std::min(size, 4 * reach_m * reach_m * grid->pieces_per_m2());
+    const double pieces = std::min(size, 4 * reach_m * reach_m * grid->pieces_per_m2());
     const double disc = std::min(size, kPi * reach_m * reach_m * grid->pieces_per_m2());
-    cost.around += kSelect * rows + kCandidate * fan.field.part * disc;
+    const double most_rows = grid->rows();
+    const double rows_around = std::min(most_rows, 2 * reach_m / grid->cell_m() + 1);
+    cost.around += kSelect * pieces + kCandidate * fan.field.part * disc + kRow * rows_around;
     const double width_m = 2 * (grid->largest_radius_m() + grid->cell_m());
-    cost.along += kBeside * std::min(size, width_m * length_m * grid->pieces_per_m2());
+    // A ray of any direction rises by 2 / pi of its length.
+    const double rows_beside =
+        std::min(most_rows, (0.64 * length_m + 2 * grid->largest_radius_m()) / grid->cell_m() + 1);
+    cost.along +=
+        kBeside * std::min(size, width_m * length_m * grid->pieces_per_m2()) + kRow * rows_beside;
     met += 2 * grid->mean_radius_m() * length_m * grid->pieces_per_m2();
   }
   cost.along = fan.rays * (kPart + cost.along + kCandidate * met);

@@ -282,9 +282,19 @@ TEST(CastFan, AlongItsRaysItFindsToTheBitWhatIsAllAround) {
   std::size_t none = 0;
   for (std::uint32_t seed = 0; seed < 2000; ++seed) {
     const Vec2 centre = seed % 2 == 0 ? Vec2{0, 0} : Vec2{5000, -750};
-    const world::WorldModel model = wide_world(seed, centre);
-    const world::Snapshot world(model);
+    world::WorldModel model = wide_world(seed, centre);
+    constexpr std::uint32_t kRobots = 10;
+    for (std::uint32_t r = 0; r < kRobots; ++r) {
+      model.robots.push_back(
+          body_of({world::make_disc({}, 0.3, 0, 1).value()}, Layer::kRealRobots));
+    }
+    world::Snapshot world(model);
     RandomStream random(seed, 8, 8, 8);
+    for (std::uint32_t r = 0; r < kRobots; ++r) {
+      const Pose2 X_WR{centre.x + random.uniform(-40, 40), centre.y + random.uniform(-40, 40), 0};
+      world.set_robot(RobotId(r), {X_WR, {}, r != 3});
+    }
+    world.rebuild();
     const SensorPlace place =
         sensor_place(Pose2{centre.x + random.uniform(-60, 60), centre.y + random.uniform(-60, 60),
                            random.uniform(-kPi, kPi)},
@@ -316,6 +326,13 @@ TEST(CastFan, WalksWhereThatIsExpectedToTakeLess) {
   EXPECT_TRUE(walk_pays(world, fan_of(4, 0.2, 1000).table));
   EXPECT_FALSE(walk_pays(world, fan_of(16, 2 * kPi * 15 / 16, 3).table));
   EXPECT_FALSE(walk_pays(world, fan_of(180, kPi, 100).table)) << "more rays than are walked";
+  // Where hardly anything stands, most of the way is rows of empty cells.
+  world::WorldModel sparse;
+  for (int i = 0; i < 1024; ++i) {
+    sparse.obstacles.push_back(disc_at(62 * (i % 32), 62 * (i / 32), 0.3));
+  }
+  const world::Snapshot desert(sparse);
+  EXPECT_FALSE(walk_pays(desert, fan_of(16, 2 * kPi * 15 / 16, 500).table));
 }
 
 TEST(CastFan, FindsWhatOnlyJustComesIntoRange) {

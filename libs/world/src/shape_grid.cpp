@@ -110,6 +110,7 @@ bool ShapeGrid::lay_cells(std::span<const ShapePiece> pieces, double cell_m) {
       std::max(cell_m, std::sqrt((high.x - low.x) * (high.y - low.y) / kMaxCells) + 1e-9);
   origin_ = low;
   cells_per_m_ = 1.0 / cell;
+  cell_m_ = cell;
   width_ = static_cast<int>(std::min((high.x - low.x) * cells_per_m_, kMaxCells)) + 1;
   height_ = static_cast<int>(std::min((high.y - low.y) * cells_per_m_, kMaxCells)) + 1;
   return true;

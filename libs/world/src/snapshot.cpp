@@ -16,7 +16,8 @@ constexpr double kCellSize_m = 2.0;
 constexpr double kLargestPiece_m = 1.0;
 /// Who goes farther than this at once has jumped.
 constexpr double kJump_m = 1.0;
-/// So much beside a ray, pieces are looked at all the same; more than their radii were rounded by.
+/// So much beside a ray, pieces are looked at all the same: the radii of discs up to a kilometre
+/// were rounded by less.
 constexpr double kRounding_m = 1e-4;
 /// Robots that are not in the world are parked where no query reaches.
 constexpr Vec2 kNowhere{1e12, 1e12};
@@ -321,13 +322,19 @@ RayHit Snapshot::nearest(Vec2 p_W, Vec2 direction, double z_m, double range_max_
   return hit;
 }
 
-RayParts Snapshot::parts_of(Vec2 p_W, double range_max_m) const noexcept {
+double Snapshot::first_part_m() const noexcept {
   // A ray meets the discs that lie beside it.
   const double met_per_m = 2 * (fixed_.pieces_per_m2() * fixed_.mean_radius_m() +
                                 moving_.pieces_per_m2() * moving_.mean_radius_m());
+  // Beside a part as far as the largest piece reaches is looked in any case.
+  return std::max({1 / std::max(met_per_m, 1e-9), fixed_.cell_m(), moving_.cell_m(),
+                   fixed_.largest_radius_m(), moving_.largest_radius_m()});
+}
+
+RayParts Snapshot::parts_of(Vec2 p_W, double range_max_m) const noexcept {
   RayParts parts;
   parts.end_m = std::min(range_max_m, std::max(fixed_.farthest_m(p_W), moving_.farthest_m(p_W)));
-  parts.step_m = std::max({1 / std::max(met_per_m, 1e-9), fixed_.cell_m(), moving_.cell_m()});
+  parts.step_m = first_part_m();
   return parts;
 }
 

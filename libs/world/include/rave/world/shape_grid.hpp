@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -119,9 +121,10 @@ class ShapeGrid {
     const double reach_m = largest_m_ + width_m;
     const Vec2 a = p + from_m * direction - origin_;
     const Vec2 b = p + to_m * direction - origin_;
+    const double per_m = 1 / (b.y - a.y);  // only asked for where the way rises
     const int last_row = cell_of(std::max(a.y, b.y) + reach_m, height_);
     for (int y = cell_of(std::min(a.y, b.y) - reach_m, height_); y <= last_row; ++y) {
-      const Span part = part_beside_row(a, b, y, reach_m);
+      const Span part = part_beside_row(a.y, b.y, per_m, y, reach_m);
       if (!(part.first <= part.last)) continue;
       const double x_m[2] = {a.x + part.first * (b.x - a.x), a.x + part.last * (b.x - a.x)};
       const CellBlock cells{cell_of(std::min(x_m[0], x_m[1]) - reach_m, width_),
@@ -143,7 +146,8 @@ class ShapeGrid {
   [[nodiscard]] double pieces_per_m2() const noexcept { return pieces_per_m2_; }
   [[nodiscard]] double mean_radius_m() const noexcept { return mean_radius_m_; }
   [[nodiscard]] double largest_radius_m() const noexcept { return largest_m_; }
-  [[nodiscard]] double cell_m() const noexcept { return 1 / cells_per_m_; }
+  [[nodiscard]] double cell_m() const noexcept { return cell_m_; }
+  [[nodiscard]] int rows() const noexcept { return height_; }
 
  private:
   /// A part of the way from one point to another, each 0 to 1; nothing if first > last.
@@ -151,15 +155,18 @@ class ShapeGrid {
     double first = 0;
     double last = 1;
   };
-  /// The part of a way, relative to the origin, that pieces with their centre in a row can touch.
-  [[nodiscard]] Span part_beside_row(Vec2 a, Vec2 b, int y, double reach_m) const noexcept {
-    const double rise_m = b.y - a.y;
-    const double low_m = y * cell_m() - reach_m - a.y;
-    const double high_m = (y + 1) * cell_m() + reach_m - a.y;
+  /// The part of a way, from and to these heights above the origin, that pieces with their centre
+  /// in a row can touch. `per_m`: 1 / (to - from).
+  [[nodiscard]] Span part_beside_row(double from_m, double to_m, double per_m, int y,
+                                     double reach_m) const noexcept {
     // Of a way along the row all of it.
-    if (std::abs(rise_m) <= reach_m) return {};
-    const double first = low_m / rise_m;
-    const double last = high_m / rise_m;
+    if (std::abs(to_m - from_m) <= reach_m) return {};
+    const double low_m = y * cell_m_ - reach_m - from_m;
+    // The last row takes in what lies beyond it.
+    const double high_m = y + 1 == height_ ? std::numeric_limits<double>::infinity()
+                                           : (y + 1) * cell_m_ + reach_m - from_m;
+    const double first = low_m * per_m;
+    const double last = high_m * per_m;
     return {std::clamp(std::min(first, last), 0.0, 1.0),
             std::clamp(std::max(first, last), 0.0, 1.0)};
   }
@@ -182,6 +189,7 @@ class ShapeGrid {
   Vec2 origin_;
   Vec2 size_;  ///< From the origin to the last centre.
   double cells_per_m_ = 1;
+  double cell_m_ = 1;
   double largest_m_ = 0;
   double mean_radius_m_ = 0;
   double pieces_per_m2_ = 0;

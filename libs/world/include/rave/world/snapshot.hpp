@@ -122,8 +122,10 @@ class Snapshot final : public WorldView {
     fixed_.for_each_along(p_W, direction, from_m, to_m, width_m, visit);
     moving_.for_each_along(p_W, direction, from_m, to_m, width_m, visit);
   }
-  /// The parts in which to look along a ray that begins at p_W: the first as long as a ray goes on
-  /// average until it comes to something.
+  /// How long the first part of a ray should be, in metres: as long as a ray goes on average until
+  /// it comes to something.
+  [[nodiscard]] double first_part_m() const noexcept;
+  /// The parts in which to look along a ray that begins at p_W.
   [[nodiscard]] RayParts parts_of(Vec2 p_W, double range_max_m) const noexcept;
   /// The pieces of obstacles, and those of robots, for queries of their own.
   [[nodiscard]] const ShapeGrid& standing() const noexcept { return fixed_; }

@@ -9,17 +9,25 @@
 namespace rave::sim {
 namespace {
 
-template <class Ops>
-void keep_loaded(const EngineSpec& spec, const Ops* ops) {
-  if (ops != nullptr) spec.keep_loaded(reinterpret_cast<const void*>(ops->open));
-}
-
-/// What the threads that are left behind run in.
+/// What the threads that are left behind run in: they make, configure and open all that the type
+/// has.
 void keep_loaded(const EngineSpec& spec, const RobotType& type) {
   if (spec.keep_loaded == nullptr) return;
-  for (const DeviceSpec& device : type.devices) keep_loaded(spec, device.ops);
-  for (const SensorSpec& sensor : type.sensors) keep_loaded(spec, sensor.hardware_ops);
-  for (const ActuatorSpec& actuator : type.actuators) keep_loaded(spec, actuator.hardware_ops);
+  const auto keep = [&spec](const void* ops) {
+    if (ops != nullptr) spec.keep_loaded(ops);
+  };
+  for (const DeviceSpec& device : type.devices) keep(device.ops);
+  for (const SensorSpec& sensor : type.sensors) {
+    keep(sensor.virtual_ops);
+    keep(sensor.hardware_ops);
+    if (!sensor.hybrid) continue;
+    keep(sensor.hybrid->ops);
+    keep(sensor.hybrid->virtual_ops);
+  }
+  for (const ActuatorSpec& actuator : type.actuators) {
+    keep(actuator.virtual_ops);
+    keep(actuator.hardware_ops);
+  }
 }
 
 }  // namespace
@@ -62,6 +70,8 @@ bool Engine::Impl::close_twins() noexcept {
     twin.work.wait();
     twin.work = {};
     twin.given_up = false;
+    twin.stage = Twin::Stage::kIdle;
+    twin.state.under_way = false;
     close_group(twin.other);
   }
   return all;
@@ -86,8 +96,13 @@ void Engine::Impl::leave_twins() noexcept {
     keep_loaded(spec, *twin.other.type);
     twin.work.leave_alone();
   }
-  // Programs in processes of their own end here as they would anyway.
-  for (RobotGroup& group : groups) group.program.processes.clear();
+  // Programs and controllers, which no driver uses, end here as they would anyway. Of sensors the
+  // threads may still read where their rays point.
+  for (RobotGroup& group : groups) {
+    group.program.processes.clear();
+    group.program.instances.clear();
+    for (ControllerSlots& controller : group.controllers) controller.instances.clear();
+  }
   log_outlet.cut();
   if (clock_outlet) clock_outlet->cut();
 }

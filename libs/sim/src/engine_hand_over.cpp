@@ -72,6 +72,8 @@ Status Engine::Impl::hand_over(RobotId robot, DriverSet to, Author author) {
   const bool waits =
       std::any_of(target.sensors.begin(), target.sensors.end(),
                   [](const SensorSpec& sensor) { return sensor.hardware_ops != nullptr; }) ||
+      std::any_of(target.actuators.begin(), target.actuators.end(),
+                  [](const ActuatorSpec& actuator) { return actuator.hardware_ops != nullptr; }) ||
       !target.devices.empty();
   // Hardware may take seconds to be found, for which nobody else shall wait. A stepped run waits.
   auto open = [this, twin, before = std::move(twin->work)] {

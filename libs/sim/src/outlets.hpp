@@ -40,7 +40,8 @@ class ClockOutlet final : public RunClock {
   [[nodiscard]] std::chrono::steady_clock::time_point wall_time_of(
       SimTime t) const noexcept override {
     const std::lock_guard lock(mutex_);
-    return to_ != nullptr ? to_->wall_time_of(t) : std::chrono::steady_clock::time_point{};
+    // Once cut it stands, as of a run that is paused.
+    return to_ != nullptr ? to_->wall_time_of(t) : std::chrono::steady_clock::time_point::max();
   }
   void cut() noexcept {
     const std::lock_guard lock(mutex_);

@@ -424,7 +424,8 @@ Status WorldAuthority::resume(const WorldStep& world, const AuthorityState& stat
 void WorldAuthority::Impl::put_refusal_texts(std::uint64_t in_step) {
   auto next = std::ranges::find_if(refused, [&](const Event& one) { return one.step == in_step; });
   for (Event& event : events) {
-    if (event.kind == EventKind::kChangeRefused && next != refused.end()) event.text = next++->text;
+    if (event.kind != EventKind::kChangeRefused) continue;
+    event.text = next != refused.end() ? next++->text : "refused; why was told to nobody else";
   }
 }
 

@@ -35,6 +35,7 @@ Result<FindingsSender> FindingsSender::create(bus::Bus& bus) {
 
 Status FindingsSender::send(std::uint32_t host, std::span<const std::byte> bytes,
                             Duration patience) {
+  const bool listened = readers() > 0;
   if (bytes.empty() || bytes.size() > kMostFindings) {
     return fail(ErrorCode::kInvalidArgument, "they have {} bytes; at most {} can be sent",
                 bytes.size(), kMostFindings);
@@ -45,7 +46,6 @@ Status FindingsSender::send(std::uint32_t host, std::span<const std::byte> bytes
   part.size = bytes.size();
   part.hash = content_hash(bytes);
   std::vector<std::uint8_t> piece;
-  const bool listened = readers() > 0;
   for (std::size_t at = 0; at < bytes.size(); at += kPart, ++part.part) {
     // Each part may have to wait a little for the one before.
     if (at > 0 && Clock::now() >= end) return too_late(patience);

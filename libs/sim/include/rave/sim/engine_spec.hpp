@@ -199,9 +199,9 @@ struct EngineSpec {
   /// told which, and the thread, its plug-in and the memory of the engine stay until the process
   /// ends.
   std::chrono::milliseconds last_wait{5'000};
-  /// Called at such an end with a function of each of these drivers: its code must stay loaded for
-  /// as long as the process runs. Null: it does so anyway.
-  void (*keep_loaded)(const void* function) = nullptr;
+  /// Called at such an end with an address within each of these drivers: its code must stay loaded
+  /// for as long as the process runs. Null: it does so anyway.
+  void (*keep_loaded)(const void* within) = nullptr;
   /// Changes of parameters that belong to the run, by step.
   std::vector<ScheduledChange> changes;
   /// Obstacles that come, move and go as a part of the run, by step.

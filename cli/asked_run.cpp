@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdlib>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -26,6 +27,9 @@ using run_control::Request;
 constexpr Duration kPatienceNear = from_seconds(1.5);
 constexpr Duration kPatienceFar = from_seconds(3);
 
+/// All processes of a run are looked at, one after the other; one that is well answers at once.
+constexpr Duration kLookPatience = from_seconds(1.5);
+
 /// Between a run and a host of it.
 constexpr char kOfHost = '@';
 
@@ -45,28 +49,28 @@ std::string own_name() {
                      machine[0] != '\0' ? machine.data() : "somewhere");
 }
 
+/// What there is on this machine instead of what was asked for.
+std::string none_here(const std::string& word) {
+  const auto runs = run_control::running_runs();
+  const auto here = run_control::find_run(word);
+  if (!runs || runs->empty() || here) return "no run is under way on this machine";
+  return here.error().message;
+}
+
 /// Of those here and of those on the bus there is none.
 tl::unexpected<Error> none_at_all(const std::string& word, const bus::BusConfig& config,
                                   const Error& error) {
   const std::string where =
       fmt::format("on the bus in domain {} at {}", config.domain, config.interface);
   if (error.code != ErrorCode::kNotFound) {
-    return fail(error.code,
-                "no run is under way on this machine, and none can be looked for {}: {}", where,
+    return fail(error.code, "{}; none can be looked for {}: {}", none_here(word), where,
                 error.message);
   }
   const std::string_view remedy =
       "to ask one of other machines give --interface and --peer (or --multicast), --domain and "
       "--security as its processes have them";
-  const auto here = run_control::find_run(word);
-  const auto runs = run_control::running_runs();
-  const bool none = !runs || runs->empty();
-  if (!none && !here) {
-    return fail(ErrorCode::kNotFound, "{}; {}: {}\n{}", here.error().message, where, error.message,
-                remedy);
-  }
-  return fail(ErrorCode::kNotFound, "no run is under way on this machine; {}: {}\n{}", where,
-              error.message, remedy);
+  return fail(ErrorCode::kNotFound, "{}; {}: {}\n{}", none_here(word), where, error.message,
+              remedy);
 }
 
 Result<Found> search_bus(const std::string& word, const BusOptions& options) {
@@ -77,7 +81,8 @@ Result<Found> search_bus(const std::string& word, const BusOptions& options) {
   RAVE_TRY_ASSIGN(auto config, bus_config(options, "rave", 0));
   make_room(config, kMostHosts);
   const bool near = config.loopback() && config.peers.empty();
-  const auto run = find_bus_run(config, run_word, near ? kPatienceNear : kPatienceFar);
+  const auto run =
+      find_bus_run(config, run_word, SearchFor::kAct, near ? kPatienceNear : kPatienceFar);
   if (!run) return none_at_all(word, config, run.error());
   config.run = *run;
   RAVE_TRY_ASSIGN(found.bus, BusRun::open(config, own_name()));
@@ -126,14 +131,20 @@ Result<AskedRun> AskedRun::find_on_bus(const std::string& word, const BusOptions
     return AskedRun(std::move(name), found.bus, std::move(peer));
   }
   std::vector<AskedRun> having;
+  std::optional<Error> silent;
   for (const BusPeer& peer : found.bus->all()) {
     AskedRun run(name_of(found, peer), found.bus, peer);
-    // One that does not answer has nothing.
-    const auto status = run.status();
-    if (status && has(*status)) having.push_back(std::move(run));
+    auto status = run.status(kLookPatience);
+    if (!status) {
+      if (!silent) silent = std::move(status).error();
+    } else if (has(*status)) {
+      having.push_back(std::move(run));
+    }
   }
   if (having.size() == 1) return std::move(having.front());
   if (having.empty()) {
+    // It may be what has it.
+    if (silent) return tl::unexpected(*std::move(silent));
     RAVE_TRY_ASSIGN(auto peer, found.bus->find({}));
     return AskedRun(found.run, found.bus, std::move(peer));
   }
@@ -142,12 +153,13 @@ Result<AskedRun> AskedRun::find_on_bus(const std::string& word, const BusOptions
   return fail(ErrorCode::kNotFound, "several processes have it: {}; say which", join_names(names));
 }
 
-Result<Answer> AskedRun::ask(const Request& request) const {
-  return bus_ ? bus_->ask(peer_, request) : run_control::ask(name_, request);
+Result<Answer> AskedRun::ask(const Request& request, Duration patience) const {
+  return bus_ ? bus_->ask(peer_, request, patience) : run_control::ask(name_, request);
 }
 
-Result<robot_host::RunStatus> AskedRun::status() const {
-  RAVE_TRY_ASSIGN(auto answer, ask(Request{}));
+Result<robot_host::RunStatus> AskedRun::status(Duration patience) const {
+  RAVE_TRY_ASSIGN(auto answer, ask(Request{}, patience));
+  if (!answer.good) return fail(ErrorCode::kState, "{}: {}", name_, answer.text);
   return std::move(answer.status);
 }
 

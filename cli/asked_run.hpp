@@ -7,6 +7,7 @@
 
 #include "bus_options.hpp"
 #include "rave/base/result.hpp"
+#include "rave/base/time.hpp"
 #include "rave/run_control/bus_run.hpp"
 #include "rave/run_control/protocol.hpp"
 
@@ -25,7 +26,8 @@ class AskedRun {
   [[nodiscard]] static Result<AskedRun> find(const std::string& word, const BusOptions& options);
 
   /// Of a run on the bus, the process whose status has what is looked for; its environment manager
-  /// if none has. Errors: those of find(); kNotFound (several have it).
+  /// if all have answered and none has. Errors: those of find(); kNotFound (several have it); if
+  /// none has it, those of status() of one that did not answer.
   using Has = std::function<bool(const robot_host::RunStatus&)>;
   [[nodiscard]] static Result<AskedRun> find_on_bus(const std::string& word,
                                                     const BusOptions& options, const Has& has);
@@ -37,9 +39,15 @@ class AskedRun {
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   [[nodiscard]] bool on_bus() const noexcept { return bus_ != nullptr; }
 
-  /// Errors: those of run_control::ask() or run_control::BusRun::ask().
-  [[nodiscard]] Result<run_control::Answer> ask(const run_control::Request& request) const;
-  [[nodiscard]] Result<robot_host::RunStatus> status() const;
+  /// `patience` is for answers over the bus. Errors: those of run_control::ask() or
+  /// run_control::BusRun::ask().
+  [[nodiscard]] Result<run_control::Answer> ask(
+      const run_control::Request& request,
+      Duration patience = run_control::BusRun::kPatience) const;
+  /// Errors: those of ask(); kState (it was refused, as one that asks too often is, or the status
+  /// is larger than the bus carries).
+  [[nodiscard]] Result<robot_host::RunStatus> status(
+      Duration patience = run_control::BusRun::kPatience) const;
 
  private:
   AskedRun(std::string name, std::shared_ptr<run_control::BusRun> bus, run_control::BusPeer peer)

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bus_search.hpp"
 
+#include <algorithm>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "rave/watch/observer.hpp"
 
@@ -22,18 +25,34 @@ Result<bool> is_of(bus::BusConfig config, const watch::FoundRun& run, std::strin
   return false;
 }
 
+/// When the search for a run can end. A name or a whole number can be of one run alone; of anything
+/// else there may be more than has been found.
+watch::Enough enough_for(SearchFor what, const std::string& word) {
+  if (what == SearchFor::kLook) return {};
+  return [word](const std::vector<watch::FoundRun>& found) {
+    return !word.empty() && std::ranges::any_of(found, [&word](const watch::FoundRun& run) {
+      return watch::is_named(run.run, word);
+    });
+  };
+}
+
 }  // namespace
 
 Result<bus::RunId> find_bus_run(const bus::BusConfig& config, const std::string& word,
-                                Duration patience, const std::stop_token& stop) {
-  RAVE_TRY_ASSIGN(const auto found, watch::find_runs(config, patience, stop));
+                                SearchFor what, Duration patience, const std::stop_token& stop) {
+  RAVE_TRY_ASSIGN(const auto found,
+                  watch::find_runs(config, patience, enough_for(what, word), stop));
   auto chosen = watch::choose_run(found, word);
   if (chosen || word.empty()) return chosen;
+  std::vector<watch::FoundRun> fitting;
   for (const watch::FoundRun& run : found) {
     RAVE_TRY_ASSIGN(const bool fits, is_of(config, run, word, stop));
-    if (fits) return run.run;
+    if (fits) fitting.push_back(run);
   }
-  return chosen;
+  if (fitting.size() == 1) return fitting.front().run;
+  if (fitting.empty()) return chosen;
+  return fail(ErrorCode::kNotFound, "several runs are of `{}`: {}; say which by its number", word,
+              watch::list_of(fitting));
 }
 
 }  // namespace rave::cli

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <stop_token>
 #include <string>
 
@@ -10,10 +11,18 @@
 
 namespace rave::cli {
 
+/// What a run is looked for.
+enum class SearchFor : std::uint8_t {
+  kLook,  ///< To look on: quick, with those that are found soon.
+  kAct,   ///< To ask something of it: the whole patience, unless its name or whole number is said.
+};
+
 /// The run of several processes on the bus of `config` that a word stands for: as of
-/// watch::choose_run(), or its scenario. Looks for it for `patience`. Errors: kNotFound, those of
-/// bus::Bus::open().
+/// watch::choose_run(), or its scenario, if one alone is of it. Looks for it for `patience`; the
+/// scenario of each run is looked for after that, for up to 1.5 s. Errors: kNotFound (none, or
+/// several), those of bus::Bus::open().
 [[nodiscard]] Result<bus::RunId> find_bus_run(const bus::BusConfig& config, const std::string& word,
-                                              Duration patience, const std::stop_token& stop = {});
+                                              SearchFor what, Duration patience,
+                                              const std::stop_token& stop = {});
 
 }  // namespace rave::cli

@@ -26,6 +26,8 @@ using run_control::Request;
 constexpr auto kLook = std::chrono::milliseconds(50);
 /// No more often than a process on the bus answers.
 constexpr auto kLookFar = std::chrono::milliseconds(200);
+/// So many looks in a row may be refused by a process on the bus.
+constexpr int kMostMisses = 10;
 
 Request hand_over_request(Request::What what, const std::string& robot) {
   Request request;
@@ -106,17 +108,26 @@ Result<AskedRun> find_process(const std::string& word, std::string_view option,
 
 /// Waits for the end of the hand-over that was begun after `before`.
 int await(const AskedRun& run, const std::string& robot, const RunStatus::HandOver& before) {
-  while (true) {
-    const auto status = run.status();
-    if (!status) return complain(status.error());
-    const auto now = hand_over_of(*status, robot);
+  int misses = 0;
+  for (;; std::this_thread::sleep_for(run.on_bus() ? kLookFar : kLook)) {
+    const auto answer = run.ask(Request{});
+    if (!answer) return complain(answer.error());
+    if (!answer->good) {
+      // Who is asked too much at once has not ended.
+      if (run.on_bus() && ++misses < kMostMisses) continue;
+      return refused(run,
+                     fmt::format("the hand-over of {} was asked for, but cannot be followed: {}; "
+                                 "the log of that process will say what came of it",
+                                 robot, answer->text));
+    }
+    misses = 0;
+    const auto now = hand_over_of(answer->status, robot);
     if (!now) return refused(run, "the run ended before the robot was handed over");
     if (now->made != before.made) {
       put(stdout, fmt::format("{}: {}: {}\n", run.name(), robot, now->last));
       return kGood;
     }
     if (now->refused != before.refused) return refused(run, robot + ": " + now->last);
-    std::this_thread::sleep_for(run.on_bus() ? kLookFar : kLook);
   }
 }
 

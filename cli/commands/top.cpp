@@ -64,7 +64,8 @@ Result<Look> join(bus::BusConfig config, const bus::RunId& run) {
 
 Result<Look> find_shared_run(const bus::BusConfig& config, const std::string& word,
                              const std::stop_token& stop) {
-  RAVE_TRY_ASSIGN(const bus::RunId run, find_bus_run(config, word, kSearch, stop));
+  RAVE_TRY_ASSIGN(const bus::RunId run,
+                  find_bus_run(config, word, SearchFor::kLook, kSearch, stop));
   return join(config, run);
 }
 

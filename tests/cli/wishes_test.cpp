@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs are asked from a machine that has none of their processes: all that it shares with them is
 // the bus.
+#include <dds/dds.h>
+
+#include <algorithm>
 #include <csignal>
 #include <memory>
 
@@ -35,6 +38,16 @@ class Wishes : public SharedWorld {
     const Ended ended = far(words);
     EXPECT_EQ(ended.exit_code, 1) << ended.out;
     EXPECT_NE(ended.err.find(why), std::string::npos) << ended.err;
+  }
+  /// Asked again, a few times, until it says so: what is on the bus may be seen late.
+  [[nodiscard]] Ended far_until(const Words& words, const std::string& said) const {
+    Ended ended = far(words);
+    for (int i = 0; i < 9 && ended.err.find(said) == std::string::npos; ++i) ended = far(words);
+    return ended;
+  }
+  /// Whether it has seen a process of some other run; of that of this number.
+  [[nodiscard]] bool logged_foreign(const std::string& who, const std::string& run = {}) const {
+    return console(who).find("a process of run " + run) != std::string::npos;
   }
   [[nodiscard]] bool logged(const std::string& who, const std::string& line) const {
     const std::string log = console(who);
@@ -141,15 +154,18 @@ TEST_F(Wishes, OfSeveralRunsOneHasToBeNamed) {
   for (const char* const name : {"morning", "evening"}) {
     start(name, "env", "crowd.yaml", {"--run", name});
   }
-  wait_until(
-      [this] {
-        return far({"edit", "list"}).err.find("2 runs are under way, so say which") !=
-               std::string::npos;
-      },
-      "both are there");
+  wait_until([this] { return logged_foreign("morning") && logged_foreign("evening"); },
+             "both know of each other");
+  const Ended unnamed = far_until({"edit", "list"}, "2 runs are under way, so say which");
+  EXPECT_EQ(unnamed.exit_code, 2) << unnamed.err;
+  // That of which there are two is done to neither.
+  const Ended either = far_until({"stop", "crowd"}, "several runs are of `crowd`: ");
+  EXPECT_EQ(either.exit_code, 2) << either.err;
+  EXPECT_NE(either.err.find("several runs are of `crowd`: "), std::string::npos) << either.err;
+  EXPECT_NE(either.err.find("say which by its number"), std::string::npos) << either.err;
   // It waits for its hosts still, and says what it would say to those beside it.
   refused({"edit", "morning", "list"}, "morning: no run is under way");
-  const Ended third = far({"edit", "night", "list"});
+  const Ended third = far_until({"edit", "night", "list"}, "there is no run `night`");
   EXPECT_EQ(third.exit_code, 2);
   EXPECT_NE(third.err.find("there is no run `night`"), std::string::npos) << third.err;
 }
@@ -179,6 +195,19 @@ class StrangeWishes : public Wishes {
     wish.text._buffer = reinterpret_cast<std::uint8_t*>(text.data());
     wish.text._length = static_cast<std::uint32_t>(text.size());
     EXPECT_TRUE(asker.wishes.write(wish));
+  }
+  /// In the partition of the asker's run, but of another run.
+  static void stray(Asker& asker, std::uint64_t target, std::uint64_t number, std::string text) {
+    bus::Wish wish{};
+    std::ranges::copy(bus::RunId::random().bytes, wish.run);
+    wish.writer = asker.bus->writer();
+    wish.target = target;
+    wish.number = number;
+    bus::put_text(wish.from, "a stranger");
+    wish.text._buffer = reinterpret_cast<std::uint8_t*>(text.data());
+    wish.text._length = static_cast<std::uint32_t>(text.size());
+    // The bus would sign it with the run that it is in.
+    EXPECT_EQ(dds_write(asker.wishes.handle(), &wish), DDS_RETCODE_OK);
   }
   std::uint64_t manager_of(Asker& asker) {
     std::uint64_t manager = 0;
@@ -233,18 +262,50 @@ TEST_F(StrangeWishes, WhatIsOfAnotherRunOrForAnotherProcessIsNotDone) {
     manager = manager_of(*asker);
     wait_until([&] { return asker->wishes.readers() >= 3; }, "all hear it");
     send(*asker, manager + 1, 1, stop);
-    send(*asker, manager, 2, R"({"rave":1,"do":"release"})");
+    stray(*asker, manager, 2, stop);
+    send(*asker, manager, 3, R"({"rave":1,"do":"release"})");
     wait_until([&] { return logged("env", R"({"rave":1,"do":"release"})"); },
-               "the second is heard");
+               "what comes after both is heard");
+    wait_until(
+        [&] {
+          return console("env").find("rave/wish: 1 samples of other runs") != std::string::npos;
+        },
+        "that of another run has come");
   }
   {
-    auto stranger = open_asker(bus::RunId::random());
+    const auto other = bus::RunId::random();
+    auto stranger = open_asker(other);
     ASSERT_TRUE(stranger) << stranger.error().text();
+    wait_until([&] { return logged_foreign("env", other.text()); }, "the stranger is known");
     send(*stranger, manager, 1, stop);
     EXPECT_EQ(far({"edit", run_.text().substr(0, 8), "list"}).exit_code, 0);
+    EXPECT_EQ(stranger->wishes.readers(), 0U);
   }
   EXPECT_FALSE(logged("env", stop)) << console("env");
   end_by_hand("env");
+}
+
+TEST_F(StrangeWishes, AHostThatNeverAnswersMayBeTheOneThatHasIt) {
+  start("env", "env", "crowd.yaml", {"--no-record", "--run", run_.text()});
+  const auto bus = open_bus(run_);
+  ASSERT_TRUE(bus) << bus.error().text();
+  auto infos = bus::Writer<bus::HostInfo>::create(**bus);
+  ASSERT_TRUE(infos) << infos.error().text();
+  bus::HostInfo info{};
+  info.host = 1;
+  bus::put_text(info.name, "deaf host");
+  ASSERT_TRUE(infos->write(info));
+  const std::string answer = run_.text().substr(0, 8) + ": no run is under way";
+  wait_until(
+      [&] {
+        return far({"edit", run_.text(), "list"}).err.find(answer) != std::string::npos;
+      },
+      "the manager answers");
+  const Words words = {"shadow", run_.text()};
+  const Ended ended = far_until(words, "`deaf host` has not answered for 1.5 s");
+  EXPECT_EQ(ended.exit_code, 2) << ended.out;
+  EXPECT_NE(ended.err.find("`deaf host` has not answered for 1.5 s"), std::string::npos)
+      << ended.err;
 }
 
 TEST_F(StrangeWishes, AProcessThatNeverAnswersIsNamedWithWhatCanBeDone) {

@@ -123,8 +123,10 @@ std::vector<WishBook::Reply> WishBook::take(Clock::time_point now) {
     reply(asker, {one.writer, one.number, true, *std::move(text)}, now);
     return true;
   });
+  kept_ = 0;
   for (auto& [writer, asker] : askers_) {
     if (asker.said && now - asker.said_at > kKept) asker.said.reset();
+    if (asker.said) ++kept_;
   }
   return std::exchange(replies_, {});
 }

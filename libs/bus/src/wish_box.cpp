@@ -32,7 +32,7 @@ void WishBox::serve() {
     // What does not get through is given again to whoever asks again.
     static_cast<void>(answers_.write(answer));
   }
-  idle_ = book_.open() == 0;
+  idle_ = book_.idle();
 }
 
 }  // namespace rave::bus

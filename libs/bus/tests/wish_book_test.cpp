@@ -79,6 +79,19 @@ TEST_F(WishBookTest, AnAnswerThatWasLostIsGivenAgainForAWhile) {
   EXPECT_EQ(begun_.size(), 1U);
 }
 
+TEST_F(WishBookTest, ItIsIdleOnlyWhenNoAnswerIsKept) {
+  EXPECT_TRUE(book_.idle());
+  hear(7, 1, "wait");
+  EXPECT_TRUE(take().empty());
+  EXPECT_FALSE(book_.idle()) << "it waits for its answer";
+  let_ = true;
+  ASSERT_EQ(take().size(), 1U);
+  EXPECT_FALSE(book_.idle()) << "the answer is kept";
+  now_ += WishBook::kKept + seconds(1);
+  EXPECT_TRUE(take().empty());
+  EXPECT_TRUE(book_.idle());
+}
+
 TEST_F(WishBookTest, WhatOnlyLooksIsNotLogged) {
   hear(7, 1, "look");
   EXPECT_EQ(take().size(), 1U);

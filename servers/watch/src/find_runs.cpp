@@ -36,6 +36,8 @@ std::vector<FoundRun> runs_of(const std::vector<bus::BusProcess>& processes) {
   return found;
 }
 
+}  // namespace
+
 std::string list_of(const std::vector<FoundRun>& runs) {
   std::string text;
   for (const FoundRun& run : runs) {
@@ -46,10 +48,8 @@ std::string list_of(const std::vector<FoundRun>& runs) {
   return text;
 }
 
-}  // namespace
-
 Result<std::vector<FoundRun>> find_runs(bus::BusConfig config, Duration patience,
-                                        const std::stop_token& stop) {
+                                        const Enough& enough, const std::stop_token& stop) {
   config.run = {};
   config.anonymous = true;
   RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
@@ -63,13 +63,19 @@ Result<std::vector<FoundRun>> find_runs(bus::BusConfig config, Duration patience
     const std::size_t processes = bus->processes().size();
     if (processes > known) {
       known = processes;
-      if (!runs_of(bus->processes()).empty()) end = std::min(latest, Clock::now() + kMoment);
+      const auto found = runs_of(bus->processes());
+      if (enough && enough(found)) break;
+      if (!enough && !found.empty()) end = std::min(latest, Clock::now() + kMoment);
     }
     const auto left = std::chrono::duration_cast<std::chrono::nanoseconds>(end - Clock::now());
     if (left.count() <= 0 || stop.stop_requested()) break;
     static_cast<void>(waits.wait(Duration{left.count()}, stop));
   }
   return runs_of(bus->processes());
+}
+
+bool is_named(const bus::RunId& run, std::string_view word) {
+  return run == bus::run_of_name(word) || run.text() == word;
 }
 
 Result<bus::RunId> choose_run(const std::vector<FoundRun>& found, std::string_view word) {
@@ -81,7 +87,7 @@ Result<bus::RunId> choose_run(const std::vector<FoundRun>& found, std::string_vi
   }
   std::vector<FoundRun> fitting;
   for (const FoundRun& run : found) {
-    if (run.run == bus::run_of_name(word)) return run.run;
+    if (is_named(run.run, word)) return run.run;
     if (word.size() >= kFewestDigits && run.run.text().starts_with(word)) fitting.push_back(run);
   }
   if (fitting.size() == 1) return fitting.front().run;

@@ -108,6 +108,9 @@ TEST(ChooseRun, ByNameNumberOrAlone) {
   EXPECT_EQ(reason({other}, "evening"),
             "there is no run `evening`; those under way: abababab (of right)");
   EXPECT_EQ(reason({other}, "aba").substr(0, 22), "there is no run `aba`;") << "too few digits";
+  EXPECT_TRUE(is_named(one.run, "morning"));
+  EXPECT_TRUE(is_named(other.run, other.run.text()));
+  EXPECT_FALSE(is_named(other.run, "abababab")) << "there may be another one that begins so";
 }
 
 }  // namespace

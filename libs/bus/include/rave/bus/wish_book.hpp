@@ -64,6 +64,9 @@ class WishBook {
   [[nodiscard]] std::vector<Reply> take(Clock::time_point now);
   /// How many wait for their answer.
   [[nodiscard]] std::size_t open() const noexcept { return open_.size(); }
+  /// Whether take() has nothing to do until the next wish: as of the last take(), none waits for
+  /// its answer and no answer is kept.
+  [[nodiscard]] bool idle() const noexcept { return open_.empty() && kept_ == 0; }
 
  private:
   /// What may be taken now, filled again as time goes by.
@@ -98,6 +101,7 @@ class WishBook {
   std::map<std::uint64_t, Asker> askers_;  ///< By writer.
   std::vector<Open> open_;                 ///< In the order in which they came.
   std::vector<Reply> replies_;
+  std::size_t kept_ = 0;  ///< Answers that can be given again, as of the last take().
 };
 
 }  // namespace rave::bus

@@ -35,7 +35,7 @@ class WishBox {
   Writer<WishAnswer> answers_;
   std::uint64_t self_;  ///< The writer of this process.
   WishBook book_;
-  bool idle_ = true;  ///< Nothing waits for an answer.
+  bool idle_ = true;  ///< Nothing is to be done until the next wish.
 };
 
 }  // namespace rave::bus

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <stop_token>
 #include <string>
@@ -20,11 +21,22 @@ struct FoundRun {
   std::vector<std::string> processes;  ///< As they call themselves; in order.
 };
 
-/// Looks who is in the domain of `config`, whose run does not count, for `patience` or, once
-/// somebody is found, until nobody new has come for a moment. Runs with more processes come first.
-/// Errors: those of bus::Bus::open().
+/// Those for people, each with its first eight digits and its processes.
+[[nodiscard]] std::string list_of(const std::vector<FoundRun>& runs);
+
+/// Whether one has found what one looks for, of the runs so far.
+using Enough = std::function<bool(const std::vector<FoundRun>&)>;
+
+/// Looks who is in the domain of `config`, whose run does not count, for `patience` or until it is
+/// `enough`, which is asked whenever somebody has come, in the caller's thread. Null: once somebody
+/// is found, until nobody new has come for a moment, which is quick and may miss who is slow. Runs
+/// with more processes come first. Errors: those of bus::Bus::open().
 [[nodiscard]] Result<std::vector<FoundRun>> find_runs(bus::BusConfig config, Duration patience,
+                                                      const Enough& enough = {},
                                                       const std::stop_token& stop = {});
+
+/// Whether a word is the whole name of a run, as given with --run, or its whole number.
+[[nodiscard]] bool is_named(const bus::RunId& run, std::string_view word);
 
 /// The one of `found` that a word stands for: the first digits of its number (at least four), or a
 /// name that was given with --run; empty: the only one. Error kNotFound if it is none of them or

@@ -76,7 +76,7 @@ TEST_F(Control, StopsArmsAndSets) {
   EXPECT_EQ(typo.exit_code, 1);
   EXPECT_NE(typo.err.find("did you mean `anna`"), std::string::npos) << typo.err;
   // What is here is said though there is no bus to look at.
-  const Ended nowhere = rave({"stop", "smell", "--interface", "nowhere0"});
+  const Ended nowhere = rave({"stop", "smell", "--interface", "nowhere0", "--multicast", "on"});
   EXPECT_EQ(nowhere.exit_code, 2);
   EXPECT_NE(nowhere.err.find("there is no run `smell`"), std::string::npos) << nowhere.err;
   EXPECT_NE(nowhere.err.find("none can be looked for on the bus"), std::string::npos)

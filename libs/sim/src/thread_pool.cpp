@@ -43,7 +43,9 @@ std::int64_t nanoseconds_since(Clock::time_point begin) {
 }  // namespace
 
 ThreadPool::ThreadPool(unsigned threads, bool always)
-    : always_(always), may_look_(threads <= std::thread::hardware_concurrency()) {
+    : always_(always),
+      may_look_(threads <= std::thread::hardware_concurrency()),
+      shares_(std::make_unique<Share[]>(std::max(threads, 1U))) {
   for (unsigned worker = 1; worker < std::max(threads, 1U); ++worker) {
     workers_.emplace_back([this, worker] { serve(worker); });
   }
@@ -79,8 +81,11 @@ void ThreadPool::for_each_block(std::size_t blocks, Effort& effort,
 void ThreadPool::share(std::size_t blocks, const std::function<void(std::size_t, unsigned)>& work) {
   // Nobody reads these before the next round begins: all are done with the last one.
   work_ = &work;
-  blocks_ = blocks;
-  next_.store(0, std::memory_order_relaxed);
+  const std::size_t workers = threads();
+  for (std::size_t worker = 0; worker < workers; ++worker) {
+    shares_[worker].next.store(blocks * worker / workers, std::memory_order_relaxed);
+    shares_[worker].end = blocks * (worker + 1) / workers;
+  }
   work_ns_.store(0, std::memory_order_relaxed);
   busy_.store(static_cast<unsigned>(workers_.size()), std::memory_order_relaxed);
   bool wake = false;
@@ -99,10 +104,15 @@ void ThreadPool::share(std::size_t blocks, const std::function<void(std::size_t,
 
 void ThreadPool::take_blocks(unsigned worker) {
   const auto begin = Clock::now();
-  while (true) {
-    const std::size_t block = next_.fetch_add(1, std::memory_order_relaxed);
-    if (block >= blocks_) break;
-    (*work_)(block, worker);
+  // Who is done with its own helps the others.
+  const unsigned workers = threads();
+  for (unsigned k = 0; k < workers; ++k) {
+    Share& share = shares_[(worker + k) % workers];
+    while (true) {
+      const std::size_t block = share.next.fetch_add(1, std::memory_order_relaxed);
+      if (block >= share.end) break;
+      (*work_)(block, worker);
+    }
   }
   work_ns_.fetch_add(nanoseconds_since(begin), std::memory_order_relaxed);
 }

@@ -13,6 +13,7 @@
 #include "rave/bus/writer.hpp"
 #include "rave/record/run_reader.hpp"
 #include "shared_world.hpp"
+#include "stranger.hpp"
 
 namespace rave::cli_test {
 namespace {
@@ -248,20 +249,10 @@ TEST_F(EditsOverHosts, AHostThatIsKilledAndComesBackHasWhatWasEdited) {
 /// A run of a known name, and a bus in this process from which anything can be sent to it.
 class Garbage : public EditsOverHosts {
  protected:
-  [[nodiscard]] Result<std::unique_ptr<bus::Bus>> open_bus() const {
-    bus::BusConfig config;
-    config.participant = "stranger";
-    config.run = run_;
-    config.max_processes = 100;
-    const Words words = apart();
-    config.tag = words[1];
-    config.domain = static_cast<std::uint32_t>(std::stoul(words[3]));
-    return bus::Bus::open(config);
-  }
   /// Sends it until the log of `who` has the text.
   template <class Message>
   void send_until(Message& message, const std::string& who, const std::string& text) {
-    const auto bus = open_bus();
+    const auto bus = open_stranger(apart(), run_);
     ASSERT_TRUE(bus) << bus.error().text();
     auto writer = bus::Writer<Message>::create(**bus);
     ASSERT_TRUE(writer) << writer.error().text();

@@ -11,6 +11,7 @@
 #include "rave/bus/sequence.hpp"
 #include "rave/bus/writer.hpp"
 #include "shared_world.hpp"
+#include "stranger.hpp"
 
 namespace rave::cli_test {
 namespace {
@@ -52,17 +53,6 @@ class Wishes : public SharedWorld {
   [[nodiscard]] bool logged(const std::string& who, const std::string& line) const {
     const std::string log = console(who);
     return log.find("over the bus: " + line) != std::string::npos;
-  }
-  /// This process on the bus of a run.
-  [[nodiscard]] Result<std::unique_ptr<bus::Bus>> open_bus(const bus::RunId& run) const {
-    bus::BusConfig config;
-    config.participant = "stranger";
-    config.run = run;
-    config.max_processes = 114;
-    const Words words = apart();
-    config.tag = words[1];
-    config.domain = static_cast<std::uint32_t>(std::stoul(words[3]));
-    return bus::Bus::open(config);
   }
   void end_by_hand(const std::string& manager) {
     signal(manager, SIGINT);
@@ -181,7 +171,7 @@ class StrangeWishes : public Wishes {
     bus::Reader<bus::WishAnswer> answers;
   };
   [[nodiscard]] Result<Asker> open_asker(const bus::RunId& run) const {
-    RAVE_TRY_ASSIGN(auto bus, open_bus(run));
+    RAVE_TRY_ASSIGN(auto bus, open_stranger(apart(), run));
     RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
     RAVE_TRY_ASSIGN(auto wishes, bus::Writer<bus::Wish>::create(*bus));
     RAVE_TRY_ASSIGN(auto answers, bus::Reader<bus::WishAnswer>::create(*bus));
@@ -287,7 +277,7 @@ TEST_F(StrangeWishes, WhatIsOfAnotherRunOrForAnotherProcessIsNotDone) {
 
 TEST_F(StrangeWishes, AHostThatNeverAnswersMayBeTheOneThatHasIt) {
   start("env", "env", "crowd.yaml", {"--no-record", "--run", run_.text()});
-  const auto bus = open_bus(run_);
+  const auto bus = open_stranger(apart(), run_);
   ASSERT_TRUE(bus) << bus.error().text();
   auto infos = bus::Writer<bus::HostInfo>::create(**bus);
   ASSERT_TRUE(infos) << infos.error().text();
@@ -309,7 +299,7 @@ TEST_F(StrangeWishes, AHostThatNeverAnswersMayBeTheOneThatHasIt) {
 }
 
 TEST_F(StrangeWishes, AProcessThatNeverAnswersIsNamedWithWhatCanBeDone) {
-  const auto bus = open_bus(run_);
+  const auto bus = open_stranger(apart(), run_);
   ASSERT_TRUE(bus) << bus.error().text();
   auto infos = bus::Writer<bus::HostInfo>::create(**bus);
   ASSERT_TRUE(infos) << infos.error().text();

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "peer_roles.hpp"
 
-#include <poll.h>
-#include <unistd.h>
-
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
+#include "peer_console.hpp"
 #include "rave/bus/reader.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/writer.hpp"
@@ -15,19 +12,6 @@
 
 namespace rave::bus::testing {
 namespace {
-
-void say(const char* word) {
-  std::printf("%s\n", word);
-  std::fflush(stdout);
-}
-
-/// Whether the test has closed its end; waits for that as long as told.
-bool ended(int wait_ms) {
-  pollfd input{STDIN_FILENO, POLLIN, 0};
-  if (::poll(&input, 1, wait_ms) <= 0) return false;
-  char byte = 0;
-  return ::read(STDIN_FILENO, &byte, 1) <= 0;
-}
 
 std::uint32_t number(const Arguments& arguments, const char* name) {
   const auto found = arguments.find(name);

@@ -28,11 +28,6 @@ constexpr milliseconds kLongestPatience{1000};
 /// The epoch in worlds that hosts hand back: of no authority, but not 0.
 constexpr std::uint64_t kHandedOver = 1;
 
-Duration until(Clock::time_point when) {
-  const auto left = std::chrono::duration_cast<std::chrono::nanoseconds>(when - Clock::now());
-  return Duration{std::max<std::int64_t>(0, left.count())};
-}
-
 }  // namespace
 
 struct HostPort::Impl {
@@ -270,7 +265,7 @@ Result<HostPort::Answer> HostPort::exchange(const sim::HostReport& report, std::
       send_at = Clock::now() + patience;
       patience = std::min(2 * patience, kLongestPatience);
     }
-    static_cast<void>(port.waits.wait(until(std::min(send_at, next_stop))));
+    static_cast<void>(port.waits.wait(bus::left_until(std::min(send_at, next_stop))));
     if (port.wishes) port.wishes->serve();
     if (port.take_world(report, world)) {
       port.told.clear();

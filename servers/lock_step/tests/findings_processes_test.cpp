@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 
 #include "made_findings.hpp"
@@ -42,6 +43,15 @@ struct Host {
   [[nodiscard]] bool meets(std::size_t managers) const {
     return sender && eventually([&] { return sender->readers() == managers; });
   }
+  /// It is told to wait a second for somebody who does not take them.
+  void expect_gives_up(std::span<const std::byte> bytes) {
+    const auto began = std::chrono::steady_clock::now();
+    const Status sent = sender->send(3, bytes, from_seconds(1));
+    EXPECT_LT(std::chrono::steady_clock::now() - began, kFarMoreThanTold);
+    ASSERT_FALSE(sent);
+    EXPECT_EQ(sent.error().code, ErrorCode::kTimeout);
+    EXPECT_EQ(sent.error().message, "the environment manager has not taken them within 1 s");
+  }
 };
 
 TEST(FindingsProcesses, SendMoreThanAWriterMayHold) {
@@ -70,12 +80,7 @@ TEST(FindingsProcesses, AManagerThatStandsHoldsUpNobodyForLongerThanTold) {
   stuck.pause();
   other.poke();
   const auto bytes = made_findings(3, 1'000'000);
-  const auto began = std::chrono::steady_clock::now();
-  const Status sent = host.sender->send(3, bytes, from_seconds(1));
-  EXPECT_LT(std::chrono::steady_clock::now() - began, kFarMoreThanTold);
-  ASSERT_FALSE(sent);
-  EXPECT_EQ(sent.error().code, ErrorCode::kTimeout);
-  EXPECT_EQ(sent.error().message, "the environment manager has not taken them within 1 s");
+  host.expect_gives_up(bytes);
   EXPECT_EQ(other.line(), "the environment manager has not taken them within 2 s");
   // Who goes on has what all hosts know.
   const std::set<std::string> has = {manager.line(), manager.line()};
@@ -92,13 +97,7 @@ TEST(FindingsProcesses, AManagerThatStandsIsNotWaitedForWithWhatIsMoreThanAWrite
   Host host(domain);
   ASSERT_TRUE(host.meets(1));
   stuck.pause();
-  const auto bytes = made_findings(3, kMuch);
-  const auto began = std::chrono::steady_clock::now();
-  const Status sent = host.sender->send(3, bytes, from_seconds(1));
-  EXPECT_LT(std::chrono::steady_clock::now() - began, kFarMoreThanTold);
-  ASSERT_FALSE(sent);
-  EXPECT_EQ(sent.error().code, ErrorCode::kTimeout);
-  EXPECT_EQ(sent.error().message, "the environment manager has not taken them within 1 s");
+  host.expect_gives_up(made_findings(3, kMuch));
 }
 
 TEST(FindingsProcesses, AManagerThatDiesMeanwhileIsNotWaitedFor) {

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The other process of the tests of what processes say to each other: peer_lock_step ROLE
 // name=value ...
-#include <poll.h>
-#include <unistd.h>
-
-#include <cstdio>
-
 #include "made_findings.hpp"
+#include "peer_console.hpp"
 #include "peer_roles.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/lock_step/findings.hpp"
@@ -17,19 +13,6 @@ namespace {
 
 using namespace lock_step;
 using namespace lock_step::testing;
-
-void say(const std::string& line) {
-  std::printf("%s\n", line.c_str());
-  std::fflush(stdout);
-}
-
-/// Whether the test has closed its end; waits for that as long as told.
-bool ended(int wait_ms) {
-  pollfd input{STDIN_FILENO, POLLIN, 0};
-  if (::poll(&input, 1, wait_ms) <= 0) return false;
-  char byte = 0;
-  return ::read(STDIN_FILENO, &byte, 1) <= 0;
-}
 
 /// A manager that does nothing but collect.
 void collect(Bus& bus) {

@@ -52,11 +52,6 @@ Result<Answer> read_answer(std::string_view line) {
   return answer;
 }
 
-Duration until(Clock::time_point when) {
-  const auto left = std::chrono::duration_cast<std::chrono::nanoseconds>(when - Clock::now());
-  return Duration{std::max<std::int64_t>(0, left.count())};
-}
-
 }  // namespace
 
 struct BusRun::Impl {
@@ -134,7 +129,7 @@ Result<BusPeer> BusRun::find(std::string_view host, Duration patience) {
     });
     if (found != run.peers.end()) return *found;
     if (Clock::now() >= end) break;
-    static_cast<void>(run.waits.wait(until(end)));
+    static_cast<void>(run.waits.wait(bus::left_until(end)));
   }
   std::vector<std::string_view> names;
   for (const BusPeer& peer : run.peers) {
@@ -161,7 +156,7 @@ std::vector<BusPeer> BusRun::all() {
       end = std::min(latest, Clock::now() + kMoment);
     }
     if (Clock::now() >= end) return run.peers;
-    static_cast<void>(run.waits.wait(until(end)));
+    static_cast<void>(run.waits.wait(bus::left_until(end)));
   }
 }
 
@@ -191,7 +186,7 @@ Result<Answer> BusRun::ask(const BusPeer& peer, const Request& request, Duration
       send_at = Clock::now() + again;
       again = std::min(2 * again, kLongestAgain);
     }
-    static_cast<void>(run.waits.wait(until(std::min(send_at, end))));
+    static_cast<void>(run.waits.wait(bus::left_until(std::min(send_at, end))));
     if (auto answer = run.take(peer)) return *std::move(answer);
     run.look();
     if (!run.knows(peer.writer)) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
 #include <stop_token>
 #include <vector>
 
@@ -8,6 +11,13 @@
 #include "rave/bus/reader.hpp"
 
 namespace rave::bus {
+
+/// How long to wait so as to be awake at `when`; 0 if that is over.
+[[nodiscard]] inline Duration left_until(std::chrono::steady_clock::time_point when) {
+  const auto left =
+      std::chrono::duration_cast<std::chrono::nanoseconds>(when - std::chrono::steady_clock::now());
+  return Duration{std::max<std::int64_t>(0, left.count())};
+}
 
 enum class Woken : std::uint8_t { kReady, kTimeout, kStopped };
 

@@ -25,13 +25,13 @@ class Transforms {
     one[0].header.stamp.sec = sec;
     one[0].child_frame_id = child.data();
     one[0].transform.translation = {pose.x, pose.y, 0};
-    one[0].transform.rotation = leaning_ ? ros2::Quaternion{std::sqrt(0.5), 0, 0, std::sqrt(0.5)}
-                                         : ros2::quaternion_of(pose.yaw);
+    one[0].transform.rotation = leaning ? ros2::Quaternion{std::sqrt(0.5), 0, 0, std::sqrt(0.5)}
+                                        : ros2::quaternion_of(pose.yaw);
     ros2::TfMessage message{};
     bus::borrow(message.transforms, one);
     return tree_.add(message, is_static);
   }
-  bool leaning_ = false;
+  bool leaning = false;
 
  private:
   TfTree& tree_;
@@ -68,7 +68,7 @@ TEST(Ros2TfTree, WhatLeansMattersToItsUsersOnly) {
   TfTree tree;
   Transforms tf(tree);
   ASSERT_TRUE(tf.put("map", "base_link", {1, 0, 0}, 1));
-  tf.leaning_ = true;
+  tf.leaning = true;
   ASSERT_TRUE(tf.put("base_link", "camera", {}, 1));
   EXPECT_TRUE(tree.find("map", "base_link"));
   EXPECT_EQ(tree.find("map", "camera").error().message,

@@ -12,8 +12,8 @@ std::uint64_t content_hash(std::span<const std::byte> bytes) noexcept {
 #if RAVE_HASH_AVX2
   // Shorter input is not hashed by vectors; the value is the same whichever way.
   constexpr std::size_t kVectorsFrom = 241;
-  static const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
-  if (bytes.size() >= kVectorsFrom && has_avx2) {
+  static const bool kHasAvx2 = __builtin_cpu_supports("avx2") != 0;
+  if (bytes.size() >= kVectorsFrom && kHasAvx2) {
     return content_hash_avx2(bytes.data(), bytes.size());
   }
 #endif

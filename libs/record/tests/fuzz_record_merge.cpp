@@ -38,8 +38,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static_cast<void>(parse_robot_ranges(
       {reinterpret_cast<const char*>(data), std::min<std::size_t>(size, 40)}, 9));
   const std::size_t first = std::min<std::size_t>(data[0] + 256U * data[1], size - 2);
-  static const Folder kept;
-  const fs::path& folder = kept.path;
+  static const Folder kKept;
+  const fs::path& folder = kKept.path;
   write(folder / "a.mcap", data + 2, first);
   write(folder / "b.mcap", data + 2 + first, size - 2 - first);
   const auto notes = merge_records({folder / "a.mcap", folder / "b.mcap"}, folder / "whole.mcap");

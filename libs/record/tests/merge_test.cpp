@@ -19,12 +19,14 @@ namespace fs = std::filesystem;
 
 /// A folder of a run of two hosts: `a` runs anna, `b` bert.
 class Merged : public ::testing::Test {
+ public:
+  ~Merged() override { fs::remove_all(folder_); }
+
  protected:
   Merged() {
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }
-  ~Merged() override { fs::remove_all(folder_); }
 
   /// Writes the record of one process; `take` fills in a step.
   template <class Take>

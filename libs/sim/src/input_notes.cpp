@@ -1,13 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "input_notes.hpp"
 
+#include <utility>
+
 #include "parameters.hpp"
+#include "rave/sim/authority_state.hpp"
 
 namespace rave::sim {
 
+namespace {
+
+std::string with_author(std::string text, bool by_hand) {
+  if (by_hand) text += text.empty() ? "by hand" : " (by hand)";
+  return text;
+}
+
+}  // namespace
+
+Event resized_event(std::uint64_t step, const ResizedRobot& robot, double before, bool by_hand) {
+  return {step, robot.robot, EventKind::kChanged, BodyId(),
+          with_author(body_change_text(before, robot.scale), by_hand)};
+}
+
 Event noted_input(std::uint64_t step, RobotId robot, EventKind kind, std::string text,
                   Author author, RunHash& hash) {
-  if (author == Author::kHand) text += text.empty() ? "by hand" : " (by hand)";
+  text = with_author(std::move(text), author == Author::kHand);
   ItemHash item(step, robot.value(), HashChannel::kInput, static_cast<std::uint32_t>(kind));
   item.add_bytes(std::as_bytes(std::span(text)));
   hash.add(item);

@@ -330,7 +330,13 @@ Status check_taken_over(const EngineSpec& spec, const WorldStep& world, const Au
   const auto exists = [&](const Event& event) {
     return !event.robot.valid() || event.robot.value() < robots;
   };
-  const bool events = std::ranges::all_of(state.events, exists);
+  const std::size_t bodies =
+      spec.world.body_count() + state.obstacles.size() + world.obstacles.size();
+  const auto whole = [&](const Event& event) {
+    return exists(event) && (!event.other.valid() || event.other.value() < bodies);
+  };
+  const bool events =
+      std::ranges::all_of(state.events, exists) && std::ranges::all_of(state.done, whole);
   const bool refused = std::ranges::all_of(
       state.refused, [&](const Event& event) { return exists(event) && event.step <= world.step; });
   if (state.refused.size() > std::min<std::uint64_t>(state.refused_count, state.kMostRefused)) {

@@ -3,7 +3,7 @@
 
 namespace rave::sim {
 
-using Kind = ObstacleChange::Kind;
+using ChangeKind = ObstacleChange::Kind;
 
 ObstacleHistory::ObstacleHistory(const std::vector<ObstacleChange>& changes, std::uint64_t count) {
   for (const ObstacleChange& change : changes) add(change);
@@ -13,19 +13,19 @@ ObstacleHistory::ObstacleHistory(const std::vector<ObstacleChange>& changes, std
 void ObstacleHistory::add(const ObstacleChange& change) {
   ++count_;
   const auto found = entry_of_.find(change.id.value());
-  if (change.kind != Kind::kAdd && found != entry_of_.end()) {
+  if (change.kind != ChangeKind::kAdd && found != entry_of_.end()) {
     ObstacleChange& before = changes_[found->second];
-    if (change.kind == Kind::kMove) {
+    if (change.kind == ChangeKind::kMove) {
       before.X_WB = change.X_WB;
       return;
     }
     // The number of one that was added stays taken, so that it came has to be told, too.
-    if (before.kind == Kind::kMove) {
-      before.kind = Kind::kRemove;
+    if (before.kind == ChangeKind::kMove) {
+      before.kind = ChangeKind::kRemove;
       return;
     }
   }
-  if (change.kind != Kind::kRemove) entry_of_[change.id.value()] = changes_.size();
+  if (change.kind != ChangeKind::kRemove) entry_of_[change.id.value()] = changes_.size();
   changes_.push_back(change);
   changes_.back().asked.clear();
 }

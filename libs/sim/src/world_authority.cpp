@@ -2,6 +2,7 @@
 #include "rave/sim/world_authority.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <tuple>
 
 #include "input_notes.hpp"
@@ -375,6 +376,9 @@ AuthorityState WorldAuthority::state(bool with_obstacles) const {
   if (with_obstacles) state.obstacles = authority.history.changes();
   state.refused_count = authority.refused_count;
   state.refused = authority.refused;
+  std::ranges::copy_if(authority.done_events, std::back_inserter(state.done), [](const Event& e) {
+    return e.kind == EventKind::kContact || e.kind == EventKind::kPinned;
+  });
   return state;
 }
 
@@ -401,6 +405,7 @@ Status WorldAuthority::resume(const WorldStep& world, const AuthorityState& stat
   authority.step = world.step + 1;
   authority.hash = state.hash;
   authority.done_hash = state.hash;
+  authority.done_events = state.done;  // who gets that world again is told them again
   authority.events = state.events;
   authority.refused_count = state.refused_count;
   authority.refused = state.refused;

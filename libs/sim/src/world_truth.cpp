@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "rave/math/transform.hpp"
+#include "rave/sim/authority_state.hpp"
 #include "rave/world/touching.hpp"
 
 namespace rave::sim {
@@ -28,27 +29,35 @@ void WorldTruth::begin() {
   pinned_before_.assign(count, 0);
   for (std::uint32_t r = 0; r < count; ++r) {
     const RobotType& type = spec.types[spec.robots[r].type];
-    movers[r] = {spec.robots[r].X_WR, type.simulated, type.simulated};
+    movers[r] = {
+        .X_WR = spec.robots[r].X_WR, .simulated = type.simulated, .present = type.simulated};
     snapshot.set_robot(RobotId(r), {movers[r].X_WR, {}, movers[r].present});
     snapshot.set_touch(RobotId(r), {});
   }
+  find_real();
   snapshot.set_time({});
   snapshot.rebuild();
+}
+
+void WorldTruth::find_real() {
+  real_.clear();
+  for (std::uint32_t r = 0; r < movers.size(); ++r) {
+    if (!movers[r].simulated) real_.push_back(r);
+  }
 }
 
 void WorldTruth::make_way() {
   notes.clear();
   bool any = false;
-  for (std::uint32_t r = 0; r < movers.size(); ++r) {
-    if (movers[r].simulated) continue;
+  for (const std::uint32_t r : real_) {
     any = any || movers[r].present;
     snapshot.set_robot(RobotId(r), {movers[r].X_WR, {}, movers[r].present});
   }
   if (!any) return;
   // Real robots may have jumped (a first pose, the end of a gap): the broad phase must know.
   snapshot.rebuild();
-  for (std::uint32_t r = 0; r < movers.size(); ++r) {
-    if (movers[r].simulated || !movers[r].present) continue;
+  for (const std::uint32_t r : real_) {
+    if (!movers[r].present) continue;
     slack_m_ += resolver.make_way(r, snapshot, slack_m_, movers, notes);
   }
 }
@@ -60,7 +69,7 @@ void WorldTruth::note_contacts(std::uint64_t step, std::vector<Event>& events) {
     touch[contact.robot] = {true, contact.direction_W};
     if (contact.pinned && pinned_before_[contact.robot] == 0) {
       events.push_back({step, RobotId(contact.robot), EventKind::kPinned, contact.other,
-                        "cannot get out of the way"});
+                        std::string(kPinnedText)});
     }
   }
   std::fill(pinned_before_.begin(), pinned_before_.end(), std::uint8_t{0});
@@ -68,8 +77,8 @@ void WorldTruth::note_contacts(std::uint64_t step, std::vector<Event>& events) {
     if (contact.pinned) pinned_before_[contact.robot] = 1;
   }
   constexpr double kTouch_m = 1e-3;
-  for (std::uint32_t r = 0; r < movers.size(); ++r) {
-    if (movers[r].simulated || !movers[r].present) continue;
+  for (const std::uint32_t r : real_) {
+    if (!movers[r].present) continue;
     const std::size_t first = notes.size();
     resolver.probe(r, snapshot, slack_m_, kTouch_m, movers, notes);
     touch[r] = notes.size() > first ? TouchState{true, notes.back().direction_W} : TouchState{};
@@ -233,7 +242,8 @@ void WorldTruth::put_body(RobotId robot, const world::Body& body) {
 void WorldTruth::set_reality(RobotId robot, bool simulated, const Pose2& X_WR) {
   const std::uint32_t r = robot.value();
   const Layer layer = simulated ? Layer::kSimulatedRobots : Layer::kRealRobots;
-  movers[r] = {X_WR, true, simulated};
+  movers[r] = {.X_WR = X_WR, .simulated = simulated, .present = true};
+  find_real();
   velocity[r] = {};
   proposal[r] = {};
   limited[r] = 0;

@@ -102,6 +102,7 @@ struct WorldTruth {
 
  private:
   double place_block(std::uint32_t first, std::uint32_t last);
+  void find_real();
   void hash_block(std::uint64_t step, std::uint32_t first, std::uint32_t last, RunHash& sum) const;
   void put_body(RobotId robot, const world::Body& body);
   [[nodiscard]] Result<world::Body> body_at(RobotId robot, double scale) const;
@@ -112,6 +113,7 @@ struct WorldTruth {
   Status check_room_for(const ObstacleChange& change, const world::Body& body,
                         std::string& note) const;
 
+  std::vector<std::uint32_t> real_;  ///< Robots that are not simulated; ascending.
   std::vector<std::uint8_t> touching_before_;
   std::vector<std::uint8_t> pinned_before_;
   double slack_m_ = 0;  ///< How far robots may have moved since the snapshot.

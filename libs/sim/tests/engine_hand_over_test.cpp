@@ -204,6 +204,18 @@ struct OpenAtLast {
   }
 };
 
+/// A simulated robot at the origin whose other drivers are real, with this source of its pose.
+template <class Source>
+RobotId add_simulated_or_real(EngineSpec& spec) {
+  RobotType simulated = simulated_type();
+  simulated.sensors.push_back(virtual_sensor<Beacon>("mocap"));
+  RobotType real = real_type({});
+  real.sensors.front() = real_sensor<Source>("mocap", {});
+  const RobotId robot = add_robot(spec, std::move(simulated));
+  add_drivers(spec, std::move(real));
+  return robot;
+}
+
 class ClockAtZero final : public RunClock {
  public:
   [[nodiscard]] SimTime now() const noexcept override { return {}; }
@@ -217,12 +229,7 @@ TEST(HandOver, ToDriversThatDoNotOpenIsGivenUpAndTheOldOnesStay) {
   const ClockAtZero clock;
   EngineSpec spec;
   spec.live_clock = &clock;
-  RobotType simulated = simulated_type();
-  simulated.sensors.push_back(virtual_sensor<Beacon>("mocap"));
-  RobotType real = real_type({});
-  real.sensors.front() = real_sensor<LateToOpen>("mocap", {});
-  const RobotId robot = add_robot(spec, std::move(simulated));
-  add_drivers(spec, std::move(real));
+  const RobotId robot = add_simulated_or_real<LateToOpen>(spec);
   const auto engine = make_engine(std::move(spec));
   const OpenAtLast opened;
   ASSERT_TRUE(engine->hand_over(robot, DriverSet::kTwin));
@@ -245,6 +252,61 @@ TEST(HandOver, ToDriversThatDoNotOpenIsGivenUpAndTheOldOnesStay) {
   }
   EXPECT_EQ(LateToOpen::closed, 1);
   EXPECT_TRUE(engine->hand_over(robot, DriverSet::kTwin));
+}
+
+/// A pose source that says what the test tells it, while it is open.
+class Told final : public HardwareSensor {
+ public:
+  static constexpr ReadingKind kReading = ReadingKind::kPose;
+  static std::atomic<SampleSink*> open_sink;
+  Status configure(const HardwareSetup&, HardwareDeclaration& declaration) override {
+    declaration.clock = DriverClock::kLive;
+    return {};
+  }
+  Status open(SampleSink& sink) override {
+    open_sink = &sink;
+    return {};
+  }
+  void close() override { open_sink = nullptr; }
+};
+std::atomic<SampleSink*> Told::open_sink = nullptr;
+
+TEST(HandOver, OthersMakeWayForARobotThatHasBecomeReal) {
+  const ClockAtZero clock;
+  EngineSpec spec;
+  spec.live_clock = &clock;
+  // The 30 s in which drivers have to open are three million steps.
+  spec.step = Duration{10'000};
+  const RobotId robot = add_simulated_or_real<Told>(spec);
+  const RobotId other = add_robot(spec, simulated_type(), {1, 0, 0});
+  const auto engine = make_engine(std::move(spec));
+  ASSERT_TRUE(engine->hand_over(robot, DriverSet::kTwin));
+  // Its drivers are opened beside the run, so the step in which they serve is any.
+  run(*engine, 1);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (Told::open_sink == nullptr && std::chrono::steady_clock::now() < end) {
+    std::this_thread::yield();
+  }
+  SampleSink* const sink = Told::open_sink;
+  ASSERT_NE(sink, nullptr);
+  const auto say = [&](double x_m) {
+    const PoseReading pose{.x_m = x_m};
+    const SimTime now{static_cast<std::int64_t>(engine->steps_done()) * engine->spec().step.ns};
+    return sink->publish(now, &pose, 1);
+  };
+  while (engine->hand_over_state(robot)->made == 0 && std::chrono::steady_clock::now() < end) {
+    ASSERT_TRUE(say(0));
+    run(*engine, 1);
+    std::this_thread::yield();
+  }
+  ASSERT_EQ(engine->hand_over_state(robot)->made, 1U);
+  ASSERT_TRUE(engine->snapshot().robot(robot).present);
+  EXPECT_EQ(engine->true_pose(other).x, 1);
+  ASSERT_TRUE(say(0.9));
+  run(*engine, 3);
+  EXPECT_NEAR(engine->true_pose(robot).x, 0.9, 1e-9) << "it is where it says";
+  EXPECT_GT(engine->true_pose(other).x, 1.19) << "two radii of 0.15 m away";
+  EXPECT_TRUE(engine->snapshot().robot(robot).present);
 }
 
 /// A pose source that never opens, and still speaks of it when the run is over.
@@ -294,13 +356,8 @@ TEST(HandOver, ToDriversThatNeverOpenDoesNotHoldUpTheEndOfTheRun) {
   spec.log = ears.get();
   spec.last_wait = std::chrono::milliseconds(20);
   spec.keep_loaded = [](const void* function) { kept_loaded += function != nullptr ? 1 : 0; };
-  RobotType simulated = simulated_type();
-  simulated.sensors.push_back(virtual_sensor<Beacon>("mocap"));
-  RobotType real = real_type({});
-  real.sensors.front() = real_sensor<NeverOpens>("mocap", {});
-  const RobotId robot = add_robot(spec, std::move(simulated));
+  const RobotId robot = add_simulated_or_real<NeverOpens>(spec);
   const std::string name = spec.robots.back().name;
-  add_drivers(spec, std::move(real));
   auto engine = make_engine(std::move(spec));
   ASSERT_TRUE(engine->hand_over(robot, DriverSet::kTwin));
   NeverOpens::opening.wait(false);

@@ -319,8 +319,10 @@ TEST(CastFan, AlongItsRaysItFindsToTheBitWhatIsAllAround) {
 
 TEST(CastFan, WalksWhereThatIsExpectedToTakeLess) {
   world::WorldModel model;
-  for (int i = 0; i < 4900; ++i)
-    model.obstacles.push_back(disc_at(3 * (i % 70), 3 * (i / 70), 0.3));
+  for (int i = 0; i < 4900; ++i) {
+    const int row = i / 70;
+    model.obstacles.push_back(disc_at(3 * (i % 70), 3 * row, 0.3));
+  }
   const world::Snapshot world(model);
   EXPECT_TRUE(walk_pays(world, fan_of(1, 0, 100).table));
   EXPECT_TRUE(walk_pays(world, fan_of(4, 0.2, 1000).table));
@@ -329,7 +331,8 @@ TEST(CastFan, WalksWhereThatIsExpectedToTakeLess) {
   // Where hardly anything stands, most of the way is rows of empty cells.
   world::WorldModel sparse;
   for (int i = 0; i < 1024; ++i) {
-    sparse.obstacles.push_back(disc_at(62 * (i % 32), 62 * (i / 32), 0.3));
+    const int row = i / 32;
+    sparse.obstacles.push_back(disc_at(62 * (i % 32), 62 * row, 0.3));
   }
   const world::Snapshot desert(sparse);
   EXPECT_FALSE(walk_pays(desert, fan_of(16, 2 * kPi * 15 / 16, 500).table));

@@ -233,6 +233,21 @@ void expect_same(const std::vector<Event>& split, const std::vector<Event>& one)
   }
 }
 
+/// What hosts are told of the step that is done.
+void expect_same_contacts(const std::vector<Event>& told, std::uint64_t step) {
+  std::vector<Event> expected = reference().events[step];
+  std::erase_if(expected, [](const Event& event) {
+    return event.kind != EventKind::kContact && event.kind != EventKind::kPinned;
+  });
+  ASSERT_EQ(told.size(), expected.size()) << "step " << step;
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    ASSERT_EQ(told[i].step, step);
+    ASSERT_EQ(told[i].robot, expected[i].robot) << "step " << step;
+    ASSERT_EQ(told[i].kind, expected[i].kind) << "step " << step;
+    ASSERT_EQ(told[i].other, expected[i].other) << "step " << step;
+  }
+}
+
 void ask_by_hand(WorldAuthority& authority) {
   WorldInput stop;
   stop.robot = kStoppedByHand;
@@ -367,6 +382,7 @@ TEST(Split, ANewAuthorityGoesOnToTheBit) {
     ASSERT_TRUE(run.advance());
     ASSERT_EQ(run.authority->steps_done(), k + 1);
     ASSERT_EQ(run.hash(), reference().hashes[k]) << "step " << k;
+    ASSERT_NO_FATAL_FAILURE(expect_same_contacts(run.authority->state().done, k));
   }
 }
 

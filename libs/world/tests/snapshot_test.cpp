@@ -139,7 +139,8 @@ TEST(Snapshot, ARayIsFollowedToWhatALinearSearchFinds) {
     for (int ray = 0; ray < 40; ++ray) {
       const Vec2 p{random.uniform(-60, 60), random.uniform(-60, 60)};
       // Now and then along the axes of the grid.
-      const double bearing = ray % 4 == 0 ? kPi / 2 * (ray / 4) : random.uniform(-kPi, kPi);
+      const int quarter = ray / 4;
+      const double bearing = ray % 4 == 0 ? kPi / 2 * quarter : random.uniform(-kPi, kPi);
       const double most_m = ray % 5 == 0 ? kNoHit : random.uniform(0, 120);
       const SinCos turn = sincos(bearing);
       RayHit expected;

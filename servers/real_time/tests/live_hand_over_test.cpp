@@ -117,6 +117,7 @@ TEST(LiveHandOver, OtherHostsSeeWhatItIs) {
   ASSERT_TRUE(host.world->set_reality(kChanges, false));
   host.steps(3);
   EXPECT_EQ(host.layer_of(kChanges), Layer::kRealRobots);
+  EXPECT_TRUE(host.engine->snapshot().robot(kChanges).present);
   EXPECT_NEAR(host.engine->snapshot().pose(kChanges).x, 1.1, 1e-9);
 }
 

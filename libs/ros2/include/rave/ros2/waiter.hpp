@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <compare>
+
 #include "rave/base/time.hpp"
 #include "rave/ros2/participant.hpp"
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "rave/base/hash.hpp"
@@ -29,6 +30,16 @@ struct AuthorityState {
   /// EventKind::kChangeRefused, in order.
   std::uint64_t refused_count = 0;
   std::vector<Event> refused;
+  /// Contacts and pins of the step before that of the world, which is done: for hosts, so that
+  /// these are known when the authority is gone. Another one does not need them to go on.
+  std::vector<Event> done;
 };
+
+/// The text of pins, EventKind::kPinned.
+inline constexpr std::string_view kPinnedText = "cannot get out of the way";
+
+/// The event of a body that has another size from `step` on; `before`: its scale until then.
+[[nodiscard]] Event resized_event(std::uint64_t step, const ResizedRobot& robot, double before,
+                                  bool by_hand);
 
 }  // namespace rave::sim

@@ -42,7 +42,8 @@ def bench_bus(options, *words):
 def ping(options):
     """64 bytes there and back, beside a plain UDP socket in the same run."""
     rounds = [bench_bus(options, "ping", 20_000) for _ in range(options.rounds)]
-    names = ["udp_median_us", "bus_median_us", "bus_ratio", "listener_median_us", "listener_ratio"]
+    names = ["udp_median_us", "bus_median_us", "bus_ratio", "listener_median_us", "listener_ratio",
+             "short_median_us", "short_ratio"]
     return {name: spread([one[name] for one in rounds]) for name in names}
 
 

@@ -143,8 +143,8 @@ def run_and_count(rave, swarm, folder, hosts, steps):
     before = loopback_bytes()
     output = pathlib.Path(folder, f"{hosts}-{steps}")
     subprocess.run([rave, "run", swarm, "--processes", str(hosts), "--duration", str(steps / 10),
-                    "--no-record", "--no-picture", "--quiet", "--pace", "max", "--output", output],
-                   check=True)
+                    "--no-record", "--no-picture", "--quiet", "--pace", "max", "--dds-only",
+                    "--output", output], check=True)
     contacts = json.loads((output / "result.json").read_text())["events"]["contact"]
     return loopback_bytes() - before, contacts
 

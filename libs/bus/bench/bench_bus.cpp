@@ -137,6 +137,7 @@ int main(int argc, char** argv) {
   if (role == "serve-listener" && argc > 2) {
     return bench::serve_bus(argv[2], bench::Way::kListener);
   }
+  if (role == "serve-short" && argc > 2) return bench::serve_bus(argv[2], bench::Way::kShort);
   if (role == "receive" && argc > 3) return receive(argv[2], argument(3, 0));
   if (role == "attend" && argc > 4) bench::attend(argv[2], argv[3], argument(4, 0));
   if (role == "crowd") return bench::crowd(argument(2, 50), argument(3, 10));

@@ -18,6 +18,17 @@
 #include "rave/bus/writer.hpp"
 #include "udp_ping.hpp"
 
+namespace rave::bus {
+
+/// A packet on a topic that has the short way, which that of radio has not.
+struct ShortPacket : rave_wire_Packet {};
+template <>
+inline TopicSpec topic_of<ShortPacket>() {
+  return {"bench/short", &rave_wire_Packet_desc, kNewest, 3};
+}
+
+}  // namespace rave::bus
+
 namespace rave::bus::bench {
 namespace {
 
@@ -34,17 +45,19 @@ double quantile(std::vector<double> values, double part) {
 }
 
 /// One end of the line: both topics, and what is done with a packet.
-struct End {
-  explicit End(Bus& bus)
-      : reader(*Reader<Packet>::create(bus)),
-        writer(*Writer<Packet>::create(bus)),
+template <class Message>
+struct EndOf {
+  explicit EndOf(Bus& bus)
+      : reader(*Reader<Message>::create(bus)),
+        writer(*Writer<Message>::create(bus)),
         waits(*WaitSet::create(bus)) {
     static_cast<void>(waits.add(reader));
   }
-  Reader<Packet> reader;
-  Writer<Packet> writer;
+  Reader<Message> reader;
+  Writer<Message> writer;
   WaitSet waits;
 };
+using End = EndOf<Packet>;
 
 /// Calls `Self::arrived()` on the thread that receives; nothing else may use the reader then.
 template <class Self>
@@ -109,6 +122,53 @@ struct Client {
   }
 };
 
+/// The same with the short way; `last` ends a server.
+struct ShortEnd : EndOf<ShortPacket> {
+  explicit ShortEnd(Bus& bus) : EndOf(bus) { borrow(sample.payload, payload); }
+  bool write() { return writer.write(sample).has_value(); }
+  /// Waits for one sample; whether it came.
+  bool take() {
+    bool came = false;
+    if (waits.wait(Duration{200'000'000}) != Woken::kReady) return false;
+    reader.take([&](const ShortPacket& packet) {
+      came = true;
+      last = packet.from_robot == kEnd;
+    });
+    return came;
+  }
+  std::vector<std::uint8_t> payload = std::vector<std::uint8_t>(kPingBytes, 'p');
+  ShortPacket sample{};
+  bool last = false;
+};
+
+int serve_short(Bus& bus) {
+  ShortEnd end(bus);
+  while (!end.last) {
+    if (end.take()) static_cast<void>(end.write());
+  }
+  return 0;
+}
+
+std::vector<double> short_round_trips_us(std::size_t count) {
+  const std::string run = RunId::random().text();
+  const Child server = start({"serve-short", run});
+  const auto bus = join(run, "ping");
+  ShortEnd end(*bus);
+  wait_for(1, [&] { return std::min(end.writer.readers(), end.reader.writers()); });
+  std::vector<double> times_us;
+  for (std::size_t number = 0; number <= count;) {
+    const auto sent = std::chrono::steady_clock::now();
+    if (!end.write() || !end.take()) continue;
+    const auto took = std::chrono::steady_clock::now() - sent;
+    // The first one tells that both ends know each other.
+    if (number++ > 0) times_us.push_back(std::chrono::duration<double, std::micro>(took).count());
+  }
+  end.sample.from_robot = kEnd;
+  static_cast<void>(end.write());
+  ::waitpid(server.process, nullptr, 0);
+  return times_us;
+}
+
 std::vector<double> bus_round_trips_us(std::size_t count, Way way) {
   const std::string run = RunId::random().text();
   const Child server = start({way == Way::kWaitSet ? "serve-bus" : "serve-listener", run});
@@ -146,6 +206,7 @@ void print(const char* name, const std::vector<double>& times_us, double udp_us)
 
 int serve_bus(const std::string& run, Way way) {
   const auto bus = join(run, "pong");
+  if (way == Way::kShort) return serve_short(*bus);
   Server server{.end = End(*bus)};
   if (way == Way::kListener) {
     listen(server, server.end.reader.handle());
@@ -166,12 +227,14 @@ int ping(std::size_t count) {
   std::vector<double> udp_us;
   std::vector<double> bus_us;
   std::vector<double> listener_us;
+  std::vector<double> short_us;
   for (std::size_t turn = 0; turn < kTurns; ++turn) {
     const Child server = start({"serve-udp"});
     const auto port = static_cast<int>(number_from(server));
     append(udp_us, udp_round_trips_us(port, kPingBytes, count / kTurns));
     ::waitpid(server.process, nullptr, 0);
     append(bus_us, bus_round_trips_us(count / kTurns, Way::kWaitSet));
+    append(short_us, short_round_trips_us(count / kTurns));
     append(listener_us, bus_round_trips_us(count / kTurns, Way::kListener));
   }
   const double udp = quantile(udp_us, 0.5);
@@ -179,6 +242,7 @@ int ping(std::size_t count) {
   print("udp", udp_us, udp);
   print("bus", bus_us, udp);
   print("listener", listener_us, udp);
+  print("short", short_us, udp);
   std::printf("}\n");
   return 0;
 }

@@ -7,8 +7,8 @@
 namespace rave::bus::bench {
 
 /// Who takes the sample: a thread that a wait set wakes, as all of RAVE does it, or the thread of
-/// Cyclone DDS that received it, for comparison.
-enum class Way { kWaitSet, kListener };
+/// Cyclone DDS that received it, for comparison; or the former by the short way.
+enum class Way { kWaitSet, kListener, kShort };
 
 /// Answers packets of the run until one says that it is the last. For a process of its own.
 int serve_bus(const std::string& run, Way way);

@@ -9,6 +9,7 @@
 #include "participants.hpp"
 #include "rave/bus/cyclone_log.hpp"
 #include "rave/bus/endpoint.hpp"
+#include "rave/bus/short_way.hpp"
 
 namespace rave::bus {
 namespace {
@@ -48,6 +49,19 @@ std::vector<dds_instance_handle_t> matched(dds_entity_t entity, bool reads) {
     handles.resize(size);
     if (all) return handles;
   }
+}
+
+/// The process of the reader or writer at the other end, as that says it itself.
+std::uint64_t writer_of(dds_entity_t entity, bool reads, dds_instance_handle_t handle,
+                        const RunId& run, const Participants& participants) {
+  const auto data_of = reads ? dds_get_matched_publication_data : dds_get_matched_subscription_data;
+  dds_builtintopic_endpoint_t* const data = data_of(entity, handle);
+  if (data == nullptr) return 0;
+  const Identity who = read_identity(data->qos);
+  // Its ends are here for a little longer than a process that has been told to be lost.
+  const bool lost = participants.gone(data->participant_key);
+  dds_builtintopic_free_endpoint(data);
+  return who.run == run && !lost ? who.writer : 0;
 }
 
 dds_guid_t participant_of(dds_entity_t entity, bool reads, dds_instance_handle_t handle) {
@@ -105,6 +119,12 @@ Status Bus::open_participant() {
   const dds_return_t worst =
       std::min({publisher_, subscriber_, participants_->reader(), dds_entity_t{0}});
   if (worst < 0) return refused(worst);
+  // What certificates are to protect must not go beside them.
+  if (config_.short_way && !config_.anonymous && config_.security.empty()) {
+    if (auto socket = ShortSocket::open({config_.run, writer_, 0})) {
+      short_way_ = std::make_unique<ShortSocket>(*std::move(socket));
+    }
+  }
   return {};
 }
 
@@ -138,6 +158,14 @@ Result<dds_entity_t> Bus::make_topic(const TopicSpec& spec) {
 Result<dds_entity_t> Bus::add_endpoint(const TopicSpec& topic, bool reads) {
   RAVE_TRY_ASSIGN(const dds_entity_t handle, make_topic(topic));
   const Qos qos = make_qos(topic.qos);
+  Endpoint endpoint;
+  endpoint.reads = reads;
+  endpoint.topic = topic.name;
+  open_short_way(endpoint, topic);
+  // A reader without a socket does not say whose it is: its address could be somebody else's.
+  if (topic.short_way != 0 && !config_.anonymous && (!reads || endpoint.receiver)) {
+    write_identity({config_.participant, config_.run, writer_}, qos.get());
+  }
   const dds_entity_t entity = reads ? dds_create_reader(subscriber_, handle, qos.get(), nullptr)
                                     : dds_create_writer(publisher_, handle, qos.get(), nullptr);
   // The endpoint keeps the topic alive.
@@ -147,12 +175,37 @@ Result<dds_entity_t> Bus::add_endpoint(const TopicSpec& topic, bool reads) {
                 dds_strretcode(entity));
   }
   dds_set_status_mask(entity, reads ? kReaderStatus : kWriterStatus);
-  Endpoint endpoint;
   endpoint.entity = entity;
-  endpoint.reads = reads;
-  endpoint.topic = topic.name;
   endpoints_.push_back(std::move(endpoint));
   return entity;
+}
+
+void Bus::open_short_way(Endpoint& endpoint, const TopicSpec& topic) {
+  if (short_way_ == nullptr || topic.short_way == 0) return;
+  if (!endpoint.reads) {
+    endpoint.sender = std::make_unique<ShortSender>(topic, config_.run, short_way_->descriptor());
+    return;
+  }
+  // A second reader of the topic gets none; writers see that there are two and send by DDS.
+  if (auto socket = ShortSocket::open({config_.run, writer_, topic.short_way})) {
+    endpoint.receiver = std::make_unique<ShortReceiver>(topic, config_.run, *std::move(socket));
+  }
+}
+
+Bus::Endpoint* Bus::endpoint(dds_entity_t entity) {
+  const auto found = std::ranges::find(endpoints_, entity, &Endpoint::entity);
+  return found == endpoints_.end() ? nullptr : &*found;
+}
+
+void Bus::meet(Endpoint& endpoint) {
+  if (!endpoint.sender && !endpoint.receiver) return;
+  std::vector<std::uint64_t> writers;
+  for (const dds_instance_handle_t handle : matched(endpoint.entity, endpoint.reads)) {
+    writers.push_back(
+        writer_of(endpoint.entity, endpoint.reads, handle, config_.run, *participants_));
+  }
+  if (endpoint.receiver) endpoint.receiver->meet(writers);
+  if (endpoint.sender) endpoint.sender->meet(std::move(writers));
 }
 
 void Bus::remove_endpoint(dds_entity_t entity) {
@@ -166,10 +219,14 @@ std::vector<BusEvent> Bus::take_events() {
       events_.push_back({EventKind::kNotice, "", "", 0, std::move(line)});
     }
   }
+  const std::size_t before = events_.size();
   participants_->collect(events_);
   for (Endpoint& endpoint : endpoints_) {
     collect_incompatible(endpoint);
     collect_matches(endpoint);
+  }
+  if (events_.size() > before) {
+    for (Endpoint& endpoint : endpoints_) meet(endpoint);
   }
   return std::exchange(events_, {});
 }
@@ -212,9 +269,10 @@ void Bus::collect_incompatible(const Endpoint& endpoint) {
 
 void Bus::note_foreign(const std::string& topic) {
   // Once in a thousand: whoever sends in the wrong partition sends at a rate.
-  if (foreign_samples_++ % kMaxEvents == 0) {
+  ++foreign_samples_;
+  if (foreign_told_++ % kMaxEvents == 0) {
     events_.push_back({EventKind::kForeignRun, topic, "", 0,
-                       fmt::format("{} samples of other runs so far", foreign_samples_)});
+                       fmt::format("{} samples of other runs so far", foreign_told_)});
   }
 }
 

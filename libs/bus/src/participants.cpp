@@ -116,6 +116,11 @@ Identity Participants::find(const dds_guid_t& guid) const {
   return {};
 }
 
+bool Participants::gone(const dds_guid_t& guid) const {
+  const Guid key = key_of(guid);
+  return gone_.contains(key) && !known_.contains(key);
+}
+
 std::vector<BusProcess> Participants::all() const {
   std::vector<BusProcess> processes;
   for (const auto& [key, who] : known_) processes.push_back({who.name, who.run, who.writer});

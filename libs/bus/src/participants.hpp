@@ -36,6 +36,8 @@ class Participants {
   void collect(std::vector<BusEvent>& events);
   /// Who has the participant; empty if nobody known.
   [[nodiscard]] Identity find(const dds_guid_t& guid) const;
+  /// Whether the participant was here and is not any more.
+  [[nodiscard]] bool gone(const dds_guid_t& guid) const;
   [[nodiscard]] std::vector<BusProcess> all() const;
   [[nodiscard]] dds_entity_t reader() const noexcept { return reader_; }
 

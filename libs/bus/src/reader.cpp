@@ -1,19 +1,55 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/bus/reader.hpp"
 
+#include <cstring>
+
+#include "rave/bus/short_way.hpp"
+
 namespace rave::bus {
 
 Result<ReaderCore> ReaderCore::create(Bus& bus, const TopicSpec& topic) {
   ReaderCore core(bus, topic.name);
   RAVE_TRY_ASSIGN(core.reader_, bus.add_endpoint(topic, true));
+  core.short_ = bus.endpoint(core.reader_)->receiver.get();
   return core;
 }
 
 ReaderCore::ReaderCore(ReaderCore&& other) noexcept
-    : bus_(other.bus_), topic_(other.topic_), reader_(std::exchange(other.reader_, 0)) {}
+    : bus_(other.bus_),
+      topic_(other.topic_),
+      reader_(std::exchange(other.reader_, 0)),
+      short_(other.short_) {}
 
 ReaderCore::~ReaderCore() {
   if (reader_ > 0) bus_->remove_endpoint(reader_);
+}
+
+std::size_t ReaderCore::begin_take() {
+  return short_ == nullptr ? 0 : short_->begin_take(kMostAtOnce);
+}
+
+bool ReaderCore::leaves_dds(bool got) { return short_ != nullptr && short_->leaves_dds(got); }
+
+const void* ReaderCore::take_short(std::size_t& budget) {
+  for (; budget > 0; --budget) {
+    auto datagram = short_->receive();
+    if (!datagram) return nullptr;
+    if (datagram->writer == 0 && short_->may_meet()) {
+      // It may have come since the others were looked at.
+      bus_->meet(*bus_->endpoint(reader_));
+      datagram->writer = short_->sender();
+    }
+    if (datagram->writer == 0) {
+      bus_->note_stranger();
+      continue;
+    }
+    if (const void* const sample = short_->decoder().decode(datagram->bytes)) {
+      --budget;
+      return sample;
+    }
+    refuse(datagram->writer, "what came by the short way is no sample of this topic");
+  }
+  return nullptr;
 }
 
 void ReaderCore::refuse(std::uint64_t writer, std::string why) {

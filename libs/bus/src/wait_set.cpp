@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "participants.hpp"
+#include "rave/bus/short_way.hpp"
+#include "relay.hpp"
 
 namespace rave::bus {
 namespace {
@@ -15,6 +17,8 @@ Status done(dds_return_t code) {
 }
 
 }  // namespace
+
+WaitSet::WaitSet(Bus& bus) : bus_(&bus) {}
 
 Result<WaitSet> WaitSet::create(Bus& bus) {
   WaitSet set(bus);
@@ -32,9 +36,11 @@ WaitSet::WaitSet(WaitSet&& other) noexcept
       set_(std::exchange(other.set_, 0)),
       stop_(std::exchange(other.stop_, 0)),
       bell_(std::exchange(other.bell_, 0)),
+      relay_(std::move(other.relay_)),
       conditions_(std::exchange(other.conditions_, {})) {}
 
 WaitSet::~WaitSet() {
+  relay_.reset();
   if (set_ > 0) dds_delete(set_);
   if (stop_ > 0) dds_delete(stop_);
   if (bell_ > 0) dds_delete(bell_);
@@ -49,7 +55,14 @@ Status WaitSet::add_reader(dds_entity_t reader) {
   const dds_entity_t condition = dds_create_readcondition(reader, DDS_ANY_STATE);
   RAVE_TRY(done(condition));
   conditions_.push_back(condition);
-  return attach(condition);
+  RAVE_TRY(attach(condition));
+  const Bus::Endpoint* const endpoint = bus_->endpoint(reader);
+  if (endpoint == nullptr || !endpoint->receiver) return {};
+  if (!relay_) {
+    RAVE_TRY_ASSIGN(relay_, Relay::create(set_, bell_));
+  }
+  relay_->add(*endpoint->receiver);
+  return {};
 }
 
 Status WaitSet::add_events() {
@@ -61,16 +74,25 @@ Status WaitSet::add_events() {
 void WaitSet::ring() const noexcept { dds_set_guardcondition(bell_, true); }
 
 Woken WaitSet::wait(Duration timeout, const std::stop_token& stop) {
-  dds_set_guardcondition(stop_, false);
-  const std::stop_callback wake(stop, [this] { dds_set_guardcondition(stop_, true); });
-  std::array<dds_attach_t, 1> woken{};
-  const dds_return_t count = dds_waitset_wait(set_, woken.data(), woken.size(),
-                                              timeout.ns < 0 ? DDS_INFINITY : timeout.ns);
+  auto came = Relay::Came::kNothing;
+  {
+    const std::stop_callback wake(stop, [this] { dds_set_guardcondition(stop_, true); });
+    std::array<dds_attach_t, 1> woken{};
+    if (relay_) {
+      came = relay_->wait(timeout);
+    } else if (dds_waitset_wait(set_, woken.data(), woken.size(),
+                                timeout.ns < 0 ? DDS_INFINITY : timeout.ns) > 0) {
+      came = Relay::Came::kSet;
+    }
+  }
+  // Nobody sets it any more: the next wait may have another token.
+  if (stop.stop_requested()) dds_set_guardcondition(stop_, false);
   // Whoever rings after this has done what it rings for before the caller looks again.
+  // If a socket was first the bell ends the next wait.
   bool rung = false;
-  static_cast<void>(dds_take_guardcondition(bell_, &rung));
+  if (came != Relay::Came::kSocket) static_cast<void>(dds_take_guardcondition(bell_, &rung));
   if (stop.stop_requested()) return Woken::kStopped;
-  return count > 0 ? Woken::kReady : Woken::kTimeout;
+  return came != Relay::Came::kNothing ? Woken::kReady : Woken::kTimeout;
 }
 
 }  // namespace rave::bus

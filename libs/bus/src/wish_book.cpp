@@ -6,6 +6,7 @@
 
 #include "rave/base/control_characters.hpp"
 #include "rave/bus/topics.hpp"
+#include "rave/bus/wish_parts.hpp"
 
 namespace rave::bus {
 namespace {
@@ -18,6 +19,10 @@ constexpr std::size_t kMostTold = 300;
 std::string for_log(std::string text) {
   if (text.size() > kMostTold) text = text.substr(0, kMostTold) + "...";
   return without_control_characters(text, " ");
+}
+
+bool is_long(const WishBook::Reply& reply) {
+  return reply.text.size() > rave_wire_kMaxWishAnswerBytes;
 }
 
 }  // namespace
@@ -54,19 +59,44 @@ WishBook::Asker* WishBook::asker_of(std::uint64_t writer, Clock::time_point now)
   return &place->second;
 }
 
+/// Bytes of the long answers that are kept for others than this one.
+std::size_t WishBook::kept_long(const Asker* but) const {
+  std::size_t bytes = 0;
+  for (const auto& [writer, asker] : askers_) {
+    if (&asker != but && asker.said && is_long(*asker.said)) bytes += asker.said->text.size();
+  }
+  return bytes;
+}
+
 void WishBook::reply(Asker* asker, Reply reply, Clock::time_point now) {
-  if (reply.taken && reply.text.size() > rave_wire_kMaxWishAnswerBytes) {
-    reply.taken = false;
-    reply.text = fmt::format(
-        "it was done, but the answer has {} bytes, and over the bus go {}: ask on the machine "
-        "where "
-        "this process runs",
-        reply.text.size(), rave_wire_kMaxWishAnswerBytes);
+  if (is_long(reply)) {
+    const std::size_t bytes = reply.text.size();
+    if (bytes > kMostAnswerBytes) {
+      reply.taken = false;
+      reply.text = fmt::format(
+          "it was done, but the answer has {} bytes, and over the bus go {}: ask on the machine "
+          "where this process runs",
+          bytes, kMostAnswerBytes);
+    } else if (asker == nullptr || kept_long(asker) + bytes > kMostKeptLong) {
+      reply.taken = false;
+      reply.text = fmt::format(
+          "it was done, but the answer has {} bytes, and others have such long ones to fetch; ask "
+          "again later",
+          bytes);
+    }
   }
   if (asker != nullptr) {
     asker->said = reply;
     asker->said_at = now;
   }
+  send(std::move(reply), 0);
+}
+
+/// What of an answer goes in one message.
+void WishBook::send(Reply reply, std::size_t from) {
+  auto part = answer_part(reply.text, from);
+  if (!part) return;
+  reply.text = *std::move(part);
   replies_.push_back(std::move(reply));
 }
 
@@ -91,7 +121,9 @@ void WishBook::hear(const Heard& wish, Clock::time_point now) {
   const bool in_time = asker->budget.take(kPerSecond, kAtOnce, now) &&
                        (!known || all_.take(kAllPerSecond, kAllAtOnce, now));
   if (number <= asker->last) {
-    if (in_time && asker->said && asker->said->number == number) replies_.push_back(*asker->said);
+    if (in_time && asker->said && asker->said->number == number) {
+      send(*asker->said, rest_wished(line));
+    }
     return;
   }
   if (!in_time) {

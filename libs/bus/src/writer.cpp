@@ -2,23 +2,40 @@
 #include "rave/bus/writer.hpp"
 
 #include "rave/bus/endpoint.hpp"
+#include "rave/bus/short_way.hpp"
 
 namespace rave::bus {
 
 Result<WriterCore> WriterCore::create(Bus& bus, const TopicSpec& topic) {
   WriterCore core(bus, topic.name);
   RAVE_TRY_ASSIGN(core.writer_, bus.add_endpoint(topic, false));
+  core.short_ = bus.endpoint(core.writer_)->sender.get();
   return core;
 }
 
 WriterCore::WriterCore(WriterCore&& other) noexcept
-    : bus_(other.bus_), topic_(other.topic_), writer_(std::exchange(other.writer_, 0)) {}
+    : bus_(other.bus_),
+      topic_(other.topic_),
+      writer_(std::exchange(other.writer_, 0)),
+      short_(other.short_) {}
 
 WriterCore::~WriterCore() {
   if (writer_ > 0) bus_->remove_endpoint(writer_);
 }
 
+bool WriterCore::goes_short(const void* sample) {
+  if (short_ == nullptr) return false;
+  if (short_->due()) {
+    const std::size_t count = readers();
+    if (short_->readers() != count) bus_->meet(*bus_->endpoint(writer_));
+    if (short_->readers() != count) return false;
+    short_->counted();
+  }
+  return short_->send(sample);
+}
+
 Status WriterCore::write(const void* sample) {
+  if (goes_short(sample)) return {};
   const dds_return_t code = dds_write(writer_, sample);
   if (code == DDS_RETCODE_OK) return {};
   if (code == DDS_RETCODE_TIMEOUT) {

@@ -133,6 +133,25 @@ void unreliable(Bus& bus) {
   while (!ended(-1)) continue;
 }
 
+/// Tells of each world that has come, in a report of that step, whether that was by the short way.
+void follow(Bus& bus, const Arguments& arguments) {
+  auto worlds = Reader<WorldStep>::create(bus);
+  auto reports = Writer<HostReport>::create(bus);
+  auto waits = WaitSet::create(bus);
+  static_cast<void>(waits->add(*worlds));
+  say("ready");
+  while (!ended(0)) {
+    static_cast<void>(waits->wait(Duration{20'000'000}));
+    worlds->take([&](const WorldStep& world, const dds_sample_info_t& info) {
+      HostReport report{};
+      report.host = number(arguments, "host");
+      report.step = world.step;
+      put_text(report.text, info.publication_handle == 0 ? "short" : "dds");
+      static_cast<void>(reports->write(report));
+    });
+  }
+}
+
 }  // namespace
 
 bool play(const std::string& role, Bus& bus, const Arguments& arguments) {
@@ -141,6 +160,7 @@ bool play(const std::string& role, Bus& bus, const Arguments& arguments) {
   if (role == "furnish") return furnish(bus, arguments), true;
   if (role == "host") return host(bus, arguments), true;
   if (role == "world") return world(bus, arguments), true;
+  if (role == "follow") return follow(bus, arguments), true;
   if (role == "stray") return stray(bus), true;
   if (role == "unreliable") return unreliable(bus), true;
   return false;

@@ -9,6 +9,8 @@
 
 #include "peer_process.hpp"
 #include "rave/bus/reader.hpp"
+#include "rave/bus/short_way.hpp"
+#include "rave/bus/writer.hpp"
 #include "rave/keys/key_set.hpp"
 
 namespace rave::bus::testing {
@@ -18,14 +20,16 @@ constexpr std::int64_t kDay_s = 86'400;
 
 /// Sets of keys in a folder of their own.
 class Security : public ::testing::Test {
+ public:
+  ~Security() override {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+
  protected:
   Security() {
     std::string name = std::filesystem::temp_directory_path() / "rave-bus-XXXXXX";
     if (::mkdtemp(name.data()) != nullptr) folder_ = name;
-  }
-  ~Security() override {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
   }
 
   /// Two members, `left` and `right`, for ten days from `now_s` on.
@@ -89,6 +93,35 @@ TEST_F(Security, AMemberThatWasAddedTakesPart) {
   std::filesystem::remove_all(folder_ / "ours/right");
   std::filesystem::rename(folder_ / "ours/late", folder_ / "ours/right");
   expect_only("ours", 3);
+}
+
+TEST_F(Security, NothingGoesBesideTheCertificates) {
+  make_set("ours");
+  PeerProcess peer(domain_, "follow", "peer",
+                   {"host=1", "security=" + (folder_ / "ours/left").string()});
+  ASSERT_EQ(peer.line(), "ready");
+  const auto bus = Bus::open(config("ours"));
+  ASSERT_TRUE(bus) << bus.error().text();
+  auto worlds = Writer<WorldStep>::create(**bus);
+  auto reports = Reader<HostReport>::create(**bus);
+  ASSERT_TRUE(worlds && reports);
+  // Nobody has the addresses of the short way.
+  EXPECT_TRUE(ShortSocket::open({domain_.run, (*bus)->writer(), 0}));
+  EXPECT_TRUE(ShortSocket::open({domain_.run, (*bus)->writer(), topic_of<HostReport>().short_way}));
+  int heard = 0;
+  WorldStep world{};
+  world.epoch = 1;
+  EXPECT_TRUE(eventually([&] {
+    ++world.step;
+    EXPECT_TRUE(worlds->write(world));
+    reports->take([&](const HostReport& report, const dds_sample_info_t& info) {
+      ++heard;
+      EXPECT_STREQ(report.text, "dds");
+      EXPECT_NE(info.publication_handle, 0U);
+    });
+    return heard >= 20;
+  }));
+  EXPECT_EQ(peer.end(), 0);
 }
 
 TEST_F(Security, WhoseCertificateHasExpiredIsTold) {

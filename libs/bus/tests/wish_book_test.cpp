@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "rave/bus/topics.hpp"
+#include "rave/bus/wish_parts.hpp"
 
 namespace rave::bus {
 namespace {
@@ -173,12 +174,60 @@ TEST_F(WishBookTest, MadeUpAskersAreStoppedTogether) {
             static_cast<std::size_t>(WishBook::kAllAtOnce + WishBook::kAllPerSecond));
 }
 
+TEST_F(WishBookTest, ALongAnswerIsFetchedPartByPart) {
+  const std::string line(3 * std::size_t{rave_wire_kMaxWishAnswerBytes}, 'x');
+  hear(7, 1, line);
+  AnswerParts parts;
+  int messages = 0;
+  for (Replies replies = take(); !replies.empty() && messages < 10; replies = take()) {
+    ASSERT_EQ(replies.size(), 1U);
+    EXPECT_TRUE(replies[0].taken);
+    EXPECT_LE(replies[0].text.size(), std::size_t{rave_wire_kMaxWishAnswerBytes});
+    ASSERT_TRUE(parts.add(replies[0].text)) << replies[0].text.substr(0, 60);
+    ++messages;
+    hear(7, 1, wish_for_rest(parts.text().size()));
+  }
+  EXPECT_TRUE(parts.complete());
+  EXPECT_EQ(parts.text(), "done: " + line);
+  EXPECT_EQ(messages, 4);
+  EXPECT_EQ(begun_.size(), 1U);
+  now_ += WishBook::kKept + seconds(1);
+  static_cast<void>(take());
+  hear(7, 1, wish_for_rest(100));
+  EXPECT_TRUE(take().empty());
+}
+
 TEST_F(WishBookTest, AnAnswerThatIsTooLongIsNotSent) {
-  hear(7, 1, std::string(rave_wire_kMaxWishAnswerBytes + 1, 'x'));
+  hear(7, 1, std::string(kMostAnswerBytes, 'x'));
   const Replies replies = take();
   ASSERT_EQ(replies.size(), 1U);
   EXPECT_FALSE(replies[0].taken);
-  EXPECT_NE(replies[0].text.find("over the bus go 262144"), std::string::npos) << replies[0].text;
+  EXPECT_NE(replies[0].text.find("over the bus go 8388608"), std::string::npos) << replies[0].text;
+}
+
+TEST_F(WishBookTest, LongAnswersAreKeptForAFewAtOnce) {
+  const std::string line(kMostAnswerBytes / 2, 'x');
+  const std::size_t most = WishBook::kMostKeptLong / line.size() - 1;
+  for (std::uint64_t writer = 1; writer <= most; ++writer) {
+    hear(writer, 1, line);
+    const Replies replies = take();
+    ASSERT_EQ(replies.size(), 1U);
+    EXPECT_TRUE(replies[0].taken) << writer;
+  }
+  hear(99, 1, line);
+  const Replies replies = take();
+  ASSERT_EQ(replies.size(), 1U);
+  EXPECT_FALSE(replies[0].taken);
+  EXPECT_NE(replies[0].text.find("ask again later"), std::string::npos) << replies[0].text;
+  // Who asks anew gives up what was kept for it.
+  hear(1, 2, line);
+  ASSERT_EQ(take().size(), 1U);
+  now_ += WishBook::kKept + seconds(1);
+  static_cast<void>(take());
+  hear(99, 2, line);
+  const Replies later = take();
+  ASSERT_EQ(later.size(), 1U);
+  EXPECT_TRUE(later[0].taken);
 }
 
 }  // namespace

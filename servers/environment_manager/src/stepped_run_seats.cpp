@@ -62,6 +62,7 @@ Status SteppedRun::sit_down(Seat& seat, const bus::HostReport& message) {
   log(LogLevel::kInfo, "host `{}` is {}, with {} robots", seat.name,
       seat.state == SeatState::kLost ? fmt::format("back in step {}", step_) : "here", seat.robots);
   seat.writer = message.writer;
+  seat.last_step = 0;
   roster_.stir();
   note_sitting(seat.sat, message.writer);
   seat.state = SeatState::kRuns;
@@ -76,6 +77,9 @@ Status SteppedRun::hear(const bus::HostReport& message) {
   if (const Status sits = sit_down(seat, message); !sits) {
     board_->refuse(message, sits.error().message);
     return {};
+  }
+  if (begun_ && message.writer == seat.writer && message.step < seat.last_step) {
+    return {};  // a later one has overtaken it
   }
   seat.last_step = message.step;
   newest_report_ = std::max(newest_report_, message.step);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <set>
 
 #include "rave/bus/sequence.hpp"
 #include "rave/bus/wait_set.hpp"
@@ -27,6 +28,8 @@ constexpr milliseconds kFirstPatience{20};
 constexpr milliseconds kLongestPatience{1000};
 /// The epoch in worlds that hosts hand back: of no authority, but not 0.
 constexpr std::uint64_t kHandedOver = 1;
+/// More processes that have gone are not remembered.
+constexpr std::size_t kMostGone = 4096;
 
 }  // namespace
 
@@ -55,9 +58,12 @@ struct HostPort::Impl {
   sim::ObstacleHistory obstacles{};                   ///< Before the last world.
   std::vector<sim::ObstacleChange> last_obstacles{};  ///< Of that world.
   bool has_world = false;
-  std::uint64_t epoch = 0;    ///< Of the authority that answered last; 0: it is gone.
-  std::uint64_t manager = 0;  ///< Its process; 0: nobody has been heard of.
-  RunWords words{};           ///< What is said of the run, and by whom.
+  std::uint64_t epoch = 0;  ///< Of the authority that answered last; 0: it is gone.
+  std::uint64_t first_epoch = 0;
+  bool changed_hands = false;      ///< Another authority than the first has answered.
+  std::uint64_t manager = 0;       ///< Its process; 0: nobody has been heard of.
+  std::set<std::uint64_t> gone{};  ///< Processes that have been missed, and not come back.
+  RunWords words{};                ///< What is said of the run, and by whom.
   Clock::time_point alone_since = Clock::now();  ///< While there is none.
   std::string told{};                            ///< What the log was told last.
   Ending ending{};
@@ -65,6 +71,7 @@ struct HostPort::Impl {
 
   void tell(LogLevel level, const std::string& text);
   void look_at_processes();
+  void lose(std::uint64_t writer);
   void meet(const bus::HostInfo& info);
   void hear(const RunWord& word);
   void look_at_patience();
@@ -93,7 +100,7 @@ void HostPort::Impl::meet(const bus::HostInfo& info) {
     }
     words.welcome(info.writer);
     // Another one counts when the one before has been missed, and not before.
-    if (manager != 0) return;
+    if (manager != 0 || gone.contains(info.writer)) return;
     manager = info.writer;
     tell(LogLevel::kInfo, fmt::format("the environment manager is `{}` on {}", info.name,
                                       *info.machine != '\0' ? info.machine : "this machine"));
@@ -109,8 +116,9 @@ void HostPort::Impl::meet(const bus::HostInfo& info) {
 }
 
 void HostPort::Impl::hear(const RunWord& word) {
-  if (manager == 0) manager = word.writer;
-  if (word.writer != manager) return;
+  // What the last one said before it went counts, and does not bring it back.
+  if (manager == 0 && !gone.contains(word.writer)) manager = word.writer;
+  if (manager != 0 && word.writer != manager) return;
   if (word.without_us) {
     over = true;
     ending = {false, "it went on without this host, which was late or gone"};
@@ -131,22 +139,31 @@ void HostPort::Impl::hear(const RunWord& word) {
   }
 }
 
+void HostPort::Impl::lose(std::uint64_t writer) {
+  if (writer == 0) return;
+  if (gone.size() >= kMostGone) gone.erase(gone.begin());
+  gone.insert(writer);
+  if (writer != manager) return;
+  manager = 0;
+  epoch = 0;
+  alone_since = Clock::now();
+  if (over) return;
+  tell(LogLevel::kError, "the environment manager is gone; robots stand until one is back");
+}
+
 void HostPort::Impl::look_at_processes() {
+  using enum bus::EventKind;
+  // Before what processes say: who comes back is heard, and who goes has been.
+  const std::vector<bus::BusEvent> events = bus->take_events();
+  for (const bus::BusEvent& event : events) {
+    if (event.kind == kParticipantAppeared) gone.erase(event.writer);
+  }
   infos.take([this](const bus::HostInfo& info) { meet(info); });
   states.take([this](const bus::RunState& state) { words.hear(run_word(state, self.host)); });
   for (const RunWord& word : words.take()) hear(word);
-  for (const bus::BusEvent& event : bus->take_events()) {
-    const bool lost = event.kind == bus::EventKind::kParticipantLost;
-    if (lost && event.writer != 0 && event.writer == manager) {
-      manager = 0;
-      epoch = 0;
-      alone_since = Clock::now();
-      if (!over) {
-        tell(LogLevel::kError, "the environment manager is gone; robots stand until one is back");
-      }
-      continue;
-    }
-    using enum bus::EventKind;
+  for (const bus::BusEvent& event : events) {
+    if (event.kind == kParticipantLost) lose(event.writer);
+    if (event.kind == kParticipantAppeared) gone.erase(event.writer);
     const bool worth = event.kind == kRefused || event.kind == kIncompatible ||
                        event.kind == kForeignRun || event.kind == kNotice;
     if (worth && log != nullptr) log->warn("bus", "{}", event.line());
@@ -194,11 +211,15 @@ Status HostPort::Impl::follow_obstacles(const sim::WorldStep& world, sim::Author
 bool HostPort::Impl::take_world(const sim::HostReport& report, sim::WorldStep& world) {
   bool found = false;
   worlds.take([&](const bus::WorldStep& sample) {
+    // It came late, and nobody would answer the next report. Who takes over, or comes back, sends
+    // it again.
+    if (gone.contains(sample.writer)) return;
     if (epoch != 0 && sample.epoch != epoch) {
       worlds.refuse(sample, "it is of another authority than the one this run has");
       return;
     }
-    if (sample.step < report.step) return;  // sent again for somebody else
+    if (sample.step < report.step) return;           // sent again for somebody else
+    if (found && sample.step <= world.step) return;  // the same one twice
     const auto hosts = bus::elements(sample.hosts);
     if (self.host >= hosts.size() || hosts[self.host] != bus->writer()) return;  // not for us
     sim::AuthorityState state;
@@ -212,6 +233,8 @@ bool HostPort::Impl::take_world(const sim::HostReport& report, sim::WorldStep& w
     has_world = true;
     authority = std::move(state);
     epoch = sample.epoch;
+    if (first_epoch == 0) first_epoch = epoch;
+    changed_hands = changed_hands || epoch != first_epoch;
     manager = sample.writer;
     found = true;
   });
@@ -243,11 +266,12 @@ Result<std::unique_ptr<HostPort>> HostPort::open(const bus::BusConfig& config, I
   RAVE_TRY(waits.add_events());
   bus::HostInfo info = introduction(identity);
   RAVE_TRY(own_info.write(info));
-  return std::unique_ptr<HostPort>(new HostPort(std::unique_ptr<Impl>(
-      new Impl{std::move(identity), log, std::move(bus), std::move(reports), std::move(own_info),
-               std::move(last_worlds), std::move(worlds), std::move(states), std::move(infos),
-               std::move(wishes), std::move(waits), std::move(pulse), std::move(roster),
-               std::move(findings), info, patience})));
+  std::unique_ptr<Impl> impl(new Impl{std::move(identity), log, std::move(bus), std::move(reports),
+                                      std::move(own_info), std::move(last_worlds),
+                                      std::move(worlds), std::move(states), std::move(infos),
+                                      std::move(wishes), std::move(waits), std::move(pulse),
+                                      std::move(roster), std::move(findings), info, patience});
+  return std::unique_ptr<HostPort>(new HostPort(std::move(impl)));
 }
 
 Result<HostPort::Answer> HostPort::exchange(const sim::HostReport& report, std::uint64_t hash,
@@ -284,6 +308,7 @@ Result<HostPort::Answer> HostPort::exchange(const sim::HostReport& report, std::
 
 Roster& HostPort::roster() noexcept { return impl_->roster; }
 const sim::AuthorityState& HostPort::authority() const noexcept { return impl_->authority; }
+bool HostPort::changed_hands() const noexcept { return impl_->changed_hands; }
 const HostPort::Ending& HostPort::ending() const noexcept { return impl_->ending; }
 
 Status HostPort::deliver(std::span<const std::byte> findings) {

@@ -12,6 +12,9 @@ using bus::borrow;
 using bus::elements;
 using bus::put_text;
 
+/// In the kind of a noted event: it is of the step before that of its world, which is done.
+constexpr std::uint32_t kOfStepBefore = 0x8000'0000;
+
 /// Columns go on the wire as they lie in memory; a message only reads what it borrows.
 template <class Sequence, class T>
 void lend(Sequence& sequence, const std::vector<T>& values) {
@@ -302,6 +305,12 @@ Status WorldMessage::fill_authority(const sim::AuthorityState& authority) {
     events_.push_back(
         {event.robot.value(), static_cast<std::uint32_t>(event.kind), event.other.value()});
   }
+  for (const sim::Event& event : authority.done) {
+    // What does not fit is missed by who tells of the run, and by nobody else.
+    if (events_.size() >= rave_wire_kMaxRobots) break;
+    events_.push_back({event.robot.value(), static_cast<std::uint32_t>(event.kind) | kOfStepBefore,
+                       event.other.value()});
+  }
   borrow(message_.authority.events, events_);
   pinned_.clear();
   for (const RobotId robot : authority.pinned) pinned_.push_back(robot.value());
@@ -386,12 +395,32 @@ Status read_obstacles(const Sequence& sequence, std::vector<sim::ObstacleChange>
   return {};
 }
 
+/// An event of the step before that of the world.
+Status read_done(const rave_wire_NotedEvent& event, std::uint64_t step,
+                 std::vector<sim::Event>& done) {
+  const auto kind = static_cast<sim::EventKind>(event.kind & ~kOfStepBefore);
+  const bool pinned = kind == sim::EventKind::kPinned;
+  const bool told = pinned || kind == sim::EventKind::kContact;
+  if (!told || event.robot == rave_wire_kNone || step == 0) {
+    return fail(ErrorCode::kInvalidArgument,
+                "an event of kind {} of the step before {}, which nobody needs",
+                event.kind & ~kOfStepBefore, step);
+  }
+  done.push_back({step - 1, RobotId(event.robot), kind, BodyId(event.other),
+                  std::string(pinned ? sim::kPinnedText : ""), 0});
+  return {};
+}
+
 Status read_authority(const rave_wire_AuthorityState& message, std::uint64_t step,
                       sim::AuthorityState& authority) {
   authority = {};
   authority.hash = RunHash::of_value(message.hash);
   authority.inputs = message.inputs;
   for (const auto& event : elements(message.events)) {
+    if ((event.kind & kOfStepBefore) != 0) {
+      RAVE_TRY(read_done(event, step, authority.done));
+      continue;
+    }
     const auto kind = static_cast<sim::EventKind>(event.kind);
     const bool of_obstacle = sim::is_of_obstacle(kind);
     if (event.robot == rave_wire_kNone ? !concerns_world(kind) : of_obstacle) {

@@ -10,8 +10,6 @@
 namespace rave::lock_step {
 namespace {
 
-constexpr std::chrono::seconds kPeriod{1};
-
 /// Time of cores that this process has used.
 std::int64_t cpu_ns() {
   std::timespec used{};
@@ -33,17 +31,18 @@ std::uint64_t memory_bytes() {
 
 }  // namespace
 
-Pulse::Pulse(bus::Bus& bus, bus::Writer<bus::ProcessState> writer, const Identity& self)
-    : bus_(&bus), writer_(std::move(writer)) {
+Pulse::Pulse(bus::Bus& bus, bus::Writer<bus::ProcessState> writer, const Identity& self,
+             std::chrono::nanoseconds period)
+    : bus_(&bus), writer_(std::move(writer)), period_(period) {
   state_.host = self.host;
   state_.robots = self.robots;
   state_.real_robots = self.real_robots;
   state_.process = static_cast<std::uint32_t>(::getpid());
 }
 
-Result<Pulse> Pulse::create(bus::Bus& bus, const Identity& self) {
+Result<Pulse> Pulse::create(bus::Bus& bus, const Identity& self, std::chrono::nanoseconds period) {
   RAVE_TRY_ASSIGN(auto writer, bus::Writer<bus::ProcessState>::create(bus));
-  return Pulse(bus, std::move(writer), self);
+  return Pulse(bus, std::move(writer), self, period);
 }
 
 void Pulse::count_real(std::uint32_t robots) noexcept {
@@ -55,7 +54,7 @@ void Pulse::count_real(std::uint32_t robots) noexcept {
 void Pulse::beat(const Facts& facts) {
   const auto now = Clock::now();
   if (now < next_) return;
-  next_ = now + kPeriod;
+  next_ = now + period_;
   ++state_.number;
   state_.step = facts.step;
   state_.missed = facts.missed;

@@ -120,6 +120,9 @@ inline sim::AuthorityState example_authority() {
   state.refused_count = 3;
   state.refused = {{7, RobotId(2), sim::EventKind::kChangeRefused, BodyId(), "too large", 0},
                    {40, RobotId(), sim::EventKind::kChangeRefused, BodyId(), "in the way", 0}};
+  state.done = {
+      {40, RobotId(0), sim::EventKind::kContact, BodyId(2), "", 0},
+      {40, RobotId(2), sim::EventKind::kPinned, BodyId(8), std::string(sim::kPinnedText), 0}};
   return state;
 }
 

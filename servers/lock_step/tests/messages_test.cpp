@@ -126,6 +126,10 @@ std::string text_of(const sim::AuthorityState& state) {
     text += fmt::format("event {} {} {} {} ", event.step, event.robot.value(),
                         static_cast<int>(event.kind), event.other.value());
   }
+  for (const sim::Event& event : state.done) {
+    text += fmt::format("done {} {} {} {} {} ", event.step, event.robot.value(),
+                        static_cast<int>(event.kind), event.other.value(), event.text);
+  }
   for (const RobotId robot : state.pinned) text += fmt::format("pinned {} ", robot.value());
   for (const sim::ResizedRobot& robot : state.scales) {
     text += fmt::format("scale {} ", robot.robot.value()) + bits(robot.scale);
@@ -261,6 +265,11 @@ TEST(Messages, AWorldThatNobodyCouldUseIsRefusedWithItsField) {
       "an event of kind 1 that is of no robot");
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.authority.events._buffer[1].robot = 0; }),
             "an event of kind 29 that is of a robot");
+  EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.authority.events._buffer[2].kind ^= 0x10; }),
+            "an event of kind 17 of the step before 41, which nobody needs");
+  EXPECT_EQ(
+      refusal_of([](bus::WorldStep& w) { w.authority.events._buffer[3].robot = rave_wire_kNone; }),
+      "an event of kind 2 of the step before 41, which nobody needs");
 }
 
 TEST(Introduction, ProcessesThatDifferAreTold) {

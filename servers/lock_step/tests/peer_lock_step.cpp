@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The other process of the tests of what processes say to each other: peer_lock_step ROLE
 // name=value ...
+#include <array>
+#include <string>
+
 #include "made_findings.hpp"
 #include "peer_console.hpp"
 #include "peer_roles.hpp"
 #include "rave/bus/wait_set.hpp"
+#include "rave/bus/writer.hpp"
 #include "rave/lock_step/findings.hpp"
+#include "rave/lock_step/messages.hpp"
 #include "rave/lock_step/pulse.hpp"
 
 namespace rave::bus::testing {
@@ -44,12 +49,21 @@ void deliver(Bus& bus, const Arguments& arguments) {
   while (!ended(-1)) continue;
 }
 
-/// A host of three robots. Each byte on the input: one more of them is real.
+/// A host of three robots that says how it fares only when it has a reason. The first byte on the
+/// input: there is who listens. Each other one: one more of its robots is real.
 void pulse(Bus& bus) {
   Identity self;
   self.name = "left";
   self.robots = 3;
-  auto pulse = Pulse::create(bus, self);
+  auto pulse = Pulse::create(bus, self, std::chrono::hours(1));
+  char begin = 0;
+  if (::read(STDIN_FILENO, &begin, 1) != 1) return;
+  for (bool known = false; !known;) {
+    if (ended(5)) return;
+    for (const BusEvent& event : bus.take_events()) {
+      known = known || event.kind == EventKind::kReaderAppeared;
+    }
+  }
   std::uint32_t real = 0;
   while (true) {
     pulse->beat({});
@@ -61,9 +75,32 @@ void pulse(Bus& bus) {
   }
 }
 
+/// A manager that knows nothing but to answer each report with an empty world of that step. It says
+/// its writer id first.
+void answer(Bus& bus, const Arguments& arguments) {
+  auto reports = Reader<HostReport>::create(bus);
+  auto worlds = Writer<WorldStep>::create(bus);
+  auto waits = WaitSet::create(bus);
+  static_cast<void>(waits->add(*reports));
+  WorldMessage message;
+  say(std::to_string(bus.writer()));
+  while (!ended(0)) {
+    static_cast<void>(waits->wait(Duration{20'000'000}));
+    static_cast<void>(bus.take_events());
+    reports->take([&](const HostReport& report) {
+      sim::WorldStep world;
+      world.begin(report.step, 0);
+      auto sample = message.fill(world, {}, std::stoull(arguments.at("epoch")));
+      message.address(std::array{report.writer});
+      static_cast<void>(worlds->write(**sample));
+    });
+  }
+}
+
 }  // namespace
 
 bool play(const std::string& role, Bus& bus, const Arguments& arguments) {
+  if (role == "answer") return answer(bus, arguments), true;
   if (role == "collect") return collect(bus), true;
   if (role == "pulse") return pulse(bus), true;
   if (role == "deliver") return deliver(bus, arguments), true;

@@ -18,6 +18,9 @@ namespace rave::bus {
 
 class CycloneLog;
 class Participants;
+class ShortReceiver;
+class ShortSender;
+class ShortSocket;
 
 /// Another process in the domain, as it introduces itself. A value.
 struct BusProcess {
@@ -52,7 +55,7 @@ class Bus {
   /// The other processes in the domain, of this and of other runs, as of the last take_events().
   [[nodiscard]] std::vector<BusProcess> processes() const;
 
-  /// How many samples of other runs came by.
+  /// How many samples of other runs came by, and by the short way also of strangers.
   [[nodiscard]] std::uint64_t foreign_samples() const noexcept { return foreign_samples_; }
   /// How many samples were refused by validation.
   [[nodiscard]] std::uint64_t refused_samples() const noexcept { return refused_samples_; }
@@ -74,6 +77,8 @@ class Bus {
       dds_guid_t participant{};
     };
     std::vector<Peer> peers;
+    std::unique_ptr<ShortSender> sender;
+    std::unique_ptr<ShortReceiver> receiver;
   };
 
   explicit Bus(BusConfig config);
@@ -84,7 +89,13 @@ class Bus {
   /// Makes a reader or writer of a topic.
   [[nodiscard]] Result<dds_entity_t> add_endpoint(const TopicSpec& topic, bool reads);
   void remove_endpoint(dds_entity_t entity);
+  /// That of an entity, until the next one is made; null: there is none.
+  [[nodiscard]] Endpoint* endpoint(dds_entity_t entity);
+  void open_short_way(Endpoint& endpoint, const TopicSpec& topic);
+  /// Tells the short way of an endpoint who is at the other end. Takes no event from anybody.
+  void meet(Endpoint& endpoint);
   void note_foreign(const std::string& topic);
+  void note_stranger() noexcept { ++foreign_samples_; }
   void note_refused(const std::string& topic, std::uint64_t writer, std::string why);
   void collect_matches(Endpoint& endpoint);
   void collect_incompatible(const Endpoint& endpoint);
@@ -98,9 +109,11 @@ class Bus {
   dds_entity_t publisher_ = 0;
   dds_entity_t subscriber_ = 0;
   std::unique_ptr<Participants> participants_;
+  std::unique_ptr<ShortSocket> short_way_;  ///< To send from; null: all goes by DDS.
   std::vector<Endpoint> endpoints_;
   std::vector<BusEvent> events_;
   std::uint64_t foreign_samples_ = 0;
+  std::uint64_t foreign_told_ = 0;  ///< Of these, those that are no strangers of the short way.
   std::uint64_t refused_samples_ = 0;
 };
 

@@ -49,6 +49,9 @@ struct BusConfig {
   bool beside = false;
   /// A folder with certificates switches DDS Security on; see docs/design/distribution.md.
   std::filesystem::path security;
+  /// Small samples of lock-step may go from process to process of this machine beside DDS. Never
+  /// with `security`, nor for those who are `anonymous`.
+  bool short_way = true;
   /// Settings of Cyclone DDS in its own XML, or `file://...`, which win over those made from the
   /// rest. The variable CYCLONEDDS_URI counts only if somebody puts its value here.
   std::string cyclone_settings;

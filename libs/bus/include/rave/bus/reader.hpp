@@ -24,6 +24,13 @@ class ReaderCore {
   ReaderCore& operator=(ReaderCore&&) = delete;
   ~ReaderCore();
 
+  /// How many datagrams a take may look at; 0: all comes by DDS.
+  [[nodiscard]] std::size_t begin_take();
+  /// The next sample that came by the short way, until the next call, and null if there is none;
+  /// `budget` is how many datagrams may be looked at, above 0, and becomes less.
+  [[nodiscard]] const void* take_short(std::size_t& budget);
+  /// Whether a take that has `got` samples by the short way leaves DDS for the next one.
+  [[nodiscard]] bool leaves_dds(bool got);
   void note_foreign() { bus_->note_foreign(topic_); }
   void refuse(std::uint64_t writer, std::string why);
   [[nodiscard]] std::size_t writers() const;
@@ -36,6 +43,7 @@ class ReaderCore {
   Bus* bus_;
   const char* topic_;
   dds_entity_t reader_ = 0;
+  ShortReceiver* short_ = nullptr;  ///< Of the bus; null if all comes by DDS.
 };
 
 /// Reads one topic. Must be gone before its bus; thread: that of the bus.
@@ -44,13 +52,15 @@ class Reader {
  public:
   /// Error: kState (the topic exists with another type), kIo.
   [[nodiscard]] static Result<Reader> create(Bus& bus) {
-    return create(bus, topic_of<Message>().qos);
+    RAVE_TRY_ASSIGN(ReaderCore core, ReaderCore::create(bus, topic_of<Message>()));
+    return Reader(std::move(core));
   }
   /// The same with other qualities of service than the topic has; for those who look on and must
   /// not ask writers for more than these give anyway.
   [[nodiscard]] static Result<Reader> create(Bus& bus, const QosProfile& qos) {
     TopicSpec topic = topic_of<Message>();
     topic.qos = qos;
+    topic.short_way = 0;
     RAVE_TRY_ASSIGN(ReaderCore core, ReaderCore::create(bus, topic));
     return Reader(std::move(core));
   }
@@ -61,10 +71,12 @@ class Reader {
   /// disposed of. Samples are on loan: valid during the call only, not copied. Those of other runs
   /// and those that validate() refuses are dropped, counted, and told as events. Returns how many
   /// were visited; after kMostAtOnce the rest waits for the next call. The callbacks must not throw
-  /// and must not take from this reader.
+  /// and must not take from this reader. What came by the short way is first; if that is what ended
+  /// the wait before this call, the rest may be left for the next call, and ends the next wait.
   template <class Visit, class Gone>
   std::size_t take(Visit&& visit, Gone&& gone) {
-    std::size_t visited = 0;
+    std::size_t visited = take_short(visit, gone);
+    if (core_.leaves_dds(visited > 0)) return visited;
     Loan loan;
     for (std::size_t taken = 0; taken < ReaderCore::kMostAtOnce; taken += Loan::kBatch) {
       bus::take(handle(), loan);
@@ -96,6 +108,27 @@ class Reader {
  private:
   explicit Reader(ReaderCore core) : core_(std::move(core)) {}
 
+  template <class Visit>
+  static constexpr bool kAsksInfo =
+      std::is_invocable_v<Visit&, const Message&, const dds_sample_info_t&>;
+
+  template <class Visit, class Gone>
+  std::size_t take_short(Visit& visit, Gone& gone) {
+    std::size_t visited = 0;
+    std::size_t budget = core_.begin_take();
+    while (budget > 0) {
+      const void* const sample = core_.take_short(budget);
+      if (sample == nullptr) break;
+      dds_sample_info_t info{};
+      info.valid_data = true;
+      info.sample_state = DDS_SST_NOT_READ;
+      info.instance_state = DDS_IST_ALIVE;
+      if constexpr (kAsksInfo<Visit>) info.source_timestamp = dds_time();
+      visited += hand_over(*static_cast<const Message*>(sample), info, visit, gone);
+    }
+    return visited;
+  }
+
   template <class Visit, class Gone>
   std::size_t hand_over(const Message& sample, const dds_sample_info_t& info, Visit& visit,
                         Gone& gone) {
@@ -106,7 +139,7 @@ class Reader {
       return 0;
     }
     const bool good = info.valid_data && judge(sample);
-    if constexpr (std::is_invocable_v<Visit&, const Message&, const dds_sample_info_t&>) {
+    if constexpr (kAsksInfo<Visit>) {
       if (good) visit(sample, info);
     } else {
       if (good) visit(sample);

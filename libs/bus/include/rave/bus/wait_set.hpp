@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <stop_token>
 #include <vector>
 
@@ -11,6 +12,8 @@
 #include "rave/bus/reader.hpp"
 
 namespace rave::bus {
+
+class Relay;
 
 /// How long to wait so as to be awake at `when`; 0 if that is over.
 [[nodiscard]] inline Duration left_until(std::chrono::steady_clock::time_point when) {
@@ -47,7 +50,7 @@ class WaitSet {
   [[nodiscard]] Woken wait(Duration timeout, const std::stop_token& stop = {});
 
  private:
-  explicit WaitSet(Bus& bus) : bus_(&bus) {}
+  explicit WaitSet(Bus& bus);
   [[nodiscard]] Status add_reader(dds_entity_t reader);
   [[nodiscard]] Status attach(dds_entity_t entity);
 
@@ -55,6 +58,7 @@ class WaitSet {
   dds_entity_t set_ = 0;
   dds_entity_t stop_ = 0;
   dds_entity_t bell_ = 0;
+  std::unique_ptr<Relay> relay_;  ///< Only where a reader has a short way.
   std::vector<dds_entity_t> conditions_;
 };
 

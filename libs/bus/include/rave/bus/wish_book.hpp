@@ -39,6 +39,8 @@ class WishBook {
   static constexpr std::size_t kMostOpen = 32;      ///< Of all.
   static constexpr std::size_t kMostAskers = 256;   ///< That are remembered.
   static constexpr std::chrono::seconds kKept{10};  ///< So long an answer can be given again.
+  /// Bytes of all answers together that are longer than a message and so are kept to be fetched.
+  static constexpr std::size_t kMostKeptLong = std::size_t{16} << 20U;
 
   /// A wish that has come. `writer` and `number` are above 0.
   struct Heard {
@@ -52,7 +54,7 @@ class WishBook {
     std::uint64_t target = 0;  ///< The writer that asked.
     std::uint64_t number = 0;
     bool taken = false;  ///< False: refused here, and `text` says why.
-    std::string text;
+    std::string text;    ///< Of a long answer the part that was asked for; see wish_parts.hpp.
   };
 
   /// `log` is not owned and may be null.
@@ -93,7 +95,9 @@ class WishBook {
 
   [[nodiscard]] Asker* asker_of(std::uint64_t writer, Clock::time_point now);
   void refuse(const Heard& wish, Asker& asker, std::string_view why, Clock::time_point now);
+  [[nodiscard]] std::size_t kept_long(const Asker* but) const;
   void reply(Asker* asker, Reply reply, Clock::time_point now);
+  void send(Reply reply, std::size_t from);
 
   BeginWish begin_;
   LogSink* log_;

@@ -24,10 +24,12 @@ class WriterCore {
 
  private:
   WriterCore(Bus& bus, const char* topic) : bus_(&bus), topic_(topic) {}
+  [[nodiscard]] bool goes_short(const void* sample);
 
   Bus* bus_;
   const char* topic_;
   dds_entity_t writer_ = 0;
+  ShortSender* short_ = nullptr;  ///< Of the bus; null if all goes by DDS.
 };
 
 /// Writes one topic. Must be gone before its bus; thread: that of the bus.

@@ -57,6 +57,9 @@ class HostPort {
   /// What the authority knew beside the last world, with the obstacles of before only if this host
   /// had missed some.
   [[nodiscard]] const sim::AuthorityState& authority() const noexcept;
+  /// Whether another authority than the first has answered: the one that is there at the end has
+  /// not seen all of the run.
+  [[nodiscard]] bool changed_hands() const noexcept;
   /// After kEnded: whether the run ended as it should, and what its manager says of it.
   struct Ending {
     bool good = false;

@@ -21,22 +21,27 @@ class Pulse {
     std::int64_t round_trip_ns = -1;  ///< To the manager and back; -1: not known.
   };
 
-  /// Errors: those of bus::Writer::create().
-  [[nodiscard]] static Result<Pulse> create(bus::Bus& bus, const Identity& self);
+  static constexpr std::chrono::nanoseconds kPeriod{std::chrono::seconds(1)};
 
-  /// To be called often: sends the facts about once a second, and otherwise only reads the clock.
+  /// `period`: between two beats that nothing hurries. Errors: those of bus::Writer::create().
+  [[nodiscard]] static Result<Pulse> create(bus::Bus& bus, const Identity& self,
+                                            std::chrono::nanoseconds period = kPeriod);
+
+  /// To be called often: sends the facts once in a period, and otherwise only reads the clock.
   void beat(const Facts& facts);
   /// So many of its robots are real now: told with the next beat, which does not wait for its
-  /// second.
+  /// period to be over.
   void count_real(std::uint32_t robots) noexcept;
 
  private:
   using Clock = std::chrono::steady_clock;
-  Pulse(bus::Bus& bus, bus::Writer<bus::ProcessState> writer, const Identity& self);
+  Pulse(bus::Bus& bus, bus::Writer<bus::ProcessState> writer, const Identity& self,
+        std::chrono::nanoseconds period);
 
   bus::Bus* bus_;
   bus::Writer<bus::ProcessState> writer_;
   bus::ProcessState state_{};
+  std::chrono::nanoseconds period_;
   Clock::time_point next_{};
 };
 

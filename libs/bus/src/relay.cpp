@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "relay.hpp"
+
+#include <poll.h>
+#include <sched.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstdint>
+
+#include "rave/base/thread.hpp"
+#include "rave/bus/short_way.hpp"
+#include "rave/bus/wait_set.hpp"
+
+namespace rave::bus {
+namespace {
+
+/// About twice what it takes to wake a process that sleeps.
+constexpr Duration kAwake{20'000};
+
+}  // namespace
+
+Result<std::unique_ptr<Relay>> Relay::create(dds_entity_t set, dds_entity_t bell) {
+  const int event = ::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
+  if (event < 0) return fail(ErrorCode::kIo, "cannot wait: no event descriptor is to be had");
+  std::unique_ptr<Relay> relay(new Relay(set, bell, event));
+  RAVE_TRY(start_thread(relay->thread_, "a wait set", [it = relay.get()] { it->run(); }));
+  return relay;
+}
+
+Relay::~Relay() {
+  over_ = true;
+  ask_.release();
+  dds_set_guardcondition(bell_, true);
+  if (thread_.joinable()) thread_.join();
+  ::close(event_);
+}
+
+void Relay::run() noexcept {
+  for (;;) {
+    ask_.acquire();
+    if (over_) return;
+    std::array<dds_attach_t, 1> woken{};
+    static_cast<void>(dds_waitset_wait(set_, woken.data(), woken.size(), DDS_INFINITY));
+    // It waits to be asked again: what is in the set stays there until somebody takes it.
+    static_cast<void>(::eventfd_write(event_, 1));
+  }
+}
+
+bool Relay::ready() const {
+  std::array<dds_attach_t, 1> woken{};
+  if (dds_waitset_wait(set_, woken.data(), woken.size(), 0) <= 0) return false;
+  tell_of_dds();
+  return true;
+}
+
+void Relay::add(ShortReceiver& receiver) {
+  polled_.push_back({receiver.descriptor(), POLLIN, 0});
+  receivers_.push_back(&receiver);
+}
+
+void Relay::tell_of_dds() const {
+  for (ShortReceiver* const receiver : receivers_) receiver->note_dds();
+}
+
+bool Relay::datagrams() const {
+  bool any = false;
+  for (std::size_t i = 0; i < receivers_.size(); ++i) {
+    if (polled_[i + 1].revents == 0) continue;
+    receivers_[i]->note_datagram();
+    any = true;
+  }
+  return any;
+}
+
+/// What has come, or comes within some microseconds: an answer is often under way, and to sleep and
+/// to be woken takes longer. Whoever has work to do on this processor goes first.
+int Relay::look(Duration most) {
+  const auto now = std::chrono::steady_clock::now;
+  const auto end = now() + std::chrono::nanoseconds(std::min(most.ns, kAwake.ns));
+  constexpr timespec kNow{};
+  for (;;) {
+    const int count = ::ppoll(polled_.data(), polled_.size(), &kNow, nullptr);
+    if (count != 0 || now() >= end) return count;
+    ::sched_yield();
+  }
+}
+
+Relay::Came Relay::wait(Duration timeout) {
+  Duration left{std::max<std::int64_t>(0, timeout.ns)};
+  const auto end = std::chrono::steady_clock::now() + std::chrono::nanoseconds(left.ns);
+  for (;; left = left_until(end)) {
+    // As long as the thread has not answered, there has been nothing.
+    if (!asked_) {
+      if (ready()) return Came::kSet;
+      asked_ = true;
+      ask_.release();
+    }
+    const timespec most{left.ns / 1'000'000'000, left.ns % 1'000'000'000};
+    int count = look(timeout.ns < 0 ? kAwake : left);
+    if (count == 0) {
+      count = ::ppoll(polled_.data(), polled_.size(), timeout.ns < 0 ? nullptr : &most, nullptr);
+    }
+    if (count < 0 && errno == EINTR) continue;
+    // The thread may be about to say it.
+    if (count <= 0) return ready() ? Came::kSet : Came::kNothing;
+    if (polled_.front().revents != 0) {
+      eventfd_t times = 0;
+      static_cast<void>(::eventfd_read(event_, &times));
+      asked_ = false;
+      tell_of_dds();
+    }
+    if (datagrams()) return Came::kSocket;
+  }
+}
+
+}  // namespace rave::bus

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <dds/dds.h>
+#include <poll.h>
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <semaphore>
+#include <thread>
+#include <vector>
+
+#include "rave/base/result.hpp"
+#include "rave/base/time.hpp"
+
+namespace rave::bus {
+
+class ShortReceiver;
+
+/// Waits for sockets and a wait set of DDS at once: poll() knows nothing of DDS, so a thread waits
+/// there and says through an event descriptor that it is time to look. What comes by a socket does
+/// not pass that thread. Owner: a WaitSet, which deletes the entities afterwards; thread: its own.
+class Relay {
+ public:
+  /// `bell`: a guard condition in the set. Error: kIo.
+  [[nodiscard]] static Result<std::unique_ptr<Relay>> create(dds_entity_t set, dds_entity_t bell);
+  Relay(const Relay&) = delete;
+  Relay& operator=(const Relay&) = delete;
+  ~Relay();
+
+  /// `receiver` must outlive this; it is told what ends a wait.
+  void add(ShortReceiver& receiver);
+  enum class Came : std::uint8_t { kNothing, kSocket, kSet };
+  /// What there is to look at first; `timeout` below 0 waits for ever.
+  [[nodiscard]] Came wait(Duration timeout);
+
+ private:
+  Relay(dds_entity_t set, dds_entity_t bell, int event)
+      : set_(set), bell_(bell), event_(event), polled_{{event, POLLIN, 0}} {}
+  void run() noexcept;
+  /// Whether the set has something, and then tells the receivers.
+  [[nodiscard]] bool ready() const;
+  [[nodiscard]] int look(Duration most);
+  void tell_of_dds() const;
+  /// Whether the last poll found any, and then tells those for whom they are.
+  [[nodiscard]] bool datagrams() const;
+
+  dds_entity_t set_;
+  dds_entity_t bell_;
+  int event_;
+  std::vector<pollfd> polled_;  ///< The event descriptor, then the sockets of the receivers.
+  std::vector<ShortReceiver*> receivers_;
+  bool asked_ = false;  ///< The thread has been asked to look, and has not answered.
+  std::counting_semaphore<> ask_{0};
+  std::atomic<bool> over_ = false;
+  std::jthread thread_;
+};
+
+}  // namespace rave::bus

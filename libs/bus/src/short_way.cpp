@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/bus/short_way.hpp"
+
+#include <dds/ddsi/ddsi_cdrstream.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <utility>
+
+namespace rave::bus {
+namespace {
+
+constexpr std::array<unsigned char, 7> kMark = {'r', 'a', 'v', 'e', 's', 'w', 1};
+constexpr std::uint32_t kXcdr1 = 1;
+/// After a sample that was too big, or that some got and others had no room for, so many are not
+/// tried: the next ones fare the same.
+constexpr unsigned kNotTried = 63;
+/// One byte more than the longest: what fills it is too long.
+constexpr std::size_t kBufferBytes = kMostShortBytes + sizeof(std::uint64_t);
+static_assert(kMostShortBytes % sizeof(std::uint64_t) == 0 &&
+              kMark.size() + 1 == kShortHeaderBytes);
+/// Lock-step asks again after 20 ms at the soonest.
+constexpr std::int64_t kCountAfter_ms = 5;
+
+/// Of the clock that costs least; it goes on each 1 to 10 ms.
+std::int64_t coarse_ms() noexcept {
+  timespec now{};
+  ::clock_gettime(CLOCK_MONOTONIC_COARSE, &now);
+  return std::int64_t{now.tv_sec} * 1000 + now.tv_nsec / 1'000'000;
+}
+
+}  // namespace
+
+ShortAddress::ShortAddress(const RunId& run, std::uint64_t writer, std::uint8_t topic) {
+  name.sun_family = AF_UNIX;
+  // The first byte is 0: no file.
+  const auto end = fmt::format_to_n(name.sun_path + 1, sizeof name.sun_path - 1,
+                                    "rave/{}/{:016x}/{}", run.text(), writer, topic);
+  size = static_cast<socklen_t>(end.out - reinterpret_cast<char*>(&name));
+}
+
+bool ShortAddress::operator==(const ShortAddress& other) const noexcept {
+  return size == other.size && std::memcmp(&name, &other.name, size) == 0;
+}
+
+std::optional<ShortSocket> ShortSocket::open(const ShortAddress& address) {
+  const int descriptor = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  if (descriptor < 0) return std::nullopt;
+  ShortSocket socket(descriptor);
+  // What readers have not taken yet is charged to who sent it; the system allows what it allows.
+  constexpr int kRoom = 4 << 20;
+  static_cast<void>(::setsockopt(descriptor, SOL_SOCKET, SO_SNDBUF, &kRoom, sizeof kRoom));
+  if (::bind(descriptor, reinterpret_cast<const sockaddr*>(&address.name), address.size) != 0) {
+    return std::nullopt;
+  }
+  return socket;
+}
+
+ShortSocket::ShortSocket(ShortSocket&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+ShortSocket::~ShortSocket() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+ShortDecoder::ShortDecoder(const TopicSpec& topic)
+    : type_(topic.type), topic_(topic.short_way), sample_(dds_alloc(topic.type->m_size)) {
+  std::memset(sample_, 0, type_->m_size);
+}
+
+ShortDecoder::~ShortDecoder() { dds_sample_free(sample_, type_, DDS_FREE_ALL); }
+
+const void* ShortDecoder::decode(std::span<std::byte> datagram) {
+  if (datagram.size() < kShortHeaderBytes || datagram.size() > kMostShortBytes) return nullptr;
+  if (std::memcmp(datagram.data(), kMark.data(), kMark.size()) != 0 ||
+      datagram[kMark.size()] != std::byte{topic_}) {
+    return nullptr;
+  }
+  const auto cdr = datagram.subspan(kShortHeaderBytes);
+  const auto size = static_cast<std::uint32_t>(cdr.size());
+  std::uint32_t end = 0;
+  // As a reader of Cyclone DDS does it: what does not follow the type is not read.
+  if (dds_stream_normalize_data(reinterpret_cast<char*>(cdr.data()), &end, size, false, kXcdr1,
+                                type_->m_ops) == nullptr) {
+    return nullptr;
+  }
+  // Not to be finished, or Cyclone frees memory that is ours.
+  dds_istream_t stream;
+  dds_istream_init(&stream, size, cdr.data(), kXcdr1);
+  dds_stream_read(&stream, static_cast<char*>(sample_), type_->m_ops);
+  return sample_;
+}
+
+ShortSender::ShortSender(const TopicSpec& topic, const RunId& run, int socket)
+    : type_(topic.type), topic_(topic.short_way), run_(run), socket_(socket) {}
+
+ShortSender::~ShortSender() { dds_free(buffer_); }
+
+void ShortSender::meet(std::vector<std::uint64_t> writers) {
+  if (writers == writers_) return;
+  writers_ = std::move(writers);
+  addresses_.clear();
+  for (const std::uint64_t writer : writers_) addresses_.emplace_back(run_, writer, topic_);
+  auto sorted = writers_;
+  std::ranges::sort(sorted);
+  // Of two readers of one process only one has the socket.
+  near_ =
+      !sorted.empty() && sorted.front() != 0 && std::ranges::adjacent_find(sorted) == sorted.end();
+}
+
+bool ShortSender::due() const noexcept { return coarse_ms() - counted_ms_ >= kCountAfter_ms; }
+
+void ShortSender::counted() noexcept { counted_ms_ = coarse_ms(); }
+
+std::span<const unsigned char> ShortSender::encode(const void* sample) {
+  dds_ostream_t stream;
+  if (buffer_ == nullptr) {
+    dds_ostream_init(&stream, 1024, kXcdr1);
+  } else {
+    stream = {buffer_, capacity_, 0, kXcdr1};
+  }
+  std::ranges::copy(kMark, stream.m_buffer);
+  stream.m_buffer[kMark.size()] = topic_;
+  // The header is as long as the strictest alignment.
+  stream.m_index = kShortHeaderBytes;
+  const bool good = dds_stream_write(&stream, static_cast<const char*>(sample), type_->m_ops);
+  // Cyclone has freed what it could not fill.
+  buffer_ = good ? stream.m_buffer : nullptr;
+  capacity_ = good ? stream.m_size : 0;
+  if (!good) return {};
+  return {buffer_, stream.m_index};
+}
+
+bool ShortSender::send(const void* sample) {
+  if (!near_) return false;
+  if (not_tried_ > 0) {
+    --not_tried_;
+    return false;
+  }
+  const auto bytes = encode(sample);
+  if (bytes.empty()) return false;
+  if (bytes.size() > kMostShortBytes) {
+    not_tried_ = kNotTried;
+    return false;
+  }
+  for (const ShortAddress& to : addresses_) {
+    if (::sendto(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL,
+                 reinterpret_cast<const sockaddr*>(&to.name), to.size) >= 0) {
+      continue;
+    }
+    const bool no_room = errno == EAGAIN || errno == ENOBUFS;
+    if (errno == EMSGSIZE || (no_room && addresses_.size() > 1)) {
+      not_tried_ = kNotTried;
+    } else if (!no_room && errno != EINTR) {
+      near_ = false;  // it is elsewhere, or gone
+    }
+    return false;
+  }
+  return true;
+}
+
+ShortReceiver::ShortReceiver(const TopicSpec& topic, const RunId& run, ShortSocket socket)
+    : run_(run),
+      socket_(std::move(socket)),
+      decoder_(topic),
+      buffer_(std::make_unique<std::uint64_t[]>(kBufferBytes / sizeof(std::uint64_t))) {}
+
+void ShortReceiver::meet(const std::vector<std::uint64_t>& writers) {
+  if (writers == writers_) return;
+  writers_ = writers;
+  std::vector<Known> known;
+  for (const std::uint64_t writer : writers_) {
+    if (writer != 0) known.push_back({writer, ShortAddress(run_, writer, 0)});
+  }
+  // The last words of who has gone may lie in the queue, and count as with DDS.
+  leaving_.clear();
+  for (const Known& before : known_) {
+    if (std::ranges::find(known, before.writer, &Known::writer) == known.end()) {
+      leaving_.push_back(before);
+    }
+  }
+  known_ = std::move(known);
+}
+
+std::size_t ShortReceiver::begin_take(std::size_t most) noexcept {
+  may_meet_ = true;
+  after_wait_ = std::exchange(woken_, false);
+  return after_wait_ && writers_.size() <= 1 ? std::min<std::size_t>(most, 1) : most;
+}
+
+bool ShortReceiver::leaves_dds(bool got) noexcept {
+  if (got && after_wait_ && !look_) return true;
+  look_ = false;
+  return false;
+}
+
+std::optional<ShortReceiver::Datagram> ShortReceiver::receive() {
+  from_.size = sizeof from_.name;
+  const auto got = ::recvfrom(socket_.descriptor(), buffer_.get(), kBufferBytes, MSG_DONTWAIT,
+                              reinterpret_cast<sockaddr*>(&from_.name), &from_.size);
+  if (got < 0) {
+    leaving_.clear();
+    return std::nullopt;
+  }
+  const std::span bytes(reinterpret_cast<std::byte*>(buffer_.get()), static_cast<std::size_t>(got));
+  return Datagram{bytes, sender()};
+}
+
+std::uint64_t ShortReceiver::sender() const {
+  for (const std::vector<Known>* const some : {&known_, &leaving_}) {
+    const auto found = std::ranges::find(*some, from_, &Known::address);
+    if (found != some->end()) return found->writer;
+  }
+  return 0;
+}
+
+}  // namespace rave::bus

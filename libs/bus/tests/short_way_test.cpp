@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: Apache-2.0
+// The short way between two buses of one machine: what takes it, and what is refused.
+#include "rave/bus/short_way.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "peer_process.hpp"
+#include "rave/bus/reader.hpp"
+#include "rave/bus/sequence.hpp"
+#include "rave/bus/wait_set.hpp"
+#include "rave/bus/writer.hpp"
+#include "rave/bus_testing/messages.hpp"
+
+namespace rave::bus::testing {
+namespace {
+
+constexpr std::uint8_t kWorldStep = 2;
+/// In front of a world.
+constexpr const char* kHead = "ravesw\1\2";
+
+/// A sample as it is on its way.
+std::string datagram(const WorldStep& world) {
+  const auto bytes = encode(world);
+  std::string text = kHead;
+  return text.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+}
+
+struct Pair {
+  TestDomain domain;
+  std::unique_ptr<Bus> left;
+  std::unique_ptr<Bus> right;
+  std::unique_ptr<Writer<WorldStep>> writer;
+  std::unique_ptr<Reader<WorldStep>> reader;
+
+  explicit Pair(bool right_short = true, bool left_short = true) {
+    BusConfig config = domain.config("left");
+    config.beside = true;
+    // Nobody is missed because the machine is busy.
+    config.lease = from_seconds(20);
+    config.short_way = left_short;
+    left = std::move(*Bus::open(config));
+    config.participant = "right";
+    config.short_way = right_short;
+    right = std::move(*Bus::open(config));
+    reader = std::make_unique<Reader<WorldStep>>(std::move(*Reader<WorldStep>::create(*right)));
+    writer = std::make_unique<Writer<WorldStep>>(std::move(*Writer<WorldStep>::create(*left)));
+  }
+  void send(std::uint64_t step, std::size_t bytes = 0) const {
+    WorldStep world{};
+    std::vector<std::uint64_t> hosts(8);
+    std::vector<std::uint8_t> text(bytes, 'x');
+    world.epoch = 1;
+    world.step = step;
+    borrow(world.hosts, hosts);
+    borrow(world.sent.bytes, text);
+    EXPECT_TRUE(writer->write(world));
+  }
+  /// Sends until something comes; whether that was by the short way.
+  [[nodiscard]] bool comes_short(std::size_t bytes = 0) const {
+    bool short_way = false;
+    std::uint64_t step = 0;
+    EXPECT_TRUE(eventually([&] {
+      send(++step, bytes);
+      return reader->take([&](const WorldStep&, const dds_sample_info_t& info) {
+        short_way = info.publication_handle == 0;
+      }) > 0;
+    }));
+    return short_way;
+  }
+  /// Both ends know each other.
+  [[nodiscard]] bool goes() const {
+    return eventually([&] { return comes_short(); });
+  }
+  /// Sends bytes to the reader from an address; how many samples came of it. None if the system
+  /// does not carry so many bytes.
+  [[nodiscard]] std::optional<std::size_t> throw_bytes(const ShortAddress& from,
+                                                       const std::string& bytes) const {
+    const auto socket = ShortSocket::open(from);
+    EXPECT_TRUE(socket) << "somebody has that address";
+    if (!socket) return std::nullopt;
+    const ShortAddress to(domain.run, right->writer(), kWorldStep);
+    const auto sent = ::sendto(socket->descriptor(), bytes.data(), bytes.size(), 0,
+                               reinterpret_cast<const sockaddr*>(&to.name), to.size);
+    if (sent != static_cast<ssize_t>(bytes.size())) return std::nullopt;
+    return reader->take([](const WorldStep&) {});
+  }
+};
+
+/// This process sends worlds to others, who say how they came.
+struct Followed {
+  struct Word {
+    std::uint64_t step = 0;
+    std::string way;
+  };
+  TestDomain domain;
+  std::unique_ptr<Bus> bus = *Bus::open(config());
+  Writer<WorldStep> worlds = *Writer<WorldStep>::create(*bus);
+  Reader<HostReport> reports = *Reader<HostReport>::create(*bus);
+  std::uint64_t step = 0;
+  std::map<std::uint32_t, Word> last;  ///< By the number that a process was given.
+
+  [[nodiscard]] BusConfig config() const {
+    BusConfig config = domain.config("left");
+    config.lease = from_seconds(20);
+    return config;
+  }
+  void send() {
+    WorldStep world{};
+    world.epoch = 1;
+    world.step = ++step;
+    EXPECT_TRUE(worlds.write(world));
+  }
+  void listen() {
+    reports.take([this](const HostReport& report) {
+      Word& word = last[report.host];
+      if (report.step >= word.step) word = {report.step, report.text};
+    });
+  }
+  /// Sends until something comes the short way to all of them.
+  [[nodiscard]] bool goes_short(const std::vector<std::uint32_t>& hosts) {
+    last.clear();
+    return eventually([&] {
+      send();
+      listen();
+      return std::ranges::all_of(hosts, [&](auto host) { return last[host].way == "short"; });
+    });
+  }
+};
+
+TEST(ShortWay, SmallSamplesTakeItAndLargeOnesDoNot) {
+  const Pair pair;
+  EXPECT_TRUE(pair.goes());
+  EXPECT_TRUE(eventually([&] { return !pair.comes_short(kMostShortBytes); }));
+}
+
+TEST(ShortWay, WhoHasNoneIsReachedByDds) {
+  const Pair pair(false);
+  EXPECT_FALSE(pair.comes_short());
+  // Also if somebody has its address, to get what is for it.
+  const auto thief = ShortSocket::open({pair.domain.run, pair.right->writer(), kWorldStep});
+  ASSERT_TRUE(thief);
+  EXPECT_FALSE(pair.comes_short());
+}
+
+TEST(ShortWay, AWaitSetWakesFromBoth) {
+  const Pair pair;
+  auto waits = WaitSet::create(*pair.right);
+  ASSERT_TRUE(waits && waits->add(*pair.reader));
+  ASSERT_TRUE(pair.goes());
+  pair.reader->take([](const WorldStep&) {});
+  for (int i = 0; i < 3; ++i) {
+    pair.send(1000);
+    EXPECT_EQ(waits->wait(Duration{10'000'000'000}), Woken::kReady);
+    EXPECT_EQ(waits->wait(Duration{0}), Woken::kReady);
+    EXPECT_GE(pair.reader->take([](const WorldStep&) {}), 1U);
+    pair.send(1001, kMostShortBytes);
+    EXPECT_EQ(waits->wait(Duration{10'000'000'000}), Woken::kReady);
+    EXPECT_GE(pair.reader->take([](const WorldStep&) {}), 1U);
+    waits->ring();
+    EXPECT_EQ(waits->wait(Duration{10'000'000'000}), Woken::kReady);
+  }
+}
+
+TEST(ShortWay, WhatComesByDdsIsNotLeftLyingWhileDatagramsCome) {
+  const Pair pair;
+  BusConfig config = pair.domain.config("far");
+  config.beside = true;
+  config.short_way = false;
+  const auto far = Bus::open(config);
+  ASSERT_TRUE(far) << far.error().text();
+  auto far_writer = Writer<WorldStep>::create(**far);
+  auto waits = WaitSet::create(*pair.right);
+  ASSERT_TRUE(far_writer && waits && waits->add(*pair.reader));
+  ASSERT_TRUE(pair.goes());
+  ASSERT_TRUE(
+      eventually([&] { return far_writer->readers() == 1 && pair.reader->writers() == 2; }));
+  for (std::uint64_t step = 1; step <= 20; ++step) {
+    WorldStep world{};
+    world.epoch = 1;
+    world.step = step;
+    ASSERT_TRUE(far_writer->write(world));
+    std::uint64_t heard = 0;
+    EXPECT_TRUE(eventually([&] {
+      pair.send(1000);
+      EXPECT_EQ(waits->wait(Duration{10'000'000'000}), Woken::kReady);
+      pair.reader->take([&](const WorldStep& came) {
+        if (came.writer == (*far)->writer()) heard = came.step;
+      });
+      return heard == step;
+    })) << step;
+  }
+}
+
+TEST(ShortWay, OnlyATakeThatADatagramWokeLeavesDdsAlone) {
+  const RunId run = RunId::random();
+  auto socket = ShortSocket::open({run, 1, kWorldStep});
+  ASSERT_TRUE(socket);
+  ShortReceiver receiver(topic_of<WorldStep>(), run, *std::move(socket));
+  EXPECT_EQ(receiver.begin_take(100), 100U) << "nobody has waited";
+  EXPECT_FALSE(receiver.leaves_dds(true));
+  receiver.note_datagram();
+  EXPECT_EQ(receiver.begin_take(100), 1U);
+  EXPECT_TRUE(receiver.leaves_dds(true));
+  EXPECT_EQ(receiver.begin_take(100), 100U) << "not again";
+  EXPECT_FALSE(receiver.leaves_dds(true));
+  receiver.note_datagram();
+  receiver.note_dds();
+  EXPECT_EQ(receiver.begin_take(100), 1U);
+  EXPECT_FALSE(receiver.leaves_dds(true)) << "there is something";
+  receiver.note_datagram();
+  EXPECT_EQ(receiver.begin_take(100), 1U);
+  EXPECT_FALSE(receiver.leaves_dds(false)) << "it was for nobody";
+  receiver.meet({2, 3});
+  receiver.note_datagram();
+  EXPECT_EQ(receiver.begin_take(100), 100U) << "of two there may be two";
+  EXPECT_TRUE(receiver.leaves_dds(true));
+}
+
+TEST(ShortWay, AFullQueueGoesByDdsAndTheNewestArrives) {
+  const Pair pair;
+  ASSERT_TRUE(pair.goes());
+  // More than any system keeps in a queue.
+  constexpr std::uint64_t kLast = 10'000;
+  for (std::uint64_t step = 1; step <= kLast; ++step) pair.send(step);
+  std::uint64_t newest = 0;
+  bool by_dds = false;
+  EXPECT_TRUE(eventually([&] {
+    pair.reader->take([&](const WorldStep& world, const dds_sample_info_t& info) {
+      newest = std::max(newest, world.step);
+      by_dds = by_dds || info.publication_handle != 0;
+    });
+    return newest == kLast;
+  }));
+  EXPECT_TRUE(by_dds);
+  EXPECT_TRUE(pair.goes());
+}
+
+TEST(ShortWay, WhenAReaderIsKilledTheOthersMissNothing) {
+  Followed run;
+  PeerProcess victim(run.domain, "follow", "victim", {"host=1"});
+  PeerProcess other(run.domain, "follow", "other", {"host=2", "lease_s=20"});
+  ASSERT_EQ(victim.line(), "ready");
+  ASSERT_EQ(other.line(), "ready");
+  ASSERT_TRUE(run.goes_short({1, 2}));
+  victim.kill();
+  // Once, and not again until it has come: its death is not known yet.
+  run.send();
+  EXPECT_TRUE(eventually([&] { return run.listen(), run.last[2].step == run.step; }));
+  // When it is missed, all that are left are near.
+  EXPECT_TRUE(run.goes_short({2}));
+  EXPECT_EQ(other.end(), 0);
+}
+
+TEST(ShortWay, WhatStrangersThrowIsRefused) {
+  const Pair pair;
+  ASSERT_TRUE(pair.goes());
+  const ShortAddress stranger(pair.domain.run, 77, 0);
+  for (const std::string& bytes : {std::string("hello"), std::string(), datagram(WorldStep{}),
+                                   std::string(kMostShortBytes + 1, 'x')}) {
+    const auto before = pair.right->foreign_samples();
+    const auto came = pair.throw_bytes(stranger, bytes);
+    if (!came) continue;
+    EXPECT_EQ(*came, 0U);
+    EXPECT_EQ(pair.right->foreign_samples(), before + 1) << bytes.size() << " bytes";
+  }
+  EXPECT_TRUE(pair.goes());
+}
+
+TEST(ShortWay, WhatAKnownProcessSendsIsJudgedLikeASampleOfDds) {
+  // The writer has no short way, so its address is free for what the test throws in its name.
+  const Pair pair(true, false);
+  ASSERT_TRUE(eventually([&] { return pair.reader->writers() == 1; }));
+  const ShortAddress writer(pair.domain.run, pair.left->writer(), 0);
+  WorldStep world{};
+  world.epoch = 1;
+  world.writer = pair.left->writer();
+  std::ranges::copy(pair.domain.run.bytes, world.run);
+  EXPECT_EQ(pair.throw_bytes(writer, datagram(world)), 1U);
+  EXPECT_EQ(pair.right->refused_samples(), 0U);
+  EXPECT_EQ(pair.throw_bytes(writer, kHead), 0U) << "a head without a sample";
+  EXPECT_EQ(pair.right->refused_samples(), 1U);
+  world.epoch = 0;
+  EXPECT_EQ(pair.throw_bytes(writer, datagram(world)), 0U) << "validation refuses it";
+  EXPECT_EQ(pair.right->refused_samples(), 2U);
+  world.epoch = 1;
+  world.run[0] = static_cast<std::uint8_t>(world.run[0] ^ 1U);
+  const auto before = pair.right->foreign_samples();
+  EXPECT_EQ(pair.throw_bytes(writer, datagram(world)), 0U) << "of another run";
+  EXPECT_EQ(pair.right->foreign_samples(), before + 1);
+}
+
+TEST(ShortWay, AProcessOfAnotherRunIsAStranger) {
+  const Pair pair(true, false);
+  ASSERT_TRUE(eventually([&] { return pair.reader->writers() == 1; }));
+  const auto before = pair.right->foreign_samples();
+  WorldStep world{};
+  world.epoch = 1;
+  world.writer = pair.left->writer();
+  std::ranges::copy(pair.domain.run.bytes, world.run);
+  const ShortAddress elsewhere(RunId::random(), pair.left->writer(), 0);
+  EXPECT_EQ(pair.throw_bytes(elsewhere, datagram(world)), 0U);
+  EXPECT_EQ(pair.right->foreign_samples(), before + 1);
+}
+
+TEST(ShortWay, IsOpenWithoutCertificatesAlone) {
+  // With them: Security.NothingGoesBesideTheCertificates.
+  const Pair pair;
+  EXPECT_FALSE(ShortSocket::open({pair.domain.run, pair.left->writer(), 0}));
+  EXPECT_FALSE(ShortSocket::open({pair.domain.run, pair.right->writer(), kWorldStep}));
+}
+
+TEST(ShortWay, BytesThatAreNoSampleAreRefused) {
+  ShortDecoder decoder(topic_of<WorldStep>());
+  alignas(8) std::array<std::byte, 64> bytes{};
+  EXPECT_EQ(decoder.decode(bytes), nullptr);
+  const std::string head("ravesw\1\2", 8);
+  std::transform(head.begin(), head.end(), bytes.begin(), [](char c) { return std::byte(c); });
+  EXPECT_EQ(decoder.decode(bytes), nullptr);
+  EXPECT_EQ(decoder.decode(std::span(bytes).first(8)), nullptr);
+  EXPECT_EQ(decoder.decode(std::span(bytes).first(3)), nullptr);
+}
+
+}  // namespace
+}  // namespace rave::bus::testing

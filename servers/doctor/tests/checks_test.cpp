@@ -225,13 +225,15 @@ TEST(CheckMulticast, AnInterfaceThatDoesNone) {
 }
 
 class CheckKeys : public ::testing::Test {
+ public:
+  ~CheckKeys() override { std::filesystem::remove_all(folder_); }
+
  protected:
   CheckKeys() {
     std::string name = std::filesystem::temp_directory_path() / "rave-doctor-XXXXXX";
     folder_ = ::mkdtemp(name.data());
     static_cast<void>(keys::make_key_set({folder_ / "set", "lab", 100, {"left"}, kMade_s}));
   }
-  ~CheckKeys() override { std::filesystem::remove_all(folder_); }
   [[nodiscard]] Finding at(std::int64_t days) const {
     return check_keys(folder_ / "set/left", kMade_s + days * 86'400);
   }

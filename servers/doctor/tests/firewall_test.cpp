@@ -33,7 +33,7 @@ const std::string kAccept = R"({"accept":null})";
 const std::string kEstablished =
     R"({"match":{"op":"in","left":{"ct":{"key":"state"}},"right":["established","related"]}},)";
 
-Finding check(std::vector<std::string> entries, std::string_view interface = "eth0") {
+Finding check(const std::vector<std::string>& entries, std::string_view interface = "eth0") {
   std::string text = R"({"nftables":[{"metainfo":{}})";
   for (const std::string& entry : entries) text += "," + entry;
   return check_ruleset(text + "]}", 0, interface);

@@ -19,12 +19,13 @@ constexpr const char* kHere = "127.0.0.1";
 constexpr const char* kThere = "127.0.0.2";
 
 class VisitTest : public ::testing::Test {
- protected:
+ public:
   ~VisitTest() override {
     stopping_ = true;
     if (thread_.joinable()) thread_.join();
   }
 
+ protected:
   void listen(std::uint32_t domain, std::function<std::int64_t()> clock = clock_of_day) {
     Listener::Options options;
     options.address = kThere;

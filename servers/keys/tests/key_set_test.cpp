@@ -74,7 +74,7 @@ TEST_F(KeySet, NamesAreChecked) {
       "` cannot be a name: expected letters, digits, - and _, the first a letter or digit";
   for (const std::string& bad :
        Names{"le ft", "../left", "-left", ".left", "links\n", "gr\xc3\xbcn"}) {
-    EXPECT_EQ(error_of(check_name(bad)), "`" + bad + letters);
+    EXPECT_EQ(error_of(check_name(bad)), std::string("`").append(bad).append(letters));
   }
   EXPECT_EQ(error_of(check_name("")), "`` cannot be a name: expected 1 to 64 characters");
   EXPECT_NE(error_of(check_name(std::string(65, 'x'))), "none");
@@ -85,7 +85,7 @@ TEST_F(KeySet, WhatCannotBeLeavesNothingBehind) {
   const auto attempt = [this](auto change) {
     NewKeySet set = plan();
     change(set);
-    const std::string error = error_of(make_key_set(set));
+    std::string error = error_of(make_key_set(set));
     EXPECT_TRUE(fs::is_empty(folder_)) << error;
     return error;
   };

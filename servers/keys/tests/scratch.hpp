@@ -21,14 +21,16 @@ inline constexpr std::int64_t kDay_s = 86'400;
 
 /// A folder of its own for each test.
 class Scratch : public ::testing::Test {
+ public:
+  ~Scratch() override {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+
  protected:
   Scratch() {
     std::string name = std::filesystem::temp_directory_path() / "rave-keys-XXXXXX";
     if (::mkdtemp(name.data()) != nullptr) folder_ = name;
-  }
-  ~Scratch() override {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
   }
 
   /// A set of two members in the folder `set`.

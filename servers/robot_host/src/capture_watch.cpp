@@ -10,6 +10,9 @@
 namespace rave::robot_host {
 namespace {
 
+/// More than the distance of two poses rounds by.
+constexpr double kRounding_m = 1e-6;
+
 std::vector<RobotId> ids_of(const config::ExpandedScenario& scenario, const std::string& name) {
   std::vector<RobotId> ids;
   for (const std::size_t r : config::robots_named(scenario, name)) {
@@ -40,10 +43,15 @@ void CaptureWatch::look(const world::Snapshot& world, std::uint64_t step) {
       if (predator == prey || !world.robot(predator).present || !world.robot(prey).present) {
         continue;
       }
+      const world::Body& hunter = world.model().robots[predator.value()];
+      const world::Body& hunted = world.model().robots[prey.value()];
+      // What is certainly farther than all that counts needs no closer look.
+      const Vec2 apart = world.pose(predator).position() - world.pose(prey).position();
+      const double least_m =
+          std::sqrt(squared_norm(apart)) - hunter.radius_m() - hunted.radius_m() - kRounding_m;
+      if (least_m > check_.within_m && least_m > closest_m_) continue;
       const double gap_m =
-          world::separation(world.model().robots[predator.value()], world.pose(predator),
-                            world.model().robots[prey.value()], world.pose(prey))
-              .distance_m;
+          world::separation(hunter, world.pose(predator), hunted, world.pose(prey)).distance_m;
       closest_m_ = std::min(closest_m_, gap_m);
       if (!(gap_m <= check_.within_m)) continue;
       captures_.push_back({predator, prey, world.time().seconds(), gap_m});

@@ -206,6 +206,14 @@ void merge_instant(std::optional<InstantFacts> from, std::optional<InstantFacts>
                    });
 }
 
+/// Of several who tell of the world the one counts who tells the most.
+void merge_world(std::optional<WorldFacts> from, std::optional<WorldFacts>& into) {
+  if (!from) return;
+  const bool more = !into || from->first_step < into->first_step ||
+                    (from->first_step == into->first_step && from->next_step > into->next_step);
+  if (more) into = std::move(from);
+}
+
 }  // namespace
 
 void merge(RunFacts from, RunFacts& into) {
@@ -230,6 +238,8 @@ void merge(RunFacts from, RunFacts& into) {
   merge_captures(from.capture, into.capture);
   merge_tracks(std::move(from.tracks), into.tracks);
   merge_instant(std::move(from.instant), into.instant);
+  append_by_robot(into.shadows, std::move(from.shadows));
+  merge_world(std::move(from.world), into.world);
 }
 
 }  // namespace rave::robot_host

@@ -132,12 +132,26 @@ struct InstantFacts {
   std::vector<InstantSighting> sightings;
 };
 
+/// How far the shadow of a robot was from it, see Shadows.
+struct ShadowFacts {
+  std::uint32_t robot = 0;
+  std::string report;  ///< A JSON object, for result.json.
+};
+
+/// What a host saw of all robots, for who knows of the end of the run alone, see WorldAccount.
+struct WorldFacts {
+  std::uint64_t first_step = 0;  ///< From this step on ...
+  std::uint64_t next_step = 0;   ///< ... up to that before this one.
+  std::vector<sim::Event> events;
+  std::optional<CaptureFacts> capture;  ///< None: there is no such check.
+};
+
 struct RunFacts {
   std::uint64_t first_step = 0;  ///< Of one that came later.
   std::uint64_t steps = 0;       ///< The step that would have come next.
   bool has_world = false;        ///< Contacts of all robots are among the events.
   /// From this step on they and captures are known; above 0: to a manager that took the place of
-  /// another. Of who puts the results together; in no file.
+  /// another, in a run of which no host saw all. Of who puts the results together; in no file.
   std::uint64_t world_from = 0;
   std::vector<std::string> problems;
   std::vector<sim::Event> events;  ///< By step; in a step by robot, captures last.
@@ -154,6 +168,9 @@ struct RunFacts {
   std::optional<CaptureFacts> capture;
   std::vector<TrackFacts> tracks;  ///< By robot, odometry alone behind all others.
   std::optional<InstantFacts> instant;
+  std::vector<ShadowFacts> shadows;  ///< By robot.
+  /// Of a host during whose run the manager was replaced.
+  std::optional<WorldFacts> world;
 };
 
 /// Adds what another process knows of the same run. In any order the same comes of it, if no robot

@@ -11,7 +11,7 @@ namespace rave::robot_host {
 namespace {
 
 constexpr const char* kMark = "rave findings";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 /// Which members there are, in which order, once for both directions: each is named to `archive`.
 template <class Archive>
@@ -52,10 +52,12 @@ struct Members {
   void of(InstantRobot& v) { archive(v.robot, v.bodies, v.hits); }
   void of(InstantSighting& v) { archive(v.step, v.robot, v.shown); }
   void of(InstantFacts& v) { archive(v.t_s, v.robots, v.sightings); }
+  void of(ShadowFacts& v) { archive(v.robot, v.report); }
+  void of(WorldFacts& v) { archive(v.first_step, v.next_step, v.events, v.capture); }
   void of(RunFacts& v) {
     archive(v.first_step, v.steps, v.has_world, v.problems, v.events, v.robots, v.devices,
             v.streams, v.transmitters, v.radio, v.inputs_by_hand, v.hits, v.closest, v.sightings,
-            v.goals, v.capture, v.tracks, v.instant);
+            v.goals, v.capture, v.tracks, v.instant, v.shadows, v.world);
   }
 };
 
@@ -209,12 +211,19 @@ bool fits(const InstantFacts& facts, const FactsLimits& limits) {
          });
 }
 
+bool fits(const WorldFacts& facts, const FactsLimits& limits) {
+  return std::ranges::all_of(facts.events,
+                             [&](const sim::Event& event) { return fits(event, limits); }) &&
+         (!facts.capture || fits(*facts.capture, limits));
+}
+
 bool fits(const RunFacts& facts, const FactsLimits& limits) {
   const auto encounter_fits = [&](const auto& entry) {
     return entry.second.a < limits.bodies && entry.second.b < limits.bodies;
   };
   return robots_fit(facts.robots, limits) && robots_fit(facts.devices, limits) &&
          robots_fit(facts.streams, limits) && robots_fit(facts.transmitters, limits) &&
+         robots_fit(facts.shadows, limits) &&
          std::ranges::all_of(facts.events,
                              [&](const auto& event) { return fits(event, limits); }) &&
          std::ranges::all_of(facts.closest, encounter_fits) &&
@@ -267,6 +276,13 @@ Result<RunFacts> decode_facts(std::span<const std::byte> bytes, const FactsOf& a
   if (!reader.ok()) return fail(ErrorCode::kParse, "the findings are damaged or not whole");
   if (!fits(facts, limits)) {
     return fail(ErrorCode::kParse, "the findings speak of robots or bodies that there are not");
+  }
+  // What it was told of the world may be somebody else's fault, and its own robots do not hang on
+  // it.
+  if (facts.world && !fits(*facts.world, limits)) {
+    facts.world.reset();
+    facts.problems.emplace_back(
+        "what it was told of the world speaks of robots or bodies that there are not");
   }
   return facts;
 }

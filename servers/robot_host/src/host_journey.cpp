@@ -157,7 +157,7 @@ std::vector<std::byte> encode_facts(const HostJourney& journey, RunFacts facts) 
 Status leave_facts(const HostJourney& journey, std::span<const std::byte> bytes,
                    const std::function<Status(std::span<const std::byte>)>& deliver) {
   // First of all where a process that dies now has them.
-  const Status written =
+  Status written =
       write_file_atomically(journey.options.run.output / kFactsFile,
                             {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   if (const Status sent = deliver(bytes); !sent) {

@@ -16,6 +16,7 @@
 #include "rave/robot_host/world_request.hpp"
 #include "record_keeper.hpp"
 #include "wall_pace.hpp"
+#include "world_account.hpp"
 #include "world_record.hpp"
 
 namespace rave::robot_host {
@@ -25,16 +26,18 @@ using lock_step::HostPort;
 
 /// A host on its way through a run in lock-step.
 struct Journey : HostJourney {
-  Journey(HostJourney host, HostPort& to) : HostJourney(std::move(host)), port(to) {}
+  Journey(HostJourney host, HostPort& to, const config::ExpandedScenario& scenario)
+      : HostJourney(std::move(host)), port(to), account(scenario, engine.spec()) {}
 
   HostPort& port;
+  WorldAccount account;
   sim::HostReport report;
   sim::WorldStep world;
   bool came_to_end = false;
 };
 
 Status propose(Journey& journey) {
-  const Status status = journey.engine.propose(journey.report);
+  Status status = journey.engine.propose(journey.report);
   // The others shall know why.
   if (!status) journey.port.farewell(journey.report, journey.engine.hash().value());
   return status;
@@ -63,6 +66,7 @@ Result<bool> take_step(Journey& journey) {
   journey.stopped = answer == HostPort::Answer::kStopped;
   journey.ended = answer == HostPort::Answer::kEnded;
   if (answer != HostPort::Answer::kWorld) return false;
+  journey.account.take(journey.world, journey.port.authority());
   const std::uint64_t next = journey.report.step;
   if (journey.world.step > next) {
     std::string text =
@@ -118,6 +122,11 @@ HostOutcome judge(const Journey& journey) {
 RunFacts facts_of(Journey& journey, const std::string& record_problem) {
   RunFacts facts = gather(journey.observers, journey.engine);
   if (!record_problem.empty()) facts.problems.push_back(record_problem);
+  if (journey.port.changed_hands()) {
+    WorldFacts told = journey.account.facts();
+    // Who was not there all along cannot fill the gap of a manager.
+    if (told.first_step == 0) facts.world = std::move(told);
+  }
   if (!journey.came_to_end || !has_radio(journey.engine.spec())) return facts;
   // Who hears what was sent in the last step is decided with the world after it.
   const bool heard = journey.engine.join(journey.world, journey.port.authority()).has_value();
@@ -189,10 +198,13 @@ Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::C
   const RecordedConsole recorded(console, record ? &record->recorder() : nullptr);
   Journey journey({*engine, observers, record.get(), ros2.get(), port->roster(), options, console,
                    shared_number(scenario)},
-                  *port);
+                  *port, scenario);
   journey.report.host = seat.number;
   journey.world_tells = true;
-  look = [&journey] { look_back(journey, obstacle_events(journey.world), journey.world.resized); };
+  look = [&journey] {
+    look_back(journey, obstacle_events(journey.world), journey.world.resized);
+    journey.account.after_step(journey.engine);
+  };
   const ControlledHost controlled(*engine, scenario.scenario, run.control, false);
   tell_who_waits(*engine, run, console);
   const Status went = go_through(journey);

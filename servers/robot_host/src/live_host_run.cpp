@@ -13,6 +13,7 @@
 #include "rave/robot_host/build.hpp"
 #include "rave/robot_host/provenance.hpp"
 #include "requests.hpp"
+#include "shadow_report.hpp"
 #include "shadows.hpp"
 #include "stall_watch.hpp"
 #include "wall_pace.hpp"
@@ -200,9 +201,7 @@ Status write_results(const LiveJourney& journey, const RunFacts& facts,
   json["withheld_packets"] = journey.link.withheld_packets();
   json["dropped_packets"] = journey.live.dropped_packets();
   json["events"] = journey.events.size();
-  if (journey.shadows != nullptr) {
-    json["shadows"] = nlohmann::ordered_json::parse(journey.shadows->json());
-  }
+  if (!facts.shadows.empty()) json["shadows"] = shadows_json(facts.shadows);
   json["ending"] = outcome.ending;
   json["problems"] = outcome.problems;
   RAVE_TRY(write_file_atomically(
@@ -281,6 +280,7 @@ Result<HostOutcome> go(const LiveHost& host, sim::Engine& engine, HostLink& link
   RunFacts facts = gather(observers, engine);
   facts.first_step = journey.first;
   facts.problems = journey.problems;
+  if (shadows) facts.shadows = shadows->facts();
   if (record) {
     const Status written = record->end(std::nullopt);
     if (!written) {

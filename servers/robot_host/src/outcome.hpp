@@ -10,7 +10,6 @@
 #include "kinds.hpp"
 #include "rave/robot_host/run.hpp"
 #include "rave/robot_host/shared_results.hpp"
-#include "shadows.hpp"
 
 namespace rave::robot_host {
 
@@ -40,7 +39,6 @@ struct Findings {
   std::optional<std::uint64_t> worlds{};  ///< Of one in real time: that the manager sent.
   std::optional<std::uint64_t> states{};  ///< ... and that it got.
   std::optional<SharedEdits> edits{};
-  const Shadows* shadows = nullptr;  ///< Null: nobody has one.
 
   [[nodiscard]] bool any_lost() const noexcept;
   /// Simulated time that was run through.

@@ -8,6 +8,7 @@
 #include "event_words.hpp"
 #include "outcome.hpp"
 #include "radio_report.hpp"
+#include "shadow_report.hpp"
 #include "sighting_check.hpp"
 
 namespace rave::robot_host {
@@ -193,7 +194,7 @@ void add_hand_overs(const Findings& findings, Json& json) {
                                   {"made", made},
                                   {"what", event.text}});
   }
-  if (findings.shadows != nullptr) json["shadows"] = Json::parse(findings.shadows->json());
+  if (!findings.facts.shadows.empty()) json["shadows"] = shadows_json(findings.facts.shadows);
 }
 
 void add_edits(const SharedEdits& edits, Json& json) {

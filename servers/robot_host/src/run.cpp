@@ -258,6 +258,7 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
   console.attach(nullptr);
   RunFacts facts = gather(observers, *engine);
   facts.events = std::move(journey.events);
+  if (observers.shadows) facts.shadows = observers.shadows->facts();
   if (observers.record) {
     const auto hash = live ? std::nullopt : std::optional(engine->hash().value());
     const Status written = observers.record->end(hash);
@@ -267,7 +268,6 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
   findings.wall_s = journey.wall_s;
   findings.ended_early = journey.stopped;
   if (!live) findings.hash = engine->hash().value();
-  findings.shadows = observers.shadows.get();
   return write_results(findings, options.output, options.picture);
 }
 

@@ -278,7 +278,7 @@ void Shadows::refresh(RunStatus& status) const {
   for (RunStatus::Robot& robot : status.robots) {
     for (const Shadow& shadow : shadows_) {
       if (shadow.name != robot.name) continue;
-      RunStatus::Shadow& told = robot.shadow.emplace();
+      RunStatus::Shadow& told = *(robot.shadow = RunStatus::Shadow{});
       told.running = shadow.now.running;
       told.since_s = shadow.now.since.seconds();
       told.m = shadow.now.m;
@@ -294,8 +294,8 @@ void Shadows::refresh(RunStatus& status) const {
   }
 }
 
-std::string Shadows::json() const {
-  Json all = Json::array();
+std::vector<ShadowFacts> Shadows::facts() const {
+  std::vector<ShadowFacts> all;
   for (const Shadow& shadow : shadows_) {
     const ShadowDifference& now = shadow.now;
     Json readings = Json::object();
@@ -313,15 +313,17 @@ std::string Shadows::json() const {
                          {"m", rounded(moment.m)},
                          {"rad", rounded(moment.rad)}});
     }
-    all.push_back({{"robot", shadow.name},
-                   {"starts", shadow.starts},
-                   {"whole", shadow.world != nullptr},
-                   {"last", {{"m", rounded(now.m)}, {"rad", rounded(now.rad)}}},
-                   {"most", {{"m", rounded(shadow.ever_m)}, {"rad", rounded(shadow.ever_rad)}}},
-                   {"readings", std::move(readings)},
-                   {"moments", std::move(moments)}});
+    const Json report = {
+        {"robot", shadow.name},
+        {"starts", shadow.starts},
+        {"whole", shadow.world != nullptr},
+        {"last", {{"m", rounded(now.m)}, {"rad", rounded(now.rad)}}},
+        {"most", {{"m", rounded(shadow.ever_m)}, {"rad", rounded(shadow.ever_rad)}}},
+        {"readings", std::move(readings)},
+        {"moments", std::move(moments)}};
+    all.push_back({shadow.robot.value(), report.dump()});
   }
-  return all.dump();
+  return all;
 }
 
 }  // namespace rave::robot_host

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "facts.hpp"
 #include "observer.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/plugin/catalogue.hpp"
@@ -66,8 +67,8 @@ class Shadows final : public Observer {
   /// step. Errors: kNotFound.
   Result<std::string> reset(std::string_view robot);
   void refresh(RunStatus& status) const;
-  /// For result.json; a JSON array.
-  [[nodiscard]] std::string json() const;
+  /// Of each robot that has a shadow here, by robot.
+  [[nodiscard]] std::vector<ShadowFacts> facts() const;
 
  private:
   struct Shadow {

@@ -31,6 +31,14 @@ sim::EngineSpec outline_of(const sim::EngineSpec& spec) {
   return outline;
 }
 
+/// Changes of the world that somebody asked for.
+std::uint64_t count_by_hand(std::span<const sim::Event> events) {
+  return static_cast<std::uint64_t>(std::ranges::count_if(events, [](const sim::Event& event) {
+    return (sim::is_of_obstacle(event.kind) || event.kind == sim::EventKind::kChanged) &&
+           event.text.ends_with("(by hand)");
+  }));
+}
+
 }  // namespace
 
 struct SharedResults::Impl {
@@ -48,6 +56,7 @@ struct SharedResults::Impl {
   void note_take_over(const sim::WorldAuthority& authority, std::uint64_t from);
   Status add(const SharedHost& host, std::string bytes, std::vector<std::string>& added);
   [[nodiscard]] HostShare share_of(const SharedHost& host) const;
+  void fill_in_before(std::uint64_t steps);
   void take(const SharedHost& host, const std::vector<std::size_t>& robots, Findings& findings);
 
   const config::ExpandedScenario& scenario;
@@ -60,11 +69,13 @@ struct SharedResults::Impl {
   RunFacts facts;
   std::vector<sim::Event> seen;  ///< Captures of the step that is not done yet.
   bool begun = false;
+  bool taken_over = false;  ///< From another manager.
   std::uint64_t noted = 0;  ///< Steps whose events have been taken.
 };
 
 /// What a manager before knew and is a problem of the run.
 void SharedResults::Impl::note_take_over(const sim::WorldAuthority& authority, std::uint64_t from) {
+  taken_over = true;
   facts.world_from = from;
   const auto told = authority.refused();
   for (const sim::Event& event : told) {
@@ -91,11 +102,7 @@ void SharedResults::Impl::note_step(const sim::WorldAuthority& authority) {
   seen.clear();
   if (record) record->step(done - 1, kinds, events, authority.hash().value());
   facts.events.insert(facts.events.end(), events.begin(), events.end());
-  facts.inputs_by_hand += static_cast<std::uint64_t>(
-      std::ranges::count_if(authority.events(), [](const sim::Event& event) {
-        return (sim::is_of_obstacle(event.kind) || event.kind == sim::EventKind::kChanged) &&
-               event.text.ends_with("(by hand)");
-      }));
+  facts.inputs_by_hand += count_by_hand(authority.events());
 }
 
 /// What one process of a host knows; each once, whichever way it came.
@@ -158,6 +165,37 @@ void SharedResults::Impl::take(const SharedHost& host, const std::vector<std::si
   findings.hosts.push_back(std::move(share));
 }
 
+/// Where a host saw the whole run, what was before this manager is known as well. `steps`: that
+/// were done.
+void SharedResults::Impl::fill_in_before(std::uint64_t steps) {
+  if (!taken_over) return;
+  const auto from = facts.world_from;
+  // Also of one that took over in the first step; nobody may have seen the whole run.
+  facts.world_from = std::max<std::uint64_t>(from, 1);
+  if (!facts.world) return;
+  WorldFacts told = *std::exchange(facts.world, std::nullopt);
+  if (told.first_step > 0 || told.next_step < steps) return;
+  using Kind = sim::EventKind;
+  // Of the step in which it took over this manager knows no texts, and of captures it does not know
+  // which came before.
+  std::erase_if(facts.events, [from](const sim::Event& event) {
+    if (event.kind == Kind::kCaptured) return true;
+    const bool textless = event.kind == Kind::kChanged && event.text.empty();
+    return event.step == from && (textless || event.kind == Kind::kContact ||
+                                  event.kind == Kind::kPinned || sim::is_of_obstacle(event.kind));
+  });
+  std::erase_if(told.events, [from](const sim::Event& event) {
+    return event.step > from && event.kind != Kind::kCaptured;
+  });
+  RunFacts before;
+  before.first_step = facts.first_step;
+  before.inputs_by_hand = count_by_hand(told.events);
+  before.events = std::move(told.events);
+  merge(std::move(before), facts);
+  facts.capture = std::move(told.capture);
+  facts.world_from = 0;
+}
+
 SharedResults::SharedResults(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 SharedResults::~SharedResults() = default;
 
@@ -211,6 +249,7 @@ Result<RunOutcome> SharedResults::write(const SharedEnd& end) {
     impl.take(end.hosts[h], planned[h].robots, findings);
   }
   if (impl.live_reason.empty()) facts.steps = end.steps;
+  impl.fill_in_before(facts.steps);
   findings.worlds = end.worlds;
   findings.states = end.states;
   findings.edits = end.edits;

@@ -42,6 +42,11 @@ inline RunFacts sample_facts(std::uint32_t robot) {
   report::PictureSighting sighting;
   sighting.tube_W = Vec2{2, 3};
   facts.instant = InstantFacts{1.5, {shown}, {{robot, robot, sighting}}};
+  facts.shadows = {{robot, R"({"robot": "r"})"}};
+  facts.world = WorldFacts{robot,
+                           300,
+                           {{5, RobotId(1), sim::EventKind::kContact, BodyId(0), "", 0}},
+                           CaptureFacts{{{RobotId(1), RobotId(0), 3.5, 0.1}}, 0.1}};
   return facts;
 }
 

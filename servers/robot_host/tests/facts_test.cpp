@@ -80,6 +80,11 @@ TEST(Facts, OfTwoHostsAddUpInAnyOrder) {
   EXPECT_EQ(whole.tracks[1].robot, 3U);
   EXPECT_EQ(whole.events[0].step, 3U);
   EXPECT_EQ(whole.events[1].robot, RobotId(3));
+  ASSERT_EQ(whole.shadows.size(), 2U);
+  EXPECT_EQ(whole.shadows[0].robot, 1U);
+  EXPECT_EQ(whole.shadows[1].robot, 3U);
+  ASSERT_TRUE(whole.world);
+  EXPECT_EQ(whole.world->first_step, 1U) << "who saw more of the world tells of it";
 }
 
 sim::Event obstacle(std::uint64_t step, sim::EventKind kind, std::uint32_t change) {

@@ -10,6 +10,7 @@
 #include "rave/base/names.hpp"
 #include "rave/bus/sequence.hpp"
 #include "rave/bus/wait_set.hpp"
+#include "rave/bus/wish_parts.hpp"
 #include "rave/bus/writer.hpp"
 
 namespace rave::run_control {
@@ -23,6 +24,9 @@ constexpr milliseconds kMoment{400};
 /// What may have gone before the other end was known is sent again, then after twice as long.
 constexpr milliseconds kFirstAgain{50};
 constexpr milliseconds kLongestAgain{500};
+
+/// Messages about one wish that are looked at together.
+constexpr std::size_t kMostAtOnce = 16;
 
 /// What comes from elsewhere and is shown on a terminal; a list has lines.
 std::string plain(std::string_view text) {
@@ -52,6 +56,14 @@ Result<Answer> read_answer(std::string_view line) {
   return answer;
 }
 
+/// The line stays the caller's and must live as long as the wish is used.
+void put_line(bus::Wish& wish, std::string& line) {
+  // The wire type has octets that can be written to.
+  wish.text._buffer = reinterpret_cast<std::uint8_t*>(line.data());
+  wish.text._length = static_cast<std::uint32_t>(line.size());
+  wish.text._maximum = wish.text._length;
+}
+
 }  // namespace
 
 struct BusRun::Impl {
@@ -68,14 +80,19 @@ struct BusRun::Impl {
   [[nodiscard]] bool knows(std::uint64_t writer) const {
     return std::ranges::find(peers, writer, &BusPeer::writer) != peers.end();
   }
-  [[nodiscard]] std::optional<Result<Answer>> take(const BusPeer& peer);
+  /// A message about a wish.
+  struct Said {
+    bool taken = false;
+    std::string text;
+  };
+  [[nodiscard]] std::vector<Said> take(const BusPeer& peer);
 };
 
 /// Learns who is there.
 void BusRun::Impl::look() {
   infos.take([this](const bus::HostInfo& info) {
     if (knows(info.writer) || peers.size() >= rave_wire_kMaxHosts) return;
-    peers.push_back({info.writer, info.name, info.host == rave_wire_kNone});
+    peers.push_back({info.writer, info.name, info.machine, info.host == rave_wire_kNone});
   });
   for (const bus::BusEvent& event : bus->take_events()) {
     if (event.kind != bus::EventKind::kParticipantLost || event.writer == 0) continue;
@@ -83,21 +100,17 @@ void BusRun::Impl::look() {
   }
 }
 
-/// The answer to the last wish, if it has come.
-std::optional<Result<Answer>> BusRun::Impl::take(const BusPeer& peer) {
-  std::optional<Result<Answer>> result;
+/// What has come of the last wish.
+std::vector<BusRun::Impl::Said> BusRun::Impl::take(const BusPeer& peer) {
+  std::vector<Said> said;
   answers.take([&](const bus::WishAnswer& answer) {
     const bool ours =
         answer.writer == peer.writer && answer.target == bus->writer() && answer.number == number;
-    if (!ours || result) return;
-    const std::string_view text = bus::text_of(answer.text);
-    if (answer.taken) {
-      result = read_answer(text);
-    } else {
-      result = Answer{false, std::string(text), {}};
-    }
+    // Beyond the answer to the wish and to its repetitions it is somebody who does not stop.
+    if (!ours || said.size() >= kMostAtOnce) return;
+    said.push_back({answer.taken, std::string(bus::text_of(answer.text))});
   });
-  return result;
+  return said;
 }
 
 BusRun::BusRun(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -114,9 +127,10 @@ Result<std::unique_ptr<BusRun>> BusRun::open(bus::BusConfig config, std::string_
   RAVE_TRY(waits.add(infos));
   RAVE_TRY(waits.add(answers));
   RAVE_TRY(waits.add_events());
-  return std::unique_ptr<BusRun>(new BusRun(std::unique_ptr<Impl>(
-      new Impl{std::move(bus), std::move(infos), std::move(wishes), std::move(answers),
-               std::move(waits), without_control_characters(from, " ")})));
+  std::unique_ptr<Impl> impl(new Impl{std::move(bus), std::move(infos), std::move(wishes),
+                                      std::move(answers), std::move(waits),
+                                      without_control_characters(from, " ")});
+  return std::unique_ptr<BusRun>(new BusRun(std::move(impl)));
 }
 
 Result<BusPeer> BusRun::find(std::string_view host, Duration patience) {
@@ -131,6 +145,15 @@ Result<BusPeer> BusRun::find(std::string_view host, Duration patience) {
     if (Clock::now() >= end) break;
     static_cast<void>(run.waits.wait(bus::left_until(end)));
   }
+  if (run.peers.empty()) {
+    // That a process exists is seen without certificates, and nothing that it says.
+    return fail(ErrorCode::kNotFound,
+                "a run is seen, but nothing that its processes say: those with certificates are "
+                "heard by members of their set alone; {}",
+                run.bus->config().security.empty()
+                    ? "give --security with the folder of one that you have"
+                    : "these are of another set, or the run has none (then leave --security out)");
+  }
   std::vector<std::string_view> names;
   for (const BusPeer& peer : run.peers) {
     if (!peer.manager) names.emplace_back(peer.name);
@@ -144,9 +167,9 @@ Result<BusPeer> BusRun::find(std::string_view host, Duration patience) {
               "the environment manager of the run is not there; {}; RUN@HOST asks a host", others);
 }
 
-std::vector<BusPeer> BusRun::all() {
+std::vector<BusPeer> BusRun::all(Duration patience) {
   Impl& run = *impl_;
-  const auto latest = Clock::now() + std::chrono::nanoseconds(kPatience.ns);
+  const auto latest = Clock::now() + std::chrono::nanoseconds(patience.ns);
   auto end = latest;
   std::size_t known = 0;
   for (;;) {
@@ -174,20 +197,31 @@ Result<Answer> BusRun::ask(const BusPeer& peer, const Request& request, Duration
   wish.target = peer.writer;
   wish.number = ++run.number;
   bus::put_text(wish.from, run.from);
-  wish.text._buffer = reinterpret_cast<std::uint8_t*>(line.data());
-  wish.text._length = static_cast<std::uint32_t>(line.size());
-  wish.text._maximum = wish.text._length;
-  const auto end = Clock::now() + std::chrono::nanoseconds(patience.ns);
+  bus::AnswerParts parts;
+  auto end = Clock::now() + std::chrono::nanoseconds(patience.ns);
   auto send_at = Clock::now();
   auto again = kFirstAgain;
   while (Clock::now() < end) {
     if (Clock::now() >= send_at) {
+      put_line(wish, line);
       RAVE_TRY(run.wishes.write(wish));
       send_at = Clock::now() + again;
       again = std::min(2 * again, kLongestAgain);
     }
     static_cast<void>(run.waits.wait(bus::left_until(std::min(send_at, end))));
-    if (auto answer = run.take(peer)) return *std::move(answer);
+    const std::size_t had = parts.text().size();
+    for (const Impl::Said& said : run.take(peer)) {
+      if (!said.taken) return Answer{false, said.text, {}};
+      RAVE_TRY(parts.add(said.text));
+      if (parts.complete()) return read_answer(parts.text());
+    }
+    if (parts.text().size() > had) {
+      line = bus::wish_for_rest(parts.text().size());
+      send_at = Clock::now();
+      again = kFirstAgain;
+      // For each of the parts, of which there are not many.
+      end = send_at + std::chrono::nanoseconds(patience.ns);
+    }
     run.look();
     if (!run.knows(peer.writer)) {
       return fail(ErrorCode::kState, "`{}` has gone without an answer", peer.name);

@@ -209,10 +209,11 @@ bool read_status(const Json& json, robot_host::RunStatus& status) {
            read_bool(item, "simulated", robot.simulated) && read_bool(item, "armed", robot.armed) &&
            read_bool(item, "stopped", robot.stopped);
     if (good && item.contains("hand_over")) {
-      good = read_hand_over(item.at("hand_over"), robot.hand_over.emplace());
+      good = read_hand_over(item.at("hand_over"),
+                            *(robot.hand_over = robot_host::RunStatus::HandOver{}));
     }
     if (good && item.contains("shadow")) {
-      good = read_shadow(item.at("shadow"), robot.shadow.emplace());
+      good = read_shadow(item.at("shadow"), *(robot.shadow = robot_host::RunStatus::Shadow{}));
     }
     status.robots.push_back(std::move(robot));
   }

@@ -81,9 +81,10 @@ Result<std::unique_ptr<Observer>> Observer::open(bus::BusConfig config) {
   RAVE_TRY(waits.add(worlds));
   RAVE_TRY(waits.add_events());
   RunModel model(config.run.text());
-  return std::unique_ptr<Observer>(new Observer(std::unique_ptr<Impl>(new Impl{
-      std::move(bus), std::move(infos), std::move(runs), std::move(roster), std::move(processes),
-      std::move(states), std::move(worlds), std::move(waits), std::move(model)})));
+  std::unique_ptr<Impl> impl(new Impl{std::move(bus), std::move(infos), std::move(runs),
+                                      std::move(roster), std::move(processes), std::move(states),
+                                      std::move(worlds), std::move(waits), std::move(model)});
+  return std::unique_ptr<Observer>(new Observer(std::move(impl)));
 }
 
 void Observer::watch(Duration span, const std::stop_token& stop) {

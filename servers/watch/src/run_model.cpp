@@ -12,6 +12,8 @@ namespace {
 /// Somebody who makes up processes or robots gets no further.
 constexpr std::size_t kMostProcesses = 2 * rave_wire_kMaxHosts;
 constexpr std::size_t kMostRobots = rave_wire_kMaxRobots;
+/// What a process uses is counted over no less.
+constexpr std::int64_t kCoresApart_ns = 200'000'000;
 
 }  // namespace
 
@@ -87,6 +89,19 @@ void RunModel::hear(const bus::RunState& state, std::int64_t now_ns) {
   if (fresh) run_steps_.add(now_ns, static_cast<double>(state.step));
 }
 
+/// Two messages that follow one another closely, as after a hand-over, were not the same time on
+/// their way, which then is most of what lies between them.
+void RunModel::count_cores(Process& process, const bus::ProcessState& state, std::int64_t now_ns) {
+  const std::int64_t span_ns = now_ns - process.cores_from_ns;
+  if (process.state && state.cpu_ns >= process.cores_from) {
+    if (span_ns < kCoresApart_ns) return;
+    process.cores =
+        static_cast<double>(state.cpu_ns - process.cores_from) / static_cast<double>(span_ns);
+  }
+  process.cores_from_ns = now_ns;
+  process.cores_from = state.cpu_ns;
+}
+
 void RunModel::hear(const bus::ProcessState& state, std::int64_t now_ns, std::int64_t delay_ns) {
   Process& process = process_of(state.writer);
   process.gone = false;
@@ -94,9 +109,8 @@ void RunModel::hear(const bus::ProcessState& state, std::int64_t now_ns, std::in
   if (process.state && process.heard_ns && now_ns > *process.heard_ns) {
     const bus::ProcessState& before = *process.state;
     if (state.number > before.number) process.lost += state.number - before.number - 1;
-    process.cores = static_cast<double>(state.cpu_ns - before.cpu_ns) /
-                    static_cast<double>(now_ns - *process.heard_ns);
   }
+  count_cores(process, state, now_ns);
   if (!process.state || process.state->step != state.step) process.moved_ns = now_ns;
   process.steps.add(now_ns, static_cast<double>(state.step));
   process.state = state;
@@ -145,7 +159,7 @@ void RunModel::hear(const bus::HostState& state, std::int64_t now_ns, std::int64
 
 void RunModel::hear(const bus::World& world, std::int64_t now_ns) {
   if (!worlds_ || worlds_->writer != world.writer) {
-    worlds_.emplace();
+    worlds_ = Worlds{};
     worlds_->writer = world.writer;
   } else if (world.step > worlds_->number) {
     worlds_->lost += world.step - worlds_->number - 1;

@@ -56,7 +56,7 @@ std::size_t columns_of(std::string_view text) noexcept {
 }
 
 std::string fitted(std::string_view text, std::size_t width) {
-  const std::string clean = without_control_characters(text, "");
+  std::string clean = without_control_characters(text, "");
   if (columns_of(clean) <= width) return clean;
   std::size_t end = 0;
   for (std::size_t columns = 0; end < clean.size(); ++end) {

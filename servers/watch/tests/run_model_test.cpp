@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "rave/base/time.hpp"
 #include "rave/bus/sequence.hpp"
 
 namespace rave::watch {
@@ -137,6 +138,25 @@ TEST_F(RunModelTest, WhatAProcessSaysOfItself) {
   EXPECT_EQ(left.lost, 1U) << "its second message never came";
   EXPECT_FALSE(host(0, 4 * kSecond).age_s) << "the next message may be on its way";
   EXPECT_DOUBLE_EQ(host(0, 5 * kSecond).age_s.value(), 3) << "since it was in a new step";
+}
+
+TEST_F(RunModelTest, TwoMessagesInARowSayNothingOfCores) {
+  const auto hear = [this](std::uint64_t number, double cpu_s, double now_s) {
+    auto state = process_of(2, number, number);
+    state.cpu_ns = from_seconds(cpu_s).ns;
+    model_.hear(state, from_seconds(now_s).ns, 0);
+  };
+  hear(1, 10, 1);
+  EXPECT_FALSE(host(0, kSecond).cores);
+  // The next one came 10 ms after it, and was sent half a second after it.
+  hear(2, 10.25, 1.01);
+  EXPECT_FALSE(host(0, 2 * kSecond).cores);
+  hear(3, 10.5, 2);
+  EXPECT_DOUBLE_EQ(host(0, 2 * kSecond).cores.value(), 0.5);
+  hear(4, 10.75, 2.1);
+  EXPECT_DOUBLE_EQ(host(0, 3 * kSecond).cores.value(), 0.5);
+  hear(5, 11.5, 3);
+  EXPECT_DOUBLE_EQ(host(0, 3 * kSecond).cores.value(), 1);
 }
 
 TEST(RunModelAlone, WhoHearsNothingIsToldWhy) {

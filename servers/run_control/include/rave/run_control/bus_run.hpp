@@ -18,6 +18,7 @@ namespace rave::run_control {
 struct BusPeer {
   std::uint64_t writer = 0;
   std::string name;      ///< That of its host in the scenario, or of the manager.
+  std::string machine;   ///< Where it runs, as that calls itself; may be empty.
   bool manager = false;  ///< It is the environment manager of the run.
 };
 
@@ -37,10 +38,11 @@ class BusRun {
   ~BusRun();
 
   /// The process of this host; of the environment manager if `host` is empty. Waits for it up to
-  /// `patience`. Error kNotFound with those that are there.
+  /// `patience`. Error kNotFound with those that are there, or with what keeps all from being
+  /// heard.
   [[nodiscard]] Result<BusPeer> find(std::string_view host, Duration patience = kPatience);
-  /// All that are there: waits until for a moment nobody new has come.
-  [[nodiscard]] std::vector<BusPeer> all();
+  /// All that are there: waits until for a moment nobody new has come, `patience` at most.
+  [[nodiscard]] std::vector<BusPeer> all(Duration patience = kPatience);
 
   /// Asks and waits for the answer. Errors: kTimeout (there was none), kState (the process is
   /// gone), kInvalidArgument (what the bus does not carry), kParse.

@@ -81,6 +81,8 @@ class RunModel {
     std::optional<bus::ProcessState> state;  ///< Its last.
     std::optional<std::int64_t> heard_ns;    ///< Of `state`.
     std::optional<double> cores;
+    std::int64_t cores_from_ns = 0;  ///< What its `cores` are counted from: when it came,
+    std::int64_t cores_from = 0;     ///< and the time of cores that it said.
     std::optional<std::int64_t> delay_ns;
     std::uint64_t lost = 0;
     Rate steps;
@@ -134,6 +136,7 @@ class RunModel {
   /// By number of the robot: what those say that serve the hosts.
   [[nodiscard]] std::map<std::uint32_t, Told> roster(const std::set<std::uint32_t>& hosts) const;
   void tell_robots(const std::set<std::uint32_t>& hosts, RunView& view, std::int64_t now_ns) const;
+  static void count_cores(Process& process, const bus::ProcessState& state, std::int64_t now_ns);
   void place(const rave_wire_PlanarRobots& robots, std::size_t i, std::int64_t now_ns);
   [[nodiscard]] const Process* speaker_of(std::uint32_t host) const;
   [[nodiscard]] bool manager_here() const;

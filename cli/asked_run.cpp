@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <vector>
 
@@ -14,6 +16,7 @@
 #include "rave/base/names.hpp"
 #include "rave/run_control/client.hpp"
 #include "rave/run_control/folder.hpp"
+#include "rave/watch/observer.hpp"
 
 namespace rave::cli {
 namespace {
@@ -73,27 +76,48 @@ tl::unexpected<Error> none_at_all(const std::string& word, const bus::BusConfig&
               remedy);
 }
 
+/// What this command is on the bus.
+Result<bus::BusConfig> asker_config(const BusOptions& options) {
+  RAVE_TRY_ASSIGN(auto config, bus_config(options, "rave", 0));
+  make_room(config, kMostHosts);
+  return config;
+}
+
+Duration patience_of(const bus::BusConfig& config) {
+  const bool near = config.loopback() && config.peers.empty();
+  return near ? kPatienceNear : kPatienceFar;
+}
+
+/// How people say a run of which only the number is known.
+std::string name_of(const bus::RunId& run) { return run.text().substr(0, 8); }
+
 Result<Found> search_bus(const std::string& word, const BusOptions& options) {
   const std::size_t mark = word.rfind(kOfHost);
   const std::string run_word = word.substr(0, mark);
   Found found;
   if (mark != std::string::npos) found.host = word.substr(mark + 1);
-  RAVE_TRY_ASSIGN(auto config, bus_config(options, "rave", 0));
-  make_room(config, kMostHosts);
-  const bool near = config.loopback() && config.peers.empty();
-  const auto run =
-      find_bus_run(config, run_word, SearchFor::kAct, near ? kPatienceNear : kPatienceFar);
+  RAVE_TRY_ASSIGN(auto config, asker_config(options));
+  const auto run = find_bus_run(config, run_word, SearchFor::kAct, patience_of(config));
   if (!run) return none_at_all(word, config, run.error());
   config.run = *run;
   RAVE_TRY_ASSIGN(found.bus, BusRun::open(config, own_name()));
   // A number means something to nobody who has said a name.
   const bool named = !run_word.empty() && !run->text().starts_with(run_word);
-  found.run = named ? run_word : run->text().substr(0, 8);
+  found.run = named ? run_word : name_of(*run);
   return found;
 }
 
 std::string name_of(const Found& found, const BusPeer& peer) {
   return peer.manager ? found.run : fmt::format("{}{}{}", found.run, kOfHost, peer.name);
+}
+
+/// Each once.
+std::string machines_of(const std::vector<BusPeer>& peers) {
+  std::set<std::string_view> machines;
+  for (const BusPeer& peer : peers) {
+    if (!peer.machine.empty()) machines.insert(peer.machine);
+  }
+  return join_names(std::vector<std::string_view>(machines.begin(), machines.end()));
 }
 
 }  // namespace
@@ -132,7 +156,8 @@ Result<AskedRun> AskedRun::find_on_bus(const std::string& word, const BusOptions
   }
   std::vector<AskedRun> having;
   std::optional<Error> silent;
-  for (const BusPeer& peer : found.bus->all()) {
+  const std::vector<BusPeer> all = found.bus->all();
+  for (const BusPeer& peer : all) {
     AskedRun run(name_of(found, peer), found.bus, peer);
     auto status = run.status(kLookPatience);
     if (!status) {
@@ -145,12 +170,45 @@ Result<AskedRun> AskedRun::find_on_bus(const std::string& word, const BusOptions
   if (having.empty()) {
     // It may be what has it.
     if (silent) return tl::unexpected(*std::move(silent));
-    RAVE_TRY_ASSIGN(auto peer, found.bus->find({}));
+    // Where nobody is heard, it has been waited for long enough.
+    RAVE_TRY_ASSIGN(auto peer, found.bus->find({}, all.empty() ? Duration{} : BusRun::kPatience));
     return AskedRun(found.run, found.bus, std::move(peer));
   }
   std::vector<std::string_view> names;
   for (const AskedRun& run : having) names.emplace_back(run.name());
   return fail(ErrorCode::kNotFound, "several processes have it: {}; say which", join_names(names));
+}
+
+Result<std::vector<SeenRun>> AskedRun::all_on_bus(const BusOptions& options) {
+  RAVE_TRY_ASSIGN(auto config, asker_config(options));
+  const auto all_that_time = [](const std::vector<watch::FoundRun>&) { return false; };
+  RAVE_TRY_ASSIGN(const auto runs, watch::find_runs(config, patience_of(config), all_that_time));
+  std::vector<SeenRun> seen;
+  for (const watch::FoundRun& run : runs) {
+    config.run = run.run;
+    RAVE_TRY_ASSIGN(std::shared_ptr<BusRun> bus, BusRun::open(config, own_name()));
+    const Found found{bus, name_of(run.run), {}};
+    // Who has certificates has to be believed first.
+    const bool secured = !config.security.empty();
+    std::vector<BusPeer> peers = bus->all(secured ? BusRun::kPatience : kLookPatience);
+    if (peers.empty()) {
+      auto last = bus->find({}, Duration{});
+      if (!last) {
+        seen.push_back({found.run, {}, tl::unexpected(last.error())});
+        continue;
+      }
+      peers = {*std::move(last)};
+    }
+    const std::string machines = machines_of(peers);
+    const auto manager = std::ranges::find_if(peers, &BusPeer::manager);
+    // It knows of all; without it each host knows its own.
+    if (manager != peers.end()) peers = {BusPeer(*manager)};
+    for (const BusPeer& peer : peers) {
+      const AskedRun one(name_of(found, peer), bus, peer);
+      seen.push_back({one.name(), peer.manager ? machines : peer.machine, one.status()});
+    }
+  }
+  return seen;
 }
 
 Result<Answer> AskedRun::ask(const Request& request, Duration patience) const {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "bus_options.hpp"
 #include "rave/base/result.hpp"
@@ -12,6 +13,13 @@
 #include "rave/run_control/protocol.hpp"
 
 namespace rave::cli {
+
+/// A run on the bus, or one host of a run that has no manager, as `rave ps` lists it.
+struct SeenRun {
+  std::string name;      ///< What a command takes for it.
+  std::string machines;  ///< Where its processes are; empty if none is heard.
+  Result<robot_host::RunStatus> status;
+};
 
 /// A process of a run that is asked something: of this user on this machine, over its socket, or
 /// else wherever it is, over the bus. One owner thread.
@@ -31,6 +39,11 @@ class AskedRun {
   using Has = std::function<bool(const robot_host::RunStatus&)>;
   [[nodiscard]] static Result<AskedRun> find_on_bus(const std::string& word,
                                                     const BusOptions& options, const Has& has);
+
+  /// The runs on the bus, each asked how it stands; those of this machine are among them. Looks for
+  /// 1.5 s, or 3 s beyond loopback, and asks one after the other. Errors: those of
+  /// bus::Bus::open().
+  [[nodiscard]] static Result<std::vector<SeenRun>> all_on_bus(const BusOptions& options);
 
   /// Whether a run on this machine can be meant, which then counts before any on the bus.
   [[nodiscard]] static bool may_be_here(const std::string& word);

@@ -14,8 +14,9 @@ void add_network_options(CLI::App& app, BusOptions& c) {
   add_value(app, "--multicast", c.multicast, "off, discovery (to find one another) or on", "USE");
   add_value(app, "--security", c.security,
             "Folder with the certificates of this process, as `rave keys` makes them", "DIR");
-  // Not for people: keeps tests on one machine apart.
+  // Not for people: keeps tests on one machine apart, and lets a benchmark count what goes by DDS.
   app.add_option("--bus-tag", c.tag)->group("");
+  app.add_flag("--dds-only", c.dds_only)->group("");
 }
 
 void add_bus_options(CLI::App& app, BusOptions& c) {

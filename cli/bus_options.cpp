@@ -20,6 +20,12 @@ Result<bus::Multicast> multicast_of(const std::string& word) {
 
 }  // namespace
 
+bool BusOptions::says_where() const {
+  const BusOptions usual;
+  return domain != usual.domain || interface != usual.interface || peers != usual.peers ||
+         multicast != usual.multicast || security != usual.security;
+}
+
 Result<bus::BusConfig> bus_config(const BusOptions& options, std::string participant,
                                   std::uint64_t scenario) {
   RAVE_TRY_ASSIGN(auto config, read_bus_options(options, std::move(participant), scenario));
@@ -36,6 +42,7 @@ Result<bus::BusConfig> read_bus_options(const BusOptions& options, std::string p
   config.peers = options.peers;
   config.security = options.security;
   config.tag = options.tag;
+  config.short_way = !options.dds_only;
   RAVE_TRY_ASSIGN(config.multicast, multicast_of(options.multicast));
   const auto digits = bus::RunId::parse(options.run);
   config.run = digits                ? *digits
@@ -64,6 +71,7 @@ std::vector<std::string> words_of(const BusOptions& options, const bus::RunId& r
     words.emplace_back("--security");
     words.push_back(options.security);
   }
+  if (options.dds_only) words.emplace_back("--dds-only");
   if (!options.tag.empty()) {
     words.emplace_back("--bus-tag");
     words.push_back(options.tag);

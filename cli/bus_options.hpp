@@ -17,8 +17,12 @@ struct BusOptions {
   std::string interface = "127.0.0.1";
   std::vector<std::string> peers;
   std::string multicast = "off";
-  std::string security;  ///< A folder with certificates; empty: none.
-  std::string tag;       ///< Hides the run from processes with another one; for tests.
+  std::string security;   ///< A folder with certificates; empty: none.
+  bool dds_only = false;  ///< No short way between processes of one machine; to measure.
+  std::string tag;        ///< Hides the run from processes with another one; for tests.
+
+  /// Whether something says which bus, for people.
+  [[nodiscard]] bool says_where() const;
 };
 
 /// `scenario` is the number of the scenario, from which the run's number is made if no run is

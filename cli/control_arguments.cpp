@@ -19,13 +19,25 @@ void add_robot_name(CLI::App& app, std::string& robot) {
 void add_ps(CLI::App& root, PsCommand& c) {
   CLI::App& app = *root.add_subcommand("ps", "List the runs that go on");
   app.add_flag("--robots", c.robots, "Also each robot, and whether it may move");
+  app.add_flag("--network", c.network,
+               "Also the runs of several processes on the bus, those of other machines among them; "
+               "the options below mean it, too");
+  add_network_options(app, c.bus);
+  app.footer(
+      "On the bus runs are looked for 1.5 s, or 3 s beyond this machine. A run is named there by "
+      "the\n"
+      "beginning of its number; one of this machine that is on the bus is listed under both "
+      "names.\n\n"
+      "Examples:\n"
+      "  rave ps\n"
+      "  rave ps --interface 192.168.1.9 --peer 192.168.1.2");
 }
 
 void add_stop(CLI::App& root, StopCommand& c) {
   CLI::App& app = *root.add_subcommand("stop", "Make robots of a run stand until released");
   add_run_name(app, c.run);
   add_robot_name(app, c.robot);
-  app.add_flag("--all", c.all, "Every robot of every run on this machine");
+  app.add_flag("--all", c.all, "Every robot of every run on this machine, none of other machines");
   add_network_options(app, c.bus);
   app.footer(
       "No program can move a stopped robot. `rave arm --release` lets it go again.\n\n"

@@ -25,11 +25,11 @@ namespace {
 
 }  // namespace
 
-KeyWatch::KeyWatch(bool keys) : keys_(keys && ::tcgetattr(STDIN_FILENO, &before_) == 0) {
+KeyWatch::KeyWatch(bool keys)
+    : keys_(keys && ::tcgetattr(STDIN_FILENO, &before_) == 0), quit_(::eventfd(0, EFD_CLOEXEC)) {
   const ::sigset_t set = ends();
   ::pthread_sigmask(SIG_BLOCK, &set, nullptr);
   signals_ = ::signalfd(-1, &set, SFD_CLOEXEC);
-  quit_ = ::eventfd(0, EFD_CLOEXEC);
   if (keys_) {
     ::termios single = before_;
     single.c_lflag &= ~static_cast<::tcflag_t>(ICANON | ECHO);

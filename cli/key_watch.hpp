@@ -39,7 +39,7 @@ class KeyWatch {
   ::termios before_{};  ///< Read before it is known that there are keys.
   const bool keys_;
   int signals_ = -1;
-  int quit_ = -1;  ///< Becomes readable when the thread shall end.
+  int quit_;  ///< Becomes readable when the thread shall end.
   std::atomic<bool> ended_{false};
   std::atomic<bool> toggled_{false};
   std::mutex mutex_;  // over `happened_`

@@ -4,12 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "asked_run.hpp"
 #include "error_text.hpp"
 #include "rave/math/scalar.hpp"
 #include "rave/report/table.hpp"
-#include "rave/run_control/client.hpp"
 #include "rave/run_control/folder.hpp"
 
 namespace rave::cli {
@@ -73,13 +74,41 @@ std::string state_text(const robot_host::RunStatus& status) {
   return text;
 }
 
-report::Table runs_table() {
+report::Table runs_table(bool with_machines) {
   report::Table table;
   table.columns = {
       {"run", report::Align::kLeft, false},     {"scenario", report::Align::kLeft, false},
       {"time", report::Align::kRight, false},   {"pace", report::Align::kRight, false},
       {"robots", report::Align::kRight, false}, {"state", report::Align::kLeft, false}};
+  if (with_machines) table.columns.push_back({"machine", report::Align::kLeft, false});
   return table;
+}
+
+/// A line of `rave ps`. `machine`: nothing if no run has one.
+void add_row(report::Table& table, std::vector<std::string> row, const std::string& machine) {
+  if (row.size() < table.columns.size()) row.push_back(machine);
+  table.rows.push_back(std::move(row));
+}
+
+/// What `rave ps` says of one run.
+void add_run(report::Table& table, const std::string& run,
+             const Result<robot_host::RunStatus>& answer, const std::string& machine, bool robots) {
+  if (!answer) return add_row(table, {run, "", "", "", "", answer.error().message}, machine);
+  const robot_host::RunStatus& status = *answer;
+  if (status.scenario.empty()) {
+    return add_row(table, {run, "", "", "", "", "starting or ending"}, machine);
+  }
+  add_row(table,
+          {run, status.scenario, fmt::format("{:.2f} of {} s", status.sim_s, status.duration_s),
+           pace_text(status), fmt::format("{}", status.robots.size()), state_text(status)},
+          machine);
+  if (!robots) return;
+  for (const auto& robot : status.robots) {
+    add_row(
+        table,
+        {"", "  " + robot.name, "", "", robot.simulated ? "simulated" : "real", state_text(robot)},
+        "");
+  }
 }
 
 }  // namespace
@@ -87,42 +116,44 @@ report::Table runs_table() {
 int list_runs(const PsCommand& options) {
   const auto runs = run_control::running_runs();
   if (!runs) return complain(runs.error());
-  report::Table table = runs_table();
+  const bool network = options.network || options.bus.says_where();
+  report::Table table = runs_table(network);
   for (const std::string& run : *runs) {
-    const auto answer = run_control::ask(run, request_of(Request::What::kStatus, ""));
-    if (!answer) {
-      // One that ended meanwhile is no more; one that is stuck is worth a line.
-      if (answer.error().code == ErrorCode::kNotFound) continue;
-      table.rows.push_back({run, "", "", "", "", answer.error().message});
-      continue;
-    }
-    const robot_host::RunStatus& status = answer->status;
-    if (status.scenario.empty()) {
-      table.rows.push_back({run, "", "", "", "", "starting or ending"});
-      continue;
-    }
-    table.rows.push_back(
-        {run, status.scenario, fmt::format("{:.2f} of {} s", status.sim_s, status.duration_s),
-         pace_text(status), fmt::format("{}", status.robots.size()), state_text(status)});
-    if (!options.robots) continue;
-    for (const auto& robot : status.robots) {
-      table.rows.push_back({"", "  " + robot.name, "", "", robot.simulated ? "simulated" : "real",
-                            state_text(robot)});
+    const auto status = AskedRun(run).status();
+    // One that ended meanwhile is no more; one that is stuck is worth a line.
+    if (!status && status.error().code == ErrorCode::kNotFound) continue;
+    add_run(table, run, status, "this one", options.robots);
+  }
+  int code = kGood;
+  if (network) {
+    const auto seen = AskedRun::all_on_bus(options.bus);
+    // What runs here is worth telling all the same.
+    if (!seen) code = complain(seen.error());
+    for (const SeenRun& run : seen.value_or(std::vector<SeenRun>{})) {
+      add_run(table, run.name, run.status, run.machines, options.robots);
     }
   }
   put(stdout, table.rows.empty() ? "no run is under way\n" : report::render_table(table));
-  return kGood;
+  return code;
 }
 
 int stop_robots(const StopCommand& options) {
   const Request request = request_of(Request::What::kStop, options.robot);
   if (!options.all) return find_and_ask(options.run, options.bus, request);
-  if (!options.run.empty() || !options.robot.empty()) {
-    return complain({ErrorCode::kInvalidArgument, "`--all` is every robot of every run", {}});
+  if (!options.run.empty() || !options.robot.empty() || options.bus.says_where()) {
+    return complain({ErrorCode::kInvalidArgument,
+                     "`--all` is every robot of every run on this machine; a run of others is "
+                     "stopped by its name, which `rave ps --network` says",
+                     {}});
   }
   const auto runs = run_control::running_runs();
   if (!runs) return complain(runs.error());
-  if (runs->empty()) return complain({ErrorCode::kNotFound, "no run is under way", {}});
+  if (runs->empty()) {
+    return complain({ErrorCode::kNotFound,
+                     "no run is under way on this machine; those of others are stopped by their "
+                     "names, which `rave ps --network` says",
+                     {}});
+  }
   int code = kGood;
   for (const std::string& run : *runs) code = std::max(code, ask_run(AskedRun(run), request));
   return code;

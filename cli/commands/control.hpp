@@ -12,7 +12,9 @@ namespace rave::cli {
 
 /// `rave ps`.
 struct PsCommand {
-  bool robots = false;  ///< Each robot in a line of its own.
+  bool robots = false;   ///< Each robot in a line of its own.
+  bool network = false;  ///< Also the runs on the bus; so it is if `bus` says where to look.
+  BusOptions bus;
 };
 
 /// `rave stop`.

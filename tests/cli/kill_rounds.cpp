@@ -13,11 +13,11 @@ namespace rave::cli_test {
 namespace {
 
 std::uint64_t test_seed() {
-  static const std::uint64_t seed = [] {
+  static const std::uint64_t kSeed = [] {
     const char* const given = std::getenv("RAVE_TEST_SEED");
     return given != nullptr ? std::strtoull(given, nullptr, 10) : std::random_device()();
   }();
-  return seed;
+  return kSeed;
 }
 
 std::uint64_t number_of(std::string_view text) {

@@ -130,8 +130,8 @@ class AManagerIsKilled : public LockStepKill {};
 
 TEST_P(AManagerIsKilled, AnotherTakesOverAndTheHashIsThatOfOneProcess) {
   const Words span = {"--duration", "120"};
-  static const std::string alone = hash_alone("crowd.yaml", span);
-  ASSERT_EQ(alone.size(), 16U);
+  static const std::string kAlone = hash_alone("crowd.yaml", span);
+  ASSERT_EQ(kAlone.size(), 16U);
   const Words words = of_run(span);
   std::string manager = "env";
   start(manager, "env", "crowd.yaml", words);
@@ -150,7 +150,7 @@ TEST_P(AManagerIsKilled, AnotherTakesOverAndTheHashIsThatOfOneProcess) {
     start(manager, "env", "crowd.yaml", words);
   }
   EXPECT_EQ(end_of(manager), 0) << console(manager);
-  EXPECT_EQ(result(manager)["hash"], alone);
+  EXPECT_EQ(result(manager)["hash"], kAlone);
   for (const char* const host : {"one", "two"}) {
     EXPECT_EQ(end_of(host), 0) << console(host);
     EXPECT_TRUE(result(host)["whole"]) << result(host).dump();

@@ -106,7 +106,7 @@ checks:
     - {robot: right-3, x_m: 90, y_m: 0, within_m: 1, before_s: 2}
 picture: {title: Crowd, instant_s: 1}
 )";
-    const std::string path = folder("crowd.yaml");
+    std::string path = folder("crowd.yaml");
     std::ofstream(path) << text;
     return path;
   }

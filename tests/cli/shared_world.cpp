@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <iostream>
@@ -73,7 +74,12 @@ void SharedWorld::signal(const std::string& name, int number) {
   ASSERT_EQ(::kill(processes_.at(name), number), 0);
 }
 
-bool SharedWorld::runs(const std::string& name) { return ::kill(processes_.at(name), 0) == 0; }
+bool SharedWorld::runs(const std::string& name) {
+  // Whoever waits for its end later still gets it.
+  siginfo_t ended{};
+  const auto process = static_cast<id_t>(processes_.at(name));
+  return ::waitid(P_PID, process, &ended, WEXITED | WNOHANG | WNOWAIT) == 0 && ended.si_pid == 0;
+}
 
 nlohmann::json SharedWorld::result(const std::string& name) const {
   return nlohmann::json::parse(content_of(folder(name) + "/result.json"), nullptr, false);
@@ -84,7 +90,8 @@ std::string SharedWorld::console(const std::string& name) const {
 }
 
 void SharedWorld::wait_until(const std::function<bool()>& holds, const std::string& what) {
-  for (int i = 0; i < 6000; ++i) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(120);
+  while (std::chrono::steady_clock::now() < end) {
     if (holds()) return;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }

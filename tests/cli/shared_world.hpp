@@ -16,9 +16,11 @@ namespace rave::cli_test {
 
 /// Processes that share a world, in a folder and on a bus of their own; all ended with the test.
 class SharedWorld : public ::testing::Test {
+ public:
+  ~SharedWorld() override;
+
  protected:
   SharedWorld();
-  ~SharedWorld() override;
 
   /// Starts `rave WHAT SCENARIO` with what keeps tests apart, under a name of the test's choice.
   void start(const std::string& name, const std::string& what, const std::string& scenario,

@@ -2,13 +2,20 @@
 // Runs are asked from a machine that has none of their processes: all that it shares with them is
 // the bus.
 #include <dds/dds.h>
+#include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <csignal>
+#include <future>
 #include <memory>
+#include <sstream>
 
 #include "rave/bus/reader.hpp"
 #include "rave/bus/sequence.hpp"
+#include "rave/bus/wish_box.hpp"
 #include "rave/bus/writer.hpp"
 #include "shared_world.hpp"
 #include "stranger.hpp"
@@ -140,6 +147,43 @@ TEST_F(Wishes, ARobotIsHandedOverByItsHostWhoeverAsks) {
   end_by_hand("env");
 }
 
+TEST_F(Wishes, RunsOfOtherMachinesAreListedWhenTheyAreAskedFor) {
+  start_all("crowd.yaml", {"--duration", "100000", "--no-record"});
+  const std::string alone = "XDG_RUNTIME_DIR=" + elsewhere_.path().string();
+  EXPECT_EQ(run_rave({"ps"}, {alone}).out, "no run is under way\n");
+  std::string name;
+  std::string line;
+  wait_until(
+      [&] {
+        std::istringstream lines(far({"ps", "--network"}).out);
+        while (std::getline(lines, line) && line.find(" crowd ") == std::string::npos) {
+        }
+        // Behind the rule at its left.
+        const std::size_t at = line.find(' ') + 1;
+        name = line.substr(at, line.find(' ', at) - at);
+        return line.find("running") != std::string::npos;
+      },
+      "it is listed");
+  EXPECT_NE(line.find(" 30 "), std::string::npos) << line;
+  std::array<char, 256> machine{};
+  ASSERT_EQ(::gethostname(machine.data(), machine.size() - 1), 0);
+  EXPECT_NE(line.find(machine.data()), std::string::npos) << line;
+  EXPECT_EQ(far({"edit", name, "list"}).exit_code, 0) << name;
+  Words words = {"ps", "--network", "--robots"};
+  for (const std::string& word : apart()) words.push_back(word);
+  const Ended listed = near(words);
+  EXPECT_NE(listed.out.find("this one"), std::string::npos) << listed.out;
+
+  // All means those of this machine.
+  for (const Ended& stopped : {far({"stop", "--all"}), run_rave({"stop", "--all"}, {alone})}) {
+    EXPECT_EQ(stopped.exit_code, 2) << stopped.out;
+    EXPECT_NE(stopped.err.find("on this machine"), std::string::npos) << stopped.err;
+    EXPECT_NE(stopped.err.find("rave ps --network"), std::string::npos) << stopped.err;
+  }
+  EXPECT_FALSE(logged("env", R"({"rave":1,"do":"stop"})")) << console("env");
+  end_by_hand("env");
+}
+
 TEST_F(Wishes, OfSeveralRunsOneHasToBeNamed) {
   for (const char* const name : {"morning", "evening"}) {
     start(name, "env", "crowd.yaml", {"--run", name});
@@ -160,6 +204,76 @@ TEST_F(Wishes, OfSeveralRunsOneHasToBeNamed) {
   EXPECT_NE(third.err.find("there is no run `night`"), std::string::npos) << third.err;
 }
 
+/// A run whose processes are members of a set of keys.
+class SecretWishes : public Wishes {
+ protected:
+  SecretWishes() {
+    EXPECT_EQ(run_rave({"keys", "new", folder("keys"), "env", "one", "two", "anna"}).exit_code, 0);
+    EXPECT_EQ(run_rave({"keys", "new", folder("others"), "anna"}).exit_code, 0);
+  }
+  [[nodiscard]] Words with_keys(Words words, const std::string& member) const {
+    words.insert(words.end(), {"--security", folder(member)});
+    return words;
+  }
+  [[nodiscard]] Ended as_member(const Words& words) const {
+    return far(with_keys(words, "keys/anna"));
+  }
+  void start_secretly(const std::string& scenario, const Words& more) {
+    start("env", "env", scenario, with_keys(more, "keys/env"));
+    start_host("one", scenario, with_keys(more, "keys/one"));
+    start_host("two", scenario, with_keys(more, "keys/two"));
+    wait_until([this] { return as_member({"edit", "list"}).exit_code == 0; }, "it runs");
+  }
+  /// It finds no run, or one of which it hears nothing, and says what may be wrong.
+  void not_found(const Words& words) const {
+    const Ended ended = far(words);
+    EXPECT_EQ(ended.exit_code, 2) << ended.out;
+    EXPECT_TRUE(ended.out.empty()) << ended.out;
+    EXPECT_NE(ended.err.find("--security"), std::string::npos) << ended.err;
+    EXPECT_TRUE(ended.err.find("no run of several processes is under way") != std::string::npos ||
+                ended.err.find("heard by members of their set alone") != std::string::npos)
+        << ended.err;
+  }
+};
+
+TEST_F(SecretWishes, AMemberOfTheSetAloneReachesTheRun) {
+  start_secretly("crowd.yaml", {"--duration", "100000", "--no-record"});
+  not_found({"pause"});
+  not_found({"hand-over", "left-1", "twin"});
+  not_found(with_keys({"stop", "--robot", "left-1"}, "others/anna"));
+  not_found(with_keys({"set", "right-2", "body.scale", "0.5"}, "others/anna"));
+  EXPECT_FALSE(logged("env", "")) << console("env");
+  EXPECT_EQ(near({"ps"}).out.find("paused"), std::string::npos);
+
+  EXPECT_EQ(as_member({"pause"}).exit_code, 0);
+  wait_until([&] { return near({"ps"}).out.find("paused") != std::string::npos; }, "it is paused");
+  EXPECT_EQ(as_member({"resume"}).exit_code, 0);
+  const Ended stopped = as_member({"stop", "--robot", "left-1"});
+  EXPECT_EQ(stopped.exit_code, 0) << stopped.err;
+  EXPECT_NE(stopped.out.find("stopped left-1; counts from step "), std::string::npos)
+      << stopped.out;
+  const Ended set = as_member({"set", "right-2", "body.scale", "0.8"});
+  EXPECT_EQ(set.exit_code, 0) << set.err;
+  EXPECT_TRUE(logged("env", R"({"rave":1,"do":"stop","robot":"left-1"})")) << console("env");
+  end_by_hand("env");
+}
+
+TEST_F(SecretWishes, AHostInRealTimeHearsAMemberToo) {
+  start_secretly("live_twins.yaml", {"--no-record"});
+  wait_for_line("env", "all hosts are there");
+  const Ended stopped = as_member({"stop", "live_twins@one"});
+  EXPECT_EQ(stopped.exit_code, 0) << stopped.err;
+  EXPECT_TRUE(logged("one", R"({"rave":1,"do":"stop"})")) << console("one");
+  not_found({"stop"});
+  end_by_hand("env");
+}
+
+TEST_F(SecretWishes, WithKeysARunWithoutIsNotHeard) {
+  start("env", "env", "crowd.yaml", {"--no-record", "--run", "open"});
+  wait_until([this] { return far({"edit", "open", "list"}).exit_code == 1; }, "it answers");
+  not_found(with_keys({"edit", "open", "list"}, "keys/anna"));
+}
+
 /// A bus in the test's process, from which anything can be sent.
 class StrangeWishes : public Wishes {
  protected:
@@ -170,6 +284,22 @@ class StrangeWishes : public Wishes {
     bus::Writer<bus::Wish> wishes;
     bus::Reader<bus::WishAnswer> answers;
   };
+  /// Says of itself that it belongs to the run.
+  struct Pretender {
+    std::unique_ptr<bus::Bus> bus;
+    bus::Writer<bus::HostInfo> infos;
+  };
+  [[nodiscard]] Result<Pretender> pretend(std::uint32_t host, const char* name,
+                                          const char* machine = "") const {
+    RAVE_TRY_ASSIGN(auto bus, open_stranger(apart(), run_));
+    RAVE_TRY_ASSIGN(auto infos, bus::Writer<bus::HostInfo>::create(*bus));
+    bus::HostInfo info{};
+    info.host = host;
+    bus::put_text(info.name, name);
+    bus::put_text(info.machine, machine);
+    RAVE_TRY(infos.write(info));
+    return Pretender{std::move(bus), std::move(infos)};
+  }
   [[nodiscard]] Result<Asker> open_asker(const bus::RunId& run) const {
     RAVE_TRY_ASSIGN(auto bus, open_stranger(apart(), run));
     RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
@@ -277,14 +407,8 @@ TEST_F(StrangeWishes, WhatIsOfAnotherRunOrForAnotherProcessIsNotDone) {
 
 TEST_F(StrangeWishes, AHostThatNeverAnswersMayBeTheOneThatHasIt) {
   start("env", "env", "crowd.yaml", {"--no-record", "--run", run_.text()});
-  const auto bus = open_stranger(apart(), run_);
-  ASSERT_TRUE(bus) << bus.error().text();
-  auto infos = bus::Writer<bus::HostInfo>::create(**bus);
-  ASSERT_TRUE(infos) << infos.error().text();
-  bus::HostInfo info{};
-  info.host = 1;
-  bus::put_text(info.name, "deaf host");
-  ASSERT_TRUE(infos->write(info));
+  const auto pretender = pretend(1, "deaf host");
+  ASSERT_TRUE(pretender) << pretender.error().text();
   const std::string answer = run_.text().substr(0, 8) + ": no run is under way";
   wait_until(
       [&] {
@@ -298,15 +422,57 @@ TEST_F(StrangeWishes, AHostThatNeverAnswersMayBeTheOneThatHasIt) {
       << ended.err;
 }
 
+TEST_F(StrangeWishes, AStatusOfManyMessagesArrivesWhole) {
+  const auto pretender = pretend(rave_wire_kNone, "environment manager", "far-away");
+  ASSERT_TRUE(pretender) << pretender.error().text();
+  auto robots = nlohmann::json::array();
+  for (int i = 0; i < 12'000; ++i) {
+    robots.push_back({{"name", fmt::format("rob\u00f6-{}", i)},
+                      {"simulated", true},
+                      {"armed", true},
+                      {"stopped", false}});
+  }
+  const nlohmann::json answer = {{"good", true},
+                                 {"text", ""},
+                                 {"status",
+                                  {{"scenario", "multitude"},
+                                   {"sim_s", 1},
+                                   {"duration_s", 10},
+                                   {"pace", 1},
+                                   {"live", true},
+                                   {"paused", false},
+                                   {"robots", robots}}}};
+  const std::string line = answer.dump();
+  ASSERT_GT(line.size(), 3 * std::size_t{rave_wire_kMaxWishAnswerBytes});
+  const auto begin = [&line](std::string_view) {
+    return bus::BegunWish{[&line] { return std::optional(line); }, {}, true};
+  };
+  auto box = bus::WishBox::create(*pretender->bus, begin, nullptr);
+  ASSERT_TRUE(box) << box.error().text();
+  auto listed = std::async(std::launch::async, [this] {
+    Ended ended = far({"ps", "--network", "--robots"});
+    for (int i = 0; i < 9 && ended.out.find("multitude") == std::string::npos; ++i) {
+      ended = far({"ps", "--network", "--robots"});
+    }
+    return ended;
+  });
+  wait_until(
+      [&] {
+        (*box)->serve();
+        return listed.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+      },
+      "it is listed");
+  const std::string out = listed.get().out;
+  EXPECT_NE(out.find(" 12000 "), std::string::npos) << out.substr(0, 1000);
+  EXPECT_NE(out.find("far-away"), std::string::npos) << out.substr(0, 1000);
+  for (int i = 0; i < 12'000; ++i) {
+    ASSERT_NE(out.find(fmt::format("rob\u00f6-{} ", i)), std::string::npos) << i;
+  }
+}
+
 TEST_F(StrangeWishes, AProcessThatNeverAnswersIsNamedWithWhatCanBeDone) {
-  const auto bus = open_stranger(apart(), run_);
-  ASSERT_TRUE(bus) << bus.error().text();
-  auto infos = bus::Writer<bus::HostInfo>::create(**bus);
-  ASSERT_TRUE(infos) << infos.error().text();
-  bus::HostInfo info{};
-  info.host = rave_wire_kNone;
-  bus::put_text(info.name, "deaf one");
-  ASSERT_TRUE(infos->write(info));
+  const auto pretender = pretend(rave_wire_kNone, "deaf one");
+  ASSERT_TRUE(pretender) << pretender.error().text();
   const Ended ended = far({"edit", "list"});
   EXPECT_EQ(ended.exit_code, 2);
   EXPECT_NE(ended.err.find("`deaf one` has not answered for 5 s"), std::string::npos) << ended.err;

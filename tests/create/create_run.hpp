@@ -98,7 +98,7 @@ class CreateRun : public testing::ScenarioRun {
 
   /// Of the repository, or a copy with another program, which is the last thing in it.
   [[nodiscard]] std::string robot_file(const std::string& robot, const std::string& program) const {
-    const std::string original = RAVE_SOURCE_DIR "/robots/" + robot + ".yaml";
+    std::string original = RAVE_SOURCE_DIR "/robots/" + robot + ".yaml";
     if (program.empty()) return original;
     std::ifstream stream(original);
     std::string text{std::istreambuf_iterator<char>(stream), {}};

@@ -199,6 +199,12 @@ TEST_F(HandOver, OnAHostOfItsOwnIsSeenByTheOthers) {
   ASSERT_TRUE(result.is_object());
   ASSERT_EQ(result["hand_overs"].size(), 2U) << result["hand_overs"].dump();
   for (const Json& hand_over : result["hand_overs"]) EXPECT_TRUE(hand_over["made"]);
+  // The shadow is that of its host, as far as that one knew it.
+  ASSERT_EQ(result["shadows"].size(), 1U) << result.dump();
+  EXPECT_EQ(result["shadows"][0]["robot"], "rosie");
+  EXPECT_EQ(result["shadows"][0]["starts"], 1);
+  std::ifstream own(run.file("out/hosts/base/result.json"));
+  EXPECT_EQ(result["shadows"], Json::parse(own, nullptr, false)["shadows"]);
   const auto [met, missed] = scans_of_guest(run);
   EXPECT_GT(met, 0) << "while it was real";
   EXPECT_GT(missed, 0) << "while it was simulated";

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Robots of ours on two hosts, each a process, as ROS 2 sees them.
+#include <fmt/format.h>
+
 #include <cmath>
 #include <set>
 
@@ -14,21 +16,20 @@ using Json = nlohmann::json;
 std::string scenario(const std::string& rest, bool shown, const std::string& sensors = "",
                      const std::string& program = "{driver: cruise, period_s: 0.1}",
                      const std::string& devices = "") {
-  std::string text = "name: pair\nros2: {domain: " + std::to_string(ros2_domain()) + "}\nrobots:\n";
+  std::string text = fmt::format("name: pair\nros2: {{domain: {}}}\nrobots:\n", ros2_domain());
   for (const std::string name : {"left", "right"}) {
-    text += "  - name: " + name + "\n    pose: {x_m: 0, y_m: " + (name == "left" ? "2" : "-2") +
-            "}\n    robot:\n      ros2: " + (shown ? "true" : "false") +
-            "\n      body: {shapes: [{disc_radius_m: 0.15, z_m: [0, 0.2]}]}\n" +
-            "      actuators: [{name: wheels, driver: differential_drive}]\n" + devices +
-            (devices.empty() ? "" : ", namespace: /" + name + "}}]\n") +
-            "      sensors:\n        - {name: odometry, driver: virtual_odometry}\n"
-            "        - {name: laser, driver: virtual_laser, period_s: 0.05, mount: {z_m: 0.1}, "
-            "params: {rays: 31, fov_deg: 180, range_max_m: 8}}\n" +
-            sensors +
-            "      controllers:\n        - {name: drive, driver: velocity, actuator: wheels}\n"
-            "        - {name: navigate, driver: goal_point, actuator: wheels}\n"
-            "      program: " +
-            program + "\n";
+    text += fmt::format(
+        "  - name: {}\n    pose: {{x_m: 0, y_m: {}}}\n    robot:\n      ros2: {}\n"
+        "      body: {{shapes: [{{disc_radius_m: 0.15, z_m: [0, 0.2]}}]}}\n"
+        "      actuators: [{{name: wheels, driver: differential_drive}}]\n{}{}"
+        "      sensors:\n        - {{name: odometry, driver: virtual_odometry}}\n"
+        "        - {{name: laser, driver: virtual_laser, period_s: 0.05, mount: {{z_m: 0.1}}, "
+        "params: {{rays: 31, fov_deg: 180, range_max_m: 8}}}}\n{}"
+        "      controllers:\n        - {{name: drive, driver: velocity, actuator: wheels}}\n"
+        "        - {{name: navigate, driver: goal_point, actuator: wheels}}\n"
+        "      program: {}\n",
+        name, name == "left" ? 2 : -2, shown, devices,
+        devices.empty() ? "" : fmt::format(", namespace: /{}}}}}]\n", name), sensors, program);
   }
   return text + rest;
 }

@@ -25,7 +25,7 @@ template <class Texts>
 std::string texts(const Texts& of) {
   std::string all;
   for (const auto& [name, text] : of) {
-    all += (all.empty() ? "\"" : ",\"") + name + "\":\"" + text + "\"";
+    all.append(all.empty() ? "\"" : ",\"").append(name).append("\":\"").append(text).append("\"");
   }
   return "{" + all + "}";
 }

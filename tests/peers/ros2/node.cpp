@@ -53,7 +53,7 @@ Node::~Node() {
   dds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
 }
 
-dds::Topic* Node::topic(const std::string& name, dds::TypeSupport& type) {
+dds::Topic* Node::topic(const std::string& name, const dds::TypeSupport& type) {
   type.register_type(participant_);
   dds::Topic* const made =
       participant_->create_topic("rt" + name, type.get_type_name(), dds::TOPIC_QOS_DEFAULT);
@@ -68,7 +68,7 @@ dds::DataWriter* Node::writer(const std::string& name, dds::TypeSupport type,
   return publisher_->create_datawriter(topic(name, type), qos, nullptr);
 }
 
-dds::DataReader* Node::reader(const std::string& name, dds::TypeSupport type,
+dds::DataReader* Node::reader(const std::string& name, const dds::TypeSupport& type,
                               const Delivery& delivery, dds::DataReaderListener* listener) {
   dds::DataReaderQos qos = dds::DATAREADER_QOS_DEFAULT;
   deliver(qos, delivery);
@@ -76,7 +76,7 @@ dds::DataReader* Node::reader(const std::string& name, dds::TypeSupport type,
 }
 
 void Node::raw_reader(const std::string& wire_topic, const std::string& type_name,
-                      dds::TypeSupport type, const Delivery& delivery,
+                      const dds::TypeSupport& type, const Delivery& delivery,
                       dds::DataReaderListener* listener) {
   type.register_type(participant_, type_name);
   dds::Topic* const made =

@@ -42,16 +42,16 @@ class Node {
                                                            const Delivery& delivery);
   /// The listener must outlive the node.
   [[nodiscard]] eprosima::fastdds::dds::DataReader* reader(
-      const std::string& topic, eprosima::fastdds::dds::TypeSupport type, const Delivery& delivery,
-      eprosima::fastdds::dds::DataReaderListener* listener);
+      const std::string& topic, const eprosima::fastdds::dds::TypeSupport& type,
+      const Delivery& delivery, eprosima::fastdds::dds::DataReaderListener* listener);
   /// The same of a topic by its name on the wire, whose type goes by another name than here.
   void raw_reader(const std::string& wire_topic, const std::string& type_name,
-                  eprosima::fastdds::dds::TypeSupport type, const Delivery& delivery,
+                  const eprosima::fastdds::dds::TypeSupport& type, const Delivery& delivery,
                   eprosima::fastdds::dds::DataReaderListener* listener);
 
  private:
   eprosima::fastdds::dds::Topic* topic(const std::string& name,
-                                       eprosima::fastdds::dds::TypeSupport& type);
+                                       const eprosima::fastdds::dds::TypeSupport& type);
 
   eprosima::fastdds::dds::DomainParticipant* participant_ = nullptr;
   eprosima::fastdds::dds::Publisher* publisher_ = nullptr;

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// A driver that never opens, in the process of a host: the run ends all the same.
+#include <csignal>
+
+#include "shared_world.hpp"
+
+namespace rave::cli_test {
+namespace {
+
+class StuckDriver : public SharedWorld {
+ protected:
+  static std::vector<std::string> plugins() {
+    return {"--plugins", RAVE_BINARY_DIR "/tests/plugins/stuck"};
+  }
+  void interrupt(const std::string& who) {
+    signal(who, SIGINT);
+    // The driver would keep it for ever.
+    EXPECT_EQ(end_of(who), 1) << console(who);
+  }
+};
+
+TEST_F(StuckDriver, HoldsUpNoEndAndIsNamed) {
+  start("env", "env", "stuck.yaml", plugins());
+  for (const char* const host : {"one", "two"}) start_host(host, "stuck.yaml", plugins());
+  wait_for_line("one", "the device does not answer");
+  interrupt("one");
+  EXPECT_NE(console("one").find("sensor `mocap` (driver `stuck_pose`) has not returned; nobody "
+                                "waits for it any more"),
+            std::string::npos)
+      << console("one");
+  const auto left = result("one");
+  ASSERT_TRUE(left.is_object()) << console("one");
+  EXPECT_EQ(left["host"], "one") << left.dump(1);
+  EXPECT_GT(left["steps"], 0) << left.dump(1);
+
+  EXPECT_TRUE(runs("two")) << console("two");
+  interrupt("two");
+  interrupt("env");
+  const auto managed = result("env");
+  ASSERT_EQ(managed["hosts"].size(), 2U) << managed.dump(1);
+  for (const auto& host : managed["hosts"]) EXPECT_EQ(host["found"], true) << host;
+  ASSERT_EQ(managed["robots"].size(), 2U) << managed.dump(1);
+  EXPECT_EQ(managed["robots"][0]["name"], "left");
+  EXPECT_EQ(managed["robots"][0]["reality"], "simulated") << "it was never handed over";
+}
+
+TEST_F(StuckDriver, HoldsUpNoEndOfARunInOneProcess) {
+  start("run", "run", "stuck.yaml",
+        {"--plugins", RAVE_BINARY_DIR "/tests/plugins/stuck", "--processes", "1", "--no-picture"});
+  wait_for_line("run", "the device does not answer");
+  interrupt("run");
+  EXPECT_NE(console("run").find("(driver `stuck_pose`) has not returned"), std::string::npos)
+      << console("run");
+  EXPECT_TRUE(result("run").is_object()) << console("run");
+}
+
+}  // namespace
+}  // namespace rave::cli_test

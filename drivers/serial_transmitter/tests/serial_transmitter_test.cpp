@@ -136,8 +136,8 @@ TEST_F(SerialTransmitter, KeepsToItsRateAndItsQueueIsBounded) {
     }
   }
   EXPECT_EQ(refused, "the queue of the line " + link("modem") + " is full");
-  // The first is on the line as soon as the thread runs, which may be before any of the others or after some
-  // of them were refused.
+  // The first is on the line as soon as the thread runs: before any of the others, or after some of
+  // them were refused.
   EXPECT_GE(taken, 4);
   EXPECT_LE(taken, 5);
   const auto begin = std::chrono::steady_clock::now();

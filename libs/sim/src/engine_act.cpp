@@ -51,10 +51,14 @@ void Engine::Impl::act_block(const Block& block, Worker& worker) {
 }
 
 void Engine::Impl::control(RobotGroup& group, const Block& block, Worker& worker) {
-  for (ControllerSlots& slots : group.controllers) {
+  const std::uint32_t count = block.end - block.begin;
+  worker.control_outputs.resize(std::max(worker.control_outputs.size(), group.controllers.size()));
+  for (std::size_t c = 0; c < group.controllers.size(); ++c) {
+    ControllerSlots& slots = group.controllers[c];
+    std::array<Command, kMemberBlock>& outputs = worker.control_outputs[c];
     for (std::uint32_t m = block.begin; m < block.end; ++m) {
       const ReportedPose& pose = reported[group.members[m].value()];
-      ControlInput& input = slots.inputs[m];
+      ControlInput& input = worker.control_inputs[m - block.begin];
       input.command = slots.last[m];
       input.command_age_s =
           slots.last_step[m] < 0
@@ -69,16 +73,17 @@ void Engine::Impl::control(RobotGroup& group, const Block& block, Worker& worker
     std::copy(slots.failed.begin() + block.begin, slots.failed.begin() + block.end, failed_before);
     ErrorText error;
     slots.spec->ops->control(slots.instances.at(block.begin), slots.instances.stride(),
-                             slots.inputs.data() + block.begin, slots.outputs.data() + block.begin,
-                             block.end - block.begin, slots.failed.data() + block.begin, &error);
+                             worker.control_inputs.data(), outputs.data(), count,
+                             slots.failed.data() + block.begin, &error);
     for (std::uint32_t m = block.begin; m < block.end; ++m) {
       std::string_view problem = text_for(error, m - block.begin);
-      if (slots.failed[m] == 0 && !is_finite(slots.outputs[m])) {
+      Command& output = outputs[m - block.begin];
+      if (slots.failed[m] == 0 && !is_finite(output)) {
         slots.failed[m] = 1;
         problem = "gave a command that is not a number";
       }
       if (slots.failed[m] == 0) continue;
-      slots.outputs[m] = {slots.spec->ops->gives, 0, {}};
+      output = {slots.spec->ops->gives, 0, {}};
       if (failed_before[m - block.begin] != 0) continue;
       worker.events.push_back({step, group.members[m], EventKind::kDriverFailed, BodyId(),
                                fmt::format("controller `{}`: {}", slots.spec->name, problem)});
@@ -93,20 +98,24 @@ void Engine::Impl::actuate(RobotGroup& group, const Block& block, Worker& worker
     for (std::uint32_t m = block.begin; m < block.end; ++m) {
       // The controller that was given a command last speaks; before that, the first one.
       const ControllerSlots* active = nullptr;
-      for (const ControllerSlots& controller : group.controllers) {
+      const Command* given = nullptr;
+      for (std::size_t c = 0; c < group.controllers.size(); ++c) {
+        const ControllerSlots& controller = group.controllers[c];
         if (controller.spec->actuator != a) continue;
         if (active == nullptr || controller.last_step[m] > active->last_step[m]) {
           active = &controller;
+          given = &worker.control_outputs[c][m - block.begin];
         }
       }
       const std::uint32_t r = group.members[m].value();
       if (active != nullptr && is_unguarded(slots, m, r)) {
-        slots.commands[m] = active->outputs[m];
+        slots.commands[m] = *given;
       } else {
-        slots.commands[m] = guarded(group, slots, m, active, worker);
+        slots.commands[m] =
+            guarded(group, slots, m, active, given != nullptr ? *given : Command{}, worker);
       }
       if (slots.spec->virtual_ops == nullptr) continue;
-      MotionInput& input = slots.inputs[m];
+      MotionInput& input = worker.motion_inputs[m - block.begin];
       input.command = slots.commands[m];
       input.velocity = truth.velocity[r];
       input.dt_s = dt_s;
@@ -121,11 +130,11 @@ void Engine::Impl::actuate(RobotGroup& group, const Block& block, Worker& worker
     std::uint8_t failed_before[kMemberBlock];
     std::copy(slots.failed.begin() + block.begin, slots.failed.begin() + block.end, failed_before);
     slots.spec->virtual_ops->propose(slots.instances.at(block.begin), slots.instances.stride(),
-                                     slots.inputs.data() + block.begin,
-                                     slots.outputs.data() + block.begin, block.end - block.begin,
-                                     slots.failed.data() + block.begin, &error);
+                                     worker.motion_inputs.data(), worker.proposals.data(),
+                                     block.end - block.begin, slots.failed.data() + block.begin,
+                                     &error);
     for (std::uint32_t m = block.begin; m < block.end; ++m) {
-      Twist2 twist = slots.outputs[m];
+      Twist2 twist = worker.proposals[m - block.begin];
       std::string_view problem = text_for(error, m - block.begin);
       if (slots.failed[m] == 0 &&
           !(std::isfinite(twist.vx) && std::isfinite(twist.vy) && std::isfinite(twist.wz))) {

@@ -83,10 +83,9 @@ void Engine::Impl::find_neighbours(RobotId robot, double reach_m, Worker& worker
 
 Command Engine::Impl::guarded(const RobotGroup& group, const ActuatorSlots& slots,
                               std::uint32_t member, const ControllerSlots* controller,
-                              Worker& worker) {
+                              const Command& command, Worker& worker) {
   const RobotId robot = group.members[member];
   const std::uint32_t r = robot.value();
-  const Command command = controller != nullptr ? controller->outputs[member] : Command{};
   const GuardState& state = guard_states[r];
   const auto& limits = guards[spec.robots[r].type];
   const CommandKind expected =

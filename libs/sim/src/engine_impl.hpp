@@ -11,6 +11,7 @@
 
 #include "history_ring.hpp"
 #include "host_part.hpp"
+#include "listed_fan.hpp"
 #include "outlets.hpp"
 #include "pose_track.hpp"
 #include "rave/base/check.hpp"
@@ -36,8 +37,15 @@ struct Block {
 /// What each thread has of its own during a phase.
 struct Worker {
   FanScratch fan;
+  BlockScratch fans;
   std::array<SensorPlace, kMemberBlock> places;  ///< Of the sensors of a block, and again.
   std::array<Vec2, kMemberBlock> places_W;
+  /// What controllers and virtual actuators of a block are given and give, and again: what no later
+  /// phase asks for need not go through the memory.
+  std::array<ControlInput, kMemberBlock> control_inputs;
+  std::vector<std::array<Command, kMemberBlock>> control_outputs;  ///< By controller.
+  std::array<MotionInput, kMemberBlock> motion_inputs;
+  std::array<Twist2, kMemberBlock> proposals;
   RunHash hash;
   std::vector<Event> events;
   std::vector<RobotId> near;
@@ -169,9 +177,10 @@ struct Engine::Impl {
     return !state.held && !state.stopped &&
            (slots.obeys[member] == 0 || !guards[spec.robots[robot].type]);
   }
+  /// `command` is what the controller gave; nothing if there is none.
   [[nodiscard]] Command guarded(const RobotGroup& group, const ActuatorSlots& slots,
                                 std::uint32_t member, const ControllerSlots* controller,
-                                Worker& worker);
+                                const Command& command, Worker& worker);
   void find_neighbours(RobotId robot, double reach_m, Worker& worker) const;
   void tell_guard(RobotId robot, const GuardSpec& limits, std::uint32_t acted, Worker& worker);
 

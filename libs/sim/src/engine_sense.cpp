@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <optional>
 
 #include "engine_impl.hpp"
 #include "listed_fan.hpp"
@@ -64,6 +65,12 @@ void Engine::Impl::sample_members(RobotGroup& group, SensorSlots& slots, std::ui
   worker.noisy_members.clear();
   const NearLists* const lists =
       slots.uses_fan ? find_places(group, slots, block, mounting, worker) : nullptr;
+  std::optional<ListedFans> listed;
+  if (lists != nullptr) {
+    listed.emplace(truth.snapshot, slots.fan, *lists,
+                   std::span(worker.places).first(block.end - block.begin), worker.fan,
+                   worker.fans);
+  }
   for (std::uint32_t m = block.begin; m < block.end; ++m) {
     const RobotId robot = group.members[m];
     if (slots.failed[m] != 0 || !truth.movers[robot.value()].present) continue;
@@ -78,9 +85,8 @@ void Engine::Impl::sample_members(RobotGroup& group, SensorSlots& slots, std::ui
       const SensorPlace& place = worker.places[m - block.begin];
       const std::span ranges(reinterpret_cast<float*>(records), slots.capacity);
       const std::span bodies(slots.bodies.data() + first, slots.capacity);
-      if (lists != nullptr) {
-        cast_fan(truth.snapshot, slots.fan, place, *lists, m - block.begin, worker.fan, ranges,
-                 bodies);
+      if (listed) {
+        listed->read(m - block.begin, ranges, bodies);
       } else {
         cast_fan(truth.snapshot, slots.fan, place, sensor.z_m, truth.snapshot.body_of(robot),
                  worker.fan, ranges, bodies);

@@ -51,8 +51,9 @@ using Pieces = std::span<const world::ShapePiece* const>;
 void cast_pieces(Pieces discs, Pieces polygons, const Vec2* vertices_W, const Vec2* normals_W,
                  const FanPlace& place, const FanView& fan);
 
-/// 1/inverse for each ray, within the limits. `ranges` is padded as the fan is.
-void finish_ranges(const FanView& fan, RangeLimits limits, float* ranges_m);
+/// 1/inverse for each ray, within the limits, and whose it is: `ranges` and `bodies` are padded as
+/// the fan is. `bodies` may be those of the fan.
+void finish_ranges(const FanView& fan, RangeLimits limits, float* ranges_m, std::uint32_t* bodies);
 
 /// The bearing as a number that grows with it from 0 at -pi to 4 at pi, without arc tangent.
 inline float bearing_scale(float x, float y) noexcept {

@@ -57,6 +57,8 @@ class NearLists {
   [[nodiscard]] std::span<const std::uint32_t> second(std::size_t asker) const noexcept {
     return between(2 * asker + 1);
   }
+  /// All lists of all askers, each asker's first() and second(), one behind the other.
+  [[nodiscard]] std::span<const std::uint32_t> all() const noexcept { return numbers_; }
 
  private:
   [[nodiscard]] std::span<const std::uint32_t> between(std::size_t list) const noexcept {

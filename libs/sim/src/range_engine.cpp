@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "block_kernel.hpp"
 #include "fan_kernel.hpp"
 #include "listed_fan.hpp"
 #include "near_kernel.hpp"
@@ -173,38 +174,50 @@ void collect(const world::Snapshot& world, const Surroundings& around, Candidate
   put_in_order(scratch);
 }
 
-/// Of the listed pieces those that the fan could meet. A shape of several pieces is listed once, by
-/// any of them, and always taken. Without branches, as Candidates.
-std::size_t choose(const world::ShapePiece* pieces, std::span<const std::uint32_t> listed,
-                   const Surroundings& around, const world::ShapePiece** chosen) noexcept {
-  std::size_t count = 0;
-  for (const std::uint32_t index : listed) {
-    const world::ShapePiece& piece = pieces[index];
-    const Vec2 apart = piece.centre_W - around.p_W;
-    const double own_m = static_cast<double>(piece.radius_m) + kRounding_m;
-    const double reach_m = around.reach_m + own_m;
-    auto in_sight = static_cast<unsigned>(squared_norm(apart) <= reach_m * reach_m);
-    if (around.field.limited) {
-      const auto right = static_cast<unsigned>(cross(around.right_W, apart) >= -own_m);
-      const auto left = static_cast<unsigned>(cross(apart, around.left_W) >= -own_m);
-      in_sight &= around.field.beyond_half ? right | left : right & left;
-    }
-    chosen[count] = &piece;
-    count += in_sight | static_cast<unsigned>(piece.pieces > 1);
+/// 1 for a listed piece that the fan could meet, or 0: without a branch, as no processor can
+/// foresee it. A shape of several pieces is listed once, by any of them, and always taken.
+inline unsigned in_sight(const world::ShapePiece& piece, const Surroundings& around) noexcept {
+  const Vec2 apart = piece.centre_W - around.p_W;
+  const double own_m = static_cast<double>(piece.radius_m) + kRounding_m;
+  const double reach_m = around.reach_m + own_m;
+  auto seen = static_cast<unsigned>(squared_norm(apart) <= reach_m * reach_m);
+  if (around.field.limited) {
+    const auto right = static_cast<unsigned>(cross(around.right_W, apart) >= -own_m);
+    const auto left = static_cast<unsigned>(cross(apart, around.left_W) >= -own_m);
+    seen &= around.field.beyond_half ? right | left : right & left;
   }
-  return count;
+  return seen | static_cast<unsigned>(piece.pieces > 1);
+}
+
+/// Adds those of the listed pieces to `chosen` that the fan of this asker could meet. What the next
+/// ones will be asked about, up to `last`, is fetched on the way.
+void choose(const world::ShapePiece* pieces, std::span<const std::uint32_t> listed,
+            const std::uint32_t* last, const Surroundings& around, std::uint16_t asker,
+            BlockCandidates& chosen) noexcept {
+  constexpr std::ptrdiff_t kAhead = 24;
+  const world::ShapePiece** const chosen_pieces = chosen.pieces.data();
+  std::uint16_t* const askers = chosen.askers.data();
+  std::size_t count = chosen.count;
+  for (const std::uint32_t& index : listed) {
+    __builtin_prefetch(pieces + *(last - &index > kAhead ? &index + kAhead : last));
+    const world::ShapePiece& piece = pieces[index];
+    chosen_pieces[count] = &piece;
+    askers[count] = asker;
+    count += in_sight(piece, around);
+  }
+  chosen.count = count;
 }
 
 /// Of the rays of each cone the nearest.
-void join_cones(const FanTable& fan, FanScratch& scratch) {
+void join_cones(const FanTable& fan, const FanView& view) {
   for (std::size_t reading = 0; reading < fan.readings(); ++reading) {
     const std::size_t first = reading * fan.rays_per_reading;
     std::size_t nearest = first;
     for (std::size_t ray = first; ray < first + fan.rays_per_reading; ++ray) {
-      if (scratch.inverse[ray] > scratch.inverse[nearest]) nearest = ray;
+      if (view.inverse[ray] > view.inverse[nearest]) nearest = ray;
     }
-    scratch.inverse[reading] = scratch.inverse[nearest];
-    scratch.body[reading] = scratch.body[nearest];
+    view.inverse[reading] = view.inverse[nearest];
+    view.body[reading] = view.body[nearest];
   }
 }
 
@@ -232,20 +245,26 @@ FanTable FanTable::make(const FanQuery& query, LayerMask layers) {
 
 namespace {
 
-/// Casts the rays of the fan at the candidates; what each met stands in the scratch, and whose it
-/// is in `bodies`, one per ray and padded.
+FanPlace to_fan_place(const SensorPlace& place) noexcept {
+  return {place.p_WS.x, place.p_WS.y, static_cast<float>(place.turn.cos),
+          static_cast<float>(place.turn.sin)};
+}
+
+/// Casts the rays of the fan at the candidates; what each met stands in the scratch.
 FanView cast_rays(const world::Snapshot& world, const FanTable& fan, const SensorPlace& place,
-                  FanScratch& scratch, std::uint32_t* bodies) {
+                  Pieces discs, Pieces polygons, FanScratch& scratch) {
   const FanView view{fan.cos.data(),         fan.sin.data(),
                      fan.cos.size(),         fan.first_ray.empty() ? nullptr : fan.first_ray.data(),
-                     scratch.inverse.data(), bodies};
-  cast_pieces({scratch.discs.data(), scratch.disc_count},
-              {scratch.polygons.data(), scratch.polygon_count}, world.vertices_W(),
-              world.normals_W(),
-              {place.p_WS.x, place.p_WS.y, static_cast<float>(place.turn.cos),
-               static_cast<float>(place.turn.sin)},
-              view);
+                     scratch.inverse.data(), scratch.body.data()};
+  cast_pieces(discs, polygons, world.vertices_W(), world.normals_W(), to_fan_place(place), view);
   return view;
+}
+
+/// The same at what has been gathered in the scratch.
+FanView cast_rays(const world::Snapshot& world, const FanTable& fan, const SensorPlace& place,
+                  FanScratch& scratch) {
+  return cast_rays(world, fan, place, {scratch.discs.data(), scratch.disc_count},
+                   {scratch.polygons.data(), scratch.polygon_count}, scratch);
 }
 
 /// Room for what rays meet.
@@ -255,24 +274,29 @@ void make_ray_room(const FanTable& fan, FanScratch& scratch) {
   scratch.ranges_m.resize(fan.cos.size());
 }
 
+/// The readings of what the rays have met. `view` is changed.
+void read_rays(const FanTable& fan, FanView view, FanScratch& scratch, std::span<float> ranges,
+               std::span<std::uint32_t> bodies) {
+  if (fan.rays_per_reading > 1) {
+    join_cones(fan, view);
+    view.padded = padded(ranges.size());
+  }
+  const RangeLimits limits{fan.range_min_m, fan.range_max_m};
+  if (ranges.size() == view.padded && bodies.size() == view.padded) {
+    finish_ranges(view, limits, ranges.data(), bodies.data());
+    return;
+  }
+  finish_ranges(view, limits, scratch.ranges_m.data(), view.body);
+  std::copy_n(scratch.ranges_m.begin(), ranges.size(), ranges.begin());
+  std::copy_n(view.body, bodies.size(), bodies.begin());
+}
+
 /// Casts the fan at the candidates.
 void cast_candidates(const world::Snapshot& world, const FanTable& fan, const SensorPlace& place,
                      FanScratch& scratch, std::span<float> ranges,
                      std::span<std::uint32_t> bodies) {
   make_ray_room(fan, scratch);
-  const std::size_t size = fan.cos.size();
-  // What has room for the padding is written where it belongs.
-  const bool exact = fan.rays_per_reading == 1 && ranges.size() == size && bodies.size() == size;
-  float* const ranges_m = exact ? ranges.data() : scratch.ranges_m.data();
-  FanView view = cast_rays(world, fan, place, scratch, exact ? bodies.data() : scratch.body.data());
-  if (fan.rays_per_reading > 1) {
-    join_cones(fan, scratch);
-    view.padded = padded(ranges.size());
-  }
-  finish_ranges(view, {fan.range_min_m, fan.range_max_m}, ranges_m);
-  if (exact) return;
-  std::copy_n(scratch.ranges_m.begin(), ranges.size(), ranges.begin());
-  std::copy_n(scratch.body.begin(), bodies.size(), bodies.begin());
+  read_rays(fan, cast_rays(world, fan, place, scratch), scratch, ranges, bodies);
 }
 
 /// Adds the pieces that lie beside one part of a ray.
@@ -356,7 +380,7 @@ void cast_fan_along(const world::Snapshot& world, const FanTable& fan, const Sen
     }
     put_in_order(scratch);
     if (!(part.to_m < part.end_m)) break;
-    cast_rays(world, fan, place, scratch, scratch.body.data());
+    cast_rays(world, fan, place, scratch);
     const double sure_m = part.to_m - 2 * kRounding_m - 1e-6 * part.to_m;
     for (std::uint32_t ray = 0; ray < fan.rays; ++ray) {
       if (static_cast<double>(scratch.inverse[ray]) * sure_m >= 1) open &= ~(1U << ray);
@@ -391,18 +415,63 @@ void list_near(const world::Snapshot& world, const FanTable& fan, double z_m,
   }
 }
 
-void cast_fan(const world::Snapshot& world, const FanTable& fan, const SensorPlace& place,
-              const NearLists& lists, std::size_t asker, FanScratch& scratch,
-              std::span<float> ranges, std::span<std::uint32_t> bodies) {
-  const Surroundings around = what_sees(fan, place);
-  const auto discs = lists.first(asker);
-  const auto polygons = lists.second(asker);
-  scratch.disc_count = 0;
-  scratch.polygon_count = 0;
-  make_room(scratch, std::max(discs.size(), polygons.size()) + 1);
-  scratch.disc_count = choose(world.pieces(), discs, around, scratch.discs.data());
-  scratch.polygon_count = choose(world.pieces(), polygons, around, scratch.polygons.data());
-  cast_candidates(world, fan, place, scratch, ranges, bodies);
+ListedFans::ListedFans(const world::Snapshot& world, const FanTable& fan, const NearLists& lists,
+                       std::span<const SensorPlace> places, FanScratch& scratch,
+                       BlockScratch& block)
+    : world_(&world),
+      fan_(&fan),
+      lists_(&lists),
+      places_(places),
+      scratch_(&scratch),
+      block_(&block) {
+  if (fan.rays <= kFewRays) cast_together();
+}
+
+void ListedFans::choose_for(std::size_t asker) {
+  const std::span all = lists_->all();
+  if (all.empty()) return;
+  const Surroundings around = what_sees(*fan_, places_[asker]);
+  const auto number = static_cast<std::uint16_t>(asker);
+  choose(world_->pieces(), lists_->first(asker), &all.back(), around, number, block_->discs);
+  choose(world_->pieces(), lists_->second(asker), &all.back(), around, number, block_->polygons);
+}
+
+void ListedFans::forget_chosen() {
+  block_->discs.clear(lists_->all().size());
+  block_->polygons.clear(lists_->all().size());
+}
+
+void ListedFans::cast_together() {
+  forget_chosen();
+  for (std::size_t asker = 0; asker < places_.size(); ++asker) choose_for(asker);
+  make_ray_room(*fan_, *scratch_);
+  block_->places.clear();
+  for (const SensorPlace& place : places_) block_->places.push_back(to_fan_place(place));
+  const std::size_t size = fan_->cos.size();
+  block_->inverse.resize(size * places_.size());
+  block_->body.resize(size * places_.size());
+  cast_block(block_->discs.seen_by(), block_->polygons.seen_by(), world_->vertices_W(),
+             world_->normals_W(),
+             {fan_->cos.data(), fan_->sin.data(), size, block_->places.data(), places_.size(),
+              block_->inverse.data(), block_->body.data()});
+}
+
+void ListedFans::read(std::size_t asker, std::span<float> ranges, std::span<std::uint32_t> bodies) {
+  if (fan_->rays <= kFewRays) {
+    const std::size_t size = fan_->cos.size();
+    read_rays(*fan_,
+              {.padded = size,
+               .inverse = block_->inverse.data() + asker * size,
+               .body = block_->body.data() + asker * size},
+              *scratch_, ranges, bodies);
+    return;
+  }
+  forget_chosen();
+  choose_for(asker);
+  make_ray_room(*fan_, *scratch_);
+  const FanView view = cast_rays(*world_, *fan_, places_[asker], block_->discs.seen_by().pieces,
+                                 block_->polygons.seen_by().pieces, *scratch_);
+  read_rays(*fan_, view, *scratch_, ranges, bodies);
 }
 
 }  // namespace rave::sim

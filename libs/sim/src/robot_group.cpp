@@ -258,8 +258,6 @@ Status start_controllers(const GroupContext& context, RobotGroup& group) {
     RAVE_TRY(slots.instances.make(slots.spec->ops->instance, count));
     slots.last.assign(count, Command{});
     slots.last_step.assign(count, -1);
-    slots.inputs.assign(count, ControlInput{});
-    slots.outputs.assign(count, Command{});
     slots.changed.clear();
     slots.changed.resize(count);
     slots.failed.assign(count, 0);
@@ -300,8 +298,6 @@ Status start_actuators(const GroupContext& context, RobotGroup& group) {
                                  ? slots.spec->virtual_ops->instance
                                  : slots.spec->hardware_ops->instance;
     RAVE_TRY(slots.instances.make(ops, count));
-    slots.inputs.assign(count, MotionInput{});
-    slots.outputs.assign(count, Twist2{});
     slots.changed.clear();
     slots.changed.resize(count);
     slots.commands.assign(count, Command{});

@@ -71,19 +71,15 @@ struct SensorSlots {
 struct ControllerSlots {
   const ControllerSpec* spec = nullptr;
   InstanceArray instances;
-  std::vector<Command> last;            ///< Given by the program.
-  std::vector<std::int64_t> last_step;  ///< When; -1: never.
-  std::vector<ControlInput> inputs;
+  std::vector<Command> last;                               ///< Given by the program.
+  std::vector<std::int64_t> last_step;                     ///< When; -1: never.
   std::vector<std::unique_ptr<plugin::ParamSet>> changed;  ///< Null: as in the spec.
-  std::vector<Command> outputs;
   std::vector<std::uint8_t> failed;
 };
 
 struct ActuatorSlots {
   const ActuatorSpec* spec = nullptr;
   InstanceArray instances;
-  std::vector<MotionInput> inputs;
-  std::vector<Twist2> outputs;
   std::vector<Command> commands;
   std::vector<std::unique_ptr<plugin::ParamSet>> changed;  ///< Null: as in the spec.
   std::vector<std::uint8_t> failed;

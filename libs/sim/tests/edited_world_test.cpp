@@ -142,6 +142,8 @@ struct Readings {
 TEST(EditedWorld, RangesAreThoseOfAWorldMadeAnew) {
   const FanTable fan = fan_all_around();
   FanScratch scratch;
+  FanScratch listed_scratch;
+  BlockScratch block;
   for (std::uint32_t number = 0; number < 40; ++number) {
     Scene scene(number);
     NearLists lists;
@@ -161,10 +163,11 @@ TEST(EditedWorld, RangesAreThoseOfAWorldMadeAnew) {
       if (!lists.hold(*scene.live, places_W)) {
         list_near(*scene.live, fan, 0.2, owners, places_W, 0.4, scratch, lists);
       }
+      ListedFans fans(*scene.live, fan, lists, places, listed_scratch, block);
       for (std::uint32_t r = 0; r < kEditedRobots; ++r) {
         const BodyId own = anew.body_of(RobotId(r));
         Readings kept, live, fresh;
-        cast_fan(*scene.live, fan, places[r], lists, r, scratch, kept.ranges_m, kept.bodies);
+        fans.read(r, kept.ranges_m, kept.bodies);
         cast_fan(*scene.live, fan, places[r], 0.2, own, scratch, live.ranges_m, live.bodies);
         cast_fan(anew, fan, places[r], 0.2, own, scratch, fresh.ranges_m, fresh.bodies);
         ASSERT_EQ(live, fresh) << "world " << number << ", change " << k << ", robot " << r;

@@ -107,6 +107,8 @@ TEST_P(ListedFan, SeesWhatTheGridsShow) {
     }
     const FanTable fan = fan_of(rays, width_rad, range_m);
     FanScratch scratch;
+    FanScratch listed_scratch;
+    BlockScratch block;
     NearLists lists;
     for (int step = 0; step < 120; ++step) {
       if (step == 60) {
@@ -127,12 +129,13 @@ TEST_P(ListedFan, SeesWhatTheGridsShow) {
         list_near(world, fan, 0.2, owners, places_W, 0.4, scratch, lists);
         ++made;
       }
+      ListedFans fans(world, fan, lists, places, listed_scratch, block);
       for (std::uint32_t r = 0; r < poses.size(); ++r) {
         std::vector<float> listed(rays);
         std::vector<float> fresh(rays);
         std::vector<std::uint32_t> listed_bodies(rays);
         std::vector<std::uint32_t> fresh_bodies(rays);
-        cast_fan(world, fan, places[r], lists, r, scratch, listed, listed_bodies);
+        fans.read(r, listed, listed_bodies);
         cast_fan(world, fan, places[r], 0.2, world.body_of(owners[r]), scratch, fresh,
                  fresh_bodies);
         ASSERT_EQ(listed_bodies, fresh_bodies) << "world " << w << ", step " << step;

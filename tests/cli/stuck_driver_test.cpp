@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A driver that never opens, in the process of a host: the run ends all the same.
+// A driver that never opens or never closes: the run ends all the same.
 #include <csignal>
 
 #include "shared_world.hpp"
@@ -50,6 +50,17 @@ TEST_F(StuckDriver, HoldsUpNoEndOfARunInOneProcess) {
   wait_for_line("run", "the device does not answer");
   interrupt("run");
   EXPECT_NE(console("run").find("(driver `stuck_pose`) has not returned"), std::string::npos)
+      << console("run");
+  EXPECT_TRUE(result("run").is_object()) << console("run");
+}
+
+TEST_F(StuckDriver, ThatNeverClosesHoldsUpNoEndEither) {
+  start("run", "run", "endless.yaml",
+        {"--plugins", RAVE_BINARY_DIR "/tests/plugins/stuck", "--no-picture"});
+  EXPECT_EQ(end_of("run"), 0) << console("run");
+  EXPECT_NE(console("run").find("sensor `mocap` (driver `endless_pose`) is still being closed; "
+                                "nobody waits for it any more"),
+            std::string::npos)
       << console("run");
   EXPECT_TRUE(result("run").is_object()) << console("run");
 }

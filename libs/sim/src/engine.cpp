@@ -135,10 +135,7 @@ Engine::Impl::Impl(EngineSpec s)
       pool(spec.threads, spec.share_always),
       workers(pool.threads()),
       truth(spec, pool) {
-  const auto changes = [](const RobotSpec& robot) { return robot.twin.has_value(); };
-  if (spec.live_clock != nullptr && std::ranges::any_of(spec.robots, changes)) {
-    spec.live_clock = &clock_outlet.emplace(*spec.live_clock);
-  }
+  if (spec.live_clock != nullptr) spec.live_clock = &clock_outlet.emplace(*spec.live_clock);
   if (!has_hybrid(spec, local)) return;
   spec.history = std::max(spec.history, kHybridHistory);
   fusion_world = std::make_unique<FusionWorld>(spec.world);
@@ -212,12 +209,14 @@ Status Engine::Impl::reset() {
   tell_complaints();
   halt();
   RAVE_TRY(restore_twins());
+  // All are closed first: what two robots share must be free before one of them opens it again.
+  if (!close_all(take_open()) || !close_all(radio->take_open())) {
+    return fail(ErrorCode::kState,
+                "the run cannot begin anew while drivers of the last one are being closed");
+  }
   restore_obstacles();
   restore_bodies();
-  radio->close();
   radio->clear();
-  // All are closed first: what two robots share must be free before one of them opens it again.
-  for (RobotGroup& group : groups) close_group(group);
   for (RobotGroup& group : groups) RAVE_TRY(reset_group({spec, logs, radio.get()}, group));
   return begin();
 }

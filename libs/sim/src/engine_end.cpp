@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The end of an engine, which a driver that never opens does not hold up.
+// The end of an engine, which a driver that never opens or never closes does not hold up.
 #include <chrono>
 #include <utility>
 
@@ -28,6 +28,7 @@ void keep_loaded(const EngineSpec& spec, const RobotType& type) {
     keep(actuator.virtual_ops);
     keep(actuator.hardware_ops);
   }
+  for (const TransmitterSpec& transmitter : type.transmitters) keep(transmitter.ops);
 }
 
 }  // namespace
@@ -48,11 +49,33 @@ bool Engine::Impl::shut() noexcept {
   tell_complaints();
   halt();
   // What serves first: an opening that is under way may take its time.
-  for (RobotGroup& group : groups) close_group(group);
-  const bool all = close_twins();
-  if (radio) radio->close();
-  if (!all) leave_twins();
+  bool all = close_all(take_open());
+  all = close_twins() && all;
+  if (radio) all = close_all(radio->take_open()) && all;
+  if (!all) leave_behind();
   return all;
+}
+
+std::vector<ToClose> Engine::Impl::take_open() {
+  std::vector<ToClose> drivers;
+  for (RobotGroup& group : groups) {
+    const std::vector<ToClose> open = sim::take_open(group);
+    drivers.insert(drivers.end(), open.begin(), open.end());
+  }
+  return drivers;
+}
+
+bool Engine::Impl::close_all(std::vector<ToClose> drivers) {
+  for (const ToClose& driver : close_within(std::move(drivers), spec.last_wait)) {
+    is_in_use = true;
+    const std::uint32_t r = driver.robot.value();
+    keep_loaded(spec, *groups[group_index[r]].type);
+    if (spec.log == nullptr) continue;
+    spec.log->error(logs[r].source,
+                    "{} `{}` (driver `{}`) is still being closed; nobody waits for it any more",
+                    driver.kind, driver.name, driver.driver);
+  }
+  return !is_in_use;
 }
 
 /// Those whose drivers are not done in time stay as they are; the log is told which.
@@ -85,8 +108,9 @@ std::string Engine::Impl::still_busy(const Twin& twin) const {
                      opening.empty() ? "" : " has not returned");
 }
 
-/// They go on in threads of their own, with this engine and nothing else of the run.
-void Engine::Impl::leave_twins() noexcept {
+/// Who has not come to an end goes on in a thread of its own, with this engine and nothing else of
+/// the run.
+void Engine::Impl::leave_behind() noexcept {
   for (Twin& twin : twins) {
     if (twin.work.ready()) {
       close_group(twin.other);

@@ -204,8 +204,12 @@ struct Engine::Impl {
 
   // engine_end.cpp
   [[nodiscard]] bool shut() noexcept;
+  /// False: some of the drivers do not come to an end. The log is told which.
+  [[nodiscard]] bool close_all(std::vector<ToClose> drivers);
+  /// Of those that serve.
+  [[nodiscard]] std::vector<ToClose> take_open();
   [[nodiscard]] bool close_twins() noexcept;
-  void leave_twins() noexcept;
+  void leave_behind() noexcept;
   [[nodiscard]] std::string still_busy(const Twin& twin) const;
 
   // engine_hand_over.cpp: how they come to that
@@ -270,8 +274,9 @@ struct Engine::Impl {
 
   EngineSpec spec;
   LogOutlet log_outlet;                     ///< Of the drivers.
-  std::optional<ClockOutlet> clock_outlet;  ///< In live runs with twins.
+  std::optional<ClockOutlet> clock_outlet;  ///< In live runs.
   bool is_shut = false;
+  bool is_in_use = false;           ///< By drivers that were closed and have not come to an end.
   std::vector<std::uint8_t> local;  ///< By robot: runs here.
   std::unique_ptr<HostPart> host;   ///< Null if all run here.
   std::vector<RobotLog> logs;

@@ -43,6 +43,8 @@ class Radio {
   /// Configures the transmitters, once; opens those that are devices.
   Status open();
   void close() noexcept;
+  /// The devices that are open, which count as closed from now on.
+  [[nodiscard]] std::vector<ToClose> take_open();
   /// Back to silence; devices must be closed.
   void clear();
 

@@ -252,11 +252,19 @@ void Radio::name_channels() {
   }
 }
 
-void Radio::close() noexcept {
+std::vector<ToClose> Radio::take_open() {
+  std::vector<ToClose> drivers;
   for (RadioLine& line : lines_) {
-    if (line.open) line.spec->ops->close(line.instance.at(0));
-    line.open = false;
+    if (!std::exchange(line.open, false)) continue;
+    drivers.push_back({RobotId(line.robot), "transmitter", line.spec->name.c_str(),
+                       line.spec->driver.c_str(), line.spec->ops->close, line.instance.at(0),
+                       false});
   }
+  return drivers;
+}
+
+void Radio::close() noexcept {
+  for (const ToClose& driver : take_open()) driver.close(driver.instance);
 }
 
 std::string Radio::report(RobotId robot, std::uint32_t transmitter) const {

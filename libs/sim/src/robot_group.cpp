@@ -470,26 +470,42 @@ Status open_sensors(GroupContext context, RobotGroup& group) {
   return {};
 }
 
-void close_group(RobotGroup& group) noexcept {
+namespace {
+
+/// Adds those of the drivers that are open; from now on they are not.
+template <class Slots, class Ops>
+void take_open(const RobotGroup& group, Slots& slots, const char* kind, const std::string& driver,
+               const Ops* ops, std::vector<ToClose>& drivers) {
+  for (std::size_t m = 0; m < slots.open.size(); ++m) {
+    if (slots.open[m] == 0) continue;
+    slots.open[m] = 0;
+    drivers.push_back({group.members[m], kind, slots.spec->name.c_str(), driver.c_str(), ops->close,
+                       slots.instances.at(m), false});
+  }
+}
+
+}  // namespace
+
+std::vector<ToClose> take_open(RobotGroup& group) {
+  std::vector<ToClose> drivers;
   for (SensorSlots& slots : group.sensors) {
     for (auto& queue : slots.queues) queue->close();
-    for (std::size_t m = 0; m < slots.open.size(); ++m) {
-      if (slots.open[m] != 0) slots.spec->hardware_ops->close(slots.instances.at(m));
-      slots.open[m] = 0;
-    }
+    take_open(group, slots, "sensor", slots.spec->hardware_driver(), slots.spec->hardware_ops,
+              drivers);
   }
   for (ActuatorSlots& slots : group.actuators) {
-    for (std::size_t m = 0; m < slots.open.size(); ++m) {
-      if (slots.open[m] != 0) slots.spec->hardware_ops->close(slots.instances.at(m));
-      slots.open[m] = 0;
-    }
+    take_open(group, slots, "actuator", slots.spec->driver, slots.spec->hardware_ops, drivers);
   }
   for (DeviceSlots& slots : group.devices) {
-    for (std::size_t m = 0; m < slots.open.size(); ++m) {
-      if (slots.open[m] != 0) slots.spec->ops->close(slots.instances.at(m));
-      slots.open[m] = 0;
-    }
+    const std::size_t first = drivers.size();
+    take_open(group, slots, "device", slots.spec->driver, slots.spec->ops, drivers);
+    for (std::size_t i = first; i < drivers.size(); ++i) drivers[i].is_shared = true;
   }
+  return drivers;
+}
+
+void close_group(RobotGroup& group) noexcept {
+  for (const ToClose& driver : take_open(group)) driver.close(driver.instance);
 }
 
 }  // namespace rave::sim

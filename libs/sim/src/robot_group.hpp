@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "closing.hpp"
 #include "fusion.hpp"
 #include "instances.hpp"
 #include "near_lists.hpp"
@@ -161,6 +162,9 @@ Status make_group(GroupContext context, RobotGroup& group);
 Status reset_group(GroupContext context, RobotGroup& group);
 /// Opens the hardware sensors: from now on samples come.
 Status open_sensors(GroupContext context, RobotGroup& group);
+/// All that is open, in the order in which it has to be closed: devices after what uses them. It
+/// counts as closed from now on.
+[[nodiscard]] std::vector<ToClose> take_open(RobotGroup& group);
 /// Closes hardware; after that nothing of the group runs any more.
 void close_group(RobotGroup& group) noexcept;
 

@@ -33,6 +33,16 @@ class Ears final : public LogSink {
   std::string heard;
 };
 
+/// A live run in which no time passes.
+class ClockAtZero final : public RunClock {
+ public:
+  [[nodiscard]] SimTime now() const noexcept override { return {}; }
+  [[nodiscard]] std::chrono::steady_clock::time_point wall_time_of(
+      SimTime) const noexcept override {
+    return {};
+  }
+};
+
 inline world::Body disc_body(Layer layer, double radius_m = 0.15, double z1_m = 0.3) {
   world::Body body;
   body.shapes.push_back(world::make_disc({}, radius_m, 0, z1_m).value());

@@ -216,15 +216,6 @@ RobotId add_simulated_or_real(EngineSpec& spec) {
   return robot;
 }
 
-class ClockAtZero final : public RunClock {
- public:
-  [[nodiscard]] SimTime now() const noexcept override { return {}; }
-  [[nodiscard]] std::chrono::steady_clock::time_point wall_time_of(
-      SimTime) const noexcept override {
-    return {};
-  }
-};
-
 TEST(HandOver, ToDriversThatDoNotOpenIsGivenUpAndTheOldOnesStay) {
   const ClockAtZero clock;
   EngineSpec spec;

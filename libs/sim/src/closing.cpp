@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "closing.hpp"
+
+#include <algorithm>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+
+namespace rave::sim {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// How long the others have once one has not returned: many may be of the same kind.
+constexpr std::chrono::milliseconds kLater{1000};
+
+/// What the caller and its threads share. A thread that was left behind has nothing else.
+struct Closing {
+  std::vector<ToClose> drivers;
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::vector<std::size_t> stuck;
+  std::size_t next = 0;                    ///< The first that nobody has begun with.
+  std::size_t turn = 0;                    ///< Of which thread it is; others have been left behind.
+  std::optional<Clock::time_point> since;  ///< When the thread has begun with its last.
+  bool is_done = false;
+
+  /// Whether something of the robot may still use the device.
+  [[nodiscard]] bool is_in_use(const ToClose& device) const {
+    return std::any_of(stuck.begin(), stuck.end(),
+                       [&](std::size_t s) { return drivers[s].robot == device.robot; });
+  }
+};
+
+void close_in_order(Closing& closing, std::size_t turn) {
+  std::unique_lock lock(closing.mutex);
+  while (closing.turn == turn && closing.next < closing.drivers.size()) {
+    const ToClose& driver = closing.drivers[closing.next];
+    ++closing.next;
+    if (driver.is_shared && closing.is_in_use(driver)) continue;
+    closing.since = Clock::now();
+    closing.changed.notify_all();
+    lock.unlock();
+    driver.close(driver.instance);
+    lock.lock();
+  }
+  if (closing.turn != turn) return;
+  closing.is_done = true;
+  closing.changed.notify_all();
+}
+
+}  // namespace
+
+std::vector<ToClose> close_within(std::vector<ToClose> drivers, std::chrono::milliseconds limit) {
+  if (drivers.empty()) return {};
+  const auto closing = std::make_shared<Closing>();
+  closing->drivers = std::move(drivers);
+  std::unique_lock lock(closing->mutex);
+  const auto is_late = [&] { return closing->since && Clock::now() >= *closing->since + limit; };
+  for (;;) {
+    closing->since.reset();
+    std::thread thread([closing, turn = closing->turn] { close_in_order(*closing, turn); });
+    while (!closing->is_done && !is_late()) {
+      if (closing->since) {
+        closing->changed.wait_until(lock, *closing->since + limit);
+      } else {
+        closing->changed.wait(lock);
+      }
+    }
+    if (closing->is_done) {
+      lock.unlock();
+      thread.join();
+      std::vector<ToClose> stuck;
+      for (const std::size_t s : closing->stuck) stuck.push_back(closing->drivers[s]);
+      return stuck;
+    }
+    closing->stuck.push_back(closing->next - 1);
+    ++closing->turn;
+    limit = std::min(limit, kLater);
+    thread.detach();
+  }
+}
+
+}  // namespace rave::sim

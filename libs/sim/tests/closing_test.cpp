@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "../src/closing.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "engine_fixture.hpp"
+
+namespace rave::sim::testing {
+namespace {
+
+using Names = std::vector<std::string>;
+
+/// Drivers that write down that they were closed; those that are held do not return before that.
+class Drivers {
+ public:
+  void add(std::uint32_t robot, const char* name, bool is_held = false, bool is_shared = false) {
+    instances_.push_back({this, name, is_held});
+    asked_.push_back({RobotId(robot), "sensor", name, "fake", &Drivers::close, nullptr, is_shared});
+  }
+  [[nodiscard]] Names close_within(std::chrono::milliseconds limit) {
+    for (std::size_t i = 0; i < asked_.size(); ++i) asked_[i].instance = &instances_[i];
+    Names stuck;
+    for (const ToClose& driver : sim::close_within(asked_, limit)) stuck.emplace_back(driver.name);
+    return stuck;
+  }
+  void let_go() {
+    held_ = false;
+    held_.notify_all();
+  }
+  void await_closed(std::size_t count) {
+    while (closed().size() < count) std::this_thread::yield();
+  }
+  [[nodiscard]] Names closed() {
+    const std::lock_guard lock(mutex_);
+    return closed_;
+  }
+
+ private:
+  struct Instance {
+    Drivers* drivers;
+    std::string name;
+    bool is_held;
+  };
+  static void close(void* instance) {
+    const auto& [drivers, name, is_held] = *static_cast<Instance*>(instance);
+    if (is_held) drivers->held_.wait(true);
+    const std::lock_guard lock(drivers->mutex_);
+    drivers->closed_.push_back(name);
+  }
+
+  std::vector<Instance> instances_;
+  std::vector<ToClose> asked_;
+  std::atomic<bool> held_ = true;
+  std::mutex mutex_;
+  Names closed_;
+};
+
+constexpr std::chrono::milliseconds kLong{60'000};
+
+TEST(CloseWithin, ClosesAllInTheirOrder) {
+  Drivers drivers;
+  EXPECT_EQ(drivers.close_within(kLong), Names());
+  for (const char* name : {"a", "b", "c"}) drivers.add(0, name);
+  EXPECT_EQ(drivers.close_within(kLong), Names());
+  EXPECT_EQ(drivers.closed(), Names({"a", "b", "c"}));
+}
+
+TEST(CloseWithin, LeavesWhoDoesNotReturnAndClosesTheOthers) {
+  Drivers drivers;
+  drivers.add(0, "first");
+  drivers.add(1, "held", true);
+  drivers.add(1, "beside it");
+  drivers.add(1, "what it uses", false, true);
+  drivers.add(2, "held, too", true);
+  drivers.add(3, "another's device", false, true);
+  EXPECT_EQ(drivers.close_within(std::chrono::milliseconds(500)), Names({"held", "held, too"}));
+  EXPECT_EQ(drivers.closed(), Names({"first", "beside it", "another's device"}));
+  // Their threads close nothing but what they were at.
+  drivers.let_go();
+  drivers.await_closed(5);
+  Names closed = drivers.closed();
+  std::sort(closed.begin(), closed.end());
+  EXPECT_EQ(closed, Names({"another's device", "beside it", "first", "held", "held, too"}));
+}
+
+/// A pose source that is never done with its end.
+class NeverCloses final : public HardwareSensor {
+ public:
+  static constexpr ReadingKind kReading = ReadingKind::kPose;
+  static std::atomic<bool> at_last;  // for good: the thread goes with the process
+  Status configure(const HardwareSetup&, HardwareDeclaration& declaration) override {
+    declaration.clock = DriverClock::kLive;
+    return {};
+  }
+  Status open(SampleSink&) override { return {}; }
+  void close() override { at_last.wait(false); }
+};
+std::atomic<bool> NeverCloses::at_last = false;
+
+std::atomic<int> kept = 0;
+
+TEST(EngineEnd, IsNotHeldUpByADriverThatNeverCloses) {
+  const ClockAtZero clock;
+  Ears ears;
+  EngineSpec spec;
+  spec.live_clock = &clock;
+  spec.log = &ears;
+  spec.last_wait = std::chrono::milliseconds(500);
+  spec.keep_loaded = [](const void* function) { kept += function != nullptr ? 1 : 0; };
+  RobotType type = real_type({});
+  type.sensors.front() = real_sensor<NeverCloses>("mocap", {});
+  add_robot(spec, std::move(type));
+  const std::string name = spec.robots.back().name;
+  auto engine = make_engine(std::move(spec));
+  run(*engine, 3);
+  const Status again = engine->reset();
+  ASSERT_FALSE(again) << "its driver is in use";
+  EXPECT_NE(again.error().text().find("cannot begin anew"), std::string::npos);
+  engine.reset();
+  const std::string expected = fmt::format(
+      "robot {}: sensor `mocap` (driver `mocap`) is still being closed; nobody waits for it any "
+      "more",
+      name);
+  EXPECT_NE(ears.heard.find(expected), std::string::npos) << ears.heard;
+  EXPECT_GE(kept, 1) << "the plug-in of a thread that goes on";
+}
+
+}  // namespace
+}  // namespace rave::sim::testing

@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -52,6 +53,15 @@ void close_in_order(Closing& closing, std::size_t turn) {
   closing.changed.notify_all();
 }
 
+/// None if the system has none left: then they are closed without a limit, not left open.
+std::thread in_thread(const std::shared_ptr<Closing>& closing) {
+  try {
+    return std::thread([closing, turn = closing->turn] { close_in_order(*closing, turn); });
+  } catch (const std::system_error&) {
+    return {};
+  }
+}
+
 }  // namespace
 
 std::vector<ToClose> close_within(std::vector<ToClose> drivers, std::chrono::milliseconds limit) {
@@ -62,7 +72,12 @@ std::vector<ToClose> close_within(std::vector<ToClose> drivers, std::chrono::mil
   const auto is_late = [&] { return closing->since && Clock::now() >= *closing->since + limit; };
   for (;;) {
     closing->since.reset();
-    std::thread thread([closing, turn = closing->turn] { close_in_order(*closing, turn); });
+    std::thread thread = in_thread(closing);
+    if (!thread.joinable()) {
+      lock.unlock();
+      close_in_order(*closing, closing->turn);
+      lock.lock();
+    }
     while (!closing->is_done && !is_late()) {
       if (closing->since) {
         closing->changed.wait_until(lock, *closing->since + limit);
@@ -72,7 +87,7 @@ std::vector<ToClose> close_within(std::vector<ToClose> drivers, std::chrono::mil
     }
     if (closing->is_done) {
       lock.unlock();
-      thread.join();
+      if (thread.joinable()) thread.join();
       std::vector<ToClose> stuck;
       for (const std::size_t s : closing->stuck) stuck.push_back(closing->drivers[s]);
       return stuck;

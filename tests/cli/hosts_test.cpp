@@ -43,7 +43,7 @@ class Hosts : public SharedWorld {
   }
   /// The crowd with checks of what nobody but the world as a whole can tell; its file.
   [[nodiscard]] std::string checked_crowd() const {
-    const std::string path = crowd_with_policy("wait", 5);
+    std::string path = crowd_with_policy("wait", 5);
     std::ofstream(path, std::ios::app)
         << "checks:\n"
            "  capture: {predator: left, prey: right, within_m: 0.05, before_s: 40}\n"

@@ -9,8 +9,12 @@ namespace {
 
 class StuckDriver : public SharedWorld {
  protected:
-  static std::vector<std::string> plugins() {
-    return {"--plugins", RAVE_BINARY_DIR "/tests/plugins/stuck"};
+  /// Where the drivers are, and more options.
+  static std::vector<std::string> plugins(const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words = {"--plugins",
+                                      std::string(RAVE_BINARY_DIR) + "/tests/plugins/stuck"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
   }
   void interrupt(const std::string& who) {
     signal(who, SIGINT);
@@ -45,8 +49,7 @@ TEST_F(StuckDriver, HoldsUpNoEndAndIsNamed) {
 }
 
 TEST_F(StuckDriver, HoldsUpNoEndOfARunInOneProcess) {
-  start("run", "run", "stuck.yaml",
-        {"--plugins", RAVE_BINARY_DIR "/tests/plugins/stuck", "--processes", "1", "--no-picture"});
+  start("run", "run", "stuck.yaml", plugins({"--processes", "1", "--no-picture"}));
   wait_for_line("run", "the device does not answer");
   interrupt("run");
   EXPECT_NE(console("run").find("(driver `stuck_pose`) has not returned"), std::string::npos)
@@ -55,8 +58,7 @@ TEST_F(StuckDriver, HoldsUpNoEndOfARunInOneProcess) {
 }
 
 TEST_F(StuckDriver, ThatNeverClosesHoldsUpNoEndEither) {
-  start("run", "run", "endless.yaml",
-        {"--plugins", RAVE_BINARY_DIR "/tests/plugins/stuck", "--no-picture"});
+  start("run", "run", "endless.yaml", plugins({"--no-picture"}));
   EXPECT_EQ(end_of("run"), 0) << console("run");
   EXPECT_NE(console("run").find("sensor `mocap` (driver `endless_pose`) is still being closed; "
                                 "nobody waits for it any more"),

@@ -5,9 +5,10 @@ namespace rave::sim {
 
 using ChangeKind = ObstacleChange::Kind;
 
-ObstacleHistory::ObstacleHistory(const std::vector<ObstacleChange>& changes, std::uint64_t count) {
+// add() counts the changes that are left of them all.
+ObstacleHistory::ObstacleHistory(const std::vector<ObstacleChange>& changes, std::uint64_t count)
+    : count_(count - changes.size()) {
   for (const ObstacleChange& change : changes) add(change);
-  count_ = count;
 }
 
 void ObstacleHistory::add(const ObstacleChange& change) {

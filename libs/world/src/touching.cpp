@@ -48,12 +48,12 @@ Impact advance_to_impact(const Shape& a, const Pose2& X_WA, const Motion2& motio
                          const Pose2& X_WB, const ImpactLimits& limits) noexcept {
   constexpr int kMaxAdvances = 200;
   // A motion along the surface approaches by rounding alone; without this it would stick.
-  constexpr double kRounding_m = 1e-12;
+  constexpr double kAlong_m = 1e-12;
   const double turn_bound = std::abs(motion.dyaw) * reach(a);
   double fraction = 0;
   Separation now = separation(a, X_WA, b, X_WB);
   for (int step = 0; step < kMaxAdvances; ++step) {
-    const double approach = dot({motion.dx, motion.dy}, now.normal_W) + turn_bound - kRounding_m;
+    const double approach = dot({motion.dx, motion.dy}, now.normal_W) + turn_bound - kAlong_m;
     const double room = now.distance_m - limits.skin_m;
     const bool touching = room <= limits.tolerance_m;
     if (touching && approach > 0) return {fraction, now.normal_W, now.distance_m, true};

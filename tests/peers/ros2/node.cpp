@@ -61,7 +61,7 @@ dds::Topic* Node::topic(const std::string& name, const dds::TypeSupport& type) {
   return made;
 }
 
-dds::DataWriter* Node::writer(const std::string& name, dds::TypeSupport type,
+dds::DataWriter* Node::writer(const std::string& name, const dds::TypeSupport& type,
                               const Delivery& delivery) {
   dds::DataWriterQos qos = dds::DATAWRITER_QOS_DEFAULT;
   deliver(qos, delivery);

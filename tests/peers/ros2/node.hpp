@@ -37,9 +37,9 @@ class Node {
   Node& operator=(const Node&) = delete;
   ~Node();
 
-  [[nodiscard]] eprosima::fastdds::dds::DataWriter* writer(const std::string& topic,
-                                                           eprosima::fastdds::dds::TypeSupport type,
-                                                           const Delivery& delivery);
+  [[nodiscard]] eprosima::fastdds::dds::DataWriter* writer(
+      const std::string& topic, const eprosima::fastdds::dds::TypeSupport& type,
+      const Delivery& delivery);
   /// The listener must outlive the node.
   [[nodiscard]] eprosima::fastdds::dds::DataReader* reader(
       const std::string& topic, const eprosima::fastdds::dds::TypeSupport& type,

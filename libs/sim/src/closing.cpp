@@ -21,6 +21,8 @@ constexpr std::chrono::milliseconds kLater{1000};
 /// What the caller and its threads share. A thread that was left behind has nothing else.
 struct Closing {
   std::vector<ToClose> drivers;
+  /// Nothing is done with it; who looks for lost memory finds that a thread holds it.
+  const void* owner = nullptr;
   std::mutex mutex;
   std::condition_variable changed;
   std::vector<std::size_t> stuck;
@@ -64,10 +66,12 @@ std::thread in_thread(const std::shared_ptr<Closing>& closing) {
 
 }  // namespace
 
-std::vector<ToClose> close_within(std::vector<ToClose> drivers, std::chrono::milliseconds limit) {
+std::vector<ToClose> close_within(std::vector<ToClose> drivers, std::chrono::milliseconds limit,
+                                  const void* owner) {
   if (drivers.empty()) return {};
   const auto closing = std::make_shared<Closing>();
   closing->drivers = std::move(drivers);
+  closing->owner = owner;
   std::unique_lock lock(closing->mutex);
   const auto is_late = [&] { return closing->since && Clock::now() >= *closing->since + limit; };
   for (;;) {

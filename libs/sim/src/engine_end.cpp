@@ -66,7 +66,7 @@ std::vector<ToClose> Engine::Impl::take_open() {
 }
 
 bool Engine::Impl::close_all(std::vector<ToClose> drivers) {
-  for (const ToClose& driver : close_within(std::move(drivers), spec.last_wait)) {
+  for (const ToClose& driver : close_within(std::move(drivers), spec.last_wait, this)) {
     is_in_use = true;
     const std::uint32_t r = driver.robot.value();
     keep_loaded(spec, *groups[group_index[r]].type);

@@ -28,7 +28,8 @@ class Drivers {
   [[nodiscard]] Names close_within(std::chrono::milliseconds limit) {
     for (std::size_t i = 0; i < asked_.size(); ++i) asked_[i].instance = &instances_[i];
     Names stuck;
-    for (const ToClose& driver : sim::close_within(asked_, limit)) stuck.emplace_back(driver.name);
+    for (const ToClose& driver : sim::close_within(asked_, limit, nullptr))
+      stuck.emplace_back(driver.name);
     return stuck;
   }
   void let_go() {

@@ -27,6 +27,21 @@ int height_of(const RawNode& node) {
   return node.is_scalar() || node.is_null() ? 0 : height + 1;
 }
 
+/// yaml-cpp makes one byte each of the escapes `\N` and `\_` (U+0085 and U+00A0), which is no
+/// UTF-8.
+std::string with_whole_escapes(const std::string& text) {
+  const std::size_t bad = first_invalid_utf8(text);
+  if (bad == text.size()) return text;
+  std::string whole = text.substr(0, bad);
+  for (std::size_t i = bad; i < text.size();) {
+    const std::size_t length = utf8_at(text, i).length;
+    if (length == 0) whole += '\xC2';
+    whole.append(text, i, std::max<std::size_t>(length, 1));
+    i += std::max<std::size_t>(length, 1);
+  }
+  return whole;
+}
+
 /// Builds the tree from the parser's events.
 class TreeBuilder : public YAML::EventHandler {
  public:
@@ -55,7 +70,8 @@ class TreeBuilder : public YAML::EventHandler {
   }
 
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
-                const std::string& text) override {
+                const std::string& read) override {
+    const std::string text = with_whole_escapes(read);
     count(1, mark);
     check_tag(tag, mark);
     // The parser marks quoted scalars with the tag `!` and plain ones with `?`.

@@ -41,6 +41,14 @@ TEST(Yaml, TheWordsOfYaml11AreText) {
   }
 }
 
+TEST(Yaml, EscapesGiveTextThatReadsBack) {
+  const RawNode node = parse("a: \"\\_é\\_\\N1\\L\\P\\xFF\\u00e9\\U0001F916\"\n");
+  EXPECT_EQ(node.find("a")->as_text(),
+            "\u00A0\u00E9\u00A0\xC2\x85"
+            "1\u2028\u2029\u00FF\u00E9\U0001F916");
+  EXPECT_EQ(parse(to_yaml(node)), node) << to_yaml(node);
+}
+
 TEST(Yaml, WrittenTextIsQuotedWhereItMustBe) {
   RawNode node = RawNode::mapping();
   for (const char* word :

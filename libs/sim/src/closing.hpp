@@ -10,7 +10,7 @@ namespace rave::sim {
 
 /// A driver that has to be closed.
 struct ToClose {
-  RobotId robot;
+  RobotId robot{};
   const char* kind = "";  ///< What it drives: "sensor", ...
   const char* name = "";
   const char* driver = "";

@@ -472,16 +472,32 @@ Status open_sensors(GroupContext context, RobotGroup& group) {
 
 namespace {
 
-/// Adds those of the drivers that are open; from now on they are not.
-template <class Slots, class Ops>
-void take_open(const RobotGroup& group, Slots& slots, const char* kind, const std::string& driver,
-               const Ops* ops, std::vector<ToClose>& drivers) {
+/// Adds those of the drivers that are open, as `describe(spec)` has them; from now on they are not.
+/// After a start that failed there may be slots for what was never made.
+template <class Slots, class Describe>
+void take_open(const RobotGroup& group, Slots& slots, std::vector<ToClose>& drivers,
+               Describe describe) {
   for (std::size_t m = 0; m < slots.open.size(); ++m) {
     if (slots.open[m] == 0) continue;
     slots.open[m] = 0;
-    drivers.push_back({group.members[m], kind, slots.spec->name.c_str(), driver.c_str(), ops->close,
-                       slots.instances.at(m), false});
+    ToClose& driver = drivers.emplace_back(describe(*slots.spec));
+    driver.robot = group.members[m];
+    driver.name = slots.spec->name.c_str();
+    driver.instance = slots.instances.at(m);
   }
+}
+
+ToClose describe_sensor(const SensorSpec& spec) {
+  return {.kind = "sensor",
+          .driver = spec.hardware_driver().c_str(),
+          .close = spec.hardware_ops->close};
+}
+ToClose describe_actuator(const ActuatorSpec& spec) {
+  return {.kind = "actuator", .driver = spec.driver.c_str(), .close = spec.hardware_ops->close};
+}
+ToClose describe_device(const DeviceSpec& spec) {
+  return {
+      .kind = "device", .driver = spec.driver.c_str(), .close = spec.ops->close, .is_shared = true};
 }
 
 }  // namespace
@@ -490,17 +506,12 @@ std::vector<ToClose> take_open(RobotGroup& group) {
   std::vector<ToClose> drivers;
   for (SensorSlots& slots : group.sensors) {
     for (auto& queue : slots.queues) queue->close();
-    take_open(group, slots, "sensor", slots.spec->hardware_driver(), slots.spec->hardware_ops,
-              drivers);
+    take_open(group, slots, drivers, describe_sensor);
   }
   for (ActuatorSlots& slots : group.actuators) {
-    take_open(group, slots, "actuator", slots.spec->driver, slots.spec->hardware_ops, drivers);
+    take_open(group, slots, drivers, describe_actuator);
   }
-  for (DeviceSlots& slots : group.devices) {
-    const std::size_t first = drivers.size();
-    take_open(group, slots, "device", slots.spec->driver, slots.spec->ops, drivers);
-    for (std::size_t i = first; i < drivers.size(); ++i) drivers[i].is_shared = true;
-  }
+  for (DeviceSlots& slots : group.devices) take_open(group, slots, drivers, describe_device);
   return drivers;
 }
 

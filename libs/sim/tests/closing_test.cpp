@@ -134,5 +134,26 @@ TEST(EngineEnd, IsNotHeldUpByADriverThatNeverCloses) {
   EXPECT_GE(kept, 1) << "the plug-in of a thread that goes on";
 }
 
+/// As of a topic that nobody writes.
+class NeverConfigured final : public HardwareSensor {
+ public:
+  static constexpr ReadingKind kReading = ReadingKind::kPose;
+  Status configure(const HardwareSetup&, HardwareDeclaration&) override {
+    return fail(ErrorCode::kIo, "nobody is there");
+  }
+  Status open(SampleSink&) override { return {}; }
+  void close() override {}
+};
+
+TEST(EngineEnd, ComesAfterAStartThatFailedBeforeAllWasMade) {
+  EngineSpec spec;
+  RobotType type = real_type({});
+  type.sensors.insert(type.sensors.begin(), real_sensor<NeverConfigured>("first", {}));
+  add_robot(spec, std::move(type));
+  const auto engine = Engine::create(std::move(spec));
+  ASSERT_FALSE(engine);
+  EXPECT_NE(engine.error().text().find("nobody is there"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace rave::sim::testing

@@ -72,16 +72,6 @@ class Motor final : public HardwareActuator {
   void close() override { jot("motor closed"); }
 };
 
-/// Time passes when the test says so.
-class StoppedClock final : public RunClock {
- public:
-  [[nodiscard]] SimTime now() const noexcept override { return {}; }
-  [[nodiscard]] std::chrono::steady_clock::time_point wall_time_of(
-      SimTime) const noexcept override {
-    return {};
-  }
-};
-
 class EngineDevices : public ::testing::Test {
  public:
   EngineDevices() { notebook = &notebook_; }
@@ -117,7 +107,7 @@ class EngineDevices : public ::testing::Test {
     return spec;
   }
 
-  StoppedClock clock_;
+  ClockAtZero clock_;
   Notebook notebook_;
 };
 

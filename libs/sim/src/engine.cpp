@@ -261,9 +261,10 @@ void Engine::Impl::set_initial_state() {
 
 Result<std::unique_ptr<Engine>> Engine::create(EngineSpec spec) {
   RAVE_TRY(check(spec));
-  auto impl = std::make_unique<Impl>(std::move(spec));
-  RAVE_TRY(impl->make());
-  return std::unique_ptr<Engine>(new Engine(std::move(impl)));
+  // Its end knows what to do with drivers that never close; that of its inside alone does not.
+  std::unique_ptr<Engine> engine(new Engine(std::make_unique<Impl>(std::move(spec))));
+  RAVE_TRY(engine->impl_->make());
+  return engine;
 }
 
 void Engine::Impl::begin_step() {

@@ -82,7 +82,7 @@ TEST(CloseWithin, LeavesWhoDoesNotReturnAndClosesTheOthers) {
   drivers.add(1, "what it uses", false, true);
   drivers.add(2, "held, too", true);
   drivers.add(3, "another's device", false, true);
-  EXPECT_EQ(drivers.close_within(std::chrono::milliseconds(500)), Names({"held", "held, too"}));
+  EXPECT_EQ(drivers.close_within(std::chrono::seconds(3)), Names({"held", "held, too"}));
   EXPECT_EQ(drivers.closed(), Names({"first", "beside it", "another's device"}));
   // Their threads close nothing but what they were at.
   drivers.let_go();
@@ -134,6 +134,17 @@ TEST(EngineEnd, IsNotHeldUpByADriverThatNeverCloses) {
   EXPECT_GE(kept, 1) << "the plug-in of a thread that goes on";
 }
 
+class NeverOpened final : public HardwareSensor {
+ public:
+  static constexpr ReadingKind kReading = ReadingKind::kPose;
+  Status configure(const HardwareSetup&, HardwareDeclaration& declaration) override {
+    declaration.clock = DriverClock::kLive;
+    return {};
+  }
+  Status open(SampleSink&) override { return fail(ErrorCode::kIo, "no device"); }
+  void close() override {}
+};
+
 /// As of a topic that nobody writes.
 class NeverConfigured final : public HardwareSensor {
  public:
@@ -144,6 +155,23 @@ class NeverConfigured final : public HardwareSensor {
   Status open(SampleSink&) override { return {}; }
   void close() override {}
 };
+
+TEST(EngineEnd, ComesAfterAStartThatFailedWithADriverThatNeverCloses) {
+  Ears ears;
+  const ClockAtZero clock;
+  EngineSpec spec;
+  spec.live_clock = &clock;
+  spec.log = &ears;
+  spec.last_wait = std::chrono::milliseconds(500);
+  RobotType type = real_type({});
+  type.sensors.front() = real_sensor<NeverCloses>("mocap", {});
+  type.sensors.push_back(real_sensor<NeverOpened>("second", {}));
+  add_robot(spec, std::move(type));
+  const auto engine = Engine::create(std::move(spec));
+  ASSERT_FALSE(engine);
+  EXPECT_NE(engine.error().text().find("no device"), std::string::npos) << engine.error().text();
+  EXPECT_NE(ears.heard.find("is still being closed"), std::string::npos) << ears.heard;
+}
 
 TEST(EngineEnd, ComesAfterAStartThatFailedBeforeAllWasMade) {
   EngineSpec spec;

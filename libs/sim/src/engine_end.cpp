@@ -70,6 +70,7 @@ bool Engine::Impl::close_all(std::vector<ToClose> drivers) {
     is_in_use = true;
     const std::uint32_t r = driver.robot.value();
     keep_loaded(spec, *groups[group_index[r]].type);
+    if (const Twin* const twin = find_twin(driver.robot)) keep_loaded(spec, *twin->other.type);
     if (spec.log == nullptr) continue;
     spec.log->error(logs[r].source,
                     "{} `{}` (driver `{}`) is still being closed; nobody waits for it any more",
@@ -82,6 +83,7 @@ bool Engine::Impl::close_all(std::vector<ToClose> drivers) {
 bool Engine::Impl::close_twins() noexcept {
   const auto end = std::chrono::steady_clock::now() + spec.last_wait;
   bool all = true;
+  std::vector<ToClose> open;
   for (Twin& twin : twins) {
     if (!twin.work.ready_by(end)) {
       all = false;
@@ -95,9 +97,10 @@ bool Engine::Impl::close_twins() noexcept {
     twin.given_up = false;
     twin.stage = Twin::Stage::kIdle;
     twin.state.under_way = false;
-    close_group(twin.other);
+    const std::vector<ToClose> more = sim::take_open(twin.other);
+    open.insert(open.end(), more.begin(), more.end());
   }
-  return all;
+  return close_all(std::move(open)) && all;
 }
 
 std::string Engine::Impl::still_busy(const Twin& twin) const {
@@ -113,7 +116,7 @@ std::string Engine::Impl::still_busy(const Twin& twin) const {
 void Engine::Impl::leave_behind() noexcept {
   for (Twin& twin : twins) {
     if (twin.work.ready()) {
-      close_group(twin.other);
+      static_cast<void>(close_all(sim::take_open(twin.other)));
       continue;
     }
     twin.left = true;

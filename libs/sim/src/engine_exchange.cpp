@@ -122,7 +122,10 @@ Status Engine::Impl::restore_twins() {
   for (Twin& twin : twins) {
     if (twin.state.active != DriverSet::kFirst) {
       RobotGroup& group = group_of_twin(twin);
-      close_group(group);
+      if (!close_all(sim::take_open(group))) {
+        return fail(ErrorCode::kState,
+                    "the run cannot begin anew while drivers of the last one are being closed");
+      }
       exchange(twin);
       const bool simulated = group.type->simulated;
       truth.set_reality(twin.robot, simulated, spec.robots[twin.robot.value()].X_WR);

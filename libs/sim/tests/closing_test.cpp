@@ -101,10 +101,15 @@ class NeverCloses final : public HardwareSensor {
     declaration.clock = DriverClock::kLive;
     return {};
   }
-  Status open(SampleSink&) override { return {}; }
+  Status open(SampleSink&) override {
+    ++opened;
+    return {};
+  }
   void close() override { at_last.wait(false); }
+  static std::atomic<int> opened;
 };
 std::atomic<bool> NeverCloses::at_last = false;
+std::atomic<int> NeverCloses::opened = 0;
 
 std::atomic<int> kept = 0;
 
@@ -132,6 +137,36 @@ TEST(EngineEnd, IsNotHeldUpByADriverThatNeverCloses) {
       name);
   EXPECT_NE(ears.heard.find(expected), std::string::npos) << ears.heard;
   EXPECT_GE(kept, 1) << "the plug-in of a thread that goes on";
+}
+
+TEST(EngineEnd, IsNotHeldUpByADriverOfAHandOverThatNeverCloses) {
+  const ClockAtZero clock;
+  Ears ears;
+  EngineSpec spec;
+  spec.live_clock = &clock;
+  spec.log = &ears;
+  spec.last_wait = std::chrono::milliseconds(500);
+  // The 30 s in which drivers have to open are three million steps.
+  spec.step = Duration{10'000};
+  RobotType simulated = simulated_type();
+  simulated.sensors.push_back(virtual_sensor<Beacon>("mocap"));
+  const RobotId robot = add_robot(spec, std::move(simulated));
+  RobotType real = real_type({});
+  real.sensors.front() = real_sensor<NeverCloses>("mocap", {});
+  spec.robots.back().twin = static_cast<std::uint32_t>(spec.types.size());
+  spec.types.push_back(std::move(real));
+  auto engine = make_engine(std::move(spec));
+  const int opened = NeverCloses::opened;
+  ASSERT_TRUE(engine->hand_over(robot, DriverSet::kTwin));
+  // It is open and says nothing, so it never serves.
+  while (NeverCloses::opened == opened) {
+    run(*engine, 1);
+    std::this_thread::yield();
+  }
+  engine.reset();
+  EXPECT_NE(ears.heard.find("sensor `mocap` (driver `mocap`) is still being closed"),
+            std::string::npos)
+      << ears.heard;
 }
 
 class NeverOpened final : public HardwareSensor {

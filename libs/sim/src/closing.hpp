@@ -16,7 +16,7 @@ struct ToClose {
   const char* driver = "";
   void (*close)(void* instance) = nullptr;
   void* instance = nullptr;
-  /// Others of this robot use it, so it stays open as long as one of them does not return.
+  /// Others of this robot may use it, so it stays open if one of them does not return.
   bool is_shared = false;
 };
 

@@ -117,7 +117,7 @@ RobotGroup& Engine::Impl::group_of_twin(const Twin& twin) noexcept {
 Status Engine::Impl::restore_twins() {
   if (!close_twins()) {
     return fail(ErrorCode::kState,
-                "the run cannot begin anew while drivers of a hand-over are being opened");
+                "the run cannot begin anew while drivers of a hand-over are being opened or closed");
   }
   for (Twin& twin : twins) {
     if (twin.state.active != DriverSet::kFirst) {

@@ -36,14 +36,14 @@ class Radio {
       : spec_(spec), local_(local), logs_(logs), pool_(pool), live_(spec.own_authority) {}
   Radio(const Radio&) = delete;
   Radio& operator=(const Radio&) = delete;
-  ~Radio() { close(); }
+  /// Devices must be closed.
+  ~Radio() = default;
 
   /// Starts the message models and lays out mailboxes. Errors name robot and communicator.
   Status make();
   /// Configures the transmitters, once; opens those that are devices.
   Status open();
-  void close() noexcept;
-  /// The devices that are open, which count as closed from now on.
+  /// The devices that are open, for who closes them; they count as closed from now on.
   [[nodiscard]] std::vector<ToClose> take_open();
   /// Back to silence; devices must be closed.
   void clear();

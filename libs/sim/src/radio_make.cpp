@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <utility>
 
 #include "plugin_call.hpp"
 #include "radio.hpp"
@@ -261,10 +262,6 @@ std::vector<ToClose> Radio::take_open() {
                        false});
   }
   return drivers;
-}
-
-void Radio::close() noexcept {
-  for (const ToClose& driver : take_open()) driver.close(driver.instance);
 }
 
 std::string Radio::report(RobotId robot, std::uint32_t transmitter) const {

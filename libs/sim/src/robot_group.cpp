@@ -447,7 +447,6 @@ Status make_group(GroupContext context, RobotGroup& group) {
 }
 
 Status reset_group(GroupContext context, RobotGroup& group) {
-  close_group(group);
   clear_sensors(group);
   return start_devices(context, group);
 }

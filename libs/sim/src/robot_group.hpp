@@ -158,7 +158,7 @@ void show_sensors(RobotGroup& group);
 /// Makes all instances of a group and starts them, except that hardware sensors are not opened yet.
 /// Errors name robot and device.
 Status make_group(GroupContext context, RobotGroup& group);
-/// Puts everything back to how make_group left it.
+/// Puts everything back to how make_group left it. Hardware must be closed.
 Status reset_group(GroupContext context, RobotGroup& group);
 /// Opens the hardware sensors: from now on samples come.
 Status open_sensors(GroupContext context, RobotGroup& group);

@@ -113,13 +113,25 @@ std::atomic<int> NeverCloses::opened = 0;
 
 std::atomic<int> kept = 0;
 
-TEST(EngineEnd, IsNotHeldUpByADriverThatNeverCloses) {
-  const ClockAtZero clock;
-  Ears ears;
-  EngineSpec spec;
-  spec.live_clock = &clock;
-  spec.log = &ears;
-  spec.last_wait = std::chrono::milliseconds(500);
+/// Live runs whose end does not wait for long.
+class EngineEnd : public ::testing::Test {
+ protected:
+  EngineSpec live_spec() {
+    EngineSpec spec;
+    spec.live_clock = &clock_;
+    spec.log = &ears_;
+    spec.last_wait = std::chrono::milliseconds(500);
+    return spec;
+  }
+  [[nodiscard]] const std::string& heard() const { return ears_.heard; }
+
+ private:
+  ClockAtZero clock_;
+  Ears ears_;
+};
+
+TEST_F(EngineEnd, IsNotHeldUpByADriverThatNeverCloses) {
+  EngineSpec spec = live_spec();
   spec.keep_loaded = [](const void* function) { kept += function != nullptr ? 1 : 0; };
   RobotType type = real_type({});
   type.sensors.front() = real_sensor<NeverCloses>("mocap", {});
@@ -135,17 +147,12 @@ TEST(EngineEnd, IsNotHeldUpByADriverThatNeverCloses) {
       "robot {}: sensor `mocap` (driver `mocap`) is still being closed; nobody waits for it any "
       "more",
       name);
-  EXPECT_NE(ears.heard.find(expected), std::string::npos) << ears.heard;
+  EXPECT_NE(heard().find(expected), std::string::npos) << heard();
   EXPECT_GE(kept, 1) << "the plug-in of a thread that goes on";
 }
 
-TEST(EngineEnd, IsNotHeldUpByADriverOfAHandOverThatNeverCloses) {
-  const ClockAtZero clock;
-  Ears ears;
-  EngineSpec spec;
-  spec.live_clock = &clock;
-  spec.log = &ears;
-  spec.last_wait = std::chrono::milliseconds(500);
+TEST_F(EngineEnd, IsNotHeldUpByADriverOfAHandOverThatNeverCloses) {
+  EngineSpec spec = live_spec();
   // The 30 s in which drivers have to open are three million steps.
   spec.step = Duration{10'000};
   RobotType simulated = simulated_type();
@@ -164,9 +171,9 @@ TEST(EngineEnd, IsNotHeldUpByADriverOfAHandOverThatNeverCloses) {
     std::this_thread::yield();
   }
   engine.reset();
-  EXPECT_NE(ears.heard.find("sensor `mocap` (driver `mocap`) is still being closed"),
+  EXPECT_NE(heard().find("sensor `mocap` (driver `mocap`) is still being closed"),
             std::string::npos)
-      << ears.heard;
+      << heard();
 }
 
 class NeverOpened final : public HardwareSensor {
@@ -191,13 +198,8 @@ class NeverConfigured final : public HardwareSensor {
   void close() override {}
 };
 
-TEST(EngineEnd, ComesAfterAStartThatFailedWithADriverThatNeverCloses) {
-  Ears ears;
-  const ClockAtZero clock;
-  EngineSpec spec;
-  spec.live_clock = &clock;
-  spec.log = &ears;
-  spec.last_wait = std::chrono::milliseconds(500);
+TEST_F(EngineEnd, ComesAfterAStartThatFailedWithADriverThatNeverCloses) {
+  EngineSpec spec = live_spec();
   RobotType type = real_type({});
   type.sensors.front() = real_sensor<NeverCloses>("mocap", {});
   type.sensors.push_back(real_sensor<NeverOpened>("second", {}));
@@ -205,10 +207,10 @@ TEST(EngineEnd, ComesAfterAStartThatFailedWithADriverThatNeverCloses) {
   const auto engine = Engine::create(std::move(spec));
   ASSERT_FALSE(engine);
   EXPECT_NE(engine.error().text().find("no device"), std::string::npos) << engine.error().text();
-  EXPECT_NE(ears.heard.find("is still being closed"), std::string::npos) << ears.heard;
+  EXPECT_NE(heard().find("is still being closed"), std::string::npos) << heard();
 }
 
-TEST(EngineEnd, ComesAfterAStartThatFailedBeforeAllWasMade) {
+TEST_F(EngineEnd, ComesAfterAStartThatFailedBeforeAllWasMade) {
   EngineSpec spec;
   RobotType type = real_type({});
   type.sensors.insert(type.sensors.begin(), real_sensor<NeverConfigured>("first", {}));

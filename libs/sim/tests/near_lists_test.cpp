@@ -62,7 +62,7 @@ world::WorldModel crowded(RandomStream& random) {
   return model;
 }
 
-FanTable fan_of(std::uint32_t rays, double width_rad, double range_m) {
+FanTable fan_of(std::uint32_t rays, double width_rad, double range_m, std::uint32_t cone = 1) {
   std::vector<double> bearings_rad(rays);
   for (std::uint32_t i = 0; i < rays; ++i) {
     bearings_rad[i] = width_rad * (i / static_cast<double>(rays) - 0.5);
@@ -71,6 +71,7 @@ FanTable fan_of(std::uint32_t rays, double width_rad, double range_m) {
   query.ray_count = rays;
   query.bearings_rad = bearings_rad.data();
   query.range_max_m = range_m;
+  query.rays_per_reading = cone;
   return FanTable::make(query, kAllLayers);
 }
 
@@ -89,10 +90,12 @@ void move_robots(world::Snapshot& world, RandomStream& random, std::vector<Pose2
   world.rebuild();
 }
 
-class ListedFan : public ::testing::TestWithParam<std::tuple<std::uint32_t, double, double>> {};
+/// Rays, width in rad, range in metres, rays of one reading.
+class ListedFan
+    : public ::testing::TestWithParam<std::tuple<std::uint32_t, double, double, std::uint32_t>> {};
 
 TEST_P(ListedFan, SeesWhatTheGridsShow) {
-  const auto [rays, width_rad, range_m] = GetParam();
+  const auto [rays, width_rad, range_m, cone] = GetParam();
   int made = 0;
   int used = 0;
   for (std::uint32_t w = 0; w < 6; ++w) {
@@ -105,7 +108,7 @@ TEST_P(ListedFan, SeesWhatTheGridsShow) {
       poses[r] = {random.uniform(0, kSide_m), random.uniform(0, kSide_m), random.uniform(-3, 3)};
       owners.emplace_back(r);
     }
-    const FanTable fan = fan_of(rays, width_rad, range_m);
+    const FanTable fan = fan_of(rays, width_rad, range_m, cone);
     FanScratch scratch;
     FanScratch listed_scratch;
     BlockScratch block;
@@ -131,10 +134,10 @@ TEST_P(ListedFan, SeesWhatTheGridsShow) {
       }
       ListedFans fans(world, fan, lists, places, listed_scratch, block);
       for (std::uint32_t r = 0; r < poses.size(); ++r) {
-        std::vector<float> listed(rays);
-        std::vector<float> fresh(rays);
-        std::vector<std::uint32_t> listed_bodies(rays);
-        std::vector<std::uint32_t> fresh_bodies(rays);
+        std::vector<float> listed(fan.readings());
+        std::vector<float> fresh(fan.readings());
+        std::vector<std::uint32_t> listed_bodies(fan.readings());
+        std::vector<std::uint32_t> fresh_bodies(fan.readings());
         fans.read(r, listed, listed_bodies);
         cast_fan(world, fan, places[r], 0.2, world.body_of(owners[r]), scratch, fresh,
                  fresh_bodies);
@@ -147,9 +150,11 @@ TEST_P(ListedFan, SeesWhatTheGridsShow) {
   EXPECT_LT(2 * made, used) << "kept lists are of use";
 }
 
-INSTANTIATE_TEST_SUITE_P(Fans, ListedFan,
-                         ::testing::Values(std::tuple{16U, 2 * kPi, 3.0}, std::tuple{24U, 2.0, 3.0},
-                                           std::tuple{90U, kPi, 6.0}, std::tuple{100U, 4.0, 5.0}));
+INSTANTIATE_TEST_SUITE_P(
+    Fans, ListedFan,
+    ::testing::Values(std::tuple{16U, 2 * kPi, 3.0, 1U}, std::tuple{24U, 2.0, 3.0, 1U},
+                      std::tuple{24U, 2.0, 3.0, 3U}, std::tuple{32U, 2 * kPi, 3.0, 2U},
+                      std::tuple{90U, kPi, 6.0, 1U}, std::tuple{100U, 4.0, 5.0, 1U}));
 
 TEST(NearLists, HoldUntilThingsHaveMovedByTheMargin) {
   world::WorldModel model;

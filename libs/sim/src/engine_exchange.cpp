@@ -116,8 +116,9 @@ RobotGroup& Engine::Impl::group_of_twin(const Twin& twin) noexcept {
 /// The first set serves again, and nothing is under way.
 Status Engine::Impl::restore_twins() {
   if (!close_twins()) {
-    return fail(ErrorCode::kState,
-                "the run cannot begin anew while drivers of a hand-over are being opened or closed");
+    return fail(
+        ErrorCode::kState,
+        "the run cannot begin anew while drivers of a hand-over are being opened or closed");
   }
   for (Twin& twin : twins) {
     if (twin.state.active != DriverSet::kFirst) {

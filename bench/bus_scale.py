@@ -4,8 +4,8 @@
 
     bench/bus_scale.py [--build build/release] [--rounds 5] [PART ...]
 
-Parts: ping, world, crowd, deaths, manager; all by default. Prints one JSON line per part: medians of
-the rounds with the least and the most, and the load of the machine before and after. Let the machine
+Parts: ping, busy, world, crowd, deaths, manager; all by default. Prints one JSON line per part: medians
+of the rounds with the least and the most, and the load of the machine before and after. Let the machine
 do nothing else.
 """
 import argparse
@@ -39,12 +39,24 @@ def bench_bus(options, *words):
     return json.loads(done.stdout)
 
 
-def ping(options):
+def ping(options, round_trips=20_000):
     """64 bytes there and back, beside a plain UDP socket in the same run."""
-    rounds = [bench_bus(options, "ping", 20_000) for _ in range(options.rounds)]
+    rounds = [bench_bus(options, "ping", round_trips) for _ in range(options.rounds)]
     names = ["udp_median_us", "bus_median_us", "bus_ratio", "listener_median_us", "listener_ratio",
              "short_median_us", "short_ratio"]
     return {name: spread([one[name] for one in rounds]) for name in names}
+
+
+def busy(options):
+    """The same while each core has other work that never waits."""
+    others = [subprocess.Popen([sys.executable, "-c", "while True: pass"])
+              for _ in range(os.cpu_count() or 1)]
+    try:
+        return ping(options, 3000)
+    finally:
+        for other in others:
+            other.kill()
+            other.wait()
 
 
 def world(options):
@@ -136,11 +148,11 @@ def manager(options):
         result = json.loads(pathlib.Path(name, "env", "result.json").read_text())
     return {"robots": ROBOTS, "hosts": HOSTS, "core_percent": spread(shares, 1),
             "rss_mb": round(rss, 1), "rss_most_mb": round(most, 1),
-            "worlds_per_s": round(result["worlds"] / result["end_s"], 2),
-            "reports_per_s": round(result["states"] / result["end_s"], 1)}
+            "worlds_per_s": round(result["worlds"] / result["wall_s"], 2),
+            "reports_per_s": round(result["states"] / result["wall_s"], 1)}
 
 
-PARTS = {part.__name__: part for part in (ping, world, crowd, deaths, manager)}
+PARTS = {part.__name__: part for part in (ping, busy, world, crowd, deaths, manager)}
 
 
 def main():

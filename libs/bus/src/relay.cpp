@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdint>
+#include <utility>
 
 #include "rave/base/thread.hpp"
 #include "rave/bus/short_way.hpp"
@@ -21,6 +22,10 @@ namespace {
 
 /// About twice what it takes to wake a process that sleeps.
 constexpr Duration kAwake{20'000};
+/// Who gave way for so long did so to somebody who does not wait for messages.
+constexpr std::chrono::milliseconds kLongAway{1};
+/// How long nobody looks after that.
+constexpr std::chrono::milliseconds kCrowded{20};
 
 }  // namespace
 
@@ -47,6 +52,7 @@ void Relay::run() noexcept {
     std::array<dds_attach_t, 1> woken{};
     static_cast<void>(dds_waitset_wait(set_, woken.data(), woken.size(), DDS_INFINITY));
     // It waits to be asked again: what is in the set stays there until somebody takes it.
+    answered_ = true;
     static_cast<void>(::eventfd_write(event_, 1));
   }
 }
@@ -67,26 +73,26 @@ void Relay::tell_of_dds() const {
   for (ShortReceiver* const receiver : receivers_) receiver->note_dds();
 }
 
-bool Relay::datagrams() const {
-  bool any = false;
-  for (std::size_t i = 0; i < receivers_.size(); ++i) {
-    if (polled_[i + 1].revents == 0) continue;
-    receivers_[i]->note_datagram();
-    any = true;
-  }
-  return any;
+void Relay::note_answer() {
+  if (!answered_.exchange(false)) return;
+  asked_ = false;
+  tell_of_dds();
 }
 
-/// What has come, or comes within some microseconds: an answer is often under way, and to sleep and
-/// to be woken takes longer. Whoever has work to do on this processor goes first.
-int Relay::look(Duration most) {
-  const auto now = std::chrono::steady_clock::now;
-  const auto end = now() + std::chrono::nanoseconds(std::min(most.ns, kAwake.ns));
-  constexpr timespec kNow{};
+/// An answer is often under way, and to sleep and to be woken takes longer than it. Whoever has
+/// work to do on this processor goes first; if that is much, a sleeper is woken sooner than one who
+/// gave way gets his turn, and sleeps.
+bool Relay::look(Duration most) {
+  auto now = std::chrono::steady_clock::now();
+  const auto end = now + std::chrono::nanoseconds(std::min(most.ns, kAwake.ns));
   for (;;) {
-    const int count = ::ppoll(polled_.data(), polled_.size(), &kNow, nullptr);
-    if (count != 0 || now() >= end) return count;
+    note_answer();
+    bool any = false;
+    for (ShortReceiver* const receiver : receivers_) any = receiver->fetch() || any;
+    if (any || !asked_ || now >= end || now < crowded_until_) return any;
     ::sched_yield();
+    const auto before = std::exchange(now, std::chrono::steady_clock::now());
+    if (now - before >= kLongAway) crowded_until_ = now + kCrowded;
   }
 }
 
@@ -100,21 +106,16 @@ Relay::Came Relay::wait(Duration timeout) {
       asked_ = true;
       ask_.release();
     }
+    if (look(timeout.ns < 0 ? kAwake : left)) return Came::kSocket;
+    if (!asked_) continue;
     const timespec most{left.ns / 1'000'000'000, left.ns % 1'000'000'000};
-    int count = look(timeout.ns < 0 ? kAwake : left);
-    if (count == 0) {
-      count = ::ppoll(polled_.data(), polled_.size(), timeout.ns < 0 ? nullptr : &most, nullptr);
-    }
+    const int count =
+        ::ppoll(polled_.data(), polled_.size(), timeout.ns < 0 ? nullptr : &most, nullptr);
     if (count < 0 && errno == EINTR) continue;
     // The thread may be about to say it.
     if (count <= 0) return ready() ? Came::kSet : Came::kNothing;
-    if (polled_.front().revents != 0) {
-      eventfd_t times = 0;
-      static_cast<void>(::eventfd_read(event_, &times));
-      asked_ = false;
-      tell_of_dds();
-    }
-    if (datagrams()) return Came::kSocket;
+    eventfd_t times = 0;
+    if (polled_.front().revents != 0) static_cast<void>(::eventfd_read(event_, &times));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <poll.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <semaphore>
@@ -41,17 +42,21 @@ class Relay {
   void run() noexcept;
   /// Whether the set has something, and then tells the receivers.
   [[nodiscard]] bool ready() const;
-  [[nodiscard]] int look(Duration most);
+  /// Whether a datagram has come, or comes within this time. Ends when the thread has answered.
+  [[nodiscard]] bool look(Duration most);
   void tell_of_dds() const;
-  /// Whether the last poll found any, and then tells those for whom they are.
-  [[nodiscard]] bool datagrams() const;
+  /// If the thread has answered it may be asked again.
+  void note_answer();
 
   dds_entity_t set_;
   dds_entity_t bell_;
   int event_;
   std::vector<pollfd> polled_;  ///< The event descriptor, then the sockets of the receivers.
   std::vector<ShortReceiver*> receivers_;
-  bool asked_ = false;  ///< The thread has been asked to look, and has not answered.
+  std::chrono::steady_clock::time_point crowded_until_{};
+  bool asked_ = false;  ///< The thread has been asked to look; its answer was not noted.
+  /// The answer. The event descriptor only ends a sleep, and may do so once for an old one.
+  std::atomic<bool> answered_ = false;
   std::counting_semaphore<> ask_{0};
   std::atomic<bool> over_ = false;
   std::jthread thread_;

@@ -198,16 +198,28 @@ bool ShortReceiver::leaves_dds(bool got) noexcept {
   return false;
 }
 
-std::optional<ShortReceiver::Datagram> ShortReceiver::receive() {
+std::optional<std::size_t> ShortReceiver::read() noexcept {
   from_.size = sizeof from_.name;
   const auto got = ::recvfrom(socket_.descriptor(), buffer_.get(), kBufferBytes, MSG_DONTWAIT,
                               reinterpret_cast<sockaddr*>(&from_.name), &from_.size);
-  if (got < 0) {
+  if (got < 0) return std::nullopt;
+  return static_cast<std::size_t>(got);
+}
+
+bool ShortReceiver::fetch() noexcept {
+  if (!held_) held_ = read();
+  if (held_) woken_ = true;
+  return held_.has_value();
+}
+
+std::optional<ShortReceiver::Datagram> ShortReceiver::receive() {
+  auto got = std::exchange(held_, std::nullopt);
+  if (!got) got = read();
+  if (!got) {
     leaving_.clear();
     return std::nullopt;
   }
-  const std::span bytes(reinterpret_cast<std::byte*>(buffer_.get()), static_cast<std::size_t>(got));
-  return Datagram{bytes, sender()};
+  return Datagram{{reinterpret_cast<std::byte*>(buffer_.get()), *got}, sender()};
 }
 
 std::uint64_t ShortReceiver::sender() const {

@@ -200,27 +200,67 @@ TEST(ShortWay, WhatComesByDdsIsNotLeftLyingWhileDatagramsCome) {
   }
 }
 
+/// A receiver and somebody who knocks at it.
+struct Door {
+  RunId run = RunId::random();
+  ShortAddress address{run, 1, kWorldStep};
+  ShortReceiver receiver{topic_of<WorldStep>(), run, *ShortSocket::open(address)};
+  std::optional<ShortSocket> visitor = ShortSocket::open({run, 2, kWorldStep});
+
+  void knock(std::string_view bytes) const {
+    EXPECT_EQ(::sendto(visitor->descriptor(), bytes.data(), bytes.size(), 0,
+                       reinterpret_cast<const sockaddr*>(&address.name), address.size),
+              static_cast<ssize_t>(bytes.size()));
+  }
+  /// Somebody waits and is woken by this.
+  void wake() {
+    knock("x");
+    EXPECT_TRUE(receiver.fetch());
+  }
+  /// The text of the next datagram; "none" if there is none.
+  std::string next() {
+    const auto got = receiver.receive();
+    if (!got) return "none";
+    return {reinterpret_cast<const char*>(got->bytes.data()), got->bytes.size()};
+  }
+};
+
+TEST(ShortWay, WhatEndedAWaitIsReceivedOnceAndInItsTurn) {
+  Door door;
+  EXPECT_FALSE(door.receiver.fetch());
+  door.knock("first");
+  door.knock("second");
+  EXPECT_TRUE(door.receiver.fetch());
+  EXPECT_TRUE(door.receiver.fetch()) << "nobody has taken it";
+  EXPECT_EQ(door.next(), "first");
+  EXPECT_EQ(door.next(), "second");
+  EXPECT_EQ(door.next(), "none");
+  EXPECT_FALSE(door.receiver.fetch());
+  door.knock("");
+  EXPECT_TRUE(door.receiver.fetch()) << "an empty one is one, too";
+  EXPECT_EQ(door.next(), "");
+  EXPECT_EQ(door.next(), "none");
+}
+
 TEST(ShortWay, OnlyATakeThatADatagramWokeLeavesDdsAlone) {
-  const RunId run = RunId::random();
-  auto socket = ShortSocket::open({run, 1, kWorldStep});
-  ASSERT_TRUE(socket);
-  ShortReceiver receiver(topic_of<WorldStep>(), run, *std::move(socket));
+  Door door;
+  ShortReceiver& receiver = door.receiver;
   EXPECT_EQ(receiver.begin_take(100), 100U) << "nobody has waited";
   EXPECT_FALSE(receiver.leaves_dds(true));
-  receiver.note_datagram();
+  door.wake();
   EXPECT_EQ(receiver.begin_take(100), 1U);
   EXPECT_TRUE(receiver.leaves_dds(true));
   EXPECT_EQ(receiver.begin_take(100), 100U) << "not again";
   EXPECT_FALSE(receiver.leaves_dds(true));
-  receiver.note_datagram();
+  door.wake();
   receiver.note_dds();
   EXPECT_EQ(receiver.begin_take(100), 1U);
   EXPECT_FALSE(receiver.leaves_dds(true)) << "there is something";
-  receiver.note_datagram();
+  door.wake();
   EXPECT_EQ(receiver.begin_take(100), 1U);
   EXPECT_FALSE(receiver.leaves_dds(false)) << "it was for nobody";
   receiver.meet({2, 3});
-  receiver.note_datagram();
+  door.wake();
   EXPECT_EQ(receiver.begin_take(100), 100U) << "of two there may be two";
   EXPECT_TRUE(receiver.leaves_dds(true));
 }

@@ -2,13 +2,13 @@
 #include "rave/sim/range_engine.hpp"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <array>
 #include <cmath>
 #include <cstring>
 
 #include "../src/listed_fan.hpp"
+#include "each_target.hpp"
 #include "rave/base/random.hpp"
 #include "rave/math/scalar.hpp"
 
@@ -357,11 +357,8 @@ TEST(CastFan, FindsWhatOnlyJustComesIntoRange) {
 }
 
 TEST(CastFan, WidestAndNarrowestInstructionsGiveTheSameBits) {
-  const std::int64_t all = hwy::SupportedTargets();
   std::vector<std::vector<Reading>> by_target;
-  for (std::int64_t rest = all; rest != 0; rest &= rest - 1) {
-    hwy::SetSupportedTargetsForTest(rest & -rest);
-    hwy::GetChosenTarget().DeInit();
+  for_each_target([&](const char* /*name*/) {
     std::vector<Reading> readings;
     for (std::uint32_t seed = 0; seed < 300; ++seed) {
       world::WorldModel model = random_world(seed, {40, -30});
@@ -372,9 +369,7 @@ TEST(CastFan, WidestAndNarrowestInstructionsGiveTheSameBits) {
       readings.push_back(cast(world, fan_of(seed % 2 == 0 ? 16 : 181, 3.5, 8).table, X_WS));
     }
     by_target.push_back(std::move(readings));
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().DeInit();
+  });
   ASSERT_GE(by_target.size(), 2U) << "a processor with one set of instructions shows nothing";
   for (std::size_t target = 1; target < by_target.size(); ++target) {
     for (std::size_t i = 0; i < by_target[0].size(); ++i) {

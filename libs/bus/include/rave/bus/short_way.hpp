@@ -116,8 +116,9 @@ class ShortReceiver {
   void meet(const std::vector<std::uint64_t>& writers);
   [[nodiscard]] int descriptor() const noexcept { return socket_.descriptor(); }
 
-  /// A wait was ended by a datagram that is here.
-  void note_datagram() noexcept { woken_ = true; }
+  /// Whether there is a datagram, which then has ended a wait. It is held for receive(): to ask
+  /// the system for it costs less than to ask whether there is one.
+  [[nodiscard]] bool fetch() noexcept;
   /// There may be something in DDS.
   void note_dds() noexcept { look_ = true; }
   /// How many datagrams the take that begins may look at, at most as many as told: one, if a wait
@@ -145,6 +146,9 @@ class ShortReceiver {
     std::uint64_t writer;
     ShortAddress address;
   };
+  /// Its size; none if there is none.
+  [[nodiscard]] std::optional<std::size_t> read() noexcept;
+
   RunId run_;
   ShortSocket socket_;
   ShortDecoder decoder_;
@@ -153,8 +157,9 @@ class ShortReceiver {
   std::vector<Known> leaving_;  ///< No longer at the other end, until the queue has been empty.
   ShortAddress from_;
   std::unique_ptr<std::uint64_t[]> buffer_;
-  bool woken_ = false;       ///< Since the last take.
-  bool after_wait_ = false;  ///< The take that goes on is the first after such a wait.
+  std::optional<std::size_t> held_;  ///< Bytes of what is in the buffer and was not received yet.
+  bool woken_ = false;               ///< Since the last take.
+  bool after_wait_ = false;          ///< The take that goes on is the first after such a wait.
   bool look_ = false;
   bool may_meet_ = true;
 };

@@ -194,10 +194,10 @@ struct EngineSpec {
   std::function<void()> on_step_done;
   /// How long a stepped hardware driver may take, wall time, before the run is given up.
   std::chrono::milliseconds host_timeout{10'000};
-  /// How long the end of an engine waits, wall time, for each driver that it closes, and for those
-  /// of a hand-over that are still being opened or closed. What is not done then is left behind:
-  /// the log is told which, and the thread, its plug-in and the memory of the engine stay until the
-  /// process ends.
+  /// How long the end of an engine waits, wall time, for a driver that it closes (a second at most
+  /// for each after the first of them), and for those of a hand-over that are still under way. What
+  /// is not done then is left behind: the log is told which, and the thread, its plug-in and the
+  /// memory of the engine stay until the process ends.
   std::chrono::milliseconds last_wait{5'000};
   /// Called at such an end with an address within each of these drivers: its code must stay loaded
   /// for as long as the process runs. Null: it does so anyway.

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <memory>
+#include <numeric>
 #include <vector>
 
 #include "child.hpp"
@@ -36,6 +37,11 @@ constexpr std::size_t kPingBytes = 64;
 constexpr Duration kForEver{-1};
 /// A robot number that ends a server.
 constexpr std::uint32_t kEnd = 99;
+
+double mean(const std::vector<double>& values) {
+  if (values.empty()) return -1;
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
 
 double quantile(std::vector<double> values, double part) {
   if (values.empty()) return -1;
@@ -197,9 +203,10 @@ void append(std::vector<double>& all, const std::vector<double>& more) {
 }
 
 void print(const char* name, const std::vector<double>& times_us, double udp_us) {
-  std::printf(", \"%s_median_us\": %.2f, \"%s_p99_us\": %.2f, \"%s_ratio\": %.3f", name,
-              quantile(times_us, 0.5), name, quantile(times_us, 0.99), name,
-              quantile(times_us, 0.5) / udp_us);
+  std::printf(
+      ", \"%s_median_us\": %.2f, \"%s_p99_us\": %.2f, \"%s_mean_us\": %.2f, \"%s_ratio\": %.3f",
+      name, quantile(times_us, 0.5), name, quantile(times_us, 0.99), name, mean(times_us), name,
+      quantile(times_us, 0.5) / udp_us);
 }
 
 }  // namespace

@@ -24,8 +24,9 @@ namespace {
 constexpr Duration kAwake{20'000};
 /// Who gave way for so long did so to somebody who does not wait for messages.
 constexpr std::chrono::milliseconds kLongAway{1};
-/// How long nobody looks after that.
+/// How long nobody looks after that: twice as long if it happens again soon.
 constexpr std::chrono::milliseconds kCrowded{20};
+constexpr std::chrono::milliseconds kMostCrowded{1000};
 
 }  // namespace
 
@@ -92,7 +93,10 @@ bool Relay::look(Duration most) {
     if (any || !asked_ || now >= end || now < crowded_until_) return any;
     ::sched_yield();
     const auto before = std::exchange(now, std::chrono::steady_clock::now());
-    if (now - before >= kLongAway) crowded_until_ = now + kCrowded;
+    if (now - before < kLongAway) continue;
+    const bool again = now - crowded_until_ < crowded_for_;
+    crowded_for_ = again ? std::min(2 * crowded_for_, kMostCrowded) : kCrowded;
+    crowded_until_ = now + crowded_for_;
   }
 }
 
@@ -108,6 +112,7 @@ Relay::Came Relay::wait(Duration timeout) {
     }
     if (look(timeout.ns < 0 ? kAwake : left)) return Came::kSocket;
     if (!asked_) continue;
+    if (timeout.ns > 0) left = left_until(end);
     const timespec most{left.ns / 1'000'000'000, left.ns % 1'000'000'000};
     const int count =
         ::ppoll(polled_.data(), polled_.size(), timeout.ns < 0 ? nullptr : &most, nullptr);

@@ -20,8 +20,9 @@ namespace rave::bus {
 class ShortReceiver;
 
 /// Waits for sockets and a wait set of DDS at once: poll() knows nothing of DDS, so a thread waits
-/// there and says through an event descriptor that it is time to look. What comes by a socket does
-/// not pass that thread. Owner: a WaitSet, which deletes the entities afterwards; thread: its own.
+/// there and says through a flag and an event descriptor that it is time to look. What comes by a
+/// socket does not pass that thread. Owner: a WaitSet, which deletes the entities afterwards;
+/// thread: its own.
 class Relay {
  public:
   /// `bell`: a guard condition in the set. Error: kIo.
@@ -54,6 +55,7 @@ class Relay {
   std::vector<pollfd> polled_;  ///< The event descriptor, then the sockets of the receivers.
   std::vector<ShortReceiver*> receivers_;
   std::chrono::steady_clock::time_point crowded_until_{};
+  std::chrono::milliseconds crowded_for_{};
   bool asked_ = false;  ///< The thread has been asked to look; its answer was not noted.
   /// The answer. The event descriptor only ends a sleep, and may do so once for an old one.
   std::atomic<bool> answered_ = false;

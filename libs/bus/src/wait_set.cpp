@@ -91,6 +91,7 @@ Woken WaitSet::wait(Duration timeout, const std::stop_token& stop) {
   // If a socket was first the bell ends the next wait.
   bool rung = false;
   if (came != Relay::Came::kSocket) static_cast<void>(dds_take_guardcondition(bell_, &rung));
+  if (rung && came == Relay::Came::kNothing) came = Relay::Came::kSet;
   if (stop.stop_requested()) return Woken::kStopped;
   return came != Relay::Came::kNothing ? Woken::kReady : Woken::kTimeout;
 }

@@ -135,7 +135,7 @@ class ShortReceiver {
     std::span<std::byte> bytes;
     std::uint64_t writer = 0;  ///< Who sent it; 0: none of the writers at the other end.
   };
-  /// The next one, until the next call; none if there is none.
+  /// The next one, until the next receive() or fetch(); none if there is none.
   [[nodiscard]] std::optional<Datagram> receive();
   /// Who sent the last one, when that is asked again after meet().
   [[nodiscard]] std::uint64_t sender() const;

@@ -2,14 +2,10 @@
 #include "rave/sim/world_authority.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <tuple>
 
-#include "input_notes.hpp"
-#include "message_checks.hpp"
-#include "rave/sim/obstacle_history.hpp"
 #include "spec_checks.hpp"
-#include "world_truth.hpp"
+#include "world_authority_impl.hpp"
 
 namespace rave::sim {
 namespace {
@@ -31,55 +27,6 @@ Status check_hosts(const EngineSpec& spec, std::span<const std::uint32_t> host_o
 }
 
 }  // namespace
-
-struct WorldAuthority::Impl {
-  Impl(EngineSpec s, std::vector<std::uint32_t> hosts);
-
-  void begin();
-  [[nodiscard]] Status check(const HostReport& report) const;
-  [[nodiscard]] Status check(std::span<const HostReport* const> reports);
-  void finish_step();
-  void take_over(const WorldStep& world);
-  void put_refusal_texts(std::uint64_t in_step);
-  void make_changes(WorldStep& world);
-  void do_input(WorldInput& input, WorldStep& world);
-  Status change_body(RobotId robot, std::span<const ParameterChange> changes, Author author,
-                     WorldStep& world);
-  Status change_obstacle(const ObstacleChange& change, Author author, WorldStep& world);
-  void make_obstacle_changes(WorldStep& world);
-  void refuse(RobotId robot, const Error& why);
-  void take_over_obstacles(WorldStep& world);
-  void close_obstacles();
-  void place_real_robots();
-  void write_poses(WorldStep& world) const;
-  void write_contacts(WorldStep& world);
-  void write_messages(WorldStep& world);
-
-  EngineSpec spec;
-  std::vector<std::uint32_t> host_of;  ///< By robot.
-  std::vector<HostRobots> hosts;
-  std::vector<const HostReport*> by_host;  ///< During step() alone.
-  ThreadPool pool;
-  WorldTruth truth;
-  std::uint64_t step = 0;     ///< The world of this one comes next.
-  std::vector<Event> events;  ///< So far, of the step that the hosts are in.
-  RunHash hash;
-  // Of the steps that are done:
-  std::vector<Event> done_events;
-  RunHash done_hash;
-  std::vector<WorldInput> asked;  ///< For the next step.
-  std::uint64_t inputs = 0;
-  std::size_t next_change = 0;
-  std::size_t next_obstacle = 0;               ///< Of spec.obstacle_changes.
-  ObstacleHistory history;                     ///< Before the world that was made last.
-  std::vector<ObstacleChange> last_obstacles;  ///< Of that world.
-  std::vector<ObstacleChange> adopted;         ///< Of another authority, for the next step.
-  std::vector<InputRefusal> refusals;
-  std::uint64_t refused_count = 0;  ///< Changes of the scenario, in all steps.
-  std::vector<Event> refused;       ///< The first of them.
-  std::vector<std::pair<const SentPacket*, const SentPackets*>> sent;  ///< During step() alone.
-  std::vector<std::uint32_t> seen;  ///< Robots that were pushed, with repetition.
-};
 
 WorldAuthority::Impl::Impl(EngineSpec s, std::vector<std::uint32_t> h)
     : spec(std::move(s)),
@@ -170,97 +117,6 @@ void WorldAuthority::Impl::finish_step() {
   done_hash = hash;
   done_events.swap(events);
   events.clear();
-}
-
-void WorldAuthority::Impl::make_changes(WorldStep& world) {
-  for (WorldInput& input : asked) do_input(input, world);
-  asked.clear();
-  take_over_obstacles(world);
-  make_obstacle_changes(world);
-  for (; next_change < spec.changes.size() && spec.changes[next_change].step <= step;
-       ++next_change) {
-    const ScheduledChange& scheduled = spec.changes[next_change];
-    if (scheduled.changes.empty() || !is_of_body(scheduled.changes.front())) continue;
-    const Status status = change_body(scheduled.robot, scheduled.changes, Author::kRun, world);
-    if (status) continue;
-    refuse(scheduled.robot, status.error());
-  }
-}
-
-void WorldAuthority::Impl::make_obstacle_changes(WorldStep& world) {
-  for (; next_obstacle < spec.obstacle_changes.size() &&
-         spec.obstacle_changes[next_obstacle].step <= step;
-       ++next_obstacle) {
-    const Status status =
-        change_obstacle(spec.obstacle_changes[next_obstacle].change, Author::kRun, world);
-    if (status) continue;
-    refuse(RobotId(), status.error());
-  }
-}
-
-/// A change of the scenario that cannot be made.
-void WorldAuthority::Impl::refuse(RobotId robot, const Error& why) {
-  events.push_back(
-      noted_input(step, robot, EventKind::kChangeRefused, why.text(), Author::kRun, hash));
-  if (refused_count++ < AuthorityState::kMostRefused) refused.push_back(events.back());
-}
-
-Status WorldAuthority::Impl::change_obstacle(const ObstacleChange& change, Author author,
-                                             WorldStep& world) {
-  std::string note;
-  const SimTime from{static_cast<std::int64_t>(step) * spec.step.ns};
-  RAVE_TRY_ASSIGN(ObstacleChange made, truth.change_obstacle(change, from, note));
-  events.push_back(noted_obstacle(step, made, note, author, hash));
-  world.obstacles.push_back(std::move(made));
-  return {};
-}
-
-/// What another authority has decided already.
-void WorldAuthority::Impl::take_over_obstacles(WorldStep& world) {
-  truth.put_obstacles(adopted, {static_cast<std::int64_t>(step) * spec.step.ns});
-  for (ObstacleChange& change : adopted) {
-    const Author author = change.asked.empty() ? Author::kRun : Author::kHand;
-    events.push_back(noted_obstacle(step, change, "", author, hash));
-    world.obstacles.push_back(std::move(change));
-  }
-  adopted.clear();
-}
-
-/// What the hosts have been told by now.
-void WorldAuthority::Impl::close_obstacles() {
-  for (const ObstacleChange& change : last_obstacles) history.add(change);
-  last_obstacles.clear();
-}
-
-void WorldAuthority::Impl::do_input(WorldInput& input, WorldStep& world) {
-  if (input.kind == WorldInput::Kind::kObstacle) {
-    const Status status = change_obstacle(*input.obstacle, input.author, world);
-    if (!status) refusals.push_back({input.sequence, status.error().text()});
-    return;
-  }
-  const bool here = input.kind == WorldInput::Kind::kChange && is_of_body(input.changes.front());
-  if (!here) {
-    world.inputs.push_back(std::move(input));
-    return;
-  }
-  const Status status = change_body(input.robot, input.changes, input.author, world);
-  if (!status) refusals.push_back({input.sequence, status.error().text()});
-}
-
-Status WorldAuthority::Impl::change_body(RobotId robot, std::span<const ParameterChange> changes,
-                                         Author author, WorldStep& world) {
-  for (const ParameterChange& change : changes) {
-    const Status checked = check_body_change(change);
-    if (!checked) return refused_change(spec, robot, "body", checked.error());
-  }
-  const double before = truth.scale_of(robot);
-  const double after = std::get<double>(changes.back().value);
-  const Status resized = truth.resize(robot, after);
-  if (!resized) return refused_change(spec, robot, "body", resized.error());
-  world.resized.push_back({robot, after});
-  events.push_back(
-      noted_input(step, robot, EventKind::kChanged, body_change_text(before, after), author, hash));
-  return {};
 }
 
 void WorldAuthority::Impl::place_real_robots() {
@@ -362,167 +218,10 @@ Status WorldAuthority::step(std::span<const HostReport* const> reports, WorldSte
 
 Status WorldAuthority::check(const HostReport& report) const { return impl_->check(report); }
 
-AuthorityState WorldAuthority::state(bool with_obstacles) const {
-  const Impl& authority = *impl_;
-  AuthorityState state;
-  state.hash = authority.hash;
-  state.events = authority.events;
-  state.pinned = authority.truth.pinned();
-  for (const auto& [robot, scale] : authority.truth.scales()) {
-    state.scales.push_back({RobotId(robot), scale});
-  }
-  state.inputs = authority.inputs;
-  state.obstacle_changes = authority.history.count();
-  if (with_obstacles) state.obstacles = authority.history.changes();
-  state.refused_count = authority.refused_count;
-  state.refused = authority.refused;
-  std::ranges::copy_if(authority.done_events, std::back_inserter(state.done), [](const Event& e) {
-    return e.kind == EventKind::kContact || e.kind == EventKind::kPinned;
-  });
-  return state;
-}
-
-void WorldAuthority::repeat_schedule() noexcept {
-  impl_->next_change = 0;
-  impl_->next_obstacle = 0;
-}
-
-Status WorldAuthority::resume(const WorldStep& world, const AuthorityState& state) {
-  Impl& authority = *impl_;
-  RAVE_TRY(check_taken_over(authority.spec, world, state, true));
-  authority.begin();
-  for (const ResizedRobot& resized : state.scales) {
-    RAVE_TRY(authority.truth.put_scale(resized.robot, resized.scale));
-  }
-  const SimTime now{static_cast<std::int64_t>(world.step) * authority.spec.step.ns};
-  authority.truth.put_obstacles(state.obstacles, now);
-  authority.truth.put_obstacles(world.obstacles, now);
-  authority.history = ObstacleHistory(state.obstacles, state.obstacle_changes);
-  authority.last_obstacles = world.obstacles;
-  authority.take_over(world);
-  authority.truth.take_over(SimTime{static_cast<std::int64_t>(world.step) * authority.spec.step.ns},
-                            state.pinned);
-  authority.step = world.step + 1;
-  authority.hash = state.hash;
-  authority.done_hash = state.hash;
-  authority.done_events = state.done;  // who gets that world again is told them again
-  authority.events = state.events;
-  authority.refused_count = state.refused_count;
-  authority.refused = state.refused;
-  authority.put_refusal_texts(world.step);
-  authority.inputs = state.inputs;
-  const auto& changes = authority.spec.changes;
-  while (authority.next_change < changes.size() &&
-         changes[authority.next_change].step <= world.step) {
-    ++authority.next_change;
-  }
-  const auto& obstacles = authority.spec.obstacle_changes;
-  while (authority.next_obstacle < obstacles.size() &&
-         obstacles[authority.next_obstacle].step <= world.step) {
-    ++authority.next_obstacle;
-  }
-  return {};
-}
-
-/// Of events the texts are not told, but those of changes that were refused are, and in their
-/// order.
-void WorldAuthority::Impl::put_refusal_texts(std::uint64_t in_step) {
-  auto next = std::ranges::find_if(refused, [&](const Event& one) { return one.step == in_step; });
-  for (Event& event : events) {
-    if (event.kind != EventKind::kChangeRefused) continue;
-    event.text = next != refused.end() ? next++->text : "refused; why was told to nobody else";
-  }
-}
-
-/// Where everybody is, as its own write_poses() and write_contacts() told it.
-void WorldAuthority::Impl::take_over(const WorldStep& world) {
-  for (std::uint32_t r = 0; r < truth.movers.size(); ++r) {
-    truth.movers[r].X_WR = {world.x_m[r], world.y_m[r], world.yaw_rad[r]};
-    truth.movers[r].present = (world.flags[r] & WorldStep::kPresent) != 0;
-    truth.velocity[r] = {world.vx_mps[r], world.vy_mps[r], world.wz_radps[r]};
-    truth.touch[r] = {};
-  }
-  for (const PushedRobot& pushed : world.pushed) {
-    truth.movers[pushed.robot.value()].X_WR = pushed.X_WR;
-  }
-  for (const TouchPoint& point : world.touches) {
-    truth.touch[point.robot.value()] = {true, point.direction_W};
-  }
-}
-
-void WorldAuthority::speak_for(std::uint32_t host, HostReport& report) const {
-  const Impl& authority = *impl_;
-  // Poses stay: the last that its host told, from now on too old to be believed.
-  std::vector<PoseReport> poses = std::move(report.poses);
-  report.begin(authority.step);
-  report.host = host;
-  report.poses = std::move(poses);
-  const std::vector<RobotId>& told = authority.hosts[host].told;
-  report.poses.resize(told.size());
-  for (std::size_t i = 0; i < told.size(); ++i) {
-    report.poses[i].robot = told[i];
-    report.poses[i].reported.stale = report.poses[i].reported.known;
-    report.poses[i].reported.velocity = {};
-  }
-  if (authority.step == 0) return;
-  for (const RobotId robot : authority.hosts[host].simulated) {
-    report.proposals.robots.push_back(robot.value());
-  }
-  const std::size_t count = report.proposals.robots.size();
-  report.proposals.vx_mps.assign(count, 0);
-  report.proposals.vy_mps.assign(count, 0);
-  report.proposals.wz_radps.assign(count, 0);
-}
-
-Result<std::uint64_t> WorldAuthority::ask(WorldInput input) {
-  Impl& authority = *impl_;
-  if (input.kind == WorldInput::Kind::kObstacle) {
-    if (!input.obstacle) return fail(ErrorCode::kInvalidArgument, "nothing to change");
-    RAVE_TRY(check_obstacle_change(*input.obstacle));
-  }
-  const bool change = input.kind == WorldInput::Kind::kChange;
-  if ((input.robot.valid() || change) && input.robot.value() >= authority.spec.robots.size()) {
-    return fail(ErrorCode::kInvalidArgument, "there is no robot {}", input.robot.value());
-  }
-  if (change && input.changes.empty()) {
-    return fail(ErrorCode::kInvalidArgument, "nothing to change");
-  }
-  const auto of_body = std::count_if(input.changes.begin(), input.changes.end(), is_of_body);
-  if (of_body != 0 && static_cast<std::size_t>(of_body) != input.changes.size()) {
-    return fail(ErrorCode::kInvalidArgument,
-                "robot `{}`: its body and other parts cannot change at once while several hosts "
-                "share the world; ask for one after the other",
-                authority.spec.robots[input.robot.value()].name);
-  }
-  input.sequence = ++authority.inputs;
-  authority.asked.push_back(std::move(input));
-  return authority.inputs;
-}
-
-void WorldAuthority::adopt(ObstacleChange change) { impl_->adopted.push_back(std::move(change)); }
-
 void WorldAuthority::place(RobotId robot, const Pose2& X_WR, bool present) {
   Mover& mover = impl_->truth.movers[robot.value()];
   mover.X_WR = X_WR;
   mover.present = present;
-}
-
-Result<ObstacleChange> WorldAuthority::decide(const ObstacleChange& change, SimTime at,
-                                              std::string& note) {
-  RAVE_TRY_ASSIGN(ObstacleChange made, impl_->truth.change_obstacle(change, at, note));
-  impl_->history.add(made);
-  return made;
-}
-
-Status WorldAuthority::put_obstacles(std::span<const ObstacleChange> changes, SimTime at) {
-  AuthorityState state;
-  state.obstacle_changes = changes.size();
-  state.obstacles.assign(changes.begin(), changes.end());
-  RAVE_TRY(check_told_obstacles(impl_->spec, WorldStep(), state));
-  static_cast<void>(impl_->truth.restore_obstacles());
-  impl_->truth.put_obstacles(changes, at);
-  impl_->history = ObstacleHistory(state.obstacles, state.obstacle_changes);
-  return {};
 }
 
 Status WorldAuthority::change_type(RobotId robot, std::uint32_t type, const Pose2& X_WR) {

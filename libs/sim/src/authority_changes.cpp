@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// What scenario and people change in a world of several hosts.
+#include <algorithm>
+#include <utility>
+
+#include "input_notes.hpp"
+#include "spec_checks.hpp"
+#include "world_authority_impl.hpp"
+
+namespace rave::sim {
+
+void WorldAuthority::Impl::make_changes(WorldStep& world) {
+  for (WorldInput& input : asked) do_input(input, world);
+  asked.clear();
+  take_over_obstacles(world);
+  make_obstacle_changes(world);
+  for (; next_change < spec.changes.size() && spec.changes[next_change].step <= step;
+       ++next_change) {
+    const ScheduledChange& scheduled = spec.changes[next_change];
+    if (scheduled.changes.empty() || !is_of_body(scheduled.changes.front())) continue;
+    const Status status = change_body(scheduled.robot, scheduled.changes, Author::kRun, world);
+    if (status) continue;
+    refuse(scheduled.robot, status.error());
+  }
+}
+
+void WorldAuthority::Impl::make_obstacle_changes(WorldStep& world) {
+  for (; next_obstacle < spec.obstacle_changes.size() &&
+         spec.obstacle_changes[next_obstacle].step <= step;
+       ++next_obstacle) {
+    const Status status =
+        change_obstacle(spec.obstacle_changes[next_obstacle].change, Author::kRun, world);
+    if (status) continue;
+    refuse(RobotId(), status.error());
+  }
+}
+
+/// A change of the scenario that cannot be made.
+void WorldAuthority::Impl::refuse(RobotId robot, const Error& why) {
+  events.push_back(
+      noted_input(step, robot, EventKind::kChangeRefused, why.text(), Author::kRun, hash));
+  if (refused_count++ < AuthorityState::kMostRefused) refused.push_back(events.back());
+}
+
+Status WorldAuthority::Impl::change_obstacle(const ObstacleChange& change, Author author,
+                                             WorldStep& world) {
+  std::string note;
+  const SimTime from{static_cast<std::int64_t>(step) * spec.step.ns};
+  RAVE_TRY_ASSIGN(ObstacleChange made, truth.change_obstacle(change, from, note));
+  events.push_back(noted_obstacle(step, made, note, author, hash));
+  world.obstacles.push_back(std::move(made));
+  return {};
+}
+
+/// What another authority has decided already.
+void WorldAuthority::Impl::take_over_obstacles(WorldStep& world) {
+  truth.put_obstacles(adopted, {static_cast<std::int64_t>(step) * spec.step.ns});
+  for (ObstacleChange& change : adopted) {
+    const Author author = change.asked.empty() ? Author::kRun : Author::kHand;
+    events.push_back(noted_obstacle(step, change, "", author, hash));
+    world.obstacles.push_back(std::move(change));
+  }
+  adopted.clear();
+}
+
+/// What the hosts have been told by now.
+void WorldAuthority::Impl::close_obstacles() {
+  for (const ObstacleChange& change : last_obstacles) history.add(change);
+  last_obstacles.clear();
+}
+
+void WorldAuthority::Impl::do_input(WorldInput& input, WorldStep& world) {
+  if (input.kind == WorldInput::Kind::kObstacle) {
+    const Status status = change_obstacle(*input.obstacle, input.author, world);
+    if (!status) refusals.push_back({input.sequence, status.error().text()});
+    return;
+  }
+  const bool here = input.kind == WorldInput::Kind::kChange && is_of_body(input.changes.front());
+  if (!here) {
+    world.inputs.push_back(std::move(input));
+    return;
+  }
+  const Status status = change_body(input.robot, input.changes, input.author, world);
+  if (!status) refusals.push_back({input.sequence, status.error().text()});
+}
+
+Status WorldAuthority::Impl::change_body(RobotId robot, std::span<const ParameterChange> changes,
+                                         Author author, WorldStep& world) {
+  for (const ParameterChange& change : changes) {
+    const Status checked = check_body_change(change);
+    if (!checked) return refused_change(spec, robot, "body", checked.error());
+  }
+  const double before = truth.scale_of(robot);
+  const double after = std::get<double>(changes.back().value);
+  const Status resized = truth.resize(robot, after);
+  if (!resized) return refused_change(spec, robot, "body", resized.error());
+  world.resized.push_back({robot, after});
+  events.push_back(
+      noted_input(step, robot, EventKind::kChanged, body_change_text(before, after), author, hash));
+  return {};
+}
+
+Result<std::uint64_t> WorldAuthority::ask(WorldInput input) {
+  Impl& authority = *impl_;
+  if (input.kind == WorldInput::Kind::kObstacle) {
+    if (!input.obstacle) return fail(ErrorCode::kInvalidArgument, "nothing to change");
+    RAVE_TRY(check_obstacle_change(*input.obstacle));
+  }
+  const bool change = input.kind == WorldInput::Kind::kChange;
+  if ((input.robot.valid() || change) && input.robot.value() >= authority.spec.robots.size()) {
+    return fail(ErrorCode::kInvalidArgument, "there is no robot {}", input.robot.value());
+  }
+  if (change && input.changes.empty()) {
+    return fail(ErrorCode::kInvalidArgument, "nothing to change");
+  }
+  const auto of_body = std::count_if(input.changes.begin(), input.changes.end(), is_of_body);
+  if (of_body != 0 && static_cast<std::size_t>(of_body) != input.changes.size()) {
+    return fail(ErrorCode::kInvalidArgument,
+                "robot `{}`: its body and other parts cannot change at once while several hosts "
+                "share the world; ask for one after the other",
+                authority.spec.robots[input.robot.value()].name);
+  }
+  input.sequence = ++authority.inputs;
+  authority.asked.push_back(std::move(input));
+  return authority.inputs;
+}
+
+void WorldAuthority::adopt(ObstacleChange change) { impl_->adopted.push_back(std::move(change)); }
+
+Result<ObstacleChange> WorldAuthority::decide(const ObstacleChange& change, SimTime at,
+                                              std::string& note) {
+  RAVE_TRY_ASSIGN(ObstacleChange made, impl_->truth.change_obstacle(change, at, note));
+  impl_->history.add(made);
+  return made;
+}
+
+Status WorldAuthority::put_obstacles(std::span<const ObstacleChange> changes, SimTime at) {
+  AuthorityState state;
+  state.obstacle_changes = changes.size();
+  state.obstacles.assign(changes.begin(), changes.end());
+  RAVE_TRY(check_told_obstacles(impl_->spec, WorldStep(), state));
+  static_cast<void>(impl_->truth.restore_obstacles());
+  impl_->truth.put_obstacles(changes, at);
+  impl_->history = ObstacleHistory(state.obstacles, state.obstacle_changes);
+  return {};
+}
+
+void WorldAuthority::repeat_schedule() noexcept {
+  impl_->next_change = 0;
+  impl_->next_obstacle = 0;
+}
+
+}  // namespace rave::sim

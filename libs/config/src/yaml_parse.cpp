@@ -259,11 +259,11 @@ void parse_all(const std::string& text, YAML::EventHandler& handler) {
   }
 }
 
-/// Looks for a text in the scalars of a document.
+/// Counts how often a text stands in the scalars of a document.
 class ScalarSearch : public YAML::EventHandler {
  public:
   explicit ScalarSearch(std::string_view wanted) : wanted_(wanted) {}
-  [[nodiscard]] bool found() const noexcept { return found_; }
+  [[nodiscard]] std::size_t found() const noexcept { return found_; }
 
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
@@ -271,7 +271,10 @@ class ScalarSearch : public YAML::EventHandler {
   void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
   void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
                 const std::string& text) override {
-    found_ = found_ || text.find(wanted_) != std::string::npos;
+    for (std::size_t at = text.find(wanted_); at != std::string::npos;
+         at = text.find(wanted_, at + wanted_.size())) {
+      ++found_;
+    }
   }
   void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
                        YAML::EmitterStyle::value) override {}
@@ -282,17 +285,22 @@ class ScalarSearch : public YAML::EventHandler {
 
  private:
   std::string_view wanted_;
-  bool found_ = false;
+  std::size_t found_ = 0;
 };
+
+std::size_t count_in_scalars(std::string_view wanted, const std::string& text) {
+  ScalarSearch search(wanted);
+  parse_all(text, search);
+  return search.found();
+}
 
 /// yaml-cpp takes the end of the file for a closing quote if a line break stands before it, so that
 /// a file that was cut in the middle would pass. A comment that is put behind such a file becomes
 /// part of the scalar; behind a whole file it stays a comment.
 bool is_quote_open(std::string_view text) {
   constexpr std::string_view kMark = "#end-of-file-2f6c1d";
-  ScalarSearch search(kMark);
-  parse_all(fmt::format("{}\n{}\n", text, kMark), search);
-  return search.found();
+  const std::size_t with = count_in_scalars(kMark, fmt::format("{}\n{}\n", text, kMark));
+  return with > 0 && with > count_in_scalars(kMark, std::string(text));
 }
 
 }  // namespace

@@ -165,6 +165,8 @@ const Case kCases[] = {
      "a.yaml:3:1: YAML syntax: end of sequence flow not found"},
     {"SyntaxTab", "frame: base\nnamed:\n\tleft: 3\n", "a.yaml:3:6: YAML syntax: illegal map value"},
     {"SyntaxUnclosedQuote", "frame: \"base\n", "a.yaml:1:8: YAML syntax: a quote is not closed"},
+    {"SyntaxUnclosedQuoteWithTheMark", "frame: \"#end-of-file-2f6c1d\n",
+     "a.yaml:1:8: YAML syntax: a quote is not closed"},
     {"SyntaxUnclosedSingleQuote", "frame: base\nparams:\n  a: 'b\n\n\n",
      "a.yaml:3:6: YAML syntax: a quote is not closed"},
     {"SyntaxUnclosedQuoteWithoutLineBreak", "frame: \"base",

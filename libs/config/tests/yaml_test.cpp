@@ -49,6 +49,12 @@ TEST(Yaml, EscapesGiveTextThatReadsBack) {
   EXPECT_EQ(parse(to_yaml(node)), node) << to_yaml(node);
 }
 
+TEST(Yaml, AQuoteIsClosedWhateverStandsInIt) {
+  // What the parser puts behind a file to find that out.
+  const RawNode node = parse("a: \"#end-of-file-2f6c1d\"\n");
+  EXPECT_EQ(node.find("a")->as_text(), "#end-of-file-2f6c1d");
+}
+
 TEST(Yaml, WrittenTextIsQuotedWhereItMustBe) {
   RawNode node = RawNode::mapping();
   for (const char* word :

@@ -222,6 +222,24 @@ Result<std::string> sign(const Credential& signer, const std::string& text) {
   return content_of(out.get());
 }
 
+namespace {
+
+/// PKCS7_verify() of OpenSSL 3.0 keeps memory for ever if it does not know a digest of the
+/// document.
+bool has_known_digests(const PKCS7* document) {
+  if (!PKCS7_type_is_signed(document)) return false;
+  const STACK_OF(X509_ALGOR)* const digests = document->d.sign->md_algs;
+  for (int i = 0; i < sk_X509_ALGOR_num(digests); ++i) {
+    const ASN1_OBJECT* digest = nullptr;
+    X509_ALGOR_get0(&digest, nullptr, nullptr, sk_X509_ALGOR_value(digests, i));
+    const int id = OBJ_obj2nid(digest);
+    if (id != NID_sha256 && id != NID_sha384 && id != NID_sha512) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
 Result<std::string> signed_text(const std::string& certificate, const std::string& document) {
   RAVE_TRY_ASSIGN(const Certificate signer, parse_certificate(certificate));
   const Stream in = reading(document);
@@ -229,6 +247,9 @@ Result<std::string> signed_text(const std::string& certificate, const std::strin
   const Signed parsed(SMIME_read_PKCS7(in.get(), &raw_content));
   const Stream content(raw_content);
   if (!parsed) return failed(ErrorCode::kParse, "it is no signed document");
+  if (!has_known_digests(parsed.get())) {
+    return fail(ErrorCode::kParse, "it is no document that is signed with SHA-256, 384 or 512");
+  }
   const Certificates signers(sk_X509_new_null());
   const Stream out = writing();
   if (!signers || sk_X509_push(signers.get(), signer.get()) == 0) {

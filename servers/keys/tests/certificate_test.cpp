@@ -98,6 +98,17 @@ TEST_F(Certificates, SignaturesHoldForTheVeryTextAndSigner) {
   EXPECT_EQ(signed_text(authority_.certificate, "nothing").error().code, ErrorCode::kParse);
 }
 
+TEST_F(Certificates, ADigestThatNobodyKnowsIsNamed) {
+  std::string document = *sign(authority_, governance_xml());
+  // In base64 the end of the number of SHA-256, in the list of digests: one bit of it.
+  const std::size_t place = document.find("ZQMEAgEFADAL");
+  ASSERT_NE(place, std::string::npos);
+  document[place + 2] = 'm';
+  const auto back = signed_text(authority_.certificate, document);
+  ASSERT_FALSE(back);
+  EXPECT_NE(back.error().text().find("SHA-256"), std::string::npos) << back.error().text();
+}
+
 TEST_F(Certificates, TextsThatAreNone) {
   for (const char* const text : {"", "left", "-----BEGIN CERTIFICATE-----\nAAAA\n"}) {
     const auto facts = read_certificate(text);

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+
+/** Seconds of a run as `05.20`, `1:07.04` or `1:02:03`. */
+export function clockText(time_s: number): string {
+  const sign = time_s < 0 ? '−' : '';
+  const total = Math.abs(time_s);
+  const seconds = (total % 60).toFixed(2).padStart(5, '0');
+  const minutes = Math.floor(total / 60) % 60;
+  const hours = Math.floor(total / 3600);
+  if (hours > 0) return `${sign}${hours}:${String(minutes).padStart(2, '0')}:${seconds.slice(0, 2)}`;
+  return minutes > 0 ? `${sign}${minutes}:${seconds}` : `${sign}${seconds}`;
+}
+
+/** The same as the clock of the run bar shows it: `00:17.50`. */
+export function bigClock(time_s: number): string {
+  const minutes = Math.floor(time_s / 60);
+  return `${String(minutes).padStart(2, '0')}:${(time_s % 60).toFixed(2).padStart(5, '0')}`;
+}
+
+/** A tick of the timeline: `0`, `30 s`, `1:30`. */
+export function tickClock(time_s: number): string {
+  if (time_s === 0) return '0';
+  if (time_s < 60) return `${Number(time_s.toFixed(1))} s`;
+  const minutes = Math.floor(time_s / 60);
+  return `${minutes}:${String(Math.round(time_s % 60)).padStart(2, '0')}`;
+}

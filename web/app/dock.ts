@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+import {DockviewComponent, type IContentRenderer, type GroupPanelPartInitParameters, type SerializedDockview} from 'dockview-core';
+import type {PanelContext, PanelElement, PanelKind} from '../panel_api';
+
+const kKept = 'rave.layout';
+/** Another number makes layouts that were kept void. */
+const kVersion = 1;
+
+/** A panel in the dock: makes the element and gives it its context. */
+class DockedPanel implements IContentRenderer {
+  readonly element = document.createElement('div');
+
+  constructor(private readonly kind: PanelKind, private readonly context: PanelContext) {
+    this.element.style.height = '100%';
+  }
+
+  init(_parameters: GroupPanelPartInitParameters): void {
+    const panel = document.createElement(this.kind.tag) as PanelElement;
+    panel.context = this.context;
+    this.element.append(panel);
+  }
+}
+
+/** The docked panels and their layout, which is kept in the browser. */
+export class Dock {
+  private readonly view: DockviewComponent;
+  private restoring = false;
+
+  constructor(host: HTMLElement, private readonly kinds: readonly PanelKind[], context: PanelContext) {
+    this.view = new DockviewComponent(host, {
+      theme: {name: 'rave', className: 'dockview-theme-rave', gap: 6},
+      disableFloatingGroups: false,
+      createComponent: (options) => {
+        const kind = kinds.find((known) => known.id === options.name);
+        if (kind === undefined) throw new Error(`unknown panel ${options.name}`);
+        return new DockedPanel(kind, context);
+      },
+    });
+    this.restore();
+    this.view.onDidLayoutChange(() => {
+      if (!this.restoring) localStorage.setItem(kKept, JSON.stringify({version: kVersion, layout: this.view.toJSON()}));
+    });
+  }
+
+  /** Brings a panel to the front; makes it if it was closed. */
+  show(id: string): void {
+    const panel = this.view.panels.find((open) => open.id === id);
+    if (panel) {
+      panel.api.setActive();
+      return;
+    }
+    const kind = this.kinds.find((known) => known.id === id);
+    if (kind) this.view.addPanel({id, component: id, title: kind.title});
+  }
+
+  /** Titles with their numbers, such as `Robots 16`. */
+  retitle(titles: ReadonlyMap<string, string>): void {
+    this.restoring = true;
+    for (const panel of this.view.panels) {
+      const title = titles.get(panel.id);
+      if (title !== undefined && title !== panel.title) panel.api.setTitle(title);
+    }
+    this.restoring = false;
+  }
+
+  /** The layout Watch: robots left, world in the middle, sensors over log right. */
+  reset(): void {
+    this.restoring = true;
+    this.view.clear();
+    const add = (id: string, position?: object, size?: object) =>
+      this.view.addPanel({id, component: id, title: this.kinds.find((kind) => kind.id === id)?.title ?? id, ...(position ? {position} : {}), ...size} as never);
+    const width = document.documentElement.clientWidth;
+    add('world');
+    if (width >= 1280) {
+      add('robots', {referencePanel: 'world', direction: 'left'}, {initialWidth: 292});
+      add('sensors', {referencePanel: 'world', direction: 'right'}, {initialWidth: 392});
+      add('log', {referencePanel: 'sensors', direction: 'below'}, {initialHeight: 340});
+    } else if (width >= 900) {
+      add('robots', {referencePanel: 'world', direction: 'right'}, {initialWidth: 320});
+      add('sensors', {referencePanel: 'robots', direction: 'below'});
+      add('log', {referencePanel: 'sensors', direction: 'within'});
+    } else {
+      add('robots', {referencePanel: 'world', direction: 'below'}, {initialHeight: 260});
+      add('sensors', {referencePanel: 'robots', direction: 'within'});
+      add('log', {referencePanel: 'robots', direction: 'within'});
+    }
+    this.show('world');
+    this.restoring = false;
+  }
+
+  private restore(): void {
+    try {
+      const kept = JSON.parse(localStorage.getItem(kKept) ?? 'null') as {version: number; layout: SerializedDockview} | null;
+      if (kept?.version === kVersion) {
+        this.view.fromJSON(kept.layout);
+        return;
+      }
+    } catch {
+      // A layout of another version: the one that comes with the page is better than none.
+    }
+    this.reset();
+  }
+}

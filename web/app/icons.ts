@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lucide icons (ISC), as the text of their SVG.
+import {html, type TemplateResult} from 'lit';
+import {unsafeHTML} from 'lit/directives/unsafe-html.js';
+import activity from 'lucide-static/icons/activity.svg?raw';
+import bell from 'lucide-static/icons/bell.svg?raw';
+import bot from 'lucide-static/icons/bot.svg?raw';
+import camera from 'lucide-static/icons/camera.svg?raw';
+import chevronDown from 'lucide-static/icons/chevron-down.svg?raw';
+import circleX from 'lucide-static/icons/circle-x.svg?raw';
+import compass from 'lucide-static/icons/compass.svg?raw';
+import crosshair from 'lucide-static/icons/locate.svg?raw';
+import download from 'lucide-static/icons/download.svg?raw';
+import eye from 'lucide-static/icons/eye.svg?raw';
+import fileText from 'lucide-static/icons/file-text.svg?raw';
+import filter from 'lucide-static/icons/funnel.svg?raw';
+import info from 'lucide-static/icons/info.svg?raw';
+import layers from 'lucide-static/icons/layers.svg?raw';
+import link from 'lucide-static/icons/link.svg?raw';
+import list from 'lucide-static/icons/list.svg?raw';
+import lock from 'lucide-static/icons/lock.svg?raw';
+import maximize from 'lucide-static/icons/maximize.svg?raw';
+import moon from 'lucide-static/icons/moon.svg?raw';
+import pause from 'lucide-static/icons/pause.svg?raw';
+import play from 'lucide-static/icons/play.svg?raw';
+import radar from 'lucide-static/icons/radar.svg?raw';
+import rotateCcw from 'lucide-static/icons/rotate-ccw.svg?raw';
+import ruler from 'lucide-static/icons/ruler.svg?raw';
+import search from 'lucide-static/icons/search.svg?raw';
+import skipBack from 'lucide-static/icons/skip-back.svg?raw';
+import skipForward from 'lucide-static/icons/skip-forward.svg?raw';
+import stepBack from 'lucide-static/icons/step-back.svg?raw';
+import stepForward from 'lucide-static/icons/step-forward.svg?raw';
+import sun from 'lucide-static/icons/sun.svg?raw';
+import target from 'lucide-static/icons/target.svg?raw';
+import triangleAlert from 'lucide-static/icons/triangle-alert.svg?raw';
+import wifiOff from 'lucide-static/icons/wifi-off.svg?raw';
+import zap from 'lucide-static/icons/zap.svg?raw';
+
+const kIcons = {
+  activity, bell, bot, camera, chevronDown, circleX, compass, crosshair, download, eye, fileText, filter, info,
+  layers, link, list, lock, maximize, moon, pause, play, radar, rotateCcw, ruler, search, skipBack, skipForward,
+  stepBack, stepForward, sun, target, triangleAlert, wifiOff, zap,
+};
+
+export type IconName = keyof typeof kIcons;
+
+/** An icon of 16 px in the colour of the text; names and tooltips are given by what it stands in. */
+export function icon(name: IconName, size = 16): TemplateResult {
+  const svg = kIcons[name]
+    .replace(/<!--.*?-->/gs, '')
+    .replace(/class="[^"]*"/, '')
+    .replace(/\bwidth="24"/, `width="${size}"`)
+    .replace(/\bheight="24"/, `height="${size}"`)
+    .replace(/stroke-width="2"/, 'stroke-width="1.75" aria-hidden="true"');
+  return html`${unsafeHTML(svg)}`;
+}

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+
+/** What a key does, for the sheet that `?` shows. */
+export interface KeyAction {
+  keys: string[];
+  what: string;
+  act(event: KeyboardEvent): void;
+}
+
+/** Calls the action of a key, but never while text is typed; Space on a control presses that. */
+export function bindKeys(actions: () => readonly KeyAction[]): void {
+  document.addEventListener('keydown', (event) => {
+    const target = event.composedPath()[0] as HTMLElement;
+    const typing = target.matches?.('input:not([type=checkbox]), textarea, select, [contenteditable]');
+    if (event.altKey || event.metaKey || (typing && event.key !== 'Escape')) return;
+    const name = (event.ctrlKey ? 'Ctrl ' : '') + (event.key === ' ' ? 'Space' : event.key.length === 1 ? event.key.toUpperCase() : event.key);
+    if (name === 'Space' && target.matches?.('button, a, [role=option], [role=slider]')) return;
+    const action = actions().find((known) => known.keys.includes(name));
+    if (action === undefined) return;
+    event.preventDefault();
+    action.act(event);
+  });
+}

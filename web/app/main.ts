@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
+import './base.css';
+import '../panels/world/world_panel';
+import '../panels/robots/robots_panel';
+import '../panels/sensors/sensors_panel';
+import '../panels/log/log_panel';
+import './run_bar';
+import './rave_app';

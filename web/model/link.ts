@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+import type {Look, PageMessage, ServerMessage} from '../protocol/messages';
+import type {RunModel} from './run_model';
+import {Signal} from './signal';
+
+const kFirstRetry_ms = 500;
+const kLongestRetry_ms = 8000;
+
+export type LinkState = 'opening' | 'open' | 'lost' | 'refused';
+
+/** Something that shows readings says which: slot and index of each sensor. */
+export type Interest = readonly [number, number][];
+
+/** The WebSocket to the GUI Server: comes back by itself, says what the page looks at. */
+export class Link {
+  state: LinkState = 'opening';
+  /** performance.now() when the link was lost, and when it is tried again. */
+  lostAt_ms = 0;
+  retryAt_ms = 0;
+  /** Why the server did not let us in. */
+  refusal = '';
+  /** Measured at the page: frames per second, and bytes per second. */
+  rate_hz = 0;
+  bytesPerSecond = 0;
+  readonly changed = new Signal();
+
+  private socket: WebSocket | null = null;
+  private retry_ms = kFirstRetry_ms;
+  private timer = 0;
+  private readonly interests = new Map<object, Interest>();
+  private lastLook = '';
+  private lookQueued = false;
+  private frames = 0;
+  private bytes = 0;
+  truePoses = false;
+  parts = false;
+
+  constructor(
+    private readonly model: RunModel,
+    private readonly url: string,
+  ) {
+    setInterval(() => this.measure(), 1000);
+  }
+
+  open(): void {
+    clearTimeout(this.timer);
+    this.socket?.close();
+    const socket = new WebSocket(this.url, 'rave.gui.1');
+    socket.binaryType = 'arraybuffer';
+    this.socket = socket;
+    socket.onopen = () => {
+      this.retry_ms = kFirstRetry_ms;
+      this.lastLook = '';
+      this.set('open');
+      this.queueLook();
+    };
+    socket.onmessage = (message: MessageEvent<string | ArrayBuffer>) => this.take(socket, message.data);
+    socket.onclose = (event) => {
+      if (this.socket !== socket) return;
+      if (event.code === 4401 || event.code === 4403) {
+        this.refusal = event.reason;
+        this.set('refused');
+        return;
+      }
+      this.lose();
+    };
+  }
+
+  send(message: PageMessage): void {
+    if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
+  }
+
+  /** `owner` wants these sensors; an empty list ends that. */
+  look(owner: object, sensors: Interest): void {
+    if (sensors.length === 0) this.interests.delete(owner);
+    else this.interests.set(owner, sensors);
+    this.queueLook();
+  }
+
+  /** Says again what the page looks at, if it changed. */
+  queueLook(): void {
+    if (this.lookQueued) return;
+    this.lookQueued = true;
+    queueMicrotask(() => {
+      this.lookQueued = false;
+      const all = new Map<string, [number, number]>();
+      for (const interest of this.interests.values()) {
+        for (const pair of interest) all.set(pair.join(), [pair[0], pair[1]]);
+      }
+      const look: Look = {
+        type: 'look',
+        poses: document.visibilityState !== 'hidden',
+        true_poses: this.truePoses,
+        readings: document.visibilityState === 'hidden' ? [] : [...all.values()].slice(0, 256),
+        parts: this.parts,
+        max_hz: 30,
+      };
+      const text = JSON.stringify(look);
+      if (text === this.lastLook || this.socket?.readyState !== WebSocket.OPEN) return;
+      this.lastLook = text;
+      this.socket.send(text);
+    });
+  }
+
+  private take(socket: WebSocket, data: string | ArrayBuffer): void {
+    if (this.socket !== socket) return;
+    if (typeof data === 'string') {
+      this.model.takeMessage(JSON.parse(data) as ServerMessage);
+      return;
+    }
+    ++this.frames;
+    this.bytes += data.byteLength;
+    const sequence = this.model.takeFrame(data, performance.now());
+    // Once it can be drawn: a page that cannot keep up is sent less.
+    if (sequence !== null) {
+      const acknowledge = () => this.send({type: 'ack', sequence});
+      if (document.visibilityState === 'hidden') acknowledge();
+      else requestAnimationFrame(acknowledge);
+    }
+  }
+
+  private lose(): void {
+    if (this.state !== 'lost') this.lostAt_ms = performance.now();
+    this.retryAt_ms = performance.now() + this.retry_ms;
+    this.timer = window.setTimeout(() => this.open(), this.retry_ms);
+    this.retry_ms = Math.min(2 * this.retry_ms, kLongestRetry_ms);
+    this.set('lost');
+  }
+
+  private set(state: LinkState): void {
+    this.state = state;
+    this.changed.emit();
+  }
+
+  private measure(): void {
+    this.rate_hz = this.frames;
+    this.bytesPerSecond = this.bytes;
+    this.frames = 0;
+    this.bytes = 0;
+    this.changed.emit();
+  }
+}

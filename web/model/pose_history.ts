@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+import type {PoseFrame} from '../protocol/frames';
+
+/** How far back trails and sparklines reach, seconds of the run. */
+export const kHistory_s = 20;
+const kSpacing_s = 0.2;
+/** A frame that comes so much later than the one before is a jump, not a motion. */
+const kJump_s = 1.5;
+
+/** The newest two frames, for interpolation, and a thinned past, for trails. */
+export class PoseHistory {
+  newest: PoseFrame | null = null;
+  private before: PoseFrame | null = null;
+  private arrived_ms = 0;
+  private interval_ms = 33;
+  /** Oldest first. */
+  readonly past: PoseFrame[] = [];
+
+  /** Takes a frame that arrived at `now_ms` (performance.now()). */
+  add(frame: PoseFrame, now_ms: number): void {
+    const last = this.newest ?? this.past[this.past.length - 1] ?? null;
+    const other = last !== null && (last.revision !== frame.revision || last.x.length !== frame.x.length);
+    if (last !== null && (other || frame.time_s < last.time_s - 1e-9)) this.clear();
+    this.keep(frame);
+    if (frame.past) return;
+    if (this.newest !== null && frame.time_s - this.newest.time_s < kJump_s) {
+      const gap = Math.min(Math.max(now_ms - this.arrived_ms, 8), 500);
+      this.interval_ms += 0.2 * (gap - this.interval_ms);
+      this.before = this.newest;
+    } else {
+      this.before = null;
+    }
+    this.newest = frame;
+    this.arrived_ms = now_ms;
+  }
+
+  clear(): void {
+    this.newest = null;
+    this.before = null;
+    this.past.length = 0;
+  }
+
+  /** Writes where everybody is at `now_ms` to `out`: between the newest two frames, never beyond. */
+  interpolate(now_ms: number, out: Placed): void {
+    const to = this.newest;
+    if (to === null) {
+      out.resize(0);
+      return;
+    }
+    const n = to.x.length;
+    out.resize(n);
+    out.flags = to.flags;
+    const from = this.before;
+    const share = from === null ? 1 : Math.min((now_ms - this.arrived_ms) / this.interval_ms, 1);
+    out.time_s = from === null ? to.time_s : from.time_s + share * (to.time_s - from.time_s);
+    if (from === null || share >= 1) {
+      out.x.set(to.x);
+      out.y.set(to.y);
+      out.yaw.set(to.yaw);
+      return;
+    }
+    for (let i = 0; i < n; ++i) {
+      // A robot that was not there before has not come from the origin.
+      const blend = (from.flags[i] & 1) !== 0 ? share : 1;
+      out.x[i] = from.x[i] + blend * (to.x[i] - from.x[i]);
+      out.y[i] = from.y[i] + blend * (to.y[i] - from.y[i]);
+      out.yaw[i] = from.yaw[i] + blend * turn(from.yaw[i], to.yaw[i]);
+    }
+  }
+
+  /** Whether a picture between two frames is still to be drawn. */
+  moving(now_ms: number): boolean {
+    return this.before !== null && now_ms - this.arrived_ms < this.interval_ms;
+  }
+
+  private keep(frame: PoseFrame): void {
+    const last = this.past[this.past.length - 1];
+    if (last !== undefined && frame.time_s - last.time_s < kSpacing_s - 1e-9) return;
+    this.past.push(frame);
+    while (this.past.length > 0 && frame.time_s - this.past[0].time_s > kHistory_s) this.past.shift();
+  }
+}
+
+/** Places of all robots in one picture; arrays are kept from picture to picture. */
+export class Placed {
+  time_s = 0;
+  x = new Float64Array(0);
+  y = new Float64Array(0);
+  yaw = new Float32Array(0);
+  flags: Uint16Array = new Uint16Array(0);
+
+  get count(): number {
+    return this.x.length;
+  }
+
+  resize(n: number): void {
+    if (this.x.length === n) return;
+    this.x = new Float64Array(n);
+    this.y = new Float64Array(n);
+    this.yaw = new Float32Array(n);
+    this.flags = new Uint16Array(n);
+  }
+}
+
+/** The shorter way from one heading to another, radians. */
+export function turn(from: number, to: number): number {
+  const two_pi = 2 * Math.PI;
+  const d = (to - from) % two_pi;
+  if (d > Math.PI) return d - two_pi;
+  return d < -Math.PI ? d + two_pi : d;
+}

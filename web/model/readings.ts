@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+import type {Reading} from '../protocol/frames';
+
+/** How long the course of a sensor is kept, seconds of the run. */
+export const kCourse_s = 15;
+
+/** One point of the course of a sensor. */
+export interface CoursePoint {
+  time_s: number;
+  values: Float32Array;
+}
+
+/** The newest reading of each sensor that is looked at, and how it came to be. */
+export class Readings {
+  private readonly newest = new Map<string, Reading>();
+  private readonly courses = new Map<string, CoursePoint[]>();
+
+  add(reading: Reading): void {
+    const key = keyOf(reading.slot, reading.sensor, reading.part);
+    this.newest.set(key, reading);
+    let course = this.courses.get(key);
+    if (course === undefined) this.courses.set(key, (course = []));
+    const last = course[course.length - 1];
+    if (last !== undefined && reading.stamp_s < last.time_s) course.length = 0;
+    if (last !== undefined && reading.stamp_s === last.time_s) return;
+    course.push({time_s: reading.stamp_s, values: summary(reading)});
+    while (course.length > 1 && reading.stamp_s - course[0].time_s > kCourse_s) course.shift();
+  }
+
+  of(slot: number, sensor: number, part = 0): Reading | null {
+    return this.newest.get(keyOf(slot, sensor, part)) ?? null;
+  }
+
+  course(slot: number, sensor: number, part = 0): readonly CoursePoint[] {
+    return this.courses.get(keyOf(slot, sensor, part)) ?? [];
+  }
+
+  /** Forgets everything, as after a jump in time. */
+  clear(): void {
+    this.newest.clear();
+    this.courses.clear();
+  }
+}
+
+function keyOf(slot: number, sensor: number, part: number): string {
+  return `${slot}/${sensor}/${part}`;
+}
+
+/** Of many rows (rays, sightings) the nearest counts; of one row each field. */
+function summary(reading: Reading): Float32Array {
+  if (reading.rows <= 1) return reading.values;
+  const least = new Float32Array(reading.fields).fill(Infinity);
+  for (let i = 0; i < reading.values.length; ++i) {
+    const field = i % reading.fields;
+    if (reading.values[i] < least[field]) least[field] = reading.values[i];
+  }
+  return least;
+}

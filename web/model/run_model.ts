@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+import {decodeFrame, isPoseFrame} from '../protocol/frames';
+import type {Answer, Body, Event, Hello, Host, Person, Robot, ServerMessage, Time} from '../protocol/messages';
+import {PoseHistory} from './pose_history';
+import {Readings} from './readings';
+import {Signal} from './signal';
+
+/** What the page knows of the run: the one place that messages and frames go to. */
+export class RunModel {
+  hello: Hello | null = null;
+  time: Time | null = null;
+  robots: Robot[] = [];
+  bodies = new Map<number, Body>();
+  hidden: string[] = [];
+  events: Event[] = [];
+  hosts: Host[] = [];
+  people: Person[] = [];
+  readonly poses = new PoseHistory();
+  readonly readings = new Readings();
+
+  readonly runChanged = new Signal();
+  readonly timeChanged = new Signal();
+  readonly rosterChanged = new Signal();
+  readonly sceneChanged = new Signal();
+  readonly eventsChanged = new Signal();
+  readonly hostsChanged = new Signal();
+  readonly peopleChanged = new Signal();
+  /** A frame or reading came: there is something new to draw. */
+  readonly pictureChanged = new Signal();
+  readonly answered = new Signal<Answer>();
+
+  may(power: string): boolean {
+    return this.hello?.may.some((known) => known === power) ?? false;
+  }
+
+  /** Why something is not allowed, in words; empty if it is. */
+  whyNot(power: string): string {
+    if (this.may(power)) return '';
+    return this.hello?.why_not[power] ?? 'Not available.';
+  }
+
+  takeMessage(message: ServerMessage): void {
+    switch (message.type) {
+      case 'hello':
+        this.begin(message);
+        break;
+      case 'scene':
+        this.bodies = new Map(message.bodies.map((body) => [body.id, body]));
+        this.hidden = message.hidden;
+        this.sceneChanged.emit();
+        break;
+      case 'scene_change':
+        for (const body of message.set) this.bodies.set(body.id, body);
+        for (const id of message.gone) this.bodies.delete(id);
+        this.sceneChanged.emit();
+        break;
+      case 'roster':
+        this.robots = message.robots;
+        this.poses.clear();
+        this.readings.clear();
+        this.rosterChanged.emit();
+        break;
+      case 'time':
+        this.time = message;
+        this.timeChanged.emit();
+        break;
+      case 'events':
+        if (message.reset) this.events = [];
+        message.events.forEach((event, i) => (this.events[message.first + i] = event));
+        this.eventsChanged.emit();
+        break;
+      case 'hosts':
+        this.hosts = message.hosts;
+        this.hostsChanged.emit();
+        break;
+      case 'people':
+        this.people = message.people;
+        this.peopleChanged.emit();
+        break;
+      case 'answer':
+        this.answered.emit(message);
+        break;
+    }
+  }
+
+  /** Returns the sequence number to acknowledge, or null. Throws RangeError for a broken frame. */
+  takeFrame(buffer: ArrayBuffer, now_ms: number): number | null {
+    const frame = decodeFrame(buffer);
+    if (!isPoseFrame(frame)) {
+      this.readings.add(frame);
+      this.pictureChanged.emit();
+      return null;
+    }
+    const before = this.poses.newest;
+    this.poses.add(frame, now_ms);
+    if (before !== null && frame.time_s < before.time_s - 1e-9) this.readings.clear();
+    this.pictureChanged.emit();
+    return frame.past ? null : frame.sequence;
+  }
+
+  private begin(hello: Hello): void {
+    this.hello = hello;
+    this.events = [];
+    this.poses.clear();
+    this.readings.clear();
+    this.runChanged.emit();
+  }
+}

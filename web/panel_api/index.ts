@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a panel is given. The panels that come with RAVE use nothing else.
+import type {Link} from '../model/link';
+import type {RunModel} from '../model/run_model';
+import type {Palette} from './palette';
+import type {Selection} from './selection';
+
+export type {Palette} from './palette';
+export type {Selection} from './selection';
+
+/** What all panels share. Owned by the page; lives as long as it. */
+export interface PanelContext {
+  readonly model: RunModel;
+  readonly link: Link;
+  readonly selection: Selection;
+  readonly palette: Palette;
+  /** Moves the replay; does nothing where the time cannot be moved. */
+  seek(time_s: number): void;
+  /** Brings a panel to the front. */
+  show(panel: string): void;
+}
+
+/** An element that shows a panel. `context` is set before the element is connected. */
+export interface PanelElement extends HTMLElement {
+  context: PanelContext;
+}
+
+/** A kind of panel. */
+export interface PanelKind {
+  id: string;
+  title: string;
+  icon: string;
+  /** Name of its custom element. */
+  tag: string;
+  /** Number beside the title; none if undefined. */
+  count?(context: PanelContext): number;
+}

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+import {LitElement, css, html, nothing, svg, type TemplateResult} from 'lit';
+import {icon} from '../../app/icons';
+import {controls, glyphs} from '../../app/styles';
+import {kHistory_s} from '../../model/pose_history';
+import type {PanelContext} from '../../panel_api';
+import {RobotFlag} from '../../protocol/frames';
+import type {Robot} from '../../protocol/messages';
+import {parseFilter, type Filter} from './filter';
+
+/** Beyond so many robots a team is a histogram, and its rows come on demand. */
+const kMany = 200;
+const kRefresh_ms = 250;
+const kRows = 400;
+const kBins = 12;
+
+/** All robots by team: what they are, how fast they go, and what is not normal about them. */
+export class RobotsPanel extends LitElement {
+  declare context: PanelContext;
+  private filterText = '';
+  private filter: Filter = parseFilter('');
+  private readonly closed = new Set<string>();
+  private readonly opened = new Set<string>();
+  private timer = 0;
+  private readonly ends: (() => void)[] = [];
+
+  override connectedCallback(): void {
+    super.connectedCallback();
+    const {model, selection, palette} = this.context;
+    const update = () => this.requestUpdate();
+    this.ends.push(model.rosterChanged.on(update), selection.changed.on(update), palette.changed.on(update));
+    this.timer = window.setInterval(update, kRefresh_ms);
+  }
+
+  override disconnectedCallback(): void {
+    super.disconnectedCallback();
+    clearInterval(this.timer);
+    for (const end of this.ends.splice(0)) end();
+  }
+
+  private speed(slot: number): number {
+    return this.context.model.poses.newest?.speed[slot] ?? 0;
+  }
+
+  private flags(slot: number): number {
+    return this.context.model.poses.newest?.flags[slot] ?? 0;
+  }
+
+  private shownSlots(): number[] {
+    const {robots} = this.context.model;
+    const slots: number[] = [];
+    robots.forEach((robot, slot) => {
+      if (this.filter({robot, speed: this.speed(slot), flags: this.flags(slot)})) slots.push(slot);
+    });
+    return slots;
+  }
+
+  override render(): TemplateResult {
+    const {robots} = this.context.model;
+    const real = robots.filter((robot) => robot.kind === 'real').length;
+    const teams = new Map<string, number[]>();
+    for (const slot of this.shownSlots()) {
+      const team = robots[slot].team;
+      const members = teams.get(team);
+      if (members === undefined) teams.set(team, [slot]);
+      else members.push(slot);
+    }
+    return html`
+      <label class="field">${icon('search', 14)}<input aria-label="Filter robots" placeholder=${robots.length > kMany ? 'Name, team, or speed < 0.02' : 'Filter by name, team, state'}
+        .value=${this.filterText} @input=${(event: Event) => this.setFilter((event.target as HTMLInputElement).value)}></label>
+      <div class="kinds">
+        <span class="chip"><i class="glyph real"></i>${real} real</span>
+        <span class="chip"><i class="glyph simulated"></i>${robots.length - real} simulated</span>
+        <span class="space"></span><em>last ${kHistory_s} s</em>
+      </div>
+      <div class="rows" role="listbox" aria-label="Robots" aria-multiselectable="true">
+        ${[...teams].map(([team, slots]) => this.renderTeam(team, slots, robots.length > kMany))}
+        ${teams.size === 0 ? html`<p class="none">${robots.length === 0 ? 'No robots in this run.' : 'No robot matches the filter.'}</p>` : nothing}
+      </div>
+      ${this.renderDetail()}`;
+  }
+
+  private setFilter(text: string): void {
+    this.filterText = text;
+    this.filter = parseFilter(text);
+    this.requestUpdate();
+  }
+
+  private renderTeam(team: string, slots: number[], many: boolean): TemplateResult {
+    const open = many ? this.opened.has(team) : !this.closed.has(team);
+    const toggle = () => {
+      const set = many ? this.opened : this.closed;
+      if (!set.delete(team)) set.add(team);
+      this.requestUpdate();
+    };
+    return html`
+      <button class="team" aria-expanded=${open} @click=${toggle}>
+        <span class="turn ${open ? 'open' : ''}">${icon('chevronDown', 13)}</span>
+        ${team === '' ? 'no team' : team} <em>${slots.length}</em>
+        ${many ? this.renderHistogram(slots) : nothing}
+      </button>
+      ${open ? slots.slice(0, kRows).map((slot) => this.renderRow(slot)) : nothing}
+      ${open && slots.length > kRows ? html`<p class="none">${slots.length - kRows} more: filter to see them.</p>` : nothing}`;
+  }
+
+  private renderHistogram(slots: number[]): TemplateResult {
+    const speeds = slots.map((slot) => Math.abs(this.speed(slot)));
+    const top = Math.max(0.4, ...speeds);
+    const bins = new Array<number>(kBins).fill(0);
+    for (const speed of speeds) bins[Math.min(kBins - 1, Math.floor((speed / top) * kBins))] += 1;
+    const most = Math.max(1, ...bins);
+    const mean = speeds.reduce((sum, speed) => sum + speed, 0) / Math.max(1, speeds.length);
+    return html`<span class="space"></span>
+      <svg width="60" height="18" role="img" aria-label="Speeds from 0 to ${top.toFixed(1)} metres per second">
+        ${bins.map((count, i) => svg`<rect x=${i * 5} y=${17 - (16 * count) / most} width="3.5" height=${1 + (16 * count) / most} />`)}
+      </svg><span class="value">${mean.toFixed(2)} m/s</span>`;
+  }
+
+  private renderRow(slot: number): TemplateResult {
+    const {selection, palette, model} = this.context;
+    const robot = model.robots[slot];
+    const hue = palette.hue(slot);
+    const marked = robot.kind === 'real' || robot.word !== '';
+    const state = stateOf(robot, this.flags(slot));
+    return html`<div class="row ${selection.has(slot) ? 'selected' : ''} ${selection.hovered === slot ? 'hovered' : ''}" role="option"
+        tabindex="0" aria-selected=${selection.has(slot)}
+        @click=${(event: MouseEvent) => (event.ctrlKey || event.metaKey ? selection.toggle(slot) : selection.set([slot]))}
+        @keydown=${(event: KeyboardEvent) => this.rowKey(event, slot)}
+        @pointerenter=${() => selection.hover(slot)} @pointerleave=${() => selection.hover(null)}>
+      <i class="glyph ${robot.kind}" style="--hue:${robot.kind === 'real' ? hue.fill : hue.ink}"></i>
+      <span class="name" style=${marked ? `color:${hue.ink};font-weight:600` : ''}>${robot.name}</span>
+      ${this.renderSparkline(slot, marked ? hue.ink : palette.token('text-3'))}
+      ${state === '' ? html`<span class="value">${this.speed(slot).toFixed(2)} m/s</span>` : html`<span class="state">${state}</span>`}
+      <span class="mark" title=${robot.recorded ? 'Recorded: it obeys nobody' : ''}>${robot.recorded ? icon('lock', 13) : (this.flags(slot) & RobotFlag.touching) !== 0 ? icon('zap', 13) : nothing}</span>
+    </div>`;
+  }
+
+  private rowKey(event: KeyboardEvent, slot: number): void {
+    if (event.key === 'Enter' || event.key === ' ') {
+      event.preventDefault();
+      this.context.selection.set([slot]);
+    } else if (event.key === 'ArrowDown' || event.key === 'ArrowUp') {
+      event.preventDefault();
+      const rows = [...this.renderRoot.querySelectorAll<HTMLElement>('.row')];
+      rows[rows.indexOf(event.target as HTMLElement) + (event.key === 'ArrowDown' ? 1 : -1)]?.focus();
+    }
+  }
+
+  private renderSparkline(slot: number, colour: string): TemplateResult {
+    const {past, newest} = this.context.model.poses;
+    if (newest === null || past.length < 2) return html`<svg width="48" height="16"></svg>`;
+    const top = 0.4;
+    const points = past
+      .filter((frame) => frame.speed.length > slot)
+      .map((frame) => {
+        const x = 48 * (1 - (newest.time_s - frame.time_s) / kHistory_s);
+        return `${x.toFixed(1)},${(14 - 12 * Math.min(Math.abs(frame.speed[slot]) / top, 1)).toFixed(1)}`;
+      });
+    return html`<svg width="48" height="16" aria-hidden="true">${svg`<polyline points=${points.join(' ')} stroke=${colour} />`}</svg>`;
+  }
+
+  private renderDetail(): TemplateResult | typeof nothing {
+    const {selection, model, palette} = this.context;
+    const slot = selection.primary;
+    const robot = slot === null ? undefined : model.robots[slot];
+    const frame = model.poses.newest;
+    if (slot === null || robot === undefined) return nothing;
+    const known = frame !== null && (frame.flags[slot] & RobotFlag.known) !== 0;
+    const degrees = known ? Math.round(((frame.yaw[slot] * 180) / Math.PI) % 360) : 0;
+    const row = (name: string, value: string, faint = '') =>
+      value === '' ? nothing : html`<dt>${name}</dt><dd>${value} <em>${faint}</em></dd>`;
+    return html`<section class="detail">
+      <h3><i class="glyph ${robot.kind}" style="--hue:${robot.kind === 'real' ? palette.hue(slot).fill : palette.hue(slot).ink}"></i>
+        <span style="color:${palette.hue(slot).ink}">${robot.name}</span>
+        <span class="chip">${robot.kind}${robot.recorded ? ', recorded' : ''}</span></h3>
+      <dl>
+        ${row('Program', robot.program, robot.recorded ? '(does not obey)' : '')}
+        ${row('Pose', known ? `${frame.x[slot].toFixed(2)}, ${frame.y[slot].toFixed(2)} m · ${degrees}°`.replaceAll('-', '−') : 'not known')}
+        ${row('Speed', known ? `${frame.speed[slot].toFixed(2)} m/s` : '')}
+        ${row('Sensors', robot.sensors.map((sensor) => sensor.name).join(', '))}
+        ${row('Drivers', robot.drivers.join(', '))}
+        ${row('Host', robot.host ?? '')}
+      </dl></section>`;
+  }
+
+  static override styles = [
+    controls,
+    glyphs,
+    css`
+      :host { display: flex; flex-direction: column; height: 100%; background: var(--bg-1); }
+      .field { margin: 10px 12px 8px; }
+      .kinds { display: flex; align-items: center; gap: 6px; padding: 0 12px 8px; border-bottom: 1px solid var(--line-1); }
+      .kinds em { font-style: normal; color: var(--text-3); font-size: var(--fs-11); }
+      .space { flex: 1; }
+      .rows { flex: 1; overflow: auto; padding: 4px 0; }
+      .team { display: flex; align-items: center; gap: 6px; width: 100%; height: 26px; padding: 0 12px; color: var(--text-2); font-size: var(--fs-12); text-align: left; }
+      .team em { font-style: normal; color: var(--text-3); }
+      .team rect { fill: var(--text-2); }
+      .turn { transform: rotate(-90deg); }
+      .turn.open { transform: none; }
+      .row { display: flex; align-items: center; gap: 10px; height: var(--h-row); padding: 0 12px 0 14px; border-left: 3px solid transparent; font-size: var(--fs-12); cursor: pointer; }
+      .row:hover, .row.hovered { background: var(--bg-2); }
+      .row.selected { background: var(--intent-soft); border-left-color: var(--intent); }
+      .name { flex: 1; min-width: 0; overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
+      .value { color: var(--text-2); white-space: nowrap; }
+      .state { color: var(--warn); white-space: nowrap; }
+      .mark { width: 14px; color: var(--text-3); }
+      .mark svg { color: inherit; }
+      polyline { fill: none; stroke-width: 1; }
+      .none { margin: 12px; color: var(--text-3); font-size: var(--fs-12); }
+      .detail { border-top: 1px solid var(--line-1); padding: 10px 14px 12px; font-size: var(--fs-12); max-height: 45%; overflow: auto; }
+      h3 { display: flex; align-items: center; gap: 8px; margin: 0 0 8px; font-size: var(--fs-13); }
+      dl { display: grid; grid-template-columns: 72px 1fr; gap: 4px 8px; margin: 0; }
+      dt { color: var(--text-3); }
+      dd { margin: 0; overflow-wrap: anywhere; }
+      dd em { font-style: normal; color: var(--text-3); }
+      @media (pointer: coarse) { .row { height: 44px; } }
+    `,
+  ];
+}
+
+/** What is not normal about a robot, in words; empty if all is. */
+export function stateOf(robot: Robot, flags: number): string {
+  if ((flags & RobotFlag.known) === 0) return 'no pose yet';
+  if ((flags & RobotFlag.stopped) !== 0) return 'stopped';
+  if ((flags & RobotFlag.stale) !== 0) return 'pose stale';
+  if ((flags & RobotFlag.unarmed) !== 0 && robot.kind === 'real') return 'arm';
+  return '';
+}
+
+customElements.define('rave-robots', RobotsPanel);

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+import type {Palette} from '../../panel_api';
+import type {Reading} from '../../protocol/frames';
+import type {Sensor} from '../../protocol/messages';
+import {kFont} from '../world/labels';
+import {bearingsOf, drawMark, withAlpha} from '../world/scan_layer';
+import type {Met} from '../world/surface';
+
+/** Half of the opening that the plot shows, radians: as wide as the sensor sees. */
+function halfOpening(bearings: readonly number[], cone: number): number {
+  const widest = bearings.reduce((most, bearing) => Math.max(most, Math.abs(bearing)), 0) + cone / 2;
+  return Math.min(Math.max(widest, 0.35), Math.PI);
+}
+
+/** Draws a range reading with ahead up. `met` says what a ray hit, or null. */
+export function drawPolar(
+  ctx: CanvasRenderingContext2D, width: number, height: number, sensor: Sensor, reading: Reading | null,
+  hue: {fill: string; ink: string}, palette: Palette, met: (ray: number) => Met | null,
+): void {
+  const max = sensor.range?.[1] ?? 4;
+  const bearings = bearingsOf(sensor, reading?.rows ?? sensor.bearings?.length ?? 0);
+  const cone = sensor.cone ?? 0;
+  const half = halfOpening(bearings, cone);
+  // What lies behind the sensor needs room below it.
+  const below = half > Math.PI / 2 ? Math.max(-Math.cos(half), 0.08) : 0.08;
+  const wide = half >= Math.PI / 2 ? 1 : Math.max(Math.sin(half), 0.3);
+  const radius = Math.max(Math.min((width - 56) / (2 * wide), (height - 40) / (1 + below)), 20);
+  const ox = width / 2;
+  const oy = 24 + radius;
+  const at = (bearing: number, r: number): [number, number] => [
+    ox - r * Math.sin(bearing),
+    oy - r * Math.cos(bearing),
+  ];
+  ctx.font = `400 10px ${kFont}`;
+  ctx.textBaseline = 'middle';
+  drawRings(ctx, ox, oy, radius, half, max, palette);
+  if (reading !== null && reading.rows > 0) {
+    ctx.beginPath();
+    ctx.moveTo(ox, oy);
+    for (let i = 0; i < reading.rows; ++i) {
+      const r = (Math.max(Math.min(reading.values[i], max), 0) / max) * radius;
+      if (cone > 0) {
+        const [x0, y0] = at(bearings[i] + cone / 2, r);
+        ctx.moveTo(ox, oy);
+        ctx.lineTo(x0, y0);
+        ctx.arc(ox, oy, r, -Math.PI / 2 - bearings[i] - cone / 2, -Math.PI / 2 - bearings[i] + cone / 2);
+        ctx.closePath();
+      } else {
+        ctx.lineTo(...at(bearings[i], r));
+      }
+    }
+    ctx.closePath();
+    const gradient = ctx.createRadialGradient(ox, oy, 0, ox, oy, radius);
+    gradient.addColorStop(0, withAlpha(hue.fill, 0.6));
+    gradient.addColorStop(1, withAlpha(hue.fill, 0.16));
+    ctx.fillStyle = gradient;
+    ctx.fill();
+    ctx.strokeStyle = withAlpha(hue.ink, 0.8);
+    ctx.lineWidth = 1;
+    ctx.stroke();
+    for (let i = 0; i < reading.rows; ++i) {
+      if (!(reading.values[i] < max)) continue;
+      const hit = met(i);
+      const [x, y] = at(bearings[i], (reading.values[i] / max) * radius);
+      ctx.fillStyle = palette.token(hit?.token ?? 'text-2');
+      drawMark(ctx, hit?.mark ?? 'disc', x, y, 1.8);
+    }
+  }
+  ctx.fillStyle = hue.fill;
+  ctx.beginPath();
+  ctx.arc(ox, oy, 5, 0, 2 * Math.PI);
+  ctx.fill();
+  ctx.fillStyle = palette.token('text-2');
+  ctx.textAlign = 'center';
+  ctx.fillText('ahead', ox, 10);
+}
+
+function drawRings(
+  ctx: CanvasRenderingContext2D, ox: number, oy: number, radius: number, half: number, max: number,
+  palette: Palette,
+): void {
+  const step = max > 12 ? 5 : max > 5 ? 2 : max > 1.5 ? 1 : 0.25;
+  const full = half > Math.PI - 0.01;
+  const begin = full ? 0 : -Math.PI / 2 - half;
+  const end = full ? 2 * Math.PI : -Math.PI / 2 + half;
+  ctx.strokeStyle = palette.token('line-2');
+  ctx.lineWidth = 1;
+  for (let r = step; r <= max + 1e-9; r += step) {
+    ctx.beginPath();
+    ctx.arc(ox, oy, (r / max) * radius, begin, end);
+    ctx.stroke();
+  }
+  ctx.fillStyle = palette.token('text-3');
+  ctx.textAlign = 'left';
+  for (let r = step; r <= max + 1e-9; r += step) {
+    const x = ox + (r / max) * radius * Math.sin(Math.min(half, Math.PI / 2)) + 3;
+    const y = oy - (r / max) * radius * Math.cos(Math.min(half, Math.PI / 2));
+    ctx.fillText(r === step ? `${r} m` : String(r), x, y + (half >= Math.PI / 2 ? 0 : 6));
+  }
+  if (full) return;
+  ctx.beginPath();
+  for (const side of [-1, 1]) {
+    ctx.moveTo(ox, oy);
+    ctx.lineTo(ox + side * radius * Math.sin(half), oy - radius * Math.cos(half));
+    ctx.textAlign = side < 0 ? 'right' : 'left';
+    const degrees = Math.round((half * 180) / Math.PI);
+    ctx.fillText(`${side < 0 ? '' : '−'}${degrees}°`, ox + side * (radius * Math.sin(half) + 5), oy - radius * Math.cos(half));
+  }
+  ctx.stroke();
+}

@@ -120,6 +120,7 @@ Command chosen_command(const CLI::App& root, const Everything& all) {
   if (name == "verify") return all.records.verify;
   if (name == "play") return all.records.play;
   if (name == "report") return all.records.gap;
+  if (name == "gui") return all.records.gui;
   if (name == "ps") return all.control.ps;
   if (name == "stop") return all.control.stop;
   if (name == "arm") return all.control.arm;

@@ -23,6 +23,7 @@ struct Dispatch {
   int operator()(const VerifyCommand& options) const { return verify(options); }
   int operator()(const PlayCommand& options) const { return play(options); }
   int operator()(const GapCommand& options) const { return report_gap(options); }
+  int operator()(const GuiCommand& options) const { return gui(options); }
   int operator()(const PsCommand& options) const { return list_runs(options); }
   int operator()(const StopCommand& options) const { return stop_robots(options); }
   int operator()(const ArmCommand& options) const { return arm_robots(options); }

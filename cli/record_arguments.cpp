@@ -81,6 +81,15 @@ void add_report(CLI::App& root, GapCommand& c) {
       "  rave report gap run.mcap --robot real-3 --commands commanded --twin robots/wanderer.yaml");
 }
 
+void add_gui(CLI::App& root, GuiCommand& c) {
+  CLI::App& app = *root.add_subcommand("gui", "Show a recording in the browser");
+  add_record(app, c.file);
+  add_value(app, "--port", c.port, "Port on 127.0.0.1; a busy one means the next [8080]", "PORT");
+  add_value(app, "--page", c.page, "Folder of the built page [that of this installation]", "DIR");
+  app.add_flag("--no-open", c.no_open, "Print the link, but open no browser");
+  app.footer("Example:\n  rave gui runs/20260101-120000-mixed-reality");
+}
+
 }  // namespace
 
 void add_record_commands(CLI::App& root, RecordCommands& commands) {
@@ -88,6 +97,7 @@ void add_record_commands(CLI::App& root, RecordCommands& commands) {
   add_verify(root, commands.verify);
   add_play(root, commands.play);
   add_report(root, commands.gap);
+  add_gui(root, commands.gui);
 }
 
 }  // namespace rave::cli

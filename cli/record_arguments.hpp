@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "commands/gui.hpp"
 #include "commands/info.hpp"
 #include "commands/play.hpp"
 #include "commands/report.hpp"
@@ -18,9 +19,11 @@ struct RecordCommands {
   VerifyCommand verify;
   PlayCommand play;
   GapCommand gap;
+  GuiCommand gui;
 };
 
-/// Adds `info`, `verify`, `play` and `report gap`, which write what they are given to `commands`.
+/// Adds `info`, `verify`, `play`, `report gap` and `gui`, which write what they are given to
+/// `commands`.
 void add_record_commands(CLI::App& root, RecordCommands& commands);
 
 }  // namespace rave::cli

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rave::web {
+
+/// A request as a handler sees it. Names of headers are in lower case.
+struct Request {
+  std::string method;  ///< `GET`, `HEAD` or `POST`.
+  std::string path;    ///< Decoded, absolute, without query, without `.` and `..`.
+  std::map<std::string, std::string> query;
+  std::map<std::string, std::string> headers;
+  std::string body;
+  std::string peer;  ///< Address of the other end.
+
+  /// A header; empty if it is missing.
+  [[nodiscard]] std::string_view header(std::string_view name) const;
+  /// A cookie; empty if it is missing.
+  [[nodiscard]] std::string cookie(std::string_view name) const;
+};
+
+/// What a handler answers.
+struct Response {
+  int status = 200;
+  std::string type = "text/plain; charset=utf-8";
+  std::shared_ptr<const std::string> body;  ///< Null: empty.
+  std::vector<std::pair<std::string, std::string>> headers;
+};
+
+/// A response with a line of text.
+[[nodiscard]] Response text_response(int status, std::string text);
+
+/// Decodes `%41` and, in queries, `+`. False if it is not valid or has a control character.
+[[nodiscard]] bool decode_percent(std::string_view text, bool plus_is_space, std::string& out);
+
+/// Splits a target (`/a/b?c=d`) into a safe path and its query. False: it is malformed, or leads
+/// out of the root.
+[[nodiscard]] bool parse_target(std::string_view target, std::string& path,
+                                std::map<std::string, std::string>& query);
+
+}  // namespace rave::web

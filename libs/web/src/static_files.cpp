@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/web/static_files.hpp"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <array>
+#include <span>
+#include <utility>
+
+#include "rave/base/file.hpp"
+#include "rave/base/hash.hpp"
+
+namespace rave::web {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kMostBytes = std::uintmax_t{64} << 20U;
+
+std::string type_of(const fs::path& path) {
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kTypes = {{
+      {".html", "text/html; charset=utf-8"},
+      {".js", "text/javascript; charset=utf-8"},
+      {".mjs", "text/javascript; charset=utf-8"},
+      {".css", "text/css; charset=utf-8"},
+      {".json", "application/json"},
+      {".svg", "image/svg+xml"},
+      {".png", "image/png"},
+      {".woff2", "font/woff2"},
+      {".webmanifest", "application/manifest+json"},
+      {".txt", "text/plain; charset=utf-8"},
+      {".map", "application/json"},
+  }};
+  for (const auto& [ending, type] : kTypes) {
+    if (path.extension() == ending) return std::string(type);
+  }
+  return "application/octet-stream";
+}
+
+/// Empty if it cannot be done.
+std::string gzipped(const std::string& plain) {
+  z_stream stream{};
+  constexpr int kGzip = 15 + 16;
+  if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, kGzip, 9, Z_DEFAULT_STRATEGY) != Z_OK) {
+    return {};
+  }
+  std::string packed(deflateBound(&stream, plain.size()), '\0');
+  // zlib takes no pointer to const, and writes nothing there.
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(plain.data()));
+  stream.avail_in = static_cast<uInt>(plain.size());
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  const int done = deflate(&stream, Z_FINISH);
+  packed.resize(done == Z_STREAM_END ? stream.total_out : 0);
+  deflateEnd(&stream);
+  return packed;
+}
+
+}  // namespace
+
+Result<StaticFiles> StaticFiles::load(const fs::path& folder) {
+  StaticFiles files;
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) {
+    return fail(ErrorCode::kNotFound, "there is no folder `{}`", folder.string());
+  }
+  std::uintmax_t bytes = 0;
+  for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end;
+       it.increment(error)) {
+    if (!it->is_regular_file()) continue;
+    RAVE_TRY_ASSIGN(std::string content, read_file(it->path()));
+    bytes += content.size();
+    if (bytes > kMostBytes) {
+      return fail(ErrorCode::kIo, "`{}` has more than 64 MiB of files", folder.string());
+    }
+    File file;
+    file.type = type_of(it->path());
+    file.tag = fmt::format("\"{:016x}\"", content_hash(std::as_bytes(std::span(content))));
+    std::string packed = gzipped(content);
+    if (!packed.empty() && packed.size() + 64 < content.size()) {
+      file.gzip = std::make_shared<const std::string>(std::move(packed));
+    }
+    file.plain = std::make_shared<const std::string>(std::move(content));
+    files.files_.emplace("/" + fs::relative(it->path(), folder).generic_string(), std::move(file));
+  }
+  if (error) return fail(ErrorCode::kIo, "cannot read `{}`: {}", folder.string(), error.message());
+  return files;
+}
+
+Response StaticFiles::serve(const Request& request) const {
+  const auto found = files_.find(request.path == "/" ? "/index.html" : request.path);
+  if (found == files_.end()) return text_response(404, "not found\n");
+  const File& file = found->second;
+  Response response;
+  response.type = file.type;
+  response.headers.emplace_back("ETag", file.tag);
+  const bool forever = request.path.starts_with("/assets/");
+  response.headers.emplace_back("Cache-Control",
+                                forever ? "public, max-age=31536000, immutable" : "no-cache");
+  if (request.header("if-none-match") == file.tag) {
+    response.status = 304;
+    return response;
+  }
+  const bool packed =
+      file.gzip && request.header("accept-encoding").find("gzip") != std::string_view::npos;
+  if (file.gzip) response.headers.emplace_back("Vary", "Accept-Encoding");
+  if (packed) response.headers.emplace_back("Content-Encoding", "gzip");
+  response.body = packed ? file.gzip : file.plain;
+  return response;
+}
+
+}  // namespace rave::web

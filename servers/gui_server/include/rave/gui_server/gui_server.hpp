@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "rave/base/log.hpp"
+#include "rave/base/result.hpp"
+
+namespace rave::gui_server {
+
+class Source;
+
+struct GuiOptions {
+  std::filesystem::path page;  ///< Folder of the built page.
+  std::uint16_t port = 8080;   ///< Taken: one of the next ones.
+  LogSink* log = nullptr;      ///< Not owned; outlives the server. May be null.
+};
+
+/// The GUI Server: serves the page and, over WebSockets, what its source knows. Listens on loopback
+/// alone. Who has the link of entry() comes in as super-user; it works once, and the session that
+/// it begins lasts as long as the server.
+class GuiServer {
+ public:
+  /// Errors: kNotFound (the page was not built), kIo (no port).
+  [[nodiscard]] static Result<std::unique_ptr<GuiServer>> start(const GuiOptions& options,
+                                                                std::shared_ptr<Source> source);
+  GuiServer(const GuiServer&) = delete;
+  GuiServer& operator=(const GuiServer&) = delete;
+  ~GuiServer();
+
+  [[nodiscard]] std::uint16_t port() const noexcept;
+  /// A link that signs a browser in, once. Each call makes another one. Any thread.
+  [[nodiscard]] std::string entry();
+
+ private:
+  class Impl;
+  explicit GuiServer(std::unique_ptr<Impl> impl) noexcept;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace rave::gui_server

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rave/gui_server/source.hpp"
+
+namespace rave::gui_server {
+
+/// Makes the log of a run: sentences for people, repetitions folded into one row with a count.
+class EventFold {
+ public:
+  /// Names of the robots by slot.
+  explicit EventFold(std::vector<std::string> names);
+
+  /// `slot`: none (-1) if it concerns the world. `text` as the engine gives it: `with NAME` of a
+  /// contact, a sentence of others. Events come in order of time.
+  void add(double t_s, int slot, std::string_view kind, std::string_view text);
+
+  [[nodiscard]] const std::vector<LogEvent>& events() const noexcept { return events_; }
+
+ private:
+  std::vector<std::string> names_;
+  std::map<std::string, std::uint32_t, std::less<>> slots_;
+  std::vector<LogEvent> events_;
+  std::map<std::string, std::size_t> last_;  ///< By sentence: the event that may go on.
+};
+
+}  // namespace rave::gui_server

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "frames.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <numbers>
+
+namespace rave::gui_server {
+namespace {
+
+static_assert(std::endian::native == std::endian::little,
+              "frames are written as they lie in memory");
+
+constexpr std::size_t kPoseHeader = 48;
+constexpr std::size_t kReadingHeader = 32;
+constexpr double kFinest_m = 1e-4;
+
+template <class T>
+void put(std::string& frame, std::size_t offset, T value) {
+  std::memcpy(frame.data() + offset, &value, sizeof value);
+}
+
+/// The quantum with which everybody fits: the finest, or a power of two of it.
+double quantum_for(const PosesAt& poses, double origin_x, double origin_y) {
+  double farthest = 0;
+  for (const RobotState& robot : poses.robots) {
+    if ((robot.flags & kKnown) == 0) continue;
+    farthest = std::max({farthest, std::abs(robot.x_m - origin_x), std::abs(robot.y_m - origin_y)});
+  }
+  double quantum = kFinest_m;
+  while (farthest / quantum > std::numeric_limits<std::int32_t>::max() / 2) quantum *= 2;
+  return quantum;
+}
+
+std::int32_t quantised(double value, double quantum) {
+  return static_cast<std::int32_t>(std::lround(value / quantum));
+}
+
+std::uint16_t turn_of(double yaw_rad) {
+  const double turns = yaw_rad / (2 * std::numbers::pi);
+  return static_cast<std::uint16_t>(std::lround((turns - std::floor(turns)) * 65536) & 0xffff);
+}
+
+std::int16_t speed_of(double speed_mps) {
+  return static_cast<std::int16_t>(std::clamp(std::round(1000 * speed_mps), -32767.0, 32767.0));
+}
+
+}  // namespace
+
+std::string encode_poses(const PosesAt& poses, const PoseFrameHead& head) {
+  const std::size_t n = poses.robots.size();
+  std::string frame(kPoseHeader + 14 * n, '\0');
+  // A world far from the origin keeps its resolution if frames count from one of its robots.
+  double origin_x = 0;
+  double origin_y = 0;
+  for (const RobotState& robot : poses.robots) {
+    if ((robot.flags & kKnown) == 0) continue;
+    if (std::max(std::abs(robot.x_m), std::abs(robot.y_m)) > 1e5) {
+      origin_x = std::round(robot.x_m);
+      origin_y = std::round(robot.y_m);
+    }
+    break;
+  }
+  const auto quantum = static_cast<float>(quantum_for(poses, origin_x, origin_y));
+  put(frame, 0, std::uint8_t{1});
+  put(frame, 1, static_cast<std::uint8_t>((head.past ? 1 : 0) | (head.truth ? 2 : 0)));
+  put(frame, 2, head.roster_revision);
+  put(frame, 4, head.sequence);
+  put(frame, 8, poses.time_s);
+  put(frame, 16, static_cast<std::uint32_t>(poses.step));
+  put(frame, 20, static_cast<std::uint32_t>(n));
+  put(frame, 24, origin_x);
+  put(frame, 32, origin_y);
+  put(frame, 40, quantum);
+  for (std::size_t i = 0; i < n; ++i) {
+    const RobotState& robot = poses.robots[i];
+    const bool known = (robot.flags & kKnown) != 0;
+    const std::size_t x = kPoseHeader + 4 * i;
+    const std::size_t yaw = kPoseHeader + 8 * n + 2 * i;
+    put(frame, x, known ? quantised(robot.x_m - origin_x, quantum) : 0);
+    put(frame, x + 4 * n, known ? quantised(robot.y_m - origin_y, quantum) : 0);
+    put(frame, yaw, known ? turn_of(robot.yaw_rad) : std::uint16_t{0});
+    put(frame, yaw + 2 * n, known ? speed_of(robot.speed_mps) : std::int16_t{0});
+    put(frame, yaw + 4 * n, robot.flags);
+  }
+  return frame;
+}
+
+std::string encode_reading(const ReadingAt& reading, double time_s) {
+  std::string frame(kReadingHeader + 4 * reading.values.size(), '\0');
+  put(frame, 0, std::uint8_t{2});
+  put(frame, 1, reading.part);
+  put(frame, 2, static_cast<std::uint16_t>(reading.sensor));
+  put(frame, 4, reading.slot);
+  put(frame, 8, reading.stamp_s);
+  put(frame, 16, time_s);
+  put(frame, 24, reading.rows);
+  put(frame, 28, reading.fields);
+  if (!reading.values.empty()) {
+    std::memcpy(frame.data() + kReadingHeader, reading.values.data(), 4 * reading.values.size());
+  }
+  return frame;
+}
+
+}  // namespace rave::gui_server

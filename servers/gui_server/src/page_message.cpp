@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "page_message.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "rave/base/names.hpp"
+
+namespace rave::gui_server {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::size_t kMostSensors = 256;
+constexpr std::size_t kMostSlots = 100'000;
+
+/// Takes members out of an object, so that what nobody knows is left over and refused.
+class Members {
+ public:
+  explicit Members(const Json& object) : object_(object) {}
+
+  Result<bool> flag(const char* name) {
+    RAVE_TRY_ASSIGN(const Json* const value, find(name));
+    if (!value->is_boolean()) return wrong(name, "true or false");
+    return value->get<bool>();
+  }
+  Result<double> number(const char* name) {
+    RAVE_TRY_ASSIGN(const Json* const value, find(name));
+    if (!value->is_number() || !std::isfinite(value->get<double>())) {
+      return wrong(name, "a finite number");
+    }
+    return value->get<double>();
+  }
+  Result<std::uint32_t> index(const char* name) {
+    RAVE_TRY_ASSIGN(const Json* const value, find(name));
+    return index_of(*value, name);
+  }
+  Result<std::string> word(const char* name) {
+    RAVE_TRY_ASSIGN(const Json* const value, find(name));
+    if (!value->is_string()) return wrong(name, "a string");
+    return value->get<std::string>();
+  }
+  Result<const Json*> array(const char* name, std::size_t most) {
+    RAVE_TRY_ASSIGN(const Json* const value, find(name));
+    if (!value->is_array() || value->size() > most) {
+      return fail(ErrorCode::kParse, "`{}`: expected an array of at most {}", name, most);
+    }
+    return value;
+  }
+  [[nodiscard]] bool has(const char* name) const { return object_.contains(name); }
+  [[nodiscard]] Status finish() const {
+    if (object_.size() != taken_) return fail(ErrorCode::kParse, "the message has unknown members");
+    return {};
+  }
+  static Result<std::uint32_t> index_of(const Json& value, const char* name) {
+    if (!value.is_number_unsigned() || value.get<std::uint64_t>() > 0xffffffffU) {
+      return wrong(name, "a whole number from 0 to 4294967295");
+    }
+    return value.get<std::uint32_t>();
+  }
+
+ private:
+  static tl::unexpected<Error> wrong(const char* name, const char* expected) {
+    return fail(ErrorCode::kParse, "`{}`: expected {}", name, expected);
+  }
+  Result<const Json*> find(const char* name) {
+    const auto found = object_.find(name);
+    if (found == object_.end()) return fail(ErrorCode::kParse, "`{}` is missing", name);
+    ++taken_;
+    return &*found;
+  }
+
+  const Json& object_;
+  std::size_t taken_ = 0;
+};
+
+Result<PageMessage> look_of(Members& members) {
+  LookMessage look;
+  RAVE_TRY_ASSIGN(look.poses, members.flag("poses"));
+  RAVE_TRY_ASSIGN(look.true_poses, members.flag("true_poses"));
+  RAVE_TRY_ASSIGN(look.parts, members.flag("parts"));
+  RAVE_TRY_ASSIGN(look.max_hz, members.number("max_hz"));
+  if (look.max_hz < 1 || look.max_hz > 60) {
+    return fail(ErrorCode::kParse, "`max_hz`: expected 1 to 60");
+  }
+  RAVE_TRY_ASSIGN(const Json* const readings, members.array("readings", kMostSensors));
+  for (const Json& pair : *readings) {
+    if (!pair.is_array() || pair.size() != 2) {
+      return fail(ErrorCode::kParse, "`readings`: expected pairs of slot and sensor");
+    }
+    LookedAt looked;
+    RAVE_TRY_ASSIGN(looked.slot, Members::index_of(pair[0], "readings"));
+    RAVE_TRY_ASSIGN(looked.sensor, Members::index_of(pair[1], "readings"));
+    look.readings.push_back(looked);
+  }
+  std::sort(look.readings.begin(), look.readings.end());
+  look.readings.erase(std::unique(look.readings.begin(), look.readings.end()), look.readings.end());
+  return PageMessage(std::move(look));
+}
+
+Result<PageMessage> transport_of(Members& members) {
+  using Do = TransportMessage::Do;
+  static constexpr std::array<std::pair<std::string_view, Do>, 5> kWords = {{{"play", Do::kPlay},
+                                                                             {"pause", Do::kPause},
+                                                                             {"step", Do::kStep},
+                                                                             {"seek", Do::kSeek},
+                                                                             {"pace", Do::kPace}}};
+  RAVE_TRY_ASSIGN(const std::string word, members.word("do"));
+  const auto found = std::find_if(kWords.begin(), kWords.end(),
+                                  [&word](const auto& entry) { return entry.first == word; });
+  if (found == kWords.end()) {
+    return fail(ErrorCode::kParse, "`do`: expected play, pause, step, seek or pace");
+  }
+  TransportMessage transport;
+  transport.what = found->second;
+  const bool takes_value = transport.what != Do::kPlay && transport.what != Do::kPause;
+  if (takes_value || members.has("value")) {
+    RAVE_TRY_ASSIGN(transport.value, members.number("value"));
+  }
+  return PageMessage(transport);
+}
+
+Result<PageMessage> halt_of(Members& members) {
+  HaltMessage halt;
+  RAVE_TRY_ASSIGN(const std::string word, members.word("do"));
+  if (word != "stop" && word != "release") {
+    return fail(ErrorCode::kParse, "`do`: expected stop or release");
+  }
+  halt.stop = word == "stop";
+  RAVE_TRY_ASSIGN(const Json* const slots, members.array("slots", kMostSlots));
+  for (const Json& slot : *slots) {
+    RAVE_TRY_ASSIGN(const std::uint32_t index, Members::index_of(slot, "slots"));
+    halt.slots.push_back(index);
+  }
+  return PageMessage(std::move(halt));
+}
+
+}  // namespace
+
+Result<PageMessage> parse_page_message(std::string_view text) {
+  const Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object()) return fail(ErrorCode::kParse, "expected a JSON object");
+  Members members(json);
+  RAVE_TRY_ASSIGN(const std::string type, members.word("type"));
+  Result<PageMessage> message = fail(ErrorCode::kParse, "unknown type of message");
+  if (type == "look") {
+    message = look_of(members);
+  } else if (type == "ack") {
+    auto sequence = members.index("sequence");
+    if (!sequence) return tl::unexpected(sequence.error());
+    message = PageMessage(AckMessage{*sequence});
+  } else if (type == "transport") {
+    message = transport_of(members);
+  } else if (type == "halt") {
+    message = halt_of(members);
+  }
+  if (!message) return message;
+  RAVE_TRY(members.finish());
+  return message;
+}
+
+}  // namespace rave::gui_server

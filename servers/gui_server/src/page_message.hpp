@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "rave/base/result.hpp"
+#include "rave/gui_server/source.hpp"
+
+// What a page says; schemas/gui/messages.schema.json describes it. Nothing of it is trusted.
+namespace rave::gui_server {
+
+struct LookMessage {
+  bool poses = false;
+  bool true_poses = false;
+  bool parts = false;
+  double max_hz = 30;
+  std::vector<LookedAt> readings;  ///< At most 256, without repetitions.
+};
+
+struct AckMessage {
+  std::uint32_t sequence = 0;
+};
+
+struct TransportMessage {
+  enum class Do : std::uint8_t { kPlay, kPause, kStep, kSeek, kPace } what = Do::kPlay;
+  double value = 0;  ///< Finite.
+};
+
+struct HaltMessage {
+  bool stop = true;  ///< Otherwise: release.
+  std::vector<std::uint32_t> slots;
+};
+
+using PageMessage = std::variant<LookMessage, AckMessage, TransportMessage, HaltMessage>;
+
+/// Errors: kParse with what was expected.
+[[nodiscard]] Result<PageMessage> parse_page_message(std::string_view text);
+
+}  // namespace rave::gui_server

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "event_fold.hpp"
+#include "rave/config/expanded_scenario.hpp"
+#include "rave/gui_server/source.hpp"
+#include "rave/record/run_reader.hpp"
+#include "recording_cursor.hpp"
+#include "scene_json.hpp"
+
+namespace rave::gui_server {
+namespace {
+
+/// A contact is told when it begins; so long it counts as going on.
+constexpr double kTouch_s = 0.5;
+
+class Recording final : public Source {
+ public:
+  explicit Recording(record::McapReader reader) : reader_(std::move(reader)) {}
+
+  Status read(const std::filesystem::path& file);
+
+  [[nodiscard]] const RunAbout& about() const noexcept override { return about_; }
+  [[nodiscard]] const std::string& bodies_json() const noexcept override { return bodies_; }
+  [[nodiscard]] const std::string& robots_json() const noexcept override { return robots_; }
+  [[nodiscard]] std::uint32_t robot_count() const noexcept override {
+    return static_cast<std::uint32_t>(real_.size());
+  }
+  [[nodiscard]] std::span<const LogEvent> events() const noexcept override { return events_; }
+  [[nodiscard]] std::unique_ptr<Cursor> open_cursor() override {
+    return std::make_unique<RecordingCursor>(reader_, flags_, real_, about_.step_s,
+                                             longest_period_s_);
+  }
+
+ private:
+  Status read_events(const record::RunInfo& run);
+  void note_flag(const record::RunEvent& event, double t_s);
+  [[nodiscard]] record::StringMap hybrids() const;
+
+  record::McapReader reader_;
+  RunAbout about_;
+  std::string bodies_;
+  std::string robots_;
+  std::vector<LogEvent> events_;
+  std::vector<std::uint8_t> real_;
+  FlagHistory flags_;
+  double longest_period_s_ = 0;
+};
+
+record::StringMap Recording::hybrids() const {
+  for (const record::MetadataInfo& metadata : reader_.metadata()) {
+    if (metadata.name != record::kHybridMetadata) continue;
+    if (auto entries = reader_.read_metadata(metadata)) return *std::move(entries);
+  }
+  return {};
+}
+
+Status Recording::read(const std::filesystem::path& file) {
+  RAVE_TRY_ASSIGN(const record::RunInfo run, record::read_run_info(reader_));
+  RAVE_TRY_ASSIGN(const config::ExpandedScenario scenario,
+                  config::expand_scenario_text(run.expanded_scenario, file));
+  if (scenario.robots.size() != run.robots.size()) {
+    return fail(ErrorCode::kParse, "`{}`: its scenario has {} robots, its recording {}",
+                file.string(), scenario.robots.size(), run.robots.size());
+  }
+  about_.name = run.scenario;
+  about_.started = run.started;
+  about_.step_s = run.step_s;
+  about_.seed = run.seed;
+  about_.recording = file;
+  about_.recording_bytes = reader_.file_size();
+  about_.recording_whole = reader_.whole();
+  about_.begin_s = static_cast<double>(reader_.statistics().start_ns) * 1e-9;
+  about_.end_s = static_cast<double>(reader_.statistics().end_ns) * 1e-9;
+  about_.duration_s = about_.end_s;
+  if (const auto end = record::read_run_end(reader_)) {
+    about_.lock_step = end->hash.has_value();
+    if (end->hash) about_.hash = fmt::format("{:016x}", *end->hash);
+  }
+  for (const record::RecordedRobot& robot : run.robots) {
+    real_.push_back(robot.kind == "simulated" ? 0 : 1);
+  }
+  for (const record::RecordedSensor& sensor : run.sensors) {
+    longest_period_s_ = std::max(longest_period_s_, sensor.period_s);
+  }
+  RAVE_TRY_ASSIGN(bodies_, bodies_of(scenario));
+  robots_ = robots_of(scenario, run, hybrids());
+  return read_events(run);
+}
+
+Status Recording::read_events(const record::RunInfo& run) {
+  std::vector<std::string> names;
+  for (const record::RecordedRobot& robot : run.robots) names.push_back(robot.name);
+  EventFold fold(std::move(names));
+  flags_.resize(run.robots.size());
+  const auto take = [&](const record::MessageView& message) -> Status {
+    RAVE_TRY_ASSIGN(const auto step, record::decode_event(message.bytes));
+    for (const record::RunEvent& event : step.items) {
+      const int slot = event.robot.valid() ? static_cast<int>(event.robot.value()) : -1;
+      fold.add(step.time.seconds(), slot, event.kind, event.text);
+      note_flag(event, step.time.seconds());
+    }
+    return {};
+  };
+  RAVE_TRY(record::for_each_message(reader_, record::topic::kEvents, take));
+  events_ = fold.events();
+  for (auto& changes : flags_) {
+    std::stable_sort(changes.begin(), changes.end(),
+                     [](const FlagChange& a, const FlagChange& b) { return a.t_s < b.t_s; });
+  }
+  return {};
+}
+
+void Recording::note_flag(const record::RunEvent& event, double t_s) {
+  if (!event.robot.valid() || event.robot.value() >= flags_.size()) return;
+  auto& changes = flags_[event.robot.value()];
+  if (event.kind == "pose stale") changes.push_back({t_s, kStale, true});
+  if (event.kind == "pose back") changes.push_back({t_s, kStale, false});
+  if (event.kind == "stopped") changes.push_back({t_s, kStopped, true});
+  if (event.kind == "released") changes.push_back({t_s, kStopped, false});
+  if (event.kind == "contact") {
+    changes.push_back({t_s, kTouching, true});
+    changes.push_back({t_s + kTouch_s, kTouching, false});
+  }
+}
+
+}  // namespace
+
+Result<std::shared_ptr<Source>> open_recording(const std::filesystem::path& file) {
+  RAVE_TRY_ASSIGN(record::McapReader reader, record::McapReader::open(file));
+  auto recording = std::make_shared<Recording>(std::move(reader));
+  RAVE_TRY(recording->read(file));
+  return std::shared_ptr<Source>(std::move(recording));
+}
+
+}  // namespace rave::gui_server

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "recording_cursor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rave/base/time.hpp"
+#include "rave/record/run_messages.hpp"
+#include "reading_rows.hpp"
+
+namespace rave::gui_server {
+namespace {
+
+/// Farther ahead than this it is quicker to begin anew than to read what lies between.
+constexpr double kFar_s = 3;
+/// Sensors that are slower than this are found by going on, not by looking back.
+constexpr double kMostBack_s = 2;
+
+std::uint64_t ns_of(double time_s) {
+  return static_cast<std::uint64_t>(std::max<std::int64_t>(from_seconds(time_s).ns, 0));
+}
+
+}  // namespace
+
+RecordingCursor::RecordingCursor(const record::McapReader& reader, const FlagHistory& flags,
+                                 const std::vector<std::uint8_t>& real, double step_s,
+                                 double longest_period_s)
+    : reader_(reader),
+      flags_(flags),
+      real_(real),
+      step_s_(step_s),
+      look_back_s_(std::min(longest_period_s, kMostBack_s) + 2 * step_s) {
+  if (const auto* const poses = reader.channel(record::topic::kPoses)) poses_channel_ = poses->id;
+  if (const auto* const percepts = reader.channel(record::topic::kPercepts)) {
+    percepts_channel_ = percepts->id;
+  }
+  poses_.robots.resize(real.size());
+}
+
+void RecordingCursor::begin_at(double time_s) {
+  record::MessageFilter filter;
+  filter.channels = {poses_channel_};
+  if (percepts_channel_) filter.channels.push_back(*percepts_channel_);
+  filter.from_ns = ns_of(time_s - look_back_s_);
+  cursor_ = reader_.messages(filter);
+  ahead_.reset();
+  newest_.clear();
+  percepts_.clear();
+}
+
+Status RecordingCursor::go_to(double time_s) {
+  // Half a step more, since a moment that was named in text is rounded.
+  const double until_s = time_s + step_s_ / 2;
+  if (!cursor_ || until_s < time_s_ || until_s > time_s_ + kFar_s) begin_at(until_s);
+  time_s_ = until_s;
+  RAVE_TRY(read_until(until_s));
+  if (newest_.empty()) return {};
+  RAVE_TRY(show(newest_));
+  set_flags();
+  return {};
+}
+
+Status RecordingCursor::read_until(double time_s) {
+  const std::uint64_t until_ns = ns_of(time_s);
+  while (true) {
+    if (!ahead_) {
+      RAVE_TRY_ASSIGN(const auto message, cursor_->next());
+      if (!message) break;
+      ahead_.emplace(message->log_time_ns, message->channel,
+                     Bytes(message->bytes.begin(), message->bytes.end()));
+    }
+    auto& [at_ns, channel, bytes] = *ahead_;
+    if (at_ns > until_ns) break;
+    if (channel == poses_channel_) {
+      newest_ = std::move(bytes);
+    } else {
+      percepts_.emplace_back(static_cast<double>(at_ns) * 1e-9, std::move(bytes));
+    }
+    ahead_.reset();
+  }
+  const auto old = std::find_if(percepts_.begin(), percepts_.end(), [&](const auto& entry) {
+    return entry.first >= time_s - look_back_s_;
+  });
+  percepts_.erase(percepts_.begin(), old);
+  return {};
+}
+
+Status RecordingCursor::show(const Bytes& bytes) {
+  RAVE_TRY_ASSIGN(const auto step, record::decode_poses(bytes));
+  poses_.time_s = step.time.seconds();
+  poses_.step = step.step;
+  for (std::size_t r = 0; r < poses_.robots.size(); ++r) {
+    poses_.robots[r] = {};
+    if (real_[r] != 0) poses_.robots[r].flags = kReal;
+  }
+  for (const record::RobotPose& pose : step.items) {
+    if (pose.robot.value() >= poses_.robots.size() || !pose.reported_pose) continue;
+    RobotState& robot = poses_.robots[pose.robot.value()];
+    robot.x_m = pose.reported_pose->x;
+    robot.y_m = pose.reported_pose->y;
+    robot.yaw_rad = pose.reported_pose->yaw;
+    const double ahead =
+        pose.velocity_W.vx * std::cos(robot.yaw_rad) + pose.velocity_W.vy * std::sin(robot.yaw_rad);
+    robot.speed_mps = std::copysign(std::hypot(pose.velocity_W.vx, pose.velocity_W.vy), ahead);
+    robot.flags |= kKnown;
+  }
+  return {};
+}
+
+void RecordingCursor::set_flags() {
+  for (std::size_t r = 0; r < std::min(flags_.size(), poses_.robots.size()); ++r) {
+    for (const FlagChange& change : flags_[r]) {
+      if (change.t_s > poses_.time_s + step_s_ / 2) break;
+      std::uint16_t& flags = poses_.robots[r].flags;
+      flags = static_cast<std::uint16_t>(change.on ? flags | change.flag : flags & ~change.flag);
+    }
+  }
+}
+
+std::vector<ReadingAt> RecordingCursor::readings(std::span<const LookedAt> sensors, bool parts) {
+  std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint8_t>, ReadingAt> newest;
+  for (const auto& [at_s, bytes] : percepts_) {
+    const auto step = record::decode_percepts(bytes);
+    // A damaged piece is told by who verifies the file; here its readings are missing.
+    if (!step) continue;
+    for (const record::Percept& percept : step->items) {
+      const LookedAt key{percept.robot.value(), percept.sensor.value()};
+      const auto part = static_cast<std::uint8_t>(percept.part);
+      if (part != 0 && !parts) continue;
+      if (std::find(sensors.begin(), sensors.end(), key) == sensors.end()) continue;
+      ReadingAt& reading = newest[{key.slot, key.sensor, part}];
+      reading.slot = key.slot;
+      reading.sensor = key.sensor;
+      reading.part = part;
+      reading.stamp_s = static_cast<double>(percept.header.stamp_ns) * 1e-9;
+      fill_rows(static_cast<ReadingKind>(percept.kind), percept.header.count, percept.records,
+                reading);
+    }
+  }
+  std::vector<ReadingAt> readings;
+  readings.reserve(newest.size());
+  for (auto& [key, reading] : newest) readings.push_back(std::move(reading));
+  return readings;
+}
+
+}  // namespace rave::gui_server

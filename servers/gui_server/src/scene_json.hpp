@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "rave/base/result.hpp"
+#include "rave/config/expanded_scenario.hpp"
+#include "rave/record/run_info.hpp"
+
+// What stands in the world and who drives in it, as the messages `scene` and `roster` say it.
+namespace rave::gui_server {
+
+/// Obstacles and walls of maps. Errors: a map that cannot be read.
+[[nodiscard]] Result<std::string> bodies_of(const config::ExpandedScenario& scenario);
+
+/// Robots with shapes and sensors. `hybrids`: names `robot/sensor` of hybrid sensors.
+[[nodiscard]] std::string robots_of(const config::ExpandedScenario& scenario,
+                                    const record::RunInfo& run, const record::StringMap& hybrids);
+
+}  // namespace rave::gui_server

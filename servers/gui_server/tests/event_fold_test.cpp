@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "event_fold.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rave::gui_server {
+namespace {
+
+TEST(EventFold, ContactsOfTwoRobotsAreOneRow) {
+  EventFold fold({"hunter", "real-3"});
+  for (int i = 0; i < 131; ++i) {
+    fold.add(31.28 + 0.05 * i, i % 2, "contact", i % 2 == 0 ? "with real-3 " : "with hunter ");
+  }
+  ASSERT_EQ(fold.events().size(), 1U);
+  const LogEvent& event = fold.events().front();
+  EXPECT_EQ(event.count, 131U);
+  EXPECT_EQ(event.text, "hunter and real-3 touch");
+  EXPECT_EQ(event.slots, (std::vector<std::uint32_t>{0, 1}));
+  EXPECT_DOUBLE_EQ(event.t_s, 31.28);
+  EXPECT_DOUBLE_EQ(event.until_s, 31.28 + 0.05 * 130);
+}
+
+TEST(EventFold, WhatComesAgainLaterIsAnotherRow) {
+  EventFold fold({"real-1"});
+  fold.add(1, 0, "pose stale", "its last pose is from 0.5 s");
+  fold.add(20, 0, "pose stale", "its last pose is from 0.5 s");
+  ASSERT_EQ(fold.events().size(), 2U);
+  EXPECT_EQ(fold.events()[0].level, LogEvent::Level::kWarn);
+  EXPECT_EQ(fold.events()[0].text, "real-1: pose stale, its last pose is from 0.5 s");
+}
+
+TEST(EventFold, EventsOfTheWorldHaveNoRobot) {
+  EventFold fold({"real-1"});
+  fold.add(1, -1, "obstacle added", "`box` at 1, 2");
+  EXPECT_TRUE(fold.events()[0].slots.empty());
+  EXPECT_EQ(fold.events()[0].text, "obstacle added: `box` at 1, 2");
+}
+
+}  // namespace
+}  // namespace rave::gui_server

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "frames.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "rave/base/file.hpp"
+
+namespace rave::gui_server {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string hex_of(const std::string& bytes) {
+  std::string hex;
+  for (const char byte : bytes) hex += fmt::format("{:02x}", static_cast<unsigned char>(byte));
+  return hex;
+}
+
+std::vector<PosesAt> sample_poses() {
+  PosesAt plain{17.5, 1750, {}};
+  plain.robots = {{3.64, -1.45, 1.763, 0.062, kKnown | kReal},
+                  {-0.00004, 1e-4, -3.1, -0.2, kKnown | kStale},
+                  {0, 0, 0, 0, kReal}};
+  PosesAt far{0.01, 1, {}};
+  far.robots = {{500000.25, -7000000.5, 0, 1e9, kKnown},
+                {500001.25, -7000001.5, 6.2831, 0, kKnown | kStopped | kTouching}};
+  return {plain, far, PosesAt{1, 100, {}}};
+}
+
+std::vector<ReadingAt> sample_readings() {
+  const float none = std::numeric_limits<float>::infinity();
+  return {{2, 0, 0, 17.49, 4, 1, {1.25F, none, 0.5F, 3.999F}},
+          {70000, 3, 2, 0.1, 2, 3, {14, 2.5F, -0.3F, 15, 2.75F, 0.25F}},
+          {0, 1, 1, 5, 0, 5, {}}};
+}
+
+Json poses_json(const PosesAt& poses, const PoseFrameHead& head) {
+  Json json = {{"hex", hex_of(encode_poses(poses, head))},
+               {"sequence", head.sequence},
+               {"time_s", poses.time_s},
+               {"step", poses.step},
+               {"past", head.past},
+               {"x", Json::array()},
+               {"y", Json::array()},
+               {"yaw", Json::array()},
+               {"speed", Json::array()},
+               {"flags", Json::array()}};
+  for (const RobotState& robot : poses.robots) {
+    json["x"].push_back(robot.x_m);
+    json["y"].push_back(robot.y_m);
+    json["yaw"].push_back(robot.yaw_rad);
+    json["speed"].push_back(std::min(robot.speed_mps, 32.767));
+    json["flags"].push_back(robot.flags);
+  }
+  return json;
+}
+
+Json reading_json(const ReadingAt& reading) {
+  Json json = {{"hex", hex_of(encode_reading(reading, 17.5))},
+               {"slot", reading.slot},
+               {"sensor", reading.sensor},
+               {"part", reading.part},
+               {"stamp_s", reading.stamp_s},
+               {"rows", reading.rows},
+               {"fields", reading.fields},
+               {"values", Json::array()}};
+  for (const float value : reading.values) {
+    json["values"].push_back(std::isfinite(value) ? Json(value) : Json(nullptr));
+  }
+  return json;
+}
+
+/// The page's tests read the same file. RAVE_WRITE_FRAMES=1 writes it anew after a change.
+TEST(Frames, AreThoseThatThePageIsTestedWith) {
+  Json json = {{"poses", Json::array()}, {"readings", Json::array()}};
+  std::uint32_t sequence = 0;
+  for (const PosesAt& poses : sample_poses()) {
+    ++sequence;
+    json["poses"].push_back(poses_json(poses, {sequence, 1, sequence == 2, false}));
+  }
+  for (const ReadingAt& reading : sample_readings())
+    json["readings"].push_back(reading_json(reading));
+  const std::string text = json.dump(1) + "\n";
+  if (std::getenv("RAVE_WRITE_FRAMES") != nullptr) {
+    ASSERT_TRUE(write_file_atomically(RAVE_FRAMES, text));
+  }
+  const auto kept = read_file(RAVE_FRAMES);
+  ASSERT_TRUE(kept) << kept.error().text();
+  EXPECT_EQ(*kept, text);
+}
+
+TEST(Frames, TakeFourteenBytesARobot) {
+  const PosesAt poses = sample_poses().front();
+  EXPECT_EQ(encode_poses(poses, {}).size(), 48 + 14 * poses.robots.size());
+}
+
+}  // namespace
+}  // namespace rave::gui_server

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Debian's Chromium for tests, and `rave gui` in a process of its own.
+import {spawn} from 'node:child_process';
+import {chromium} from 'playwright-core';
+
+/** Headless Chromium with software WebGL. */
+export function launch() {
+  return chromium.launch({
+    executablePath: process.env.RAVE_CHROMIUM ?? '/usr/bin/chromium',
+    args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+  });
+}
+
+/** Starts `rave gui` and waits for its link. `end()` stops it and gives its exit code. */
+export async function startGui(rave, recording, ...more) {
+  const child = spawn(rave, ['gui', recording, '--no-open', '--port', '0', ...more], {stdio: ['ignore', 'pipe', 'inherit']});
+  let text = '';
+  const exited = new Promise((resolve) => child.once('exit', resolve));
+  const link = await new Promise((resolve, reject) => {
+    child.stdout.on('data', (data) => {
+      text += data;
+      const found = /http:\S+/.exec(text);
+      if (found) resolve(found[0]);
+    });
+    exited.then((code) => reject(new Error(`rave gui ended with ${code}: ${text}`)));
+  });
+  return {
+    link,
+    child,
+    end: () => {
+      child.kill('SIGTERM');
+      return exited;
+    },
+  };
+}

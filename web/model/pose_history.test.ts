@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+import {describe, expect, it} from 'vitest';
+import type {PoseFrame} from '../protocol/frames';
+import {PoseHistory, Placed, turn} from './pose_history';
+
+function frame(time_s: number, x: number, yaw = 0, past = false, flags = 1): PoseFrame {
+  return {
+    sequence: 0, revision: 1, past, truth: false, time_s, step: 0,
+    x: Float64Array.of(x), y: Float64Array.of(0), yaw: Float32Array.of(yaw), speed: Float32Array.of(0),
+    flags: Uint16Array.of(flags),
+  };
+}
+
+describe('interpolation', () => {
+  it('lies between the newest two frames and never beyond', () => {
+    const history = new PoseHistory();
+    history.add(frame(1, 0), 1000);
+    for (let i = 1; i <= 30; ++i) history.add(frame(1 + 0.1 * i, i), 1000 + 100 * i);
+    const placed = new Placed();
+    history.interpolate(4000, placed);
+    expect(placed.x[0]).toBeCloseTo(29, 1);
+    history.interpolate(4050, placed);
+    expect(placed.x[0]).toBeGreaterThan(29.3);
+    expect(placed.x[0]).toBeLessThan(29.7);
+    history.interpolate(9000, placed);
+    expect(placed.x[0]).toBe(30);
+  });
+
+  it('turns the shorter way', () => {
+    expect(turn(0.1, 6.2)).toBeCloseTo(-0.183, 2);
+    expect(turn(6.2, 0.1)).toBeCloseTo(0.183, 2);
+  });
+
+  it('does not slide a robot in from the origin that was not known before', () => {
+    const history = new PoseHistory();
+    history.add(frame(1, 0, 0, false, 0), 0);
+    history.add(frame(1.1, 50), 100);
+    const placed = new Placed();
+    history.interpolate(101, placed);
+    expect(placed.x[0]).toBe(50);
+  });
+});
+
+describe('the past', () => {
+  it('is forgotten when time goes back', () => {
+    const history = new PoseHistory();
+    for (let i = 0; i < 20; ++i) history.add(frame(i * 0.2, i), i * 100);
+    expect(history.past.length).toBe(20);
+    history.add(frame(1, 5, 0, true), 5000);
+    expect(history.past.length).toBe(1);
+    expect(history.newest).toBeNull();
+  });
+
+  it('is thinned and ends after 20 s', () => {
+    const history = new PoseHistory();
+    for (let i = 0; i < 3000; ++i) history.add(frame(i * 0.01, i), i * 10);
+    expect(history.past.length).toBeGreaterThan(95);
+    expect(history.past.length).toBeLessThan(105);
+  });
+});

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+import {readFileSync} from 'node:fs';
+import {join} from 'node:path';
+import {describe, expect, it} from 'vitest';
+import {decodeFrame, isPoseFrame, type PoseFrame, type Reading} from './frames';
+
+/** Frames that the server made, with what they mean: tests/data of the server writes them. */
+interface Conformance {
+  poses: {hex: string; sequence: number; time_s: number; step: number; past: boolean; x: number[]; y: number[]; yaw: number[]; speed: number[]; flags: number[]}[];
+  readings: {hex: string; slot: number; sensor: number; part: number; stamp_s: number; rows: number; fields: number; values: (number | null)[]}[];
+}
+
+const kData = JSON.parse(readFileSync(join(process.cwd(), '../schemas/gui/frames.json'), 'utf8')) as Conformance;
+
+function bytesOf(hex: string): ArrayBuffer {
+  return new Uint8Array((hex.match(/../g) ?? []).map((byte) => parseInt(byte, 16))).buffer;
+}
+
+describe('pose frames', () => {
+  it('read what the server wrote', () => {
+    expect(kData.poses.length).toBeGreaterThan(1);
+    for (const known of kData.poses) {
+      const frame = decodeFrame(bytesOf(known.hex)) as PoseFrame;
+      expect(isPoseFrame(frame)).toBe(true);
+      expect([frame.sequence, frame.time_s, frame.step, frame.past]).toEqual([known.sequence, known.time_s, known.step, known.past]);
+      expect([...frame.flags]).toEqual(known.flags);
+      known.x.forEach((x, i) => {
+        expect(frame.x[i]).toBeCloseTo(x, 3);
+        expect(frame.y[i]).toBeCloseTo(known.y[i], 3);
+        expect(Math.cos(frame.yaw[i] - known.yaw[i])).toBeGreaterThan(1 - 1e-8);
+        expect(frame.speed[i]).toBeCloseTo(known.speed[i], 3);
+      });
+    }
+  });
+
+  it('are refused if they are cut, at any byte', () => {
+    const whole = bytesOf(kData.poses[0].hex);
+    for (let size = 0; size < whole.byteLength; ++size) {
+      expect(() => decodeFrame(whole.slice(0, size))).toThrow(RangeError);
+    }
+  });
+});
+
+describe('readings', () => {
+  it('read what the server wrote', () => {
+    expect(kData.readings.length).toBeGreaterThan(1);
+    for (const known of kData.readings) {
+      const reading = decodeFrame(bytesOf(known.hex)) as Reading;
+      expect([reading.slot, reading.sensor, reading.part, reading.stamp_s, reading.rows, reading.fields]).toEqual(
+        [known.slot, known.sensor, known.part, known.stamp_s, known.rows, known.fields]);
+      known.values.forEach((value, i) => {
+        if (value === null) expect(reading.values[i]).toBe(Infinity);
+        else expect(reading.values[i]).toBeCloseTo(value, 5);
+      });
+    }
+  });
+});

@@ -67,25 +67,37 @@ export class Dock {
   reset(): void {
     this.restoring = true;
     this.view.clear();
-    const add = (id: string, position?: object, size?: object) =>
-      this.view.addPanel({id, component: id, title: this.kinds.find((kind) => kind.id === id)?.title ?? id, ...(position ? {position} : {}), ...size} as never);
+    const add = (id: string, position?: object) =>
+      this.view.addPanel({id, component: id, title: this.kinds.find((kind) => kind.id === id)?.title ?? id, ...(position ? {position} : {})} as never);
     const width = document.documentElement.clientWidth;
     add('world');
     if (width >= 1280) {
-      add('robots', {referencePanel: 'world', direction: 'left'}, {initialWidth: 292});
-      add('sensors', {referencePanel: 'world', direction: 'right'}, {initialWidth: 392});
-      add('log', {referencePanel: 'sensors', direction: 'below'}, {initialHeight: 340});
+      add('robots', {referencePanel: 'world', direction: 'left'});
+      add('sensors', {referencePanel: 'world', direction: 'right'});
+      add('log', {referencePanel: 'sensors', direction: 'below'});
     } else if (width >= 900) {
-      add('robots', {referencePanel: 'world', direction: 'right'}, {initialWidth: 320});
+      add('robots', {referencePanel: 'world', direction: 'right'});
       add('sensors', {referencePanel: 'robots', direction: 'below'});
       add('log', {referencePanel: 'sensors', direction: 'within'});
     } else {
-      add('robots', {referencePanel: 'world', direction: 'below'}, {initialHeight: 260});
+      add('robots', {referencePanel: 'world', direction: 'below'});
       add('sensors', {referencePanel: 'robots', direction: 'within'});
       add('log', {referencePanel: 'robots', direction: 'within'});
     }
     this.show('world');
+    this.resize(width);
     this.restoring = false;
+  }
+
+  /** Columns of a new layout keep their width only once the dock has its own. */
+  private resize(width: number): void {
+    if (width < 1280) return;
+    requestAnimationFrame(() => {
+      const panel = (id: string) => this.view.panels.find((open) => open.id === id);
+      panel('robots')?.group.api.setSize({width: 292});
+      panel('sensors')?.group.api.setSize({width: 392});
+      panel('log')?.group.api.setSize({height: 340});
+    });
   }
 
   private restore(): void {

@@ -164,9 +164,11 @@ export class TopView {
         ctx.fill(group.path);
         if (kind === 'wall') return;
         // A tube stays visible from far away.
+        const grow_px = 5 - 0.1 * camera.scale;
+        if (grow_px <= 0) return;
         ctx.strokeStyle = token(kind);
-        ctx.lineWidth = Math.max(0, 5 - 0.1 * camera.scale) / camera.scale;
-        if (ctx.lineWidth > 0) ctx.stroke(group.path);
+        ctx.lineWidth = grow_px / camera.scale;
+        ctx.stroke(group.path);
       });
     }
     const group = this.groups.get('virtual');
@@ -439,7 +441,7 @@ export class TopView {
         const r = radiusOf(body.shapes) * camera.scale;
         const virtual = kind === 'virtual';
         labels.push({
-          text: virtual ? body.name : String(body.barcode ?? body.name),
+          text: virtual ? body.name : shortName(body.name),
           x: camera.toScreenX(body.pose[0]),
           y: camera.toScreenY(body.pose[1]),
           gap: virtual ? r * 0.75 : Math.max(r, 4) + 3,
@@ -453,6 +455,11 @@ export class TopView {
     }
     placer.draw(ctx, labels, this.palette.token('floor'));
   }
+}
+
+/** `tube-14` is `14` where there are many of them. */
+function shortName(name: string): string {
+  return /-(\d+)$/.exec(name)?.[1] ?? name;
 }
 
 /** Lines at 45 degrees every 7 pixels. */

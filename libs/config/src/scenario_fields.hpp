@@ -219,6 +219,11 @@ void describe_hosts(V& v, ScenarioFile& c) {
            .min = 1e-3,
            .max = 10,
            .unit = "s"});
+  v.field("max_missed_pct", c.max_missed_pct,
+          {.doc = "A live run in which a larger share of the steps is done too late is not whole.",
+           .min = 0,
+           .max = 100,
+           .unit = "%"});
 }
 
 constexpr auto enum_names(EnumTag<Ros2Multicast> /*tag*/) {

@@ -2,6 +2,7 @@
 #include "live_board.hpp"
 
 #include <algorithm>
+#include <chrono>
 
 #include "manager_habits.hpp"
 #include "rave/bus/sequence.hpp"
@@ -14,6 +15,12 @@ std::vector<RosterBook::Robot> planned_robots(const LiveManagerOptions& options)
   std::vector<RosterBook::Robot> robots;
   for (const auto& robot : options.robots) robots.push_back({robot.name, robot.simulated});
   return robots;
+}
+
+std::int64_t steady_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
 }
 
 }  // namespace
@@ -147,6 +154,7 @@ void LiveBoard::lose(std::uint64_t writer, bool goes) {
     if (seat.writer != writer) continue;
     seat.writer = 0;
     seat.bound_ns = -1;
+    seat.steps = {};
     seat.obstacle_revision = 0;
     news_ = true;
     if (!goes) continue;
@@ -216,6 +224,7 @@ void LiveBoard::take_in(const bus::HostState& state) {
     return;
   }
   seat.last_step = state.step;
+  seat.steps.note(state.step, steady_ns());
   ++states_taken_;
   for (std::size_t i = 0; i < state.resolved.id._length; ++i) {
     const real_time::RobotSight sight = real_time::read_robot(state.resolved, i, {});
@@ -231,6 +240,16 @@ void LiveBoard::take_in(const bus::HostState& state) {
     known_[robot] = true;
     said_by_[robot] = state.writer;
   }
+}
+
+double LiveBoard::slowest_speed() const {
+  const std::int64_t now_ns = steady_ns();
+  std::optional<double> slowest;
+  for (const LiveSeat& seat : seats_) {
+    const auto rate = seat.writer != 0 ? seat.steps.at(now_ns) : std::nullopt;
+    if (rate) slowest = std::min(slowest.value_or(*rate), *rate);
+  }
+  return slowest.value_or(0) * options_.step.seconds();
 }
 
 std::vector<real_time::RobotReality> LiveBoard::take_realities() {

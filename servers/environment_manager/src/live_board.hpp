@@ -22,6 +22,7 @@
 #include "rave/real_time/messages.hpp"
 #include "rave/real_time/realities.hpp"
 #include "roster_book.hpp"
+#include "step_rate.hpp"
 
 namespace rave::environment_manager {
 
@@ -36,6 +37,7 @@ struct LiveSeat {
   std::vector<std::uint64_t> sat{};
   std::uint64_t losses = 0;
   std::uint64_t last_step = 0;
+  StepRate steps{};
   std::int64_t offset_ns = 0;  ///< Our clock minus its own, as it says.
   std::int64_t bound_ns = -1;
   std::uint64_t obstacle_revision = 0;  ///< That it has around its robots,
@@ -73,6 +75,8 @@ class LiveBoard {
   void answer(bus::ClockPong& pong) { static_cast<void>(pongs_.write(pong)); }
   /// Takes in where hosts say that their robots are.
   void take_states();
+  /// Simulated seconds per second of the slowest host that is there; 0: none is, or nobody knows.
+  [[nodiscard]] double slowest_speed() const;
   /// Takes in what hosts say of their robots, and tells it those who ask for the status; `control`
   /// has begun, or is null.
   void take_roster(robot_host::RunControl* control);

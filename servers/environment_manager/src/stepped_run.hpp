@@ -13,6 +13,7 @@
 
 #include "manager_habits.hpp"
 #include "rave/environment_manager/manager.hpp"
+#include "rave/robot_host/lateness.hpp"
 #include "rave/sim/world_authority.hpp"
 #include "roster_book.hpp"
 #include "seats.hpp"
@@ -49,6 +50,7 @@ class SteppedRun {
   void look_at_clock(std::chrono::steady_clock::time_point since);
   Status take_over();
   Status make_step();
+  [[nodiscard]] std::chrono::steady_clock::time_point due_of(std::uint64_t step) const;
   void wait_for_turn();
   void hold();
   Status resend();
@@ -92,6 +94,8 @@ class SteppedRun {
   std::chrono::steady_clock::time_point began_;
   std::chrono::steady_clock::time_point ended_;
   std::uint64_t first_step_ = 0;
+  robot_host::Lateness lateness_;
+  sim::PhaseTimes resolved_{};  ///< Of the authority; of its phases it has one.
   std::chrono::steady_clock::time_point next_tell_;
   std::chrono::steady_clock::time_point next_progress_;
   std::chrono::steady_clock::time_point next_roster_;

@@ -232,6 +232,10 @@ void HostLink::send(const sim::SentPackets& sent) {
   }
 }
 
+void HostLink::note_lateness(lock_step::Pulse::Lateness lateness) {
+  impl_->facts.lateness = std::move(lateness);
+}
+
 void HostLink::obstacles_shown() {
   Impl& link = *impl_;
   const std::uint64_t shown = link.live.shown_revision();

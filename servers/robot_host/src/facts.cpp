@@ -229,6 +229,7 @@ void merge(RunFacts from, RunFacts& into) {
   append_by_robot(into.transmitters, std::move(from.transmitters));
   into.radio += from.radio;
   into.inputs_by_hand += from.inputs_by_hand;
+  into.lateness += from.lateness;
   for (const auto& [who, counts] : from.hits) {
     for (const auto& [what, count] : counts) into.hits[who][what] += count;
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "rave/report/picture.hpp"
+#include "rave/robot_host/lateness.hpp"
 #include "rave/sim/event.hpp"
 #include "rave/sim/radio.hpp"
 
@@ -161,6 +162,7 @@ struct RunFacts {
   std::vector<InstrumentFacts> transmitters;
   sim::RadioCounts radio;
   std::uint64_t inputs_by_hand = 0;
+  LatenessFacts lateness;  ///< Of a run with a pace; of several processes the sum.
   std::map<std::string, std::map<std::string, std::uint64_t>> hits;
   std::map<std::string, Encounter> closest;
   std::optional<SightingFacts> sightings;

@@ -6,6 +6,7 @@
 
 #include "capture_watch.hpp"
 #include "event_words.hpp"
+#include "lateness_report.hpp"
 #include "outcome.hpp"
 #include "radio_report.hpp"
 #include "shadow_report.hpp"
@@ -222,6 +223,7 @@ std::string result_json(const Findings& findings, const RunOutcome& outcome) {
   if (findings.facts.world_from > 0) json["world_from_step"] = findings.facts.world_from;
   json["simulated_s"] = findings.done_s();
   json["wall_s"] = rounded(findings.wall_s, 1e-3);
+  json["lateness"] = lateness_json(findings.facts.lateness);
   json["threads"] = findings.spec.threads;
   json["hash"] = outcome.hash.empty() ? Json(nullptr) : Json(outcome.hash);
   if (!findings.live_reason.empty()) json["no_hash_because"] = findings.live_reason;

@@ -100,6 +100,9 @@ std::string summary_text(const Findings& findings, const RunOutcome& outcome) {
   table.rows.push_back(
       {"time", fmt::format("{:.2f} s simulated in {:.2f} s ({:.1f}x)", simulated_s, findings.wall_s,
                            simulated_s / std::max(findings.wall_s, 1e-9))});
+  if (const LatenessFacts& late = findings.facts.lateness; late.deadlines > 0) {
+    table.rows.push_back({"deadlines", lateness_text(late)});
+  }
   add_sighting_row(findings, table);
   const auto goals = goal_results(findings.scenario, findings.spec, findings.facts, findings.lost);
   for (const CheckResult& check : goals) {

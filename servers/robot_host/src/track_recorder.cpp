@@ -53,7 +53,7 @@ TrackRecorder::TrackRecorder(const BodyKinds& kinds, const sim::EngineSpec& spec
 }
 
 void TrackRecorder::after_step(sim::Engine& engine) {
-  const bool keep = wanted_ && (engine.steps_done() - 1) % every_ == 0;
+  const bool keep = wanted_ && (engine.steps_done() - 1) % (every_ * rarer_) == 0;
   for (std::uint32_t r = 0; r < poses_.size(); ++r) {
     if (told_[r] != 0) reported_[r] = engine.reported(RobotId(r));
     if (here_[r] == 0 || !engine.snapshot().robot(RobotId(r)).present) continue;

@@ -201,6 +201,7 @@ struct ScenarioFile {
   double host_timeout_s = 10;  ///< A host that has not answered for so long counts as late.
   RunClockMode clock = RunClockMode::kLockStep;
   double world_period_s = 0.1;  ///< At which hosts are told where all robots are, in real time.
+  double max_missed_pct = 1;    ///< A live run that misses more of its deadlines is not whole.
   std::vector<RobotEntry> robots;
   std::vector<ChangeFile> changes;
   ChecksFile checks;

@@ -44,7 +44,7 @@ struct VirtualActuatorOps {
 };
 
 /// Hands commands to hardware. One object per robot. write() must return at once: a driver with a
-/// slow line posts to its own thread. In a live run one thread, that of the robot's guard, calls it.
+/// slow line posts to its own thread. In a live run the thread of the robot's guard calls it.
 class HardwareActuator {
  public:
   virtual ~HardwareActuator() = default;

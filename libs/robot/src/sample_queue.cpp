@@ -155,6 +155,18 @@ bool SampleQueue::next(SimTime up_to, SampleHeader* header, void* records) {
   return true;
 }
 
+bool SampleQueue::newest(SampleHeader* header, void* record) const {
+  const Lock lock(mutex_);
+  if (newest_ns_ == INT64_MIN) return false;
+  // A sample stays where it is after next() has given it out, until the next but depth_ comes.
+  const std::size_t slot = (first_ + count_ + depth_ - 1) % depth_;
+  *header = headers_[slot];
+  if (header->count > 0) {
+    std::memcpy(record, records_.data() + slot * max_records_ * record_size_, record_size_);
+  }
+  return true;
+}
+
 void SampleQueue::close() {
   const Lock lock(mutex_);
   closed_ = true;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <string_view>
 #include <thread>
@@ -300,6 +301,39 @@ TEST(SampleQueue, LivePublishingLosesTheOldest) {
   ASSERT_TRUE(queue.next(kEnd, &header, records));
   EXPECT_EQ(header.dropped, 0U);
   EXPECT_EQ(queue.complaint(), "");  // a full queue is no breach of the contract
+}
+
+TEST(SampleQueue, TheNewestSampleCanBeLookedAtBeforeItIsGivenOutAndAfter) {
+  for (const std::size_t depth : {1U, 2U, 3U}) {
+    const TestClock clock;
+    SampleQueue queue(ReadingKind::kValues, 2, depth, &clock);
+    SampleHeader header;
+    double value = 0;
+    EXPECT_FALSE(queue.newest(&header, &value));
+    std::array<double, 2> taken{};
+    for (int k = 1; k <= 10; ++k) {
+      const std::array<double, 2> values{1.0 * k, -1.0};
+      ASSERT_TRUE(queue.publish(SimTime{k}, values.data(), 2));
+      ASSERT_TRUE(queue.newest(&header, &value));
+      EXPECT_EQ(header.stamp_ns, k);
+      EXPECT_EQ(header.count, 2U);
+      EXPECT_EQ(value, k) << "the first record of the sample";
+      // The engine may be behind, and may have taken all.
+      while (k % 2 == 0 && queue.next(SimTime{k}, &header, taken.data())) {
+      }
+      ASSERT_TRUE(queue.newest(&header, &value));
+      EXPECT_EQ(header.stamp_ns, k);
+      EXPECT_EQ(value, k);
+    }
+    // What was refused was not taken in.
+    const double late = 0;
+    ASSERT_TRUE(queue.publish(SimTime{3}, &late, 1));
+    ASSERT_TRUE(queue.newest(&header, &value));
+    EXPECT_EQ(header.stamp_ns, 10);
+    queue.close();
+    queue.reopen();
+    EXPECT_FALSE(queue.newest(&header, &value));
+  }
 }
 
 TEST(SampleQueue, ALiveRunNeverWaits) {

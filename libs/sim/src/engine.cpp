@@ -225,7 +225,8 @@ Status Engine::Impl::begin() {
   set_initial_state();
   if (spec.on_ready) spec.on_ready();
   for (RobotGroup& group : groups) RAVE_TRY(open_sensors({spec, logs, radio.get()}, group));
-  return radio->open();
+  RAVE_TRY(radio->open());
+  return start_guards();
 }
 
 void Engine::Impl::set_initial_state() {
@@ -281,6 +282,7 @@ void Engine::Impl::begin_step() {
 }
 
 void Engine::Impl::work(PhaseTimer& phase) {
+  if (spec.live_clock != nullptr) work_began = spec.live_clock->now();
   sense();
   phase.ends(Phase::kSense);
   deliver_messages();

@@ -22,11 +22,16 @@ std::string_view text_for(const ErrorText& error, std::size_t slot) noexcept {
 void Engine::Impl::act() {
   pool.for_each_block(blocks.size(), act_effort,
                       [this](std::size_t b, unsigned w) { act_block(blocks[b], workers[w]); });
-  // Hardware is written to from one thread, in the order of the robots.
+  // Hardware is written to from one thread, in the order of the robots, or by their guards.
   for (RobotGroup& group : groups) {
+    for (std::uint32_t m = 0; m < group.guards.size(); ++m) {
+      if (group.has_guard(m)) serve_guard(group, m);
+    }
     for (ActuatorSlots& slots : group.actuators) {
       if (slots.spec->hardware_ops == nullptr) continue;
-      for (std::size_t m = 0; m < group.members.size(); ++m) write_hardware(group, slots, m);
+      for (std::size_t m = 0; m < group.members.size(); ++m) {
+        if (!group.has_guard(m)) write_hardware(group, slots, m);
+      }
     }
   }
 }
@@ -36,12 +41,17 @@ void Engine::Impl::write_hardware(RobotGroup& group, ActuatorSlots& slots, std::
   ErrorText error;
   const bool failed = slots.spec->hardware_ops->write(slots.instances.at(member),
                                                       &slots.commands[member], now.ns, &error) != 0;
-  // A device that is gone may come back, so it is told on, and both are noted once.
+  note_written(group, slots, member, failed, error.text);
+}
+
+/// A device that is gone may come back, so it is told on, and both are noted once.
+void Engine::Impl::note_written(const RobotGroup& group, ActuatorSlots& slots, std::size_t member,
+                                bool failed, std::string_view text) {
   if (failed == (slots.failed[member] != 0)) return;
   slots.failed[member] = failed ? 1 : 0;
   note({step, group.members[member], failed ? EventKind::kDriverFailed : EventKind::kDriverBack,
         BodyId(),
-        fmt::format("actuator `{}`: {}", slots.spec->name, failed ? error.text : "works again")});
+        fmt::format("actuator `{}`: {}", slots.spec->name, failed ? text : "works again")});
 }
 
 void Engine::Impl::act_block(const Block& block, Worker& worker) {
@@ -93,22 +103,20 @@ void Engine::Impl::control(RobotGroup& group, const Block& block, Worker& worker
 
 void Engine::Impl::actuate(RobotGroup& group, const Block& block, Worker& worker) {
   const double dt_s = spec.step.seconds();
+  const bool has_guards = !group.guards.empty();
   for (std::uint32_t a = 0; a < group.actuators.size(); ++a) {
     ActuatorSlots& slots = group.actuators[a];
     for (std::uint32_t m = block.begin; m < block.end; ++m) {
-      // The controller that was given a command last speaks; before that, the first one.
-      const ControllerSlots* active = nullptr;
-      const Command* given = nullptr;
-      for (std::size_t c = 0; c < group.controllers.size(); ++c) {
-        const ControllerSlots& controller = group.controllers[c];
-        if (controller.spec->actuator != a) continue;
-        if (active == nullptr || controller.last_step[m] > active->last_step[m]) {
-          active = &controller;
-          given = &worker.control_outputs[c][m - block.begin];
-        }
-      }
+      const ControllerSlots* const active = group.speaker(a, m);
+      const Command* const given =
+          active != nullptr
+              ? &worker.control_outputs[active - group.controllers.data()][m - block.begin]
+              : nullptr;
       const std::uint32_t r = group.members[m].value();
-      if (active != nullptr && is_unguarded(slots, m, r)) {
+      if (has_guards && group.has_guard(m)) {
+        // Goes to the guard as it is, which limits it when it writes.
+        slots.commands[m] = given != nullptr ? *given : Command{};
+      } else if (active != nullptr && is_unguarded(slots, m, r)) {
         slots.commands[m] = *given;
       } else {
         slots.commands[m] =

@@ -9,6 +9,7 @@
 
 #include "closing.hpp"
 #include "fusion.hpp"
+#include "guard_thread.hpp"
 #include "instances.hpp"
 #include "near_lists.hpp"
 #include "opening_note.hpp"
@@ -109,6 +110,13 @@ struct DeviceSlots {
   std::vector<std::uint8_t> open;      ///< Has to be closed.
 };
 
+/// A real robot of a live run: its guard writes to its actuators.
+struct GuardedMember {
+  std::unique_ptr<GuardThread> thread;        ///< Null: the engine writes to them.
+  std::vector<std::optional<SimTime>> given;  ///< By controller: when its last command was given.
+  GuardNews news;                             ///< The last.
+};
+
 /// All robots of one type and what serves them.
 struct RobotGroup {
   const RobotType* type = nullptr;
@@ -117,12 +125,30 @@ struct RobotGroup {
   std::vector<SensorSlots> sensors;
   std::vector<ControllerSlots> controllers;
   std::vector<ActuatorSlots> actuators;
+  std::vector<GuardedMember> guards;  ///< Empty: none has a guard of its own.
   ProgramSlots program;
   std::vector<SensorInfo> sensor_infos;
   std::vector<ControllerInfo> controller_infos;
   std::vector<const char*> robot_names;  ///< Of all robots, for programs.
   /// Frame of the pose source since a hand-over, in the place of that of the type.
   std::optional<Pose2> X_WM;
+
+  [[nodiscard]] bool has_guard(std::size_t member) const noexcept {
+    return !guards.empty() && guards[member].thread != nullptr;
+  }
+  /// The controller that speaks to an actuator: the one that was given a command last; before
+  /// that, the first. Null: there is none.
+  [[nodiscard]] const ControllerSlots* speaker(std::uint32_t actuator,
+                                               std::size_t member) const noexcept {
+    const ControllerSlots* active = nullptr;
+    for (const ControllerSlots& controller : controllers) {
+      if (controller.spec->actuator != actuator) continue;
+      if (active == nullptr || controller.last_step[member] > active->last_step[member]) {
+        active = &controller;
+      }
+    }
+    return active;
+  }
 };
 
 /// Where messages of one robot's drivers and program go.

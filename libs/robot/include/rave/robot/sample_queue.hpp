@@ -67,6 +67,10 @@ class SampleQueue final : public SampleSink {
   /// records lost since the last call that gave one; `fresh` is 0.
   [[nodiscard]] bool next(SimTime up_to, SampleHeader* header, void* records);
 
+  /// The newest sample that was taken in, whether next() has given it out or not; false: there is
+  /// none. `record` has room for one record and gets the first one of the sample. Any thread.
+  [[nodiscard]] bool newest(SampleHeader* header, void* record) const;
+
   /// Unblocks the producer; its calls return false from now on. Samples can still be taken out.
   /// Any thread.
   void close();

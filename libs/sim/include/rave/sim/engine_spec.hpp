@@ -185,6 +185,9 @@ struct EngineSpec {
   Duration history = {};
   /// Wall clock of a live run; null for a stepped one. Not owned.
   const RunClock* live_clock = nullptr;
+  /// How often the guard of a real robot that obeys writes to its actuators in a live run, wall
+  /// time: above 0, and well below the watchdogs of drivers and devices.
+  Duration guard_period = from_seconds(0.02);
   /// Called each time that all is open but the sensors: a live run's clock starts here, so that
   /// what it took to find the devices is no part of the run. May be empty.
   std::function<void()> on_ready;

@@ -52,7 +52,7 @@ std::string drivers_of(const std::string& peer, const testing::ScenarioRun& run,
   if (peer == "Ros2") {
     return fmt::format(
         "      pose_from: position\n      devices:\n        - {{name: base, driver: ros2, params: "
-        "{{domain: {}, namespace: /cart, interface: 127.0.0.1}}}}\n"
+        "{{domain: {}, namespace: /cart, interface: 127.0.0.1, multicast: none}}}}\n"
         "      sensors:\n        - {{name: position, driver: ros2_tf_pose, device: base}}\n"
         "        - name: laser\n          driver: hybrid_ranges\n"
         "          params: {{rule: occlusion}}\n          mount: {{x_m: 0.05, z_m: 0.12}}\n"
@@ -129,11 +129,12 @@ class OverloadRun : public testing::ScenarioRun {
         kRadius_m, drivers,
         case_.wall ? "" : fmt::format(", fence_m: [[0, 0], [{0}, 0], [{0}, 3], [0, 3]]", kFence_m),
         kSpeed_mps, case_.wall ? 0.45 : 0, onset_m(), burn);
-    // Of it nothing is asked until the other one is overloaded too: it sees how that goes.
+    // Looks at the other one, so that a run of two processes has a manager and a world.
     text +=
         "  - name: ghost\n    pose: {x_m: 1, y_m: -2}\n    robot:\n"
         "      body: {shapes: [{disc_radius_m: 0.15, z_m: [0, 0.3]}]}\n"
-        "      sensors: [{name: laser, driver: virtual_laser, params: {fov_deg: 180, rays: "
+        "      sensors: [{name: laser, driver: virtual_laser, mount: {z_m: 0.1}, params: {fov_deg: "
+        "180, rays: "
         "91, range_max_m: 6}}]\n";
     if (case_.wall) {
       text += fmt::format("obstacles: [{{name: wall, box_m: [0.1, 3], x_m: {}, y_m: 1.5}}]\n",

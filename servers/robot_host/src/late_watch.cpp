@@ -20,6 +20,11 @@ double seconds(Lateness::Clock::duration duration) {
 LateWatch::LateWatch(Clock::duration period, LogSink& log, RunControl* control)
     : period_(period), log_(log), control_(control), lateness_(period) {}
 
+Duration LateWatch::age() const noexcept {
+  return {
+      std::chrono::duration_cast<std::chrono::nanoseconds>(lateness_.age(Clock::now())).count()};
+}
+
 void LateWatch::look(const sim::EngineSpec& spec, std::span<const sim::Event> events,
                      Duration world_age) {
   for (const sim::Event& event : events) {

@@ -27,6 +27,8 @@ class LateWatch {
 
   /// To be told what the loop does.
   [[nodiscard]] Lateness& count() noexcept { return lateness_; }
+  /// How old the moment is that the step under way is for.
+  [[nodiscard]] Duration age() const noexcept;
   /// What happened in a step: counts real robots that stand since the world that they drive in is
   /// too old. `world_age`: how much of that others are to blame for.
   void look(const sim::EngineSpec& spec, std::span<const sim::Event> events, Duration world_age);

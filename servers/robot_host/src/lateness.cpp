@@ -109,9 +109,13 @@ void Lateness::end(Clock::time_point last, Clock::time_point now) {
   if (count > 0) miss(count, until - (due_ + period_));
 }
 
+Lateness::Clock::duration Lateness::age(Clock::time_point now) const noexcept {
+  const bool counts = period_ > Clock::duration::zero() && due_ != Clock::time_point{};
+  return counts ? std::max(Clock::duration::zero(), now - due_) : Clock::duration::zero();
+}
+
 Lateness::Clock::duration Lateness::behind(Clock::time_point now) const noexcept {
-  if (period_ <= Clock::duration::zero() || due_ == Clock::time_point{}) return {};
-  return std::max(Clock::duration::zero(), now - (due_ + period_));
+  return std::max(Clock::duration::zero(), age(now) - period_);
 }
 
 std::string_view Lateness::busiest() const noexcept {

@@ -153,7 +153,8 @@ Status make_step(LiveJourney& journey) {
   sim::Engine& engine = journey.engine;
   Lateness& count = journey.late.count();
   journey.watch.step_begins(journey.report.step);
-  engine.set_world_age(journey.link.world_age());
+  // The world of a step that comes late is one of before: no guard may take it for the present.
+  engine.set_world_age(std::max(journey.link.world_age(), journey.late.age()));
   RAVE_TRY(journey.twins.follow(engine, journey.live, journey.link));
   RAVE_TRY(journey.live.step(journey.report, journey.world));
   count.did(Lateness::Part::kExchange, Clock::now());
@@ -194,9 +195,9 @@ Status go_through(LiveJourney& journey) {
   while (journey.report.step < journey.steps && wait_for_turn(journey)) {
     RAVE_TRY(make_step(journey));
   }
-  // The last step takes its time, too.
   const auto last = static_cast<std::int64_t>(journey.steps - 1) * step_ns;
   journey.late.end(journey.pace.wall_time_of(SimTime{last}));
+  // The last step takes its time, too.
   if (!journey.stopped && !journey.ended) static_cast<void>(wait_for_turn(journey));
   return {};
 }

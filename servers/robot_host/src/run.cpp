@@ -177,6 +177,8 @@ Status go_through(Journey& journey) {
       break;
     }
     watch.step_begins(journey.engine.steps_done());
+    // The world of a step that comes late is one of before: no guard may take it for the present.
+    if (journey.live) journey.engine.set_world_age(journey.late.age());
     RAVE_TRY(journey.engine.step());
     watch.step_ends();
     goes_on = look_back(journey);

@@ -52,15 +52,27 @@ TEST_F(LatenessTest, AStepHasUntilTheNextOneIsDue) {
   EXPECT_EQ(lateness_.facts().worst_ns, 1'000'000);
 }
 
+TEST_F(LatenessTest, AMomentIsAsOldAsItsStepIsOverdue) {
+  wake(0);
+  EXPECT_EQ(lateness_.age(now_), Clock::duration());
+  EXPECT_EQ(lateness_.age(due(1)), kPeriod);
+  EXPECT_EQ(lateness_.behind(due(1)), Clock::duration());
+  pass(milliseconds(700));
+  lateness_.done(now_);
+  wake(1);
+  EXPECT_EQ(lateness_.age(now_), milliseconds(690)) << "it has not caught up";
+  EXPECT_EQ(lateness_.behind(now_), milliseconds(680));
+}
+
 TEST_F(LatenessTest, ThoseWhoWaitedForALateStepAreLateToo) {
   make_step(0, milliseconds(35));
   for (int step = 1; step < 10; ++step) make_step(step, milliseconds(2));
-  // Due at 10, 20, 30 and 40 ms; done at 35, 37, 39 and, in time, 41 of 50.
+  // Until 10, 20, 30, 40 and 50 ms; done at 35, 37, 39, 41 and, in time, 43.
   EXPECT_EQ(lateness_.facts().deadlines, 10U);
-  EXPECT_EQ(lateness_.facts().missed, 3U);
+  EXPECT_EQ(lateness_.facts().missed, 4U);
   EXPECT_EQ(lateness_.facts().worst_ns, 25'000'000);
-  EXPECT_EQ(lateness_.facts().blame, (Blame{{"decide", 3}})) << "quick steps have no blame";
-  EXPECT_DOUBLE_EQ(lateness_.facts().missed_pct(), 30);
+  EXPECT_EQ(lateness_.facts().blame, (Blame{{"decide", 4}})) << "quick steps have no blame";
+  EXPECT_DOUBLE_EQ(lateness_.facts().missed_pct(), 40);
 }
 
 TEST_F(LatenessTest, BlamesWhatTookTheTimeSinceAStepWasInTime) {

@@ -72,6 +72,8 @@ class Lateness {
   /// the last step of the run is due.
   void end(Clock::time_point last, Clock::time_point now);
 
+  /// How old the moment is that the step under way is for.
+  [[nodiscard]] Clock::duration age(Clock::time_point now) const noexcept;
   /// How far a step that ends at `now` would be behind its deadline; 0: it is in time.
   [[nodiscard]] Clock::duration behind(Clock::time_point now) const noexcept;
   [[nodiscard]] const LatenessFacts& facts() const noexcept { return facts_; }

@@ -21,7 +21,9 @@ TEST(StepRate, IsThatOfTheHostAndNotOfTheClock) {
 
 TEST(StepRate, FallsWhenAHostIsSilent) {
   StepRate rate;
-  for (std::int64_t i = 0; i <= 10; ++i) rate.note(10 * i, i * kTenth_ns);
+  for (std::int64_t i = 0; i <= 10; ++i) {
+    rate.note(static_cast<std::uint64_t>(10 * i), i * kTenth_ns);
+  }
   EXPECT_DOUBLE_EQ(rate.at(11 * kTenth_ns).value(), 100);
   EXPECT_LT(rate.at(200 * kTenth_ns).value(), 20);
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "event_log.hpp"
@@ -202,6 +203,11 @@ Status go_through(LiveJourney& journey) {
   return {};
 }
 
+void add(std::vector<std::string> problems, std::vector<std::string>& to) {
+  to.insert(to.end(), std::make_move_iterator(problems.begin()),
+            std::make_move_iterator(problems.end()));
+}
+
 HostOutcome judge(const LiveJourney& journey, const std::string& live_reason) {
   HostOutcome outcome;
   outcome.live_reason = live_reason;
@@ -311,10 +317,8 @@ Result<HostOutcome> go(const LiveHost& host, sim::Engine& engine, HostLink& link
     journey.ended = link.ending().has_value();
   }
   engine.halt();
-  for (std::string& problem : lateness_problems(journey.late.facts(), file.max_missed_pct)) {
-    journey.problems.push_back(std::move(problem));
-  }
   host.console.attach(nullptr);
+  add(lateness_problems(journey.late.facts(), file.max_missed_pct), journey.problems);
   HostOutcome outcome = judge(journey, built.live_reason);
   RunFacts facts = gather(observers, engine);
   facts.first_step = journey.first;

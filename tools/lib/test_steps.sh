@@ -43,7 +43,7 @@ step_release() {
 step_kills() {
   step_build release rave_tests_kills || return 0
   STEP_NAME=kills RAVE_KILL_ROUNDS="${RAVE_KILL_ROUNDS:-50}" \
-    RAVE_OVERLOAD_ROUNDS="${RAVE_OVERLOAD_ROUNDS:-5}" step_ctest release -L '^kills$'
+    RAVE_OVERLOAD_ROUNDS="${RAVE_OVERLOAD_ROUNDS:-3}" step_ctest release -L '^kills$'
 }
 
 # The hash of a run does not depend on optimisation, and checks of the debug library run here. Only

@@ -44,7 +44,7 @@ void LateWatch::step_done() {
   tell_change(last_);
   if (control_ == nullptr || now < next_status_) return;
   next_status_ = now + kStatusInterval;
-  control_->refresh([this](RunStatus& status) { status.lateness = this->status(); });
+  control_->refresh([this](RunStatus& shown) { shown.lateness = status(); });
 }
 
 void LateWatch::tell_change(Clock::duration late) {

@@ -199,8 +199,8 @@ void LiveRun::tell_state(rave_wire_RunPhase phase, const std::string& text) {
 }
 
 void LiveRun::tell_progress() {
-  if (options_.on_progress)
-    options_.on_progress(begun_ ? now() : SimTime{}, board_->slowest_speed(), missing());
+  if (!options_.on_progress) return;
+  options_.on_progress(begun_ ? now() : SimTime{}, board_->slowest_speed(), missing());
 }
 
 /// Hosts hear of the end before this process goes, and what they know reaches it.

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "engine_impl.hpp"
+#include "sensor_age.hpp"
 
 namespace rave::sim {
 namespace {
@@ -22,6 +23,8 @@ std::string text_of(GuardLimit limit) {
       return "not armed: it stands until somebody arms it";
     case GuardLimit::kPoseLost:
       return "pose lost: nobody says where it is";
+    case GuardLimit::kSensorLost:
+      return "sensor lost";
     case GuardLimit::kWorldLost:
       return "world lost: the virtual world does not come any more";
     case GuardLimit::kWatchdog:
@@ -110,6 +113,8 @@ Command Engine::Impl::guarded(const RobotGroup& group, const ActuatorSlots& slot
   input.X_WR = {pose.pose.x_m, pose.pose.y_m, pose.pose.yaw_rad};
   input.pose_age_s = std::max(0.0, (now - pose.stamp).seconds());
   input.velocity = pose.velocity;
+  find_watched_sensors(group, member, now, worker.sensors);
+  input.sensors = worker.sensors;
   input.world_age_s = world_age.seconds();
   input.dt_s = spec.step.seconds();
   input.touching = truth.limited[r] != 0;
@@ -120,16 +125,16 @@ Command Engine::Impl::guarded(const RobotGroup& group, const ActuatorSlots& slot
     input.neighbours = worker.neighbours;
   }
   const GuardOutput output = guard(*limits, input);
-  if (output.acted != 0) tell_guard(robot, *limits, output.acted, worker);
+  if (output.acted != 0) tell_guard(robot, *limits, output, worker);
   return output.command;
 }
 
-void Engine::Impl::tell_guard(RobotId robot, const GuardSpec& limits, std::uint32_t acted,
+void Engine::Impl::tell_guard(RobotId robot, const GuardSpec& limits, const GuardOutput& output,
                               Worker& worker) {
   const auto quiet_steps = static_cast<std::int64_t>(kQuiet_s / spec.step.seconds());
   const auto present = static_cast<std::int64_t>(step);
   for (std::uint32_t i = 0; i < kGuardLimits; ++i) {
-    if ((acted >> i & 1U) == 0) continue;
+    if ((output.acted >> i & 1U) == 0) continue;
     std::int64_t& last = guard_states[robot.value()].last_step[i];
     const bool begins = present - last > quiet_steps;
     last = present;
@@ -139,7 +144,10 @@ void Engine::Impl::tell_guard(RobotId robot, const GuardSpec& limits, std::uint3
                                          limits.world_lost == WorldLostPolicy::kSlow);
     worker.events.push_back({step, robot,
                              slows ? EventKind::kGuardSlowed : EventKind::kGuardStopped, BodyId(),
-                             text_of(limit), i});
+                             limit == GuardLimit::kSensorLost
+                                 ? sensor_lost_text(group_of(robot).sensors[output.lost_sensor])
+                                 : text_of(limit),
+                             i});
   }
 }
 

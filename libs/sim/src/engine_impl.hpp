@@ -50,6 +50,7 @@ struct Worker {
   std::vector<Event> events;
   std::vector<RobotId> near;
   std::vector<GuardNeighbour> neighbours;
+  std::vector<GuardSensor> sensors;
   std::vector<NoiseItem> noise;  ///< Samples of a block that wait for their noise, and whose.
   std::vector<std::uint32_t> noisy_members;
 };
@@ -182,7 +183,8 @@ struct Engine::Impl {
                                 std::uint32_t member, const ControllerSlots* controller,
                                 const Command& command, Worker& worker);
   void find_neighbours(RobotId robot, double reach_m, Worker& worker) const;
-  void tell_guard(RobotId robot, const GuardSpec& limits, std::uint32_t acted, Worker& worker);
+  void tell_guard(RobotId robot, const GuardSpec& limits, const GuardOutput& output,
+                  Worker& worker);
 
   // engine_exchange.cpp: robots with two sets of drivers
   struct Arrival {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "engine_impl.hpp"
+#include "sensor_age.hpp"
 
 namespace rave::sim {
 namespace {
@@ -83,6 +84,12 @@ Result<std::unique_ptr<GuardThread>> Engine::Impl::start_guard(RobotGroup& group
     if (source.live) setup.pose.queue = source.queues[member].get();
     setup.pose.kind = source.spec->kind;
     setup.pose.X_WM = pose_frame(group, robot);
+  }
+  for (std::uint32_t s = 0; s < group.sensors.size(); ++s) {
+    const SensorSlots& slots = group.sensors[s];
+    if (!slots.max_age_s || !slots.live) continue;
+    setup.sensors.push_back(
+        {s, slots.queues[member].get(), *slots.max_age_s, is_judged_by_link(*slots.spec)});
   }
   for (const ActuatorSlots& slots : group.actuators) {
     setup.actuators.push_back({slots.spec->hardware_ops, slots.instances.at(member)});
@@ -186,7 +193,8 @@ void Engine::Impl::hear_guard(RobotGroup& group, std::uint32_t member) {
   GuardedMember& guarded = group.guards[member];
   const RobotId robot = group.members[member];
   guarded.thread->look(guarded.news);
-  tell_guard(robot, *guards[spec.robots[robot.value()].type], guarded.news.begun, events);
+  tell_guard(robot, *guards[spec.robots[robot.value()].type], guarded.news.begun,
+             guarded.news.lost_sensor, events);
   const bool stuck = guarded.news.stuck > kStuck;
   for (std::size_t a = 0; a < group.actuators.size(); ++a) {
     ActuatorSlots& slots = group.actuators[a];

@@ -149,7 +149,7 @@ void Engine::Impl::give_order(RobotGroup& group, std::uint32_t member) {
     wish.command = group.actuators[a].commands[member];
     wish.expected = speaker != nullptr ? speaker->spec->ops->gives : CommandKind::kVelocity;
     wish.watched = speaker != nullptr && group.program.spec != nullptr;
-    wish.given = wish.watched ? guarded.given[speaker - group.controllers.data()] : std::nullopt;
+    wish.given = wish.watched ? guarded.given[group.index_of(*speaker)] : std::nullopt;
   }
   order.holds = robot_guards[robot.value()].holds();
   order.world_time = work_began - world_age;
@@ -201,7 +201,8 @@ void Engine::Impl::hear_guard(RobotGroup& group, std::uint32_t member) {
     const WrittenCommand& written = guarded.news.written[a];
     slots.commands[member] = written.command;
     if (slots.spec->hardware_ops == nullptr) continue;
-    const std::string_view text = stuck ? "has not returned from a command" : written.text;
+    const std::string_view text =
+        stuck ? std::string_view("has not returned from a command") : written.text;
     note_written(group, slots, member, stuck || written.failed, text);
   }
 }

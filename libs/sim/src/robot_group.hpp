@@ -151,6 +151,9 @@ struct RobotGroup {
     }
     return active;
   }
+  [[nodiscard]] std::size_t index_of(const ControllerSlots& controller) const noexcept {
+    return static_cast<std::size_t>(&controller - controllers.data());
+  }
 };
 
 /// Where messages of one robot's drivers and program go.

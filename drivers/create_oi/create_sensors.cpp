@@ -18,6 +18,7 @@ Status DeviceSensor::configure(const HardwareSetup& setup, HardwareDeclaration& 
   device_ = static_cast<CreateDevice*>(setup.device);
   if (device_ == nullptr) return fail(ErrorCode::kState, "belongs to no device");
   declaration.clock = DriverClock::kLive;
+  declaration.period_s = kStreamPeriod_s;
   return prepare(setup.parameters(), declaration);
 }
 
@@ -111,6 +112,7 @@ void CreateCliff::take(const OiState& state, double moment_s) {
 Status CreateBattery::prepare(const Params& params, HardwareDeclaration& declaration) {
   declaration.capacity = 6;
   period_s_ = params.number("period_s");
+  declaration.period_s = period_s_;
   device().want(std::array{Packet::kChargingState, Packet::kVoltage, Packet::kCurrent,
                            Packet::kTemperature, Packet::kBatteryCharge, Packet::kBatteryCapacity});
   return {};

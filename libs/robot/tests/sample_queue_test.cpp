@@ -305,15 +305,15 @@ TEST(SampleQueue, LivePublishingLosesTheOldest) {
 
 TEST(SampleQueue, TheNewestSampleCanBeLookedAtBeforeItIsGivenOutAndAfter) {
   for (const std::size_t depth : {1U, 2U, 3U}) {
-    const TestClock clock;
+    TestClock clock;
     SampleQueue queue(ReadingKind::kValues, 2, depth, &clock);
     SampleHeader header;
     double value = 0;
     EXPECT_FALSE(queue.newest(&header, &value));
     std::array<double, 2> taken{};
     for (int k = 1; k <= 10; ++k) {
-      const std::array<double, 2> values{1.0 * k, -1.0};
-      ASSERT_TRUE(queue.publish(SimTime{k}, values.data(), 2));
+      const std::array<double, 2> pair{1.0 * k, -1.0};
+      ASSERT_TRUE(queue.publish(SimTime{k}, pair.data(), 2));
       ASSERT_TRUE(queue.newest(&header, &value));
       EXPECT_EQ(header.stamp_ns, k);
       EXPECT_EQ(header.count, 2U);

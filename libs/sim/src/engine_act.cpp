@@ -109,9 +109,8 @@ void Engine::Impl::actuate(RobotGroup& group, const Block& block, Worker& worker
     for (std::uint32_t m = block.begin; m < block.end; ++m) {
       const ControllerSlots* const active = group.speaker(a, m);
       const Command* const given =
-          active != nullptr
-              ? &worker.control_outputs[active - group.controllers.data()][m - block.begin]
-              : nullptr;
+          active != nullptr ? &worker.control_outputs[group.index_of(*active)][m - block.begin]
+                            : nullptr;
       const std::uint32_t r = group.members[m].value();
       if (has_guards && group.has_guard(m)) {
         // Goes to the guard as it is, which limits it when it writes.

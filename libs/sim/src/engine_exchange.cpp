@@ -212,6 +212,9 @@ void Engine::Impl::exchange(Twin& twin) {
   std::swap(group.sensors, twin.other.sensors);
   std::swap(group.actuators, twin.other.actuators);
   std::swap(group.guards, twin.other.guards);
+  for (std::size_t s = 0; s < group.sensors.size(); ++s) {
+    group.sensor_infos[s].max_age_s = group.sensors[s].info.max_age_s;
+  }
   show_sensors(group);
   const bool first = twin.state.active == DriverSet::kFirst;
   twin.state.active = first ? DriverSet::kTwin : DriverSet::kFirst;

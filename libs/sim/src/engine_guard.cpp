@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "engine_impl.hpp"
+#include "sensor_age.hpp"
 
 namespace rave::sim {
 
@@ -73,6 +74,8 @@ Command Engine::Impl::guarded(const RobotGroup& group, const ActuatorSlots& slot
   input.X_WR = {pose.pose.x_m, pose.pose.y_m, pose.pose.yaw_rad};
   input.pose_age_s = std::max(0.0, (now - pose.stamp).seconds());
   input.velocity = pose.velocity;
+  find_watched_sensors(group, member, now, worker.sensors);
+  input.sensors = worker.sensors;
   input.world_age_s = world_age.seconds();
   input.dt_s = spec.step.seconds();
   input.touching = truth.limited[r] != 0;
@@ -87,17 +90,21 @@ Command Engine::Impl::guarded(const RobotGroup& group, const ActuatorSlots& slot
     const auto quiet_steps = static_cast<std::int64_t>(kGuardQuiet_s / spec.step.seconds());
     const auto present = static_cast<std::int64_t>(step);
     tell_guard(robot, *limits, robot_guard.begin(output.acted, present, quiet_steps),
-               worker.events);
+               output.lost_sensor, worker.events);
   }
   return output.command;
 }
 
 void Engine::Impl::tell_guard(RobotId robot, const GuardSpec& limits, std::uint32_t begun,
-                              std::vector<Event>& to) const {
+                              std::uint32_t lost_sensor, std::vector<Event>& to) const {
   for (std::uint32_t i = 0; i < kGuardLimits; ++i) {
     if ((begun >> i & 1U) == 0) continue;
     const auto limit = static_cast<GuardLimit>(i);
-    to.push_back({step, robot, event_of(limit, limits), BodyId(), std::string(text_of(limit)), i});
+    std::string text(text_of(limit));
+    if (limit == GuardLimit::kSensorLost) {
+      text = sensor_lost_text(group_of(robot).sensors[lost_sensor]);
+    }
+    to.push_back({step, robot, event_of(limit, limits), BodyId(), std::move(text), i});
   }
 }
 

@@ -52,6 +52,7 @@ struct Worker {
   std::vector<Event> events;
   std::vector<RobotId> near;
   std::vector<GuardNeighbour> neighbours;
+  std::vector<GuardSensor> sensors;
   std::vector<NoiseItem> noise;  ///< Samples of a block that wait for their noise, and whose.
   std::vector<std::uint32_t> noisy_members;
 };
@@ -175,9 +176,9 @@ struct Engine::Impl {
                                 std::uint32_t member, const ControllerSlots* controller,
                                 const Command& command, Worker& worker);
   void find_neighbours(RobotId robot, double reach_m, Worker& worker) const;
-  /// Events of limits that begin to act, as bits.
+  /// Events of limits that begin to act, as bits. `lost_sensor`: as in GuardOutput.
   void tell_guard(RobotId robot, const GuardSpec& limits, std::uint32_t begun,
-                  std::vector<Event>& to) const;
+                  std::uint32_t lost_sensor, std::vector<Event>& to) const;
   /// Whether a robot with the drivers that it has now need not be armed.
   [[nodiscard]] bool is_armed_at_first(std::uint32_t robot) const;
 

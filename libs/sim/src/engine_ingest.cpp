@@ -80,6 +80,7 @@ Status Engine::Impl::ingest_sensor(RobotGroup& group, SensorSlots& slots, std::s
     SampleHeader sample;
     while (queue.next(now, &sample, slots.scratch.data())) {
       sample.sequence = ++slots.sequence[member];
+      slots.heard_ns[member] = sample.stamp_ns;
       if (slots.fusion && !fuse(group, slots, member, sample)) continue;
       accept_hardware_sample(group, slots, member, sample);
     }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "engine_impl.hpp"
+#include "sensor_age.hpp"
 
 namespace rave::sim {
 namespace {
@@ -84,6 +85,12 @@ Result<std::unique_ptr<GuardThread>> Engine::Impl::start_guard(RobotGroup& group
     setup.pose.kind = source.spec->kind;
     setup.pose.X_WM = pose_frame(group, robot);
   }
+  for (std::uint32_t s = 0; s < group.sensors.size(); ++s) {
+    const SensorSlots& slots = group.sensors[s];
+    if (!slots.max_age_s || !slots.live) continue;
+    setup.sensors.push_back(
+        {s, slots.queues[member].get(), *slots.max_age_s, is_judged_by_link(*slots.spec)});
+  }
   for (const ActuatorSlots& slots : group.actuators) {
     setup.actuators.push_back({slots.spec->hardware_ops, slots.instances.at(member)});
   }
@@ -142,7 +149,7 @@ void Engine::Impl::give_order(RobotGroup& group, std::uint32_t member) {
     wish.command = group.actuators[a].commands[member];
     wish.expected = speaker != nullptr ? speaker->spec->ops->gives : CommandKind::kVelocity;
     wish.watched = speaker != nullptr && group.program.spec != nullptr;
-    wish.given = wish.watched ? guarded.given[speaker - group.controllers.data()] : std::nullopt;
+    wish.given = wish.watched ? guarded.given[group.index_of(*speaker)] : std::nullopt;
   }
   order.holds = robot_guards[robot.value()].holds();
   order.world_time = work_began - world_age;
@@ -186,14 +193,16 @@ void Engine::Impl::hear_guard(RobotGroup& group, std::uint32_t member) {
   GuardedMember& guarded = group.guards[member];
   const RobotId robot = group.members[member];
   guarded.thread->look(guarded.news);
-  tell_guard(robot, *guards[spec.robots[robot.value()].type], guarded.news.begun, events);
+  tell_guard(robot, *guards[spec.robots[robot.value()].type], guarded.news.begun,
+             guarded.news.lost_sensor, events);
   const bool stuck = guarded.news.stuck > kStuck;
   for (std::size_t a = 0; a < group.actuators.size(); ++a) {
     ActuatorSlots& slots = group.actuators[a];
     const WrittenCommand& written = guarded.news.written[a];
     slots.commands[member] = written.command;
     if (slots.spec->hardware_ops == nullptr) continue;
-    const std::string_view text = stuck ? "has not returned from a command" : written.text;
+    const std::string_view text =
+        stuck ? std::string_view("has not returned from a command") : written.text;
     note_written(group, slots, member, stuck || written.failed, text);
   }
 }

@@ -25,7 +25,7 @@ bool raise_priority(std::thread& thread) {
 }  // namespace
 
 GuardThread::GuardThread(Setup setup)
-    : setup_(std::move(setup)), guard_(setup_.limits, setup_.pose, setup_.period) {
+    : setup_(std::move(setup)), guard_(setup_.limits, setup_.pose, setup_.sensors, setup_.period) {
   const std::size_t count = setup_.actuators.size();
   allowed_.resize(count);
   written_.resize(count);
@@ -88,6 +88,7 @@ void GuardThread::look(GuardNews& news) {
   {
     const std::lock_guard lock(mutex_);
     news.begun = std::exchange(news_.begun, 0);
+    news.lost_sensor = news_.lost_sensor;
     news.written = news_.written;
   }
   const std::int64_t since_ns = writing_since_ns_;
@@ -130,6 +131,7 @@ void GuardThread::write_all(bool stands) {
   for (std::size_t a = 0; a < count; ++a) write(a, allowed_[a], now);
   const std::lock_guard lock(mutex_);
   news_.begun |= guard_.take_begun();
+  news_.lost_sensor = guard_.lost_sensor();
   for (std::size_t a = 0; a < count; ++a) news_.written[a] = written_[a];
 }
 

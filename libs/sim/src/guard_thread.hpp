@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -33,7 +34,8 @@ struct WrittenCommand {
 
 /// What a guard tells the engine. What happened several times since the last look counts once.
 struct GuardNews {
-  std::uint32_t begun = 0;  ///< Bit `1 << limit` of each limit that began to act.
+  std::uint32_t begun = 0;        ///< Bit `1 << limit` of each limit that began to act.
+  std::uint32_t lost_sensor = 0;  ///< The last one that was too old; as in GuardOutput.
   std::vector<WrittenCommand> written;
   /// The driver has not returned from a command for so long.
   Duration stuck;
@@ -50,6 +52,7 @@ class GuardThread {
   struct Setup {
     GuardSpec limits;
     LivePose pose;
+    std::vector<LiveSensor> sensors;
     std::vector<GuardedActuator> actuators;
     const RunClock* clock = nullptr;  ///< Not owned.
     Duration period;

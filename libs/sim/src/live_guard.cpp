@@ -7,6 +7,7 @@
 
 #include "pose_reading.hpp"
 #include "rave/math/transform.hpp"
+#include "sensor_age.hpp"
 
 namespace rave::sim {
 namespace {
@@ -19,8 +20,13 @@ double age_s(SimTime now, SimTime then) noexcept { return std::max(0.0, (now - t
 
 }  // namespace
 
-LiveGuard::LiveGuard(GuardSpec limits, LivePose pose, Duration period)
-    : limits_(std::move(limits)), pose_(pose), period_s_(period.seconds()) {}
+LiveGuard::LiveGuard(GuardSpec limits, LivePose pose, std::vector<LiveSensor> sensors,
+                     Duration period)
+    : limits_(std::move(limits)),
+      pose_(pose),
+      sensors_(std::move(sensors)),
+      period_s_(period.seconds()),
+      ages_(sensors_.size()) {}
 
 std::uint32_t LiveGuard::take_begun() noexcept { return std::exchange(begun_, 0); }
 
@@ -57,6 +63,14 @@ void LiveGuard::look_where(const GuardOrder& order, SimTime now) {
   input_.pose_age_s = age_s(now, *stamp);
 }
 
+void LiveGuard::look_at_sensors() {
+  for (std::size_t i = 0; i < sensors_.size(); ++i) {
+    const LiveSensor& sensor = sensors_[i];
+    ages_[i] = {sensor.index, live_age_s(*sensor.queue, sensor.is_judged_by_link),
+                sensor.max_age_s};
+  }
+}
+
 /// Others have gone on since the world that they stand in, or have stopped there.
 void LiveGuard::look_around(const GuardOrder& order, double world_age_s) {
   neighbours_ = order.neighbours;
@@ -72,6 +86,7 @@ void LiveGuard::look_around(const GuardOrder& order, double world_age_s) {
 void LiveGuard::limit(const GuardOrder& order, SimTime now, std::span<Command> allowed) {
   note_gap(now);
   look_where(order, now);
+  look_at_sensors();
   if (limits_.separation_m >= 0 && !order.sees_others) input_.pose_known = false;
   input_.world_age_s = age_s(now, order.world_time);
   look_around(order, input_.world_age_s);
@@ -83,6 +98,7 @@ void LiveGuard::limit(const GuardOrder& order, SimTime now, std::span<Command> a
     const ActuatorWish& wish = order.wishes[a];
     GuardInput input = input_;
     input.neighbours = neighbours_;
+    input.sensors = ages_;
     input.command = wish.command;
     input.expected = wish.expected;
     if (wish.watched) {
@@ -91,6 +107,7 @@ void LiveGuard::limit(const GuardOrder& order, SimTime now, std::span<Command> a
     }
     const GuardOutput output = guard_.limit(limits_, input);
     allowed[a] = output.command;
+    if (output.by(GuardLimit::kSensorLost)) lost_sensor_ = output.lost_sensor;
     begun_ |= guard_.begin(output.acted, now.ns, kQuiet_ns);
   }
 }

@@ -46,6 +46,14 @@ struct LivePose {
   Duration staleness;  ///< An older pose is lost.
 };
 
+/// A sensor of a real robot that must not fall silent: see sensor_age.hpp.
+struct LiveSensor {
+  std::uint32_t index = 0;             ///< In the robot's type.
+  const SampleQueue* queue = nullptr;  ///< Not owned.
+  double max_age_s = 0;
+  bool is_judged_by_link = false;
+};
+
 /// The guard of one real robot in a live run: judges by the clock on the wall and the newest sample
 /// of the robot's pose, however old the last step of the engine is. One thread.
 class LiveGuard {
@@ -55,28 +63,34 @@ class LiveGuard {
   static constexpr double kLongestGap_s = 0.5;
 
   /// `period`: of calls of limit().
-  LiveGuard(GuardSpec limits, LivePose pose, Duration period);
+  LiveGuard(GuardSpec limits, LivePose pose, std::vector<LiveSensor> sensors, Duration period);
 
   /// What the actuators may be told at `now`, by actuator.
   void limit(const GuardOrder& order, SimTime now, std::span<Command> allowed);
   /// The limits that began to act since the last call, as bits.
   [[nodiscard]] std::uint32_t take_begun() noexcept;
+  /// The last sensor that was too old: its index in the robot's type.
+  [[nodiscard]] std::uint32_t lost_sensor() const noexcept { return lost_sensor_; }
 
  private:
   void note_gap(SimTime now);
   void look_where(const GuardOrder& order, SimTime now);
+  void look_at_sensors();
   void look_around(const GuardOrder& order, double world_age_s);
 
   const GuardSpec limits_;
   const LivePose pose_;
+  const std::vector<LiveSensor> sensors_;
   const double period_s_;
   RobotGuard guard_;
   PoseTrack track_{from_seconds(1.0)};
   GuardInput input_;  ///< Without what differs by actuator.
   std::vector<GuardNeighbour> neighbours_;
+  std::vector<GuardSensor> ages_;
   std::optional<SimTime> last_call_;
   double gap_s_ = 0;
   std::uint32_t begun_ = 0;
+  std::uint32_t lost_sensor_ = 0;
 };
 
 }  // namespace rave::sim

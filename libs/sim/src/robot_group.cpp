@@ -7,6 +7,7 @@
 #include "declared_fan.hpp"
 #include "plugin_call.hpp"
 #include "radio.hpp"
+#include "sensor_age.hpp"
 
 namespace rave::sim {
 
@@ -66,7 +67,10 @@ void allocate(SensorSlots& slots, std::size_t count) {
   slots.failed.resize(count);
   slots.flip.resize(count);
   if (slots.is_virtual()) slots.driver_state.resize(slots.spec->virtual_ops->state_size * count);
-  if (!slots.is_virtual()) slots.scratch.resize(slots.stride);
+  if (!slots.is_virtual()) {
+    slots.scratch.resize(slots.stride);
+    slots.heard_ns.resize(count);
+  }
   if (slots.queued()) {
     slots.raw_headers.resize(count);
     slots.raw_records.resize(slots.stride * count);
@@ -83,6 +87,7 @@ void clear_samples(SensorSlots& slots) {
   std::fill(slots.driver_state.begin(), slots.driver_state.end(), std::byte{});
   std::fill(slots.sequence.begin(), slots.sequence.end(), 0U);
   std::fill(slots.failed.begin(), slots.failed.end(), std::uint8_t{0});
+  std::fill(slots.heard_ns.begin(), slots.heard_ns.end(), kNeverHeard_ns);
   std::fill(slots.flip.begin(), slots.flip.end(), std::uint8_t{0});
   if (slots.fusion) slots.fusion->clear();
   if (!slots.queued()) return;
@@ -99,6 +104,7 @@ void describe(SensorSlots& slots, double step_s) {
   info.X_RS = slots.spec->X_RS;
   info.z_m = slots.spec->z_m;
   info.period_s = slots.spec->period_steps * step_s;
+  if (slots.max_age_s) info.max_age_s = *slots.max_age_s + slots.spec->processing.latency_s;
 }
 
 Status configure_virtual(const GroupContext& context, RobotGroup& group, SensorSlots& slots) {
@@ -181,6 +187,11 @@ Status open_devices(const GroupContext& context, RobotGroup& group) {
   return {};
 }
 
+/// Its age has a limit of its own: RobotType::staleness.
+bool is_pose_source(const RobotGroup& group, const SensorSlots& slots) {
+  return group.type->pose_from == static_cast<std::uint32_t>(&slots - group.sensors.data());
+}
+
 Status configure_hardware(const GroupContext& context, RobotGroup& group, SensorSlots& slots) {
   const SensorSpec& spec = *slots.spec;
   RAVE_TRY(slots.instances.make(spec.hardware_ops->instance, group.members.size()));
@@ -200,6 +211,7 @@ Status configure_hardware(const GroupContext& context, RobotGroup& group, Sensor
     slots.capacity = std::max(slots.capacity, declaration.capacity);
     slots.collect = declaration.collect != 0;
     slots.live = declaration.clock == DriverClock::kLive;
+    RAVE_TRY_ASSIGN(slots.max_age_s, max_age_s(spec, declaration, is_pose_source(group, slots)));
     slots.info.range_min_m = declaration.range_min_m;
     slots.info.range_max_m = declaration.range_max_m;
     slots.info.bearings_rad = declaration.bearings_rad;
@@ -226,13 +238,14 @@ Status make_sensor(const GroupContext& context, RobotGroup& group, SensorSlots& 
   }
   RAVE_TRY(configured);
   const double step_s = context.spec.step.seconds();
+  describe(slots, step_s);
   if (!slots.spec->processing.empty()) {
     const double period_s = slots.is_virtual() ? slots.spec->period_steps * step_s : 0;
-    RAVE_TRY_ASSIGN(slots.processing, Processing::make(slots.spec->processing, slots.spec->kind,
-                                                       slots.capacity, period_s));
+    RAVE_TRY_ASSIGN(slots.processing,
+                    Processing::make(slots.spec->processing, slots.spec->kind, slots.capacity,
+                                     period_s, range_limits_of(slots.info)));
   }
   allocate(slots, group.members.size());
-  describe(slots, step_s);
   if (slots.spec->hybrid) {
     const auto count = static_cast<std::uint32_t>(group.members.size());
     const HostServices host = services_of(context.logs[group.members.front().value()]);

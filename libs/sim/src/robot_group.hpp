@@ -36,6 +36,7 @@ struct SensorSlots {
   std::uint32_t stride = 0;  ///< Bytes of all records of one member.
   bool collect = false;
   bool live = false;
+  std::optional<double> max_age_s;  ///< Hardware that must not fall silent: see sensor_age.hpp.
   std::optional<Processing> processing;
 
   std::vector<SampleHeader> raw_headers;
@@ -47,7 +48,8 @@ struct SensorSlots {
   std::vector<std::byte> processing_state;
   std::vector<std::uint32_t> sequence;
   std::vector<std::uint8_t> failed;
-  std::vector<std::uint8_t> flip;  ///< Test hook: change a bit of the next delivery.
+  std::vector<std::int64_t> heard_ns;  ///< Hardware: stamp of the newest raw sample.
+  std::vector<std::uint8_t> flip;      ///< Test hook: change a bit of the next delivery.
   std::vector<std::unique_ptr<SampleQueue>> queues;
   std::vector<std::uint8_t> open;       ///< Hardware: has to be closed.
   std::vector<std::byte> scratch;       ///< Hardware: one sample on its way.
@@ -148,6 +150,9 @@ struct RobotGroup {
       }
     }
     return active;
+  }
+  [[nodiscard]] std::size_t index_of(const ControllerSlots& controller) const noexcept {
+    return static_cast<std::size_t>(&controller - controllers.data());
   }
 };
 

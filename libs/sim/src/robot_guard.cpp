@@ -49,6 +49,8 @@ std::string_view text_of(GuardLimit limit) noexcept {
       return "not armed: it stands until somebody arms it";
     case GuardLimit::kPoseLost:
       return "pose lost: nobody says where it is";
+    case GuardLimit::kSensorLost:
+      return "sensor lost: a sensor gives nothing any more";
     case GuardLimit::kWorldLost:
       return "world lost: the virtual world does not come any more";
     case GuardLimit::kWatchdog:

@@ -17,6 +17,9 @@ const Command kStand = velocity_command(0, 0);
 class Robot {
  public:
   explicit Robot(HandClock& clock) : clock_(clock) {}
+  Robot(const Robot&) = delete;
+  Robot& operator=(const Robot&) = delete;
+  ~Robot() { hand.let_go(); }
 
   void begin(GuardSpec limits = {}) {
     publish(0);

@@ -33,9 +33,9 @@ GuardSpec fence_alone() {
 /// engine come only when the test calls order().
 class LiveGuardTest : public ::testing::Test {
  protected:
-  void begin(GuardSpec limits) {
+  void begin(GuardSpec limits, std::vector<LiveSensor> sensors = {}) {
     guard_.emplace(std::move(limits), LivePose{&queue_, ReadingKind::kPose, {}, from_seconds(0.5)},
-                   from_seconds(kPeriod_s));
+                   std::move(sensors), from_seconds(kPeriod_s));
     order_.body = disc();
     order_.radius_m = kRadius_m;
     publish();
@@ -181,7 +181,7 @@ TEST_F(LiveGuardTest, APoseThatIsNoNumberIsNone) {
 }
 
 TEST_F(LiveGuardTest, WithoutALivePoseSourceTheReportedPoseCounts) {
-  guard_.emplace(fence_alone(), LivePose{nullptr, ReadingKind::kPose, {}, from_seconds(0.5)},
+  guard_.emplace(fence_alone(), LivePose{nullptr, ReadingKind::kPose, {}, from_seconds(0.5)}, {},
                  from_seconds(kPeriod_s));
   order_.body = disc();
   order_.radius_m = kRadius_m;
@@ -216,6 +216,24 @@ TEST_F(LiveGuardTest, OthersHaveGoneOnSinceTheWorldThatTheyStandIn) {
   clock_.advance(kPeriod_s);
   publish();
   EXPECT_LT(ask(), 0.1);
+}
+
+TEST_F(LiveGuardTest, ASensorThatFallsSilentStopsIt) {
+  SampleQueue laser(ReadingKind::kValues, 1, 4, &clock_);
+  SampleQueue bumper(ReadingKind::kValues, 1, 4, &clock_);
+  begin(fence_alone(), {{3, &laser, 1e6, false}, {5, &bumper, 0.2, true}});
+  order(0.2);
+  EXPECT_EQ(ask(), 0) << "the laser has said nothing yet";
+  EXPECT_TRUE(begun(GuardLimit::kSensorLost));
+  EXPECT_EQ(guard_->lost_sensor(), 3U);
+  const double value = 1;
+  ASSERT_TRUE(laser.publish(clock_.now(), &value, 1));
+  EXPECT_EQ(ask(), 0.2);
+  bumper.fail("cable pulled", 12);
+  EXPECT_EQ(ask(), 0);
+  EXPECT_EQ(guard_->lost_sensor(), 5U);
+  bumper.recover();
+  EXPECT_EQ(ask(), 0.2);
 }
 
 TEST_F(LiveGuardTest, WhoKeepsADistanceStandsWhileNobodyKnowsItsNeighbours) {

@@ -84,6 +84,10 @@ struct SensorSpec {
   std::uint32_t period_steps = 1;
   std::uint32_t phase_steps = 0;
   LayerMask layers = kAllLayers;
+  /// Hardware: when its samples come, and the age after which it counts as lost, seconds. Not set:
+  /// see sensor_age.hpp.
+  SampleTiming timing = SampleTiming::kUnknown;
+  std::optional<double> max_age_s;
   ProcessingSpec processing;
   std::optional<HybridSpec> hybrid;
 

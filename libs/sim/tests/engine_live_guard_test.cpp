@@ -97,7 +97,7 @@ class EngineLiveGuard : public ::testing::Test {
     static constexpr HardwareActuatorOps kWheels = detail::hardware_actuator_ops<CartWheels>();
     static constexpr ControllerOps kReckless = detail::controller_ops<Reckless>();
     RobotType type = real_type({});
-    type.sensors = {real_sensor<CartPose>("mocap", {})};
+    type.sensors.front() = real_sensor<CartPose>("mocap", {});
     type.actuators[0].hardware_ops = &kWheels;
     type.actuators[0].driver = "cart_wheels";
     type.controllers[0].ops = &kReckless;
@@ -253,7 +253,7 @@ TEST(EngineLiveGuardEnd, ADriverThatHangsHoldsUpNeitherStepsNorTheEnd) {
   spec.log = &ears;
   spec.last_wait = std::chrono::milliseconds(200);
   RobotType type = real_type({});
-  type.sensors = {real_sensor<CartPose>("mocap", {})};
+  type.sensors.front() = real_sensor<CartPose>("mocap", {});
   type.actuators[0].hardware_ops = &kWheels;
   type.program = program<Drive>({{"v", 0.3}});
   add_robot(spec, std::move(type));

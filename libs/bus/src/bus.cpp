@@ -107,9 +107,14 @@ Status Bus::open_participant() {
   const Qos qos(dds_create_qos());
   // Nobody can encrypt what a participant says of itself; members are told by a writer.
   const bool secured = !config_.security.empty();
-  if (config_.anonymous && !secured) {
+  if (secured) {
+    // Cyclone DDS tells these of every process, unless they are something else already.
+    for (const char* const name : {"__ProcessName", "__Pid", "__Hostname"}) {
+      dds_qset_prop(qos.get(), name, "");
+    }
+  } else if (config_.anonymous) {
     dds_qset_entity_name(qos.get(), config_.participant.c_str());
-  } else if (!secured) {
+  } else {
     write_identity({config_.participant, config_.run, writer_}, qos.get());
   }
   participant_ = dds_create_participant(number_, qos.get(), nullptr);

@@ -163,6 +163,7 @@ TEST_F(Security, WhoHasNoCertificateReadsNeitherTheNameNorTheRun) {
     ASSERT_NE(heard.find("RTPS"), std::string::npos) << "nothing was heard";
     EXPECT_EQ(heard.find("secret laboratory") != std::string::npos, !secured);
     EXPECT_EQ(heard.find(config.run.text()) != std::string::npos, !secured);
+    EXPECT_EQ(heard.find("test_bus_security") != std::string::npos, !secured);
   }
 }
 

@@ -335,7 +335,8 @@ std::vector<BusReply> BusRun::ask_each(const Request& request, const Meant& mean
     }
     run.take(asked);
     const auto next = run.send_due(asked, *line);
-    const bool all = std::ranges::all_of(asked, [](const Asked& one) { return one.answer.has_value(); });
+    const bool all =
+        std::ranges::all_of(asked, [](const Asked& one) { return one.answer.has_value(); });
     if (Clock::now() >= latest || (all && Clock::now() >= end)) break;
     static_cast<void>(run.waits.wait(bus::left_until(std::min(latest, next.value_or(end)))));
   }

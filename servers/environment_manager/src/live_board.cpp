@@ -42,6 +42,7 @@ struct LiveBoard::Parts {
 
 LiveBoard::LiveBoard(const LiveManagerOptions& options, Parts parts)
     : options_(options),
+      foreign_(options.log),
       bus_(std::move(parts.bus)),
       own_info_(std::move(parts.own_info)),
       worlds_(std::move(parts.worlds)),
@@ -112,18 +113,14 @@ Status LiveBoard::look_at_processes(bool goes) {
     if (info.host == rave_wire_kNone) {
       const bool stays = goes || !lock_step::gives_way(introduced_, info);
       second = second || !stays;
-      if (stays && options_.log != nullptr) {
-        options_.log->warn(kSource,
-                           "another one, on {}, was started after this one and is not listened to",
-                           info.machine);
-      }
+      if (stays) foreign_.write(LogLevel::kWarning, kSource, not_listened_to(info));
       return;
     }
     const Status fits = lock_step::check_fits(options_.identity, info);
     if (fits) {
       host_of_[info.writer] = info.host;
-    } else if (options_.log != nullptr) {
-      options_.log->error(kSource, "refused: {}", fits.error().message);
+    } else {
+      foreign_.write(LogLevel::kError, kSource, "refused: " + fits.error().message);
     }
   });
   if (second) {
@@ -137,9 +134,7 @@ Status LiveBoard::look_at_processes(bool goes) {
       lose(event.writer, goes);
       continue;
     }
-    const bool worth = event.kind == kRefused || event.kind == kIncompatible ||
-                       event.kind == kForeignRun || event.kind == kNotice;
-    if (worth && options_.log != nullptr) options_.log->warn("bus", "{}", event.line());
+    foreign_.note(event);
   }
   return {};
 }
@@ -174,8 +169,8 @@ bool LiveBoard::sit_down(const bus::ClockPing& ping) {
     const Status claimed = claims_.claim(host->second, ping.writer);
     if (!claimed) {
       const bool again = std::exchange(refused_[ping.writer], true);
-      if (!again && options_.log != nullptr) {
-        options_.log->error(kSource, "refused: {}", claimed.error().message);
+      if (!again) {
+        foreign_.write(LogLevel::kError, kSource, "refused: " + claimed.error().message);
       }
       return false;
     }
@@ -322,8 +317,9 @@ void LiveBoard::take_handed(const std::function<Status(const real_time::Obstacle
 }
 
 void LiveBoard::refuse_handed(std::uint64_t writer, std::string_view why) {
-  if (!wrong_hands_.insert(writer).second || options_.log == nullptr) return;
-  options_.log->error(kSource, "refused what the process {:016x} hands over: {}", writer, why);
+  if (!wrong_hands_.insert(writer).second) return;
+  foreign_.write(LogLevel::kError, kSource,
+                 fmt::format("refused what the process {:016x} hands over: {}", writer, why));
 }
 
 void LiveBoard::end_handing() {

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "rave/bus/event_log.hpp"
 #include "rave/bus/host_claims.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/wish_box.hpp"
@@ -132,6 +133,7 @@ class LiveBoard {
   void refuse_handed(std::uint64_t writer, std::string_view why);
 
   const LiveManagerOptions& options_;
+  bus::EventLog foreign_;
   std::unique_ptr<bus::Bus> bus_;
   bus::Writer<bus::HostInfo> own_info_;
   bus::Writer<bus::World> worlds_;

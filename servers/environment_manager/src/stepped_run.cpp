@@ -85,6 +85,13 @@ Status SteppedRun::take_over() {
                 "before: they belong to another run",
                 step_);
   }
+  // One host may have had a world that the others have not got, and have gone since.
+  if (world_.step > step_) {
+    return fail(ErrorCode::kState,
+                "the world of step {} was handed over, but no host is beyond step {}: whoever did "
+                "so is not of this run",
+                world_.step, step_);
+  }
   step_ = world_.step + 1;
   RAVE_TRY(authority_->resume(world_, state_));
   log(LogLevel::kWarning, "takes over from a manager that is gone, at step {}", step_);

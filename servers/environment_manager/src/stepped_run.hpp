@@ -44,6 +44,8 @@ class SteppedRun {
   void see_off(bool awaits_findings);
   void take_findings();
   Status hear(const bus::HostReport& message);
+  Status refuse_ahead(const Seat& seat, const bus::HostReport& message);
+  void count_newest();
   Status sit_down(Seat& seat, const bus::HostReport& message);
   void lose(Seat& seat, std::string_view why);
   void miss_steps(Seat& seat);

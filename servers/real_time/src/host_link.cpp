@@ -32,6 +32,13 @@ void HostLink::Impl::tell_once(LogLevel level, const std::string& text) {
   if (!text.empty()) tell(level, text);
 }
 
+/// The same for what others say.
+void HostLink::Impl::tell_foreign(LogLevel level, const std::string& text) {
+  if (text == told) return;
+  told = text;
+  if (!text.empty()) foreign.write(level, "host " + options.self.name, text);
+}
+
 Status HostLink::Impl::open_endpoints() {
   RAVE_TRY_ASSIGN(auto set, bus::WaitSet::create(*bus));
   RAVE_TRY(set.add(infos));

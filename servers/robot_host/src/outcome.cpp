@@ -142,6 +142,13 @@ RunOutcome judge(const Findings& findings) {
   return outcome;
 }
 
+std::string why_no_hash(const Findings& findings, const RunOutcome& outcome) {
+  if (!outcome.hash.empty()) return {};
+  if (!findings.live_reason.empty()) return findings.live_reason;
+  return outcome.problems.empty() ? std::string("nobody knows the parts of all hosts")
+                                  : "the run was not whole: " + outcome.problems.front();
+}
+
 Result<RunOutcome> write_results(const Findings& findings, const std::filesystem::path& folder,
                                  bool picture) {
   RunOutcome outcome = judge(findings);

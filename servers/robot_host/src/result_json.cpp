@@ -226,7 +226,7 @@ std::string result_json(const Findings& findings, const RunOutcome& outcome) {
   json["lateness"] = lateness_json(findings.facts.lateness);
   json["threads"] = findings.spec.threads;
   json["hash"] = outcome.hash.empty() ? Json(nullptr) : Json(outcome.hash);
-  if (!findings.live_reason.empty()) json["no_hash_because"] = findings.live_reason;
+  if (outcome.hash.empty()) json["no_hash_because"] = why_no_hash(findings, outcome);
   if (scenario.checks.sightings) {
     json["sightings"] =
         sightings_json(*scenario.checks.sightings,

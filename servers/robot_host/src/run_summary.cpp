@@ -142,8 +142,8 @@ std::string summary_text(const Findings& findings, const RunOutcome& outcome) {
                           "elsewhere: what it knows of its robots lies there, in the folder of its "
                           "`rave robot`"});
   }
-  table.rows.push_back(
-      {"run hash", outcome.hash.empty() ? "none: " + findings.live_reason : outcome.hash});
+  table.rows.push_back({"run hash", outcome.hash.empty() ? "none: " + why_no_hash(findings, outcome)
+                                                         : outcome.hash});
   for (const std::string& problem : outcome.problems) table.rows.push_back({"problem", problem});
   return report::render_table(table, {100, false});
 }

@@ -20,15 +20,15 @@ std::string local_time() {
 namespace fs = std::filesystem;
 
 /// What a run leaves, beside the folder `hosts` with the same of each host.
-constexpr std::array<std::string_view, 9> kFiles = {"run.mcap",    "world.mcap",  "result.json",
-                                                    "summary.txt", "events.log",  "picture.svg",
-                                                    "picture.png", "console.log", "scenario.yaml"};
+constexpr std::array<std::string_view, 9> kRunFiles = {
+    "run.mcap",    "world.mcap",  "result.json", "summary.txt",  "events.log",
+    "picture.svg", "picture.png", "console.log", "scenario.yaml"};
 
 /// A file of an earlier run, or the records of its hosts, which would be taken for those of the
 /// new.
 std::optional<std::string_view> trace_of_run(const fs::path& folder) {
   std::error_code error;
-  for (const std::string_view file : kFiles) {
+  for (const std::string_view file : kRunFiles) {
     if (fs::exists(folder / file, error)) return file;
   }
   if (fs::exists(folder / "hosts", error)) return "hosts";
@@ -37,7 +37,7 @@ std::optional<std::string_view> trace_of_run(const fs::path& folder) {
 
 /// Removes what a run left, and the reports on it; what else lies there stays.
 void remove_run(const fs::path& folder, std::error_code& error) {
-  for (const std::string_view file : kFiles) {
+  for (const std::string_view file : kRunFiles) {
     fs::remove(folder / file, error);
     if (error) return;
   }

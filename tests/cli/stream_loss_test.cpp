@@ -39,7 +39,10 @@ class StreamLoss : public testing::Test {
     return run_rave({"run", folder_.path() / "scenario.yaml", "--output", folder_.path() / "run",
                      "--replace", "--no-picture"});
   }
-  Ended run_log() const { return run("{name: pose, driver: carmen_pose, params: {log: a.log}}"); }
+  Ended run_log() const {
+    return run("{name: pose, driver: carmen_pose, params: {log: " + folder_.path().string() +
+               "/a.log}}");
+  }
   [[nodiscard]] json result() const {
     return json::parse(content_of(folder_.path() / "run" / "result.json"));
   }
@@ -97,7 +100,8 @@ TEST_F(StreamLoss, OfAUtiasLogIsTold) {
   }
   std::ofstream(folder_.path() / "Barcodes.dat") << "1 5\n";
   std::ofstream(folder_.path() / "Landmark_Groundtruth.dat") << "";
-  expect_told(run("{name: pose, driver: utias_mocap, params: {folder: ., robot: 1}}"),
+  expect_told(run("{name: pose, driver: utias_mocap, params: {folder: " + folder_.path().string() +
+                  ", robot: 1}}"),
               "sensor `pose` of robot `it` lost 50 of 100 readings (50.0 %): duplicate_stamp");
 }
 
@@ -130,7 +134,8 @@ TEST_F(StreamLoss, OfARecordWhoseStampsStepBackIsTold) {
   }
   ASSERT_TRUE(recorder->end(std::nullopt));
   expect_told(
-      run("{name: pose, driver: playback_pose, params: {file: source.mcap, robot: source, "
+      run("{name: pose, driver: playback_pose, params: {file: " + folder_.path().string() +
+          "/source.mcap, robot: source, "
           "sensor: pose}}"),
       "sensor `pose` of robot `it` lost 25 of 100 readings (25.0 %): stamps that step back");
 }

@@ -67,7 +67,7 @@ std::string still_log(int scans, bool logger_too) {
   for (int i = 0; i < scans; ++i) {
     text += fmt::format("FLASER 1 {} 0 0 0 0 0 0 12.5 nohost {}\n", 1 + i % 7,
                         logger_too ? 12.5 : 0.25 * i);
-    text += fmt::format("ODOM 0 0 0 0 0 0 12.5 nohost {}\n", logger_too ? 12.5 : 0.25 * i + 0.1);
+    text += fmt::format("ODOM 0 0 0 0 0 0 {:.2f} nohost {}\n", 12.5 + 0.01 * i, 0.25 * i + 0.1);
   }
   return text;
 }

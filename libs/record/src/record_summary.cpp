@@ -60,7 +60,8 @@ void look_at_all(const McapReader& reader, const fs::path& path, RecordSummary& 
 
 /// What is there and cannot be read is damage, not absence.
 void read_ends(const McapReader& reader, RecordSummary& summary) {
-  read_ends(reader, summary);
+  if (auto run = read_run_info(reader)) summary.run = *std::move(run);
+  summary.end = read_run_end(reader);
   if (!summary.damages.empty()) return;
   if (!summary.run && has(reader, topic::kRun)) {
     summary.damages.push_back(
@@ -110,8 +111,7 @@ Result<RecordSummary> describe_record(const fs::path& path, RecordLook look) {
                                 duration_s > 0 ? messages / duration_s : 0});
   }
   std::ranges::sort(summary.channels, {}, &ChannelSummary::topic);
-  if (auto run = read_run_info(reader)) summary.run = *std::move(run);
-  summary.end = read_run_end(reader);
+  read_ends(reader, summary);
   return summary;
 }
 

@@ -169,6 +169,33 @@ TEST_F(Verify, ARecordThatBrokeOffIsComparedAsFarAsItGoes) {
   EXPECT_LT(steps, 200);
 }
 
+TEST_F(Verify, ADamagedRecordIsRefusedAndTheDamageIsNamed) {
+  const Ended good = run_rave({"info", record_, "--check", "--json"});
+  EXPECT_EQ(good.exit_code, 0) << good.out;
+  EXPECT_NE(good.out.find("\"whole\": true"), std::string::npos) << good.out;
+  std::string bytes = content_of(record_);
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+  std::ofstream(changed_, std::ios::binary) << bytes;
+
+  const Ended quick = run_rave({"info", changed_});
+  EXPECT_EQ(quick.exit_code, 0) << quick.err;
+  EXPECT_EQ(quick.out.find("whole"), std::string::npos) << quick.out;
+  EXPECT_NE(quick.out.find("--check compares the checksums"), std::string::npos) << quick.out;
+  const Ended quick_json = run_rave({"info", changed_, "--json"});
+  EXPECT_NE(quick_json.out.find("\"whole\": null"), std::string::npos) << quick_json.out;
+
+  const Ended checked = run_rave({"info", changed_, "--check"});
+  EXPECT_EQ(checked.exit_code, 1) << checked.out;
+  EXPECT_NE(checked.out.find("damaged: `" + changed_.string() + "`: the chunk at offset "),
+            std::string::npos)
+      << checked.out;
+  const Ended verified = run_rave({"verify", changed_});
+  EXPECT_EQ(verified.exit_code, 2) << verified.out;
+  EXPECT_NE(verified.err.find("the record is damaged, so nothing is compared: `"),
+            std::string::npos)
+      << verified.err;
+}
+
 TEST(VerifyLive, CannotBe) {
   const TemporaryFolder folder;
   const std::string scenario = folder.path() / "live.yaml";

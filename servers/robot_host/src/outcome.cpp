@@ -7,6 +7,7 @@
 #include "event_log.hpp"
 #include "rave/base/file.hpp"
 #include "sighting_check.hpp"
+#include "stream_losses.hpp"
 
 namespace rave::robot_host {
 namespace {
@@ -137,6 +138,8 @@ RunOutcome judge(const Findings& findings) {
         static_cast<double>(event.step) * spec.step.seconds(), event.text));
   }
   outcome.whole = outcome.problems.empty();
+  // The run did all it could with what its recordings gave it; who reads the result should know.
+  for (std::string& loss : stream_losses(findings)) outcome.problems.push_back(std::move(loss));
   judge_checks(findings, outcome);
   if (findings.hash) outcome.hash = fmt::format("{:016x}", *findings.hash);
   return outcome;

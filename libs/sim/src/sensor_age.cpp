@@ -34,6 +34,12 @@ Result<std::optional<double>> max_age_s(const SensorSpec& sensor,
   return std::max(kPeriods * period_s, kLeast_s);
 }
 
+double told_max_age_s(const SensorSlots& slots) noexcept {
+  constexpr double kLater = 1.5;
+  if (!slots.max_age_s || is_judged_by_link(*slots.spec)) return kInfinite_s;
+  return kLater * *slots.max_age_s + slots.spec->processing.latency_s;
+}
+
 double sensor_age_s(const SensorSlots& slots, std::size_t member, SimTime now) {
   const SampleQueue& queue = *slots.queues[member];
   if (is_judged_by_link(*slots.spec)) {

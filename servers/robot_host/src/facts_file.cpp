@@ -11,7 +11,7 @@ namespace rave::robot_host {
 namespace {
 
 constexpr const char* kMark = "rave findings";
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 
 /// Which members there are, in which order, once for both directions: each is named to `archive`.
 template <class Archive>
@@ -41,7 +41,7 @@ struct Members {
   void of(SightingTally& v) { archive(v.total, v.within, v.unknown); }
   void of(SightingFacts& v) { archive(v.by_robot, v.unknown_codes); }
   void of(ArrivalFacts& v) { archive(v.known, v.nearest_m, v.time_s); }
-  void of(GoalFacts& v) { archive(v.touches, v.arrivals); }
+  void of(GoalFacts& v) { archive(v.touches, v.silent, v.arrivals); }
   void of(CaptureFacts& v) { archive(v.captures, v.closest_m); }
   void of(RobotFacts& v) {
     archive(v.robot, v.program, v.commands, v.obeys, v.known, v.stale, v.x_m, v.y_m, v.yaw_rad,

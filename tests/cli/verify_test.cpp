@@ -136,6 +136,40 @@ TEST_F(Verify, InputFilesThatAreMissingOrDifferAreNamed) {
       << missing.err;
 }
 
+/// What is not there cannot differ, so that alone is a difference.
+TEST_F(Verify, ReadingsThatAreMissingAreFound) {
+  Changes changes;
+  changes.drops = [](const std::string& topic, std::uint64_t time_ns) {
+    return topic == record::topic::kPercepts && time_ns >= 1'500'000'000;
+  };
+  const Ended ended = verify_changed(changes);
+  EXPECT_EQ(ended.exit_code, 1) << ended.out;
+  EXPECT_NE(ended.err.find("first in step 150 (1.500 s)"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("recorded: nothing; now: "), std::string::npos) << ended.err;
+}
+
+TEST_F(Verify, ARecordWithoutItsSecondHalfIsFound) {
+  Changes changes;
+  changes.drops = [](const std::string& topic, std::uint64_t time_ns) {
+    return topic != record::topic::kEnd && time_ns >= 1'000'000'000;
+  };
+  const Ended ended = verify_changed(changes);
+  EXPECT_EQ(ended.exit_code, 1) << ended.out;
+  EXPECT_NE(ended.err.find("recorded: nothing from here on"), std::string::npos) << ended.err;
+}
+
+TEST_F(Verify, ARecordWithoutAnythingToCompareIsRefused) {
+  Changes changes;
+  changes.drops = [](const std::string& topic, std::uint64_t) {
+    return topic != record::topic::kRun && topic != record::topic::kConsole;
+  };
+  const Ended ended = verify_changed(changes);
+  EXPECT_NE(ended.exit_code, 0) << ended.out;
+  EXPECT_NE(ended.err.find("it holds nothing that a second run could be compared with"),
+            std::string::npos)
+      << ended.err;
+}
+
 TEST_F(Verify, AnotherVersionIsNamed) {
   Changes changes;
   changes.message = [](const std::string& topic, std::vector<std::byte>& bytes) {

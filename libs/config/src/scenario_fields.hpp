@@ -89,6 +89,12 @@ void describe(V& v, SightingsCheckFile& c) {
            .min = 0,
            .max = 100,
            .unit = "%"});
+  v.field("min_compared", c.min_compared,
+          {.doc = "With fewer sightings than this the check fails.", .min = 1});
+  v.field("max_unknown", c.max_unknown,
+          {.doc = "Sightings of codes that no body carries, taken for misread ones; each beyond "
+                  "this counts as one that does not lie within.",
+           .min = 0});
 }
 
 template <class V>

@@ -264,6 +264,7 @@ Result<std::unique_ptr<Engine>> Engine::create(EngineSpec spec) {
   RAVE_TRY(check(spec));
   // Its end knows what to do with drivers that never close; that of its inside alone does not.
   std::unique_ptr<Engine> engine(new Engine(std::make_unique<Impl>(std::move(spec))));
+  RAVE_TRY(check_threads(engine->impl_->spec, engine->impl_->pool.threads()));
   RAVE_TRY(engine->impl_->make());
   return engine;
 }

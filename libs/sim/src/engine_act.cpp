@@ -39,6 +39,9 @@ void Engine::Impl::act() {
 void Engine::Impl::write_hardware(RobotGroup& group, ActuatorSlots& slots, std::size_t member) {
   if (slots.commands[member].kind == CommandKind::kNone) return;
   ErrorText error;
+  const CrashNote whose =
+      crash_note(group.members[member], group.members[member], "actuator", slots.spec->driver);
+  const CrashScope scope(whose);
   const bool failed = slots.spec->hardware_ops->write(slots.instances.at(member),
                                                       &slots.commands[member], now.ns, &error) != 0;
   note_written(group, slots, member, failed, error.text);
@@ -82,6 +85,8 @@ void Engine::Impl::control(RobotGroup& group, const Block& block, Worker& worker
     std::uint8_t failed_before[kMemberBlock];
     std::copy(slots.failed.begin() + block.begin, slots.failed.begin() + block.end, failed_before);
     ErrorText error;
+    const CrashNote whose = crash_note(block, "controller", slots.spec->driver);
+    const CrashScope scope(whose);
     slots.spec->ops->control(slots.instances.at(block.begin), slots.instances.stride(),
                              worker.control_inputs.data(), outputs.data(), count,
                              slots.failed.data() + block.begin, &error);
@@ -136,6 +141,8 @@ void Engine::Impl::actuate(RobotGroup& group, const Block& block, Worker& worker
     ErrorText error;
     std::uint8_t failed_before[kMemberBlock];
     std::copy(slots.failed.begin() + block.begin, slots.failed.begin() + block.end, failed_before);
+    const CrashNote whose = crash_note(block, "actuator", slots.spec->driver);
+    const CrashScope scope(whose);
     slots.spec->virtual_ops->propose(slots.instances.at(block.begin), slots.instances.stride(),
                                      worker.motion_inputs.data(), worker.proposals.data(),
                                      block.end - block.begin, slots.failed.data() + block.begin,

@@ -16,6 +16,7 @@
 #include "pose_reading.hpp"
 #include "pose_track.hpp"
 #include "rave/base/check.hpp"
+#include "rave/base/crash_note.hpp"
 #include "rave/sim/engine.hpp"
 #include "rave/sim/thread_pool.hpp"
 #include "robot_group.hpp"
@@ -139,6 +140,18 @@ struct Engine::Impl {
                Worker& worker);
   void hash_delivery(const RobotGroup& group, SensorSlots& slots, std::uint32_t device,
                      std::size_t member, RunHash& hash);
+
+  /// What a crash in a plug-in says of it; see CrashScope.
+  [[nodiscard]] CrashNote crash_note(RobotId first, RobotId last, const char* part,
+                                     const std::string& driver) const {
+    return {part, driver.c_str(), spec.robots[first.value()].name.c_str(),
+            spec.robots[last.value()].name.c_str()};
+  }
+  [[nodiscard]] CrashNote crash_note(const Block& block, const char* part,
+                                     const std::string& driver) const {
+    const std::vector<RobotId>& members = groups[block.group].members;
+    return crash_note(members[block.begin], members[block.end - 1], part, driver);
+  }
 
   // engine_decide.cpp: programs
   void decide();

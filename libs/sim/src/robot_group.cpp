@@ -7,6 +7,7 @@
 #include "declared_fan.hpp"
 #include "plugin_call.hpp"
 #include "radio.hpp"
+#include "rave/base/crash_note.hpp"
 #include "sensor_age.hpp"
 
 namespace rave::sim {
@@ -20,6 +21,17 @@ HostServices services_of(RobotLog& log) {
   };
   return services;
 }
+
+namespace {
+
+/// What a crash says of the driver or program of one robot; see CrashScope.
+CrashNote crash_note(const GroupContext& context, RobotId id, const char* part,
+                     const std::string& driver) {
+  const char* const robot = context.spec.robots[id.value()].name.c_str();
+  return {part, driver.c_str(), robot, robot};
+}
+
+}  // namespace
 
 RobotInfo info_of(const GroupContext& context, RobotId id) {
   const RobotSpec& robot = context.spec.robots[id.value()];
@@ -148,6 +160,8 @@ Status configure_device(const GroupContext& context, RobotGroup& group, DeviceSl
   setup.folder = group.type->folder.c_str();
   void* const instance = slots.instances.at(member);
   slots.bases.push_back(slots.spec->ops->base(instance));
+  const CrashNote whose = crash_note(context, group.members[member], "device", slots.spec->driver);
+  const CrashScope scope(whose);
   return called(
       [&](ErrorText* error) { return slots.spec->ops->configure(instance, &setup, error); });
 }
@@ -176,6 +190,8 @@ Status open_devices(const GroupContext& context, RobotGroup& group) {
       // close() comes also after an error of open().
       slots.open[m] = 1;
       context.note("device", slots.spec->name, slots.spec->driver);
+      const CrashNote whose = crash_note(context, group.members[m], "device", slots.spec->driver);
+      const CrashScope scope(whose);
       const Status status = called(
           [&](ErrorText* error) { return slots.spec->ops->open(slots.instances.at(m), error); });
       if (!status) {
@@ -204,6 +220,8 @@ Status configure_hardware(const GroupContext& context, RobotGroup& group, Sensor
     setup.folder = group.type->folder.c_str();
     setup.device = device_of(group, spec.device, m);
     HardwareDeclaration declaration;
+    const CrashNote whose = crash_note(context, group.members[m], "sensor", spec.hardware_driver());
+    const CrashScope scope(whose);
     RAVE_TRY(called([&](ErrorText* error) {
       return spec.hardware_ops->configure(slots.instances.at(m), &setup, &declaration, error);
     }));
@@ -276,6 +294,9 @@ Status start_controllers(const GroupContext& context, RobotGroup& group) {
     slots.failed.assign(count, 0);
     for (std::size_t m = 0; m < count; ++m) {
       const DeviceSetup setup = device_setup(context, group.members[m], slots.spec->params);
+      const CrashNote whose =
+          crash_note(context, group.members[m], "controller", slots.spec->driver);
+      const CrashScope scope(whose);
       const Status status = called([&](ErrorText* error) {
         return slots.spec->ops->start(slots.instances.at(m), &setup, error);
       });
@@ -293,6 +314,8 @@ Status start_actuator(const GroupContext& context, RobotGroup& group, ActuatorSl
   DeviceSetup setup = device_setup(context, group.members[m], slots.spec->params);
   setup.device = device_of(group, slots.spec->device, m);
   void* instance = slots.instances.at(m);
+  const CrashNote whose = crash_note(context, group.members[m], "actuator", slots.spec->driver);
+  const CrashScope scope(whose);
   if (slots.spec->virtual_ops != nullptr) {
     return called(
         [&](ErrorText* error) { return slots.spec->virtual_ops->start(instance, &setup, error); });
@@ -391,6 +414,8 @@ Status start_programs(const GroupContext& context, RobotGroup& group) {
         status = tl::unexpected(std::move(process).error());
       }
     } else {
+      const CrashNote whose = crash_note(context, group.members[m], "program", slots.spec->driver);
+      const CrashScope scope(whose);
       status = called([&](ErrorText* error) {
         return slots.spec->ops->start(slots.instances.at(m), &slots.setups[m], error);
       });
@@ -469,6 +494,9 @@ Status open_sensors(GroupContext context, RobotGroup& group) {
     slots.open.assign(slots.queues.size(), 0);
     for (std::size_t m = 0; m < slots.queues.size(); ++m) {
       context.note("sensor", slots.spec->name, slots.spec->hardware_driver());
+      const CrashNote whose =
+          crash_note(context, group.members[m], "sensor", slots.spec->hardware_driver());
+      const CrashScope scope(whose);
       const Status status = called([&](ErrorText* error) {
         return slots.spec->hardware_ops->open(slots.instances.at(m), slots.queues[m].get(), error);
       });

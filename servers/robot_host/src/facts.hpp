@@ -75,6 +75,8 @@ struct ArrivalFacts {
 struct GoalFacts {
   /// By entry of `touches`: how often its sensor began to touch; 0 of those that count events.
   std::vector<std::uint64_t> touches;
+  /// By entry of `touches`: robots whose sensor never gave a reading, by number.
+  std::vector<std::vector<std::uint32_t>> silent;
   std::vector<ArrivalFacts> arrivals;  ///< By entry of `arrivals`, then by robot.
 };
 

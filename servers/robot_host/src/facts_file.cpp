@@ -41,7 +41,7 @@ struct Members {
   void of(SightingTally& v) { archive(v.total, v.within, v.unknown); }
   void of(SightingFacts& v) { archive(v.by_robot, v.unknown_codes); }
   void of(ArrivalFacts& v) { archive(v.known, v.nearest_m, v.time_s); }
-  void of(GoalFacts& v) { archive(v.touches, v.arrivals); }
+  void of(GoalFacts& v) { archive(v.touches, v.silent, v.arrivals); }
   void of(CaptureFacts& v) { archive(v.captures, v.closest_m); }
   void of(LatenessFacts& v) { archive(v.deadlines, v.missed, v.worst_ns, v.stops, v.blame); }
   void of(RobotFacts& v) {

@@ -50,13 +50,22 @@ void judge_sightings(const Findings& findings, RunOutcome& outcome) {
   const SightingTally tally = findings.facts.sightings.value_or(SightingFacts()).all();
   if (findings.any_lost()) {
     fail_check(outcome, false, "the sighting check was not made: a host left nothing here");
+  } else if (tally.total < static_cast<std::uint64_t>(limits->min_compared)) {
+    fail_check(outcome, true,
+               fmt::format("the sighting check fails: {} real sightings had a code that a body "
+                           "carries, {} had none; expected at least {} to compare",
+                           tally.total, tally.unknown, limits->min_compared));
   } else if (!holds(*limits, tally)) {
+    const std::uint64_t unknown = counted(*limits, tally) - tally.total;
     fail_check(
         outcome, true,
         fmt::format("the sighting check fails: {} of {} real sightings ({:.2f} %) agree with the "
-                    "virtual camera within {} m and {} degrees; expected at least {} %",
-                    tally.within, tally.total, tally.within_pct(), limits->range_m,
-                    limits->bearing_deg, limits->min_within_pct));
+                    "virtual camera within {} m and {} degrees; expected at least {} %{}",
+                    tally.within, counted(*limits, tally), within_pct(*limits, tally),
+                    limits->range_m, limits->bearing_deg, limits->min_within_pct,
+                    unknown == 0
+                        ? std::string()
+                        : fmt::format("; {} of them have codes that no body carries", unknown)));
   }
 }
 

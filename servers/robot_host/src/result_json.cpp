@@ -30,9 +30,14 @@ Json sightings_json(const config::SightingsCheckFile& limits, const SightingFact
                     bool whole) {
   const SightingTally all = facts.all();
   Json json = tally_json(all);
+  // Robots may misread a code now and then; for that, only all together are judged.
+  json["counted"] = counted(limits, all);
+  json["within_pct"] = rounded(within_pct(limits, all), 0.01);
   json["limits"] = {{"range_m", limits.range_m},
                     {"bearing_deg", limits.bearing_deg},
-                    {"min_within_pct", limits.min_within_pct}};
+                    {"min_within_pct", limits.min_within_pct},
+                    {"min_compared", limits.min_compared},
+                    {"max_unknown", limits.max_unknown}};
   json["holds"] = whole ? Json(holds(limits, all)) : Json();
   json["robots"] = Json::object();
   for (const auto& [robot, tally] : facts.by_robot) json["robots"][robot] = tally_json(tally);

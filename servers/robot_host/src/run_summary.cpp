@@ -45,14 +45,22 @@ void add_capture_rows(const Findings& findings, report::Table& table) {
 
 void add_sighting_row(const Findings& findings, report::Table& table) {
   if (!findings.scenario.scenario.checks.sightings) return;
-  const SightingTally tally = findings.facts.sightings.value_or(SightingFacts()).all();
-  const bool holds = robot_host::holds(*findings.scenario.scenario.checks.sightings, tally) &&
-                     !findings.any_lost();
+  const config::SightingsCheckFile& limits = *findings.scenario.scenario.checks.sightings;
+  const SightingFacts facts = findings.facts.sightings.value_or(SightingFacts());
+  const SightingTally tally = facts.all();
+  const bool holds = robot_host::holds(limits, tally) && !findings.any_lost();
+  std::vector<std::string_view> blind;
+  for (const auto& [robot, own] : facts.by_robot) {
+    if (own.total + own.unknown == 0) blind.emplace_back(robot);
+  }
   table.rows.push_back(
       {"sighting check",
-       fmt::format("{}: {:.2f} % of {} real sightings agree with the virtual camera ({} with "
-                   "unknown codes)",
-                   holds ? "holds" : "FAILS", tally.within_pct(), tally.total, tally.unknown)});
+       fmt::format(
+           "{}: {:.2f} % of {} real sightings agree with the virtual camera ({} with "
+           "unknown codes){}",
+           holds ? "holds" : "FAILS", within_pct(limits, tally), counted(limits, tally),
+           tally.unknown,
+           blind.empty() ? std::string() : fmt::format("; none of {}", join_names(blind)))});
 }
 
 /// Real robots whose commands went nowhere, as `a, b and c`.

@@ -326,6 +326,16 @@ Result<VerifyOutcome> verify(const fs::path& record, plugin::Catalogue& catalogu
   RAVE_TRY_ASSIGN(const auto written, record::McapReader::open(scratch.file()));
   RAVE_TRY_ASSIGN(const RecordMatch match,
                   match_records(reader, written, run, {!end, record::is_merged(reader)}));
+  if (match.messages == 0 && !match.difference && !outcome.ended_early) {
+    return fail(
+        ErrorCode::kInvalidArgument,
+        "`{}` cannot be verified: it holds nothing that a second run could be compared with",
+        record.string());
+  }
+  for (const std::string& topic : match.absent) {
+    outcome.notes.push_back(
+        fmt::format("the record has no stream `{}`, so nothing of that was compared", topic));
+  }
   outcome.messages = match.messages;
   outcome.difference = match.difference;
   judge_hash(hashes, engine, outcome);

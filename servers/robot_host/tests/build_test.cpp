@@ -352,5 +352,34 @@ TEST(Build, ScatteredRobotsKeepTheirClearanceAndFollowTheSeed) {
   EXPECT_NE(places(2), first);
 }
 
+TEST(BuildErrors, AChecksSensorThatGivesSomethingElseIsRefused) {
+  Host host;
+  const std::string robot = one("sensors: [{name: eye, driver: virtual_laser}], " + kWheels);
+  const auto with = [&](const std::string& checks) {
+    return host.error_of("checks: " + checks + "\n" + robot);
+  };
+  EXPECT_EQ(with("{touches: [{robots: [anna], sensor: eye}]}"),
+            "s.yaml:1:45: `touches`: sensor `eye` of robot `anna` gives ranges; expected one that "
+            "gives contact");
+  EXPECT_EQ(with("{sightings: {real: eye, twin: eye}}"),
+            "s.yaml:1:28: `sightings`: no robot with both sensors has as `eye` a real camera that "
+            "gives sightings");
+}
+
+/// A virtual camera would confirm itself.
+TEST(BuildErrors, SightingsNeedARealCameraAndAVirtualOne) {
+  Host host;
+  const std::string robot =
+      "name: a\nduration_s: 1\nrobots: [{name: real-1, file: ../robots/recorded-create.yaml}]\n";
+  EXPECT_EQ(host.error_of(robot + "checks: {sightings: {real: camera, twin: camera_twin}}\n"),
+            "none");
+  const std::string itself =
+      host.error_of(robot + "checks: {sightings: {real: camera_twin, twin: camera_twin}}\n");
+  EXPECT_NE(itself.find("has as `camera_twin` a real camera"), std::string::npos) << itself;
+  const std::string real =
+      host.error_of(robot + "checks: {sightings: {real: camera, twin: camera}}\n");
+  EXPECT_NE(real.find("has as `camera` a virtual camera"), std::string::npos) << real;
+}
+
 }  // namespace
 }  // namespace rave::robot_host::testing

@@ -70,6 +70,8 @@ struct SightingsCheckFile {
   double range_m = 0.5;
   double bearing_deg = 5;
   double min_within_pct = 99;
+  int min_compared = 100;  ///< Fewer sightings than this are not enough to judge by.
+  int max_unknown = 10;    ///< Codes that nobody carries: so many are taken for misread ones.
   bool operator==(const SightingsCheckFile&) const = default;
 };
 

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <future>
+#include <map>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -111,6 +113,46 @@ std::string name_of(const Found& found, const BusPeer& peer) {
   return peer.manager ? found.run : fmt::format("{}{}{}", found.run, kOfHost, peer.name);
 }
 
+/// Asks those in one run that `word` means.
+std::vector<Reply> ask_each_of(bus::BusConfig config, const bus::RunId& run, std::string_view word,
+                               const Request& request) {
+  const std::size_t mark = word.rfind(kOfHost);
+  const std::string_view run_word = word.substr(0, mark);
+  Found found;
+  if (mark != std::string_view::npos) found.host = word.substr(mark + 1);
+  const bool named = run_word.empty() || watch::is_called(run, run_word);
+  found.run = named && !run.text().starts_with(run_word) ? std::string(run_word) : name_of(run);
+  config.run = run;
+  // The search goes on.
+  config.beside = true;
+  auto bus = BusRun::open(config, own_name());
+  if (!bus) return {{found.run, tl::unexpected(std::move(bus).error())}};
+  const auto meant = [&](const BusPeer& peer, const std::string& scenario) {
+    if (!named && scenario != run_word) return false;
+    if (!found.host.empty()) return !peer.manager && peer.name == found.host;
+    return !peer.manager || !peer.live;
+  };
+  std::vector<Reply> replies;
+  for (run_control::BusReply& reply : (*bus)->ask_each(request, meant)) {
+    if (!named) found.run = run_word;
+    replies.push_back({name_of(found, reply.peer), std::move(reply.answer)});
+  }
+  return replies;
+}
+
+/// The names of the sockets here of a scenario, of its hosts or of its runs themselves.
+std::vector<std::string> here_of(std::string_view scenario, bool hosts) {
+  std::vector<std::string> names;
+  for (std::string& name : run_control::running_runs().value_or(std::vector<std::string>{})) {
+    const std::string_view own = std::string_view(name).substr(0, name.rfind('-'));
+    const std::size_t mark = own.find(kOfHost);
+    if (own.substr(0, mark) == scenario && (mark != std::string_view::npos) == hosts) {
+      names.push_back(std::move(name));
+    }
+  }
+  return names;
+}
+
 /// Each once.
 std::string machines_of(const std::vector<BusPeer>& peers) {
   std::set<std::string_view> machines;
@@ -177,6 +219,59 @@ Result<AskedRun> AskedRun::find_on_bus(const std::string& word, const BusOptions
   std::vector<std::string_view> names;
   for (const AskedRun& run : having) names.emplace_back(run.name());
   return fail(ErrorCode::kNotFound, "several processes have it: {}; say which", join_names(names));
+}
+
+Result<std::vector<Reply>> AskedRun::ask_each_on_bus(const std::string& word,
+                                                     const BusOptions& options,
+                                                     const Request& request) {
+  RAVE_TRY_ASSIGN(const auto config, asker_config(options));
+  const std::string run_word = word.substr(0, word.rfind(kOfHost));
+  std::map<std::string, std::future<std::vector<Reply>>> asked;
+  const auto ask_new = [&](const std::vector<watch::FoundRun>& found) {
+    bool named = false;
+    for (const watch::FoundRun& run : found) {
+      named = named || watch::is_named(run.run, run_word);
+      auto& replies = asked[run.run.text()];
+      if (replies.valid()) continue;
+      replies = std::async(std::launch::async, ask_each_of, config, run.run, std::string_view(word),
+                           request);
+    }
+    return named;
+  };
+  RAVE_TRY(watch::find_runs(config, patience_of(config), ask_new));
+  std::vector<Reply> all;
+  for (auto& [run, replies] : asked) std::ranges::move(replies.get(), std::back_inserter(all));
+  return all;
+}
+
+Result<std::vector<AskedRun>> AskedRun::controllers(bool sure) const {
+  const std::vector<AskedRun> itself = {*this};
+  const bool host = bus_ ? !peer_.manager : name_.find(kOfHost) != std::string::npos;
+  if (host) return itself;
+  std::vector<AskedRun> hosts;
+  if (bus_) {
+    if (!peer_.live) return itself;
+    for (const BusPeer& peer : bus_->all(kLookPatience)) {
+      if (peer.manager) continue;
+      hosts.emplace_back(AskedRun(fmt::format("{}{}{}", name_, kOfHost, peer.name), bus_, peer));
+    }
+    return hosts.empty() ? itself : hosts;
+  }
+  const std::string scenario = name_.substr(0, name_.rfind('-'));
+  const std::vector<std::string> here = here_of(scenario, true);
+  if (here.empty()) return itself;
+  // In lock-step the manager has the say, and who does not answer is asked all the same.
+  const auto said = status();
+  if (!said || !said->live) return itself;
+  if (const auto runs = here_of(scenario, false); sure && runs.size() > 1) {
+    return fail(ErrorCode::kNotFound,
+                "{} runs of `{}` are here, and whose hosts are whose cannot be told; name one of "
+                "these: {}",
+                runs.size(), scenario,
+                join_names(std::vector<std::string_view>(here.begin(), here.end())));
+  }
+  for (const std::string& name : here) hosts.emplace_back(name);
+  return hosts;
 }
 
 Result<std::vector<SeenRun>> AskedRun::all_on_bus(const BusOptions& options) {

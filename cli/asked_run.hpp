@@ -21,6 +21,12 @@ struct SeenRun {
   Result<robot_host::RunStatus> status;
 };
 
+/// What came of a request to one of several processes.
+struct Reply {
+  std::string name;  ///< For people.
+  Result<run_control::Answer> answer;
+};
+
 /// A process of a run that is asked something: of this user on this machine, over its socket, or
 /// else wherever it is, over the bus. One owner thread.
 class AskedRun {
@@ -39,6 +45,20 @@ class AskedRun {
   using Has = std::function<bool(const robot_host::RunStatus&)>;
   [[nodiscard]] static Result<AskedRun> find_on_bus(const std::string& word,
                                                     const BusOptions& options, const Has& has);
+
+  /// Asks every process on the bus that a word can mean: of each run that it can stand for, or of
+  /// all runs if it is empty, the host behind the `@`, else the environment manager in lock-step,
+  /// and all hosts. Each is asked as soon as it is found, and not after it is sure that no other
+  /// can be meant; what is done to one too many must do no harm, as a stop. Empty: nobody was
+  /// found. Errors: those of bus::Bus::open().
+  [[nodiscard]] static Result<std::vector<Reply>> ask_each_on_bus(
+      const std::string& word, const BusOptions& options, const run_control::Request& request);
+
+  /// The processes that stop and arm the robots of this run: itself, or if it is the manager of a
+  /// run in real time the hosts, those of this machine if it was found here. Of several runs of a
+  /// scenario here it cannot be told whose hosts are whose: error kNotFound if that has to be
+  /// `sure`, else those of all.
+  [[nodiscard]] Result<std::vector<AskedRun>> controllers(bool sure) const;
 
   /// The runs on the bus, each asked how it stands; those of this machine are among them. Looks for
   /// 1.5 s, or 3 s beyond loopback, and asks one after the other. Errors: those of

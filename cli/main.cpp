@@ -5,6 +5,7 @@
 #include "arguments.hpp"
 #include "commands/version.hpp"
 #include "error_text.hpp"
+#include "rave/base/crash_note.hpp"
 
 namespace rave::cli {
 namespace {
@@ -46,6 +47,7 @@ struct Dispatch {
 }  // namespace rave::cli
 
 int main(int argc, char** argv) {
+  rave::install_crash_note();
   try {
     return std::visit(rave::cli::Dispatch{}, rave::cli::parse_arguments(argc, argv));
   } catch (const std::exception& e) {

@@ -89,6 +89,7 @@ Result<ManagedEnd> manage_steps(const ManagedRun& run, robot_host::BuiltScenario
   end.end.hash = outcome.hash;
   end.end.steps = outcome.steps;
   end.end.wall_s = outcome.wall_s;
+  end.end.lateness = std::move(outcome.lateness);
   end.end.problems = std::move(outcome.problems);
   // A run that never began left nothing to wait for.
   for (robot_host::SharedHost& host : end.end.hosts) host.awaited = outcome.steps > 0;
@@ -182,8 +183,8 @@ Result<ManagedEnd> manage_time(const ManagedRun& run, robot_host::BuiltScenario 
   how.stopping = run.stopping;
   how.control = &run.control;
   how.begin_wish = run_control::wishes_of(run.control);
-  how.on_progress = [&run, &file](SimTime now, const std::string& waiting) {
-    run.console.show({now.seconds() / file.duration_s, now.seconds(), file.duration_s, 1,
+  how.on_progress = [&run, &file](SimTime now, double speed, const std::string& waiting) {
+    run.console.show({now.seconds() / file.duration_s, now.seconds(), file.duration_s, speed,
                       run.scenario.robots.size(),
                       waiting.empty() ? std::string() : "without " + waiting});
   };

@@ -10,8 +10,15 @@ namespace {
 void add_info(CLI::App& root, InfoCommand& c) {
   CLI::App& app = *root.add_subcommand("info", "Say what is in the record of a run");
   add_record(app, c.file);
+  app.add_flag(
+      "--check", c.check,
+      "Read all of it and compare every checksum; without it only index, beginning and end");
   app.add_flag("--json", c.json, "For other programs");
-  app.footer("Example:\n  rave info runs/20260101-120000-mixed-reality");
+  app.footer(
+      "Exit code: 0, 1 if something is wrong with the record, 2 if it is none.\n\n"
+      "Examples:\n"
+      "  rave info runs/20260101-120000-mixed-reality\n"
+      "  rave info runs/20260101-120000-mixed-reality --check");
 }
 
 void add_verify(CLI::App& root, VerifyCommand& c) {

@@ -65,6 +65,7 @@ void add_env(CLI::App& root, EnvCommand& c) {
 void add_run_options(CLI::App& app, RunCommand& c) {
   add_value(app, "--output", c.output, "Folder for what the run leaves [runs/<time>-<scenario>]",
             "DIR");
+  app.add_flag("--replace", c.replace, "Remove what an earlier run left in that folder");
   add_value(app, "--seed", c.seed, "Another seed of all chance", "N");
   add_threads(app, c.threads);
   add_value(app, "--duration", c.duration_s, "Simulated time in seconds", "S")

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run_folder.hpp"
 
+#include <array>
 #include <ctime>
+#include <optional>
 
 namespace rave::cli {
 namespace {
@@ -15,25 +17,75 @@ std::string local_time() {
   return text;
 }
 
+namespace fs = std::filesystem;
+
+/// What a run leaves, beside the folder `hosts` with the same of each host.
+constexpr std::array<std::string_view, 9> kRunFiles = {
+    "run.mcap",    "world.mcap",  "result.json", "summary.txt",  "events.log",
+    "picture.svg", "picture.png", "console.log", "scenario.yaml"};
+
+/// A file of an earlier run, or the records of its hosts, which would be taken for those of the
+/// new.
+std::optional<std::string_view> trace_of_run(const fs::path& folder) {
+  std::error_code error;
+  for (const std::string_view file : kRunFiles) {
+    if (fs::exists(folder / file, error)) return file;
+  }
+  if (fs::exists(folder / "hosts", error)) return "hosts";
+  return std::nullopt;
+}
+
+/// Removes what a run left, and the reports on it; what else lies there stays.
+void remove_run(const fs::path& folder, std::error_code& error) {
+  for (const std::string_view file : kRunFiles) {
+    fs::remove(folder / file, error);
+    if (error) return;
+  }
+  std::error_code ended;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ended)) {
+    if (entry.path().filename().string().starts_with("gap-")) fs::remove(entry.path(), error);
+    if (error) return;
+  }
+  for (const fs::directory_entry& host : fs::directory_iterator(folder / "hosts", ended)) {
+    remove_run(host.path(), error);
+    if (error) return;
+    fs::remove(host.path(), ended);  // stays if something else is in it
+  }
+  fs::remove(folder / "hosts", ended);
+}
+
 }  // namespace
 
-Result<RunFolder> RunFolder::create(const std::filesystem::path& given, std::string_view scenario) {
+Result<RunFolder> RunFolder::create(const WantedFolder& wanted, std::string_view scenario) {
+  const fs::path& given = wanted.path;
   std::error_code error;
   RunFolder folder;
   if (!given.empty()) {
     folder.path_ = given;
-    folder.is_new_ = std::filesystem::create_directories(given, error);
+    folder.is_new_ = fs::create_directories(given, error);
     if (error) {
       return fail(ErrorCode::kIo, "cannot create the folder `{}`: {}", given.string(),
                   error.message());
     }
+    if (wanted.replace) remove_run(given, error);
+    if (error) {
+      return fail(ErrorCode::kIo, "cannot remove the earlier run in `{}`: {}", given.string(),
+                  error.message());
+    }
+    if (const auto trace = trace_of_run(given)) {
+      return fail(ErrorCode::kInvalidArgument,
+                  "the folder `{}` holds `{}`, so it is that of another run; choose another one "
+                  "with --output{}",
+                  given.string(), *trace,
+                  wanted.replace ? "" : ", or let --replace remove what that run left");
+    }
     return folder;
   }
-  std::filesystem::create_directories("runs", error);
+  fs::create_directories("runs", error);
   const std::string stem = fmt::format("runs/{}-{}", local_time(), scenario);
   for (int number = 1; !error && !folder.is_new_; ++number) {
     folder.path_ = number == 1 ? stem : fmt::format("{}-{}", stem, number);
-    folder.is_new_ = std::filesystem::create_directory(folder.path_, error);
+    folder.is_new_ = fs::create_directory(folder.path_, error);
   }
   if (error) {
     return fail(ErrorCode::kIo, "cannot create the folder `{}`: {}; choose another with --output",
@@ -44,7 +96,11 @@ Result<RunFolder> RunFolder::create(const std::filesystem::path& given, std::str
 
 void RunFolder::discard() const {
   std::error_code ignored;
-  if (is_new_) std::filesystem::remove_all(path_, ignored);
+  if (is_new_) {
+    fs::remove_all(path_, ignored);
+  } else {
+    remove_run(path_, ignored);
+  }
 }
 
 }  // namespace rave::cli

@@ -181,7 +181,8 @@ int run_shared(const RunCommand& options, const config::ExpandedScenario& scenar
   auto bus = bus_config(bus_options, "environment manager", robot_host::shared_number(scenario));
   if (!bus) return complain(bus.error());
   make_room(*bus, hosts.size());
-  const auto folder = RunFolder::create(options.output, scenario.scenario.name.value);
+  const auto folder =
+      RunFolder::create({options.output, options.replace}, scenario.scenario.name.value);
   if (!folder) return complain(folder.error());
   Console console(options.quiet);
   if (auto opened = console.open_file(folder->path() / "console.log"); !opened) {

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <future>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -28,6 +30,63 @@ int ask_run(const AskedRun& run, const Request& request) {
   }
   put(stdout, fmt::format("{}: {}\n", run.name(), answer->text));
   return kGood;
+}
+
+/// Asks all; those here at once, so that one that stands keeps no stop from the others.
+std::vector<Reply> ask_all(const std::vector<AskedRun>& runs, const Request& request) {
+  std::vector<std::future<Result<run_control::Answer>>> answers;
+  for (const AskedRun& run : runs) {
+    // What is on the bus is asked by its one owner.
+    const auto how = run.on_bus() ? std::launch::deferred : std::launch::async;
+    answers.push_back(std::async(how, [&run, &request] { return run.ask(request); }));
+  }
+  std::vector<Reply> replies;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    replies.push_back({runs[i].name(), answers[i].get()});
+  }
+  return replies;
+}
+
+/// Prints them. What one process has done for the robot of this name is no concern of others.
+int tell(const std::vector<Reply>& replies, const std::string& robot) {
+  const bool done = !robot.empty() && std::ranges::any_of(replies, [](const Reply& reply) {
+    return reply.answer && reply.answer->good;
+  });
+  int code = kGood;
+  for (const auto& [name, answer] : replies) {
+    if (answer && answer->good) {
+      put(stdout, fmt::format("{}: {}\n", name, answer->text));
+    } else if (!done) {
+      const Error why = answer ? Error{ErrorCode::kState, answer->text, {}} : answer.error();
+      const int found = complain({why.code, fmt::format("{}: {}", name, why.message), {}});
+      code = std::max(code, answer ? int{kNotGood} : found);
+    }
+  }
+  return code;
+}
+
+/// How many robots the processes say they have; nothing if one does not say it.
+std::optional<std::size_t> robots_of(const std::vector<AskedRun>& runs) {
+  std::size_t robots = 0;
+  for (const AskedRun& run : runs) {
+    const auto status = run.status();
+    if (!status) return std::nullopt;
+    robots += status->robots.size();
+  }
+  return robots;
+}
+
+/// Asks the processes that stop and arm the robots of a run, and prints what came of it. The
+/// manager of a run in real time is asked if it has more robots than they: it says where to ask.
+int ask_controllers(const AskedRun& run, const Request& request, bool sure) {
+  const auto controllers = run.controllers(sure);
+  if (!controllers) return complain(controllers.error());
+  std::vector<Reply> replies = ask_all(*controllers, request);
+  const bool hosts = controllers->front().name() != run.name();
+  if (hosts && robots_of(*controllers) != robots_of({run})) {
+    replies.push_back({run.name(), run.ask(request)});
+  }
+  return tell(replies, request.robot);
 }
 
 int find_and_ask(const std::string& word, const BusOptions& bus, const Request& request) {
@@ -111,6 +170,17 @@ void add_run(report::Table& table, const std::string& run,
   }
 }
 
+/// Here or on the bus. Only who releases or arms has to be sure whom it is done to.
+int stop_run(const StopCommand& options, const Request& request) {
+  if (!AskedRun::may_be_here(options.run)) {
+    const auto replies = AskedRun::ask_each_on_bus(options.run, options.bus, request);
+    if (replies && !replies->empty()) return tell(*replies, options.robot);
+  }
+  const auto run = AskedRun::find(options.run, options.bus);
+  if (!run) return complain(run.error());
+  return ask_controllers(*run, request, false);
+}
+
 }  // namespace
 
 int list_runs(const PsCommand& options) {
@@ -139,7 +209,7 @@ int list_runs(const PsCommand& options) {
 
 int stop_robots(const StopCommand& options) {
   const Request request = request_of(Request::What::kStop, options.robot);
-  if (!options.all) return find_and_ask(options.run, options.bus, request);
+  if (!options.all) return stop_run(options, request);
   if (!options.run.empty() || !options.robot.empty() || options.bus.says_where()) {
     return complain({ErrorCode::kInvalidArgument,
                      "`--all` is every robot of every run on this machine; a run of others is "
@@ -154,19 +224,30 @@ int stop_robots(const StopCommand& options) {
                      "names, which `rave ps --network` says",
                      {}});
   }
-  int code = kGood;
-  for (const std::string& run : *runs) code = std::max(code, ask_run(AskedRun(run), request));
-  return code;
+  std::vector<AskedRun> all;
+  for (const std::string& run : *runs) all.emplace_back(run);
+  std::vector<Reply> replies = ask_all(all, request);
+  // In real time a manager has no robots of its own, and its hosts have been asked.
+  std::erase_if(replies, [&replies](const Reply& reply) {
+    if (!reply.answer || reply.answer->good) return false;
+    const auto own = AskedRun(reply.name).controllers(false);
+    return own && std::ranges::all_of(*own, [&](const AskedRun& run) {
+             return run.name() != reply.name &&
+                    std::ranges::any_of(
+                        replies, [&](const Reply& other) { return other.name == run.name(); });
+           });
+  });
+  return tell(replies, "");
 }
 
 int arm_robots(const ArmCommand& options) {
   const auto run = AskedRun::find(options.run, options.bus);
   if (!run) return complain(run.error());
   if (options.release) {
-    const int code = ask_run(*run, request_of(Request::What::kRelease, options.robot));
-    if (code != kGood) return code;
+    const Request release = request_of(Request::What::kRelease, options.robot);
+    if (const int code = ask_controllers(*run, release, true); code != kGood) return code;
   }
-  return ask_run(*run, request_of(Request::What::kArm, options.robot));
+  return ask_controllers(*run, request_of(Request::What::kArm, options.robot), true);
 }
 
 int set_parameter(const SetCommand& options) {

@@ -64,7 +64,7 @@ int robot(const RobotCommand& options) {
   auto bus = bus_of_run(run.bus, options.host, *scenario);
   if (!bus) return complain(bus.error());
   how.bus = *bus;
-  const auto folder = RunFolder::create(run.output, name);
+  const auto folder = RunFolder::create({run.output, run.replace}, name);
   if (!folder) return complain(folder.error());
   Console console(run.quiet);
   if (auto opened = console.open_file(folder->path() / "console.log"); !opened) {
@@ -99,7 +99,8 @@ int env(const EnvCommand& options) {
   if (!scenario) return complain(scenario.error());
   auto bus = bus_of_run(run.bus, "environment manager", *scenario);
   if (!bus) return complain(bus.error());
-  const auto folder = RunFolder::create(run.output, scenario->scenario.name.value + "-env");
+  const auto folder =
+      RunFolder::create({run.output, run.replace}, scenario->scenario.name.value + "-env");
   if (!folder) return complain(folder.error());
   Console console(run.quiet);
   if (auto opened = console.open_file(folder->path() / "console.log"); !opened) {

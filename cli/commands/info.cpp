@@ -22,8 +22,25 @@ std::string size_text(std::uint64_t bytes) {
   return fmt::format("{:.2f} GB", static_cast<double>(bytes) / 1e9);
 }
 
+/// Whether nothing is wrong as far as was looked.
+bool is_good(const record::RecordSummary& summary) {
+  return summary.ended && summary.damages.empty() && summary.unsummed.empty() &&
+         summary.missing.empty();
+}
+
+/// Only of a record of which every byte was looked at it is said that it is whole.
+std::string state_text(const record::RecordSummary& summary) {
+  if (!summary.ended) return "cut: what is there can be read";
+  if (!summary.damages.empty()) return "damaged";
+  if (!summary.unsummed.empty()) return "checked as far as it has checksums";
+  return summary.checked ? "whole: every checksum is right"
+                         : "complete by its index; --check compares the checksums";
+}
+
 std::string run_text(const record::RecordSummary& summary) {
-  if (!summary.run) return "not written by RAVE\n";
+  if (!summary.run) {
+    return summary.damages.empty() ? "not written by RAVE\n" : "what ran cannot be read\n";
+  }
   const record::RunInfo& run = *summary.run;
   const auto real = static_cast<std::size_t>(
       std::count_if(run.robots.begin(), run.robots.end(),
@@ -33,6 +50,9 @@ std::string run_text(const record::RecordSummary& summary) {
                   run.seed, run.started, run.robots.size(), real, run.robots.size() - real);
   if (!summary.end && !summary.missing.empty()) {
     return text + "its end is not known, because a part of its record is missing\n";
+  }
+  if (!summary.end && summary.ended && !summary.damages.empty()) {
+    return text + "its end cannot be read\n";
   }
   if (!summary.end) return text + "the run did not come to its end\n";
   text += fmt::format("{} steps of {} s", summary.end->steps, run.step_s);
@@ -65,12 +85,23 @@ nlohmann::ordered_json run_json(const record::RunInfo& run) {
 
 nlohmann::ordered_json info_json(const std::filesystem::path& file,
                                  const record::RecordSummary& summary) {
-  nlohmann::ordered_json json = {
-      {"file", file.string()},      {"bytes", summary.file_bytes},
-      {"chunks", summary.chunks},   {"parts", summary.parts},
-      {"missing", summary.missing}, {"whole", summary.whole},
-      {"damages", summary.damages}, {"run", summary.run ? run_json(*summary.run) : nullptr},
-      {"steps", nullptr},           {"hash", nullptr}};
+  nlohmann::ordered_json json = {{"file", file.string()},
+                                 {"bytes", summary.file_bytes},
+                                 {"chunks", summary.chunks},
+                                 {"parts", summary.parts},
+                                 {"missing", summary.missing},
+                                 {"checked", summary.checked},
+                                 {"whole", nullptr},
+                                 {"damages", summary.damages},
+                                 {"unsummed", summary.unsummed},
+                                 {"run", summary.run ? run_json(*summary.run) : nullptr},
+                                 {"steps", nullptr},
+                                 {"hash", nullptr}};
+  if (!summary.ended || !summary.damages.empty() || !summary.missing.empty()) {
+    json["whole"] = false;
+  } else if (summary.checked && summary.unsummed.empty()) {
+    json["whole"] = true;
+  }
   if (summary.end) {
     json["steps"] = summary.end->steps;
     if (summary.end->hash) json["hash"] = fmt::format("{:016x}", *summary.end->hash);
@@ -90,41 +121,41 @@ nlohmann::ordered_json info_json(const std::filesystem::path& file,
   return json;
 }
 
-}  // namespace
-
-int info(const InfoCommand& options) {
-  const auto file = record_file(options.file);
-  if (!file) return complain(file.error());
-  const auto summary = record::describe_record(*file);
-  if (!summary) return complain(summary.error());
-  const bool good = summary->whole && summary->damages.empty() && summary->missing.empty();
-  if (options.json) {
-    put(stdout, info_json(*file, *summary).dump(2) + "\n");
-    return good ? kGood : kNotGood;
-  }
-  std::string text = run_text(*summary);
-  text +=
-      fmt::format("{} messages from {:.2f} to {:.2f} s, {} in {} chunks, {}\n", summary->messages,
-                  summary->start_s, summary->end_s, size_text(summary->file_bytes), summary->chunks,
-                  summary->whole ? "whole" : "cut: what is there can be read");
-  for (const auto& [sensor, made_of] : summary->hybrids) {
+std::string info_text(const record::RecordSummary& summary) {
+  std::string text = run_text(summary);
+  text += fmt::format("{} messages from {:.2f} to {:.2f} s, {} in {} chunks, {}\n",
+                      summary.messages, summary.start_s, summary.end_s,
+                      size_text(summary.file_bytes), summary.chunks, state_text(summary));
+  for (const auto& [sensor, made_of] : summary.hybrids) {
     text += fmt::format("hybrid {}: {}; both parts and the result are recorded\n", sensor, made_of);
   }
-  if (!summary->parts.empty()) {
-    text += fmt::format("made of the records of {} processes\n", summary->parts.size());
+  if (!summary.parts.empty()) {
+    text += fmt::format("made of the records of {} processes\n", summary.parts.size());
   }
-  for (const std::string& damage : summary->damages) text += fmt::format("damaged: {}\n", damage);
+  for (const std::string& damage : summary.damages) text += fmt::format("damaged: {}\n", damage);
+  for (const std::string& piece : summary.unsummed) text += fmt::format("not checked: {}\n", piece);
   report::Table table;
   table.columns = {{"topic", report::Align::kLeft, false},
                    {"type", report::Align::kLeft, false},
                    {"messages", report::Align::kRight, false},
                    {"rate", report::Align::kRight, false}};
-  for (const record::ChannelSummary& channel : summary->channels) {
+  for (const record::ChannelSummary& channel : summary.channels) {
     table.rows.push_back({channel.topic, channel.schema, fmt::format("{}", channel.messages),
                           fmt::format("{:.1f} Hz", channel.rate_hz)});
   }
-  put(stdout, text + report::render_table(table));
-  return good ? kGood : kNotGood;
+  return text + report::render_table(table);
+}
+
+}  // namespace
+
+int info(const InfoCommand& options) {
+  const auto file = record_file(options.file);
+  if (!file) return complain(file.error());
+  const auto summary = record::describe_record(
+      *file, options.check ? record::RecordLook::kAll : record::RecordLook::kIndex);
+  if (!summary) return complain(summary.error());
+  put(stdout, options.json ? info_json(*file, *summary).dump(2) + "\n" : info_text(*summary));
+  return is_good(*summary) ? kGood : kNotGood;
 }
 
 }  // namespace rave::cli

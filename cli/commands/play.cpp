@@ -25,6 +25,17 @@ Result<PlayedScenario> make(const PlayCommand& options) {
   return played_scenario(wish, catalogue);
 }
 
+/// The record that is played is still read while the run goes.
+Status keeps_its_record(const PlayCommand& options) {
+  if (!options.run.replace || options.run.output.empty()) return {};
+  RAVE_TRY_ASSIGN(const std::filesystem::path record, record_file(options.file));
+  std::error_code error;
+  if (!std::filesystem::equivalent(record.parent_path(), options.run.output, error)) return {};
+  return fail(ErrorCode::kInvalidArgument,
+              "--replace would remove `{}`, which is to be played; choose another --output",
+              record.string());
+}
+
 }  // namespace
 
 int play(const PlayCommand& options) {
@@ -40,13 +51,17 @@ int play(const PlayCommand& options) {
     put(stdout, fmt::format("written: {0}; `rave run {0}` runs it\n", options.write));
     return kGood;
   }
-  const auto folder = RunFolder::create(options.run.output, played->name);
+  if (auto kept = keeps_its_record(options); !kept) return complain(kept.error());
+  const auto folder = RunFolder::create({options.run.output, options.run.replace}, played->name);
   if (!folder) return complain(folder.error());
   const std::filesystem::path scenario = folder->path() / "played";
+  std::error_code error;
+  if (options.run.replace) std::filesystem::remove_all(scenario, error);
   if (auto written = write_played(*played, scenario); !written) return complain(written.error());
   RunCommand run_options = options.run;
   run_options.scenario = scenario.string();
   run_options.output = folder->path().string();
+  run_options.replace = false;  // done
   return run(run_options);
 }
 

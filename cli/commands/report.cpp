@@ -74,8 +74,11 @@ int report_gap(const GapCommand& options) {
   }
   put(stdout, table_of(*gap));
   put(stdout,
-      fmt::format("twin: {}\ncommands: {}\npose: {}, {:.2f} s from {:.2f} s, {:.2f} m\n", gap->twin,
-                  gap->commands, gap->pose, gap->duration_s, gap->start_s, gap->driven_m));
+      fmt::format(
+          "twin: {}\ncommands: {}\npose: {}, {:.2f} s from {:.2f} s, {:.2f} m; known in {} of "
+          "{} steps\n",
+          gap->twin, gap->commands, gap->pose, gap->duration_s, gap->start_s, gap->driven_m,
+          gap->points.size(), gap->steps));
   put(stdout, fmt::format("{}: {}.svg, {}.png, {}.json\n", folder.empty() ? "." : folder.string(),
                           stem, stem, stem));
   return kGood;

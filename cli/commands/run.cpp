@@ -29,7 +29,8 @@ int run(const RunCommand& options) {
   if (auto added = add_plugin_folders(options.plugins, catalogue); !added) {
     return complain(added.error());
   }
-  const auto folder = RunFolder::create(options.output, scenario->scenario.name.value);
+  const auto folder =
+      RunFolder::create({options.output, options.replace}, scenario->scenario.name.value);
   if (!folder) return complain(folder.error());
   Console console(options.quiet);
   if (auto opened = console.open_file(folder->path() / "console.log"); !opened) {

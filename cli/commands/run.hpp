@@ -14,6 +14,7 @@ namespace rave::cli {
 struct RunCommand {
   std::string scenario;  ///< A file, a folder or a name.
   std::string output;    ///< Empty: runs/<time>-<scenario>.
+  bool replace = false;  ///< What an earlier run left there is removed.
   std::optional<std::uint64_t> seed;
   std::optional<int> threads;
   std::optional<double> duration_s;

@@ -38,11 +38,43 @@ std::pair<std::int64_t, std::int64_t> stamp_range(const ParsedLog& log) {
   return {first, last};
 }
 
+/// How many scans repeat a stamp of another one; all of them if one has no such stamp.
+template <class StampOf>
+std::size_t repeats(const std::vector<ScanRow>& scans, StampOf stamp_of) {
+  std::vector<std::int64_t> stamps;
+  stamps.reserve(scans.size());
+  for (const ScanRow& scan : scans) {
+    const std::optional<std::int64_t> stamp_ns = stamp_of(scan);
+    if (!stamp_ns) return scans.size();
+    stamps.push_back(*stamp_ns);
+  }
+  std::sort(stamps.begin(), stamps.end());
+  const auto last = std::unique(stamps.begin(), stamps.end());
+  return static_cast<std::size_t>(stamps.end() - last);
+}
+
+/// Whether the messages of a log bear stamps that cannot be theirs, while the logger's differ. The
+/// logger's clock counts from another moment, so it is one clock or the other for the whole log.
+bool is_better_by_logger(const ParsedLog& log) {
+  const std::size_t few = log.scans.size() / 20;
+  if (repeats(log.scans, [](const ScanRow& scan) { return std::optional(scan.stamp_ns); }) <= few) {
+    return false;
+  }
+  const bool all = std::all_of(log.odometry.begin(), log.odometry.end(),
+                               [](const OdometryRow& row) { return row.logged_ns.has_value(); });
+  return all && repeats(log.scans, [](const ScanRow& scan) { return scan.logged_ns; }) <= few;
+}
+
+void stamp_by_logger(ParsedLog& log) {
+  for (ScanRow& scan : log.scans) scan.stamp_ns = *scan.logged_ns;
+  for (OdometryRow& row : log.odometry) row.stamp_ns = *row.logged_ns;
+}
+
 void take_scans(Log& log, ParsedLog& parsed, const StreamWindow& window, double range_max_m) {
   StreamReport& report = log.scan_report;
   report.repairs = std::move(parsed.scan_repairs);
   recording::sort_rows(parsed.scans, report);
-  recording::drop_duplicates(parsed.scans, report);
+  recording::drop_duplicates(parsed.scans, window, report);
   for (const ScanRow& row : parsed.scans) {
     Scan scan{row.stamp_ns - window.origin_ns, row.X_WL, row.first};
     recording::wrap_heading(scan.X_WL, row.line, report);
@@ -69,7 +101,7 @@ void take_odometry(Log& log, ParsedLog& parsed, const StreamWindow& window) {
   StreamReport& report = log.odometry_report;
   report.repairs = std::move(parsed.odometry_repairs);
   recording::sort_rows(parsed.odometry, report);
-  recording::drop_duplicates(parsed.odometry, report);
+  recording::drop_duplicates(parsed.odometry, window, report);
   for (const OdometryRow& row : parsed.odometry) {
     OdometrySample sample{row.stamp_ns - window.origin_ns, row.X_WR, row.v_mps, row.w_radps};
     recording::wrap_heading(sample.X_WR, row.line, report);
@@ -113,6 +145,9 @@ Result<Log> load_text(const recording::UnpackedText& text, const std::string& fi
     return fail_at({file, 0, 0}, ErrorCode::kParse,
                    "the log has no FLASER row; scans of other messages are not read");
   }
+  // The origin of a stretch is an `ipc_timestamp`.
+  const bool by_logger = !stretch && is_better_by_logger(parsed);
+  if (by_logger) stamp_by_logger(parsed);
   const auto [first_ns, last_ns] = stamp_range(parsed);
   RAVE_TRY_ASSIGN(StreamWindow window,
                   recording::choose_window(stretch, first_ns, last_ns, options.window, file));
@@ -121,6 +156,7 @@ Result<Log> load_text(const recording::UnpackedText& text, const std::string& fi
   log.start_ns = window.start_ns;
   log.end_ns = window.end_ns;
   log.passed_over = parsed.passed_over;
+  log.by_logger = by_logger;
   log.scan_report.gap_limit_ns = log.odometry_report.gap_limit_ns =
       from_seconds(options.gap_limit_s).ns;
   // An earlier origin is the same as later stamps.

@@ -62,6 +62,8 @@ struct Log {
   std::int64_t no_returns = 0;
   /// Rows of messages that are not used.
   std::int64_t passed_over = 0;
+  /// The stamps are those of the logger, because those of the messages repeat.
+  bool by_logger = false;
 
   [[nodiscard]] std::span<const float> ranges(const Scan& scan) const {
     return std::span(ranges_m).subspan(scan.first, beams);
@@ -71,9 +73,11 @@ struct Log {
 };
 
 /// Reads a log, plain or gzipped. A `stretch.txt` beside it (tools/cut_carmen.py) says origin and
-/// window; without it the origin is the earliest stamp.
-/// Errors: kNotFound, kIo, kInvalidArgument (options), kParse (with file:line:column; a file that
-/// is not the one of `stretch.txt`; a log without scans).
+/// window; without it the origin is the earliest stamp. A stamp is the `ipc_timestamp`; in a log
+/// without `stretch.txt` in which more than 5 % of the scans repeat that of another one, and at
+/// most 5 % repeat the `logger_timestamp`, it is the latter, of all rows. Errors: kNotFound, kIo,
+/// kInvalidArgument (options), kParse (with file:line:column; a file that is not the one of
+/// `stretch.txt`; a log without scans).
 [[nodiscard]] Result<Log> load(const std::filesystem::path& path, const LoadOptions& options = {});
 
 /// What load() does with the text of a log. `file` is for messages.

@@ -85,6 +85,7 @@ class LogParser {
     ScanRow row;
     row.line = line_;
     RAVE_TRY_ASSIGN(row.stamp_ns, stamp());
+    row.logged_ns = parse_stamp_ns(words_.back().text);
     row.first = log_.ranges_m.size();
     for (std::size_t i = 2; i < 2 + beams; ++i) {
       RAVE_TRY_ASSIGN(const double range_m, number(i, "range [m]", 0, kLongestRange_m));
@@ -125,6 +126,7 @@ class LogParser {
       return {};
     }
     RAVE_TRY_ASSIGN(row.stamp_ns, stamp());
+    row.logged_ns = parse_stamp_ns(words_.back().text);
     log_.odometry.push_back(row);
     return {};
   }

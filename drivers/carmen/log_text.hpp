@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,17 +17,19 @@ namespace rave::carmen {
 
 /// A `FLASER` row: what the front laser saw, and where it was.
 struct ScanRow {
-  int line = 0;               ///< From 1.
-  std::int64_t stamp_ns = 0;  ///< `ipc_timestamp`, absolute.
-  Pose2 X_WL;                 ///< Of the laser, as logged; heading not wrapped.
-  Pose2 X_WO;                 ///< Of the robot in the odometry's frame; equal in a corrected log.
-  std::size_t first = 0;      ///< Of ParsedLog::ranges_m; `beams` of them.
+  int line = 0;                           ///< From 1.
+  std::int64_t stamp_ns = 0;              ///< `ipc_timestamp`, absolute.
+  std::optional<std::int64_t> logged_ns;  ///< `logger_timestamp`; none: it is no time.
+  Pose2 X_WL;                             ///< Of the laser, as logged; heading not wrapped.
+  Pose2 X_WO;             ///< Of the robot in the odometry's frame; equal in a corrected log.
+  std::size_t first = 0;  ///< Of ParsedLog::ranges_m; `beams` of them.
 };
 
 /// An `ODOM` row.
 struct OdometryRow {
   int line = 0;
   std::int64_t stamp_ns = 0;
+  std::optional<std::int64_t> logged_ns;
   Pose2 X_WR;
   double v_mps = 0;
   double w_radps = 0;

@@ -6,6 +6,7 @@
 RAVE_PLUGIN("create_oi create_odometry create_bumper create_cliff create_battery create_drive") {
   using namespace rave::oi;
   constexpr auto kLive = rave::DriverClock::kLive;
+  constexpr auto kPeriodic = rave::SampleTiming::kPeriodic;
   rave::add_device<CreateDevice>(
       registry,
       {.name = "create_oi",
@@ -17,24 +18,28 @@ RAVE_PLUGIN("create_oi create_odometry create_bumper create_cliff create_battery
                  .summary = "Pose and velocity from the wheel encoders of a Create.",
                  .params = kOdometryParams,
                  .clock = kLive,
-                 .device = "create_oi"});
+                 .device = "create_oi",
+                 .timing = kPeriodic});
   rave::add_sensor<CreateBumper>(
       registry, {.name = "create_bumper",
                  .summary = "Whether the bumper of a Create is pressed: left, right or in front.",
                  .clock = kLive,
-                 .device = "create_oi"});
+                 .device = "create_oi",
+                 .timing = kPeriodic});
   rave::add_sensor<CreateCliff>(
       registry, {.name = "create_cliff",
                  .summary = "The four cliff sensors and the two wheel drops of a Create, each 0 or "
                             "1.",
                  .clock = kLive,
-                 .device = "create_oi"});
+                 .device = "create_oi",
+                 .timing = kPeriodic});
   rave::add_sensor<CreateBattery>(
       registry, {.name = "create_battery",
                  .summary = "Charge, voltage, current and temperature of the battery of a Create.",
                  .params = kBatteryParams,
                  .clock = kLive,
-                 .device = "create_oi"});
+                 .device = "create_oi",
+                 .timing = kPeriodic});
   rave::add_actuator<CreateDrive>(registry,
                                   {.name = "create_drive",
                                    .summary = "Drives the wheels of a Create by body velocity.",

@@ -8,6 +8,13 @@ namespace rave::oi {
 
 void FrameTimes::reset() {
   known_ = false;
+  missing_ = 0;
+  begin(0);
+}
+
+void FrameTimes::begin(double came_s) {
+  first_s_ = came_s;
+  estimate_s_ = came_s;
   periods_ = 0;
   frames_ = 0;
 }
@@ -15,31 +22,43 @@ void FrameTimes::reset() {
 double FrameTimes::next(double came_s) {
   if (!known_) {
     known_ = true;
-    first_s_ = came_s;
-    estimate_s_ = came_s;
+    begin(came_s);
     return estimate_s_;
   }
   const double gap_s = came_s - estimate_s_;
   // As many periods as surely have passed. None: this one came together with the one before, which
   // had stood still on the line and was taken for a later one; or it is the same once more.
-  const double steps = std::max(0.0, std::floor(gap_s / period_s_ + kEarly));
-  periods_ += static_cast<std::uint64_t>(steps);
-  ++frames_;
-  const double expected_s = estimate_s_ + steps * period_s_;
-  const double late_s = came_s - expected_s;
-  if (late_s <= 0 || steps == 0 || gap_s > kJump_s) {
-    // It cannot have come before it was made; and time does not step back.
-    estimate_s_ = std::max(estimate_s_, came_s);
-  } else {
-    estimate_s_ = expected_s + kGain * late_s;
+  const auto steps =
+      static_cast<std::uint64_t>(std::max(0.0, std::floor(gap_s / period_s_ + kEarly)));
+  if (gap_s > kJump_s) {
+    // How many frames are missing is known but for one, which would be a drift of a thousandth.
+    missing_ = missing() + steps - 1;
+    begin(came_s);
+    return estimate_s_;
   }
   if (steps == 0 && frames_ < kSettle) {
     // It was the first one that came late: measure from here.
-    first_s_ = estimate_s_;
-    periods_ = 0;
-    frames_ = 0;
+    begin(std::max(estimate_s_, came_s));
+    return estimate_s_;
+  }
+  periods_ += steps;
+  ++frames_;
+  const double expected_s = estimate_s_ + static_cast<double>(steps) * period_s_;
+  const double late_s = came_s - expected_s;
+  if (late_s <= 0) {
+    // It cannot have come before it was made; and time does not step back.
+    estimate_s_ = std::max(estimate_s_, came_s);
+  } else if (steps > 0) {
+    estimate_s_ = expected_s + kGain * late_s;
+  } else if (late_s <= kEarly * period_s_) {
+    // The one before was counted as two because it was late; this one is the second.
+    estimate_s_ = came_s;
   }
   return estimate_s_;
+}
+
+std::uint64_t FrameTimes::missing() const noexcept {
+  return missing_ + (periods_ > frames_ ? periods_ - frames_ : 0);
 }
 
 double FrameTimes::measured_period_s() const noexcept {

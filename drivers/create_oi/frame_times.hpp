@@ -22,16 +22,18 @@ class FrameTimes {
   /// Forgets all: another connection.
   void reset();
 
-  /// Mean time between frames since the beginning, lost ones counted; 0 before there are two.
+  /// Mean time between frames since the last gap of more than 0.2 s, lost ones counted; 0 before
+  /// there are two.
   [[nodiscard]] double measured_period_s() const noexcept;
-  /// How long it has been known.
+  /// For how long it has been measured.
   [[nodiscard]] double known_for_s() const noexcept { return estimate_s_ - first_s_; }
   /// Frames that should have come and did not.
-  [[nodiscard]] std::uint64_t missing() const noexcept {
-    return periods_ > frames_ ? periods_ - frames_ : 0;
-  }
+  [[nodiscard]] std::uint64_t missing() const noexcept;
 
  private:
+  /// Measures from here.
+  void begin(double came_s);
+
   static constexpr double kGain = 0.02;
   static constexpr double kEarly = 0.2;   ///< Of a period: the estimate may be late by so much.
   static constexpr double kJump_s = 0.2;  ///< Later than this is a new beginning, not a delay.
@@ -42,8 +44,9 @@ class FrameTimes {
   bool known_ = false;
   double estimate_s_ = 0;
   double first_s_ = 0;
-  std::uint64_t periods_ = 0;
-  std::uint64_t frames_ = 0;  // after the first
+  std::uint64_t periods_ = 0;  // since the first
+  std::uint64_t frames_ = 0;   // after the first
+  std::uint64_t missing_ = 0;  // before the first
 };
 
 }  // namespace rave::oi

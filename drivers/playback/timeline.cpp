@@ -168,6 +168,9 @@ std::string report_json(const Wish& wish, const Timeline& timeline) {
   json["start_s"] = wish.start_s;
   json["samples"] = timeline.samples.size();
   json["left_out"] = timeline.left_out;
+  json["dropped"] = {{"count", timeline.left_out},
+                     {"of", timeline.samples.size() + timeline.left_out},
+                     {"because", timeline.left_out > 0 ? "stamps that step back" : ""}};
   json["first_stamp_s"] = nullptr;
   json["last_stamp_s"] = nullptr;
   if (!timeline.samples.empty()) {

@@ -34,6 +34,20 @@ Json repairs_of(const StreamReport& report) {
   return list;
 }
 
+/// What robot_host looks at; see README.md.
+Json dropped_of(const StreamReport& report) {
+  std::string because;
+  for (const Repair& repair : report.repairs) {
+    const bool drops = repair.kind == RepairKind::kDuplicateStamp ||
+                       repair.kind == RepairKind::kSkippedRow ||
+                       repair.kind == RepairKind::kSkippedNonFinite ||
+                       (repair.kind == RepairKind::kJunkStamp && report.rows == 0);
+    if (drops) because += (because.empty() ? "" : ", ") + std::string(to_string(repair.kind));
+  }
+  const std::int64_t count = report.dropped();
+  return {{"count", count}, {"of", report.rows + count}, {"because", because}};
+}
+
 }  // namespace
 
 void add_file(Json& json, const StreamReport& report) {
@@ -55,6 +69,7 @@ void add_timing(Json& json, const StreamReport& report, const Window& window) {
   json["gaps"] = gaps_of(report);
   json["largest_age_s"] = seconds(report.largest_age_ns);
   json["repairs"] = repairs_of(report);
+  json["dropped"] = dropped_of(report);
 }
 
 std::string text_of(const Json& json) {

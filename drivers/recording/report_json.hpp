@@ -20,7 +20,8 @@ struct Window {
 /// Appends `file`, `sha256` and `unchanged`.
 void add_file(nlohmann::ordered_json& json, const StreamReport& report);
 /// Appends `start_s`, `end_s`, `clock_offset_s`, `first_stamp_s`, `last_stamp_s`, `rows`, `stamps`,
-/// `rate_hz`, `gap_limit_s`, `gaps`, `largest_age_s` and `repairs`, described in README.md.
+/// `rate_hz`, `gap_limit_s`, `gaps`, `largest_age_s`, `repairs` and `dropped`, described in
+/// README.md.
 void add_timing(nlohmann::ordered_json& json, const StreamReport& report, const Window& window);
 /// One line of UTF-8, whatever bytes a file name brought in.
 [[nodiscard]] std::string text_of(const nlohmann::ordered_json& json);

@@ -30,12 +30,15 @@ void sort_rows(std::vector<Row>& rows, StreamReport& report) {
 
 /// Keeps the last row of each stamp: the value that held from then on. `rows`: sorted.
 template <class Row>
-void drop_duplicates(std::vector<Row>& rows, StreamReport& report) {
+void drop_duplicates(std::vector<Row>& rows, const StreamWindow& window, StreamReport& report) {
   std::vector<Row> kept;
   kept.reserve(rows.size());
   for (const Row& row : rows) {
     if (!kept.empty() && kept.back().stamp_ns == row.stamp_ns) {
       report.add_repair(RepairKind::kDuplicateStamp, 1, row.line);
+      const std::int64_t t_ns = row.stamp_ns - window.origin_ns;
+      const bool inside = t_ns >= window.start_ns && t_ns <= window.end_ns;
+      report.duplicates_in_window += inside ? 1 : 0;
       kept.back() = row;
     } else {
       kept.push_back(row);

@@ -53,6 +53,13 @@ std::int64_t StreamReport::repaired(RepairKind repair) const noexcept {
   return 0;
 }
 
+std::int64_t StreamReport::dropped() const noexcept {
+  std::int64_t count = duplicates_in_window + repaired(RepairKind::kSkippedRow) +
+                       repaired(RepairKind::kSkippedNonFinite);
+  if (rows == 0) count += repaired(RepairKind::kJunkStamp);
+  return count;
+}
+
 namespace {
 
 void count_rows(StreamReport& report, std::span<const std::int64_t> inside) {

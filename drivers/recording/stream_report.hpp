@@ -72,11 +72,17 @@ struct StreamReport {
   std::int64_t largest_age_ns = 0;
 
   std::vector<Repair> repairs;
+  /// Rows of the window that are not played because a later row has the same stamp.
+  std::int64_t duplicates_in_window = 0;
 
   /// Adds to the count of a kind of repair; the line of the first call is kept.
   void add_repair(RepairKind repair, std::int64_t count, int line);
   /// How often a kind of repair was made.
   [[nodiscard]] std::int64_t repaired(RepairKind repair) const noexcept;
+  /// Rows of the window that are not played. Of rows without a usable stamp nobody knows whether
+  /// they belong to the window, so all of them count; those that a mapping program put into a log
+  /// (`junk_stamp`) only if there is nothing else.
+  [[nodiscard]] std::int64_t dropped() const noexcept;
 };
 
 /// Fills everything between `rows` and `largest_age_ns` from the stamps of a stream: all stamps

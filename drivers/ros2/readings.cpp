@@ -12,6 +12,7 @@ namespace rave::ros2_driver {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr float kNoReading = std::numeric_limits<float>::quiet_NaN();
 constexpr float kNothing = std::numeric_limits<float>::infinity();
 
 /// Places of x, y and the heading in a covariance of six by six.
@@ -47,9 +48,14 @@ std::vector<double> bearings_of(const Fan& fan) {
 }
 
 float range_of(float range, double min_m, double max_m) noexcept {
-  if (range == -kNothing) return static_cast<float>(min_m);
-  // NaN compares false with everything.
-  return range >= min_m && range <= max_m ? range : kNothing;
+  if (std::isnan(range) || (range < 0 && range != -kNothing)) return kNoReading;
+  // Many scanners write 0 where nothing comes back.
+  if ((range == 0 && min_m > 0) || range > max_m) return kNothing;
+  return range < min_m ? static_cast<float>(min_m) : range;
+}
+
+bool says_something(std::span<const float> ranges) noexcept {
+  return std::ranges::any_of(ranges, [](float range) { return range > 0 || range == -kNothing; });
 }
 
 Status ranges_of(const ros2::LaserScan& scan, const Fan& fan, std::span<float> ranges_m) {
@@ -60,6 +66,11 @@ Status ranges_of(const ros2::LaserScan& scan, const Fan& fan, std::span<float> r
         "the scanner has changed: {} rays from {:.4f} rad each {:.5f} rad instead of {} from "
         "{:.4f} rad each {:.5f} rad; start the run anew",
         here.rays, here.first_rad, here.step_rad, fan.rays, fan.first_rad, fan.step_rad);
+  }
+  if (!says_something(bus::elements(scan.ranges))) {
+    return fail(ErrorCode::kInvalidArgument,
+                "no ray has a reading: each is NaN, 0 or negative, as of a scanner that does not "
+                "turn; nothing there is +infinity (REP-117)");
   }
   std::ranges::transform(bus::elements(scan.ranges), ranges_m.begin(), [&](float range) {
     return range_of(range, fan.range_min_m, fan.range_max_m);

@@ -25,10 +25,15 @@ struct Fan {
 [[nodiscard]] Fan fan_of(const ros2::LaserScan& scan) noexcept;
 [[nodiscard]] std::vector<double> bearings_of(const Fan& fan);
 
-/// A range as RAVE has it: what is out of range, missing or in error is "nothing there" (infinity);
-/// too near to be measured is the least range.
+/// A range as RAVE has it. Beyond the largest range, and 0 where that is no range, is "nothing
+/// there" (infinity); too near to be measured, minus infinity included, is the least range; NaN and
+/// what is negative is no reading (NaN).
 [[nodiscard]] float range_of(float range, double min_m, double max_m) noexcept;
-/// All of a scan. Error kInvalidArgument: the scanner is not the one that the fan is of.
+/// Whether any of the ranges of one message is more than NaN, 0 or negative. Where none is, the
+/// sensor does not work.
+[[nodiscard]] bool says_something(std::span<const float> ranges) noexcept;
+/// All of a scan. Error kInvalidArgument: the scanner is not the one that the fan is of, or it says
+/// nothing.
 [[nodiscard]] Status ranges_of(const ros2::LaserScan& scan, const Fan& fan,
                                std::span<float> ranges_m);
 

@@ -16,6 +16,14 @@ Description describe(const char* name, const char* summary, std::span<const Para
           .device = "ros2"};
 }
 
+/// Of what others want, which may never come.
+Description describe_wish(const char* name, const char* summary,
+                          std::span<const ParamSpec> params) {
+  Description wish = describe(name, summary, params);
+  wish.timing = SampleTiming::kEvents;
+  return wish;
+}
+
 }  // namespace
 }  // namespace rave::ros2_driver
 
@@ -65,12 +73,14 @@ RAVE_PLUGIN(
                          kBatteryParams));
   rave::add_sensor<Ros2Command>(
       registry,
-      describe("ros2_command",
-               "The velocity that others want of this robot (geometry_msgs/Twist or TwistStamped).",
-               kCommandParams));
+      describe_wish(
+          "ros2_command",
+          "The velocity that others want of this robot (geometry_msgs/Twist or TwistStamped).",
+          kCommandParams));
   rave::add_sensor<Ros2Goal>(
-      registry, describe("ros2_goal", "Where others send this robot (geometry_msgs/PoseStamped).",
-                         kGoalParams));
+      registry,
+      describe_wish("ros2_goal", "Where others send this robot (geometry_msgs/PoseStamped).",
+                    kGoalParams));
   rave::add_actuator<Ros2Velocity>(
       registry,
       describe("ros2_velocity", "Drives a robot by velocity (geometry_msgs/Twist or TwistStamped).",

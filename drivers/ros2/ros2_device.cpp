@@ -22,7 +22,8 @@ Status Ros2Device::configure(const HardwareDeviceSetup& setup) {
 Status Ros2Device::open() {
   if (!participant_) return fail(ErrorCode::kState, "opened before it was configured");
   if (thread_.joinable()) return fail(ErrorCode::kState, "opened twice; close it first");
-  away_ = false;
+  silent_ = 0;
+  listening_ = 0;
   return start_thread(thread_, "the robot", [this](const std::stop_token& stop) { run(stop); });
 }
 
@@ -81,7 +82,7 @@ std::string Ros2Device::report() const {
   json["interface"] = options_.network.interface;
   json["namespace"] = options_.name_space;
   json["others"] = participant_->others_here();
-  json["away"] = away_.load();
+  json["away"] = away();
   return json.dump();
 }
 

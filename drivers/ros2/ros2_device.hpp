@@ -50,10 +50,13 @@ class Ros2Device final : public HardwareDevice {
   void detach(TopicUser& user);
   /// The device's thread attends to all its users now. Any thread.
   void ring() const noexcept { waiter_->ring(); }
-  /// A sensor had a message of the robot, or has heard nothing for too long. Device's thread.
-  void heard(bool message) noexcept { away_ = !message; }
-  /// Whether the robot's sensors are silent.
-  [[nodiscard]] bool away() const noexcept { return away_; }
+  /// One more sensor has heard nothing for too long, or one of those hears again. Any thread.
+  void count_silent(bool more) noexcept { silent_ += more ? 1 : -1; }
+  /// One more sensor of those that may not be silent is open, or one less. Any thread.
+  void count_listening(bool more) noexcept { listening_ += more ? 1 : -1; }
+  /// Whether all sensors of the robot are silent: then it may hear nothing either. One alone is
+  /// dead by itself, and the guard's.
+  [[nodiscard]] bool away() const noexcept { return silent_ > 0 && silent_ >= listening_; }
   void log(LogLevel level, std::string_view text) const;
 
   /// Waits until `reader` has a message for which `suits(const Message&)` holds, at most until the
@@ -92,7 +95,8 @@ class Ros2Device final : public HardwareDevice {
   HostServices host_;
   std::unique_ptr<ros2::Participant> participant_;
   std::optional<ros2::Waiter> waiter_;
-  std::atomic<bool> away_{false};
+  std::atomic<int> silent_{0};
+  std::atomic<int> listening_{0};
 
   std::mutex users_mutex_;  // guards users_; held while they are called
   std::vector<TopicUser*> users_;

@@ -86,13 +86,16 @@ inline constexpr std::array<ParamSpec, 6> kTfPoseParams{
     kPositionSigma,
     kHeadingSigma,
 };
-inline constexpr std::array<ParamSpec, 6> kVelocityParams{
+inline constexpr std::array<ParamSpec, 7> kVelocityParams{
     text_param("topic", "cmd_vel",
                "Topic to write, in the device's namespace unless it begins with a slash."),
     choice_param("message", "auto", kVelocityMessages,
                  "Twist or TwistStamped; `auto`: whichever the robot reads."),
     number_param("watchdog_s", "s", 0.25, 0.02, 10,
                  "The robot is told to stand when no command came for so long."),
+    number_param("device_watchdog_s", "s", 0, 0, 60,
+                 "The robot itself stands when it is told nothing for so long, as its maker says "
+                 "(`cmd_vel_timeout`); 0: it does not."),
     number_param("refresh_s", "s", 0.05, 0.01, 1, "How often the command is repeated."),
     number_param("max_v_mps", "m/s", 1, 0.01, 50, "Largest speed, forward and backward."),
     number_param("max_w_radps", "rad/s", 3, 0.01, 50, "Largest rate of turn."),

@@ -40,6 +40,11 @@ Status Ros2Range::prepare(const Params& params, HardwareDeclaration& declaration
 }
 
 Status Ros2Range::take(const ros2::RangeReading& message) {
+  if (!says_something({&message.range, 1})) {
+    return fail(ErrorCode::kInvalidArgument,
+                "the range is {}, which is no reading; nothing there is +infinity (REP-117)",
+                message.range);
+  }
   const float range_m = range_of(message.range, message.min_range, message.max_range);
   publish(ros2::nanoseconds(message.header.stamp), &range_m, 1);
   return {};

@@ -12,7 +12,8 @@
 namespace rave::ros2_driver {
 
 /// Drives a robot by velocity: Twist or TwistStamped, whichever it reads. open(), write() and
-/// close() belong to the host's thread, attend() to the device's; they share the order.
+/// close() belong to the host, one after the other; attend() to the device's thread. They share the
+/// order.
 class Ros2Velocity final : public HardwareActuator, public TopicUser {
  public:
   static constexpr CommandKind kAccepts = CommandKind::kVelocity;

@@ -32,6 +32,7 @@ Status TopicSensor::open(SampleSink& sink) {
     lost_ = false;
     alive_ = false;
   }
+  if (!may_be_silent_) device_->count_listening(true);
   for (const dds_entity_t reader : readers()) {
     RAVE_TRY_ASSIGN(const dds_entity_t condition, device_->waiter().watch(reader));
     watched_.push_back(condition);
@@ -46,6 +47,8 @@ void TopicSensor::close() {
   for (const dds_entity_t condition : watched_) device_->waiter().forget(condition);
   watched_.clear();
   const std::lock_guard lock(mutex_);
+  if (std::exchange(lost_, false)) device_->count_silent(false);
+  if (!may_be_silent_) device_->count_listening(false);
   sink_ = nullptr;
 }
 
@@ -56,18 +59,22 @@ line::HostTime TopicSensor::attend(line::HostTime now) {
   look_after(state_);
   if (may_be_silent_) return line::HostTime::max();
   if (std::exchange(alive_, false)) {
-    device_->heard(true);
-    if (lost_) sink_->recover();
-    lost_ = false;
+    refused_before_ = state_.refused;
+    if (std::exchange(lost_, false)) {
+      device_->count_silent(false);
+      sink_->recover();
+    }
     return line::HostTime::max();
   }
   const line::HostTime lost_at = line::after_seconds(last_, device_->options().timing.lost_after_s);
   if (lost_ || now < lost_at) return lost_ ? line::HostTime::max() : lost_at;
   lost_ = true;
   ++state_.losses;
-  device_->heard(false);
-  state_.trouble = fmt::format("no message has come on `{}` for {} s: {}", topic(),
-                               device_->options().timing.lost_after_s, explain_silence());
+  device_->count_silent(true);
+  const bool refused = state_.refused > refused_before_;
+  state_.trouble = fmt::format(
+      "no {}message has come on `{}` for {} s: {}", refused ? "usable " : "", topic(),
+      device_->options().timing.lost_after_s, refused ? state_.trouble : explain_silence());
   sink_->fail(state_.trouble.data(), state_.trouble.size());
   return line::HostTime::max();
 }

@@ -90,6 +90,7 @@ class TopicSensor : public HardwareSensor, public TopicUser {
   line::HostTime first_{};
   line::HostTime last_{};
   std::int64_t last_stamp_ns_ = 0;
+  std::uint64_t refused_before_ = 0;  // when something came last
   bool lost_ = false;
   bool alive_ = false;  // something came since the last look
 };

@@ -26,7 +26,7 @@ Result<ScanRequest> request_for(const LaserOptions& options, const Parameters& d
   request.skipped_scans = options.skip_scans;
   request.range_min_mm = device.range_min_mm;
   request.range_max_mm =
-      options.characters == 2 ? std::min(device.range_max_mm, 4095) : device.range_max_mm;
+      options.characters == 2 ? std::min(device.range_max_mm, 4094) : device.range_max_mm;
   if (request.first_step < device.first_step || request.last_step > device.last_step ||
       request.first_step > request.last_step) {
     return fail(ErrorCode::kInvalidArgument,

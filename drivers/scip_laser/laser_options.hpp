@@ -22,7 +22,7 @@ inline constexpr std::array<ParamSpec, 11> kLaserParams{
     choice_param("mode", "continuous", kModes,
                  "Whether the device sends by itself (MD, MS) or is asked for each scan (GD, GS)."),
     choice_param("characters", "three", kEncodings,
-                 "Characters of one range: two are quicker and reach 4.095 m."),
+                 "Characters of one range: two are quicker and reach 4.094 m."),
     integer_param("first_step", -1, -1, 9999, "First step to read; -1: the device's first."),
     integer_param("last_step", -1, -1, 9999, "Last step to read; -1: the device's last."),
     integer_param("skip_scans", 0, 0, 9, "Scans left out between two, in continuous mode."),

@@ -51,6 +51,10 @@ class ScipLaser final : public HardwareSensor {
   };
 
   [[nodiscard]] Result<Identity> find_device();
+  /// Between two scans.
+  [[nodiscard]] double period_s() const {
+    return identity_.parameters.scan_period_s() * (1 + request_.skipped_scans);
+  }
   void run(SampleSink& sink, const std::stop_token& stop);
   [[nodiscard]] Status scan_until_lost(SampleSink& sink, HostTime& last_scan);
   [[nodiscard]] Status stream(ScipSession& session, SampleSink& sink, HostTime& last_scan);
@@ -111,6 +115,7 @@ Status ScipLaser::configure(const HardwareSetup& setup, HardwareDeclaration& dec
   declaration.range_min_m = request_.range_min_mm * 1e-3;
   declaration.range_max_m = request_.range_max_mm * 1e-3;
   declaration.bearings_rad = bearings_rad_.data();
+  declaration.period_s = period_s();
   configured_ = true;
   return {};
 }
@@ -182,8 +187,7 @@ Status ScipLaser::scan_until_lost(SampleSink& sink, HostTime& last_scan) {
 
 /// Ends well when the sink or the host closes.
 Status ScipLaser::stream(ScipSession& session, SampleSink& sink, HostTime& last_scan) {
-  const double period_s = identity_.parameters.scan_period_s() * (1 + request_.skipped_scans);
-  const double silence_s = std::max(kSilence_s, kSilentPeriods * period_s);
+  const double silence_s = std::max(kSilence_s, kSilentPeriods * period_s());
   Stretch stretch;
   ScipDecoder::Counts counted;
   HostTime good = line::host_now();
@@ -195,7 +199,7 @@ Status ScipLaser::stream(ScipSession& session, SampleSink& sink, HostTime& last_
   while (true) {
     if (!request_.continuous && line::host_now() >= ask_at) {
       RAVE_TRY(session.poll(request_));
-      ask_at = line::after_seconds(line::host_now(), period_s);
+      ask_at = line::after_seconds(line::host_now(), period_s());
     }
     const HostTime silent_at = line::after_seconds(good, silence_s);
     const auto next = session.next(request_.continuous ? silent_at : std::min(ask_at, silent_at));
@@ -266,5 +270,6 @@ RAVE_PLUGIN("scip_laser") {
       registry, {.name = "scip_laser",
                  .summary = "Reads a laser scanner that speaks SCIP 2.0, such as Hokuyo's.",
                  .params = rave::scip::kLaserParams,
-                 .clock = rave::DriverClock::kLive});
+                 .clock = rave::DriverClock::kLive,
+                 .timing = rave::SampleTiming::kPeriodic});
 }

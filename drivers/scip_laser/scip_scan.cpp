@@ -26,7 +26,10 @@ bool has_shape(const Reply& reply, std::size_t characters) noexcept {
 
 float range_of(std::uint32_t value_mm, const ScanRequest& request) noexcept {
   const auto mm = static_cast<std::int32_t>(value_mm);
-  if (mm < request.range_min_mm || mm > request.range_max_mm) {
+  // The largest number that fits says that the range is at least that.
+  const bool saturated =
+      value_mm + 1 == 1U << (6U * static_cast<std::uint32_t>(request.characters));
+  if (saturated || mm < request.range_min_mm || mm > request.range_max_mm) {
     return std::numeric_limits<float>::infinity();
   }
   return static_cast<float>(mm) * 1e-3F;

@@ -13,7 +13,7 @@ namespace rave::scip {
 /// Which ranges are asked for, and how.
 struct ScanRequest {
   bool continuous = true;       ///< MD or MS; otherwise GD or GS, one command per scan.
-  std::int32_t characters = 3;  ///< Of one range: 3 (up to 262 m) or 2 (up to 4.095 m).
+  std::int32_t characters = 3;  ///< Of one range: 3 (up to 262 m) or 2 (up to 4.094 m).
   std::int32_t first_step = 0;
   std::int32_t last_step = 0;
   std::int32_t skipped_scans = 0;  ///< Between two that are sent, 0 to 9. Continuous only.
@@ -30,7 +30,7 @@ struct ScanRequest {
 struct Scan {
   std::uint32_t timer_ms = 0;  ///< The device's 24-bit timer when the scan passed step 0.
   /// Metres, by step; +infinity where there is no return: an error code (less than the smallest
-  /// range) or more than the largest.
+  /// range), more than the largest, or the largest number that the characters hold.
   std::vector<float> ranges_m;
 };
 

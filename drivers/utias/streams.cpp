@@ -72,7 +72,7 @@ Stream<std::vector<PoseSample>> make_poses(LogFile file, int robot, const Stream
   Stream<std::vector<PoseSample>> stream;
   stream.report = begin_report(file, robot, StreamKind::kPoses, gap_limit_ns);
   sort_rows(file.log.rows, stream.report);
-  drop_duplicates(file.log.rows, stream.report);
+  drop_duplicates(file.log.rows, window, stream.report);
   stream.samples.reserve(file.log.rows.size());
   for (const LogRow& row : file.log.rows) {
     PoseSample sample{row.stamp_ns - window.origin_ns, {row.reals[0], row.reals[1], row.reals[2]}};
@@ -90,7 +90,7 @@ Stream<std::vector<OdometrySample>> make_odometry(LogFile file, int robot,
   Stream<std::vector<OdometrySample>> stream;
   stream.report = begin_report(file, robot, StreamKind::kOdometry, gap_limit_ns);
   sort_rows(file.log.rows, stream.report);
-  drop_duplicates(file.log.rows, stream.report);
+  drop_duplicates(file.log.rows, window, stream.report);
   stream.samples.reserve(file.log.rows.size());
   for (const LogRow& row : file.log.rows) {
     stream.samples.push_back({row.stamp_ns - window.origin_ns, row.reals[0], row.reals[1]});

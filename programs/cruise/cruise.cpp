@@ -106,6 +106,10 @@ class Cruise final : public DecisionProcess {
   }
 
   void decide(const Percepts& percepts, Commands& commands) override {
+    if (percepts.is_old(laser_)) {
+      commands.velocity(drive_, 0, 0);  // What was free then need not be free now.
+      return;
+    }
     const std::span<const float> ranges_m = percepts[laser_];
     const float right_m = nearest_of(part(ranges_m, rays_.first, rays_.right_end));
     const float ahead_m = nearest_of(part(ranges_m, rays_.right_end, rays_.left_begin));

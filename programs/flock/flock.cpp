@@ -81,6 +81,10 @@ class Flock final : public DecisionProcess {
     moved_ = true;
     last_p_W_ = p_W;
     commands.send(radio_, FlockMessage{p_W.x, p_W.y, v_W_.x, v_W_.y});
+    if (scan_.is_old()) {
+      commands.velocity(drive_, 0, 0);  // What was free then need not be free now.
+      return;
+    }
     steer(rotate(-pose.yaw_rad, wish(p_W, pose.yaw_rad)), commands);
   }
 

@@ -67,6 +67,10 @@ class GoToGoal final : public DecisionProcess {
       return;
     }
     scan_.update(percepts);
+    if (scan_.is_old()) {
+      commands.velocity(drive_, 0, 0);  // What was free then need not be free now.
+      return;
+    }
     memory_.update(scan_, X_WR, percepts.now());
     points_R_.clear();
     memory_.append_to(points_R_, X_WR, look_m_ + 0.5);

@@ -52,6 +52,10 @@ class Predator final : public DecisionProcess {
 
   void decide(const Percepts& percepts, Commands& commands) override {
     scan_.update(percepts);
+    if (scan_.is_old() || percepts.is_old(eyes_)) {
+      commands.velocity(drive_, 0, 0);  // What was free then need not be free now.
+      return;
+    }
     const NeighbourReading* prey = find_prey(percepts[eyes_]);
     if (prey == nullptr) {
       commands.velocity(drive_, 0, 0.5 * max_turn_rate_radps_);  // Look around.

@@ -51,6 +51,10 @@ class Prey final : public DecisionProcess {
 
   void decide(const Percepts& percepts, Commands& commands) override {
     scan_.update(percepts);
+    if (scan_.is_old() || percepts.is_old(eyes_)) {
+      commands.velocity(drive_, 0, 0);  // What was free then need not be free now.
+      return;
+    }
     points_R_.clear();
     for (const RangeHit& hit : scan_.hits()) points_R_.push_back(hit.p_R);
 

@@ -64,6 +64,10 @@ class Wander final : public DecisionProcess {
 
   void decide(const Percepts& percepts, Commands& commands) override {
     scan_.update(percepts);
+    if (scan_.is_old()) {
+      commands.velocity(drive_, 0, 0);  // What was free then need not be free now.
+      return;
+    }
     const double clearance_m = scan_.nearest_m(-front_rad_, front_rad_) - radius_m_;
     const int home = way_home(percepts.pose());
     const bool must_turn = clearance_m < avoid_m_ || home != 0;

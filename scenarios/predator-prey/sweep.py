@@ -39,7 +39,7 @@ def capture_time(rave, text, seed, folder):
     file.write_text(text)
     output = folder / "results"
     command = [rave, "run", file, "--output", output, "--seed", str(seed), "--pace", "max",
-               "--quiet", "--no-picture", "--no-record"]
+               "--quiet", "--no-picture", "--no-record", "--replace"]
     ended = subprocess.run(command, check=False)
     if ended.returncode != 0:
         sys.exit(f"{' '.join(map(str, command))} ended with {ended.returncode}")

@@ -77,8 +77,8 @@ TEST(BenchSwarm, RaveRunOfTheWrittenScenarioHasTheSameHash) {
     const auto result = nlohmann::json::parse(content_of(output + "/result.json"));
     EXPECT_EQ(result.at("hash"), json.at("hash"));
     // Another seed is another run: that they are equal says something.
-    const Ended other = run_rave({"run", written, "--output", output, "--quiet", "--no-picture",
-                                  "--no-record", "--seed", "4711"});
+    const Ended other = run_rave({"run", written, "--output", output, "--replace", "--quiet",
+                                  "--no-picture", "--no-record", "--seed", "4711"});
     EXPECT_EQ(other.exit_code, 0) << other.err;
     const auto others = nlohmann::json::parse(content_of(output + "/result.json"));
     EXPECT_NE(others.at("hash"), json.at("hash"));

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <fstream>
 
 #include "process.hpp"
 
@@ -20,6 +23,24 @@ std::string complaint(const std::string& file, const std::string& taken_for) {
 constexpr const char* kRobot = " (taken for a robot file)";
 constexpr const char* kWorld = " (taken for a world file)";
 constexpr const char* kScenario = " (taken for a scenario file)";
+
+/// Nobody writes to it, so whoever reads it waits for ever.
+TEST(Check, ANamedPipeInThePlaceOfAFileIsRefused) {
+  const TemporaryFolder folder;
+  const std::string pipe = folder.path() / "robot.yaml";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const std::string scenario = folder.path() / "scenario.yaml";
+  std::ofstream(scenario) << "name: a\nrobots:\n  - {name: r, file: robot.yaml}\n";
+  const Ended ended = run_rave({"check", scenario});
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_NE(ended.err.find("scenario.yaml:3:21: cannot read `" + pipe + "`: it is no regular file"),
+            std::string::npos)
+      << ended.err;
+  const Ended itself = run_rave({"check", pipe});
+  EXPECT_EQ(itself.exit_code, 2);
+  EXPECT_NE(itself.err.find("it is no regular file"), std::string::npos) << itself.err;
+  EXPECT_EQ(run_rave({"info", pipe}).exit_code, 2);
+}
 
 TEST(Check, GoodFilesOfEachKind) {
   const Ended ended =

@@ -93,6 +93,17 @@ TEST_F(Gap, WheelsThatSlipByTwoPercentFallBehindByTwoPercent) {
   EXPECT_GT(report["after"][2]["m"], report["after"][0]["m"]);
 }
 
+TEST_F(Gap, WhatWasNotMeasuredIsNoNumber) {
+  record(robot_file("robot", dynamic("")));
+  const json report = gap({"--window", "100"});
+  ASSERT_TRUE(report.is_object());
+  EXPECT_EQ(report["windows"]["count"], 0);
+  for (const char* const key : {"median_m", "p95_m", "median_deg", "p95_deg"}) {
+    EXPECT_EQ(report["windows"][key], nullptr) << key;
+  }
+  EXPECT_EQ(report["steps_with_pose"], report["steps"]);
+}
+
 TEST_F(Gap, TheTableNamesTheMoments) {
   record(robot_file("robot", dynamic("")));
   const Ended ended = run_rave({"report", "gap", folder_.path() / "run"});

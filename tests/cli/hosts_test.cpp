@@ -258,6 +258,11 @@ TEST_F(Hosts, AllWaitForAHostThatIsKilledUntilItIsBack) {
   signal("env", SIGINT);
   EXPECT_EQ(end_of("env"), 1);
   EXPECT_EQ(result("env")["hash"], nullptr);
+  const std::string why = result("env")["no_hash_because"].dump();
+  EXPECT_NE(why.find("the run was not whole: host `one` is gone in step "), std::string::npos)
+      << why;
+  const std::string summary = content_of(folder("env") + "/summary.txt");
+  EXPECT_NE(summary.find("none: the run was not whole"), std::string::npos) << summary;
   EXPECT_EQ(end_of("two"), 0);
 }
 

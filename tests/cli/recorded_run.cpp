@@ -77,6 +77,7 @@ void copy_record(const std::filesystem::path& from, const std::filesystem::path&
     std::vector<std::byte> bytes((*message)->bytes.begin(), (*message)->bytes.end());
     const auto& channels = reader->channels();
     const auto channel = std::ranges::find(channels, (*message)->channel, &record::ChannelInfo::id);
+    if (changes.drops && changes.drops(channel->topic, (*message)->log_time_ns)) continue;
     if (changes.message) changes.message(channel->topic, bytes);
     ASSERT_TRUE(writer->write((*message)->channel, (*message)->sequence, (*message)->log_time_ns,
                               (*message)->publish_time_ns, bytes));

@@ -24,6 +24,8 @@ using Readings = std::map<std::string, std::vector<Reading>>;  ///< By `robot/se
 /// attachment or the value of a metadata entry.
 struct Changes {
   std::function<void(const std::string& topic, std::vector<std::byte>& bytes)> message;
+  /// Whether a message is left out, with its topic and time.
+  std::function<bool(const std::string& topic, std::uint64_t time_ns)> drops;
   std::function<std::string(const std::string& name, std::string text)> attachment;
   std::function<void(const std::string& name, record::StringMap& entries)> metadata;
   std::size_t chunk_bytes = std::size_t{1} << 20;

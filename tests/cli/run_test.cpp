@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 
 #include <csignal>
+#include <fstream>
 #include <thread>
 
 #include "process.hpp"
@@ -72,6 +73,82 @@ TEST(Run, BadInputLeavesNoFolder) {
     EXPECT_FALSE(fs::exists(output)) << file;
   }
   EXPECT_EQ(run_rave({"run", "good_scenario.yaml", "--pace", "fast"}).exit_code, 2);
+}
+
+TEST(Run, AFolderOfAnotherRunIsRefusedAndLeftAsItIs) {
+  const TemporaryFolder folder;
+  const std::string output = folder.path() / "results";
+  const std::vector<std::string> words = {"run", "good_scenario.yaml", "--output", output};
+  ASSERT_EQ(run_rave(words).exit_code, 0);
+  const std::string record = content_of(output + "/run.mcap");
+  const std::string result = content_of(output + "/result.json");
+  ASSERT_FALSE(record.empty());
+  for (const auto& again :
+       {words,
+        {"run", "good_scenario.yaml", "--output", output, "--seed", "41", "--no-record", "--quiet",
+         "--processes", "2"},
+        {"env", "good_scenario.yaml", "--output", output, "--processes", "2"},
+        {"robot", "good_scenario.yaml", "--output", output, "--processes", "2", "--host", "host-1"},
+        {"play", output, "--output", output}}) {
+    const Ended ended = run_rave(again);
+    EXPECT_EQ(ended.exit_code, 2) << again.front();
+    EXPECT_NE(ended.err.find("the folder `" + output +
+                             "` holds `run.mcap`, so it is that of "
+                             "another run; choose another one with --output, or let --replace"),
+              std::string::npos)
+        << again.front() << ": " << ended.err;
+  }
+  EXPECT_EQ(content_of(output + "/run.mcap"), record);
+  EXPECT_EQ(content_of(output + "/result.json"), result);
+}
+
+TEST(Run, EachFileOfARunTellsThatAFolderIsUsed) {
+  for (const char* const file :
+       {"run.mcap", "world.mcap", "result.json", "summary.txt", "events.log", "picture.svg",
+        "picture.png", "console.log", "scenario.yaml", "hosts"}) {
+    const TemporaryFolder folder;
+    fs::create_directory(folder.path() / file);
+    const Ended ended = run_rave({"run", "good_scenario.yaml", "--output", folder.path()});
+    EXPECT_EQ(ended.exit_code, 2) << file;
+    EXPECT_NE(ended.err.find("holds `" + std::string(file) + "`"), std::string::npos) << ended.err;
+  }
+}
+
+TEST(Run, ReplaceLeavesNothingOfTheEarlierRunAndAllThatIsNotItsOwn) {
+  const TemporaryFolder folder;
+  const std::string output = folder.path() / "results";
+  ASSERT_EQ(run_rave({"run", "good_scenario.yaml", "--output", output}).exit_code, 0);
+  fs::create_directories(output + "/hosts/one");
+  for (const char* const file : {"world.mcap", "gap-create.json", "hosts/one/run.mcap",
+                                 "hosts/one/console.log", "notes.txt"}) {
+    std::ofstream(output + "/" + file) << "x";
+  }
+  const Ended ended = run_rave({"run", "good_scenario.yaml", "--output", output, "--replace",
+                                "--seed", "41", "--no-record", "--no-picture"});
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  for (const char* const gone :
+       {"run.mcap", "world.mcap", "picture.svg", "picture.png", "gap-create.json", "hosts"}) {
+    EXPECT_FALSE(fs::exists(output + "/" + gone)) << gone;
+  }
+  EXPECT_EQ(content_of(output + "/notes.txt"), "x");
+  EXPECT_NE(content_of(output + "/scenario.yaml").find("\nseed: 41"), std::string::npos);
+  EXPECT_EQ(run_rave({"verify", output}).exit_code, 2) << "there is no record to verify";
+}
+
+TEST(Run, ReplaceDoesNotRemoveTheRecordThatIsPlayed) {
+  const TemporaryFolder folder;
+  const std::string output = folder.path() / "results";
+  ASSERT_EQ(run_rave({"run", "good_scenario.yaml", "--output", output}).exit_code, 0);
+  const Ended ended = run_rave({"play", output, "--output", output + "/../results", "--replace"});
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_NE(ended.err.find("--replace would remove `"), std::string::npos) << ended.err;
+  EXPECT_TRUE(fs::exists(output + "/run.mcap"));
+}
+
+TEST(Run, ARunThatDoesNotStartLeavesAnEmptyFolderEmpty) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(run_rave({"run", "unusable_driver.yaml", "--output", folder.path()}).exit_code, 2);
+  EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
 TEST(Run, FirstSignalEndsItEarlyWithItsResults) {

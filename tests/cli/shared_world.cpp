@@ -38,13 +38,23 @@ std::string SharedWorld::folder(const std::string& name) const {
 
 void SharedWorld::start(const std::string& name, const std::string& what,
                         const std::string& scenario, std::vector<std::string> more) {
-  std::vector<std::string> words = {what, scenario, "--output", folder(name)};
-  for (const std::string& word : apart()) words.push_back(word);
+  std::vector<std::string> words = {what, scenario};
   words.insert(words.end(), more.begin(), more.end());
-  const pid_t process = start_rave(words, {"XDG_RUNTIME_DIR=" + folder_.path().string(),
-                                           std::string("TMPDIR=") + folder_.path().string()});
+  start_in(folder_.path(), name, std::move(words));
+}
+
+void SharedWorld::start_in(const std::string& runtime, const std::string& name,
+                           std::vector<std::string> words) {
+  words.insert(words.end(), {"--output", folder(name)});
+  for (const std::string& word : apart()) words.push_back(word);
+  const pid_t process = start_rave(
+      words, {"XDG_RUNTIME_DIR=" + runtime, std::string("TMPDIR=") + folder_.path().string()});
   ASSERT_GT(process, 0);
   processes_[name] = process;
+}
+
+void SharedWorld::start_elsewhere(const std::string& host, const std::string& scenario) {
+  start_in(elsewhere_.path(), host, {"robot", scenario, "--host", host, "--no-record"});
 }
 
 void SharedWorld::start_host(const std::string& host, const std::string& scenario,

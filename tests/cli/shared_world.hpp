@@ -28,6 +28,8 @@ class SharedWorld : public ::testing::Test {
   /// The same of `rave robot` for the host `name`.
   void start_host(const std::string& host, const std::string& scenario,
                   std::vector<std::string> more = {});
+  /// The same as on another machine: none of its sockets is seen beside the others.
+  void start_elsewhere(const std::string& host, const std::string& scenario);
   /// A copy of the scenario `crowd.yaml` that does this about lost hosts; its file.
   [[nodiscard]] std::string crowd_with_policy(const std::string& policy, double timeout_s) const;
   /// Its exit code; -1 if a signal ended it.
@@ -46,8 +48,11 @@ class SharedWorld : public ::testing::Test {
   void wait_for_line(const std::string& name, const std::string& text);
 
   TemporaryFolder folder_;
+  TemporaryFolder elsewhere_;  ///< The sockets of another machine.
 
  private:
+  void start_in(const std::string& runtime, const std::string& name,
+                std::vector<std::string> words);
   std::string tag_;
   int domain_ = 0;
   std::map<std::string, pid_t> processes_;

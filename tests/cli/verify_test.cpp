@@ -136,6 +136,40 @@ TEST_F(Verify, InputFilesThatAreMissingOrDifferAreNamed) {
       << missing.err;
 }
 
+/// What is not there cannot differ, so that alone is a difference.
+TEST_F(Verify, ReadingsThatAreMissingAreFound) {
+  Changes changes;
+  changes.drops = [](const std::string& topic, std::uint64_t time_ns) {
+    return topic == record::topic::kPercepts && time_ns >= 1'500'000'000;
+  };
+  const Ended ended = verify_changed(changes);
+  EXPECT_EQ(ended.exit_code, 1) << ended.out;
+  EXPECT_NE(ended.err.find("first in step 150 (1.500 s)"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("recorded: nothing; now: "), std::string::npos) << ended.err;
+}
+
+TEST_F(Verify, ARecordWithoutItsSecondHalfIsFound) {
+  Changes changes;
+  changes.drops = [](const std::string& topic, std::uint64_t time_ns) {
+    return topic != record::topic::kEnd && time_ns >= 1'000'000'000;
+  };
+  const Ended ended = verify_changed(changes);
+  EXPECT_EQ(ended.exit_code, 1) << ended.out;
+  EXPECT_NE(ended.err.find("recorded: nothing from here on"), std::string::npos) << ended.err;
+}
+
+TEST_F(Verify, ARecordWithoutAnythingToCompareIsRefused) {
+  Changes changes;
+  changes.drops = [](const std::string& topic, std::uint64_t) {
+    return topic != record::topic::kRun && topic != record::topic::kConsole;
+  };
+  const Ended ended = verify_changed(changes);
+  EXPECT_NE(ended.exit_code, 0) << ended.out;
+  EXPECT_NE(ended.err.find("it holds nothing that a second run could be compared with"),
+            std::string::npos)
+      << ended.err;
+}
+
 TEST_F(Verify, AnotherVersionIsNamed) {
   Changes changes;
   changes.message = [](const std::string& topic, std::vector<std::byte>& bytes) {
@@ -167,6 +201,33 @@ TEST_F(Verify, ARecordThatBrokeOffIsComparedAsFarAsItGoes) {
   const int steps = std::stoi(ended.err.substr(at + 29));
   EXPECT_GT(steps, 50);
   EXPECT_LT(steps, 200);
+}
+
+TEST_F(Verify, ADamagedRecordIsRefusedAndTheDamageIsNamed) {
+  const Ended good = run_rave({"info", record_, "--check", "--json"});
+  EXPECT_EQ(good.exit_code, 0) << good.out;
+  EXPECT_NE(good.out.find("\"whole\": true"), std::string::npos) << good.out;
+  std::string bytes = content_of(record_);
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+  std::ofstream(changed_, std::ios::binary) << bytes;
+
+  const Ended quick = run_rave({"info", changed_});
+  EXPECT_EQ(quick.exit_code, 0) << quick.err;
+  EXPECT_EQ(quick.out.find("whole"), std::string::npos) << quick.out;
+  EXPECT_NE(quick.out.find("--check compares the checksums"), std::string::npos) << quick.out;
+  const Ended quick_json = run_rave({"info", changed_, "--json"});
+  EXPECT_NE(quick_json.out.find("\"whole\": null"), std::string::npos) << quick_json.out;
+
+  const Ended checked = run_rave({"info", changed_, "--check"});
+  EXPECT_EQ(checked.exit_code, 1) << checked.out;
+  EXPECT_NE(checked.out.find("damaged: `" + changed_.string() + "`: the chunk at offset "),
+            std::string::npos)
+      << checked.out;
+  const Ended verified = run_rave({"verify", changed_});
+  EXPECT_EQ(verified.exit_code, 2) << verified.out;
+  EXPECT_NE(verified.err.find("the record is damaged, so nothing is compared: `"),
+            std::string::npos)
+      << verified.err;
 }
 
 TEST(VerifyLive, CannotBe) {

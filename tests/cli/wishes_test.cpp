@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs are asked from a machine that has none of their processes: all that it shares with them is
 // the bus.
+#include "wishes.hpp"
+
 #include <dds/dds.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -17,57 +19,10 @@
 #include "rave/bus/sequence.hpp"
 #include "rave/bus/wish_box.hpp"
 #include "rave/bus/writer.hpp"
-#include "shared_world.hpp"
 #include "stranger.hpp"
 
 namespace rave::cli_test {
 namespace {
-
-using Words = std::vector<std::string>;
-
-class Wishes : public SharedWorld {
- protected:
-  /// `rave` on a machine without runs.
-  [[nodiscard]] Ended far(Words words) const {
-    for (const std::string& word : apart()) words.push_back(word);
-    return run_rave(words, {"XDG_RUNTIME_DIR=" + elsewhere_.path().string()});
-  }
-  /// `rave` beside the processes of the run.
-  [[nodiscard]] Ended near(const Words& words) const {
-    return run_rave(words, {"XDG_RUNTIME_DIR=" + folder_.path().string()});
-  }
-  void start_all(const std::string& scenario, const Words& more) {
-    start("env", "env", scenario, more);
-    start_host("one", scenario, more);
-    start_host("two", scenario, more);
-    wait_until([this] { return far({"edit", "list"}).exit_code == 0; }, "it runs");
-  }
-  void refused(const Words& words, const std::string& why) const {
-    const Ended ended = far(words);
-    EXPECT_EQ(ended.exit_code, 1) << ended.out;
-    EXPECT_NE(ended.err.find(why), std::string::npos) << ended.err;
-  }
-  /// Asked again, a few times, until it says so: what is on the bus may be seen late.
-  [[nodiscard]] Ended far_until(const Words& words, const std::string& said) const {
-    Ended ended = far(words);
-    for (int i = 0; i < 9 && ended.err.find(said) == std::string::npos; ++i) ended = far(words);
-    return ended;
-  }
-  /// Whether it has seen a process of some other run; of that of this number.
-  [[nodiscard]] bool logged_foreign(const std::string& who, const std::string& run = {}) const {
-    return console(who).find("a process of run " + run) != std::string::npos;
-  }
-  [[nodiscard]] bool logged(const std::string& who, const std::string& line) const {
-    const std::string log = console(who);
-    return log.find("over the bus: " + line) != std::string::npos;
-  }
-  void end_by_hand(const std::string& manager) {
-    signal(manager, SIGINT);
-    EXPECT_EQ(end_of(manager), 1) << console(manager);
-  }
-
-  TemporaryFolder elsewhere_;
-};
 
 TEST_F(Wishes, WithoutARunItSaysWhereItHasLooked) {
   const Ended ended = far({"edit", "list"});
@@ -127,7 +82,7 @@ TEST_F(Wishes, ARunInRealTimeDoesWhatIsAskedFromElsewhere) {
   EXPECT_NE(added.out.find("around the robots of all 2 hosts "), std::string::npos) << added.out;
   EXPECT_NE(near({"edit", "live_twins@two", "list"}).out.find("bale"), std::string::npos);
   EXPECT_NE(console("env").find(R"(over the bus: {"rave":1,"do":"add")"), std::string::npos);
-  refused({"stop", "live_twins"}, "each host controls its own robots");
+  refused({"pause", "live_twins"}, "a live run cannot be held");
   const Ended stopped = far({"stop", "live_twins@one"});
   EXPECT_EQ(stopped.exit_code, 0) << stopped.err;
   EXPECT_TRUE(logged("one", R"({"rave":1,"do":"stop"})")) << console("one");
@@ -192,11 +147,22 @@ TEST_F(Wishes, OfSeveralRunsOneHasToBeNamed) {
              "both know of each other");
   const Ended unnamed = far_until({"edit", "list"}, "2 runs are under way, so say which");
   EXPECT_EQ(unnamed.exit_code, 2) << unnamed.err;
-  // That of which there are two is done to neither.
-  const Ended either = far_until({"stop", "crowd"}, "several runs are of `crowd`: ");
+  // That of which there are two is done to neither; but a stop harms nobody.
+  const Ended either = far_until({"pause", "crowd"}, "several runs are of `crowd`: ");
   EXPECT_EQ(either.exit_code, 2) << either.err;
   EXPECT_NE(either.err.find("several runs are of `crowd`: "), std::string::npos) << either.err;
   EXPECT_NE(either.err.find("say which by its number"), std::string::npos) << either.err;
+  for (const Words& stop : {Words{"stop", "crowd"}, Words{"stop", "--robot", "left-1"}}) {
+    const std::string asked =
+        stop.size() == 2 ? R"({"rave":1,"do":"stop"})" : R"("robot":"left-1")";
+    wait_until(
+        [&] {
+          static_cast<void>(far(stop));
+          return console("morning").find(asked) != std::string::npos &&
+                 console("evening").find(asked) != std::string::npos;
+        },
+        "both are asked to stop");
+  }
   // It waits for its hosts still, and says what it would say to those beside it.
   refused({"edit", "morning", "list"}, "morning: no run is under way");
   const Ended third = far_until({"edit", "night", "list"}, "there is no run `night`");

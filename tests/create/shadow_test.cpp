@@ -65,6 +65,7 @@ TEST(Shadow, DriftsFromTheRobotAsItsWheelsSlip) {
     EXPECT_TRUE(one->result["whole"]) << one->result["problems"].dump();
     ASSERT_EQ(one->result["shadows"].size(), 1U);
     const Json& shadow = one->result["shadows"][0];
+    EXPECT_GT(shadow["compared"], 0);
     EXPECT_EQ(shadow["robot"], "rosie");
     EXPECT_EQ(shadow["starts"], 1);
     EXPECT_GT(shadow["moments"].size(), 10U);

@@ -11,6 +11,7 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -81,6 +82,12 @@ class Lab:
     def lose_packets(self, name, percent):
         rules = ("table inet loss {\n chain in {\n  type filter hook input priority 0;\n"
                  f'  iifname "eth0" numgen random mod 100 < {percent} drop\n }}\n}}\n')
+        subprocess.run(["ip", "netns", "exec", self.space(name), "nft", "-f", "-"],
+                       input=rules, text=True, check=True)
+
+    def drop_all(self, name):
+        rules = ("table inet wall {\n chain in {\n  type filter hook input priority 0;\n"
+                 "  meta l4proto udp drop\n }\n}\n")
         subprocess.run(["ip", "netns", "exec", self.space(name), "nft", "-f", "-"],
                        input=rules, text=True, check=True)
 
@@ -213,6 +220,33 @@ class Machines(unittest.TestCase):
             lab.cable("host-1", "up")
             self.wait_for_line("env", "host `host-1` is back")
             self.expect_the_same_run(processes)
+
+    def expect_ends(self, break_network):
+        """All end that are asked to, though nothing that they send arrives any more, not even at
+        themselves."""
+        with Lab(["env", "host-1", "host-2"]) as lab:
+            words = self.peers(lab)
+            processes = {}
+            for name, what in [("host-1", "robot"), ("env", "env"), ("host-2", "robot")]:
+                line = self.words(lab, name, what, words)
+                line[line.index("--duration") + 1] = "100000"
+                processes[name] = lab.start(name, line)
+            self.wait_for_line("env", "host `host-1` is here")
+            self.wait_for_line("env", "host `host-2` is here")
+            for name in lab.names:
+                break_network(lab, name)
+            for name, process in processes.items():
+                process.send_signal(signal.SIGINT)
+            for name, process in processes.items():
+                # It has reported what is missing, and was not killed.
+                self.assertEqual(process.wait(PATIENCE_S), 1, name + "\n" + self.console(name))
+
+    def test_a_process_ends_whose_address_is_gone(self):
+        self.expect_ends(lambda lab, name: call(
+            "ip", "-n", lab.space(name), "addr", "flush", "dev", "eth0"))
+
+    def test_a_process_ends_whose_packets_are_all_dropped(self):
+        self.expect_ends(lambda lab, name: lab.drop_all(name))
 
 
 if __name__ == "__main__":

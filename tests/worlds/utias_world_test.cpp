@@ -78,6 +78,8 @@ TEST(UtiasWorldTubes, StandApartAndAreTallerThanTheirBarcodes) {
     EXPECT_EQ(tube.find("layer") == nullptr ? "" : tube.find("layer")->scalar(), "mapped_real");
     const auto body = ends(tube, "z_m");
     const auto barcode = ends(tube, "barcode_z_m");
+    // What `tools/estimate_tube_radius.py` gives; the test `utias_tube_radius` runs it.
+    EXPECT_EQ(number(tube, "disc_radius_m"), 0.04) << name;
     EXPECT_EQ(body.first, 0) << name;
     EXPECT_LT(barcode.first, barcode.second) << name;
     EXPECT_GE(barcode.first, body.first) << name;

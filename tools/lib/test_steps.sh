@@ -42,7 +42,8 @@ step_release() {
 # More random moments at which processes are killed than the release step has.
 step_kills() {
   step_build release rave_tests_kills || return 0
-  STEP_NAME=kills RAVE_KILL_ROUNDS="${RAVE_KILL_ROUNDS:-50}" step_ctest release -L '^kills$'
+  STEP_NAME=kills RAVE_KILL_ROUNDS="${RAVE_KILL_ROUNDS:-50}" \
+    RAVE_OVERLOAD_ROUNDS="${RAVE_OVERLOAD_ROUNDS:-3}" step_ctest release -L '^kills$'
 }
 
 # The hash of a run does not depend on optimisation, and checks of the debug library run here. Only

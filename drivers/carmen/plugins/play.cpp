@@ -31,6 +31,7 @@ std::string report_json(const LogPlay& play, std::string_view stream,
   recording::add_file(json, report);
   recording::add_timing(json, report,
                         {play.log.start_ns, play.log.end_ns, play.options.clock_offset_s});
+  json["stamped_by"] = play.log.by_logger ? "logger_timestamp" : "ipc_timestamp";
   json["beams"] = play.log.beams;
   json["no_returns"] = play.log.no_returns;
   json["passed_over"] = play.log.passed_over;

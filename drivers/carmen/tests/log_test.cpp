@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "carmen/log.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -58,6 +59,49 @@ TEST(Log, KeepsTheLaterOfTwoScansOfOneStamp) {
   EXPECT_EQ(log->scan_report.repaired(RepairKind::kDuplicateStamp), 1);
   ASSERT_EQ(log->scans.size(), 2U);
   EXPECT_EQ(log->ranges(log->scans[0])[0], 1.4F);
+}
+
+/// A log of which all scans have the same stamp of their message.
+std::string still_log(int scans, bool logger_too) {
+  std::string text;
+  for (int i = 0; i < scans; ++i) {
+    text += fmt::format("FLASER 1 {} 0 0 0 0 0 0 12.5 nohost {}\n", 1 + i % 7,
+                        logger_too ? 12.5 : 0.25 * i);
+    text += fmt::format("ODOM 0 0 0 0 0 0 {:.2f} nohost {}\n", 12.5 + 0.01 * i, 0.25 * i + 0.1);
+  }
+  return text;
+}
+
+TEST(Log, TakesTheStampsOfTheLoggerIfThoseOfTheMessagesRepeat) {
+  const auto log = load_text({still_log(2008, false), false}, "f", std::nullopt, {});
+  ASSERT_TRUE(log) << log.error().text();
+  EXPECT_TRUE(log->by_logger);
+  EXPECT_EQ(log->scan_report.rows, 2008);
+  EXPECT_EQ(log->scan_report.dropped(), 0);
+  EXPECT_EQ(log->odometry_report.rows, 2008);
+  EXPECT_EQ(log->scans[3].t_ns, 750 * kMillisecond_ns);
+  EXPECT_EQ(log->odometry[3].t_ns, 850 * kMillisecond_ns);
+  EXPECT_FALSE(load_small()->by_logger);
+}
+
+TEST(Log, CountsWhatItDropsIfAllStampsRepeat) {
+  const auto log = load_text({still_log(2008, true), false}, "f", std::nullopt, {});
+  ASSERT_TRUE(log) << log.error().text();
+  EXPECT_FALSE(log->by_logger);
+  EXPECT_EQ(log->scan_report.rows, 1);
+  EXPECT_EQ(log->scan_report.dropped(), 2007);
+}
+
+TEST(Log, CountsWhatItDropsInTheWindowOnly) {
+  std::string text;
+  for (int i = 0; i < 100; ++i) {
+    const double stamp_s = i < 50 ? 0.01 * (i / 2) : 0.01 * i;
+    text += fmt::format("FLASER 1 1 0 0 0 0 0 0 {0:.2f} nohost {0:.2f}\n", stamp_s);
+  }
+  LoadOptions options;
+  EXPECT_EQ(load_text({text, false}, "f", std::nullopt, options)->scan_report.dropped(), 25);
+  options.window.start_s = 0.5;
+  EXPECT_EQ(load_text({text, false}, "f", std::nullopt, options)->scan_report.dropped(), 0);
 }
 
 TEST(Log, RefusesWhatItCannotUse) {

@@ -62,5 +62,42 @@ TEST(FrameTimes, AFrameThatStoodStillComesWithTheNextAndTimeDoesNotStepBack) {
   EXPECT_NEAR(last_s, 199 * kPeriod_s, 1e-3) << "it has found back";
 }
 
+/// The drift that is seen of a clock that is off by `drift_ppm`: of the frames `is_lost(i)` are
+/// lost, and some stand still on the line for more than a period.
+template <class IsLost>
+double seen_drift_ppm(double drift_ppm, const IsLost& is_lost) {
+  FrameTimes times(kPeriod_s);
+  std::mt19937 random(3);
+  std::exponential_distribution<double> delay(1 / 0.0005);
+  std::bernoulli_distribution stands(0.02);
+  double came_s = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const double true_s = i * kPeriod_s / (1 + drift_ppm * 1e-6);
+    came_s = std::max(came_s, true_s + delay(random) + (stands(random) ? 0.02 : 0));
+    if (!is_lost(i)) (void)times.next(came_s);
+  }
+  return (kPeriod_s / times.measured_period_s() - 1) * 1e6;
+}
+
+TEST(FrameTimes, TheDriftIsThatOfTheClockWhateverFramesAreLostOrLate) {
+  for (const double drift_ppm : {0.0, 200.0}) {
+    EXPECT_NEAR(seen_drift_ppm(drift_ppm, [](int) { return false; }), drift_ppm, 50);
+    EXPECT_NEAR(seen_drift_ppm(drift_ppm, [](int i) { return i % 7 == 3; }), drift_ppm, 50);
+    EXPECT_NEAR(seen_drift_ppm(drift_ppm, [](int i) { return i % 50 < 5; }), drift_ppm, 50);
+    // Silent for 0.3 s now and then, the last time 15 s before the end.
+    EXPECT_NEAR(seen_drift_ppm(drift_ppm, [](int i) { return i < 3000 && i % 500 < 20; }),
+                drift_ppm, 100);
+  }
+}
+
+TEST(FrameTimes, FramesThatAreMissingInALongGapAreCounted) {
+  FrameTimes times(kPeriod_s);
+  for (int i = 0; i < 300; ++i) {
+    if (i % 100 < 70 || i % 100 >= 90) (void)times.next(i * kPeriod_s);
+  }
+  EXPECT_EQ(times.missing(), 60U);
+  EXPECT_NEAR(times.measured_period_s(), kPeriod_s, 1e-9);
+}
+
 }  // namespace
 }  // namespace rave::oi

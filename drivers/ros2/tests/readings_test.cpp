@@ -27,14 +27,33 @@ ros2::LaserScan scan_of(std::vector<float>& ranges) {
 }
 
 TEST(Ros2Readings, RangesAsRep117HasThem) {
-  std::vector<float> sent{kInf, kNan, -kInf, 0, 2};
+  std::vector<float> sent{kInf, 0, -kInf, 0.1F, 2};
   const ros2::LaserScan scan = scan_of(sent);
   const Fan fan = fan_of(scan);
   EXPECT_EQ(bearings_of(fan), (std::vector<double>{-0.5, -0.25, 0, 0.25, 0.5}));
   std::vector<float> got(5);
   ASSERT_TRUE(ranges_of(scan, fan, got));
-  EXPECT_EQ(got, (std::vector<float>{kInf, kInf, 0.25F, kInf, 2}));
+  EXPECT_EQ(got, (std::vector<float>{kInf, kInf, 0.25F, 0.25F, 2}));
   EXPECT_EQ(range_of(8.5F, 0.25, 8), kInf) << "beyond what it can measure";
+  EXPECT_EQ(range_of(0, 0, 8), 0) << "it can measure that";
+  for (const float bad : {kNan, -0.1F, -1.0F, -1e30F}) {
+    EXPECT_TRUE(std::isnan(range_of(bad, 0.25, 8))) << bad << " is not free space";
+    EXPECT_TRUE(std::isnan(range_of(bad, 0, 8))) << bad;
+  }
+}
+
+TEST(Ros2Readings, AScanWithoutAnyReadingIsRefused) {
+  std::vector<float> sent{kNan, 0, -1, kNan, -0.5F};
+  const ros2::LaserScan dead = scan_of(sent);
+  std::vector<float> got(5);
+  EXPECT_EQ(ranges_of(dead, fan_of(dead), got).error().message,
+            "no ray has a reading: each is NaN, 0 or negative, as of a scanner that does not turn; "
+            "nothing there is +infinity (REP-117)");
+  for (const float one : {kInf, -kInf, 0.3F, 100.0F}) {
+    std::vector<float> alive{kNan, 0, -1, kNan, one};
+    const ros2::LaserScan scan = scan_of(alive);
+    EXPECT_TRUE(ranges_of(scan, fan_of(scan), got)) << one;
+  }
 }
 
 TEST(Ros2Readings, AnotherScannerIsRefused) {

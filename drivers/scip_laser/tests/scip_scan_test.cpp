@@ -58,6 +58,26 @@ TEST(Scan, RangesInMetresAndErrorCodesAsNoReturn) {
   }
 }
 
+TEST(Scan, TheLargestNumberOfTwoCharactersIsNoReturn) {
+  for (const bool continuous : {true, false}) {
+    ScanRequest wanted = request(2, continuous, 2);
+    const std::string text =
+        scan_text(wanted.command(), continuous ? "99" : "00", 1, {4093, 4094, 4095}, 2);
+    Scan scan;
+    ASSERT_EQ(read(text, wanted, scan), ScanEnd::kScan);
+    EXPECT_FLOAT_EQ(scan.ranges_m[0], 4.093F);
+    EXPECT_FLOAT_EQ(scan.ranges_m[1], 4.094F);
+    EXPECT_TRUE(std::isinf(scan.ranges_m[2])) << "a wall at 4.095 m that is not there";
+  }
+}
+
+TEST(Scan, OfThreeCharacters4095IsARange) {
+  const ScanRequest wanted = request(0);
+  Scan scan;
+  ASSERT_EQ(read(scan_text(wanted.command(), "99", 1, {4095}, 3), wanted, scan), ScanEnd::kScan);
+  EXPECT_FLOAT_EQ(scan.ranges_m[0], 4.095F);
+}
+
 TEST(Scan, RangesAcrossTheEndOfABlock) {
   std::vector<unsigned> mm;
   for (unsigned i = 0; i < 682; ++i) mm.push_back(1000 + 7 * i % 4000);

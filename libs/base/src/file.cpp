@@ -8,6 +8,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "rave/base/regular_file.hpp"
+
 namespace rave {
 namespace {
 
@@ -34,14 +36,25 @@ tl::unexpected<Error> system_failure(const std::filesystem::path& path, std::str
 
 }  // namespace
 
-Result<std::string> read_file(const std::filesystem::path& path, std::size_t max_bytes) {
-  const FileHandle file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (file.get() < 0) return system_failure(path, "open");
+Result<int> open_regular_file(const std::filesystem::path& path) {
+  // With O_NONBLOCK a pipe opens at once; reading a regular file is the same with it.
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (fd < 0) return system_failure(path, "open");
   struct stat info {};
-  if (::fstat(file.get(), &info) != 0) return system_failure(path, "inspect");
-  if (S_ISDIR(info.st_mode)) {
-    return fail(ErrorCode::kIo, "cannot read `{}`: it is a folder", path.string());
+  if (::fstat(fd, &info) != 0) {
+    auto failure = system_failure(path, "inspect");
+    ::close(fd);
+    return failure;
   }
+  if (S_ISREG(info.st_mode)) return fd;
+  ::close(fd);
+  return fail(ErrorCode::kIo, "cannot read `{}`: it is {}", path.string(),
+              S_ISDIR(info.st_mode) ? "a folder" : "no regular file");
+}
+
+Result<std::string> read_file(const std::filesystem::path& path, std::size_t max_bytes) {
+  RAVE_TRY_ASSIGN(const int opened, open_regular_file(path));
+  const FileHandle file(opened);
   std::string content;
   char buffer[1 << 16];
   while (true) {

@@ -2,6 +2,7 @@
 #include "rave/base/file.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace rave {
@@ -32,6 +33,17 @@ TEST_F(FileTest, AFailedWriteLeavesNothingBehind) {
   std::size_t entries = 0;
   for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder_)) ++entries;
   EXPECT_EQ(entries, 1U);
+}
+
+/// Nobody ever writes to it: whoever waited for that would wait for ever.
+TEST_F(FileTest, ANamedPipeIsRefusedAndNotWaitedFor) {
+  const std::filesystem::path pipe = folder_ / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const auto text = read_file(pipe);
+  ASSERT_FALSE(text);
+  EXPECT_EQ(text.error().code, ErrorCode::kIo);
+  EXPECT_EQ(text.error().message, "cannot read `" + pipe.string() + "`: it is no regular file");
+  EXPECT_EQ(read_file("/dev/null").error().code, ErrorCode::kIo);
 }
 
 TEST_F(FileTest, SaysWhatIsWrong) {

@@ -105,7 +105,14 @@ Status Bus::open_domain() {
 
 Status Bus::open_participant() {
   const Qos qos(dds_create_qos());
-  if (config_.anonymous) {
+  // Nobody can encrypt what a participant says of itself; members are told by a writer.
+  const bool secured = !config_.security.empty();
+  if (secured) {
+    // Cyclone DDS tells these of every process, unless they are something else already.
+    for (const char* const name : {"__ProcessName", "__Pid", "__Hostname"}) {
+      dds_qset_prop(qos.get(), name, "");
+    }
+  } else if (config_.anonymous) {
     dds_qset_entity_name(qos.get(), config_.participant.c_str());
   } else {
     write_identity({config_.participant, config_.run, writer_}, qos.get());
@@ -115,16 +122,28 @@ Status Bus::open_participant() {
   const Qos partition = partition_of(config_.run);
   publisher_ = dds_create_publisher(participant_, partition.get(), nullptr);
   subscriber_ = dds_create_subscriber(participant_, partition.get(), nullptr);
-  participants_ = std::make_unique<Participants>(participant_, config_.run);
-  const dds_return_t worst =
-      std::min({publisher_, subscriber_, participants_->reader(), dds_entity_t{0}});
+  participants_ = std::make_unique<Participants>(participant_, config_.run, secured);
+  const dds_return_t worst = std::min(
+      {publisher_, subscriber_, std::ranges::min(participants_->readers()), dds_entity_t{0}});
   if (worst < 0) return refused(worst);
+  if (secured && !config_.anonymous) RAVE_TRY(introduce());
   // What certificates are to protect must not go beside them.
-  if (config_.short_way && !config_.anonymous && config_.security.empty()) {
+  if (config_.short_way && !config_.anonymous && !secured) {
     if (auto socket = ShortSocket::open({config_.run, writer_, 0})) {
       short_way_ = std::make_unique<ShortSocket>(*std::move(socket));
     }
   }
+  return {};
+}
+
+Status Bus::introduce() {
+  const TopicSpec spec = topic_of<HostInfo>();
+  RAVE_TRY_ASSIGN(const dds_entity_t topic, make_topic(spec));
+  const Qos qos = make_qos(spec.qos);
+  write_identity({config_.participant, config_.run, writer_}, qos.get());
+  const dds_entity_t writer = dds_create_writer(publisher_, topic, qos.get(), nullptr);
+  dds_delete(topic);
+  if (writer < 0) return refused(writer);
   return {};
 }
 
@@ -232,6 +251,25 @@ std::vector<BusEvent> Bus::take_events() {
 }
 
 std::vector<BusProcess> Bus::processes() const { return participants_->all(); }
+
+bool Bus::speaks_for(dds_entity_t reader, dds_instance_handle_t from, std::uint64_t writer) {
+  const dds_guid_t* const owner = participants_->owner_of(writer);
+  if (owner == nullptr) return true;
+  Endpoint* const end = endpoint(reader);
+  if (end == nullptr) return true;
+  auto peer = std::ranges::find(end->heard, from, &Endpoint::Peer::handle);
+  if (peer != end->heard.end()) return participants_->speaks_for(peer->participant, writer);
+  const dds_guid_t participant = participant_of(reader, true, from);
+  if (std::ranges::count(participant.v, 0) == std::ssize(participant.v)) {
+    // It has gone. The last words of the process itself count, unless it was heard otherwise.
+    return std::ranges::none_of(end->heard, [&](const Endpoint::Peer& known) {
+      return participants_->speaks_for(known.participant, writer);
+    });
+  }
+  if (end->heard.size() >= kMaxEvents) end->heard.clear();
+  end->heard.push_back({from, participant});
+  return participants_->speaks_for(participant, writer);
+}
 
 void Bus::collect_matches(Endpoint& endpoint) {
   std::uint32_t status = 0;

@@ -100,10 +100,13 @@ std::string discovery(const BusConfig& config) {
 /// what has room. Where many processes join at once, each is
 /// asked by all others again and again what it has got; ten times a second is more than fifty of
 /// them can answer before they are taken for dead. Longer breaks would delay two that just miss
-/// each other.
+/// each other. One thread receives at all sockets: it is ended through a descriptor. Threads with a
+/// socket each are ended by a packet that the process sends to itself, which never arrives if its
+/// address has gone or a packet filter drops it; then the end of the domain waits for ever.
 std::string internals() {
   return "<Internal><SocketReceiveBufferSize max=\"8MiB\"/>"
          "<HeartbeatInterval>200ms</HeartbeatInterval>"
+         "<MultipleReceiveThreads>false</MultipleReceiveThreads>"
          "<Watermarks><WhcHigh>16MB</WhcHigh><WhcHighInit>16MB</WhcHighInit>"
          "<WhcAdaptive>false</WhcAdaptive></Watermarks>"
          "<MaxSampleSize>16MiB</MaxSampleSize></Internal>"

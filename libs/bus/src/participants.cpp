@@ -13,7 +13,7 @@ namespace rave::bus {
 namespace {
 
 /// The user data of our participants: this word, the run and the writer, in hexadecimal digits.
-constexpr std::string_view kMark = "rave1 ";
+constexpr std::string_view kIdentityMark = "rave1 ";
 constexpr std::size_t kRunDigits = 32;
 constexpr std::size_t kWriterDigits = 16;
 /// More names of processes that have gone are not kept.
@@ -25,10 +25,28 @@ struct DdsFree {
   void operator()(void* memory) const noexcept { dds_free(memory); }
 };
 
+/// Calls visit(const Sample&, const dds_sample_info_t&) for all that a built-in topic has.
+template <class Sample, class Visit>
+void take_all(dds_entity_t reader, Visit&& visit) {
+  constexpr std::size_t kBatch = 32;
+  while (true) {
+    std::array<void*, kBatch> samples{};
+    std::array<dds_sample_info_t, kBatch> infos{};
+    const dds_return_t count =
+        dds_take(reader, samples.data(), infos.data(), kBatch, std::uint32_t{kBatch});
+    if (count <= 0) return;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      visit(*static_cast<const Sample*>(samples[i]), infos[i]);
+    }
+    dds_return_loan(reader, samples.data(), count);
+  }
+}
+
 }  // namespace
 
 void write_identity(const Identity& identity, dds_qos_t* qos) {
-  const std::string data = fmt::format("{}{}{:016x}", kMark, identity.run.text(), identity.writer);
+  const std::string data =
+      fmt::format("{}{}{:016x}", kIdentityMark, identity.run.text(), identity.writer);
   dds_qset_userdata(qos, data.data(), data.size());
   dds_qset_entity_name(qos, identity.name.c_str());
 }
@@ -46,40 +64,57 @@ Identity read_identity(const dds_qos_t* qos) {
   if (!dds_qget_userdata(qos, &data, &size) || data == nullptr) return identity;
   const std::unique_ptr<void, DdsFree> owner(data);
   const std::string_view text(static_cast<const char*>(data), size);
-  if (size != kMark.size() + kRunDigits + kWriterDigits || !text.starts_with(kMark)) {
+  if (size != kIdentityMark.size() + kRunDigits + kWriterDigits ||
+      !text.starts_with(kIdentityMark)) {
     return identity;
   }
-  const std::string_view writer = text.substr(kMark.size() + kRunDigits);
-  if (const auto run = RunId::parse(text.substr(kMark.size(), kRunDigits))) {
+  const std::string_view writer = text.substr(kIdentityMark.size() + kRunDigits);
+  if (const auto run = RunId::parse(text.substr(kIdentityMark.size(), kRunDigits))) {
     std::from_chars(writer.data(), writer.data() + writer.size(), identity.writer, 16);
     identity.run = *run;
   }
   return identity;
 }
 
-Participants::Participants(dds_entity_t participant, const RunId& run)
-    : run_(run),
-      reader_(dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, nullptr, nullptr)) {
+Participants::Participants(dds_entity_t participant, const RunId& run, bool secured)
+    : run_(run), secured_(secured) {
+  readers_.push_back(
+      dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, nullptr, nullptr));
+  if (secured_) {
+    readers_.push_back(
+        dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr));
+  }
   dds_guid_t guid{};
   dds_get_guid(participant, &guid);
   self_ = key_of(guid);
 }
 
+std::map<Participants::Guid, Identity> Participants::take_writers() const {
+  std::map<Guid, Identity> said;
+  if (!secured_) return said;
+  take_all<dds_builtintopic_endpoint_t>(
+      readers_.back(), [&said](const dds_builtintopic_endpoint_t& sample, const auto& info) {
+        if (!info.valid_data) return;
+        const Identity who = read_identity(sample.qos);
+        if (who.writer != 0) said.try_emplace(key_of(sample.participant_key), who);
+      });
+  return said;
+}
+
 void Participants::collect(std::vector<BusEvent>& events) {
-  constexpr std::size_t kBatch = 32;
-  while (true) {
-    std::array<void*, kBatch> samples{};
-    std::array<dds_sample_info_t, kBatch> infos{};
-    const dds_return_t count =
-        dds_take(reader_, samples.data(), infos.data(), kBatch, std::uint32_t{kBatch});
-    if (count <= 0) return;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-      const auto& sample = *static_cast<const dds_builtintopic_participant_t*>(samples[i]);
-      // Who came and went since the last time has one sample that says both.
-      if (infos[i].valid_data) appear(sample, events);
-      if (infos[i].instance_state != DDS_ALIVE_INSTANCE_STATE) disappear(sample.key, events);
-    }
-    dds_return_loan(reader_, samples.data(), count);
+  // A participant is told before its writers: of whom a writer has come it is there.
+  const std::map<Guid, Identity> said = take_writers();
+  take_all<dds_builtintopic_participant_t>(
+      readers_.front(),
+      [this, &events](const dds_builtintopic_participant_t& sample, const auto& info) {
+        // Who came and went since the last time has one sample that says both.
+        if (info.valid_data) appear(sample, events);
+        if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) disappear(sample.key, events);
+      });
+  for (const auto& [key, who] : said) {
+    const auto known = known_.find(key);
+    if (known == known_.end() || known->second.writer != 0) continue;
+    learn(key, who, events);
   }
 }
 
@@ -87,24 +122,54 @@ void Participants::appear(const dds_builtintopic_participant_t& sample,
                           std::vector<BusEvent>& events) {
   const Guid key = key_of(sample.key);
   if (key == self_ || known_.contains(key)) return;
-  const Identity& who = known_[key] = read_identity(sample.qos);
-  if (foreign(who)) {
-    events.push_back({EventKind::kForeignRun, "", who.name, who.writer,
-                      "a process of run " + who.run.text() + " is in this domain"});
-  } else {
+  learn(key, secured_ ? Identity() : read_identity(sample.qos), events);
+}
+
+void Participants::learn(const Guid& key, const Identity& who, std::vector<BusEvent>& events) {
+  known_[key] = who;
+  if (!foreign(who)) {
     events.push_back({EventKind::kParticipantAppeared, "", who.name, who.writer, ""});
+    if (who.writer == 0 || who.run != run_) return;
+    dds_guid_t guid{};
+    std::ranges::copy(key, guid.v);
+    owners_.try_emplace(who.writer, guid);
+    return;
   }
+  // A run may have many processes, of which each process of this one would be told.
+  if (foreign_told_.size() >= kMostGone || !foreign_told_.insert(who.run.text()).second) return;
+  events.push_back({EventKind::kForeignRun, "", who.name, who.writer,
+                    "a process of run " + who.run.text() + " is in this domain"});
 }
 
 void Participants::disappear(const dds_guid_t& guid, std::vector<BusEvent>& events) {
   auto node = known_.extract(key_of(guid));
   if (node.empty()) return;
+  const std::uint64_t writer = node.mapped().writer;
   if (!foreign(node.mapped())) {
-    events.push_back(
-        {EventKind::kParticipantLost, "", node.mapped().name, node.mapped().writer, ""});
+    events.push_back({EventKind::kParticipantLost, "", node.mapped().name, writer, ""});
+  }
+  const auto owner = owners_.find(writer);
+  if (owner != owners_.end() && key_of(owner->second) == node.key()) {
+    owners_.erase(owner);
+    // Another one may have said the same too early.
+    for (const auto& [key, who] : known_) {
+      if (who.writer != writer || who.run != run_) continue;
+      std::ranges::copy(key, owners_[writer].v);
+      break;
+    }
   }
   if (gone_.size() >= kMostGone) gone_.erase(gone_.begin());
   gone_.insert(std::move(node));
+}
+
+const dds_guid_t* Participants::owner_of(std::uint64_t writer) const {
+  const auto owner = owners_.find(writer);
+  return owner == owners_.end() ? nullptr : &owner->second;
+}
+
+bool Participants::speaks_for(const dds_guid_t& guid, std::uint64_t writer) const {
+  const dds_guid_t* const owner = owner_of(writer);
+  return owner == nullptr || key_of(*owner) == key_of(guid);
 }
 
 bool Participants::foreign(const Identity& who) const { return !who.run.none() && who.run != run_; }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -22,35 +23,53 @@ struct Identity {
   std::uint64_t writer = 0;
 };
 
-/// Puts the identity into the qualities of service of a participant, and reads it there.
+/// Puts the identity into the qualities of service of a participant, writer or reader, and reads it
+/// there.
 void write_identity(const Identity& identity, dds_qos_t* qos);
 [[nodiscard]] Identity read_identity(const dds_qos_t* qos);
 
-/// Who else is in the domain, from the topic on which DDS tells it. Owner: the bus.
+/// Who else is in the domain, from the topics on which DDS tells it. Owner: the bus.
+///
+/// What a participant says of itself is sent unencrypted, with certificates too. So with `secured`
+/// a process says who it is with a writer, of which only members are told: its participant appears
+/// without a name, and again with it as soon as that writer is known.
 class Participants {
  public:
-  Participants(dds_entity_t participant, const RunId& run);
+  Participants(dds_entity_t participant, const RunId& run, bool secured);
 
-  /// Reads what is new. Those of this run, and those that are not of RAVE, become events; a process
-  /// of another run becomes a foreign one.
+  /// Reads what is new. Those of this run, and those that are not of RAVE, become events; of
+  /// another run the first process that is seen becomes one.
   void collect(std::vector<BusEvent>& events);
   /// Who has the participant; empty if nobody known.
   [[nodiscard]] Identity find(const dds_guid_t& guid) const;
   /// Whether the participant was here and is not any more.
   [[nodiscard]] bool gone(const dds_guid_t& guid) const;
   [[nodiscard]] std::vector<BusProcess> all() const;
-  [[nodiscard]] dds_entity_t reader() const noexcept { return reader_; }
+  /// Whether the participant may speak as `writer`: of those in the run that say they are `writer`
+  /// it was the first, or there is none.
+  [[nodiscard]] bool speaks_for(const dds_guid_t& guid, std::uint64_t writer) const;
+  /// The first participant of the run that says it is `writer`; null if there is none.
+  [[nodiscard]] const dds_guid_t* owner_of(std::uint64_t writer) const;
+  /// Whose samples say that something may have changed.
+  [[nodiscard]] const std::vector<dds_entity_t>& readers() const noexcept { return readers_; }
 
  private:
   using Guid = std::array<std::uint8_t, 16>;
   void appear(const dds_builtintopic_participant_t& sample, std::vector<BusEvent>& events);
   void disappear(const dds_guid_t& guid, std::vector<BusEvent>& events);
+  /// A known participant has said who it is.
+  void learn(const Guid& key, const Identity& who, std::vector<BusEvent>& events);
+  /// Who has said so with a writer since the last call.
+  [[nodiscard]] std::map<Guid, Identity> take_writers() const;
   [[nodiscard]] bool foreign(const Identity& who) const;
 
   RunId run_;
+  bool secured_;
   Guid self_{};
-  dds_entity_t reader_ = 0;
+  std::vector<dds_entity_t> readers_;  ///< Of participants, and with `secured_` of writers.
   std::map<Guid, Identity> known_;
+  std::map<std::uint64_t, dds_guid_t> owners_;  ///< Of this run, by writer.
+  std::set<std::string> foreign_told_;          ///< Runs, by their numbers.
   /// Names stay known after their owners have gone: their endpoints are told of later.
   std::map<Guid, Identity> gone_;
 };

@@ -45,11 +45,21 @@ const void* ReaderCore::take_short(std::size_t& budget) {
     }
     if (const void* const sample = short_->decoder().decode(datagram->bytes)) {
       --budget;
+      sender_ = datagram->writer;
       return sample;
     }
     refuse(datagram->writer, "what came by the short way is no sample of this topic");
   }
   return nullptr;
+}
+
+bool ReaderCore::is_of(std::uint64_t writer, const dds_sample_info_t& info) {
+  // Only what came by the short way has none.
+  const bool known = info.publication_handle == 0
+                         ? writer == sender_
+                         : bus_->speaks_for(reader_, info.publication_handle, writer);
+  if (!known) refuse(writer, "it was sent in the name of this process by another one");
+  return known;
 }
 
 void ReaderCore::refuse(std::uint64_t writer, std::string why) {

@@ -243,6 +243,13 @@ Status validate(const ProcessState& sample) {
         fmt::format("real_robots is {}, of {} robots", sample.real_robots, sample.robots));
   }
   RAVE_TRY(check_time("cpu_ns", sample.cpu_ns));
+  if (sample.missed_deadlines > sample.deadlines) {
+    return invalid(fmt::format("missed_deadlines is {}, of {} deadlines", sample.missed_deadlines,
+                               sample.deadlines));
+  }
+  RAVE_TRY(check_time("worst_late_ns", sample.worst_late_ns));
+  RAVE_TRY(check_time("behind_ns", sample.behind_ns));
+  RAVE_TRY(check_label("late_phase", sample.late_phase, false));
   return check_time("round_trip_ns", sample.round_trip_ns);
 }
 

@@ -66,7 +66,7 @@ Status WaitSet::add_reader(dds_entity_t reader) {
 }
 
 Status WaitSet::add_events() {
-  RAVE_TRY(add_reader(bus_->participants_->reader()));
+  for (const dds_entity_t reader : bus_->participants_->readers()) RAVE_TRY(add_reader(reader));
   for (const Bus::Endpoint& endpoint : bus_->endpoints_) RAVE_TRY(attach(endpoint.entity));
   return {};
 }

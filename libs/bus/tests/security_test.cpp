@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // With certificates: those who have them of the same set talk, the others get nothing.
+#include <arpa/inet.h>
 #include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
@@ -122,6 +127,65 @@ TEST_F(Security, NothingGoesBesideTheCertificates) {
     return heard >= 20;
   }));
   EXPECT_EQ(peer.end(), 0);
+}
+
+/// What a process sends to everybody whom there may be, until it is not seen any more or has sent
+/// some: its packets at a port where DDS would look for another process of this machine.
+std::string heard_by_strangers(const BusConfig& config) {
+  const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  // Discovery of process number 40 of a machine: 7400 + 250 * domain + 10 + 2 * number
+  // (DDSI 9.6.1.1).
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = ::htonl(INADDR_LOOPBACK);
+  address.sin_port = ::htons(static_cast<std::uint16_t>(7400 + 250 * config.domain + 10 + 2 * 40));
+  EXPECT_EQ(::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  const auto bus = Bus::open(config);
+  EXPECT_TRUE(bus) << bus.error().text();
+  std::string heard;
+  for (int packets = 0; packets < 2; ++packets) {
+    pollfd watch{socket, POLLIN, 0};
+    if (::poll(&watch, 1, kPatience_s * 1000) <= 0) break;
+    std::string packet(65'536, '\0');
+    const auto size = ::recv(socket, packet.data(), packet.size(), 0);
+    heard += packet.substr(0, static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
+  }
+  ::close(socket);
+  return heard;
+}
+
+TEST_F(Security, WhoHasNoCertificateReadsNeitherTheNameNorTheRun) {
+  make_set("ours");
+  for (const bool secured : {false, true}) {
+    BusConfig config = this->config(secured ? "ours" : "");
+    config.participant = "secret laboratory";
+    const std::string heard = heard_by_strangers(config);
+    ASSERT_NE(heard.find("RTPS"), std::string::npos) << "nothing was heard";
+    EXPECT_EQ(heard.find("secret laboratory") != std::string::npos, !secured);
+    EXPECT_EQ(heard.find(config.run.text()) != std::string::npos, !secured);
+    EXPECT_EQ(heard.find("test_bus_security") != std::string::npos, !secured);
+  }
+}
+
+TEST_F(Security, MembersKnowOneAnotherByName) {
+  make_set("ours");
+  PeerProcess peer(domain_, "idle", "left one", {"security=" + (folder_ / "ours/left").string()});
+  ASSERT_EQ(peer.line(), "ready");
+  const auto bus = Bus::open(config("ours"));
+  ASSERT_TRUE(bus) << bus.error().text();
+  std::vector<BusEvent> events;
+  const auto event_of = [&](EventKind kind) {
+    for (BusEvent& event : (*bus)->take_events()) events.push_back(std::move(event));
+    return std::ranges::any_of(events, [kind](const BusEvent& event) {
+      return event.kind == kind && event.participant == "left one" && event.writer != 0;
+    });
+  };
+  EXPECT_TRUE(eventually([&] { return event_of(EventKind::kParticipantAppeared); }));
+  const auto known = (*bus)->processes();
+  ASSERT_EQ(known.size(), 1U);
+  EXPECT_EQ(known.front().run, domain_.run);
+  peer.kill();
+  EXPECT_TRUE(eventually([&] { return event_of(EventKind::kParticipantLost); }));
 }
 
 TEST_F(Security, WhoseCertificateHasExpiredIsTold) {

@@ -274,6 +274,11 @@ TEST(Validate, HostsAndClocks) {
   EXPECT_EQ(reason(process), "real_robots is 2, of 0 robots");
   process.robots = 3;
   EXPECT_EQ(reason(process), "accepted");
+  process.missed_deadlines = 5;
+  process.deadlines = 4;
+  EXPECT_EQ(reason(process), "missed_deadlines is 5, of 4 deadlines");
+  process.deadlines = 5;
+  EXPECT_EQ(reason(process), "accepted");
   process.robots = rave_wire_kMaxRobots + 1;
   EXPECT_EQ(reason(process), "robots is 131073, more than 131072");
   auto ping = written<ClockPing>();

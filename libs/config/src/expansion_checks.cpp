@@ -20,6 +20,7 @@ class Checks {
   void run() {
     unique_obstacles();
     unique_robots();
+    unique_barcodes();
     for (const RobotGroup& group : expanded_.groups) {
       timing(group.robot);
       if (group.twin) twin(group);
@@ -60,6 +61,31 @@ class Checks {
       if (is_new) continue;
       report(expanded_.group_of(robot).name.where, "{}",
              named_twice("robot", robot.name, expanded_.groups[first->second].name.where));
+    }
+  }
+
+  /// Two bodies with one code could be taken for each other by whoever reads it.
+  void unique_barcodes() {
+    struct Bearer {
+      std::string what;
+      const SourceLocation* where;
+      bool told = false;
+    };
+    std::unordered_map<int, Bearer> bearers;
+    const auto carries = [&](int code, std::string what, const SourceLocation& where) {
+      const auto [first, is_new] = bearers.try_emplace(code, Bearer{what, &where});
+      if (is_new || std::exchange(first->second.told, true)) return;
+      report(where, "{} carries the barcode {}, and so does {} ({}); expected a code of its own",
+             what, code, first->second.what, first->second.where->text());
+    };
+    for (const ObstacleFile& obstacle : expanded_.world.obstacles) {
+      if (!obstacle.barcode) continue;
+      carries(*obstacle.barcode, fmt::format("obstacle `{}`", *obstacle.name), obstacle.name.where);
+    }
+    for (const ExpandedRobot& robot : expanded_.robots) {
+      const RobotGroup& group = expanded_.group_of(robot);
+      const auto& barcode = group.robot.body.value.barcode;
+      if (barcode) carries(*barcode, fmt::format("robot `{}`", robot.name), group.name.where);
     }
   }
 

@@ -132,6 +132,14 @@ void describe(V& v, SensorFile& c) {
   v.field("noise", c.noise, {.doc = "Errors put on every reading."});
   v.field("latency_s", c.latency_s,
           {.doc = "By which readings arrive late.", .min = 0, .max = kLongest_s, .unit = "s"});
+  v.field("max_age_s", c.max_age_s,
+          {.doc = "Age of the newest sample of a real sensor after which the robot is stopped; "
+                  "null: three periods of the sensor, at least 0.2 s. A range sensor whose driver "
+                  "does not know the period needs it.",
+           .min = 0,
+           .exclusive_min = true,
+           .max = kLongest_s,
+           .unit = "s"});
   v.field("filters", c.filters, {.doc = "Applied in this order.", .max_items = 16});
 }
 

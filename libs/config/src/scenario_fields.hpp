@@ -89,6 +89,12 @@ void describe(V& v, SightingsCheckFile& c) {
            .min = 0,
            .max = 100,
            .unit = "%"});
+  v.field("min_compared", c.min_compared,
+          {.doc = "With fewer sightings than this the check fails.", .min = 1});
+  v.field("max_unknown", c.max_unknown,
+          {.doc = "Sightings of codes that no body carries, taken for misread ones; each beyond "
+                  "this counts as one that does not lie within.",
+           .min = 0});
 }
 
 template <class V>
@@ -219,6 +225,11 @@ void describe_hosts(V& v, ScenarioFile& c) {
            .min = 1e-3,
            .max = 10,
            .unit = "s"});
+  v.field("max_missed_pct", c.max_missed_pct,
+          {.doc = "A live run in which a larger share of the steps is done too late is not whole.",
+           .min = 0,
+           .max = 100,
+           .unit = "%"});
 }
 
 constexpr auto enum_names(EnumTag<Ros2Multicast> /*tag*/) {

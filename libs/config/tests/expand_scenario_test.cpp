@@ -163,6 +163,24 @@ TEST(ExpandBadInput, SensorsOfChecksAndPicture) {
             "laser");
 }
 
+/// Who reads the code could not tell them apart.
+TEST(ExpandBadInput, TwoBodiesWithOneBarcode) {
+  const std::string post = ", disc_radius_m: 0.1, x_m: 0, y_m: 0, z_m: [0, 1], barcode: 7}";
+  EXPECT_EQ(error_of("name: a\n" WALKER "obstacles:\n  - {name: p" + post + "\n  - {name: q" +
+                     post + "\n  - {name: r" + post + "\n"),
+            "scenarios/s.yaml:5:12: obstacle `q` carries the barcode 7, and so does obstacle `p` "
+            "(scenarios/s.yaml:4:12); expected a code of its own");
+  const std::string robot = "{body: {shapes: [{disc_radius_m: 0.1, z_m: [0, 1]}], barcode: 7}}";
+  EXPECT_EQ(error_of("name: a\nobstacles: [{name: p" + post +
+                     "]\nrobots:\n  - {name: r, robot: " + robot + "}\n"),
+            "scenarios/s.yaml:4:12: robot `r` carries the barcode 7, and so does obstacle `p` "
+            "(scenarios/s.yaml:2:20); expected a code of its own");
+  EXPECT_EQ(error_of("name: a\nrobots:\n  - {name: r, poses: [[0, 0, 0], [1, 0, 0]], robot: " +
+                     robot + "}\n"),
+            "scenarios/s.yaml:3:12: robot `r-2` carries the barcode 7, and so does robot `r-1` "
+            "(scenarios/s.yaml:3:12); expected a code of its own");
+}
+
 TEST(ExpandBadInput, TooManyRobots) {
   std::string text = "name: a\nrobots:\n";
   for (const char* name : {"a", "b"}) {

@@ -103,6 +103,14 @@ Status check_description(const DriverInfo& info, const void* ops) {
     return fail(ErrorCode::kPlugin, "driver `{}` has the unknown clock {}", info.name,
                 static_cast<std::uint32_t>(info.clock));
   }
+  if (info.timing > SampleTiming::kEvents) {
+    return fail(ErrorCode::kPlugin, "driver `{}` has the unknown timing {}", info.name,
+                static_cast<std::uint32_t>(info.timing));
+  }
+  if (info.timing != SampleTiming::kUnknown && info.kind != DriverKind::kSensor) {
+    return fail(ErrorCode::kPlugin, "driver `{}` has a timing of samples, but is a {}", info.name,
+                rave::to_string(info.kind));
+  }
   if (info.device == nullptr) {
     return fail(ErrorCode::kPlugin, "driver `{}` has a null instead of a device; empty means none",
                 info.name);

@@ -41,4 +41,16 @@ std::string_view to_string(DriverClock clock) noexcept {
   return "unknown";
 }
 
+std::string_view to_string(SampleTiming timing) noexcept {
+  switch (timing) {
+    case SampleTiming::kUnknown:
+      return "at the pace of the device";
+    case SampleTiming::kPeriodic:
+      return "periodic";
+    case SampleTiming::kEvents:
+      return "when something happens";
+  }
+  return "unknown";
+}
+
 }  // namespace rave

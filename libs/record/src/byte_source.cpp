@@ -7,6 +7,8 @@
 
 #include <cerrno>
 
+#include "rave/base/regular_file.hpp"
+
 namespace rave::record {
 
 ByteSource::ByteSource(std::string name, ByteSpan bytes) noexcept
@@ -18,20 +20,11 @@ ByteSource::~ByteSource() {
 }
 
 Result<std::unique_ptr<ByteSource>> ByteSource::open(const std::filesystem::path& path) {
-  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  const int code = errno;
-  if (fd < 0) {
-    return fail(code == ENOENT ? ErrorCode::kNotFound : ErrorCode::kIo, "cannot open `{}`: {}",
-                path.string(), std::strerror(code));
-  }
+  RAVE_TRY_ASSIGN(const int fd, open_regular_file(path));
   struct stat info {};
   const bool known = ::fstat(fd, &info) == 0;
   auto size = known && info.st_size > 0 ? static_cast<std::uint64_t>(info.st_size) : 0;
-  std::unique_ptr<ByteSource> source(new ByteSource(path.string(), fd, size));
-  if (!known || !S_ISREG(info.st_mode)) {
-    return fail(ErrorCode::kIo, "cannot read `{}`: it is no regular file", path.string());
-  }
-  return source;
+  return std::unique_ptr<ByteSource>(new ByteSource(path.string(), fd, size));
 }
 
 Status ByteSource::read(std::uint64_t offset, std::uint64_t size, Bytes& out) const {

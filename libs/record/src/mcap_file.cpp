@@ -25,7 +25,7 @@ McapFile::~McapFile() {
 Result<std::unique_ptr<McapFile>> McapFile::create(const std::filesystem::path& path,
                                                    std::string_view profile,
                                                    std::string_view library) {
-  const int fd = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (fd < 0) {
     const int code = errno;
     return fail(code == ENOENT ? ErrorCode::kNotFound : ErrorCode::kIo, "cannot create `{}`: {}",
@@ -141,7 +141,7 @@ Status McapFile::write_chunk(const Chunk& chunk, std::optional<int> zstd_level) 
   put_message_indexes(chunk, info);
   RAVE_TRY(append(out_));
   count(chunk, info);
-  chunks_.push_back(std::move(info));
+  chunks_.push_back({info.offset, info.message_index_length});
   return {};
 }
 
@@ -179,8 +179,8 @@ Status McapFile::write_metadata(std::string_view name, const StringMap& entries)
   return {};
 }
 
-void McapFile::put_summary(const std::vector<SchemaInfo>& schemas,
-                           const std::vector<ChannelInfo>& channels) {
+Status McapFile::put_summary(const std::vector<SchemaInfo>& schemas,
+                             const std::vector<ChannelInfo>& channels) {
   struct Group {
     std::uint8_t code;
     std::uint64_t start;
@@ -200,7 +200,14 @@ void McapFile::put_summary(const std::vector<SchemaInfo>& schemas,
   group(opcode::kStatistics, std::span(&statistics_, 1), [&](Bytes& out, const Statistics& s) {
     put_statistics(out, s, schemas.size(), channels.size());
   });
-  group(opcode::kChunkIndex, chunks_, put_chunk_index);
+  const std::size_t indexes = out_.size();
+  for (const ChunkPlace& place : chunks_) {
+    RAVE_TRY_ASSIGN(const ChunkInfo info, read_back(fd_, place, path_.string(), compressed_));
+    put_chunk_index(out_, info);
+  }
+  if (out_.size() > indexes) {
+    groups.push_back({opcode::kChunkIndex, offset_ + indexes, out_.size() - indexes});
+  }
   group(opcode::kAttachmentIndex, attachments_, put_attachment_index);
   group(opcode::kMetadataIndex, metadata_, put_metadata_index);
   const std::uint64_t offsets_start = offset_ + out_.size();
@@ -221,6 +228,7 @@ void McapFile::put_summary(const std::vector<SchemaInfo>& schemas,
   const std::uint32_t crc = crc32(summed);
   std::memcpy(out_.data() + summed.size(), &crc, sizeof crc);
   writer.raw(as_bytes(kMagic));
+  return {};
 }
 
 Status McapFile::finish(const std::vector<SchemaInfo>& schemas,
@@ -232,7 +240,7 @@ Status McapFile::finish(const std::vector<SchemaInfo>& schemas,
   writer.end_record(record);
   RAVE_TRY(append(out_));
   out_.clear();
-  put_summary(schemas, channels);
+  RAVE_TRY(put_summary(schemas, channels));
   RAVE_TRY(append(out_));
   const int fd = std::exchange(fd_, -1);
   if (::close(fd) != 0) {

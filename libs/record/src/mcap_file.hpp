@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deque>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -9,6 +10,7 @@
 
 #include "bytes.hpp"
 #include "chunk.hpp"
+#include "chunk_place.hpp"
 #include "rave/base/result.hpp"
 #include "rave/record/mcap_types.hpp"
 
@@ -41,8 +43,8 @@ class McapFile {
   void put_chunk_record(const Chunk& chunk, std::optional<int> zstd_level, ChunkInfo& info);
   void put_message_indexes(const Chunk& chunk, ChunkInfo& info);
   void count(const Chunk& chunk, const ChunkInfo& info);
-  void put_summary(const std::vector<SchemaInfo>& schemas,
-                   const std::vector<ChannelInfo>& channels);
+  [[nodiscard]] Status put_summary(const std::vector<SchemaInfo>& schemas,
+                                   const std::vector<ChannelInfo>& channels);
 
   std::filesystem::path path_;
   int fd_;
@@ -52,7 +54,7 @@ class McapFile {
   Bytes out_;
   Bytes compressed_;
   std::vector<Chunk::Entry> sorted_;
-  std::vector<ChunkInfo> chunks_;
+  std::deque<ChunkPlace> chunks_;
   std::vector<AttachmentInfo> attachments_;
   std::vector<MetadataInfo> metadata_;
   Statistics statistics_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "check_file.hpp"
 #include "crc32.hpp"
 #include "message_cursor.hpp"
 #include "record_file.hpp"
@@ -71,8 +72,15 @@ Result<McapReader> McapReader::open_memory(std::span<const std::byte> bytes, std
 
 const std::string& McapReader::profile() const noexcept { return file_->profile; }
 const std::string& McapReader::library() const noexcept { return file_->library; }
-bool McapReader::whole() const noexcept { return file_->whole; }
-const std::vector<std::string>& McapReader::damages() const noexcept { return file_->damages; }
+bool McapReader::ended() const noexcept { return file_->ended; }
+bool McapReader::whole() const noexcept {
+  return file_->ended && file_->cuts.empty() && file_->damages.empty();
+}
+std::vector<std::string> McapReader::damages() const {
+  std::vector<std::string> all = file_->cuts;
+  all.insert(all.end(), file_->damages.begin(), file_->damages.end());
+  return all;
+}
 std::uint64_t McapReader::file_size() const noexcept { return file_->source->size(); }
 const std::vector<SchemaInfo>& McapReader::schemas() const noexcept { return file_->schemas; }
 const std::vector<ChannelInfo>& McapReader::channels() const noexcept { return file_->channels; }
@@ -138,45 +146,12 @@ Result<StringMap> McapReader::read_metadata(const MetadataInfo& metadata) const 
   return entries;
 }
 
+CheckedFile McapReader::check() const { return check_file(*file_); }
+
 Status McapReader::verify() const {
-  if (!file_->damages.empty()) return fail(ErrorCode::kParse, "{}", file_->damages.front());
-  const ByteSource& source = *file_->source;
-  if (file_->data_end != 0 && source.size() - file_->data_end >= kRecordHead + 4) {
-    Bytes bytes;
-    std::uint32_t sum = 0;
-    for (std::uint64_t at = 0; at < file_->data_end; at += bytes.size()) {
-      RAVE_TRY(source.read(at, std::min<std::uint64_t>(1U << 20, file_->data_end - at), bytes));
-      sum = crc32(bytes, sum);
-    }
-    RAVE_TRY(source.read(file_->data_end, kRecordHead + 4, bytes));
-    ByteReader reader(bytes);
-    const bool right =
-        reader.get<std::uint8_t>() == opcode::kDataEnd && reader.get<std::uint64_t>() == 4;
-    const auto crc = reader.get<std::uint32_t>();
-    if (!right) {
-      return fail(ErrorCode::kParse, "`{}`: the data do not end at offset {} as they should",
-                  source.name(), file_->data_end);
-    }
-    if (crc != 0 && crc != sum) {
-      return fail(ErrorCode::kParse, "`{}`: the data before offset {} do not match their checksum",
-                  source.name(), file_->data_end);
-    }
-  }
-  for (const AttachmentInfo& attachment : file_->attachments) {
-    RAVE_TRY(read_attachment(attachment));
-  }
-  for (const MetadataInfo& metadata : file_->metadata) RAVE_TRY(read_metadata(metadata));
-  MessageCursor cursor = messages();
-  std::uint64_t count = 0;
-  while (true) {
-    RAVE_TRY_ASSIGN(const auto message, cursor.next());
-    if (!message) break;
-    ++count;
-  }
-  if (count != file_->statistics.message_count) {
-    return fail(ErrorCode::kParse, "`{}` says it has {} messages; there are {}", source.name(),
-                file_->statistics.message_count, count);
-  }
+  const CheckedFile checked = check();
+  if (!checked.cuts.empty()) return fail(ErrorCode::kParse, "{}", checked.cuts.front());
+  if (!checked.damages.empty()) return fail(ErrorCode::kParse, "{}", checked.damages.front());
   return {};
 }
 

@@ -113,10 +113,12 @@ Status read_summary(RecordFile& file) {
   const ByteSource& source = *file.source;
   constexpr std::uint64_t kTail = kRecordHead + kFooterSize + 8;
   Bytes tail;
-  if (source.size() < file.data_begin + kTail) {
-    return fail(ErrorCode::kParse, "`{}` ends at offset {} without a footer", source.name(),
-                source.size());
-  }
+  const auto cut = [&] {
+    file.cuts.push_back(
+        fmt::format("`{}` ends at offset {} without a footer", source.name(), source.size()));
+    return fail(ErrorCode::kNotFound, "");
+  };
+  if (source.size() < file.data_begin + kTail) return cut();
   const std::uint64_t footer_at = source.size() - kTail;
   RAVE_TRY(source.read(footer_at, kTail, tail));
   ByteReader footer(tail);
@@ -126,12 +128,15 @@ Status read_summary(RecordFile& file) {
   static_cast<void>(footer.get<std::uint64_t>());
   const auto crc = footer.get<std::uint32_t>();
   const ByteSpan magic = footer.raw(kMagic.size());
-  if (!is_footer || !std::ranges::equal(magic, as_bytes(kMagic))) {
-    return fail(ErrorCode::kParse, "`{}` ends at offset {} without a footer", source.name(),
-                source.size());
+  if (!is_footer || !std::ranges::equal(magic, as_bytes(kMagic))) return cut();
+  file.ended = true;
+  if (start == 0) {  // allowed: a file without a summary
+    if (crc == 0 || crc32(ByteSpan(tail).first(kRecordHead + kFooterSize - 4)) == crc) {
+      return fail(ErrorCode::kNotFound, "");
+    }
+    return fail(ErrorCode::kParse, "`{}`: the footer at offset {} does not match its checksum",
+                source.name(), footer_at);
   }
-  file.whole = true;
-  if (start == 0) return fail(ErrorCode::kNotFound, "");  // allowed: a file without a summary
   if (start < file.data_begin || start > footer_at) {
     return fail(ErrorCode::kParse, "`{}`: the footer at offset {} puts the summary at {}",
                 source.name(), footer_at, start);
@@ -142,6 +147,7 @@ Status read_summary(RecordFile& file) {
     return fail(ErrorCode::kParse, "`{}`: the summary at offset {} does not match its checksum",
                 source.name(), start);
   }
+  file.summed = crc != 0;
   bool ok = true;
   bool counted = false;
   const bool complete = for_each_record(ByteSpan(summary).first(footer_at - start),
@@ -161,7 +167,7 @@ Status read_summary(RecordFile& file) {
   return {};
 }
 
-Status load_chunk(const RecordFile& file, const ChunkInfo& chunk, Bytes& records) {
+Status load_chunk(const RecordFile& file, const ChunkInfo& chunk, Bytes& records, bool* summed) {
   if (chunk.bare) return file.source->read(chunk.offset, chunk.length, records);
   Bytes bytes;
   RAVE_TRY(file.source->read(chunk.offset, chunk.length, bytes));
@@ -178,6 +184,7 @@ Status load_chunk(const RecordFile& file, const ChunkInfo& chunk, Bytes& records
     return fail(ErrorCode::kParse, "`{}`: there is no whole chunk at offset {}",
                 file.source->name(), chunk.offset);
   }
+  if (summed != nullptr) *summed = crc != 0;
   RAVE_TRY(unpack(file, chunk, packed, compression, size, records));
   if (crc != 0 && crc32(records) != crc) {
     return fail(ErrorCode::kParse, "`{}`: the chunk at offset {} does not match its checksum",

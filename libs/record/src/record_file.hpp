@@ -15,8 +15,12 @@ struct RecordFile {
   McapReaderOptions options;
   std::string profile;
   std::string library;
-  bool whole = false;
+  bool ended = false;  ///< It ends with a footer.
+  /// What is missing at the end of a file that broke off; what is wrong elsewhere. Each names file
+  /// and offset.
+  std::vector<std::string> cuts;
   std::vector<std::string> damages;
+  bool summed = false;  ///< The summary has a checksum, which matches.
   std::vector<SchemaInfo> schemas;
   std::vector<ChannelInfo> channels;
   std::vector<ChunkInfo> chunks;
@@ -39,7 +43,9 @@ void note_channel(RecordFile& file, ChannelInfo channel);
 void scan_data(RecordFile& file);
 
 /// The records of a chunk, unpacked and with their checksum compared. Errors name file and offset.
-[[nodiscard]] Status load_chunk(const RecordFile& file, const ChunkInfo& chunk, Bytes& records);
+/// `summed`, if not null: whether the chunk has a checksum.
+[[nodiscard]] Status load_chunk(const RecordFile& file, const ChunkInfo& chunk, Bytes& records,
+                                bool* summed = nullptr);
 
 /// Calls `take(opcode, content, offset of the content)` for each record in `records` until it
 /// returns false. False: the last record is not whole.

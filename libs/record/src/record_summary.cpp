@@ -8,13 +8,85 @@
 #include "rave/record/run_reader.hpp"
 
 namespace rave::record {
-Result<RecordSummary> describe_record(const std::filesystem::path& path) {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether the record has messages of a topic.
+bool has(const McapReader& reader, const char* topic) {
+  const ChannelInfo* const channel = reader.channel(topic);
+  return channel != nullptr && reader.statistics().channel_message_counts.contains(channel->id);
+}
+
+/// The records that one was made of, as far as they are there.
+std::vector<fs::path> parts_of(const McapReader& reader, const fs::path& path) {
+  std::vector<fs::path> parts;
+  for (const auto& [name, bytes] : merged_files(reader)) {
+    std::error_code error;
+    const fs::path part = path.parent_path() / name;
+    if (fs::is_regular_file(part, error)) parts.push_back(part);
+  }
+  return parts;
+}
+
+void add(const std::vector<std::string>& from, std::vector<std::string>& to) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+CheckedFile check_all(const McapReader& reader, const fs::path& path) {
+  CheckedFile checked = reader.check();
+  for (const fs::path& part : parts_of(reader, path)) {
+    const auto of_part = McapReader::open(part);
+    if (!of_part) {
+      checked.damages.push_back(of_part.error().message);
+      continue;
+    }
+    const CheckedFile found = of_part->check();
+    // A part that had broken off before was merged as far as it goes, and missing_parts() says so.
+    if (missing_parts(reader).empty()) add(found.cuts, checked.damages);
+    add(found.damages, checked.damages);
+    add(found.unsummed, checked.unsummed);
+  }
+  return checked;
+}
+
+void look_at_all(const McapReader& reader, const fs::path& path, RecordSummary& summary) {
+  const CheckedFile checked = check_all(reader, path);
+  summary.checked = true;
+  summary.damages = checked.cuts;
+  add(checked.damages, summary.damages);
+  summary.unsummed = checked.unsummed;
+}
+
+/// What is there and cannot be read is damage, not absence.
+void read_ends(const McapReader& reader, RecordSummary& summary) {
+  if (auto run = read_run_info(reader)) summary.run = *std::move(run);
+  summary.end = read_run_end(reader);
+  if (!summary.damages.empty()) return;
+  if (!summary.run && has(reader, topic::kRun)) {
+    summary.damages.push_back(
+        fmt::format("its beginning (`{}`, `scenario.yaml`) cannot be read", topic::kRun));
+  }
+  if (!summary.end && has(reader, topic::kEnd)) {
+    summary.damages.push_back(fmt::format("its end (`{}`) cannot be read", topic::kEnd));
+  }
+}
+
+}  // namespace
+
+Result<CheckedFile> check_record(const fs::path& path) {
+  RAVE_TRY_ASSIGN(const auto reader, McapReader::open(path));
+  return check_all(reader, path);
+}
+
+Result<RecordSummary> describe_record(const fs::path& path, RecordLook look) {
   RAVE_TRY_ASSIGN(const auto reader, McapReader::open(path));
   const Statistics& statistics = reader.statistics();
   RecordSummary summary;
   summary.file_bytes = reader.file_size();
-  summary.whole = reader.whole();
+  summary.ended = reader.ended();
   summary.damages = reader.damages();
+  if (look == RecordLook::kAll) look_at_all(reader, path, summary);
   summary.profile = reader.profile();
   summary.library = reader.library();
   summary.start_s = static_cast<double>(statistics.start_ns) * 1e-9;
@@ -39,8 +111,7 @@ Result<RecordSummary> describe_record(const std::filesystem::path& path) {
                                 duration_s > 0 ? messages / duration_s : 0});
   }
   std::ranges::sort(summary.channels, {}, &ChannelSummary::topic);
-  if (auto run = read_run_info(reader)) summary.run = *std::move(run);
-  summary.end = read_run_end(reader);
+  read_ends(reader, summary);
   return summary;
 }
 

@@ -37,11 +37,11 @@ class DataScan {
 
  private:
   void cut(std::uint64_t at) {
-    file_.whole = false;
-    file_.damages.push_back(
-        fmt::format("`{}`: the record at offset {} is not whole; {} bytes from "
-                    "there on are not read",
-                    file_.source->name(), at, file_.source->size() - at));
+    // Of a file that ends as it should the rest is lost, of another one it was never written.
+    (file_.ended ? file_.damages : file_.cuts)
+        .push_back(fmt::format("`{}`: the record at offset {} is not whole; {} bytes from "
+                               "there on are not read",
+                               file_.source->name(), at, file_.source->size() - at));
   }
 
   [[nodiscard]] bool take(std::uint8_t code, std::uint64_t at, std::uint64_t size) {

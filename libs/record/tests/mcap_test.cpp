@@ -105,6 +105,40 @@ TEST(Mcap, ReadsBackWhatWasWritten) {
   EXPECT_TRUE(reader->verify());
 }
 
+TEST(Mcap, TheIndexSaysWhatTheChunksHold) {
+  const TemporaryFile file;
+  write_sample(file.path());
+  const std::string bytes = file.read();
+  const auto reader = McapReader::open_memory(bytes_of(bytes), "whole");
+  ASSERT_TRUE(reader && reader->whole());
+  // Without its footer the file is gone through, and the chunks speak for themselves.
+  const auto scanned = McapReader::open_memory(bytes_of(bytes).first(bytes.size() - 1), "cut");
+  ASSERT_TRUE(scanned);
+  std::vector<ChunkInfo> indexed;
+  for (const ChunkInfo& chunk : reader->chunks()) {
+    if (!chunk.channels.empty()) indexed.push_back(chunk);
+  }
+  ASSERT_GT(indexed.size(), 3U);
+  ASSERT_EQ(indexed.size(), scanned->chunks().size());
+  for (std::size_t i = 0; i < indexed.size(); ++i) {
+    const ChunkInfo& found = scanned->chunks()[i];
+    EXPECT_EQ(indexed[i].offset, found.offset);
+    EXPECT_EQ(indexed[i].length, found.length);
+    EXPECT_EQ(indexed[i].start_ns, found.start_ns);
+    EXPECT_EQ(indexed[i].end_ns, found.end_ns);
+    EXPECT_EQ(indexed[i].uncompressed_size, found.uncompressed_size);
+    ASSERT_EQ(indexed[i].channels.size(), found.channels.size());
+    for (std::size_t c = 0; c < found.channels.size(); ++c) {
+      const auto [channel, at] = indexed[i].channels[c];
+      EXPECT_EQ(channel, found.channels[c].first);
+      // A message index: its kind, its length, the channel.
+      ASSERT_LT(at + 11, bytes.size());
+      EXPECT_EQ(bytes[at], '\x07');
+      EXPECT_EQ(static_cast<std::uint8_t>(bytes[at + 9]), channel);
+    }
+  }
+}
+
 TEST(Mcap, FiltersByChannelAndTime) {
   const TemporaryFile file;
   write_sample(file.path());

@@ -228,7 +228,8 @@ TEST_F(RunRecord, CommandsRadioEventsAndConsoleComeBack) {
 TEST_F(RunRecord, SummaryTellsTheRun) {
   const auto summary = describe_record(file_.path());
   ASSERT_TRUE(summary) << summary.error().text();
-  EXPECT_TRUE(summary->whole);
+  EXPECT_TRUE(summary->ended);
+  EXPECT_FALSE(summary->checked);
   ASSERT_TRUE(summary->run);
   const RunInfo info = sample_info();
   EXPECT_EQ(summary->run->scenario, info.scenario);

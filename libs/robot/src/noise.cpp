@@ -131,21 +131,27 @@ void disturb_all(Items items, const Terms& terms) noexcept {
   }
 }
 
-void disturb_ranges(Items items, const NoiseSpec& noise) noexcept {
+void disturb_ranges(Items items, const NoiseSpec& noise, const RangeLimits& limits) noexcept {
   const double quantum_m = noise.length_quantum_m;
+  const auto min_m = static_cast<float>(limits.min_m);
+  const auto max_m = static_cast<float>(limits.max_m);
+  const auto finish = [=](float* ranges_m, std::uint32_t count) {
+    if (quantum_m > 0) detail::round_ranges(ranges_m, count, quantum_m);
+    detail::limit_ranges(ranges_m, count, min_m, max_m);
+  };
   if (noise.length_sigma_m > 0) {
     constexpr double kLargest = std::numeric_limits<float>::max();
     const auto sigma_m = static_cast<float>(std::min(noise.length_sigma_m, kLargest));
-    const auto use = [sigma_m, quantum_m](const NoisePiece& piece, const float* normals) {
+    const auto use = [sigma_m, &finish](const NoisePiece& piece, const float* normals) {
       auto* const ranges_m = piece.records<float>();
       detail::scatter_ranges(ranges_m, piece.count, sigma_m, normals);
-      if (quantum_m > 0) detail::round_ranges(ranges_m, piece.count, quantum_m);
+      finish(ranges_m, piece.count);
     };
     NoiseBatch<float, 1, decltype(use)> batch(kNormalBlock, use);
     for (const NoiseItem& item : items) batch.add(item, item.header->count);
   } else if (quantum_m > 0) {
     for (const NoiseItem& item : items) {
-      detail::round_ranges(static_cast<float*>(item.records), item.header->count, quantum_m);
+      finish(static_cast<float*>(item.records), item.header->count);
     }
   }
 }
@@ -224,7 +230,7 @@ void Processing::apply_noise(std::span<const NoiseItem> items) const noexcept {
                     {noise_.velocity_sigma_mps, noise_.velocity_quantum_mps}};
   switch (kind_) {
     case ReadingKind::kRanges:
-      disturb_ranges(items, noise_);
+      disturb_ranges(items, noise_, limits_);
       break;
     case ReadingKind::kSightings:
       disturb_all<Sighting>(items, terms);

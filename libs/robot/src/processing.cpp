@@ -115,7 +115,8 @@ bool ProcessingSpec::empty() const noexcept {
 }
 
 Result<Processing> Processing::make(const ProcessingSpec& spec, ReadingKind kind,
-                                    std::uint32_t capacity, double period_s) {
+                                    std::uint32_t capacity, double period_s,
+                                    const RangeLimits& limits) {
   if (rave::record_size(kind) == 0 || capacity == 0) {
     return fail(ErrorCode::kInvalidArgument,
                 "a sensor of kind `{}` with {} records has nothing to process", to_string(kind),
@@ -127,6 +128,7 @@ Result<Processing> Processing::make(const ProcessingSpec& spec, ReadingKind kind
 
   Processing made;
   made.noise_ = spec.noise;
+  made.limits_ = limits;
   made.noisy_ = spec.noise.any();
   made.kind_ = kind;
   made.capacity_ = capacity;

@@ -44,6 +44,17 @@ void scatter(float* ranges, std::size_t count, float sigma, const float* normals
   });
 }
 
+void limit(float* ranges, std::size_t count, float min, float max) {
+  constexpr float kNothing = std::numeric_limits<float>::infinity();
+  for_all<float>(count, [&](auto d, std::size_t i) HWY_ATTR {
+    const auto x = hn::LoadU(d, ranges + i);
+    const auto least = hn::Set(d, min);
+    const auto near = hn::IfThenElse(hn::Lt(x, least), least, x);
+    const auto far = hn::IfThenElse(hn::Gt(x, hn::Set(d, max)), hn::Set(d, kNothing), near);
+    hn::StoreU(hn::IfThenElse(is_finite(d, x), far, x), d, ranges + i);
+  });
+}
+
 /// floor(x / quantum + 1/2) * quantum in double precision. Adding and taking away 1.5 * 2^52 rounds
 /// to an integer, as long as that is below 2^51; there single precision has no fractions any more.
 void round(float* ranges, std::size_t count, double quantum) {
@@ -120,6 +131,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace rave::detail {
 
+HWY_EXPORT(limit);
 HWY_EXPORT(scatter);
 HWY_EXPORT(round);
 HWY_EXPORT(silence);
@@ -128,6 +140,10 @@ HWY_EXPORT(blend);
 
 void scatter_ranges(float* ranges, std::size_t count, float sigma, const float* normals) noexcept {
   HWY_DYNAMIC_DISPATCH(scatter)(ranges, count, sigma, normals);
+}
+
+void limit_ranges(float* ranges, std::size_t count, float min, float max) noexcept {
+  HWY_DYNAMIC_DISPATCH(limit)(ranges, count, min, max);
 }
 
 void round_ranges(float* ranges, std::size_t count, double quantum) noexcept {

@@ -15,6 +15,9 @@ void scatter_ranges(float* ranges, std::size_t count, float sigma, const float* 
 /// Rounds to the nearest multiple, halves upwards; below zero becomes 0.
 void round_ranges(float* ranges, std::size_t count, double quantum) noexcept;
 
+/// What is finite and above `max` becomes +infinity, what is finite and below `min` becomes `min`.
+void limit_ranges(float* ranges, std::size_t count, float min, float max) noexcept;
+
 /// +infinity where a word is at most `limit`.
 void silence_ranges(float* ranges, std::size_t count, const std::uint32_t* words,
                     std::uint32_t limit) noexcept;

@@ -13,6 +13,10 @@ using Lock = std::unique_lock<std::mutex>;
 
 constexpr std::size_t kLongestText = 4096;
 
+std::int64_t steady_ns(std::chrono::steady_clock::time_point t) {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(t.time_since_epoch()).count();
+}
+
 std::string text_of(std::int64_t ns) { return fmt::format("{:.9f} s", SimTime{ns}.seconds()); }
 
 }  // namespace
@@ -87,6 +91,7 @@ bool SampleQueue::publish(SimTime stamp, const void* records, std::uint32_t coun
   const std::size_t slot = (first_ + count_) % depth_;
   ++count_;
   newest_ns_ = stamp.ns;
+  if (live_ != nullptr) arrival_ns_ = steady_ns(std::chrono::steady_clock::now());
   headers_[slot] = {stamp.ns, ++sequence_, count, 0, 0};
   if (count > 0) std::memcpy(records_of(slot), records, std::size_t{count} * record_size_);
   if (consumer_waits_) to_consumer_.notify_one();
@@ -155,6 +160,18 @@ bool SampleQueue::next(SimTime up_to, SampleHeader* header, void* records) {
   return true;
 }
 
+bool SampleQueue::newest(SampleHeader* header, void* record) const {
+  const Lock lock(mutex_);
+  if (newest_ns_ == INT64_MIN) return false;
+  // A sample stays where it is after next() has given it out, until the next but depth_ comes.
+  const std::size_t slot = (first_ + count_ + depth_ - 1) % depth_;
+  *header = headers_[slot];
+  if (header->count > 0) {
+    std::memcpy(record, records_.data() + slot * max_records_ * record_size_, record_size_);
+  }
+  return true;
+}
+
 void SampleQueue::close() {
   const Lock lock(mutex_);
   closed_ = true;
@@ -169,6 +186,7 @@ void SampleQueue::reopen() {
   closed_ = false;
   failed_ = false;
   newest_ns_ = INT64_MIN;
+  arrival_ns_ = kNever;
   complete_ns_ = INT64_MIN;
   sequence_ = 0;
   dropped_since_next_ = 0;
@@ -185,6 +203,17 @@ void SampleQueue::clock_changed() {
 std::string SampleQueue::failure() const {
   const Lock lock(mutex_);
   return failure_;
+}
+
+bool SampleQueue::failed() const {
+  const Lock lock(mutex_);
+  return failed_;
+}
+
+std::optional<std::chrono::steady_clock::time_point> SampleQueue::newest_arrival() const noexcept {
+  const std::int64_t ns = arrival_ns_;
+  if (ns == kNever) return std::nullopt;
+  return std::chrono::steady_clock::time_point(std::chrono::nanoseconds(ns));
 }
 
 std::string SampleQueue::complaint() const {

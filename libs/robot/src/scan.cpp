@@ -42,7 +42,9 @@ Scan::Scan(const Setup& setup) {
 void Scan::update(const Percepts& percepts) {
   hits_.clear();
   beams_.clear();
+  old_ = false;
   for (const Sensor& sensor : sensors_) {
+    old_ = old_ || percepts.is_old(sensor.handle);
     const std::span<const float> ranges_m = percepts[sensor.handle];
     const std::size_t count = std::min(ranges_m.size(), sensor.rays.size());
     for (std::size_t i = 0; i < count; ++i) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <string_view>
 #include <thread>
@@ -302,6 +303,39 @@ TEST(SampleQueue, LivePublishingLosesTheOldest) {
   EXPECT_EQ(queue.complaint(), "");  // a full queue is no breach of the contract
 }
 
+TEST(SampleQueue, TheNewestSampleCanBeLookedAtBeforeItIsGivenOutAndAfter) {
+  for (const std::size_t depth : {1U, 2U, 3U}) {
+    TestClock clock;
+    SampleQueue queue(ReadingKind::kValues, 2, depth, &clock);
+    SampleHeader header;
+    double value = 0;
+    EXPECT_FALSE(queue.newest(&header, &value));
+    std::array<double, 2> taken{};
+    for (int k = 1; k <= 10; ++k) {
+      const std::array<double, 2> pair{1.0 * k, -1.0};
+      ASSERT_TRUE(queue.publish(SimTime{k}, pair.data(), 2));
+      ASSERT_TRUE(queue.newest(&header, &value));
+      EXPECT_EQ(header.stamp_ns, k);
+      EXPECT_EQ(header.count, 2U);
+      EXPECT_EQ(value, k) << "the first record of the sample";
+      // The engine may be behind, and may have taken all.
+      while (k % 2 == 0 && queue.next(SimTime{k}, &header, taken.data())) {
+      }
+      ASSERT_TRUE(queue.newest(&header, &value));
+      EXPECT_EQ(header.stamp_ns, k);
+      EXPECT_EQ(value, k);
+    }
+    // What was refused was not taken in.
+    const double late = 0;
+    ASSERT_TRUE(queue.publish(SimTime{3}, &late, 1));
+    ASSERT_TRUE(queue.newest(&header, &value));
+    EXPECT_EQ(header.stamp_ns, 10);
+    queue.close();
+    queue.reopen();
+    EXPECT_FALSE(queue.newest(&header, &value));
+  }
+}
+
 TEST(SampleQueue, ALiveRunNeverWaits) {
   TestClock clock;
   SampleQueue queue = values(3, &clock);
@@ -363,6 +397,34 @@ TEST(SampleQueue, AStreamThatIsLiveCanRecoverAndAnotherCannot) {
   EXPECT_EQ(live.wait_complete({0}, std::chrono::milliseconds(0)), SampleQueue::Wait::kComplete);
   live.fail("gone again", 10);
   EXPECT_EQ(live.failure(), "gone again");
+}
+
+TEST(SampleQueue, TellsWhenTheNewestSampleArrivedWhateverItsStamp) {
+  class StillClock final : public RunClock {
+   public:
+    [[nodiscard]] SimTime now() const noexcept override { return {}; }
+    [[nodiscard]] std::chrono::steady_clock::time_point wall_time_of(
+        SimTime) const noexcept override {
+      return {};
+    }
+  } clock;
+  SampleQueue queue(ReadingKind::kValues, 1, 4, &clock);
+  EXPECT_EQ(queue.newest_arrival(), std::nullopt);
+  const double value = 1;
+  const auto before = std::chrono::steady_clock::now();
+  ASSERT_TRUE(queue.publish({5}, &value, 1));
+  const auto first = queue.newest_arrival();
+  ASSERT_TRUE(first);
+  EXPECT_GE(*first, before);
+  EXPECT_LE(*first, std::chrono::steady_clock::now());
+  ASSERT_TRUE(queue.publish({4}, &value, 1));
+  EXPECT_EQ(queue.newest_arrival(), first) << "one that is dropped is no sign of life";
+  EXPECT_FALSE(queue.failed());
+  queue.fail("gone", 4);
+  EXPECT_TRUE(queue.failed());
+  queue.reopen();
+  EXPECT_EQ(queue.newest_arrival(), std::nullopt);
+  EXPECT_FALSE(queue.failed());
 }
 
 TEST(SampleQueue, DropsSamplesThatDoNotFit) {

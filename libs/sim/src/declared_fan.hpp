@@ -2,6 +2,7 @@
 #pragma once
 
 #include "rave/base/result.hpp"
+#include "rave/robot/processing.hpp"
 #include "rave/sim/virtual_sensor.hpp"
 
 namespace rave::sim {
@@ -24,6 +25,12 @@ inline void describe_fan(const VirtualDeclaration& declaration, SensorInfo& info
   info.bearings_rad = declaration.reading_bearings_rad != nullptr ? declaration.reading_bearings_rad
                                                                   : declaration.fan.bearings_rad;
   info.cone_rad = declaration.cone_rad;
+}
+
+/// How far a range sensor measures; no limit where its driver does not say it.
+[[nodiscard]] inline RangeLimits range_limits_of(const SensorInfo& info) noexcept {
+  if (!(info.range_max_m > 0)) return {};
+  return {info.range_min_m, info.range_max_m};
 }
 
 }  // namespace rave::sim

@@ -225,7 +225,8 @@ Status Engine::Impl::begin() {
   set_initial_state();
   if (spec.on_ready) spec.on_ready();
   for (RobotGroup& group : groups) RAVE_TRY(open_sensors({spec, logs, radio.get()}, group));
-  return radio->open();
+  RAVE_TRY(radio->open());
+  return start_guards();
 }
 
 void Engine::Impl::set_initial_state() {
@@ -263,6 +264,7 @@ Result<std::unique_ptr<Engine>> Engine::create(EngineSpec spec) {
   RAVE_TRY(check(spec));
   // Its end knows what to do with drivers that never close; that of its inside alone does not.
   std::unique_ptr<Engine> engine(new Engine(std::make_unique<Impl>(std::move(spec))));
+  RAVE_TRY(check_threads(engine->impl_->spec, engine->impl_->pool.threads()));
   RAVE_TRY(engine->impl_->make());
   return engine;
 }
@@ -281,6 +283,7 @@ void Engine::Impl::begin_step() {
 }
 
 void Engine::Impl::work(PhaseTimer& phase) {
+  if (spec.live_clock != nullptr) work_began = spec.live_clock->now();
   sense();
   phase.ends(Phase::kSense);
   deliver_messages();

@@ -22,11 +22,16 @@ std::string_view text_for(const ErrorText& error, std::size_t slot) noexcept {
 void Engine::Impl::act() {
   pool.for_each_block(blocks.size(), act_effort,
                       [this](std::size_t b, unsigned w) { act_block(blocks[b], workers[w]); });
-  // Hardware is written to from one thread, in the order of the robots.
+  // Hardware is written to from one thread, in the order of the robots, or by their guards.
   for (RobotGroup& group : groups) {
+    for (std::uint32_t m = 0; m < group.guards.size(); ++m) {
+      if (group.has_guard(m)) serve_guard(group, m);
+    }
     for (ActuatorSlots& slots : group.actuators) {
       if (slots.spec->hardware_ops == nullptr) continue;
-      for (std::size_t m = 0; m < group.members.size(); ++m) write_hardware(group, slots, m);
+      for (std::size_t m = 0; m < group.members.size(); ++m) {
+        if (!group.has_guard(m)) write_hardware(group, slots, m);
+      }
     }
   }
 }
@@ -34,14 +39,22 @@ void Engine::Impl::act() {
 void Engine::Impl::write_hardware(RobotGroup& group, ActuatorSlots& slots, std::size_t member) {
   if (slots.commands[member].kind == CommandKind::kNone) return;
   ErrorText error;
+  const CrashNote whose =
+      crash_note(group.members[member], group.members[member], "actuator", slots.spec->driver);
+  const CrashScope scope(whose);
   const bool failed = slots.spec->hardware_ops->write(slots.instances.at(member),
                                                       &slots.commands[member], now.ns, &error) != 0;
-  // A device that is gone may come back, so it is told on, and both are noted once.
+  note_written(group, slots, member, failed, error.text);
+}
+
+/// A device that is gone may come back, so it is told on, and both are noted once.
+void Engine::Impl::note_written(const RobotGroup& group, ActuatorSlots& slots, std::size_t member,
+                                bool failed, std::string_view text) {
   if (failed == (slots.failed[member] != 0)) return;
   slots.failed[member] = failed ? 1 : 0;
   note({step, group.members[member], failed ? EventKind::kDriverFailed : EventKind::kDriverBack,
         BodyId(),
-        fmt::format("actuator `{}`: {}", slots.spec->name, failed ? error.text : "works again")});
+        fmt::format("actuator `{}`: {}", slots.spec->name, failed ? text : "works again")});
 }
 
 void Engine::Impl::act_block(const Block& block, Worker& worker) {
@@ -72,6 +85,8 @@ void Engine::Impl::control(RobotGroup& group, const Block& block, Worker& worker
     std::uint8_t failed_before[kMemberBlock];
     std::copy(slots.failed.begin() + block.begin, slots.failed.begin() + block.end, failed_before);
     ErrorText error;
+    const CrashNote whose = crash_note(block, "controller", slots.spec->driver);
+    const CrashScope scope(whose);
     slots.spec->ops->control(slots.instances.at(block.begin), slots.instances.stride(),
                              worker.control_inputs.data(), outputs.data(), count,
                              slots.failed.data() + block.begin, &error);
@@ -93,22 +108,19 @@ void Engine::Impl::control(RobotGroup& group, const Block& block, Worker& worker
 
 void Engine::Impl::actuate(RobotGroup& group, const Block& block, Worker& worker) {
   const double dt_s = spec.step.seconds();
+  const bool has_guards = !group.guards.empty();
   for (std::uint32_t a = 0; a < group.actuators.size(); ++a) {
     ActuatorSlots& slots = group.actuators[a];
     for (std::uint32_t m = block.begin; m < block.end; ++m) {
-      // The controller that was given a command last speaks; before that, the first one.
-      const ControllerSlots* active = nullptr;
-      const Command* given = nullptr;
-      for (std::size_t c = 0; c < group.controllers.size(); ++c) {
-        const ControllerSlots& controller = group.controllers[c];
-        if (controller.spec->actuator != a) continue;
-        if (active == nullptr || controller.last_step[m] > active->last_step[m]) {
-          active = &controller;
-          given = &worker.control_outputs[c][m - block.begin];
-        }
-      }
+      const ControllerSlots* const active = group.speaker(a, m);
+      const Command* const given =
+          active != nullptr ? &worker.control_outputs[group.index_of(*active)][m - block.begin]
+                            : nullptr;
       const std::uint32_t r = group.members[m].value();
-      if (active != nullptr && is_unguarded(slots, m, r)) {
+      if (has_guards && group.has_guard(m)) {
+        // Goes to the guard as it is, which limits it when it writes.
+        slots.commands[m] = given != nullptr ? *given : Command{};
+      } else if (active != nullptr && is_unguarded(slots, m, r)) {
         slots.commands[m] = *given;
       } else {
         slots.commands[m] =
@@ -129,6 +141,8 @@ void Engine::Impl::actuate(RobotGroup& group, const Block& block, Worker& worker
     ErrorText error;
     std::uint8_t failed_before[kMemberBlock];
     std::copy(slots.failed.begin() + block.begin, slots.failed.begin() + block.end, failed_before);
+    const CrashNote whose = crash_note(block, "actuator", slots.spec->driver);
+    const CrashScope scope(whose);
     slots.spec->virtual_ops->propose(slots.instances.at(block.begin), slots.instances.stride(),
                                      worker.motion_inputs.data(), worker.proposals.data(),
                                      block.end - block.begin, slots.failed.data() + block.begin,

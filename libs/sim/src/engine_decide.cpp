@@ -52,9 +52,13 @@ void Engine::Impl::decide_block(const Block& block, Worker& worker) {
   std::copy(program.failed.begin() + block.begin, program.failed.begin() + block.end,
             failed_before);
   ErrorText error;
-  program.spec->ops->decide(program.instances.at(block.begin), program.instances.stride(),
-                            program.items.data() + block.begin, block.end - block.begin,
-                            program.failed.data() + block.begin, &error);
+  {
+    const CrashNote whose = crash_note(block, "program", program.spec->driver);
+    const CrashScope scope(whose);
+    program.spec->ops->decide(program.instances.at(block.begin), program.instances.stride(),
+                              program.items.data() + block.begin, block.end - block.begin,
+                              program.failed.data() + block.begin, &error);
+  }
   for (std::uint32_t m = block.begin; m < block.end; ++m) {
     if (program.failed[m] != 0 && failed_before[m - block.begin] == 0) {
       // One text is kept per batch: that of the last one to fail.

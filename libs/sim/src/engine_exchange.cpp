@@ -73,6 +73,7 @@ Status check_live(const RobotGroup& other) {
 
 void throw_away(RobotGroup& other) {
   close_group(other);
+  other.guards.clear();
   other.actuators.clear();
   other.sensors.clear();
   other.devices.clear();
@@ -210,6 +211,10 @@ void Engine::Impl::exchange(Twin& twin) {
   std::swap(group.devices, twin.other.devices);
   std::swap(group.sensors, twin.other.sensors);
   std::swap(group.actuators, twin.other.actuators);
+  std::swap(group.guards, twin.other.guards);
+  for (std::size_t s = 0; s < group.sensors.size(); ++s) {
+    group.sensor_infos[s].max_age_s = group.sensors[s].info.max_age_s;
+  }
   show_sensors(group);
   const bool first = twin.state.active == DriverSet::kFirst;
   twin.state.active = first ? DriverSet::kTwin : DriverSet::kFirst;
@@ -247,8 +252,13 @@ void Engine::Impl::change_drivers(Twin& twin) {
   tracks[r].clear();
   tracks[r].add(place.stamp, place.X_WR);
   // Who armed the robot before armed another one.
-  guard_states[r].armed = type.simulated || !guards[twin.type_of(twin.state.active)]->arm;
+  robot_guards[r].set_armed(is_armed_at_first(r));
   close_other(twin);
+  const Status guarded = start_guards(group);
+  if (!guarded && spec.log != nullptr) {
+    spec.log->error("guard", "{}; from now on it is guarded in the steps of the run alone",
+                    guarded.error().text());
+  }
   ++twin.state.made;
   const double jump_m = distance_m(X_before, place.X_WR);
   const double turn_rad = std::abs(wrap_angle(place.X_WR.yaw - X_before.yaw));
@@ -256,7 +266,7 @@ void Engine::Impl::change_drivers(Twin& twin) {
       "{} -> {} at ({:.3f}, {:.3f}) m, {:.1f} degrees; moved by {:.4f} m and {:.2f} degrees",
       reality_of(*twin.other.type), reality_of(type), place.X_WR.x, place.X_WR.y,
       rad_to_deg(place.X_WR.yaw), jump_m, rad_to_deg(turn_rad));
-  if (!guard_states[r].armed) text += "; it stands until somebody arms it";
+  if (!robot_guards[r].holds().armed) text += "; it stands until somebody arms it";
   end_hand_over(twin, EventKind::kHandedOver, std::move(text));
 }
 

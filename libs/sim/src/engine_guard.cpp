@@ -3,60 +3,27 @@
 #include <limits>
 
 #include "engine_impl.hpp"
+#include "sensor_age.hpp"
 
 namespace rave::sim {
-namespace {
-
-/// A limit that has not acted for so long begins anew when it acts again.
-constexpr double kQuiet_s = 0.5;
-
-Command standing(CommandKind kind) noexcept {
-  return kind == CommandKind::kVelocity ? velocity_command(0, 0) : Command{};
-}
-
-std::string text_of(GuardLimit limit) {
-  switch (limit) {
-    case GuardLimit::kStopped:
-      return "stop: it was told to stand until it is released";
-    case GuardLimit::kUnarmed:
-      return "not armed: it stands until somebody arms it";
-    case GuardLimit::kPoseLost:
-      return "pose lost: nobody says where it is";
-    case GuardLimit::kWorldLost:
-      return "world lost: the virtual world does not come any more";
-    case GuardLimit::kWatchdog:
-      return "watchdog: its program gives no commands any more";
-    case GuardLimit::kBadCommand:
-      return "bad command: not a number, or of a kind that cannot be guarded";
-    case GuardLimit::kSpeed:
-      return "speed: faster than it may";
-    case GuardLimit::kTurn:
-      return "turn rate: turns faster than it may";
-    case GuardLimit::kFence:
-      return "fence: it would leave its region";
-    case GuardLimit::kSeparation:
-      return "separation: it would come too near to another robot";
-  }
-  return "unknown";
-}
-
-}  // namespace
 
 void Engine::Impl::set_up_guards() {
   guards.assign(spec.types.size(), std::nullopt);
-  guard_states.assign(spec.robots.size(), GuardState{});
   for (std::size_t t = 0; t < spec.types.size(); ++t) {
     const RobotType& type = spec.types[t];
     guards[t] = type.guard;
     // Nobody may forget the least that a real robot needs.
     if (!type.simulated && !type.guard) guards[t] = GuardSpec{};
   }
-  for (std::size_t r = 0; r < spec.robots.size(); ++r) {
-    GuardState& state = guard_states[r];
-    state.last_step.fill(GuardState::kNever);
-    const RobotType& type = spec.types[spec.robots[r].type];
-    state.armed = type.simulated || !guards[spec.robots[r].type]->arm;
+  robot_guards.clear();
+  for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
+    robot_guards.emplace_back(GuardHolds{.armed = is_armed_at_first(r)});
   }
+}
+
+bool Engine::Impl::is_armed_at_first(std::uint32_t robot) const {
+  const std::uint32_t type = spec.robots[robot].type;
+  return spec.types[type].simulated || !guards[type]->arm;
 }
 
 void Engine::Impl::find_neighbours(RobotId robot, double reach_m, Worker& worker) const {
@@ -86,13 +53,12 @@ Command Engine::Impl::guarded(const RobotGroup& group, const ActuatorSlots& slot
                               const Command& command, Worker& worker) {
   const RobotId robot = group.members[member];
   const std::uint32_t r = robot.value();
-  const GuardState& state = guard_states[r];
+  RobotGuard& robot_guard = robot_guards[r];
   const auto& limits = guards[spec.robots[r].type];
   const CommandKind expected =
       controller != nullptr ? controller->spec->ops->gives : CommandKind::kVelocity;
   // What does not obey cannot be guarded, and a simulated robot is only if its file says so.
-  if (state.held) return standing(expected);
-  if (!limits || slots.obeys[member] == 0) return state.stopped ? standing(expected) : command;
+  if (!limits || slots.obeys[member] == 0) return robot_guard.limit(command, expected);
 
   const ReportedPose& pose = reported[r];
   GuardInput input;
@@ -104,12 +70,12 @@ Command Engine::Impl::guarded(const RobotGroup& group, const ActuatorSlots& slot
         given < 0 ? std::numeric_limits<double>::infinity()
                   : Duration{spec.step.ns * (static_cast<std::int64_t>(step) - given)}.seconds();
   }
-  input.stopped = state.stopped;
-  input.armed = state.armed;
   input.pose_known = pose.known && !pose.stale;
   input.X_WR = {pose.pose.x_m, pose.pose.y_m, pose.pose.yaw_rad};
   input.pose_age_s = std::max(0.0, (now - pose.stamp).seconds());
   input.velocity = pose.velocity;
+  find_watched_sensors(group, member, now, worker.sensors);
+  input.sensors = worker.sensors;
   input.world_age_s = world_age.seconds();
   input.dt_s = spec.step.seconds();
   input.touching = truth.limited[r] != 0;
@@ -119,27 +85,26 @@ Command Engine::Impl::guarded(const RobotGroup& group, const ActuatorSlots& slot
     find_neighbours(robot, guard_reach_m(*limits, input), worker);
     input.neighbours = worker.neighbours;
   }
-  const GuardOutput output = guard(*limits, input);
-  if (output.acted != 0) tell_guard(robot, *limits, output.acted, worker);
+  const GuardOutput output = robot_guard.limit(*limits, input);
+  if (output.acted != 0) {
+    const auto quiet_steps = static_cast<std::int64_t>(kGuardQuiet_s / spec.step.seconds());
+    const auto present = static_cast<std::int64_t>(step);
+    tell_guard(robot, *limits, robot_guard.begin(output.acted, present, quiet_steps),
+               output.lost_sensor, worker.events);
+  }
   return output.command;
 }
 
-void Engine::Impl::tell_guard(RobotId robot, const GuardSpec& limits, std::uint32_t acted,
-                              Worker& worker) {
-  const auto quiet_steps = static_cast<std::int64_t>(kQuiet_s / spec.step.seconds());
-  const auto present = static_cast<std::int64_t>(step);
+void Engine::Impl::tell_guard(RobotId robot, const GuardSpec& limits, std::uint32_t begun,
+                              std::uint32_t lost_sensor, std::vector<Event>& to) const {
   for (std::uint32_t i = 0; i < kGuardLimits; ++i) {
-    if ((acted >> i & 1U) == 0) continue;
-    std::int64_t& last = guard_states[robot.value()].last_step[i];
-    const bool begins = present - last > quiet_steps;
-    last = present;
-    if (!begins) continue;
+    if ((begun >> i & 1U) == 0) continue;
     const auto limit = static_cast<GuardLimit>(i);
-    const bool slows = !stops(limit) || (limit == GuardLimit::kWorldLost &&
-                                         limits.world_lost == WorldLostPolicy::kSlow);
-    worker.events.push_back({step, robot,
-                             slows ? EventKind::kGuardSlowed : EventKind::kGuardStopped, BodyId(),
-                             text_of(limit), i});
+    std::string text(text_of(limit));
+    if (limit == GuardLimit::kSensorLost) {
+      text = sensor_lost_text(group_of(robot).sensors[lost_sensor]);
+    }
+    to.push_back({step, robot, event_of(limit, limits), BodyId(), std::move(text), i});
   }
 }
 
@@ -148,11 +113,15 @@ void Engine::Impl::halt() noexcept {
 }
 
 void Engine::Impl::halt(RobotGroup& group) noexcept {
+  for (const GuardedMember& member : group.guards) {
+    if (member.thread) member.thread->stand();
+  }
   for (ActuatorSlots& slots : group.actuators) {
     if (slots.spec == nullptr || slots.spec->hardware_ops == nullptr) continue;
     for (std::size_t m = 0; m < slots.open.size(); ++m) {
+      if (group.has_guard(m) || slots.open[m] == 0) continue;
       // Only what takes velocities can be told to stand; the rest is left to its close().
-      if (slots.open[m] == 0 || slots.commands[m].kind != CommandKind::kVelocity) continue;
+      if (slots.commands[m].kind != CommandKind::kVelocity) continue;
       const Command stand = velocity_command(0, 0);
       ErrorText ignored;
       slots.spec->hardware_ops->write(slots.instances.at(m), &stand, now.ns, &ignored);

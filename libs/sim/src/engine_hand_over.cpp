@@ -89,7 +89,7 @@ void Engine::Impl::begin_stage(Twin& twin, Twin::Stage stage) {
   twin.stage = stage;
   twin.since = step_time(step);
   twin.moved_at = twin.since;
-  guard_states[twin.robot.value()].held = stage == Twin::Stage::kStanding;
+  robot_guards[twin.robot.value()].hold(stage == Twin::Stage::kStanding);
 }
 
 void Engine::Impl::advance_hand_overs() {

@@ -13,11 +13,14 @@
 #include "host_part.hpp"
 #include "listed_fan.hpp"
 #include "outlets.hpp"
+#include "pose_reading.hpp"
 #include "pose_track.hpp"
 #include "rave/base/check.hpp"
+#include "rave/base/crash_note.hpp"
 #include "rave/sim/engine.hpp"
 #include "rave/sim/thread_pool.hpp"
 #include "robot_group.hpp"
+#include "robot_guard.hpp"
 #include "twin.hpp"
 #include "world_truth.hpp"
 
@@ -50,21 +53,10 @@ struct Worker {
   std::vector<Event> events;
   std::vector<RobotId> near;
   std::vector<GuardNeighbour> neighbours;
+  std::vector<GuardSensor> sensors;
   std::vector<NoiseItem> noise;  ///< Samples of a block that wait for their noise, and whose.
   std::vector<std::uint32_t> noisy_members;
 };
-
-/// What the guard of one robot remembers.
-struct GuardState {
-  static constexpr std::int64_t kNever = -1'000'000'000;
-  bool stopped = false;
-  bool armed = true;
-  bool held = false;                                   ///< Stands while it is handed over.
-  std::array<std::int64_t, kGuardLimits> last_step{};  ///< When each limit acted last.
-};
-
-/// A record of a sensor that says where its robot is, as a pose.
-[[nodiscard]] PoseReading pose_reading(ReadingKind kind, const std::byte* record);
 
 /// The world at the stamp of a real sample, for the virtual halves of hybrid sensors.
 struct FusionWorld {
@@ -111,6 +103,8 @@ struct Engine::Impl {
                               const SampleHeader& sample);
   void push_hardware_sample(RobotGroup& group, SensorSlots& slots, std::size_t member);
   void process_hardware_samples(RobotGroup& group, SensorSlots& slots, std::size_t member);
+  /// Frame of the sensor that says where a robot is.
+  [[nodiscard]] Pose2 pose_frame(const RobotGroup& group, RobotId robot) const;
   void note_reported_pose(RobotGroup& group, const SensorSlots& slots, std::size_t member,
                           const SampleHeader& header, const std::byte* record);
   void refresh_reported();
@@ -147,6 +141,18 @@ struct Engine::Impl {
   void hash_delivery(const RobotGroup& group, SensorSlots& slots, std::uint32_t device,
                      std::size_t member, RunHash& hash);
 
+  /// What a crash in a plug-in says of it; see CrashScope.
+  [[nodiscard]] CrashNote crash_note(RobotId first, RobotId last, const char* part,
+                                     const std::string& driver) const {
+    return {part, driver.c_str(), spec.robots[first.value()].name.c_str(),
+            spec.robots[last.value()].name.c_str()};
+  }
+  [[nodiscard]] CrashNote crash_note(const Block& block, const char* part,
+                                     const std::string& driver) const {
+    const std::vector<RobotId>& members = groups[block.group].members;
+    return crash_note(members[block.begin], members[block.end - 1], part, driver);
+  }
+
   // engine_decide.cpp: programs
   void decide();
   void decide_block(const Block& block, Worker& worker);
@@ -164,6 +170,8 @@ struct Engine::Impl {
   void act();
   void act_block(const Block& block, Worker& worker);
   void write_hardware(RobotGroup& group, ActuatorSlots& slots, std::size_t member);
+  void note_written(const RobotGroup& group, ActuatorSlots& slots, std::size_t member, bool failed,
+                    std::string_view text);
   void control(RobotGroup& group, const Block& block, Worker& worker);
   void actuate(RobotGroup& group, const Block& block, Worker& worker);
   void publish();
@@ -173,8 +181,7 @@ struct Engine::Impl {
   /// Whether nothing stands between a controller and its actuator.
   [[nodiscard]] bool is_unguarded(const ActuatorSlots& slots, std::uint32_t member,
                                   std::uint32_t robot) const noexcept {
-    const GuardState& state = guard_states[robot];
-    return !state.held && !state.stopped &&
+    return robot_guards[robot].is_free() &&
            (slots.obeys[member] == 0 || !guards[spec.robots[robot].type]);
   }
   /// `command` is what the controller gave; nothing if there is none.
@@ -182,7 +189,24 @@ struct Engine::Impl {
                                 std::uint32_t member, const ControllerSlots* controller,
                                 const Command& command, Worker& worker);
   void find_neighbours(RobotId robot, double reach_m, Worker& worker) const;
-  void tell_guard(RobotId robot, const GuardSpec& limits, std::uint32_t acted, Worker& worker);
+  /// Events of limits that begin to act, as bits. `lost_sensor`: as in GuardOutput.
+  void tell_guard(RobotId robot, const GuardSpec& limits, std::uint32_t begun,
+                  std::uint32_t lost_sensor, std::vector<Event>& to) const;
+  /// Whether a robot with the drivers that it has now need not be armed.
+  [[nodiscard]] bool is_armed_at_first(std::uint32_t robot) const;
+
+  // engine_live.cpp: guards with threads of their own
+  [[nodiscard]] Status start_guards();
+  [[nodiscard]] Status start_guards(RobotGroup& group);
+  [[nodiscard]] Result<std::unique_ptr<GuardThread>> start_guard(RobotGroup& group,
+                                                                 std::size_t member);
+  void tell_of_guards() const;
+  /// Gives the guard of a robot what the step wants, and takes what it has to say.
+  void serve_guard(RobotGroup& group, std::uint32_t member);
+  void give_order(RobotGroup& group, std::uint32_t member);
+  void fill_neighbours(RobotId robot, const RobotGroup& group, GuardOrder& order);
+  void hear_guard(RobotGroup& group, std::uint32_t member);
+  [[nodiscard]] std::shared_ptr<const world::Body> guard_body(RobotId robot);
 
   // engine_exchange.cpp: robots with two sets of drivers
   struct Arrival {
@@ -304,7 +328,10 @@ struct Engine::Impl {
   std::vector<Event> events;
   std::vector<Event> pending;                    ///< Of inputs, for the next step.
   std::vector<std::optional<GuardSpec>> guards;  ///< By type.
-  std::vector<GuardState> guard_states;          ///< By robot.
+  std::vector<RobotGuard> robot_guards;          ///< By robot.
+  SimTime work_began;                            ///< Of this step, by the clock of a live run.
+  /// By robot, as far as guards with threads of their own know them. Shared with these.
+  std::vector<std::shared_ptr<const world::Body>> guard_bodies;
   Duration world_age;
   std::uint64_t by_hand = 0;
   std::size_t next_change = 0;

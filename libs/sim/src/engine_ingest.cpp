@@ -80,6 +80,7 @@ Status Engine::Impl::ingest_sensor(RobotGroup& group, SensorSlots& slots, std::s
     SampleHeader sample;
     while (queue.next(now, &sample, slots.scratch.data())) {
       sample.sequence = ++slots.sequence[member];
+      slots.heard_ns[member] = sample.stamp_ns;
       if (slots.fusion && !fuse(group, slots, member, sample)) continue;
       accept_hardware_sample(group, slots, member, sample);
     }
@@ -159,6 +160,12 @@ void Engine::Impl::process_hardware_samples(RobotGroup& group, SensorSlots& slot
   }
 }
 
+Pose2 Engine::Impl::pose_frame(const RobotGroup& group, RobotId robot) const {
+  const SensorSpec& sensor = group.type->sensors[*group.type->pose_from];
+  const Pose2 start = sensor.kind == ReadingKind::kPose ? Pose2{} : spec.robots[robot.value()].X_WR;
+  return group.X_WM.value_or(group.type->X_WM.value_or(start));
+}
+
 void Engine::Impl::note_reported_pose(RobotGroup& group, const SensorSlots& slots,
                                       std::size_t member, const SampleHeader& header,
                                       const std::byte* record) {
@@ -166,10 +173,7 @@ void Engine::Impl::note_reported_pose(RobotGroup& group, const SensorSlots& slot
   if (group.type->pose_from != device || header.count == 0) return;
   const RobotId robot = group.members[member];
   const PoseReading reading = pose_reading(slots.spec->kind, record);
-  const Pose2 start =
-      slots.spec->kind == ReadingKind::kPose ? Pose2{} : spec.robots[robot.value()].X_WR;
-  const Pose2 X_WM = group.X_WM.value_or(group.type->X_WM.value_or(start));
-  const Pose2 X_WR = compose(X_WM, {reading.x_m, reading.y_m, reading.yaw_rad});
+  const Pose2 X_WR = compose(pose_frame(group, robot), {reading.x_m, reading.y_m, reading.yaw_rad});
   if (!std::isfinite(X_WR.x) || !std::isfinite(X_WR.y) || !std::isfinite(X_WR.yaw)) return;
   ReportedPose& pose = reported[robot.value()];
   pose.pose = {X_WR.x, X_WR.y, X_WR.yaw, reading.variance_xy_m2, reading.variance_yaw_rad2};

@@ -225,6 +225,7 @@ void Engine::Impl::body_changed(RobotId robot) {
     fusion_world->world.body_changed(robot);
     fusion_world->valid = false;
   }
+  if (!guard_bodies.empty()) guard_bodies[robot.value()].reset();
   if (!is_local(robot.value())) return;
   RobotGroup& group = groups[group_index[robot.value()]];
   group.program.setups[member_index[robot.value()]].robot.radius_m = truth.radius_m[robot.value()];
@@ -277,32 +278,28 @@ void Engine::Impl::restore_bodies() {
 }
 
 void Engine::Impl::stop(RobotId robot, Author author) {
-  for (std::uint32_t r = 0; r < guard_states.size(); ++r) {
+  for (std::uint32_t r = 0; r < robot_guards.size(); ++r) {
     if (!is_local(r) || (robot.valid() && robot.value() != r)) continue;
-    if (guard_states[r].stopped) continue;
-    guard_states[r].stopped = true;
+    if (!robot_guards[r].stop()) continue;
+    // Not first in the next step, which may be long in coming.
+    const RobotGroup& group = groups[group_index[r]];
+    if (group.has_guard(member_index[r])) group.guards[member_index[r]].thread->stand();
     note_input(RobotId(r), EventKind::kStopped, "", author);
   }
 }
 
 void Engine::Impl::release(RobotId robot, Author author) {
-  for (std::uint32_t r = 0; r < guard_states.size(); ++r) {
+  for (std::uint32_t r = 0; r < robot_guards.size(); ++r) {
     if (!is_local(r) || (robot.valid() && robot.value() != r)) continue;
-    GuardState& state = guard_states[r];
-    if (!state.stopped) continue;
-    state.stopped = false;
-    const RobotType& type = spec.types[spec.robots[r].type];
-    state.armed = type.simulated || !guards[spec.robots[r].type]->arm;
+    if (!robot_guards[r].release(is_armed_at_first(r))) continue;
     note_input(RobotId(r), EventKind::kReleased, "", author);
   }
 }
 
 void Engine::Impl::arm(RobotId robot, Author author) {
-  for (std::uint32_t r = 0; r < guard_states.size(); ++r) {
+  for (std::uint32_t r = 0; r < robot_guards.size(); ++r) {
     if (!is_local(r) || (robot.valid() && robot.value() != r)) continue;
-    if (guard_states[r].armed) continue;
-    guard_states[r].armed = true;
-    note_input(RobotId(r), EventKind::kArmed, "", author);
+    if (robot_guards[r].arm()) note_input(RobotId(r), EventKind::kArmed, "", author);
   }
 }
 
@@ -311,10 +308,10 @@ void Engine::release(RobotId robot, Author author) { impl_->release(robot, autho
 void Engine::arm(RobotId robot, Author author) { impl_->arm(robot, author); }
 
 bool Engine::stopped(RobotId robot) const noexcept {
-  return impl_->guard_states[robot.value()].stopped;
+  return impl_->robot_guards[robot.value()].holds().stopped;
 }
 bool Engine::armed(RobotId robot) const noexcept {
-  return impl_->guard_states[robot.value()].armed;
+  return impl_->robot_guards[robot.value()].holds().armed;
 }
 
 Status Engine::Impl::check_own(RobotId robot, std::span<const ParameterChange> changes) const {

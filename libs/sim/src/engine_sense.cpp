@@ -71,6 +71,8 @@ void Engine::Impl::sample_members(RobotGroup& group, SensorSlots& slots, std::ui
                    std::span(worker.places).first(block.end - block.begin), worker.fan,
                    worker.fans);
   }
+  const CrashNote whose = crash_note(block, "sensor", sensor.driver);
+  const CrashScope scope(whose);
   for (std::uint32_t m = block.begin; m < block.end; ++m) {
     const RobotId robot = group.members[m];
     if (slots.failed[m] != 0 || !truth.movers[robot.value()].present) continue;

@@ -84,12 +84,13 @@ Status configure_imagined(const SensorSpec& sensor, const SensorInfo& real, Host
 }
 
 Result<std::optional<Processing>> noise_of(const NoiseSpec& noise, const SensorSpec& sensor,
-                                           std::uint32_t capacity) {
+                                           const SensorInfo& half) {
   std::optional<Processing> made;
   if (!noise.any()) return made;
   ProcessingSpec spec;
   spec.noise = noise;
-  RAVE_TRY_ASSIGN(made, Processing::make(spec, sensor.kind, capacity, 0));
+  RAVE_TRY_ASSIGN(made,
+                  Processing::make(spec, sensor.kind, half.capacity, 0, range_limits_of(half)));
   return made;
 }
 
@@ -150,12 +151,12 @@ Result<std::unique_ptr<FusionSlots>> FusionSlots::make(const SensorSpec& spec,
     return tl::unexpected(in_half("virtual", hybrid.virtual_driver, std::move(made).error()));
   }
   if (spec.kind == ReadingKind::kRanges) RAVE_TRY(check_rays(hybrid, real, imagined));
-  auto real_noise = noise_of(hybrid.real_noise, spec, real.capacity);
+  auto real_noise = noise_of(hybrid.real_noise, spec, real);
   if (!real_noise) {
     return tl::unexpected(in_half("real", hybrid.real_driver, std::move(real_noise).error()));
   }
   slots->real_noise = *std::move(real_noise);
-  auto imagined_noise = noise_of(hybrid.virtual_noise, spec, slots->capacity);
+  auto imagined_noise = noise_of(hybrid.virtual_noise, spec, imagined);
   if (!imagined_noise) {
     return tl::unexpected(
         in_half("virtual", hybrid.virtual_driver, std::move(imagined_noise).error()));

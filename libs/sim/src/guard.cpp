@@ -199,11 +199,21 @@ std::uint32_t limit_motion(const GuardSpec& spec, const GuardInput& in, Drive& d
   return acted | forbidding;
 }
 
+/// The first sensor that is older than it may be; the end of `in.sensors` if there is none.
+auto first_lost(const GuardInput& in) noexcept {
+  return std::find_if(in.sensors.begin(), in.sensors.end(), [](const GuardSensor& sensor) {
+    return !(sensor.age_s <= sensor.max_age_s);
+  });
+}
+
 /// Why the robot has to stand; kGuardLimits: it need not.
 std::uint32_t hold_reason(const GuardSpec& spec, const GuardInput& in) noexcept {
   if (in.stopped) return static_cast<std::uint32_t>(GuardLimit::kStopped);
   if (!in.armed) return static_cast<std::uint32_t>(GuardLimit::kUnarmed);
   if (!in.pose_known) return static_cast<std::uint32_t>(GuardLimit::kPoseLost);
+  if (first_lost(in) != in.sensors.end()) {
+    return static_cast<std::uint32_t>(GuardLimit::kSensorLost);
+  }
   if (spec.world_lost == WorldLostPolicy::kStop && !(in.world_age_s <= spec.world_timeout_s)) {
     return static_cast<std::uint32_t>(GuardLimit::kWorldLost);
   }
@@ -222,8 +232,8 @@ std::uint32_t hold_reason(const GuardSpec& spec, const GuardInput& in) noexcept 
 
 std::string_view to_string(GuardLimit limit) noexcept {
   constexpr std::array<std::string_view, kGuardLimits> kNames = {
-      "stop",        "not armed", "pose lost", "world lost", "watchdog",
-      "bad command", "speed",     "turn rate", "fence",      "separation"};
+      "stop",        "not armed", "pose lost", "sensor lost", "world lost", "watchdog",
+      "bad command", "speed",     "turn rate", "fence",       "separation"};
   return kNames[static_cast<std::size_t>(limit)];
 }
 
@@ -251,6 +261,8 @@ GuardOutput guard(const GuardSpec& spec, const GuardInput& input) noexcept {
         input.command.kind != CommandKind::kNone &&
         std::any_of(std::begin(input.command.value), std::end(input.command.value), asks);
     if (moves) output.acted = 1U << reason;
+    const auto lost = first_lost(input);
+    if (lost != input.sensors.end()) output.lost_sensor = lost->index;
     return output;
   }
   output.command = input.command;

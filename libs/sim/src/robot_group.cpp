@@ -7,6 +7,8 @@
 #include "declared_fan.hpp"
 #include "plugin_call.hpp"
 #include "radio.hpp"
+#include "rave/base/crash_note.hpp"
+#include "sensor_age.hpp"
 
 namespace rave::sim {
 
@@ -19,6 +21,17 @@ HostServices services_of(RobotLog& log) {
   };
   return services;
 }
+
+namespace {
+
+/// What a crash says of the driver or program of one robot; see CrashScope.
+CrashNote crash_note(const GroupContext& context, RobotId id, const char* part,
+                     const std::string& driver) {
+  const char* const robot = context.spec.robots[id.value()].name.c_str();
+  return {part, driver.c_str(), robot, robot};
+}
+
+}  // namespace
 
 RobotInfo info_of(const GroupContext& context, RobotId id) {
   const RobotSpec& robot = context.spec.robots[id.value()];
@@ -66,7 +79,10 @@ void allocate(SensorSlots& slots, std::size_t count) {
   slots.failed.resize(count);
   slots.flip.resize(count);
   if (slots.is_virtual()) slots.driver_state.resize(slots.spec->virtual_ops->state_size * count);
-  if (!slots.is_virtual()) slots.scratch.resize(slots.stride);
+  if (!slots.is_virtual()) {
+    slots.scratch.resize(slots.stride);
+    slots.heard_ns.resize(count);
+  }
   if (slots.queued()) {
     slots.raw_headers.resize(count);
     slots.raw_records.resize(slots.stride * count);
@@ -83,6 +99,7 @@ void clear_samples(SensorSlots& slots) {
   std::fill(slots.driver_state.begin(), slots.driver_state.end(), std::byte{});
   std::fill(slots.sequence.begin(), slots.sequence.end(), 0U);
   std::fill(slots.failed.begin(), slots.failed.end(), std::uint8_t{0});
+  std::fill(slots.heard_ns.begin(), slots.heard_ns.end(), kNeverHeard_ns);
   std::fill(slots.flip.begin(), slots.flip.end(), std::uint8_t{0});
   if (slots.fusion) slots.fusion->clear();
   if (!slots.queued()) return;
@@ -99,6 +116,7 @@ void describe(SensorSlots& slots, double step_s) {
   info.X_RS = slots.spec->X_RS;
   info.z_m = slots.spec->z_m;
   info.period_s = slots.spec->period_steps * step_s;
+  info.max_age_s = told_max_age_s(slots);
 }
 
 Status configure_virtual(const GroupContext& context, RobotGroup& group, SensorSlots& slots) {
@@ -142,6 +160,8 @@ Status configure_device(const GroupContext& context, RobotGroup& group, DeviceSl
   setup.folder = group.type->folder.c_str();
   void* const instance = slots.instances.at(member);
   slots.bases.push_back(slots.spec->ops->base(instance));
+  const CrashNote whose = crash_note(context, group.members[member], "device", slots.spec->driver);
+  const CrashScope scope(whose);
   return called(
       [&](ErrorText* error) { return slots.spec->ops->configure(instance, &setup, error); });
 }
@@ -170,6 +190,8 @@ Status open_devices(const GroupContext& context, RobotGroup& group) {
       // close() comes also after an error of open().
       slots.open[m] = 1;
       context.note("device", slots.spec->name, slots.spec->driver);
+      const CrashNote whose = crash_note(context, group.members[m], "device", slots.spec->driver);
+      const CrashScope scope(whose);
       const Status status = called(
           [&](ErrorText* error) { return slots.spec->ops->open(slots.instances.at(m), error); });
       if (!status) {
@@ -179,6 +201,11 @@ Status open_devices(const GroupContext& context, RobotGroup& group) {
     }
   }
   return {};
+}
+
+/// Its age has a limit of its own: RobotType::staleness.
+bool is_pose_source(const RobotGroup& group, const SensorSlots& slots) {
+  return group.type->pose_from == static_cast<std::uint32_t>(&slots - group.sensors.data());
 }
 
 Status configure_hardware(const GroupContext& context, RobotGroup& group, SensorSlots& slots) {
@@ -193,6 +220,8 @@ Status configure_hardware(const GroupContext& context, RobotGroup& group, Sensor
     setup.folder = group.type->folder.c_str();
     setup.device = device_of(group, spec.device, m);
     HardwareDeclaration declaration;
+    const CrashNote whose = crash_note(context, group.members[m], "sensor", spec.hardware_driver());
+    const CrashScope scope(whose);
     RAVE_TRY(called([&](ErrorText* error) {
       return spec.hardware_ops->configure(slots.instances.at(m), &setup, &declaration, error);
     }));
@@ -200,6 +229,7 @@ Status configure_hardware(const GroupContext& context, RobotGroup& group, Sensor
     slots.capacity = std::max(slots.capacity, declaration.capacity);
     slots.collect = declaration.collect != 0;
     slots.live = declaration.clock == DriverClock::kLive;
+    RAVE_TRY_ASSIGN(slots.max_age_s, max_age_s(spec, declaration, is_pose_source(group, slots)));
     slots.info.range_min_m = declaration.range_min_m;
     slots.info.range_max_m = declaration.range_max_m;
     slots.info.bearings_rad = declaration.bearings_rad;
@@ -226,13 +256,14 @@ Status make_sensor(const GroupContext& context, RobotGroup& group, SensorSlots& 
   }
   RAVE_TRY(configured);
   const double step_s = context.spec.step.seconds();
+  describe(slots, step_s);
   if (!slots.spec->processing.empty()) {
     const double period_s = slots.is_virtual() ? slots.spec->period_steps * step_s : 0;
-    RAVE_TRY_ASSIGN(slots.processing, Processing::make(slots.spec->processing, slots.spec->kind,
-                                                       slots.capacity, period_s));
+    RAVE_TRY_ASSIGN(slots.processing,
+                    Processing::make(slots.spec->processing, slots.spec->kind, slots.capacity,
+                                     period_s, range_limits_of(slots.info)));
   }
   allocate(slots, group.members.size());
-  describe(slots, step_s);
   if (slots.spec->hybrid) {
     const auto count = static_cast<std::uint32_t>(group.members.size());
     const HostServices host = services_of(context.logs[group.members.front().value()]);
@@ -263,6 +294,9 @@ Status start_controllers(const GroupContext& context, RobotGroup& group) {
     slots.failed.assign(count, 0);
     for (std::size_t m = 0; m < count; ++m) {
       const DeviceSetup setup = device_setup(context, group.members[m], slots.spec->params);
+      const CrashNote whose =
+          crash_note(context, group.members[m], "controller", slots.spec->driver);
+      const CrashScope scope(whose);
       const Status status = called([&](ErrorText* error) {
         return slots.spec->ops->start(slots.instances.at(m), &setup, error);
       });
@@ -280,6 +314,8 @@ Status start_actuator(const GroupContext& context, RobotGroup& group, ActuatorSl
   DeviceSetup setup = device_setup(context, group.members[m], slots.spec->params);
   setup.device = device_of(group, slots.spec->device, m);
   void* instance = slots.instances.at(m);
+  const CrashNote whose = crash_note(context, group.members[m], "actuator", slots.spec->driver);
+  const CrashScope scope(whose);
   if (slots.spec->virtual_ops != nullptr) {
     return called(
         [&](ErrorText* error) { return slots.spec->virtual_ops->start(instance, &setup, error); });
@@ -378,6 +414,8 @@ Status start_programs(const GroupContext& context, RobotGroup& group) {
         status = tl::unexpected(std::move(process).error());
       }
     } else {
+      const CrashNote whose = crash_note(context, group.members[m], "program", slots.spec->driver);
+      const CrashScope scope(whose);
       status = called([&](ErrorText* error) {
         return slots.spec->ops->start(slots.instances.at(m), &slots.setups[m], error);
       });
@@ -456,6 +494,9 @@ Status open_sensors(GroupContext context, RobotGroup& group) {
     slots.open.assign(slots.queues.size(), 0);
     for (std::size_t m = 0; m < slots.queues.size(); ++m) {
       context.note("sensor", slots.spec->name, slots.spec->hardware_driver());
+      const CrashNote whose =
+          crash_note(context, group.members[m], "sensor", slots.spec->hardware_driver());
+      const CrashScope scope(whose);
       const Status status = called([&](ErrorText* error) {
         return slots.spec->hardware_ops->open(slots.instances.at(m), slots.queues[m].get(), error);
       });

@@ -9,6 +9,7 @@
 
 #include "closing.hpp"
 #include "fusion.hpp"
+#include "guard_thread.hpp"
 #include "instances.hpp"
 #include "near_lists.hpp"
 #include "opening_note.hpp"
@@ -35,6 +36,7 @@ struct SensorSlots {
   std::uint32_t stride = 0;  ///< Bytes of all records of one member.
   bool collect = false;
   bool live = false;
+  std::optional<double> max_age_s;  ///< Hardware that must not fall silent: see sensor_age.hpp.
   std::optional<Processing> processing;
 
   std::vector<SampleHeader> raw_headers;
@@ -46,7 +48,8 @@ struct SensorSlots {
   std::vector<std::byte> processing_state;
   std::vector<std::uint32_t> sequence;
   std::vector<std::uint8_t> failed;
-  std::vector<std::uint8_t> flip;  ///< Test hook: change a bit of the next delivery.
+  std::vector<std::int64_t> heard_ns;  ///< Hardware: stamp of the newest raw sample.
+  std::vector<std::uint8_t> flip;      ///< Test hook: change a bit of the next delivery.
   std::vector<std::unique_ptr<SampleQueue>> queues;
   std::vector<std::uint8_t> open;       ///< Hardware: has to be closed.
   std::vector<std::byte> scratch;       ///< Hardware: one sample on its way.
@@ -109,6 +112,13 @@ struct DeviceSlots {
   std::vector<std::uint8_t> open;      ///< Has to be closed.
 };
 
+/// A real robot of a live run: its guard writes to its actuators.
+struct GuardedMember {
+  std::unique_ptr<GuardThread> thread;        ///< Null: the engine writes to them.
+  std::vector<std::optional<SimTime>> given;  ///< By controller: when its last command was given.
+  GuardNews news;                             ///< The last.
+};
+
 /// All robots of one type and what serves them.
 struct RobotGroup {
   const RobotType* type = nullptr;
@@ -117,12 +127,33 @@ struct RobotGroup {
   std::vector<SensorSlots> sensors;
   std::vector<ControllerSlots> controllers;
   std::vector<ActuatorSlots> actuators;
+  std::vector<GuardedMember> guards;  ///< Empty: none has a guard of its own.
   ProgramSlots program;
   std::vector<SensorInfo> sensor_infos;
   std::vector<ControllerInfo> controller_infos;
   std::vector<const char*> robot_names;  ///< Of all robots, for programs.
   /// Frame of the pose source since a hand-over, in the place of that of the type.
   std::optional<Pose2> X_WM;
+
+  [[nodiscard]] bool has_guard(std::size_t member) const noexcept {
+    return !guards.empty() && guards[member].thread != nullptr;
+  }
+  /// The controller that speaks to an actuator: the one that was given a command last; before
+  /// that, the first. Null: there is none.
+  [[nodiscard]] const ControllerSlots* speaker(std::uint32_t actuator,
+                                               std::size_t member) const noexcept {
+    const ControllerSlots* active = nullptr;
+    for (const ControllerSlots& controller : controllers) {
+      if (controller.spec->actuator != actuator) continue;
+      if (active == nullptr || controller.last_step[member] > active->last_step[member]) {
+        active = &controller;
+      }
+    }
+    return active;
+  }
+  [[nodiscard]] std::size_t index_of(const ControllerSlots& controller) const noexcept {
+    return static_cast<std::size_t>(&controller - controllers.data());
+  }
 };
 
 /// Where messages of one robot's drivers and program go.

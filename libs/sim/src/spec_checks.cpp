@@ -106,6 +106,14 @@ Status check_local(const EngineSpec& spec) {
   return {};
 }
 
+Status check_threads(const EngineSpec& spec, unsigned given) {
+  if (given >= spec.threads) return {};
+  return fail(ErrorCode::kIo,
+              "the system gives {} of the {} threads that the run asks for (`threads`); expected "
+              "fewer, or a higher limit of processes or memory",
+              given, spec.threads);
+}
+
 std::vector<std::uint8_t> local_robots(const EngineSpec& spec) {
   std::vector<std::uint8_t> local(spec.robots.size(), spec.local ? 0 : 1);
   if (!spec.local) return local;

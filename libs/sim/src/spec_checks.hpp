@@ -23,6 +23,9 @@ Status check_twins(const EngineSpec& spec);
 /// What check_shared() says and EngineSpec::local; nothing if that is not set.
 Status check_local(const EngineSpec& spec);
 
+/// Whether the system gave the run all threads that it asked for. Error: kIo.
+Status check_threads(const EngineSpec& spec, unsigned given);
+
 /// By robot: 1 if it runs here.
 [[nodiscard]] std::vector<std::uint8_t> local_robots(const EngineSpec& spec);
 

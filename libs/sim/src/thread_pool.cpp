@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <system_error>
 
 namespace rave::sim {
 namespace {
@@ -47,7 +48,11 @@ ThreadPool::ThreadPool(unsigned threads, bool always)
       may_look_(threads <= std::thread::hardware_concurrency()),
       shares_(std::make_unique<Share[]>(std::max(threads, 1U))) {
   for (unsigned worker = 1; worker < std::max(threads, 1U); ++worker) {
-    workers_.emplace_back([this, worker] { serve(worker); });
+    try {
+      workers_.emplace_back([this, worker] { serve(worker); });
+    } catch (const std::system_error&) {
+      return;  // threads() says how many there are
+    }
   }
 }
 

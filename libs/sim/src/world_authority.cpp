@@ -189,8 +189,9 @@ Result<std::unique_ptr<WorldAuthority>> WorldAuthority::create(EngineSpec spec,
   RAVE_TRY(check_world(spec));
   RAVE_TRY(check_shared(spec));
   RAVE_TRY(check_hosts(spec, host_of));
-  return std::unique_ptr<WorldAuthority>(
-      new WorldAuthority(std::make_unique<Impl>(std::move(spec), std::move(host_of))));
+  auto impl = std::make_unique<Impl>(std::move(spec), std::move(host_of));
+  RAVE_TRY(check_threads(impl->spec, impl->pool.threads()));
+  return std::unique_ptr<WorldAuthority>(new WorldAuthority(std::move(impl)));
 }
 
 Status WorldAuthority::step(std::span<const HostReport* const> reports, WorldStep& world) {

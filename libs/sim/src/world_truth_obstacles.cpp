@@ -63,14 +63,25 @@ Result<BodyId> WorldTruth::find_obstacle(const ObstacleChange& change) const {
 Status WorldTruth::check_new_obstacle(const ObstacleChange& change) const {
   std::size_t standing = 0;
   BodyId same;
+  const std::string* same_code = nullptr;
+  for (const world::Body& robot : spec.world.robots) {
+    if (robot.code == change.body.code) same_code = &robot.name;
+  }
   for_each_standing(spec.world, [&](std::uint32_t id, const world::Obstacle& obstacle) {
     ++standing;
     if (obstacle.body.name == change.name) same = BodyId(id);
+    if (obstacle.body.code == change.body.code) same_code = &obstacle.body.name;
   });
   if (same.valid()) {
     return fail(ErrorCode::kInvalidArgument,
                 "there is an obstacle `{}` already (number {}); move it, or choose another name",
                 change.name, same.value());
+  }
+  if (change.body.code && same_code != nullptr) {
+    return fail(
+        ErrorCode::kInvalidArgument,
+        "`{}` carries the code {} already; expected a code of its own for the obstacle `{}`",
+        *same_code, *change.body.code, change.name);
   }
   if (standing >= ObstacleChange::kMostStanding) {
     return fail(ErrorCode::kInvalidArgument, "there are {} obstacles; no more fit in", standing);

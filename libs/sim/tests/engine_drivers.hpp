@@ -251,6 +251,7 @@ class Recording final : public HardwareSensor {
     silent_ = params.flag("silent");
     steps_back_ = params.flag("steps_back");
     if (params.flag("live")) declaration.clock = DriverClock::kLive;
+    declaration.period_s = params.flag("no_period") ? 0 : 0.007;
     return {};
   }
   Status open(SampleSink& sink) override {

@@ -111,6 +111,98 @@ TEST(EngineGuard, ARealRobotWithoutAGuardSectionIsGuardedAllTheSame) {
   EXPECT_TRUE(engine->armed(robot));
 }
 
+/// Beside the pose a sensor that is silent between 0.3 and 1.2 s.
+EngineSpec with_second_sensor(SampleTiming timing, std::optional<double> max_age_s,
+                              Numbers second = {{"gap_s", 0.3}, {"gap_end_s", 1.2}}) {
+  EngineSpec spec;
+  RobotType type = obedient_type({});
+  type.program = program<Drive>({{"v", 0.3}});
+  SensorSpec sensor = real_sensor<Recording>("compass", second);
+  sensor.timing = timing;
+  sensor.max_age_s = max_age_s;
+  type.sensors.push_back(std::move(sensor));
+  add_robot(spec, std::move(type));
+  return spec;
+}
+
+TEST(EngineGuard, ASensorThatFallsSilentStopsTheRobotUntilItSpeaksAgain) {
+  struct Case {
+    SampleTiming timing;
+    std::optional<double> max_age_s;
+    std::uint64_t stops_at;
+    const char* text;
+  };
+  // The newest sample before the gap is of 0.294 s; three periods of 7 ms are less than 0.2 s.
+  for (const Case& c :
+       {Case{SampleTiming::kPeriodic, std::nullopt, 50, "0.2"},
+        Case{SampleTiming::kPeriodic, 0.4, 70, "0.4"}, Case{SampleTiming::kUnknown, 0.4, 70, "0.4"},
+        Case{SampleTiming::kEvents, 0.4, 70, "0.4"}}) {
+    const auto engine = make_engine(with_second_sensor(c.timing, c.max_age_s));
+    EXPECT_TRUE(run(*engine, static_cast<int>(c.stops_at)).empty());
+    EXPECT_EQ(Obedient::told().back(), velocity_command(0.3, 0));
+    const auto events = run(*engine, static_cast<int>(120 - c.stops_at));
+    ASSERT_EQ(events.size(), 1U);
+    EXPECT_EQ(events[0].kind, EventKind::kGuardStopped);
+    EXPECT_EQ(events[0].detail, static_cast<std::uint32_t>(GuardLimit::kSensorLost));
+    EXPECT_EQ(events[0].step, c.stops_at);
+    EXPECT_EQ(events[0].text, fmt::format("sensor lost: `compass` has given nothing for more than "
+                                          "{} s",
+                                          c.text));
+    for (std::size_t i = c.stops_at; i < Obedient::told().size(); ++i) {
+      EXPECT_EQ(Obedient::told()[i], velocity_command(0, 0)) << i;
+    }
+    run(*engine, 2);
+    EXPECT_EQ(Obedient::told().back(), velocity_command(0.3, 0));
+  }
+}
+
+TEST(EngineGuard, ASensorThatHasNotSpokenYetHoldsTheRobot) {
+  const auto engine =
+      make_engine(with_second_sensor(SampleTiming::kPeriodic, {}, {{"first_s", 0.2}}));
+  const auto events = run(*engine, 20);
+  ASSERT_EQ(of_kind(events, EventKind::kGuardStopped).size(), 1U);
+  for (const Command& command : Obedient::told()) EXPECT_EQ(command, velocity_command(0, 0));
+  run(*engine, 1);
+  EXPECT_EQ(Obedient::told().back(), velocity_command(0.3, 0));
+}
+
+TEST(EngineGuard, SilenceOfASensorOfEventsOrOfUnknownPaceIsNoFault) {
+  for (const SampleTiming timing : {SampleTiming::kEvents, SampleTiming::kUnknown}) {
+    const auto engine = make_engine(with_second_sensor(timing, {}));
+    EXPECT_TRUE(run(*engine, 120).empty());
+    EXPECT_EQ(Obedient::told().back(), velocity_command(0.3, 0));
+  }
+}
+
+TEST(EngineGuard, ASensorOfEventsWhoseDeviceIsGoneStopsTheRobot) {
+  const auto engine = make_engine(with_second_sensor(SampleTiming::kEvents, {}, {{"fail_s", 0.1}}));
+  const auto events = run(*engine, 20);
+  ASSERT_EQ(events.size(), 2U);
+  EXPECT_EQ(events[0].kind, EventKind::kDriverFailed);
+  EXPECT_EQ(events[1].kind, EventKind::kGuardStopped);
+  EXPECT_EQ(events[1].text, "sensor lost: the driver of `compass` has failed");
+  EXPECT_EQ(Obedient::told().back(), velocity_command(0, 0));
+}
+
+TEST(EngineGuard, TheAgeOfThePoseSourceIsItsStaleness) {
+  EngineSpec spec;
+  RobotType type = obedient_type({{"gap_s", 0.3}, {"gap_end_s", 0.7}});
+  type.program = program<Drive>({{"v", 0.3}});
+  type.sensors[0].timing = SampleTiming::kPeriodic;
+  add_robot(spec, std::move(type));
+  const auto engine = make_engine(std::move(spec));
+  EXPECT_TRUE(run(*engine, 100).empty());
+}
+
+TEST(EngineGuard, APeriodicDriverHasToSayItsPeriod) {
+  EngineSpec spec = with_second_sensor(SampleTiming::kPeriodic, {}, {{"no_period", 1}});
+  const auto engine = Engine::create(std::move(spec));
+  ASSERT_FALSE(engine.has_value());
+  EXPECT_EQ(engine.error().text(),
+            "robot `r0`, sensor `compass` (driver `compass`): is periodic, but declared a period "
+            "of 0 s");
+}
+
 TEST(EngineGuard, ARobotWithoutAPoseDoesNotMove) {
   EngineSpec spec;
   RobotType type = obedient_type({{"first_s", 0.2}});

@@ -141,6 +141,25 @@ TEST(EngineObstacles, AreResetToThoseOfTheStart) {
   EXPECT_EQ(seen(*engine), 0U);
 }
 
+/// A code is free again when its bearer has gone.
+TEST(EngineObstacles, WithACodeThatAnotherCarriesAreRefused) {
+  const auto engine = make_engine(looker_and_driver());
+  run(*engine, 10);
+  const auto coded = [](const std::string& name, double x_m) {
+    ObstacleChange change = add(name, {x_m, 20, 0});
+    change.body.code = 7;
+    return change;
+  };
+  ASSERT_TRUE(engine->change_obstacle(coded("a", 20)));
+  const auto second = engine->change_obstacle(coded("b", 30));
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().text(),
+            "`a` carries the code 7 already; expected a code of its own for the obstacle `b`");
+  ASSERT_TRUE(engine->change_obstacle(add("c", {40, 20, 0}))) << "without a code";
+  ASSERT_TRUE(engine->change_obstacle(take_away("a")));
+  EXPECT_TRUE(engine->change_obstacle(coded("b", 30)));
+}
+
 TEST(EngineObstacles, ARefusedChangeLeavesEverythingAsItWas) {
   const auto after = [](auto&& spoil) {
     const auto engine = make_engine(looker_and_driver());

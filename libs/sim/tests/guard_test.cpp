@@ -93,6 +93,24 @@ TEST(Guard, EachReasonToStandStops) {
   }
 }
 
+TEST(Guard, ASensorThatIsOlderThanItMayBeStopsAndIsNamed) {
+  const auto with = [](std::vector<GuardSensor> sensors) {
+    GuardInput in = input(0.3, 0.1);
+    in.sensors = sensors;
+    return guard(GuardSpec{}, in);
+  };
+  EXPECT_EQ(with({{0, 0.2, 0.2}, {1, 0, 0.3}}).command, velocity_command(0.3, 0.1));
+  EXPECT_EQ(with({{0, 5, kInf}}).acted, 0U);
+  for (const double age_s : {0.31, kInf, kNan}) {
+    const GuardOutput output = with({{2, 0.1, 0.2}, {5, age_s, 0.3}, {6, 9, 0.3}});
+    EXPECT_EQ(output.command, velocity_command(0, 0)) << age_s;
+    EXPECT_EQ(output.acted, 1U << static_cast<unsigned>(GuardLimit::kSensorLost)) << age_s;
+    EXPECT_EQ(output.lost_sensor, 5U);
+  }
+  EXPECT_TRUE(stops(GuardLimit::kSensorLost));
+  EXPECT_EQ(to_string(GuardLimit::kSensorLost), "sensor lost");
+}
+
 TEST(Guard, AStandingRobotIsNotStopped) {
   GuardInput in = input(0, 0);
   in.stopped = true;

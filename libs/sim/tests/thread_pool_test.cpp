@@ -2,11 +2,16 @@
 #include "rave/sim/thread_pool.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <atomic>
 #include <chrono>
+#include <cstdio>
+#include <cstdlib>
 #include <set>
 #include <thread>
+
+#include "rave/sim/engine.hpp"
 
 namespace rave::sim {
 namespace {
@@ -100,6 +105,38 @@ TEST(ThreadPool, EndsWithoutHavingWorked) {
     const ThreadPool pool(4);
   }
 }
+
+// Sanitizers need more of the address space than this leaves.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+
+/// In a process that has no room for the stacks of 1024 threads.
+[[noreturn]] void ask_for_too_many_threads() {
+  constexpr rlim_t kRoom = rlim_t{1} << 30;
+  const rlimit limit{kRoom, kRoom};
+  if (::setrlimit(RLIMIT_AS, &limit) != 0) std::exit(2);
+  {
+    ThreadPool pool(1024);
+    if (pool.threads() >= 1024) std::exit(3);
+    std::atomic<int> done = 0;
+    ThreadPool::Effort effort;
+    pool.for_each_block(2000, effort, [&](std::size_t, unsigned) { ++done; });
+    if (done != 2000) std::exit(4);
+  }
+  EngineSpec spec;
+  spec.threads = 1024;
+  const auto engine = Engine::create(std::move(spec));
+  if (engine) std::exit(5);
+  std::fprintf(stderr, "%s\n", engine.error().text().c_str());
+  std::exit(0);
+}
+
+TEST(ThreadPool, FewerThreadsThanAskedForAreAnErrorAndNoCrash) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(ask_for_too_many_threads(), testing::ExitedWithCode(0),
+              "the system gives [0-9]+ of the 1024 threads that the run asks for");
+}
+
+#endif
 
 }  // namespace
 }  // namespace rave::sim

@@ -2,6 +2,7 @@
 #include "live_board.hpp"
 
 #include <algorithm>
+#include <chrono>
 
 #include "manager_habits.hpp"
 #include "rave/bus/sequence.hpp"
@@ -14,6 +15,12 @@ std::vector<RosterBook::Robot> planned_robots(const LiveManagerOptions& options)
   std::vector<RosterBook::Robot> robots;
   for (const auto& robot : options.robots) robots.push_back({robot.name, robot.simulated});
   return robots;
+}
+
+std::int64_t steady_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
 }
 
 }  // namespace
@@ -35,6 +42,7 @@ struct LiveBoard::Parts {
 
 LiveBoard::LiveBoard(const LiveManagerOptions& options, Parts parts)
     : options_(options),
+      foreign_(options.log),
       bus_(std::move(parts.bus)),
       own_info_(std::move(parts.own_info)),
       worlds_(std::move(parts.worlds)),
@@ -105,18 +113,14 @@ Status LiveBoard::look_at_processes(bool goes) {
     if (info.host == rave_wire_kNone) {
       const bool stays = goes || !lock_step::gives_way(introduced_, info);
       second = second || !stays;
-      if (stays && options_.log != nullptr) {
-        options_.log->warn(kSource,
-                           "another one, on {}, was started after this one and is not listened to",
-                           info.machine);
-      }
+      if (stays) foreign_.write(LogLevel::kWarning, kSource, not_listened_to(info));
       return;
     }
     const Status fits = lock_step::check_fits(options_.identity, info);
     if (fits) {
       host_of_[info.writer] = info.host;
-    } else if (options_.log != nullptr) {
-      options_.log->error(kSource, "refused: {}", fits.error().message);
+    } else {
+      foreign_.write(LogLevel::kError, kSource, "refused: " + fits.error().message);
     }
   });
   if (second) {
@@ -130,9 +134,7 @@ Status LiveBoard::look_at_processes(bool goes) {
       lose(event.writer, goes);
       continue;
     }
-    const bool worth = event.kind == kRefused || event.kind == kIncompatible ||
-                       event.kind == kForeignRun || event.kind == kNotice;
-    if (worth && options_.log != nullptr) options_.log->warn("bus", "{}", event.line());
+    foreign_.note(event);
   }
   return {};
 }
@@ -147,6 +149,7 @@ void LiveBoard::lose(std::uint64_t writer, bool goes) {
     if (seat.writer != writer) continue;
     seat.writer = 0;
     seat.bound_ns = -1;
+    seat.steps = {};
     seat.obstacle_revision = 0;
     news_ = true;
     if (!goes) continue;
@@ -166,8 +169,8 @@ bool LiveBoard::sit_down(const bus::ClockPing& ping) {
     const Status claimed = claims_.claim(host->second, ping.writer);
     if (!claimed) {
       const bool again = std::exchange(refused_[ping.writer], true);
-      if (!again && options_.log != nullptr) {
-        options_.log->error(kSource, "refused: {}", claimed.error().message);
+      if (!again) {
+        foreign_.write(LogLevel::kError, kSource, "refused: " + claimed.error().message);
       }
       return false;
     }
@@ -216,6 +219,7 @@ void LiveBoard::take_in(const bus::HostState& state) {
     return;
   }
   seat.last_step = state.step;
+  seat.steps.note(state.step, steady_ns());
   ++states_taken_;
   for (std::size_t i = 0; i < state.resolved.id._length; ++i) {
     const real_time::RobotSight sight = real_time::read_robot(state.resolved, i, {});
@@ -231,6 +235,16 @@ void LiveBoard::take_in(const bus::HostState& state) {
     known_[robot] = true;
     said_by_[robot] = state.writer;
   }
+}
+
+double LiveBoard::slowest_speed() const {
+  const std::int64_t now_ns = steady_ns();
+  std::optional<double> slowest;
+  for (const LiveSeat& seat : seats_) {
+    const auto rate = seat.writer != 0 ? seat.steps.at(now_ns) : std::nullopt;
+    if (rate) slowest = std::min(slowest.value_or(*rate), *rate);
+  }
+  return slowest.value_or(0) * options_.step.seconds();
 }
 
 std::vector<real_time::RobotReality> LiveBoard::take_realities() {
@@ -303,8 +317,9 @@ void LiveBoard::take_handed(const std::function<Status(const real_time::Obstacle
 }
 
 void LiveBoard::refuse_handed(std::uint64_t writer, std::string_view why) {
-  if (!wrong_hands_.insert(writer).second || options_.log == nullptr) return;
-  options_.log->error(kSource, "refused what the process {:016x} hands over: {}", writer, why);
+  if (!wrong_hands_.insert(writer).second) return;
+  foreign_.write(LogLevel::kError, kSource,
+                 fmt::format("refused what the process {:016x} hands over: {}", writer, why));
 }
 
 void LiveBoard::end_handing() {

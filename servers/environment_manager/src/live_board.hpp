@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "rave/bus/event_log.hpp"
 #include "rave/bus/host_claims.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/wish_box.hpp"
@@ -22,6 +23,7 @@
 #include "rave/real_time/messages.hpp"
 #include "rave/real_time/realities.hpp"
 #include "roster_book.hpp"
+#include "step_rate.hpp"
 
 namespace rave::environment_manager {
 
@@ -36,6 +38,7 @@ struct LiveSeat {
   std::vector<std::uint64_t> sat{};
   std::uint64_t losses = 0;
   std::uint64_t last_step = 0;
+  StepRate steps{};
   std::int64_t offset_ns = 0;  ///< Our clock minus its own, as it says.
   std::int64_t bound_ns = -1;
   std::uint64_t obstacle_revision = 0;  ///< That it has around its robots,
@@ -73,6 +76,8 @@ class LiveBoard {
   void answer(bus::ClockPong& pong) { static_cast<void>(pongs_.write(pong)); }
   /// Takes in where hosts say that their robots are.
   void take_states();
+  /// Simulated seconds per second of the slowest host that is there; 0: none is, or nobody knows.
+  [[nodiscard]] double slowest_speed() const;
   /// Takes in what hosts say of their robots, and tells it those who ask for the status; `control`
   /// has begun, or is null.
   void take_roster(robot_host::RunControl* control);
@@ -128,6 +133,7 @@ class LiveBoard {
   void refuse_handed(std::uint64_t writer, std::string_view why);
 
   const LiveManagerOptions& options_;
+  bus::EventLog foreign_;
   std::unique_ptr<bus::Bus> bus_;
   bus::Writer<bus::HostInfo> own_info_;
   bus::Writer<bus::World> worlds_;

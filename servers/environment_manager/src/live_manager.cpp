@@ -191,14 +191,16 @@ void LiveRun::tell_state(rave_wire_RunPhase phase, const std::string& text) {
   state.step = static_cast<std::uint64_t>(now_ns / options_.step.ns);
   state.steps = static_cast<std::uint64_t>(options_.duration.ns / options_.step.ns);
   state.step_s = options_.step.seconds();
-  state.speed = begun_ ? 1 : 0;
+  // The time of the run goes on by the clock; what its robots live through need not.
+  state.speed = begun_ ? board_->slowest_speed() : 0;
   bus::put_text(state.text, text);
   board_->publish(state);
   next_tell_ = Clock::now() + kTell;
 }
 
 void LiveRun::tell_progress() {
-  if (options_.on_progress) options_.on_progress(begun_ ? now() : SimTime{}, missing());
+  if (!options_.on_progress) return;
+  options_.on_progress(begun_ ? now() : SimTime{}, board_->slowest_speed(), missing());
 }
 
 /// Hosts hear of the end before this process goes, and what they know reaches it.

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fmt/format.h>
+
 #include <chrono>
+#include <string>
 #include <string_view>
+
+#include "rave/bus/topics.hpp"
 
 /// What managers in lock-step and in real time have in common.
 namespace rave::environment_manager {
@@ -17,6 +22,12 @@ inline constexpr std::chrono::milliseconds kTell{500};
 /// if one has not sent yet what it knows of the run.
 inline constexpr std::chrono::seconds kFarewell{3};
 inline constexpr std::chrono::seconds kLongFarewell{20};
+
+/// Of another manager that gives way to this one.
+[[nodiscard]] inline std::string not_listened_to(const bus::HostInfo& other) {
+  return fmt::format("another one, on {}, was started after this one and is not listened to",
+                     other.machine);
+}
 
 [[nodiscard]] inline double seconds(std::chrono::steady_clock::duration duration) {
   return std::chrono::duration<double>(duration).count();

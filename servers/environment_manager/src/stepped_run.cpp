@@ -11,6 +11,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// Wall time of a step at this pace; 0: there is none.
+Clock::duration period_of(const sim::EngineSpec& spec, double pace) {
+  if (pace <= 0) return {};
+  return std::chrono::duration_cast<Clock::duration>(
+      std::chrono::duration<double>(spec.step.seconds() / pace));
+}
+
 std::vector<RosterBook::Robot> planned_robots(const sim::EngineSpec& spec) {
   std::vector<RosterBook::Robot> robots;
   for (const sim::RobotSpec& robot : spec.robots) {
@@ -30,7 +37,8 @@ SteppedRun::SteppedRun(const ManagerOptions& options,
       seats_(make_seats(options.hosts)),
       wishes_(options.control, options.log),
       claims_(static_cast<std::uint32_t>(options.hosts.size())),
-      roster_(planned_robots(authority_->spec()), options.hosts) {}
+      roster_(planned_robots(authority_->spec()), options.hosts),
+      lateness_(period_of(authority_->spec(), options.pace)) {}
 
 bool SteppedRun::complete() const {
   const bool all = options_.on_lost_host == config::LostHost::kWait;
@@ -77,6 +85,13 @@ Status SteppedRun::take_over() {
                 "before: they belong to another run",
                 step_);
   }
+  // One host may have had a world that the others have not got, and have gone since.
+  if (world_.step > step_) {
+    return fail(ErrorCode::kState,
+                "the world of step {} was handed over, but no host is beyond step {}: whoever did "
+                "so is not of this run",
+                world_.step, step_);
+  }
   step_ = world_.step + 1;
   RAVE_TRY(authority_->resume(world_, state_));
   log(LogLevel::kWarning, "takes over from a manager that is gone, at step {}", step_);
@@ -98,7 +113,12 @@ Status SteppedRun::make_step() {
     }
     reports.push_back(&seat.report);
   }
+  const auto begin = Clock::now();
   RAVE_TRY(authority_->step(reports, world_));
+  const auto now = Clock::now();
+  resolved_.ns[static_cast<std::size_t>(sim::Phase::kResolve)] +=
+      std::chrono::duration_cast<std::chrono::nanoseconds>(now - begin).count();
+  lateness_.worked(resolved_, now);
   for (const sim::Event& event : authority_->events()) {
     contacts_ += event.kind == sim::EventKind::kContact ? 1U : 0U;
   }
@@ -111,12 +131,16 @@ Status SteppedRun::make_step() {
   return {};
 }
 
+Clock::time_point SteppedRun::due_of(std::uint64_t step) const {
+  const double due_s =
+      static_cast<double>(step - first_step_) * authority_->spec().step.seconds() / options_.pace;
+  return began_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(due_s));
+}
+
 void SteppedRun::wait_for_turn() {
   if (options_.pace <= 0) return;
-  const double due_s =
-      static_cast<double>(step_ - first_step_) * authority_->spec().step.seconds() / options_.pace;
-  const auto due =
-      began_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(due_s));
+  const auto due = due_of(step_);
+  lateness_.did(robot_host::Lateness::Part::kExchange, Clock::now());
   for (auto now = Clock::now(); now < due; now = Clock::now()) {
     const auto left = std::min<Clock::duration>(due - now, kLook);
     board_->wait(Duration{std::chrono::duration_cast<std::chrono::nanoseconds>(left).count()},
@@ -127,6 +151,7 @@ void SteppedRun::wait_for_turn() {
     wishes_.listen(*authority_);
     if (failure_ || stopping()) return;
   }
+  lateness_.woke(due, Clock::now());
 }
 
 /// Somebody has paused the run.
@@ -192,6 +217,7 @@ Result<ManagerOutcome> SteppedRun::go() {
       if (step_ < options_.steps) problems_.push_back(fmt::format("stopped in step {}", step_));
     }
     RAVE_TRY(make_step());
+    lateness_.done(Clock::now());
     tell_progress({});
     if (Clock::now() >= next_tell_) tell_state(rave_wire_RUN_GOES, {});
     if (world_.last) break;
@@ -217,6 +243,11 @@ ManagerOutcome SteppedRun::outcome() {
   outcome.wall_s = begun_ ? seconds(ended_ - began_) : 0;
   for (Seat& seat : seats_) {
     if (seat.state == SeatState::kLost && begun_) miss_steps(seat);
+  }
+  if (begun_ && options_.pace > 0) lateness_.end(due_of(options_.steps), ended_);
+  outcome.lateness = lateness_.facts();
+  if (outcome.lateness.missed > 0) {
+    log(LogLevel::kInfo, "deadlines of steps: {}", robot_host::lateness_text(outcome.lateness));
   }
   outcome.problems = problems_;
   outcome.whole = begun_ && world_.last && problems_.empty();

@@ -13,6 +13,7 @@
 
 #include "manager_habits.hpp"
 #include "rave/environment_manager/manager.hpp"
+#include "rave/robot_host/lateness.hpp"
 #include "rave/sim/world_authority.hpp"
 #include "roster_book.hpp"
 #include "seats.hpp"
@@ -43,12 +44,15 @@ class SteppedRun {
   void see_off(bool awaits_findings);
   void take_findings();
   Status hear(const bus::HostReport& message);
+  Status refuse_ahead(const Seat& seat, const bus::HostReport& message);
+  void count_newest();
   Status sit_down(Seat& seat, const bus::HostReport& message);
   void lose(Seat& seat, std::string_view why);
   void miss_steps(Seat& seat);
   void look_at_clock(std::chrono::steady_clock::time_point since);
   Status take_over();
   Status make_step();
+  [[nodiscard]] std::chrono::steady_clock::time_point due_of(std::uint64_t step) const;
   void wait_for_turn();
   void hold();
   Status resend();
@@ -92,6 +96,8 @@ class SteppedRun {
   std::chrono::steady_clock::time_point began_;
   std::chrono::steady_clock::time_point ended_;
   std::uint64_t first_step_ = 0;
+  robot_host::Lateness lateness_;
+  sim::PhaseTimes resolved_{};  ///< Of the authority; of its phases it has one.
   std::chrono::steady_clock::time_point next_tell_;
   std::chrono::steady_clock::time_point next_progress_;
   std::chrono::steady_clock::time_point next_roster_;

@@ -71,6 +71,22 @@ Status SteppedRun::sit_down(Seat& seat, const bus::HostReport& message) {
   return {};
 }
 
+/// A report of a step that no host can be in. It must not count as the last one of its host, or all
+/// that this one says would seem to be overtaken by it.
+Status SteppedRun::refuse_ahead(const Seat& seat, const bus::HostReport& message) {
+  std::string why = fmt::format("it is of step {}, but step {} comes next", message.step, step_);
+  if (!over_ && options_.on_lost_host == LostHost::kWait) {
+    // Nobody would answer it, and so all would wait for ever.
+    return fail(ErrorCode::kState,
+                "a report of host `{}` cannot be: {}; the host was told a world that this manager "
+                "has not sent, or somebody else spoke in its name",
+                seat.name, why);
+  }
+  // The others go on without it when it has been silent for long enough.
+  board_->refuse(message, why);
+  return {};
+}
+
 Status SteppedRun::hear(const bus::HostReport& message) {
   if (message.host >= seats_.size() || !board_->knows(message.writer)) return {};
   Seat& seat = seats_[message.host];
@@ -81,8 +97,9 @@ Status SteppedRun::hear(const bus::HostReport& message) {
   if (begun_ && message.writer == seat.writer && message.step < seat.last_step) {
     return {};  // a later one has overtaken it
   }
+  if (message.step > step_ && begun_) return refuse_ahead(seat, message);
   seat.last_step = message.step;
-  newest_report_ = std::max(newest_report_, message.step);
+  if (!begun_) count_newest();
   if (message.state == rave_wire_REPORT_FAILED) {
     if (over_) return {};  // nothing depends on it any more, and it still says what it knows
     if (options_.on_lost_host == LostHost::kWait) {
@@ -96,11 +113,6 @@ Status SteppedRun::hear(const bus::HostReport& message) {
       asked_again_ = true;  // it has not got the step that it needs
       newcomer_ = newcomer_ || message.step + 1 < step_;
     }
-    return {};
-  }
-  if (message.step > step_ && begun_) {
-    board_->refuse(message,
-                   fmt::format("it is of step {}, but step {} comes next", message.step, step_));
     return {};
   }
   if (seat.reported && begun_) return {};  // it was sent twice
@@ -142,7 +154,11 @@ void SteppedRun::miss(std::uint64_t writer) {
     seat.reported = false;
     seat.last_step = 0;
   }
-  if (begun_) return;
+  if (!begun_) count_newest();
+}
+
+/// Of what hosts say now: nobody waits for a step that one has said before and does not any more.
+void SteppedRun::count_newest() {
   newest_report_ = 0;
   for (const Seat& seat : seats_) newest_report_ = std::max(newest_report_, seat.last_step);
 }

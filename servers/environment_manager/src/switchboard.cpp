@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "switchboard.hpp"
 
+#include "manager_habits.hpp"
 #include "rave/bus/run_id.hpp"
 #include "rave/bus/sequence.hpp"
 
 namespace rave::environment_manager {
-namespace {
-
-/// Who makes up processes does not fill the log either.
-constexpr std::size_t kMostTold = 1000;
-
-}  // namespace
-
 struct Switchboard::Parts {
   lock_step::Identity identity;
   LogSink* log;
@@ -32,7 +26,7 @@ struct Switchboard::Parts {
 
 Switchboard::Switchboard(Parts parts)
     : identity_(std::move(parts.identity)),
-      log_(parts.log),
+      foreign_(parts.log),
       bus_(std::move(parts.bus)),
       worlds_(std::move(parts.worlds)),
       states_(std::move(parts.states)),
@@ -83,19 +77,14 @@ Result<std::vector<std::uint64_t>> Switchboard::look_at_processes(bool begun) {
     if (info.host == rave_wire_kNone) {
       const bool goes = !begun && lock_step::gives_way(introduced_, info);
       second_ = second_ || goes;
-      if (!goes && log_ != nullptr) {
-        log_->warn("environment manager",
-                   "another one, on {}, was started after this one and is "
-                   "not listened to",
-                   info.machine);
-      }
+      if (!goes) foreign_.write(LogLevel::kWarning, kSource, not_listened_to(info));
       return;
     }
     const Status fits = check_fits(identity_, info);
     if (fits) {
       fitting_.insert(info.writer);
-    } else if (log_ != nullptr) {
-      log_->error("environment manager", "refused: {}", fits.error().message);
+    } else {
+      foreign_.write(LogLevel::kError, kSource, "refused: " + fits.error().message);
     }
   });
   if (second_) {
@@ -110,16 +99,7 @@ Result<std::vector<std::uint64_t>> Switchboard::look_at_processes(bool begun) {
       gone.push_back(event.writer);
       continue;
     }
-    const bool worth = event.kind == kRefused || event.kind == kIncompatible ||
-                       event.kind == kForeignRun || event.kind == kNotice;
-    if (!worth || log_ == nullptr) continue;
-    // Whoever says the same wrong thing again and again does not fill the log.
-    std::string line = event.line();
-    if (told_.size() >= kMostTold && !told_.contains(event.writer)) continue;
-    std::string& told = told_[event.writer];
-    if (line == told) continue;
-    log_->warn("bus", "{}", line);
-    told = std::move(line);
+    foreign_.note(event);
   }
   return gone;
 }

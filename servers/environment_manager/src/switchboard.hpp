@@ -2,14 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <set>
 #include <span>
-#include <string>
 
 #include "rave/base/log.hpp"
 #include "rave/base/result.hpp"
+#include "rave/bus/event_log.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/wish_box.hpp"
 #include "rave/bus/writer.hpp"
@@ -80,7 +79,7 @@ class Switchboard {
   explicit Switchboard(Parts parts);
 
   lock_step::Identity identity_;
-  LogSink* log_;
+  bus::EventLog foreign_;
   std::unique_ptr<bus::Bus> bus_;
   bus::Writer<bus::WorldStep> worlds_;
   bus::Writer<bus::RunState> states_;
@@ -100,7 +99,6 @@ class Switchboard {
   lock_step::FindingsCollector findings_;
   std::uint64_t step_ = 0;  ///< That was sent last.
   std::set<std::uint64_t> fitting_;
-  std::map<std::uint64_t, std::string> told_;  ///< By writer: what the log had of it last.
   bool second_ = false;
 };
 

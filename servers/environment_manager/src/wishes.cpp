@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "manager_habits.hpp"
+#include "rave/base/names.hpp"
 #include "rave/lock_step/messages.hpp"
 #include "rave/robot_host/world_request.hpp"
 
@@ -63,8 +64,22 @@ void Wishes::end() {
   if (std::exchange(begun_, false)) control_->end();
 }
 
+/// Whether a robot, or all, may be armed as far as stops were asked here.
+Status Wishes::check_released(const sim::WorldAuthority& authority, RobotId robot) const {
+  std::vector<std::string_view> names;
+  for (std::uint32_t r = 0; r < stopped_.size(); ++r) {
+    const bool meant = !robot.valid() || robot.value() == r;
+    if (meant && stopped_[r] != 0) names.emplace_back(authority.spec().robots[r].name);
+  }
+  if (names.empty()) return {};
+  constexpr std::size_t kMany = 12;
+  return fail(ErrorCode::kState, "stopped: {}; a stop holds until it is released (`--release`)",
+              names.size() > kMany ? fmt::format("{} robots", names.size()) : join_names(names));
+}
+
 Result<std::uint64_t> Wishes::pass_on(const RunRequest& request, sim::WorldAuthority& authority) {
   RAVE_TRY_ASSIGN(sim::WorldInput input, robot_host::input_of(authority.spec(), request));
+  if (input.kind == sim::WorldInput::Kind::kArm) RAVE_TRY(check_released(authority, input.robot));
   if (input.obstacle) {
     RAVE_TRY(limits_.take(*input.obstacle, EditLimits::Clock::now()));
   } else if (wishes_.size() >= EditLimits::kMostOpen) {

@@ -46,6 +46,7 @@ class Wishes {
   };
   Result<std::uint64_t> pass_on(const robot_host::RunRequest& request,
                                 sim::WorldAuthority& authority);
+  [[nodiscard]] Status check_released(const sim::WorldAuthority& authority, RobotId robot) const;
   void note_inputs(const sim::WorldStep& world);
   void answer(Wish& wish, Result<std::string> text);
 

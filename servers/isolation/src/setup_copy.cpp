@@ -30,6 +30,7 @@ class Writer {
     value(info.X_RS);
     value(info.z_m);
     value(info.period_s);
+    value(info.max_age_s);
     value(info.range_min_m);
     value(info.range_max_m);
     value(info.cone_rad);
@@ -129,6 +130,7 @@ class SetupCopy::Reader {
     value(info.X_RS);
     value(info.z_m);
     value(info.period_s);
+    value(info.max_age_s);
     value(info.range_min_m);
     value(info.range_max_m);
     value(info.cone_rad);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "rave/bus/event_log.hpp"
 #include "rave/bus/sequence.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/wish_box.hpp"
@@ -36,6 +37,7 @@ constexpr std::size_t kMostGone = 4096;
 struct HostPort::Impl {
   Identity self;
   LogSink* log;
+  bus::EventLog foreign;  ///< What others have caused, in `log`.
   std::unique_ptr<bus::Bus> bus;
   bus::Writer<bus::HostReport> reports;
   bus::Writer<bus::HostInfo> own_info;
@@ -70,6 +72,7 @@ struct HostPort::Impl {
   std::optional<Error> unfit{};
 
   void tell(LogLevel level, const std::string& text);
+  void tell_foreign(LogLevel level, const std::string& text);
   void look_at_processes();
   void lose(std::uint64_t writer);
   void meet(const bus::HostInfo& info);
@@ -90,11 +93,20 @@ void HostPort::Impl::tell(LogLevel level, const std::string& text) {
   if (log != nullptr && !text.empty()) log->write(level, "host " + self.name, text);
 }
 
+/// The same for what others say.
+void HostPort::Impl::tell_foreign(LogLevel level, const std::string& text) {
+  if (text == told) return;
+  told = text;
+  if (!text.empty()) foreign.write(level, "host " + self.name, text);
+}
+
 void HostPort::Impl::meet(const bus::HostInfo& info) {
   if (info.host == rave_wire_kNone) {
     if (auto fits = check_fits(self, info); !fits) {
       words.shut_out(info.writer);
-      if (has_world) return tell(LogLevel::kError, "refused: " + fits.error().message);
+      if (has_world) {
+        return tell_foreign(LogLevel::kError, "refused: " + fits.error().message);
+      }
       unfit = std::move(fits).error();
       return;
     }
@@ -129,7 +141,7 @@ void HostPort::Impl::hear(const RunWord& word) {
       return;
     case rave_wire_RUN_GATHERS:
     case rave_wire_RUN_WAITS:
-      tell(LogLevel::kWarning, word.text);
+      tell_foreign(LogLevel::kWarning, word.text);
       return;
     case rave_wire_RUN_ENDED:
     case rave_wire_RUN_FAILED:
@@ -164,9 +176,7 @@ void HostPort::Impl::look_at_processes() {
   for (const bus::BusEvent& event : events) {
     if (event.kind == kParticipantLost) lose(event.writer);
     if (event.kind == kParticipantAppeared) gone.erase(event.writer);
-    const bool worth = event.kind == kRefused || event.kind == kIncompatible ||
-                       event.kind == kForeignRun || event.kind == kNotice;
-    if (worth && log != nullptr) log->warn("bus", "{}", event.line());
+    foreign.note(event);
   }
 }
 
@@ -266,11 +276,11 @@ Result<std::unique_ptr<HostPort>> HostPort::open(const bus::BusConfig& config, I
   RAVE_TRY(waits.add_events());
   bus::HostInfo info = introduction(identity);
   RAVE_TRY(own_info.write(info));
-  std::unique_ptr<Impl> impl(new Impl{std::move(identity), log, std::move(bus), std::move(reports),
-                                      std::move(own_info), std::move(last_worlds),
-                                      std::move(worlds), std::move(states), std::move(infos),
-                                      std::move(wishes), std::move(waits), std::move(pulse),
-                                      std::move(roster), std::move(findings), info, patience});
+  std::unique_ptr<Impl> impl(
+      new Impl{std::move(identity), log, bus::EventLog(log), std::move(bus), std::move(reports),
+               std::move(own_info), std::move(last_worlds), std::move(worlds), std::move(states),
+               std::move(infos), std::move(wishes), std::move(waits), std::move(pulse),
+               std::move(roster), std::move(findings), info, patience});
   return std::unique_ptr<HostPort>(new HostPort(std::move(impl)));
 }
 

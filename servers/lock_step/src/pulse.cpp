@@ -7,6 +7,8 @@
 #include <ctime>
 #include <memory>
 
+#include "rave/bus/sequence.hpp"
+
 namespace rave::lock_step {
 namespace {
 
@@ -59,6 +61,11 @@ void Pulse::beat(const Facts& facts) {
   state_.step = facts.step;
   state_.missed = facts.missed;
   state_.round_trip_ns = facts.round_trip_ns;
+  state_.deadlines = facts.lateness.deadlines;
+  state_.missed_deadlines = facts.lateness.missed;
+  state_.worst_late_ns = facts.lateness.worst_ns;
+  state_.behind_ns = facts.lateness.behind_ns;
+  bus::put_text(state_.late_phase, facts.lateness.phase);
   state_.refused = bus_->refused_samples();
   state_.cpu_ns = cpu_ns();
   state_.memory_bytes = memory_bytes();

@@ -32,6 +32,13 @@ void HostLink::Impl::tell_once(LogLevel level, const std::string& text) {
   if (!text.empty()) tell(level, text);
 }
 
+/// The same for what others say.
+void HostLink::Impl::tell_foreign(LogLevel level, const std::string& text) {
+  if (text == told) return;
+  told = text;
+  if (!text.empty()) foreign.write(level, "host " + options.self.name, text);
+}
+
 Status HostLink::Impl::open_endpoints() {
   RAVE_TRY_ASSIGN(auto set, bus::WaitSet::create(*bus));
   RAVE_TRY(set.add(infos));
@@ -230,6 +237,10 @@ void HostLink::send(const sim::SentPackets& sent) {
               "some other process is too slow for what robots here say: messages are dropped until "
               "it is faster, or taken for dead");
   }
+}
+
+void HostLink::note_lateness(lock_step::Pulse::Lateness lateness) {
+  impl_->facts.lateness = std::move(lateness);
 }
 
 void HostLink::obstacles_shown() {

@@ -22,7 +22,7 @@ void HostLink::Impl::meet(const bus::HostInfo& info) {
     if (!options.managed) return;
     if (auto fits = lock_step::check_fits(options.self, info); !fits) {
       words.shut_out(info.writer);
-      if (started) tell_once(LogLevel::kError, "refused: " + fits.error().message);
+      if (started) tell_foreign(LogLevel::kError, "refused: " + fits.error().message);
       unfit = std::move(fits).error();
       return;
     }
@@ -142,7 +142,7 @@ void HostLink::Impl::hear(const lock_step::RunWord& word) {
       return;
     case rave_wire_RUN_GATHERS:
     case rave_wire_RUN_WAITS:
-      if (!started) tell_once(LogLevel::kWarning, word.text);
+      if (!started) tell_foreign(LogLevel::kWarning, word.text);
       return;
     case rave_wire_RUN_ENDED:
     case rave_wire_RUN_FAILED:
@@ -209,9 +209,7 @@ void HostLink::Impl::look() {
       lose(event.writer);
       continue;
     }
-    const bool worth = event.kind == kRefused || event.kind == kIncompatible ||
-                       event.kind == kForeignRun || event.kind == kNotice;
-    if (worth && options.log != nullptr) options.log->warn("bus", "{}", event.line());
+    foreign.note(event);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "rave/bus/event_log.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/wish_box.hpp"
 #include "rave/bus/writer.hpp"
@@ -47,7 +48,8 @@ struct HostLink::Impl {
   bus::Reader<bus::HostInfo> infos;
   bus::Writer<bus::HostState> states;
   lock_step::Roster roster;
-  bus::HostInfo introduced{};  ///< What the others were told of this process.
+  bus::EventLog foreign{options.log};  ///< What others have caused.
+  bus::HostInfo introduced{};          ///< What the others were told of this process.
   // Of a managed run.
   std::optional<bus::Writer<bus::ClockPing>> pings{};
   std::optional<bus::Reader<bus::ClockPong>> pongs{};
@@ -99,6 +101,7 @@ struct HostLink::Impl {
   Status open_endpoints();
   void tell(LogLevel level, const std::string& text) const;
   void tell_once(LogLevel level, const std::string& text);
+  void tell_foreign(LogLevel level, const std::string& text);
   /// What is put on a stamp of this process to make it one of the run.
   [[nodiscard]] Duration shift() const noexcept { return {started ? zero_ns - time.zero_ns() : 0}; }
   void take();

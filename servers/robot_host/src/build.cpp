@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "check_sensors.hpp"
 #include "devices.hpp"
 #include "guards.hpp"
 #include "obstacles.hpp"
@@ -183,6 +184,7 @@ Result<BuiltScenario> build(const config::ExpandedScenario& scenario, plugin::Ca
     spec.robots.push_back({robot.name, group.team, static_cast<std::uint32_t>(robot.group), {}});
   }
   RAVE_TRY(add_twins({scenario, catalogue, options, built}));
+  RAVE_TRY(check_sensors_of_checks(scenario, spec));
   RAVE_TRY(put_down_robots(scenario, spec));
   RAVE_TRY(add_changes(scenario, spec));
   RAVE_TRY(add_hand_overs(scenario, spec));

@@ -124,8 +124,14 @@ Status set_plain(const DeviceContext& context, const config::RobotGroup& group,
   sensor.kind = static_cast<ReadingKind>(driver->info.data_kind);
   if (driver->info.kind == DriverKind::kVirtualSensor) {
     sensor.virtual_ops = static_cast<const VirtualSensorOps*>(driver->ops);
+    if (file.max_age_s) {
+      return fail_at(file.max_age_s->where, ErrorCode::kInvalidArgument,
+                     "`max_age_s` is for real sensors; the driver `{}` of sensor `{}` is virtual",
+                     driver->info.name, sensor.name);
+    }
   } else {
     sensor.hardware_ops = static_cast<const HardwareSensorOps*>(driver->ops);
+    sensor.timing = driver->info.timing;
     if (file.senses) {
       return fail_at(file.senses->where, ErrorCode::kInvalidArgument,
                      "`senses` is for virtual sensors; the driver `{}` of sensor `{}` is real",
@@ -150,6 +156,7 @@ Result<sim::SensorSpec> make_sensor(const DeviceContext& context, const config::
   sensor.z_m = mount.z_m;
   set_rhythm(context, file, sensor);
   sensor.processing = processing_of(file);
+  if (file.max_age_s) sensor.max_age_s = file.max_age_s->value;
   return sensor;
 }
 
@@ -218,6 +225,32 @@ Status add_controllers(const DeviceContext& context, const config::RobotGroup& g
   return {};
 }
 
+/// Who drives by ranges must know when they are old, and only the driver or the file can say it.
+Status check_ages(const DeviceContext& context, const config::RobotGroup& group,
+                  const sim::RobotType& type) {
+  constexpr std::array kKinds = {DriverKind::kSensor};
+  const bool drives = std::any_of(type.actuators.begin(), type.actuators.end(),
+                                  [](const auto& a) { return a.hardware_ops != nullptr; });
+  if (type.simulated || !drives) return {};
+  for (std::size_t s = 0; s < type.sensors.size(); ++s) {
+    const sim::SensorSpec& sensor = type.sensors[s];
+    const config::SensorFile& file = group.robot.sensors[s];
+    if (sensor.hardware_ops == nullptr || sensor.kind != ReadingKind::kRanges) continue;
+    if (sensor.timing != SampleTiming::kUnknown || sensor.max_age_s) continue;
+    RAVE_TRY_ASSIGN(const Driver* const driver,
+                    context.catalogue.find(kKinds, sensor.hardware_driver()));
+    // A recording cannot fall silent, and what plays it does not obey.
+    if (driver->info.clock != DriverClock::kLive) continue;
+    return fail_at(file.name.where, ErrorCode::kInvalidArgument,
+                   "robot `{}` is real, and the driver `{}` of its range sensor `{}` does not know "
+                   "how often samples come: expected `max_age_s`, the age of the newest sample in "
+                   "seconds after which the robot is stopped, such as three periods of the sensor "
+                   "(`max_age_s: 0.3` at 10 Hz)",
+                   group.name.value, driver->info.name, sensor.name);
+  }
+  return {};
+}
+
 Status set_pose_source(const config::RobotGroup& group, sim::RobotType& type) {
   if (!group.robot.pose_from) {
     if (type.simulated) return {};
@@ -280,6 +313,7 @@ Status add_devices(const DeviceContext& context, const config::RobotGroup& group
     // A simulated body may carry a recorded or real sensor; what moves it decides.
     if (actuator.virtual_ops != nullptr) type.simulated = true;
   }
+  RAVE_TRY(check_ages(context, group, type));
   return set_pose_source(group, type);
 }
 

@@ -154,6 +154,8 @@ void merge_closest(const std::map<std::string, Encounter>& from,
 void merge_goals(const GoalFacts& from, GoalFacts& into) {
   into.touches.resize(std::max(into.touches.size(), from.touches.size()));
   for (std::size_t i = 0; i < from.touches.size(); ++i) into.touches[i] += from.touches[i];
+  into.silent.resize(std::max(into.silent.size(), from.silent.size()));
+  for (std::size_t i = 0; i < from.silent.size(); ++i) append(into.silent[i], from.silent[i]);
   into.arrivals.resize(std::max(into.arrivals.size(), from.arrivals.size()));
   for (std::size_t i = 0; i < from.arrivals.size(); ++i) {
     const ArrivalFacts& found = from.arrivals[i];
@@ -229,6 +231,7 @@ void merge(RunFacts from, RunFacts& into) {
   append_by_robot(into.transmitters, std::move(from.transmitters));
   into.radio += from.radio;
   into.inputs_by_hand += from.inputs_by_hand;
+  into.lateness += from.lateness;
   for (const auto& [who, counts] : from.hits) {
     for (const auto& [what, count] : counts) into.hits[who][what] += count;
   }

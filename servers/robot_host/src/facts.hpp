@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "rave/report/picture.hpp"
+#include "rave/robot_host/lateness.hpp"
 #include "rave/sim/event.hpp"
 #include "rave/sim/radio.hpp"
 
@@ -74,6 +75,8 @@ struct ArrivalFacts {
 struct GoalFacts {
   /// By entry of `touches`: how often its sensor began to touch; 0 of those that count events.
   std::vector<std::uint64_t> touches;
+  /// By entry of `touches`: robots whose sensor never gave a reading, by number.
+  std::vector<std::vector<std::uint32_t>> silent;
   std::vector<ArrivalFacts> arrivals;  ///< By entry of `arrivals`, then by robot.
 };
 
@@ -161,6 +164,7 @@ struct RunFacts {
   std::vector<InstrumentFacts> transmitters;
   sim::RadioCounts radio;
   std::uint64_t inputs_by_hand = 0;
+  LatenessFacts lateness;  ///< Of a run with a pace; of several processes the sum.
   std::map<std::string, std::map<std::string, std::uint64_t>> hits;
   std::map<std::string, Encounter> closest;
   std::optional<SightingFacts> sightings;

@@ -11,7 +11,7 @@ namespace rave::robot_host {
 namespace {
 
 constexpr const char* kMark = "rave findings";
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 
 /// Which members there are, in which order, once for both directions: each is named to `archive`.
 template <class Archive>
@@ -41,8 +41,9 @@ struct Members {
   void of(SightingTally& v) { archive(v.total, v.within, v.unknown); }
   void of(SightingFacts& v) { archive(v.by_robot, v.unknown_codes); }
   void of(ArrivalFacts& v) { archive(v.known, v.nearest_m, v.time_s); }
-  void of(GoalFacts& v) { archive(v.touches, v.arrivals); }
+  void of(GoalFacts& v) { archive(v.touches, v.silent, v.arrivals); }
   void of(CaptureFacts& v) { archive(v.captures, v.closest_m); }
+  void of(LatenessFacts& v) { archive(v.deadlines, v.missed, v.worst_ns, v.stops, v.blame); }
   void of(RobotFacts& v) {
     archive(v.robot, v.program, v.commands, v.obeys, v.known, v.stale, v.x_m, v.y_m, v.yaw_rad,
             v.stamp_ns, v.way_m);
@@ -56,8 +57,8 @@ struct Members {
   void of(WorldFacts& v) { archive(v.first_step, v.next_step, v.events, v.capture); }
   void of(RunFacts& v) {
     archive(v.first_step, v.steps, v.has_world, v.problems, v.events, v.robots, v.devices,
-            v.streams, v.transmitters, v.radio, v.inputs_by_hand, v.hits, v.closest, v.sightings,
-            v.goals, v.capture, v.tracks, v.instant, v.shadows, v.world);
+            v.streams, v.transmitters, v.radio, v.inputs_by_hand, v.lateness, v.hits, v.closest,
+            v.sightings, v.goals, v.capture, v.tracks, v.instant, v.shadows, v.world);
   }
 };
 
@@ -211,6 +212,11 @@ bool fits(const InstantFacts& facts, const FactsLimits& limits) {
          });
 }
 
+bool fits(const LatenessFacts& facts) {
+  return facts.missed <= facts.deadlines && facts.worst_ns >= 0 &&
+         std::ranges::all_of(facts.blame, [](const auto& one) { return is_late_phase(one.first); });
+}
+
 bool fits(const WorldFacts& facts, const FactsLimits& limits) {
   return std::ranges::all_of(facts.events,
                              [&](const sim::Event& event) { return fits(event, limits); }) &&
@@ -231,7 +237,7 @@ bool fits(const RunFacts& facts, const FactsLimits& limits) {
                              [&](const TrackFacts& track) {
                                return track.robot < limits.robots && is_kind(track.track.kind);
                              }) &&
-         (!facts.capture || fits(*facts.capture, limits)) &&
+         fits(facts.lateness) && (!facts.capture || fits(*facts.capture, limits)) &&
          (!facts.instant || fits(*facts.instant, limits));
 }
 

@@ -192,7 +192,16 @@ Result<GapReport> measure_gap(const std::filesystem::path& record, plugin::Catal
     return fail(ErrorCode::kInvalidArgument,
                 "the pose of robot `{}` is not known without gaps where it begins", robot->name);
   }
+  report.steps = driven.twists.size() + 1;
   follow(driven, track, report);
+  // The first one is where the twin was put.
+  if (report.points.size() < 2) {
+    return fail(
+        ErrorCode::kInvalidArgument,
+        "the pose of robot `{}` is known in the first of {} steps alone, so there is nothing "
+        "to compare",
+        robot->name, report.steps);
+  }
   report.windows = start_anew(driven, track, options.window_s);
   return report;
 }

@@ -35,10 +35,16 @@ std::string gap_json(const GapReport& report) {
   json["largest_deg"] = report.largest_deg;
   json["rms_m"] = report.rms_m;
   json["rms_deg"] = report.rms_deg;
+  json["steps"] = report.steps;
+  json["steps_with_pose"] = report.points.size();
   const GapWindows& windows = report.windows;
-  json["windows"] = {{"window_s", windows.window_s},     {"count", windows.count},
-                     {"median_m", windows.median_m},     {"p95_m", windows.p95_m},
-                     {"median_deg", windows.median_deg}, {"p95_deg", windows.p95_deg}};
+  const auto known = [&windows](double value) { return windows.count > 0 ? Json(value) : Json(); };
+  json["windows"] = {{"window_s", windows.window_s},
+                     {"count", windows.count},
+                     {"median_m", known(windows.median_m)},
+                     {"p95_m", known(windows.p95_m)},
+                     {"median_deg", known(windows.median_deg)},
+                     {"p95_deg", known(windows.p95_deg)}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

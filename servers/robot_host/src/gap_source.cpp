@@ -89,7 +89,8 @@ Result<GapCommands> commands_of_sensor(const GapSource& source, const std::strin
     commands.commands.push_back(
         {{sample.header.stamp_ns}, velocity_command(reading->v_mps, reading->w_radps)});
   }
-  return commands;
+  if (!commands.commands.empty()) return commands;
+  return fail(ErrorCode::kInvalidArgument, "sensor `{}` gave no velocities in the record", name);
 }
 
 std::string hint(const GapSource& source) {

@@ -48,7 +48,7 @@ GoalChecks::GoalChecks(const config::ExpandedScenario& scenario, const sim::Engi
     for (const RobotId robot : robots_of(scenario, file)) {
       const auto& sensors = spec.types[spec.robots[robot.value()].type].sensors;
       for (std::uint32_t s = 0; file.sensor && s < sensors.size(); ++s) {
-        if (sensors[s].name == **file.sensor) touches.feelers.push_back({robot, s, false});
+        if (sensors[s].name == **file.sensor) touches.feelers.push_back({robot, s});
       }
     }
     touches_.push_back(std::move(touches));
@@ -62,9 +62,11 @@ GoalChecks::GoalChecks(const config::ExpandedScenario& scenario, const sim::Engi
 
 void GoalChecks::count_readings(const sim::Engine& engine, Touches& touches) {
   for (Feeler& feeler : touches.feelers) {
-    if (!engine.is_local(feeler.robot)) continue;
+    feeler.here = engine.is_local(feeler.robot);
+    if (!feeler.here) continue;
     const sim::SensorSample sample = engine.sensor(feeler.robot, feeler.sensor);
     if (sample.info->kind != ReadingKind::kContact || sample.header->count == 0) continue;
+    feeler.heard = true;
     const auto* first = static_cast<const ContactReading*>(sample.records);
     const bool touching = std::any_of(first, first + sample.header->count,
                                       [](const ContactReading& c) { return c.touching != 0; });
@@ -93,7 +95,13 @@ void GoalChecks::after_step(sim::Engine& engine) {
 
 GoalFacts GoalChecks::facts() const {
   GoalFacts facts;
-  for (const Touches& touches : touches_) facts.touches.push_back(touches.count);
+  for (const Touches& touches : touches_) {
+    facts.touches.push_back(touches.count);
+    std::vector<std::uint32_t>& silent = facts.silent.emplace_back();
+    for (const Feeler& feeler : touches.feelers) {
+      if (feeler.here && !feeler.heard) silent.push_back(feeler.robot.value());
+    }
+  }
   for (const Arrival& arrival : arrivals_) facts.arrivals.push_back(arrival.facts);
   return facts;
 }
@@ -157,6 +165,28 @@ void note_lost(const std::vector<RobotId>& robots, const sim::EngineSpec& spec,
   }
 }
 
+/// The same if a sensor that counts never gave a reading, or if nobody knows where a robot was:
+/// then nothing could have been counted.
+void note_missing(const config::TouchesCheckFile& file, const std::vector<RobotId>& robots,
+                  const std::vector<std::uint32_t>& silent, const sim::EngineSpec& spec,
+                  const RunFacts& facts, CheckResult& result) {
+  const auto not_made = [&](RobotId robot, std::string reason) {
+    result.holds = false;
+    result.made = false;
+    result.text = fmt::format("not made: {} of `{}` {}",
+                              file.sensor ? fmt::format("`{}`", **file.sensor) : "the place",
+                              spec.robots[robot.value()].name, reason);
+  };
+  for (const RobotId robot : robots) {
+    if (file.sensor) {
+      if (std::ranges::find(silent, robot.value()) == silent.end()) continue;
+      return not_made(robot, "never gave a reading");
+    }
+    const auto found = std::ranges::find(facts.robots, robot.value(), &RobotFacts::robot);
+    if (found != facts.robots.end() && !found->known) return not_made(robot, "was never known");
+  }
+}
+
 /// The same if contacts are known only since a manager took over.
 void note_unknown(const RunFacts& facts, CheckResult& result) {
   if (facts.world_from == 0) return;
@@ -181,6 +211,11 @@ std::vector<CheckResult> goal_results(const config::ExpandedScenario& scenario,
     if (!file.sensor) count = count_contacts(spec, facts.events, robots);
     results.push_back(touches_result(file, count));
     const bool exceeds = static_cast<std::int64_t>(count) > file.most;
+    if (!exceeds) {
+      static const std::vector<std::uint32_t> kNone;
+      const auto& silent = i < facts.goals.silent.size() ? facts.goals.silent[i] : kNone;
+      note_missing(file, robots, silent, spec, facts, results.back());
+    }
     if (!file.sensor && !exceeds) note_unknown(facts, results.back());
     if (file.sensor || !facts.has_world) note_lost(robots, spec, lost, results.back());
   }

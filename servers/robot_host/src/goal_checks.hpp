@@ -35,6 +35,8 @@ class GoalChecks final : public Observer {
     RobotId robot;
     std::uint32_t sensor = 0;
     bool touching = false;
+    bool here = false;   ///< It runs in this process.
+    bool heard = false;  ///< It has given a reading.
   };
   struct Touches {
     std::vector<Feeler> feelers;  ///< Empty: events count.

@@ -35,6 +35,16 @@ void keep_roster(HostJourney& journey, std::span<const sim::ResizedRobot> resize
   }));
 }
 
+/// Whether something has changed that people are told of each robot, whoever asked for it and
+/// where.
+bool changes_status(std::span<const sim::Event> events) {
+  return std::ranges::any_of(events, [](const sim::Event& event) {
+    using enum sim::EventKind;
+    return event.kind == kStopped || event.kind == kReleased || event.kind == kArmed ||
+           event.kind == kHandedOver;
+  });
+}
+
 }  // namespace
 
 Result<Seat> find_seat(const config::ExpandedScenario& scenario, const std::string& name) {
@@ -101,6 +111,9 @@ void look_back(HostJourney& journey, std::span<const sim::Event> beside,
   sim::Engine& engine = journey.engine;
   RunControl* const control = journey.options.run.control;
   if (control != nullptr) control->set_time(engine.time().seconds());
+  if (control != nullptr && changes_status(engine.events())) {
+    control->refresh([&journey](RunStatus& status) { refresh(journey, status); });
+  }
   journey.observers.after_step(engine);
   if (journey.ros2 != nullptr) journey.ros2->after_step(engine);
   if (journey.record != nullptr) {

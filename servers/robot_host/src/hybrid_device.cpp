@@ -46,6 +46,7 @@ Status set_hybrid(const DeviceContext& context, const config::RobotGroup& group,
   sensor.driver = fusing->info.name;
   sensor.kind = kind_of(*fusing);
   sensor.hardware_ops = static_cast<const HardwareSensorOps*>(real->ops);
+  sensor.timing = real->info.timing;
   RAVE_TRY_ASSIGN(sensor.device,
                   shared_device(context, *real, file.real->driver, file.real->device, type));
   RAVE_TRY_ASSIGN(sensor.params, read_sensor_params(context, *real, file.real->params));

@@ -2,10 +2,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "event_log.hpp"
 #include "host_journey.hpp"
+#include "late_watch.hpp"
+#include "lateness_report.hpp"
 #include "live_twins.hpp"
 #include "radio_report.hpp"
 #include "rave/base/file.hpp"
@@ -61,7 +64,8 @@ struct LiveJourney : HostJourney {
         pace(clock),
         reports(std::move(groups)),
         twins(engine, own),
-        watch(&console) {}
+        watch(&console),
+        late(clock.period_of(engine.spec().step), console, options.run.control) {}
 
   HostLink& link;
   LiveWorld& live;
@@ -70,6 +74,7 @@ struct LiveJourney : HostJourney {
   LiveTwins twins;
   Clock::time_point next_status{};
   StallWatch watch;
+  LateWatch late;
   std::uint64_t steps = 0;  ///< In all.
   std::uint64_t first = 0;  ///< The one that this host began with.
   sim::HostReport report;
@@ -94,6 +99,7 @@ bool wait_for_turn(LiveJourney& journey) {
   const auto next = static_cast<std::int64_t>(journey.report.step);
   const auto due = journey.pace.wall_time_of(SimTime{next * engine.spec().step.ns});
   auto now = Clock::now();
+  const bool slept = now < due;
   do {
     journey.link.listen_until(std::min(due, now + kProgressInterval));
     serve_requests(journey);
@@ -102,6 +108,8 @@ bool wait_for_turn(LiveJourney& journey) {
     if (journey.stopped || journey.ended) return false;
     now = Clock::now();
   } while (now < due);
+  if (!slept) journey.late.count().did(Lateness::Part::kExchange, now);
+  journey.late.count().woke(due, now);
   return true;
 }
 
@@ -125,21 +133,47 @@ void show_status(LiveJourney& journey) {
   control->refresh([&journey](RunStatus& status) { refresh(journey, status); });
 }
 
+/// All look at the step that is done.
+void look_back(LiveJourney& journey) {
+  Lateness& count = journey.late.count();
+  count.worked(journey.engine.phase_times(), Clock::now());
+  journey.observers.tracks.thin(journey.late.behind());
+  look_back(journey, journey.live.events(), journey.world.resized);
+  count.did(Lateness::Part::kOnlookers, Clock::now());
+  journey.late.look(journey.engine.spec(), journey.engine.events(), journey.link.world_age());
+}
+
+/// For those who look on at all hosts.
+lock_step::Pulse::Lateness pulse_of(const LateWatch& late) {
+  const auto status = late.status().value_or(RunStatus::Lateness());
+  return {status.deadlines, status.missed, from_seconds(status.worst_s).ns,
+          from_seconds(status.behind_s).ns, status.phase};
+}
+
 Status make_step(LiveJourney& journey) {
   sim::Engine& engine = journey.engine;
+  Lateness& count = journey.late.count();
   journey.watch.step_begins(journey.report.step);
-  engine.set_world_age(journey.link.world_age());
+  // The world of a step that comes late is one of before: no guard may take it for the present.
+  engine.set_world_age(std::max(journey.link.world_age(), journey.late.age()));
   RAVE_TRY(journey.twins.follow(engine, journey.live, journey.link));
   RAVE_TRY(journey.live.step(journey.report, journey.world));
+  count.did(Lateness::Part::kExchange, Clock::now());
   RAVE_TRY(engine.join(journey.world, {}));
+  count.worked(engine.phase_times(), Clock::now());
   journey.link.obstacles_shown();
   tell_places(journey);
+  count.did(Lateness::Part::kExchange, Clock::now());
   RAVE_TRY(engine.propose(journey.report));
+  count.worked(engine.phase_times(), Clock::now());
   journey.link.send(journey.report.sent);
   name_flooders(journey, journey.link.take_flooders());
   name_flooders(journey, journey.live.take_flooders());
+  count.did(Lateness::Part::kExchange, Clock::now());
   show_status(journey);
   journey.watch.step_ends();
+  journey.late.step_done();
+  journey.link.note_lateness(pulse_of(journey.late));
   return {};
 }
 
@@ -162,9 +196,16 @@ Status go_through(LiveJourney& journey) {
   while (journey.report.step < journey.steps && wait_for_turn(journey)) {
     RAVE_TRY(make_step(journey));
   }
+  const auto last = static_cast<std::int64_t>(journey.steps - 1) * step_ns;
+  journey.late.end(journey.pace.wall_time_of(SimTime{last}));
   // The last step takes its time, too.
   if (!journey.stopped && !journey.ended) static_cast<void>(wait_for_turn(journey));
   return {};
+}
+
+void add(std::vector<std::string> problems, std::vector<std::string>& to) {
+  to.insert(to.end(), std::make_move_iterator(problems.begin()),
+            std::make_move_iterator(problems.end()));
 }
 
 HostOutcome judge(const LiveJourney& journey, const std::string& live_reason) {
@@ -190,6 +231,7 @@ Status write_results(const LiveJourney& journey, const RunFacts& facts,
   const auto clock = journey.link.clock();
   json["clock_offset_s"] = clock ? nlohmann::ordered_json(clock->offset.seconds()) : nullptr;
   json["clock_bound_s"] = clock ? nlohmann::ordered_json(clock->bound.seconds()) : nullptr;
+  json["lateness"] = lateness_json(facts.lateness);
   json["worlds"] = journey.link.worlds();
   json["world_losses"] = journey.link.losses();
   if (has_radio(journey.engine.spec())) {
@@ -263,7 +305,7 @@ Result<HostOutcome> go(const LiveHost& host, sim::Engine& engine, HostLink& link
                       link, live, host.pace, report_groups(host.scenario, host.seat),
                       host.seat.robots);
   journey.shadows = shadows.get();
-  look = [&journey] { look_back(journey, journey.live.events(), journey.world.resized); };
+  look = [&journey] { look_back(journey); };
   journey.steps = static_cast<std::uint64_t>(std::llround(file.duration_s / file.step_s.value));
   const ControlledHost controlled(engine, file, run.control, true);
   tell_who_waits(engine, run, host.console);
@@ -276,10 +318,12 @@ Result<HostOutcome> go(const LiveHost& host, sim::Engine& engine, HostLink& link
   }
   engine.halt();
   host.console.attach(nullptr);
+  add(lateness_problems(journey.late.facts(), file.max_missed_pct), journey.problems);
   HostOutcome outcome = judge(journey, built.live_reason);
   RunFacts facts = gather(observers, engine);
   facts.first_step = journey.first;
   facts.problems = journey.problems;
+  facts.lateness = journey.late.facts();
   if (shadows) facts.shadows = shadows->facts();
   if (record) {
     const Status written = record->end(std::nullopt);
@@ -304,6 +348,7 @@ Result<HostOutcome> run_live_host(const LiveHost& host, BuiltScenario built) {
   host.console.warn("run", "the run goes at real time, because {}", built.live_reason);
   for (const std::string& note : built.notes) host.console.warn("scenario", "{}", note);
   built.spec.own_authority = true;
+  built.spec.phase_clock = steady_ns;
   RAVE_TRY_ASSIGN(const auto live, LiveWorld::create(built.spec, !needs_manager(built)));
   RAVE_TRY_ASSIGN(auto options, link_options(host, built));
   RAVE_TRY_ASSIGN(const auto link, HostLink::open(std::move(options), *live));

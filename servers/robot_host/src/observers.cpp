@@ -52,9 +52,10 @@ void add_instruments(const sim::Engine& engine, RobotId robot, RunFacts& facts) 
 }  // namespace
 
 void keep_history_for_observers(config::ScenarioFile& scenario) {
-  // The check and the frozen instant look back; a second is enough for both.
+  // The check and the frozen instant look back; a second is enough for both, but for long steps.
   if (scenario.checks.sightings || scenario.picture) {
-    scenario.history_s = std::max(scenario.history_s, 1.0);
+    const double wait_s = kLongestWaitForPoses.seconds() + 2 * scenario.step_s.value;
+    scenario.history_s = std::max({scenario.history_s, 1.0, wait_s});
   }
 }
 

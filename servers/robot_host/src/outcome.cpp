@@ -7,6 +7,7 @@
 #include "event_log.hpp"
 #include "rave/base/file.hpp"
 #include "sighting_check.hpp"
+#include "stream_losses.hpp"
 
 namespace rave::robot_host {
 namespace {
@@ -49,13 +50,22 @@ void judge_sightings(const Findings& findings, RunOutcome& outcome) {
   const SightingTally tally = findings.facts.sightings.value_or(SightingFacts()).all();
   if (findings.any_lost()) {
     fail_check(outcome, false, "the sighting check was not made: a host left nothing here");
+  } else if (tally.total < static_cast<std::uint64_t>(limits->min_compared)) {
+    fail_check(outcome, true,
+               fmt::format("the sighting check fails: {} real sightings had a code that a body "
+                           "carries, {} had none; expected at least {} to compare",
+                           tally.total, tally.unknown, limits->min_compared));
   } else if (!holds(*limits, tally)) {
+    const std::uint64_t unknown = counted(*limits, tally) - tally.total;
     fail_check(
         outcome, true,
         fmt::format("the sighting check fails: {} of {} real sightings ({:.2f} %) agree with the "
-                    "virtual camera within {} m and {} degrees; expected at least {} %",
-                    tally.within, tally.total, tally.within_pct(), limits->range_m,
-                    limits->bearing_deg, limits->min_within_pct));
+                    "virtual camera within {} m and {} degrees; expected at least {} %{}",
+                    tally.within, counted(*limits, tally), within_pct(*limits, tally),
+                    limits->range_m, limits->bearing_deg, limits->min_within_pct,
+                    unknown == 0
+                        ? std::string()
+                        : fmt::format("; {} of them have codes that no body carries", unknown)));
   }
 }
 
@@ -137,9 +147,18 @@ RunOutcome judge(const Findings& findings) {
         static_cast<double>(event.step) * spec.step.seconds(), event.text));
   }
   outcome.whole = outcome.problems.empty();
+  // The run did all it could with what its recordings gave it; who reads the result should know.
+  for (std::string& loss : stream_losses(findings)) outcome.problems.push_back(std::move(loss));
   judge_checks(findings, outcome);
   if (findings.hash) outcome.hash = fmt::format("{:016x}", *findings.hash);
   return outcome;
+}
+
+std::string why_no_hash(const Findings& findings, const RunOutcome& outcome) {
+  if (!outcome.hash.empty()) return {};
+  if (!findings.live_reason.empty()) return findings.live_reason;
+  return outcome.problems.empty() ? std::string("nobody knows the parts of all hosts")
+                                  : "the run was not whole: " + outcome.problems.front();
 }
 
 Result<RunOutcome> write_results(const Findings& findings, const std::filesystem::path& folder,

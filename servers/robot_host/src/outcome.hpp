@@ -54,6 +54,9 @@ using GuardCounts = std::map<std::string, std::map<std::string, std::size_t>>;
 /// What the run amounts to: whole or not, checks, hash.
 [[nodiscard]] RunOutcome judge(const Findings& findings);
 
+/// Why there is no run hash; empty if there is one.
+[[nodiscard]] std::string why_no_hash(const Findings& findings, const RunOutcome& outcome);
+
 /// The content of result.json.
 [[nodiscard]] std::string result_json(const Findings& findings, const RunOutcome& outcome);
 

@@ -2,16 +2,16 @@
 #include "rave/robot_host/provenance.hpp"
 
 #include <sodium.h>
+#include <unistd.h>
 
 #include <array>
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "rave/base/file.hpp"
+#include "rave/base/regular_file.hpp"
 #include "rave/config/diagnostics.hpp"
 #include "rave/config/yaml.hpp"
 
@@ -63,11 +63,11 @@ void add_version(plugin::Catalogue& catalogue, std::span<const DriverKind> kinds
 }  // namespace
 
 Result<std::string> sha256_of_file(const fs::path& path) {
-  const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
+  RAVE_TRY_ASSIGN(const int fd, open_regular_file(path));
+  const std::unique_ptr<std::FILE, CloseFile> file(::fdopen(fd, "rb"));
   if (file == nullptr) {
-    const int code = errno;
-    return fail(code == ENOENT ? ErrorCode::kNotFound : ErrorCode::kIo, "cannot open `{}`: {}",
-                path.string(), std::strerror(code));
+    ::close(fd);
+    return fail(ErrorCode::kIo, "cannot read `{}`", path.string());
   }
   crypto_hash_sha256_state state;
   crypto_hash_sha256_init(&state);

@@ -247,25 +247,41 @@ std::optional<RunDifference> difference_of(std::string_view topic,
   return RunDifference{0, 0, "", std::string(topic), "the messages differ in form"};
 }
 
+/// One in the step of that time.
+RunDifference difference_at(std::uint64_t time_ns, const record::RunInfo& run,
+                            std::string_view channel, std::string text) {
+  const std::int64_t step_ns = std::max<std::int64_t>(1, from_seconds(run.step_s).ns);
+  return {run.step_s > 0 ? time_ns / static_cast<std::uint64_t>(step_ns) : 0,
+          SimTime{static_cast<std::int64_t>(time_ns)}.seconds(), "", std::string(channel),
+          std::move(text)};
+}
+
 }  // namespace
 
 Result<RecordMatch> match_records(const record::McapReader& recorded,
                                   const record::McapReader& again, const record::RunInfo& run,
                                   RecordForm form) {
+  RecordMatch match;
   std::vector<std::string_view> topics;
   for (const char* const topic : kTopics) {
-    if (recorded.channel(topic) != nullptr && again.channel(topic) != nullptr) {
+    if (recorded.channel(topic) != nullptr) {
       topics.emplace_back(topic);
+    } else {
+      match.absent.emplace_back(topic);
     }
   }
   record::MomentCursor a(recorded, topics);
   record::MomentCursor b(again, topics);
-  RecordMatch match;
   while (true) {
     RAVE_TRY_ASSIGN(const bool more_a, a.next());
     RAVE_TRY_ASSIGN(const bool more_b, b.next());
     // The second run stops behind the first step that differs, so its end alone says nothing.
-    if (!more_a || !more_b) return match;
+    if (!more_b || (!more_a && form.cut)) return match;
+    if (!more_a) {
+      match.difference =
+          difference_at(b.time_ns(), run, "record", "recorded: nothing from here on; now: more");
+      return match;
+    }
     const bool broken_off = form.cut && a.at_last();
     for (const std::string_view topic : topics) {
       const auto first = a.messages().find(topic);
@@ -279,15 +295,14 @@ Result<RecordMatch> match_records(const record::McapReader& recorded,
       if (a.time_ns() == b.time_ns() && recorded_messages == new_messages) continue;
       match.difference = difference_of(topic, recorded_messages, new_messages, run, form.merged);
       if (!match.difference && a.time_ns() == b.time_ns()) continue;
-      if (!match.difference) {
-        match.difference = RunDifference{0, 0, "", std::string(topic), "not at the same time"};
-      }
       const std::uint64_t time_ns = std::min(a.time_ns(), b.time_ns());
-      match.difference->time_s = SimTime{static_cast<std::int64_t>(time_ns)}.seconds();
-      match.difference->step = run.step_s > 0
-                                   ? time_ns / static_cast<std::uint64_t>(std::max<std::int64_t>(
-                                                   1, from_seconds(run.step_s).ns))
-                                   : 0;
+      RunDifference there = difference_at(time_ns, run, topic, "not at the same time");
+      if (match.difference) {
+        there.robot = std::move(match.difference->robot);
+        there.channel = std::move(match.difference->channel);
+        there.text = std::move(match.difference->text);
+      }
+      match.difference = std::move(there);
       return match;
     }
   }

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "rave/record/mcap_reader.hpp"
 #include "rave/record/run_info.hpp"
@@ -14,6 +16,7 @@ namespace rave::robot_host {
 struct RecordMatch {
   std::uint64_t messages = 0;  ///< That were compared.
   std::optional<RunDifference> difference;
+  std::vector<std::string> absent;  ///< Streams that the first does not have; not compared.
 };
 
 /// What is to be known of the first of two records.
@@ -22,7 +25,7 @@ struct RecordForm {
   bool merged = false;  ///< It was made of several: in a step robots come in any order.
 };
 
-/// Compares the exact streams that both records have, up to the first difference. `run` and the
+/// Compares the exact streams that the first record has, up to the first difference. `run` and the
 /// device names come from the first. Errors: those of MessageCursor::next().
 [[nodiscard]] Result<RecordMatch> match_records(const record::McapReader& recorded,
                                                 const record::McapReader& again,

@@ -6,6 +6,7 @@
 
 #include "capture_watch.hpp"
 #include "event_words.hpp"
+#include "lateness_report.hpp"
 #include "outcome.hpp"
 #include "radio_report.hpp"
 #include "shadow_report.hpp"
@@ -29,9 +30,14 @@ Json sightings_json(const config::SightingsCheckFile& limits, const SightingFact
                     bool whole) {
   const SightingTally all = facts.all();
   Json json = tally_json(all);
+  // Robots may misread a code now and then; for that, only all together are judged.
+  json["counted"] = counted(limits, all);
+  json["within_pct"] = rounded(within_pct(limits, all), 0.01);
   json["limits"] = {{"range_m", limits.range_m},
                     {"bearing_deg", limits.bearing_deg},
-                    {"min_within_pct", limits.min_within_pct}};
+                    {"min_within_pct", limits.min_within_pct},
+                    {"min_compared", limits.min_compared},
+                    {"max_unknown", limits.max_unknown}};
   json["holds"] = whole ? Json(holds(limits, all)) : Json();
   json["robots"] = Json::object();
   for (const auto& [robot, tally] : facts.by_robot) json["robots"][robot] = tally_json(tally);
@@ -222,9 +228,10 @@ std::string result_json(const Findings& findings, const RunOutcome& outcome) {
   if (findings.facts.world_from > 0) json["world_from_step"] = findings.facts.world_from;
   json["simulated_s"] = findings.done_s();
   json["wall_s"] = rounded(findings.wall_s, 1e-3);
+  json["lateness"] = lateness_json(findings.facts.lateness);
   json["threads"] = findings.spec.threads;
   json["hash"] = outcome.hash.empty() ? Json(nullptr) : Json(outcome.hash);
-  if (!findings.live_reason.empty()) json["no_hash_because"] = findings.live_reason;
+  if (outcome.hash.empty()) json["no_hash_because"] = why_no_hash(findings, outcome);
   if (scenario.checks.sightings) {
     json["sightings"] =
         sightings_json(*scenario.checks.sightings,

@@ -8,6 +8,7 @@
 #include "console_tee.hpp"
 #include "event_log.hpp"
 #include "event_words.hpp"
+#include "late_watch.hpp"
 #include "observers.hpp"
 #include "outcome.hpp"
 #include "rave/base/file.hpp"
@@ -26,6 +27,8 @@ using Clock = std::chrono::steady_clock;
 
 /// How old what others see of hand-overs and shadows may be.
 constexpr auto kStatusInterval = std::chrono::milliseconds(50);
+/// So many times as old while steps come late.
+constexpr int kLateFactor = 10;
 
 /// Who looks on, and who takes down what happens.
 struct Onlookers : Observers {
@@ -39,6 +42,9 @@ struct Onlookers : Observers {
     Observers::after_step(engine);
     if (ros2) ros2->after_step(engine);
     if (shadows) shadows->after_step(engine);
+  }
+  /// Behind after_step().
+  void keep_record(sim::Engine& engine) {
     if (!record) return;
     record->after_step(engine);
     if (capture) record->keep(capture->events());
@@ -53,13 +59,17 @@ struct Journey {
   sim::Engine& engine;
   Onlookers& observers;
   WallPace& pace;
+  LateWatch& late;
   bool live = false;
   const config::ScenarioFile& file;
   const RunOptions& options;
   ConsoleTee& console;
-  std::vector<sim::Event> events;
+  std::vector<sim::Event> events{};
   double wall_s = 0;
   bool stopped = false;
+  bool shows_more = false;  ///< Its status changes though nobody asks for anything.
+  Clock::time_point next_progress{};
+  Clock::time_point next_status{};
 };
 
 void refresh(const Journey& journey, RunStatus& status) {
@@ -97,8 +107,12 @@ bool wait_for_turn(Journey& journey) {
     if (held) journey.pace.shift(Clock::now() - asked);
   }
   const auto steps = static_cast<std::int64_t>(journey.engine.steps_done());
-  journey.pace.wait_for(SimTime{steps * journey.engine.spec().step.ns}, control, serve);
+  const SimTime due{steps * journey.engine.spec().step.ns};
+  journey.pace.wait_for(due, control, serve);
+  Lateness& count = journey.late.count();
+  count.woke(journey.pace.wall_time_of(due), Clock::now());
   serve();
+  count.did(Lateness::Part::kRequests, Clock::now());
   return true;
 }
 
@@ -110,49 +124,71 @@ void tell_progress(const Journey& journey) {
                                journey.observers.encounters.headline()});
 }
 
+/// A step is done. False: a check ends the run with it.
+bool look_back(Journey& journey) {
+  sim::Engine& engine = journey.engine;
+  Lateness& count = journey.late.count();
+  count.worked(engine.phase_times(), Clock::now());
+  if (journey.options.control != nullptr) {
+    journey.options.control->set_time(engine.time().seconds());
+  }
+  journey.observers.tracks.thin(journey.live && journey.late.behind());
+  journey.observers.after_step(engine);
+  count.did(Lateness::Part::kOnlookers, Clock::now());
+  journey.observers.keep_record(engine);
+  count.did(Lateness::Part::kRecord, Clock::now());
+  if (journey.live) journey.late.look(engine.spec(), engine.events(), {});
+  tell_events(engine, engine.events(), &journey.console, journey.events);
+  if (journey.observers.shadows) {
+    tell_events(engine, journey.observers.shadows->events(), &journey.console, journey.events);
+  }
+  if (!journey.observers.capture) return true;
+  const CaptureWatch& capture = *journey.observers.capture;
+  tell_events(engine, capture.events(), &journey.console, journey.events);
+  return !capture.ends_run();
+}
+
+/// What others see of the run between two requests.
+void tell_onlookers(Journey& journey, Clock::time_point now) {
+  RunControl* const control = journey.options.control;
+  const int rarer = journey.late.behind() ? kLateFactor : 1;
+  if (control != nullptr && journey.shows_more && now >= journey.next_status) {
+    journey.next_status = now + rarer * kStatusInterval;
+    control->refresh([&](RunStatus& status) { refresh(journey, status); });
+  }
+  if (journey.options.on_progress && now >= journey.next_progress) {
+    journey.next_progress = now + kProgressInterval;
+    tell_progress(journey);
+  }
+}
+
 Status go_through(Journey& journey) {
   const auto steps =
       static_cast<std::uint64_t>(std::llround(journey.file.duration_s / journey.file.step_s.value));
   StallWatch watch(&journey.console);
   const auto begin = Clock::now();
-  auto next_progress = begin;
-  auto next_status = begin;
   const auto& robots = journey.engine.spec().robots;
-  const bool shows_more = std::any_of(robots.begin(), robots.end(),
-                                      [](const auto& robot) { return robot.twin.has_value(); });
-  while (journey.engine.steps_done() < steps && !journey.stopped) {
+  journey.shows_more = std::any_of(robots.begin(), robots.end(),
+                                   [](const auto& robot) { return robot.twin.has_value(); });
+  bool goes_on = true;
+  while (goes_on && journey.engine.steps_done() < steps) {
     if (!wait_for_turn(journey)) {
       journey.stopped = true;
       break;
     }
     watch.step_begins(journey.engine.steps_done());
+    // The world of a step that comes late is one of before: no guard may take it for the present.
+    if (journey.live) journey.engine.set_world_age(journey.late.age());
     RAVE_TRY(journey.engine.step());
     watch.step_ends();
-    if (journey.options.control != nullptr) {
-      journey.options.control->set_time(journey.engine.time().seconds());
-    }
-    journey.observers.after_step(journey.engine);
-    tell_events(journey.engine, journey.engine.events(), &journey.console, journey.events);
-    if (journey.observers.capture) {
-      const CaptureWatch& capture = *journey.observers.capture;
-      tell_events(journey.engine, capture.events(), &journey.console, journey.events);
-      if (capture.ends_run()) break;
-    }
-    if (journey.observers.shadows) {
-      tell_events(journey.engine, journey.observers.shadows->events(), &journey.console,
-                  journey.events);
-    }
+    goes_on = look_back(journey);
     const auto now = Clock::now();
-    if (journey.options.control != nullptr && shows_more && now >= next_status) {
-      next_status = now + kStatusInterval;
-      journey.options.control->refresh([&](RunStatus& status) { refresh(journey, status); });
-    }
     journey.wall_s = std::chrono::duration<double>(now - begin).count();
-    if (journey.options.on_progress && now >= next_progress) {
-      next_progress = now + kProgressInterval;
-      tell_progress(journey);
-    }
+    tell_onlookers(journey, now);
+    journey.late.step_done();
   }
+  const auto last = static_cast<std::int64_t>(steps - 1) * journey.engine.spec().step.ns;
+  journey.late.end(journey.pace.wall_time_of(SimTime{last}));
   return {};
 }
 
@@ -228,6 +264,8 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
   }
   if (!live) built.spec.live_clock = nullptr;
   if (live) built.spec.on_ready = [&pace] { pace.start(); };
+  const auto period = pace.period_of(built.spec.step);
+  if (period > Clock::duration::zero()) built.spec.phase_clock = steady_ns;
   for (const std::string& note : built.notes) {
     console.warn("scenario", "{}", note);
   }
@@ -246,7 +284,8 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
   }
   const RecordedConsole recorded(console,
                                  observers.record ? &observers.record->recorder() : nullptr);
-  Journey journey{*engine, observers, pace, live, file, options, console, {}, 0, false};
+  LateWatch late(period, console, options.control);
+  Journey journey{*engine, observers, pace, late, live, file, options, console};
   if (!live) pace.start();  // a live run counts from when its sensors were opened
   const Controlled controlled(journey);
   tell_who_waits(*engine, options, console);
@@ -258,6 +297,8 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
   console.attach(nullptr);
   RunFacts facts = gather(observers, *engine);
   facts.events = std::move(journey.events);
+  facts.lateness = late.facts();
+  if (live) facts.problems = lateness_problems(late.facts(), file.max_missed_pct);
   if (observers.shadows) facts.shadows = observers.shadows->facts();
   if (observers.record) {
     const auto hash = live ? std::nullopt : std::optional(engine->hash().value());

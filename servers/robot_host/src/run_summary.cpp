@@ -45,14 +45,22 @@ void add_capture_rows(const Findings& findings, report::Table& table) {
 
 void add_sighting_row(const Findings& findings, report::Table& table) {
   if (!findings.scenario.scenario.checks.sightings) return;
-  const SightingTally tally = findings.facts.sightings.value_or(SightingFacts()).all();
-  const bool holds = robot_host::holds(*findings.scenario.scenario.checks.sightings, tally) &&
-                     !findings.any_lost();
+  const config::SightingsCheckFile& limits = *findings.scenario.scenario.checks.sightings;
+  const SightingFacts facts = findings.facts.sightings.value_or(SightingFacts());
+  const SightingTally tally = facts.all();
+  const bool holds = robot_host::holds(limits, tally) && !findings.any_lost();
+  std::vector<std::string_view> blind;
+  for (const auto& [robot, own] : facts.by_robot) {
+    if (own.total + own.unknown == 0) blind.emplace_back(robot);
+  }
   table.rows.push_back(
       {"sighting check",
-       fmt::format("{}: {:.2f} % of {} real sightings agree with the virtual camera ({} with "
-                   "unknown codes)",
-                   holds ? "holds" : "FAILS", tally.within_pct(), tally.total, tally.unknown)});
+       fmt::format(
+           "{}: {:.2f} % of {} real sightings agree with the virtual camera ({} with "
+           "unknown codes){}",
+           holds ? "holds" : "FAILS", within_pct(limits, tally), counted(limits, tally),
+           tally.unknown,
+           blind.empty() ? std::string() : fmt::format("; none of {}", join_names(blind)))});
 }
 
 /// Real robots whose commands went nowhere, as `a, b and c`.
@@ -100,6 +108,9 @@ std::string summary_text(const Findings& findings, const RunOutcome& outcome) {
   table.rows.push_back(
       {"time", fmt::format("{:.2f} s simulated in {:.2f} s ({:.1f}x)", simulated_s, findings.wall_s,
                            simulated_s / std::max(findings.wall_s, 1e-9))});
+  if (const LatenessFacts& late = findings.facts.lateness; late.deadlines > 0) {
+    table.rows.push_back({"deadlines", lateness_text(late)});
+  }
   add_sighting_row(findings, table);
   const auto goals = goal_results(findings.scenario, findings.spec, findings.facts, findings.lost);
   for (const CheckResult& check : goals) {
@@ -139,8 +150,8 @@ std::string summary_text(const Findings& findings, const RunOutcome& outcome) {
                           "elsewhere: what it knows of its robots lies there, in the folder of its "
                           "`rave robot`"});
   }
-  table.rows.push_back(
-      {"run hash", outcome.hash.empty() ? "none: " + findings.live_reason : outcome.hash});
+  table.rows.push_back({"run hash", outcome.hash.empty() ? "none: " + why_no_hash(findings, outcome)
+                                                         : outcome.hash});
   for (const std::string& problem : outcome.problems) table.rows.push_back({"problem", problem});
   return report::render_table(table, {100, false});
 }

@@ -26,6 +26,11 @@ double distance_m(const Pose2& a, const Pose2& b) {
 
 double rounded(double value) { return std::round(value * 1e6) / 1e6; }
 
+/// A difference that nobody measured is none, and not 0.
+Json number_of(std::uint64_t compared, double value) {
+  return compared > 0 ? Json(rounded(value)) : Json();
+}
+
 template <class Reading>
 Reading first_record(const sim::SensorSample& sample) {
   Reading reading;
@@ -151,6 +156,8 @@ void Shadows::compare(const sim::Engine& engine, Shadow& shadow) {
   if (!X_WS) return;
   ShadowDifference& now = shadow.now;
   shadow.fresh = true;
+  ++now.compared;
+  ++shadow.ever_compared;
   shadow.compared_at = pose.stamp;
   shadow.X_WR = {pose.pose.x_m, pose.pose.y_m, pose.pose.yaw_rad};
   shadow.X_WS = *X_WS;
@@ -300,10 +307,10 @@ std::vector<ShadowFacts> Shadows::facts() const {
     const ShadowDifference& now = shadow.now;
     Json readings = Json::object();
     for (const ShadowReading& reading : now.readings) {
-      if (reading.compared == 0) continue;
+      if (reading.unit.empty()) continue;
       readings[reading.sensor] = {{"unit", reading.unit},
-                                  {"last", rounded(reading.last)},
-                                  {"most", rounded(reading.most)},
+                                  {"last", number_of(reading.compared, reading.last)},
+                                  {"most", number_of(reading.compared, reading.most)},
                                   {"compared", reading.compared}};
     }
     Json moments = Json::array();
@@ -317,8 +324,12 @@ std::vector<ShadowFacts> Shadows::facts() const {
         {"robot", shadow.name},
         {"starts", shadow.starts},
         {"whole", shadow.world != nullptr},
-        {"last", {{"m", rounded(now.m)}, {"rad", rounded(now.rad)}}},
-        {"most", {{"m", rounded(shadow.ever_m)}, {"rad", rounded(shadow.ever_rad)}}},
+        {"compared", shadow.ever_compared},
+        {"last",
+         {{"m", number_of(now.compared, now.m)}, {"rad", number_of(now.compared, now.rad)}}},
+        {"most",
+         {{"m", number_of(shadow.ever_compared, shadow.ever_m)},
+          {"rad", number_of(shadow.ever_compared, shadow.ever_rad)}}},
         {"readings", std::move(readings)},
         {"moments", std::move(moments)}};
     all.push_back({shadow.robot.value(), report.dump()});

@@ -32,7 +32,8 @@ struct ShadowDifference {
   bool running = false;  ///< The robot is real now, and known to be somewhere.
   SimTime since;         ///< When the shadow was put where the robot was.
   double m = 0;
-  double rad = 0;  ///< 0 to pi.
+  double rad = 0;              ///< 0 to pi.
+  std::uint64_t compared = 0;  ///< Poses; with 0 nothing is known of the distances.
   double most_m = 0;
   double most_rad = 0;
   std::vector<ShadowReading> readings;  ///< By sensor.
@@ -78,6 +79,7 @@ class Shadows final : public Observer {
     ShadowDifference now;
     double ever_m = 0;  ///< Largest of all times that it was put down.
     double ever_rad = 0;
+    std::uint64_t ever_compared = 0;
     std::uint32_t starts = 0;
     bool reset_asked = false;
     bool fresh = false;  ///< The last step compared something.

@@ -244,6 +244,7 @@ Result<RunOutcome> SharedResults::write(const SharedEnd& end) {
   RunFacts& facts = impl.facts;
   facts.problems.insert(facts.problems.begin(), end.problems.begin(), end.problems.end());
   facts.events.insert(facts.events.end(), end.events.begin(), end.events.end());
+  facts.lateness += end.lateness;
   Findings findings{impl.scenario, impl.spec, impl.kinds, impl.live_reason, facts};
   for (std::size_t h = 0; h < planned.size() && h < end.hosts.size(); ++h) {
     impl.take(end.hosts[h], planned[h].robots, findings);

@@ -18,6 +18,18 @@ std::uint32_t sensor_named(const sim::RobotType& type, const std::string& name) 
   return kNoSensor;
 }
 
+/// Until when it is known where all real robots were. One whose poses have stopped does not count.
+SimTime poses_known_until(const sim::Engine& engine) {
+  const sim::EngineSpec& spec = engine.spec();
+  SimTime until = engine.snapshot().time();
+  for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
+    if (spec.types[spec.robots[r].type].simulated) continue;
+    const sim::ReportedPose& pose = engine.reported(RobotId(r));
+    if (pose.known && !pose.stale) until = std::min(until, pose.stamp);
+  }
+  return until;
+}
+
 }  // namespace
 
 SightingCheck::SightingCheck(const config::SightingsCheckFile& file, const sim::EngineSpec& spec)
@@ -37,25 +49,48 @@ SightingCheck::SightingCheck(const config::SightingsCheckFile& file, const sim::
 }
 
 void SightingCheck::after_step(sim::Engine& engine) {
+  learn(engine);
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    if (engine.is_local(pairs_[p].robot)) gather(engine, p);
+  }
+  if (waiting_.empty()) return;
+  const SimTime known = poses_known_until(engine);
+  const SimTime too_old = engine.snapshot().time() - kLongestWaitForPoses;
+  std::size_t kept = 0;
+  for (const Waiting& one : waiting_) {
+    const SimTime stamp{one.sighting.stamp_ns};
+    if (stamp <= known || stamp <= too_old) {
+      compare(engine, pairs_[one.pair], one.sighting);
+    } else {
+      waiting_[kept++] = one;
+    }
+  }
+  waiting_.resize(kept);
+}
+
+void SightingCheck::learn(const sim::Engine& engine) {
   const auto& added = engine.spec().world.added;
   for (; known_added_ < added.size(); ++known_added_) {
     if (added[known_added_].body.code) known_codes_.insert(*added[known_added_].body.code);
   }
-  for (Pair& pair : pairs_) {
-    if (!engine.is_local(pair.robot)) continue;
-    const sim::SensorSample sample = engine.sensor(pair.robot, pair.real);
-    if (sample.header->sequence == pair.seen_sequence) continue;
-    pair.seen_sequence = sample.header->sequence;
-    const auto* sightings = static_cast<const Sighting*>(sample.records);
-    // Records gather until the program has taken them, so old ones may still be there.
-    std::int64_t newest_ns = pair.seen_stamp_ns;
-    for (std::uint32_t i = 0; i < sample.header->count; ++i) {
-      if (sightings[i].stamp_ns <= pair.seen_stamp_ns) continue;
-      newest_ns = std::max(newest_ns, sightings[i].stamp_ns);
-      compare(engine, pair, sightings[i]);
-    }
-    pair.seen_stamp_ns = newest_ns;
+}
+
+void SightingCheck::gather(const sim::Engine& engine, std::size_t p) {
+  Pair& pair = pairs_[p];
+  // Who sees nothing stands in the result as well.
+  if (pair.seen_stamp_ns < 0) facts_.by_robot[engine.spec().robots[pair.robot.value()].name];
+  const sim::SensorSample sample = engine.sensor(pair.robot, pair.real);
+  if (sample.header->sequence == pair.seen_sequence) return;
+  pair.seen_sequence = sample.header->sequence;
+  const auto* sightings = static_cast<const Sighting*>(sample.records);
+  // Records gather until the program has taken them, so old ones may still be there.
+  std::int64_t newest_ns = pair.seen_stamp_ns;
+  for (std::uint32_t i = 0; i < sample.header->count; ++i) {
+    if (sightings[i].stamp_ns <= pair.seen_stamp_ns) continue;
+    newest_ns = std::max(newest_ns, sightings[i].stamp_ns);
+    waiting_.push_back({p, sightings[i]});
   }
+  pair.seen_stamp_ns = newest_ns;
 }
 
 void SightingCheck::compare(sim::Engine& engine, const Pair& pair, const Sighting& sighting) {
@@ -83,8 +118,19 @@ void SightingCheck::compare(sim::Engine& engine, const Pair& pair, const Sightin
   }
 }
 
+std::uint64_t counted(const config::SightingsCheckFile& limits, const SightingTally& all) {
+  const auto misread = static_cast<std::uint64_t>(limits.max_unknown);
+  return all.total + (all.unknown > misread ? all.unknown - misread : 0);
+}
+
+double within_pct(const config::SightingsCheckFile& limits, const SightingTally& all) {
+  const std::uint64_t count = counted(limits, all);
+  return count == 0 ? 0 : 100.0 * static_cast<double>(all.within) / static_cast<double>(count);
+}
+
 bool holds(const config::SightingsCheckFile& limits, const SightingTally& all) {
-  return all.total > 0 && all.within_pct() >= limits.min_within_pct;
+  return all.total >= static_cast<std::uint64_t>(limits.min_compared) &&
+         within_pct(limits, all) >= limits.min_within_pct;
 }
 
 }  // namespace rave::robot_host

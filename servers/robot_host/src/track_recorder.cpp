@@ -10,7 +10,8 @@ namespace rave::robot_host {
 namespace {
 
 constexpr double kLeastInterval_s = 0.1;
-constexpr double kMostPoints = 4000;
+/// More than a picture can show. What a long run takes more and more of is mostly its tracks.
+constexpr double kMostPoints = 2000;
 /// A pose source that is silent for longer than this share of what its robot allows has a gap worth
 /// showing: sources differ in their rates.
 constexpr double kGapShare = 0.3;
@@ -40,6 +41,9 @@ TrackRecorder::TrackRecorder(const BodyKinds& kinds, const sim::EngineSpec& spec
     poses_[r].label = spec.robots[r].name;
     poses_[r].kind = kinds.kind(body);
     poses_[r].colour = kinds.colour(body);
+    // Room at once: a vector that grows leaves a hole of half its size behind.
+    const double points = std::min(kMostPoints, wish.duration_s / interval_s);
+    if (wanted_ && here_[r] != 0) poses_[r].points.reserve(static_cast<std::size_t>(points) + 2);
     odometry_tracks_[r] = poses_[r];
     odometry_tracks_[r].odometry_only = true;
     const sim::RobotType& type = spec.types[spec.robots[r].type];
@@ -53,7 +57,7 @@ TrackRecorder::TrackRecorder(const BodyKinds& kinds, const sim::EngineSpec& spec
 }
 
 void TrackRecorder::after_step(sim::Engine& engine) {
-  const bool keep = wanted_ && (engine.steps_done() - 1) % every_ == 0;
+  const bool keep = wanted_ && (engine.steps_done() - 1) % (every_ * rarer_) == 0;
   for (std::uint32_t r = 0; r < poses_.size(); ++r) {
     if (told_[r] != 0) reported_[r] = engine.reported(RobotId(r));
     if (here_[r] == 0 || !engine.snapshot().robot(RobotId(r)).present) continue;

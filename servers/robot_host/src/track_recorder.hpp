@@ -25,6 +25,9 @@ class TrackRecorder final : public Observer {
   TrackRecorder(const BodyKinds& kinds, const sim::EngineSpec& spec, const Wish& wish);
 
   void after_step(sim::Engine& engine) override;
+  /// From the next step on only one point in ten is kept, until somebody says otherwise: steps come
+  /// late, and a picture can do with less.
+  void thin(bool thin) noexcept { rarer_ = thin ? 10 : 1; }
 
   /// Of robots that run here: one track each, then the odometry-only ones; none if none are wanted.
   [[nodiscard]] std::vector<TrackFacts> facts() const;
@@ -48,6 +51,7 @@ class TrackRecorder final : public Observer {
 
   bool wanted_ = true;
   std::uint64_t every_ = 1;
+  std::uint64_t rarer_ = 1;
   std::vector<report::PictureTrack> poses_;
   std::vector<report::PictureTrack> odometry_tracks_;
   std::vector<std::optional<Odometry>> odometry_;

@@ -9,6 +9,7 @@
 #include "host_again.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/record/merge.hpp"
+#include "rave/record/record_summary.hpp"
 #include "rave/record/run_reader.hpp"
 #include "rave/robot_host/build.hpp"
 #include "rave/robot_host/provenance.hpp"
@@ -172,6 +173,22 @@ Status note_length(const record::McapReader& reader, const record::RunInfo& run,
   return {};
 }
 
+/// A record that broke off is compared as far as it goes; a damaged one proves nothing.
+Status check_record(const fs::path& record, VerifyOutcome& outcome) {
+  RAVE_TRY_ASSIGN(const record::CheckedFile checked, record::check_record(record));
+  if (!checked.damages.empty()) {
+    return fail(ErrorCode::kParse, "the record is damaged, so nothing is compared: {}{}",
+                checked.damages.front(),
+                checked.damages.size() == 1
+                    ? ""
+                    : fmt::format(" (and {} more: rave info --check)", checked.damages.size() - 1));
+  }
+  for (const auto* const texts : {&checked.cuts, &checked.unsummed}) {
+    outcome.notes.insert(outcome.notes.end(), texts->begin(), texts->end());
+  }
+  return {};
+}
+
 Result<config::ExpandedScenario> scenario_of(const record::RunInfo& run, const fs::path& record,
                                              const VerifyOptions& options) {
   if (run.expanded_scenario.empty()) {
@@ -259,6 +276,8 @@ void judge_hash(const std::vector<std::uint64_t>& hashes, const sim::Engine& eng
 
 Result<VerifyOutcome> verify(const fs::path& record, plugin::Catalogue& catalogue,
                              const VerifyOptions& options) {
+  VerifyOutcome outcome;
+  RAVE_TRY(check_record(record, outcome));
   RAVE_TRY_ASSIGN(const auto reader, record::McapReader::open(record));
   RAVE_TRY_ASSIGN(const record::RunInfo run, record::read_run_info(reader));
   if (const auto missing = record::missing_parts(reader); !missing.empty()) {
@@ -266,7 +285,6 @@ Result<VerifyOutcome> verify(const fs::path& record, plugin::Catalogue& catalogu
                 "`{}` cannot be verified, because a part of the run is missing: {}",
                 record.string(), missing.front());
   }
-  VerifyOutcome outcome;
   compare_inputs(run, outcome);
   if (!outcome.missing.empty()) return outcome;
   RAVE_TRY_ASSIGN(const config::ExpandedScenario scenario, scenario_of(run, record, options));
@@ -308,6 +326,16 @@ Result<VerifyOutcome> verify(const fs::path& record, plugin::Catalogue& catalogu
   RAVE_TRY_ASSIGN(const auto written, record::McapReader::open(scratch.file()));
   RAVE_TRY_ASSIGN(const RecordMatch match,
                   match_records(reader, written, run, {!end, record::is_merged(reader)}));
+  if (match.messages == 0 && !match.difference && !outcome.ended_early) {
+    return fail(
+        ErrorCode::kInvalidArgument,
+        "`{}` cannot be verified: it holds nothing that a second run could be compared with",
+        record.string());
+  }
+  for (const std::string& topic : match.absent) {
+    outcome.notes.push_back(
+        fmt::format("the record has no stream `{}`, so nothing of that was compared", topic));
+  }
   outcome.messages = match.messages;
   outcome.difference = match.difference;
   judge_hash(hashes, engine, outcome);

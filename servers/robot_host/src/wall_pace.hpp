@@ -13,6 +13,13 @@ namespace rave::robot_host {
 /// Between two messages about how far a run has come.
 inline constexpr auto kProgressInterval = std::chrono::milliseconds(100);
 
+/// The clock of PhaseTimes, so that a late step can say what it took.
+inline std::int64_t steady_ns() noexcept {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
 /// Ties simulation time to the clock on the wall. Written by one thread before the run starts, read
 /// by any afterwards.
 class WallPace final : public RunClock {
@@ -36,6 +43,11 @@ class WallPace final : public RunClock {
     const double factor = factor_ == 0 ? 1 : factor_;
     return begin_.load() +
            std::chrono::nanoseconds(static_cast<std::int64_t>(static_cast<double>(t.ns) / factor));
+  }
+
+  /// Wall time that a step of the run takes; 0 when there is no pace.
+  [[nodiscard]] Clock::duration period_of(Duration step) const noexcept {
+    return factor_ == 0 ? Clock::duration() : wall_time_of({step.ns}) - wall_time_of({});
   }
 
   /// Time that a stepped run was held for does not count.

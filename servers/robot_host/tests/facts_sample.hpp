@@ -21,10 +21,11 @@ inline RunFacts sample_facts(std::uint32_t robot) {
   facts.radio.sent = robot + 1;
   facts.radio.overrun = 2;
   facts.inputs_by_hand = 1;
+  facts.lateness = {300, 4 + robot, 25'000'000, 1, {{"decide", 3}, {"machine", 1 + robot}}};
   facts.hits = {{"simulated", {{"nothing", 5}, {"real", robot}}}};
   facts.closest = {{"real-simulated", {0.5 - 0.1 * robot, 0.75, 1.25, 4 + robot, 1}}};
   facts.sightings = SightingFacts{{{"anna", {5, 4, 1}}}, {{77, 1}}};
-  facts.goals = {{robot, 0}, {{true, 0.5, std::nullopt}, {robot == 1, 0.25, 1.5}}};
+  facts.goals = {{robot, 0}, {{robot}, {}}, {{true, 0.5, std::nullopt}, {robot == 1, 0.25, 1.5}}};
   facts.capture = CaptureFacts{{{RobotId(robot), RobotId(0), 2.5 + robot, 0.1}}, 0.1};
   report::PictureTrack track;
   track.label = "r";

@@ -22,8 +22,10 @@ std::string laser(const std::string& more = {}) {
 }
 
 /// The five recorded robots among what `world` says, for two minutes.
-std::string recorded(const std::string& world) {
-  std::string text = "name: recorded\nduration_s: 120\nhistory_s: 1\n" + world + "robots:\n";
+std::string recorded(const std::string& world, double step_s = 0.01) {
+  std::string text =
+      fmt::format("name: recorded\nduration_s: 120\nstep_s: {}\nhistory_s: 1\n{}", step_s, world) +
+      "robots:\n";
   const int codes[] = {5, 14, 41, 32, 23};
   for (int robot = 1; robot <= 5; ++robot) {
     text += fmt::format(
@@ -156,6 +158,56 @@ TEST(SightingCheck, ConfirmsARecordedCameraAndFailsWithTightLimits) {
   }
 }
 
+/// Between two poses the robot was where a line between them says, in long steps and in short ones.
+TEST(SightingCheck, TheStepOfTheRunIsNoPartOfTheResult) {
+  std::vector<SightingTally> tallies;
+  for (const double step_s : {0.002, 0.01, 0.1}) {
+    Host host;
+    const auto engine = host.engine_of(recorded("world: ../worlds/utias.yaml\n", step_s));
+    ASSERT_NE(engine, nullptr);
+    config::SightingsCheckFile file;
+    file.real.value = "camera";
+    file.twin.value = "camera_twin";
+    // About half agree, so that a millimetre or a tenth of a degree changes the count.
+    file.range_m = 0.05;
+    file.bearing_deg = 0.5;
+    SightingCheck check(file, engine->spec());
+    // What comes in the last moments waits for a newer pose for as long as the step is.
+    while (engine->time().seconds() < 20) {
+      ASSERT_TRUE(engine->step().has_value());
+      check.after_step(*engine);
+    }
+    tallies.push_back(check.facts().all());
+  }
+  EXPECT_GT(tallies[0].total, 300U);
+  EXPECT_GT(tallies[0].within, tallies[0].total / 10);
+  EXPECT_LT(tallies[0].within, tallies[0].total * 9 / 10);
+  for (const SightingTally& tally : tallies) {
+    EXPECT_EQ(tally.total, tallies[0].total);
+    EXPECT_EQ(tally.within, tallies[0].within);
+  }
+}
+
+TEST(SightingCheck, OfFewerSightingsThanItShouldCompareItFails) {
+  config::SightingsCheckFile limits;
+  EXPECT_FALSE(holds(limits, {}));
+  EXPECT_FALSE(holds(limits, {99, 99, 0}));
+  EXPECT_TRUE(holds(limits, {100, 100, 0}));
+  limits.min_compared = 99;
+  EXPECT_TRUE(holds(limits, {99, 99, 0}));
+}
+
+TEST(SightingCheck, UnknownCodesBeyondAFewAreMisses) {
+  config::SightingsCheckFile limits;
+  EXPECT_TRUE(holds(limits, {1000, 995, 10}));
+  EXPECT_EQ(counted(limits, {1000, 995, 10}), 1000U);
+  EXPECT_TRUE(holds(limits, {1000, 995, 15}));
+  EXPECT_FALSE(holds(limits, {1000, 995, 16}));
+  EXPECT_EQ(counted(limits, {1000, 995, 16}), 1006U);
+  limits.max_unknown = 0;
+  EXPECT_NEAR(within_pct(limits, {300, 300, 100}), 75, 1e-9);
+}
+
 TEST(SightingCheck, CountsCodesThatTheWorldDoesNotKnow) {
   Host host;
   const auto engine = host.engine_of(recorded(""));
@@ -169,6 +221,8 @@ TEST(SightingCheck, CountsCodesThatTheWorldDoesNotKnow) {
   }
   // Without the tubes only the robots themselves are known.
   EXPECT_GT(check.facts().all().unknown, 500U);
+  EXPECT_GT(check.facts().all().within_pct(), 99) << "of the robots that it knows";
+  EXPECT_FALSE(holds(file, check.facts().all())) << "most of what was seen is not in the world";
   std::uint64_t sum = 0;
   for (const auto& [code, count] : check.facts().unknown_codes) sum += count;
   EXPECT_EQ(sum, check.facts().all().unknown);

@@ -113,6 +113,42 @@ TEST(Run, GivesTheSameHashForAnyNumberOfThreadsAndAnotherForAnotherSeed) {
   EXPECT_NE(hash("seed: 2\n"), one);
 }
 
+/// A bumper that says nothing touches nothing, which is not what the check asks.
+TEST(Run, TouchesOfASensorThatNeverGaveAReadingAreNotCounted) {
+  for (const bool silent : {true, false}) {
+    RunOutcome outcome;
+    const Json result = result_of(
+        fmt::format(
+            "name: bumpers\nduration_s: 0.5\npace: max\n"
+            "checks: {{touches: [{{robots: [anna], sensor: bumper, most: 3}}]}}\n"
+            "robots:\n  - {{name: anna, pose: {{x_m: 0, y_m: 0}}, robot: {{{}, {}, sensors: "
+            "[{{name: bumper, driver: virtual_contact, period_s: 1, phase_s: {}}}]}}}}\n",
+            kBody, kWheels, silent ? 0.9 : 0.1),
+        "bumpers", outcome);
+    EXPECT_EQ(outcome.checks_hold, !silent);
+    const Json& check = result.at("checks").at(0);
+    if (silent) {
+      EXPECT_EQ(check.at("holds"), nullptr);
+      EXPECT_EQ(check.at("text"), "not made: `bumper` of `anna` never gave a reading");
+    } else {
+      EXPECT_EQ(check.at("holds"), true);
+    }
+  }
+}
+
+/// Whoever is nowhere touches nothing.
+TEST(Run, ContactsOfARobotWhosePlaceWasNeverKnownAreNotCounted) {
+  RunOutcome outcome;
+  const Json result = result_of(
+      "name: nowhere\nduration_s: 0.01\npace: max\nchecks: {touches: [{robots: [real-1]}]}\n"
+      "robots:\n  - {name: real-1, file: ../robots/recorded-create.yaml, variables: {robot: 1, "
+      "barcode: 5}}\n",
+      "nowhere", outcome);
+  EXPECT_FALSE(outcome.checks_hold);
+  EXPECT_EQ(result.at("checks").at(0).at("text"),
+            "not made: the place of `real-1` was never known");
+}
+
 TEST(Run, IsNotWholeWhenARecordingHasNoPoseOfItsRobot) {
   RunOutcome outcome;
   // Nothing of the first step is known yet of a robot whose first pose comes later.
@@ -124,7 +160,9 @@ TEST(Run, IsNotWholeWhenARecordingHasNoPoseOfItsRobot) {
   EXPECT_FALSE(outcome.checks_hold);
   EXPECT_FALSE(result.at("checks_hold"));
   ASSERT_FALSE(outcome.problems.empty());
-  EXPECT_NE(outcome.problems.back().find("the sighting check fails: 0 of 0"), std::string::npos)
+  EXPECT_NE(outcome.problems.back().find(
+                "the sighting check fails: 0 real sightings had a code that a body carries"),
+            std::string::npos)
       << outcome.problems.back();
 }
 

@@ -56,6 +56,37 @@ Result<Answer> read_answer(std::string_view line) {
   return answer;
 }
 
+Result<std::string> wish_line(const Request& request) {
+  std::string line = write_request(request);
+  if (line.ends_with('\n')) line.pop_back();
+  if (line.size() <= rave_wire_kMaxWishBytes && !has_control_characters(line)) return line;
+  return fail(ErrorCode::kInvalidArgument,
+              "what is asked has {} bytes, or control characters; the bus carries {} bytes of "
+              "plain text",
+              line.size(), rave_wire_kMaxWishBytes);
+}
+
+tl::unexpected<Error> gone(const BusPeer& peer) {
+  return fail(ErrorCode::kState, "`{}` has gone without an answer", peer.name);
+}
+
+tl::unexpected<Error> silent(const BusPeer& peer, Duration patience) {
+  return fail(ErrorCode::kTimeout,
+              "`{}` has not answered for {} s: what was asked may still be done, and its log will "
+              "say so; `rave top` shows how it fares (a RAVE that is older than this one takes no "
+              "wishes from the bus)",
+              peer.name, patience.seconds());
+}
+
+/// One of several that are asked at a time.
+struct Asked {
+  BusPeer peer;
+  std::uint64_t number = 0;
+  Clock::time_point send_at;
+  milliseconds again = kFirstAgain;
+  std::optional<Result<Answer>> answer{};
+};
+
 /// The line stays the caller's and must live as long as the wish is used.
 void put_line(bus::Wish& wish, std::string& line) {
   // The wire type has octets that can be written to.
@@ -69,11 +100,13 @@ void put_line(bus::Wish& wish, std::string& line) {
 struct BusRun::Impl {
   std::unique_ptr<bus::Bus> bus;
   bus::Reader<bus::HostInfo> infos;
+  bus::Reader<bus::RunState> states;
   bus::Writer<bus::Wish> wishes;
   bus::Reader<bus::WishAnswer> answers;
   bus::WaitSet waits;
   std::string from;
   std::vector<BusPeer> peers{};
+  std::string scenario{};    ///< Of the run, as its manager says.
   std::uint64_t number = 0;  ///< Of the last wish.
 
   void look();
@@ -86,13 +119,20 @@ struct BusRun::Impl {
     std::string text;
   };
   [[nodiscard]] std::vector<Said> take(const BusPeer& peer);
+  Status send(const BusPeer& peer, std::uint64_t wish_number, std::string& line);
+  void take(std::vector<Asked>& asked);
+  std::optional<Clock::time_point> send_due(std::vector<Asked>& asked, std::string& line);
 };
 
 /// Learns who is there.
 void BusRun::Impl::look() {
   infos.take([this](const bus::HostInfo& info) {
     if (knows(info.writer) || peers.size() >= rave_wire_kMaxHosts) return;
-    peers.push_back({info.writer, info.name, info.machine, info.host == rave_wire_kNone});
+    peers.push_back({info.writer, info.name, info.machine, info.host == rave_wire_kNone,
+                     info.clock == rave_wire_CLOCK_REAL_TIME});
+  });
+  states.take([this](const bus::RunState& state) {
+    if (knows(state.writer)) scenario = plain(state.scenario);
   });
   for (const bus::BusEvent& event : bus->take_events()) {
     if (event.kind != bus::EventKind::kParticipantLost || event.writer == 0) continue;
@@ -113,6 +153,62 @@ std::vector<BusRun::Impl::Said> BusRun::Impl::take(const BusPeer& peer) {
   return said;
 }
 
+Status BusRun::Impl::send(const BusPeer& peer, std::uint64_t wish_number, std::string& line) {
+  bus::Wish wish{};
+  wish.target = peer.writer;
+  wish.number = wish_number;
+  bus::put_text(wish.from, from);
+  put_line(wish, line);
+  return wishes.write(wish);
+}
+
+/// The answers of those who have not given one.
+void BusRun::Impl::take(std::vector<Asked>& asked) {
+  answers.take([&](const bus::WishAnswer& answer) {
+    if (answer.target != bus->writer()) return;
+    const auto one = std::ranges::find_if(asked, [&](const Asked& other) {
+      return other.peer.writer == answer.writer && other.number == answer.number;
+    });
+    if (one == asked.end() || one->answer) return;
+    const std::string text(bus::text_of(answer.text));
+    if (!answer.taken) {
+      one->answer = Answer{false, plain(text), {}};
+      return;
+    }
+    bus::AnswerParts parts;
+    if (Status added = parts.add(text); !added) {
+      one->answer = tl::unexpected(std::move(added).error());
+    } else if (!parts.complete()) {
+      one->answer = fail(ErrorCode::kParse, "the answer of `{}` is too long", one->peer.name);
+    } else {
+      one->answer = read_answer(parts.text());
+    }
+  });
+}
+
+/// Asks those who have not answered, again if it is time for it; when to do so next.
+std::optional<Clock::time_point> BusRun::Impl::send_due(std::vector<Asked>& asked,
+                                                        std::string& line) {
+  std::optional<Clock::time_point> next;
+  for (Asked& one : asked) {
+    if (one.answer) continue;
+    if (!knows(one.peer.writer)) {
+      one.answer = gone(one.peer);
+      continue;
+    }
+    if (Clock::now() >= one.send_at) {
+      if (Status sent = send(one.peer, one.number, line); !sent) {
+        one.answer = tl::unexpected(std::move(sent).error());
+        continue;
+      }
+      one.send_at = Clock::now() + one.again;
+      one.again = std::min(2 * one.again, kLongestAgain);
+    }
+    next = std::min(next.value_or(one.send_at), one.send_at);
+  }
+  return next;
+}
+
 BusRun::BusRun(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 BusRun::~BusRun() = default;
 
@@ -121,14 +217,16 @@ Result<std::unique_ptr<BusRun>> BusRun::open(bus::BusConfig config, std::string_
   config.anonymous = true;
   RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
   RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
+  RAVE_TRY_ASSIGN(auto states, bus::Reader<bus::RunState>::create(*bus));
   RAVE_TRY_ASSIGN(auto wishes, bus::Writer<bus::Wish>::create(*bus));
   RAVE_TRY_ASSIGN(auto answers, bus::Reader<bus::WishAnswer>::create(*bus));
   RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(*bus));
   RAVE_TRY(waits.add(infos));
+  RAVE_TRY(waits.add(states));
   RAVE_TRY(waits.add(answers));
   RAVE_TRY(waits.add_events());
-  std::unique_ptr<Impl> impl(new Impl{std::move(bus), std::move(infos), std::move(wishes),
-                                      std::move(answers), std::move(waits),
+  std::unique_ptr<Impl> impl(new Impl{std::move(bus), std::move(infos), std::move(states),
+                                      std::move(wishes), std::move(answers), std::move(waits),
                                       without_control_characters(from, " ")});
   return std::unique_ptr<BusRun>(new BusRun(std::move(impl)));
 }
@@ -185,26 +283,15 @@ std::vector<BusPeer> BusRun::all(Duration patience) {
 
 Result<Answer> BusRun::ask(const BusPeer& peer, const Request& request, Duration patience) {
   Impl& run = *impl_;
-  std::string line = write_request(request);
-  if (line.ends_with('\n')) line.pop_back();
-  if (line.size() > rave_wire_kMaxWishBytes || has_control_characters(line)) {
-    return fail(ErrorCode::kInvalidArgument,
-                "what is asked has {} bytes, or control characters; the bus carries {} bytes of "
-                "plain text",
-                line.size(), rave_wire_kMaxWishBytes);
-  }
-  bus::Wish wish{};
-  wish.target = peer.writer;
-  wish.number = ++run.number;
-  bus::put_text(wish.from, run.from);
+  RAVE_TRY_ASSIGN(std::string line, wish_line(request));
+  ++run.number;
   bus::AnswerParts parts;
   auto end = Clock::now() + std::chrono::nanoseconds(patience.ns);
   auto send_at = Clock::now();
   auto again = kFirstAgain;
   while (Clock::now() < end) {
     if (Clock::now() >= send_at) {
-      put_line(wish, line);
-      RAVE_TRY(run.wishes.write(wish));
+      RAVE_TRY(run.send(peer, run.number, line));
       send_at = Clock::now() + again;
       again = std::min(2 * again, kLongestAgain);
     }
@@ -223,15 +310,42 @@ Result<Answer> BusRun::ask(const BusPeer& peer, const Request& request, Duration
       end = send_at + std::chrono::nanoseconds(patience.ns);
     }
     run.look();
-    if (!run.knows(peer.writer)) {
-      return fail(ErrorCode::kState, "`{}` has gone without an answer", peer.name);
-    }
+    if (!run.knows(peer.writer)) return gone(peer);
   }
-  return fail(ErrorCode::kTimeout,
-              "`{}` has not answered for {} s: what was asked may still be done, and its log will "
-              "say so; `rave top` shows how it fares (a RAVE that is older than this one takes no "
-              "wishes from the bus)",
-              peer.name, patience.seconds());
+  return silent(peer, patience);
+}
+
+std::vector<BusReply> BusRun::ask_each(const Request& request, const Meant& meant,
+                                       Duration patience) {
+  Impl& run = *impl_;
+  auto line = wish_line(request);
+  if (!line) return {};
+  const auto latest = Clock::now() + std::chrono::nanoseconds(patience.ns);
+  auto end = latest;  // of the search
+  std::size_t known = 0;
+  std::vector<Asked> asked;
+  for (;;) {
+    run.look();
+    if (run.peers.size() > known) end = std::min(latest, Clock::now() + kMoment);
+    known = run.peers.size();
+    for (const BusPeer& peer : run.peers) {
+      const bool before = std::ranges::any_of(
+          asked, [&peer](const Asked& one) { return one.peer.writer == peer.writer; });
+      if (!before && meant(peer, run.scenario)) asked.push_back({peer, ++run.number, Clock::now()});
+    }
+    run.take(asked);
+    const auto next = run.send_due(asked, *line);
+    const bool all =
+        std::ranges::all_of(asked, [](const Asked& one) { return one.answer.has_value(); });
+    if (Clock::now() >= latest || (all && Clock::now() >= end)) break;
+    static_cast<void>(run.waits.wait(bus::left_until(std::min(latest, next.value_or(end)))));
+  }
+  std::vector<BusReply> replies;
+  for (Asked& one : asked) {
+    if (!one.answer) one.answer = silent(one.peer, patience);
+    replies.push_back({std::move(one.peer), *std::move(one.answer)});
+  }
+  return replies;
 }
 
 }  // namespace rave::run_control

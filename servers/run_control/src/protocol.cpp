@@ -128,11 +128,20 @@ Json shadow_json(const robot_host::RunStatus::Shadow& shadow) {
   return json;
 }
 
+Json lateness_json(const robot_host::RunStatus::Lateness& late) {
+  return {{"deadlines", late.deadlines},
+          {"missed", late.missed},
+          {"worst_s", late.worst_s},
+          {"behind_s", late.behind_s},
+          {"phase", late.phase}};
+}
+
 Json status_json(const robot_host::RunStatus& status) {
   Json json = {
       {"scenario", status.scenario}, {"sim_s", status.sim_s}, {"duration_s", status.duration_s},
       {"pace", status.pace},         {"live", status.live},   {"paused", status.paused},
       {"robots", Json::array()}};
+  if (status.lateness) json["lateness"] = lateness_json(*status.lateness);
   for (const robot_host::RunStatus::Robot& robot : status.robots) {
     json["robots"].push_back({{"name", robot.name},
                               {"simulated", robot.simulated},
@@ -170,6 +179,18 @@ bool read_count(const Json& json, const char* key, std::uint32_t& value) {
   return whole <= UINT32_MAX;
 }
 
+bool read_count(const Json& json, const char* key, std::uint64_t& value) {
+  if (!json.contains(key) || !json.at(key).is_number_unsigned()) return false;
+  value = json.at(key).get<std::uint64_t>();
+  return true;
+}
+
+bool read_lateness(const Json& json, robot_host::RunStatus::Lateness& late) {
+  return json.is_object() && read_count(json, "deadlines", late.deadlines) &&
+         read_count(json, "missed", late.missed) && read_number(json, "worst_s", late.worst_s) &&
+         read_number(json, "behind_s", late.behind_s) && read_text(json, "phase", late.phase);
+}
+
 bool read_hand_over(const Json& json, robot_host::RunStatus::HandOver& hand_over) {
   return json.is_object() && read_bool(json, "under_way", hand_over.under_way) &&
          read_count(json, "made", hand_over.made) &&
@@ -203,6 +224,10 @@ bool read_status(const Json& json, robot_host::RunStatus& status) {
               read_bool(json, "paused", status.paused) && json.contains("robots") &&
               json.at("robots").is_array();
   if (!good) return false;
+  if (json.contains("lateness")) {
+    good =
+        read_lateness(json.at("lateness"), *(status.lateness = robot_host::RunStatus::Lateness{}));
+  }
   for (const Json& item : json.at("robots")) {
     robot_host::RunStatus::Robot robot;
     good = good && item.is_object() && read_text(item, "name", robot.name) &&

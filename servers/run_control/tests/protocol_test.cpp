@@ -102,16 +102,22 @@ TEST(Protocol, AnswersComeBackAsTheyWere) {
   answer.text = "it's \u00e4ll right";
   answer.status.scenario = "s";
   answer.status.sim_s = 1.25;
+  answer.status.lateness = {1000, 60, 2.5, 1.25, "decide"};
   answer.status.robots = {{"a", true, true, false}, {"b", false, false, true}};
   const auto read = parse_answer(write_answer(answer));
   ASSERT_TRUE(read);
   EXPECT_TRUE(read->good);
   EXPECT_EQ(read->text, answer.text);
   EXPECT_EQ(read->status.sim_s, 1.25);
+  EXPECT_EQ(read->status.lateness, answer.status.lateness);
   ASSERT_EQ(read->status.robots.size(), 2U);
   EXPECT_EQ(read->status.robots[1].name, "b");
   EXPECT_TRUE(read->status.robots[1].stopped);
   EXPECT_FALSE(parse_answer(R"({"good":1,"text":""})"));
+  EXPECT_FALSE(parse_answer(
+      R"({"good":true,"text":"","status":{"scenario":"a","sim_s":0,"duration_s":1,"pace":1,)"
+      R"("live":false,"paused":false,"robots":[],"lateness":{"deadlines":-1,"missed":0,)"
+      R"("worst_s":0,"behind_s":0,"phase":""}}})"));
 }
 
 }  // namespace

@@ -78,6 +78,10 @@ bool is_named(const bus::RunId& run, std::string_view word) {
   return run == bus::run_of_name(word) || run.text() == word;
 }
 
+bool is_called(const bus::RunId& run, std::string_view word) {
+  return is_named(run, word) || (word.size() >= kFewestDigits && run.text().starts_with(word));
+}
+
 Result<bus::RunId> choose_run(const std::vector<FoundRun>& found, std::string_view word) {
   if (found.empty()) return fail(ErrorCode::kNotFound, "no run of several processes is under way");
   if (word.empty()) {
@@ -88,7 +92,7 @@ Result<bus::RunId> choose_run(const std::vector<FoundRun>& found, std::string_vi
   std::vector<FoundRun> fitting;
   for (const FoundRun& run : found) {
     if (is_named(run.run, word)) return run.run;
-    if (word.size() >= kFewestDigits && run.run.text().starts_with(word)) fitting.push_back(run);
+    if (is_called(run.run, word)) fitting.push_back(run);
   }
   if (fitting.size() == 1) return fitting.front().run;
   if (!fitting.empty()) {

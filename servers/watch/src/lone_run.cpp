@@ -40,6 +40,14 @@ RunView view_of(const std::string& name, const robot_host::RunStatus& status, bo
   host.standing = Standing::kHere;
   host.robots = static_cast<std::uint32_t>(status.robots.size());
   host.real_robots = 0;
+  if (status.lateness && status.lateness->deadlines > 0) {
+    const robot_host::RunStatus::Lateness& late = *status.lateness;
+    host.missed_pct =
+        100.0 * static_cast<double>(late.missed) / static_cast<double>(late.deadlines);
+    host.worst_late_s = late.worst_s;
+    host.behind_s = late.behind_s;
+    host.late_phase = late.phase;
+  }
   for (std::size_t i = 0; i < status.robots.size(); ++i) {
     const auto& robot = status.robots[i];
     *host.real_robots += robot.simulated ? 0U : 1U;

@@ -15,6 +15,9 @@ namespace {
 constexpr std::size_t kLongestName = 24;
 /// Below this share of what is asked for, somebody should look.
 constexpr double kGoodShare = 0.9;
+/// ... and above this share of missed deadlines: by it a run is not whole, unless it says
+/// otherwise.
+constexpr double kMostMissed_pct = 1;
 
 Tone tone_of(Standing standing) {
   switch (standing) {
@@ -59,6 +62,14 @@ Cell count_cell(const std::optional<std::uint64_t>& count) {
   return {fmt::format("{}", *count), *count > 0 ? Tone::kCare : Tone::kPlain};
 }
 
+/// Share of the deadlines that were missed, and what took the time.
+Cell late_cell(const HostView& host) {
+  if (!host.missed_pct) return {};
+  std::string text = fmt::format("{:.{}f}%", *host.missed_pct, *host.missed_pct < 10 ? 1 : 0);
+  if (!host.late_phase.empty()) text += " " + fitted(host.late_phase, kLongestName);
+  return {std::move(text), *host.missed_pct > kMostMissed_pct ? Tone::kCare : Tone::kPlain};
+}
+
 std::string robots_text(const HostView& host) {
   if (!host.robots) return {};
   if (!host.real_robots) return fmt::format("{}", *host.robots);
@@ -82,6 +93,7 @@ std::vector<Cell> row_of(const HostView& host) {
       {told ? offset_text(*host.offset_s, *host.bound_s) : std::string()},
       count_cell(host.lost),
       count_cell(host.refused),
+      late_cell(host),
       cell(host.cores, [](double cores) { return fmt::format("{:.0f}%", 100 * cores); }),
       cell(host.memory_mb, [](double mb) { return fmt::format("{:.0f} MB", mb); }),
       cell(host.process, plain),
@@ -90,11 +102,11 @@ std::vector<Cell> row_of(const HostView& host) {
 
 Grid hosts_grid(const RunView& view) {
   Grid grid;
-  grid.columns = {{"HOST", false, 100},   {"MACHINE", false, 40}, {"STATE", false, 90},
-                  {"REAL+SIM", true, 70}, {"STEP", true, 50},     {"RATE /s", true, 80},
-                  {"AGE", true, 75},      {"DELAY", true, 45},    {"TRIP", true, 30},
-                  {"CLOCK", true, 55},    {"LOST", true, 65},     {"REFUSED", true, 25},
-                  {"CPU", true, 60},      {"MEMORY", true, 35},   {"PID", true, 20}};
+  grid.columns = {
+      {"HOST", false, 100}, {"MACHINE", false, 40}, {"STATE", false, 90}, {"REAL+SIM", true, 70},
+      {"STEP", true, 50},   {"RATE /s", true, 80},  {"AGE", true, 75},    {"DELAY", true, 45},
+      {"TRIP", true, 30},   {"CLOCK", true, 55},    {"LOST", true, 65},   {"REFUSED", true, 25},
+      {"LATE", true, 85},   {"CPU", true, 60},      {"MEMORY", true, 35}, {"PID", true, 20}};
   for (const HostView& host : view.hosts) grid.rows.push_back(row_of(host));
   return grid;
 }

@@ -88,6 +88,13 @@ void RunModel::tell_process(const Process& process, HostView& view, std::int64_t
   view.lost = process.lost + state.missed;
   view.refused = state.refused;
   if (!here) return;
+  if (state.deadlines > 0) {
+    view.missed_pct =
+        100.0 * static_cast<double>(state.missed_deadlines) / static_cast<double>(state.deadlines);
+    view.worst_late_s = seconds_of(state.worst_late_ns);
+    view.behind_s = seconds_of(state.behind_ns);
+    view.late_phase = state.late_phase;
+  }
   view.cores = process.cores;
   if (state.memory_bytes > 0) view.memory_mb = static_cast<double>(state.memory_bytes) * 1e-6;
   if (state.round_trip_ns >= 0) view.round_trip_s = seconds_of(state.round_trip_ns);

@@ -35,6 +35,10 @@ Json json_of(const HostView& host) {
   json["clock_bound_s"] = known(host.bound_s);
   json["lost"] = known(host.lost);
   json["refused"] = known(host.refused);
+  json["missed_pct"] = known(host.missed_pct);
+  json["worst_late_s"] = known(host.worst_late_s);
+  json["behind_s"] = known(host.behind_s);
+  json["late_phase"] = known(host.late_phase);
   json["cores"] = known(host.cores);
   json["memory_mb"] = known(host.memory_mb);
   return json;

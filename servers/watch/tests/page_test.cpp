@@ -98,6 +98,19 @@ TEST(Page, AWideOneHasAll) {
   EXPECT_TRUE(text.ends_with("q quit\n"));
 }
 
+TEST(Page, ShowsWhoComesLateAndWhatTakesTheTime) {
+  RunView view = example();
+  view.speed = 0.06;
+  view.hosts[1].missed_pct = 94.2;
+  view.hosts[1].late_phase = "decide";
+  view.hosts[2].missed_pct = 0.4;
+  const std::string text = text_of(render_page(view, {80, 0, false, ""}));
+  EXPECT_NE(text.find("0.06x"), std::string::npos) << text;
+  EXPECT_NE(text.find("LATE"), std::string::npos) << text;
+  EXPECT_NE(text.find("94% decide"), std::string::npos) << text;
+  EXPECT_NE(text.find("0.4%"), std::string::npos) << text;
+}
+
 TEST(Page, RowsThatDoNotFitAreCounted) {
   RunView view = example();
   for (int i = 0; i < 20; ++i) view.hosts.push_back(view.hosts[1]);

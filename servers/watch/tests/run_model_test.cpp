@@ -36,6 +36,11 @@ bus::ProcessState process_of(std::uint64_t writer, std::uint64_t number, std::ui
   state.cpu_ns = static_cast<std::int64_t>(number) * kSecond / 2;
   state.memory_bytes = 64'000'000;
   state.round_trip_ns = 200'000;
+  state.deadlines = 200;
+  state.missed_deadlines = 150;
+  state.worst_late_ns = 3 * kSecond;
+  state.behind_ns = 2 * kSecond;
+  bus::put_text(state.late_phase, "sense");
   return state;
 }
 
@@ -135,6 +140,10 @@ TEST_F(RunModelTest, WhatAProcessSaysOfItself) {
   EXPECT_DOUBLE_EQ(left.memory_mb.value(), 64);
   EXPECT_DOUBLE_EQ(left.delay_s.value(), 350e-6);
   EXPECT_DOUBLE_EQ(left.round_trip_s.value(), 200e-6);
+  EXPECT_DOUBLE_EQ(left.missed_pct.value(), 75);
+  EXPECT_DOUBLE_EQ(left.worst_late_s.value(), 3);
+  EXPECT_DOUBLE_EQ(left.behind_s.value(), 2);
+  EXPECT_EQ(left.late_phase, "sense");
   EXPECT_EQ(left.lost, 1U) << "its second message never came";
   EXPECT_FALSE(host(0, 4 * kSecond).age_s) << "the next message may be on its way";
   EXPECT_DOUBLE_EQ(host(0, 5 * kSecond).age_s.value(), 3) << "since it was in a new step";

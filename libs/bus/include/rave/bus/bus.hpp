@@ -77,6 +77,7 @@ class Bus {
       dds_guid_t participant{};
     };
     std::vector<Peer> peers;
+    std::vector<Peer> heard;  ///< Whose samples have come, with `reads`.
     std::unique_ptr<ShortSender> sender;
     std::unique_ptr<ShortReceiver> receiver;
   };
@@ -84,6 +85,8 @@ class Bus {
   explicit Bus(BusConfig config);
   [[nodiscard]] Status open_domain();
   [[nodiscard]] Status open_participant();
+  /// Says who this process is with a writer that writes nothing: what is told of it is encrypted.
+  [[nodiscard]] Status introduce();
   [[nodiscard]] tl::unexpected<Error> refused(dds_return_t code);
   [[nodiscard]] Result<dds_entity_t> make_topic(const TopicSpec& spec);
   /// Makes a reader or writer of a topic.
@@ -94,6 +97,10 @@ class Bus {
   void open_short_way(Endpoint& endpoint, const TopicSpec& topic);
   /// Tells the short way of an endpoint who is at the other end. Takes no event from anybody.
   void meet(Endpoint& endpoint);
+  /// Whether the writer `from`, of which `reader` has a sample, is of the process that has the name
+  /// `writer`, as far as that is known.
+  [[nodiscard]] bool speaks_for(dds_entity_t reader, dds_instance_handle_t from,
+                                std::uint64_t writer);
   void note_foreign(const std::string& topic);
   void note_stranger() noexcept { ++foreign_samples_; }
   void note_refused(const std::string& topic, std::uint64_t writer, std::string why);

@@ -32,6 +32,8 @@ class ReaderCore {
   /// Whether a take that has `got` samples by the short way leaves DDS for the next one.
   [[nodiscard]] bool leaves_dds(bool got);
   void note_foreign() { bus_->note_foreign(topic_); }
+  /// Whether a sample with this info is of the process whose name it has; if not it is refused.
+  [[nodiscard]] bool is_of(std::uint64_t writer, const dds_sample_info_t& info);
   void refuse(std::uint64_t writer, std::string why);
   [[nodiscard]] std::size_t writers() const;
   [[nodiscard]] Bus& bus() const noexcept { return *bus_; }
@@ -44,6 +46,7 @@ class ReaderCore {
   const char* topic_;
   dds_entity_t reader_ = 0;
   ShortReceiver* short_ = nullptr;  ///< Of the bus; null if all comes by DDS.
+  std::uint64_t sender_ = 0;        ///< Of the last sample that came by the short way.
 };
 
 /// Reads one topic. Must be gone before its bus; thread: that of the bus.
@@ -68,8 +71,9 @@ class Reader {
   /// Calls `visit(const Message&)`, or `visit(const Message&, const dds_sample_info_t&)` with the
   /// time of sending and the like, for every sample that has come, oldest first per instance, and
   /// `gone(const Message&)`, of which the key fields alone hold, for every object that its writer
-  /// disposed of. Samples are on loan: valid during the call only, not copied. Those of other runs
-  /// and those that validate() refuses are dropped, counted, and told as events. Returns how many
+  /// disposed of. Samples are on loan: valid during the call only, not copied. Those of other runs,
+  /// those in the name of a process that did not send them, and those that validate() refuses are
+  /// dropped, counted, and told as events. Returns how many
   /// were visited; after kMostAtOnce the rest waits for the next call. The callbacks must not throw
   /// and must not take from this reader. What came by the short way is first; if that is what ended
   /// the wait before this call, the rest may be left for the next call, and ends the next wait.
@@ -138,6 +142,7 @@ class Reader {
       core_.note_foreign();
       return 0;
     }
+    if (!core_.is_of(sample.writer, info)) return 0;
     const bool good = info.valid_data && judge(sample);
     if constexpr (kAsksInfo<Visit>) {
       if (good) visit(sample, info);

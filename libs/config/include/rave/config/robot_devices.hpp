@@ -89,6 +89,8 @@ struct SensorFile {
   RawNode params;  ///< A mapping or null.
   NoiseFile noise;
   double latency_s = 0;
+  /// Real sensors, the real half of hybrid ones: above 0; unset: three periods, at least 0.2 s.
+  std::optional<Located<double>> max_age_s;
   std::vector<FilterFile> filters;
   bool operator==(const SensorFile&) const = default;
 };

@@ -70,6 +70,8 @@ struct SightingsCheckFile {
   double range_m = 0.5;
   double bearing_deg = 5;
   double min_within_pct = 99;
+  int min_compared = 100;  ///< Fewer sightings than this are not enough to judge by.
+  int max_unknown = 10;    ///< Codes that nobody carries: so many are taken for misread ones.
   bool operator==(const SightingsCheckFile&) const = default;
 };
 
@@ -201,6 +203,7 @@ struct ScenarioFile {
   double host_timeout_s = 10;  ///< A host that has not answered for so long counts as late.
   RunClockMode clock = RunClockMode::kLockStep;
   double world_period_s = 0.1;  ///< At which hosts are told where all robots are, in real time.
+  double max_missed_pct = 1;    ///< A live run that misses more of its deadlines is not whole.
   std::vector<RobotEntry> robots;
   std::vector<ChangeFile> changes;
   ChecksFile checks;

@@ -32,6 +32,14 @@ enum class DriverClock : std::uint32_t { kStepped, kLive, kEither };
 
 [[nodiscard]] std::string_view to_string(DriverClock clock) noexcept;
 
+/// When the samples of a hardware sensor come, which decides how a dead one is noticed. Unknown: at
+/// the pace of the device; only `max_age_s` in the robot file says how old a sample may be.
+/// Periodic: HardwareDeclaration::period_s says how often. Events: when something happens, so that
+/// silence is no fault, and SampleSink::fail() alone says that the sensor is lost.
+enum class SampleTiming : std::uint32_t { kUnknown, kPeriodic, kEvents };
+
+[[nodiscard]] std::string_view to_string(SampleTiming timing) noexcept;
+
 /// A driver or program as it describes itself. Pointers are to constants of the plug-in.
 struct DriverInfo {
   DriverKind kind = DriverKind::kSensor;
@@ -43,7 +51,7 @@ struct DriverInfo {
   std::uint64_t param_count = 0;
   /// A rave::ReadingKind (sensors) or rave::CommandKind (controllers, actuators); 0 for others.
   std::uint32_t data_kind = 0;
-  std::uint32_t reserved = 0;
+  SampleTiming timing = SampleTiming::kUnknown;  ///< Drivers of kind kSensor.
   /// The driver of kind kDevice, of the same plug-in, that it must be given; empty: none.
   const char* device = "";
 

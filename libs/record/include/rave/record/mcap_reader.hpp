@@ -25,6 +25,18 @@ struct McapReaderOptions {
   std::uint64_t max_chunk_bytes = std::uint64_t{1} << 30;
 };
 
+/// What a look at every byte of a file found. Each text names file and offset.
+struct CheckedFile {
+  std::vector<std::string> cuts;      ///< What is missing at the end of a file that broke off.
+  std::vector<std::string> damages;   ///< What does not match its checksum, or is no whole record.
+  std::vector<std::string> unsummed;  ///< Pieces without a checksum, of which nothing can be said.
+
+  /// Each byte is the one that was written.
+  [[nodiscard]] bool whole() const noexcept {
+    return cuts.empty() && damages.empty() && unsummed.empty();
+  }
+};
+
 /// Which messages a MessageCursor gives. Times in ns on the clock of the record, both included.
 struct MessageFilter {
   std::vector<std::uint16_t> channels;  ///< Empty: all.
@@ -67,10 +79,13 @@ class McapReader {
 
   [[nodiscard]] const std::string& profile() const noexcept;
   [[nodiscard]] const std::string& library() const noexcept;
-  /// Whether the file ends as it should, with index and footer.
+  /// Whether the file ends with a footer; one that does not broke off.
+  [[nodiscard]] bool ended() const noexcept;
+  /// Whether it ends as it should, with index and footer, and nothing is known to be wrong.
+  /// Opening reads the index, not the data: check() does.
   [[nodiscard]] bool whole() const noexcept;
-  /// What is wrong with the file, if anything; each names file and offset.
-  [[nodiscard]] const std::vector<std::string>& damages() const noexcept;
+  /// What opening found to be wrong, if anything; each names file and offset.
+  [[nodiscard]] std::vector<std::string> damages() const;
   [[nodiscard]] std::uint64_t file_size() const noexcept;
   [[nodiscard]] const std::vector<SchemaInfo>& schemas() const noexcept;
   [[nodiscard]] const std::vector<ChannelInfo>& channels() const noexcept;
@@ -87,7 +102,9 @@ class McapReader {
   /// The content of an attachment, its checksum compared.
   [[nodiscard]] Result<std::string> read_attachment(const AttachmentInfo& attachment) const;
   [[nodiscard]] Result<StringMap> read_metadata(const MetadataInfo& metadata) const;
-  /// Reads everything once: every checksum and every record of every chunk.
+  /// Reads everything once: every checksum and every record of every chunk. Goes on after a damage.
+  [[nodiscard]] CheckedFile check() const;
+  /// check() as one answer: the first cut or damage. Pieces without a checksum are allowed.
   [[nodiscard]] Status verify() const;
 
  private:

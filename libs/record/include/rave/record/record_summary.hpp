@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "rave/base/result.hpp"
+#include "rave/record/mcap_reader.hpp"
 #include "rave/record/run_messages.hpp"
 
 namespace rave::record {
@@ -24,8 +25,10 @@ struct ChannelSummary {
 /// What `rave info` says about a record.
 struct RecordSummary {
   std::uint64_t file_bytes = 0;
-  bool whole = false;                ///< Ends as it should.
-  std::vector<std::string> damages;  ///< What cannot be read; empty for a file in order.
+  bool ended = false;    ///< Ends as it should, with index and footer.
+  bool checked = false;  ///< Every byte was looked at, not only index, beginning and end.
+  std::vector<std::string> damages;   ///< What is wrong with it; empty: nothing that was looked at.
+  std::vector<std::string> unsummed;  ///< If checked: pieces without a checksum.
   std::string profile;
   std::string library;
   double start_s = 0;  ///< Of the first and of the last message.
@@ -41,7 +44,18 @@ struct RecordSummary {
   std::optional<RunEnd> end;         ///< None: the run did not come to its end.
 };
 
-/// Reads index, beginning and end of a record. Errors: kNotFound, kIo, kParse (no MCAP file).
-[[nodiscard]] Result<RecordSummary> describe_record(const std::filesystem::path& path);
+/// How much of a record is read.
+enum class RecordLook : std::uint8_t {
+  kIndex,  ///< Index, beginning and end: quick, says nothing about the data between.
+  kAll,    ///< Everything, and the records it was made of as far as they are there.
+};
+
+/// Says what is in a record. Errors: kNotFound, kIo, kParse (no MCAP file).
+[[nodiscard]] Result<RecordSummary> describe_record(const std::filesystem::path& path,
+                                                    RecordLook look = RecordLook::kIndex);
+
+/// Compares every checksum of a record and of those it was made of, as far as they are beside it.
+/// Errors: as describe_record().
+[[nodiscard]] Result<CheckedFile> check_record(const std::filesystem::path& path);
 
 }  // namespace rave::record

@@ -43,8 +43,8 @@ struct VirtualActuatorOps {
   UpdateFunction update = nullptr;
 };
 
-/// Hands commands to hardware. One object per robot. write() is called in the act phase and must
-/// return at once: a driver with a slow line posts to its own thread.
+/// Hands commands to hardware. One object per robot. write() must return at once: a driver with a
+/// slow line posts to its own thread. In a live run the thread of the robot's guard calls it.
 class HardwareActuator {
  public:
   virtual ~HardwareActuator() = default;

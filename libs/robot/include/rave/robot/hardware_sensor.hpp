@@ -61,6 +61,8 @@ struct HardwareDeclaration {
   /// 1: records of one step are put together (events); 0: the newest sample counts (states).
   std::uint32_t collect = 0;
   std::uint32_t reserved = 0;
+  /// SampleTiming::kPeriodic: time between two samples while the device works; above 0.
+  double period_s = 0;
   double range_min_m = 0;  ///< Ranges only, as in SensorInfo.
   double range_max_m = 0;
   const double* bearings_rad = nullptr;

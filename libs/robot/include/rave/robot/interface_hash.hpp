@@ -19,7 +19,7 @@
 namespace rave {
 
 /// Raised by hand when the meaning of the interface changes while its layout stays.
-inline constexpr std::uint64_t kRobotInterfaceVersion = 3;
+inline constexpr std::uint64_t kRobotInterfaceVersion = 4;
 
 namespace detail {
 constexpr std::uint64_t hash_layout(std::uint64_t version,

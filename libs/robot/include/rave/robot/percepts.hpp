@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <span>
 #include <type_traits>
@@ -103,6 +104,19 @@ class Percepts {
   template <class Record>
   [[nodiscard]] const SampleHeader& header(SensorHandle<Record> sensor) const noexcept {
     return *item_->sensors[sensor.index()].header;
+  }
+  /// Time since the latest sample was true; infinity if none has come yet.
+  template <class Record>
+  [[nodiscard]] double age_s(SensorHandle<Record> sensor) const noexcept {
+    const SampleHeader& latest = header(sensor);
+    return latest.sequence == 0 ? std::numeric_limits<double>::infinity()
+                                : Duration{item_->now_ns - latest.stamp_ns}.seconds();
+  }
+  /// Whether the latest sample is older than the sensor's may be (SensorInfo::max_age_s), so that
+  /// it says nothing of the present: what it shows as free need not be.
+  template <class Record>
+  [[nodiscard]] bool is_old(SensorHandle<Record> sensor) const noexcept {
+    return age_s(sensor) > sensor.info().max_age_s;
   }
   /// What has arrived since the last decision, in the order of arrival.
   [[nodiscard]] Messages messages(CommunicatorHandle communicator) const noexcept {

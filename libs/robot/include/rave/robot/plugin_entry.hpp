@@ -27,6 +27,8 @@ struct Description {
   DriverClock clock = DriverClock::kStepped;
   /// Sensors and actuators: the device driver of this plug-in that `device:` must name.
   const char* device = "";
+  /// Sensors of the real world: when their samples come.
+  SampleTiming timing = SampleTiming::kUnknown;
 
   [[nodiscard]] DriverInfo info(DriverKind kind, std::uint32_t data_kind) const noexcept {
     DriverInfo info;
@@ -38,6 +40,7 @@ struct Description {
     info.params = params.data();
     info.param_count = params.size();
     info.data_kind = data_kind;
+    info.timing = timing;
     info.device = device;
     return info;
   }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -51,6 +52,14 @@ struct FilterSpec {
   double time_constant_s = 0;  ///< Exponential: T, above 0.
 };
 
+/// How far a range sensor measures. Noise puts no reading beyond: what would be farther is no
+/// return
+/// (+infinity), what would be nearer is the least range.
+struct RangeLimits {
+  double min_m = 0;
+  double max_m = std::numeric_limits<double>::infinity();
+};
+
 /// What lies between a raw sample of a sensor and the robot's program, in this order.
 struct ProcessingSpec {
   NoiseSpec noise{};
@@ -83,7 +92,8 @@ class Processing {
   /// come irregularly. Error: kInvalidArgument for values out of range, for noise that has nothing
   /// to act on and for filters on kinds whose records come and go.
   [[nodiscard]] static Result<Processing> make(const ProcessingSpec& spec, ReadingKind kind,
-                                               std::uint32_t capacity, double period_s);
+                                               std::uint32_t capacity, double period_s,
+                                               const RangeLimits& limits = {});
 
   /// Bytes per robot and sensor, a multiple of 8.
   [[nodiscard]] std::size_t state_size() const noexcept { return state_size_; }
@@ -135,6 +145,7 @@ class Processing {
               std::byte* state) const noexcept;
 
   NoiseSpec noise_;
+  RangeLimits limits_;
   std::vector<Stage> stages_;
   ReadingKind kind_ = ReadingKind::kNone;
   std::uint32_t capacity_ = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string_view>
 
 #include "rave/base/time.hpp"
@@ -101,6 +102,9 @@ struct SensorInfo {
   Pose2 X_RS;                  ///< Mounting pose in the robot's frame.
   double z_m = 0;              ///< Height above the floor.
   double period_s = 0;
+  /// A sample that is older says nothing of the present: the sensor may be dead. Infinity: it
+  /// cannot fall silent, or nobody knows how often its samples come.
+  double max_age_s = std::numeric_limits<double>::infinity();
   // Ranges only:
   double range_min_m = 0;
   double range_max_m = 0;

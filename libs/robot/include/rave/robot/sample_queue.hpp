@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -67,6 +69,10 @@ class SampleQueue final : public SampleSink {
   /// records lost since the last call that gave one; `fresh` is 0.
   [[nodiscard]] bool next(SimTime up_to, SampleHeader* header, void* records);
 
+  /// The newest sample that was taken in, whether next() has given it out or not; false: there is
+  /// none. `record` has room for one record and gets the first one of the sample. Any thread.
+  [[nodiscard]] bool newest(SampleHeader* header, void* record) const;
+
   /// Unblocks the producer; its calls return false from now on. Samples can still be taken out.
   /// Any thread.
   void close();
@@ -79,6 +85,12 @@ class SampleQueue final : public SampleSink {
   [[nodiscard]] std::string failure() const;
   /// The first breach of the contract; empty if there was none. Any thread.
   [[nodiscard]] std::string complaint() const;
+  /// Whether failure() says something. Any thread.
+  [[nodiscard]] bool failed() const;
+  /// When the newest sample was taken in, by the wall clock; nothing if none was since the queue
+  /// was opened. Live. Any thread, no lock.
+  [[nodiscard]] std::optional<std::chrono::steady_clock::time_point> newest_arrival()
+      const noexcept;
   /// All samples lost since the queue was opened. Any thread.
   [[nodiscard]] std::uint64_t dropped() const;
 
@@ -91,6 +103,8 @@ class SampleQueue final : public SampleSink {
   const std::uint32_t record_size_;
   const std::size_t depth_;
   const RunClock* const live_;
+  static constexpr std::int64_t kNever = INT64_MIN;
+  std::atomic<std::int64_t> arrival_ns_{kNever};  // of the newest sample, steady clock
 
   mutable std::mutex mutex_;             // guards everything below
   std::condition_variable to_producer_;  // room, clock or close

@@ -38,6 +38,9 @@ class Scan {
 
   [[nodiscard]] std::span<const RangeHit> hits() const noexcept { return hits_; }
   [[nodiscard]] std::span<const RangeBeam> beams() const noexcept { return beams_; }
+  /// Whether any of the sensors has said nothing for longer than it may (Percepts::is_old): what
+  /// was free then need not be free now.
+  [[nodiscard]] bool is_old() const noexcept { return old_; }
   /// Distance from the robot's origin to the nearest hit with a bearing in [from_rad, to_rad];
   /// infinity if there is none.
   [[nodiscard]] double nearest_m(double from_rad, double to_rad) const noexcept;
@@ -58,6 +61,7 @@ class Scan {
   std::vector<Sensor> sensors_;
   std::vector<RangeHit> hits_;
   std::vector<RangeBeam> beams_;
+  bool old_ = false;
 };
 
 }  // namespace rave

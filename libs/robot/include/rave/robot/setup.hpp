@@ -30,8 +30,8 @@ struct ProgramSetup {
   std::uint64_t robot_count = 0;
 };
 
-/// What a program may ask when it starts: its robot's sensors, controllers and parameters. Valid
-/// during the whole run.
+/// What a program may ask when it starts: its robot's sensors, controllers and parameters. A copy
+/// is valid during the whole run. The object that start() is given ends with it: keep no address.
 class Setup {
  public:
   explicit Setup(const ProgramSetup& raw) noexcept : raw_(&raw) {}

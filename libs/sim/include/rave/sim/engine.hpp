@@ -115,7 +115,8 @@ class Engine {
   [[nodiscard]] Command command(RobotId robot, std::uint32_t controller) const noexcept;
   /// The step in which it was given; -1 before the first.
   [[nodiscard]] std::int64_t command_step(RobotId robot, std::uint32_t controller) const noexcept;
-  /// What the last step gave to an actuator, from the controller that speaks; kNone without one.
+  /// What the last step gave to an actuator, from the controller that speaks; kNone without one. Of
+  /// a real robot of a live run: what its guard had written last when the step was done.
   [[nodiscard]] const Command& actuator_command(RobotId robot,
                                                 std::uint32_t actuator) const noexcept;
   // All robots of one type at once; types in use are counted from 0, their robots are members.
@@ -211,7 +212,8 @@ class Engine {
   [[nodiscard]] std::uint64_t inputs_by_hand() const noexcept;
   /// How old the virtual world is that sensors and guards see: 0 in one process. Guards act on it.
   void set_world_age(Duration age) noexcept;
-  /// Tells all hardware actuators to stand, now; for the end of a run.
+  /// Tells all hardware actuators to stand, now, and until the next step; for the end of a run. In
+  /// a live run guards do so in their threads, and nobody waits for them.
   void halt() noexcept;
   /// Radius of a robot's body about its origin, as it is now.
   [[nodiscard]] double body_radius_m(RobotId robot) const noexcept;

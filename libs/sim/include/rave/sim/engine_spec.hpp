@@ -84,6 +84,10 @@ struct SensorSpec {
   std::uint32_t period_steps = 1;
   std::uint32_t phase_steps = 0;
   LayerMask layers = kAllLayers;
+  /// Hardware: when its samples come, and the age after which it counts as lost, seconds. Not set:
+  /// see sensor_age.hpp.
+  SampleTiming timing = SampleTiming::kUnknown;
+  std::optional<double> max_age_s;
   ProcessingSpec processing;
   std::optional<HybridSpec> hybrid;
 
@@ -185,6 +189,9 @@ struct EngineSpec {
   Duration history = {};
   /// Wall clock of a live run; null for a stepped one. Not owned.
   const RunClock* live_clock = nullptr;
+  /// How often the guard of a real robot that obeys writes to its actuators in a live run, wall
+  /// time: above 0, and well below the watchdogs of drivers and devices.
+  Duration guard_period = from_seconds(0.02);
   /// Called each time that all is open but the sensors: a live run's clock starts here, so that
   /// what it took to find the devices is no part of the run. May be empty.
   std::function<void()> on_ready;

@@ -39,6 +39,7 @@ enum class GuardLimit : std::uint32_t {
   kStopped,     ///< Somebody stopped the robot; latched.
   kUnarmed,     ///< Nobody has armed it yet.
   kPoseLost,    ///< Where it is is not known (any more).
+  kSensorLost,  ///< A sensor of the robot has fallen silent or its device is gone.
   kWorldLost,   ///< The virtual world does not come any more.
   kWatchdog,    ///< The program gives no commands any more.
   kBadCommand,  ///< Not a number, or of a kind that cannot be guarded.
@@ -47,7 +48,7 @@ enum class GuardLimit : std::uint32_t {
   kFence,
   kSeparation,
 };
-inline constexpr std::size_t kGuardLimits = 10;
+inline constexpr std::size_t kGuardLimits = 11;
 /// One word, such as `fence`.
 [[nodiscard]] std::string_view to_string(GuardLimit limit) noexcept;
 /// Whether a limit makes the robot stand, rather than slow down.
@@ -62,6 +63,13 @@ struct GuardNeighbour {
   Twist2 velocity_W;
 };
 
+/// A sensor that must not fall silent while the robot drives.
+struct GuardSensor {
+  std::uint32_t index = 0;  ///< Of the sensor in its robot's type.
+  double age_s = 0;         ///< Since its newest sample came; infinite: none yet, or it is gone.
+  double max_age_s = 0;
+};
+
 /// What the guard of one robot knows in one step.
 struct GuardInput {
   Command command;                                ///< What the controller gives.
@@ -73,6 +81,7 @@ struct GuardInput {
   Pose2 X_WR;              ///< Reported.
   double pose_age_s = 0;
   Twist2 velocity;  ///< Reported, body frame.
+  std::span<const GuardSensor> sensors;
   double world_age_s = 0;
   double dt_s = 0.01;
   bool touching = false;  ///< Something limited the last motion: the next may slide along it.
@@ -83,7 +92,8 @@ struct GuardInput {
 
 struct GuardOutput {
   Command command;
-  std::uint32_t acted = 0;  ///< Bit `1 << limit` of each limit that changed the command.
+  std::uint32_t lost_sensor = 0;  ///< For kSensorLost: index of the first one that is too old.
+  std::uint32_t acted = 0;        ///< Bit `1 << limit` of each limit that changed the command.
 
   [[nodiscard]] bool by(GuardLimit limit) const noexcept {
     return (acted >> static_cast<std::uint32_t>(limit) & 1U) != 0;

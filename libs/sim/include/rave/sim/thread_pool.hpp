@@ -19,8 +19,8 @@ namespace rave::sim {
 /// moment before it sleeps: the loops of a step follow one another closely.
 class ThreadPool {
  public:
-  /// `threads` in all, the calling one included; at least 1. `always`: every loop of two blocks and
-  /// more is shared, also where that costs more than it brings.
+  /// `threads` in all, the calling one included; at least 1; as many as the system gives. `always`:
+  /// every loop of two blocks and more is shared, also where that costs more than it brings.
   explicit ThreadPool(unsigned threads, bool always = false);
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;

@@ -50,9 +50,9 @@ struct LiveManagerOptions {
   /// What is done with what others ask on the bus, in the calling thread; may be empty: they
   /// cannot.
   bus::BeginWish begin_wish;
-  /// Told about ten times a second, in the calling thread: time of the run, and for whom it waits;
-  /// may be empty.
-  std::function<void(SimTime, const std::string&)> on_progress;
+  /// Told about ten times a second, in the calling thread: time of the run, simulated seconds per
+  /// second of the slowest host, and for whom it waits; may be empty.
+  std::function<void(SimTime, double, const std::string&)> on_progress;
   /// The world with all that came, when the run has ended; may be empty.
   std::function<void(const world::WorldModel&)> on_end;
 };

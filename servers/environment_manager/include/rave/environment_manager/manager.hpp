@@ -14,6 +14,7 @@
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/lock_step/findings.hpp"
 #include "rave/lock_step/introduction.hpp"
+#include "rave/robot_host/lateness.hpp"
 #include "rave/robot_host/run_control.hpp"
 #include "rave/sim/engine_spec.hpp"
 #include "rave/sim/world_authority.hpp"
@@ -58,9 +59,10 @@ struct ManagerOutcome {
   std::uint64_t steps = 0;
   /// Equal to that of the run in one process; nothing if a host was lost.
   std::optional<std::uint64_t> hash;
-  std::uint64_t contacts = 0;         ///< That began.
-  double wall_s = 0;                  ///< From the first step to the last.
-  std::vector<std::string> problems;  ///< One sentence each; empty if all is well.
+  std::uint64_t contacts = 0;          ///< That began.
+  robot_host::LatenessFacts lateness;  ///< Of a run with a pace.
+  double wall_s = 0;                   ///< From the first step to the last.
+  std::vector<std::string> problems;   ///< One sentence each; empty if all is well.
   /// What processes of hosts have sent of what they know, by host.
   std::vector<lock_step::Findings> findings;
 };

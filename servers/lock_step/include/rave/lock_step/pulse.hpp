@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <string>
 
 #include "rave/base/result.hpp"
 #include "rave/bus/writer.hpp"
@@ -14,11 +15,20 @@ namespace rave::lock_step {
 /// its bus; thread: that of the bus.
 class Pulse {
  public:
+  /// How it keeps the deadlines of its steps, if these are by the clock on the wall.
+  struct Lateness {
+    std::uint64_t deadlines = 0;  ///< That have passed.
+    std::uint64_t missed = 0;
+    std::int64_t worst_ns = 0;
+    std::int64_t behind_ns = 0;  ///< How late its last step was.
+    std::string phase;           ///< Most to blame; empty: nothing was missed.
+  };
   /// What the process knows of itself.
   struct Facts {
     std::uint64_t step = 0;
     std::uint64_t missed = 0;         ///< Worlds that never came.
     std::int64_t round_trip_ns = -1;  ///< To the manager and back; -1: not known.
+    Lateness lateness{};
   };
 
   static constexpr std::chrono::nanoseconds kPeriod{std::chrono::seconds(1)};

@@ -17,6 +17,7 @@
 #include "rave/bus/config.hpp"
 #include "rave/bus/wish_book.hpp"
 #include "rave/lock_step/introduction.hpp"
+#include "rave/lock_step/pulse.hpp"
 #include "rave/lock_step/roster.hpp"
 #include "rave/real_time/live_world.hpp"
 #include "rave/real_time/realities.hpp"
@@ -83,6 +84,9 @@ class HostLink {
   void send(const sim::SentPackets& sent);
   /// Who has exceeded it since the last call; each robot once in a run.
   [[nodiscard]] std::vector<RobotId> take_flooders();
+
+  /// How this host keeps its deadlines, for those who look on.
+  void note_lateness(lock_step::Pulse::Lateness lateness);
 
   /// The last step has the obstacles of LiveWorld::shown_revision() around its robots; the manager
   /// is told when that is more than before.

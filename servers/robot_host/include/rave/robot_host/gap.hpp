@@ -30,7 +30,7 @@ struct GapAt {
   double degrees = 0;  ///< Of heading, 0 to 180.
 };
 
-/// Middle and near-worst of windows. Percentiles by nearest rank.
+/// Middle and near-worst of windows; nothing if there are none. Percentiles by nearest rank.
 struct GapWindows {
   double window_s = 0;
   std::size_t count = 0;
@@ -54,6 +54,7 @@ struct GapReport {
   double rms_m = 0;
   double rms_deg = 0;
   GapWindows windows;
+  std::size_t steps = 0;  ///< Of the drive; the robot's pose is known in those of `points`.
   struct Point {
     SimTime time;
     Pose2 X_WR;  ///< Of the robot.
@@ -65,7 +66,7 @@ struct GapReport {
 /// Puts the simulated twin of a recorded robot where the robot was first known to be, gives it the
 /// recorded commands at their times and compares where the two are. The twin drives in an empty
 /// world with the step of the record. Errors: kNotFound (robot, sensor), kInvalidArgument (no twin,
-/// no commands, no pose), those of reading the files.
+/// no commands, fewer than two poses), those of reading the files.
 [[nodiscard]] Result<GapReport> measure_gap(const std::filesystem::path& record,
                                             plugin::Catalogue& catalogue,
                                             const GapOptions& options);

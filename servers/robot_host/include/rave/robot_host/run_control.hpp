@@ -93,7 +93,17 @@ struct RunStatus {
   double pace = 1;  ///< Simulated seconds per second; 0: as fast as it can.
   bool live = false;
   bool paused = false;
+  /// How a run with a pace keeps its deadlines.
+  struct Lateness {
+    std::uint64_t deadlines = 0;  ///< That have passed.
+    std::uint64_t missed = 0;
+    double worst_s = 0;
+    double behind_s = 0;  ///< How late its last step was.
+    std::string phase;    ///< Most to blame; empty: nothing was missed.
+    friend bool operator==(const Lateness&, const Lateness&) = default;
+  };
   std::vector<Robot> robots;
+  std::optional<Lateness> lateness = std::nullopt;  ///< None: it has no pace.
 };
 
 /// The handle on a run while it goes: pause, single steps, end, requests. May be used from any

@@ -13,6 +13,7 @@
 #include "rave/base/result.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/robot_host/build.hpp"
+#include "rave/robot_host/lateness.hpp"
 #include "rave/robot_host/run.hpp"
 #include "rave/sim/world_authority.hpp"
 
@@ -48,6 +49,7 @@ struct SharedEnd {
   std::uint64_t steps = 0;
   double wall_s = 0;
   std::vector<std::string> problems;
+  LatenessFacts lateness;         ///< Of its manager, in lock-step.
   std::vector<SharedHost> hosts;  ///< As planned; all of them.
   // Of a run in real time: what the manager sent and got.
   std::optional<std::uint64_t> worlds;

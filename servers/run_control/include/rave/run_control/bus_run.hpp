@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -20,6 +21,13 @@ struct BusPeer {
   std::string name;      ///< That of its host in the scenario, or of the manager.
   std::string machine;   ///< Where it runs, as that calls itself; may be empty.
   bool manager = false;  ///< It is the environment manager of the run.
+  bool live = false;     ///< The run is in real time: hosts alone control their robots.
+};
+
+/// What came of a request to one of several processes.
+struct BusReply {
+  BusPeer peer;
+  Result<Answer> answer;
 };
 
 /// Asks the processes of a run on the bus, wherever they are. It takes no part in the run. One
@@ -48,6 +56,15 @@ class BusRun {
   /// gone), kInvalidArgument (what the bus does not carry), kParse.
   [[nodiscard]] Result<Answer> ask(const BusPeer& peer, const Request& request,
                                    Duration patience = kPatience);
+
+  /// Whether a process of a run of this scenario, which is empty as long as its manager has not
+  /// said it, is to be asked.
+  using Meant = std::function<bool(const BusPeer&, const std::string& scenario)>;
+  /// Asks all that are meant, each as soon as it is found, and waits for none of them before it
+  /// asks another: until for a moment nobody new has come and all have answered, `patience` at
+  /// most. For requests with short answers. The errors of replies are those of ask().
+  [[nodiscard]] std::vector<BusReply> ask_each(const Request& request, const Meant& meant,
+                                               Duration patience = kPatience);
 
  private:
   struct Impl;

@@ -38,6 +38,9 @@ using Enough = std::function<bool(const std::vector<FoundRun>&)>;
 /// Whether a word is the whole name of a run, as given with --run, or its whole number.
 [[nodiscard]] bool is_named(const bus::RunId& run, std::string_view word);
 
+/// The same, or the first digits of its number, at least four.
+[[nodiscard]] bool is_called(const bus::RunId& run, std::string_view word);
+
 /// The one of `found` that a word stands for: the first digits of its number (at least four), or a
 /// name that was given with --run; empty: the only one. Error kNotFound if it is none of them or
 /// there are several.

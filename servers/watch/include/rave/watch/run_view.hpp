@@ -54,6 +54,10 @@ struct HostView {
   std::optional<double> bound_s;         ///< Give or take this.
   std::optional<std::uint64_t> lost;     ///< Messages that never came: from it to here, or to it.
   std::optional<std::uint64_t> refused;  ///< Samples that it could not use.
+  std::optional<double> missed_pct;      ///< Share of its deadlines that it missed, if it has any.
+  std::optional<double> worst_late_s;    ///< How late a step was at most.
+  std::optional<double> behind_s;        ///< How late its last step was.
+  std::string late_phase;                ///< What takes the time of late steps; empty: nothing.
   std::optional<double> cores;           ///< That it keeps busy.
   std::optional<double> memory_mb;       ///< Resident, 10^6 bytes.
 };

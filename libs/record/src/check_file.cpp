@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "check_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "crc32.hpp"
+
+namespace rave::record {
+namespace {
+
+constexpr std::uint64_t kReadBytes = std::uint64_t{1} << 20;
+
+class FileCheck {
+ public:
+  explicit FileCheck(const RecordFile& file) : file_(file), source_(*file.source) {
+    checked_.cuts = file.cuts;
+    checked_.damages = file.damages;
+  }
+
+  CheckedFile run() {
+    if (file_.ended && !file_.summed) unsummed("index");
+    for (const AttachmentInfo& attachment : file_.attachments) check_attachment(attachment);
+    for (const MetadataInfo& metadata : file_.metadata) check_metadata(metadata);
+    for (const ChunkInfo& chunk : file_.chunks) check_chunk(chunk);
+    if (messages_ != file_.statistics.message_count && checked_.damages.empty()) {
+      damage(fmt::format("`{}` says it has {} messages; there are {}", source_.name(),
+                         file_.statistics.message_count, messages_));
+    }
+    if (file_.data_end != 0 && file_.ended) check_data();
+    return std::move(checked_);
+  }
+
+ private:
+  void damage(std::string text) { checked_.damages.push_back(std::move(text)); }
+  void unsummed(std::string_view what) {
+    checked_.unsummed.push_back(fmt::format("`{}`: the {} has no checksum", source_.name(), what));
+  }
+  void damage_at(std::string_view what, std::uint64_t offset, std::string_view how) {
+    damage(fmt::format("`{}`: the {} at offset {} {}", source_.name(), what, offset, how));
+  }
+
+  void check_attachment(const AttachmentInfo& info) {
+    const std::string what = fmt::format("attachment `{}`", info.name);
+    Bytes bytes;
+    if (const Status read = source_.read(info.offset, info.length, bytes); !read) {
+      return damage(read.error().message);
+    }
+    ByteReader reader(bytes);
+    const bool right = reader.get<std::uint8_t>() == opcode::kAttachment &&
+                       reader.get<std::uint64_t>() == bytes.size() - kRecordHead;
+    constexpr std::size_t kCrc = sizeof(std::uint32_t);
+    if (!right || bytes.size() < kRecordHead + kCrc) {
+      return damage_at(what, info.offset, "is not whole");
+    }
+    const ByteSpan summed = ByteSpan(bytes).first(bytes.size() - kCrc).subspan(kRecordHead);
+    const auto crc = ByteReader(ByteSpan(bytes).last(kCrc)).get<std::uint32_t>();
+    if (crc == 0) return unsummed(what);
+    if (crc32(summed) != crc) damage_at(what, info.offset, "does not match its checksum");
+  }
+
+  /// Metadata have no checksum of their own, only that of all data.
+  void check_metadata(const MetadataInfo& info) {
+    Bytes bytes;
+    if (const Status read = source_.read(info.offset, info.length, bytes); !read) {
+      return damage(read.error().message);
+    }
+    ByteReader reader(bytes);
+    const bool right = reader.get<std::uint8_t>() == opcode::kMetadata &&
+                       reader.get<std::uint64_t>() == bytes.size() - kRecordHead;
+    const bool named = reader.string() == info.name;
+    static_cast<void>(reader.map());
+    if (!right || !named || !reader.ok()) {
+      damage_at(fmt::format("metadata `{}`", info.name), info.offset, "is not whole");
+    }
+  }
+
+  void check_chunk(const ChunkInfo& info) {
+    bool summed = true;
+    if (const Status loaded = load_chunk(file_, info, records_, &summed); !loaded) {
+      return damage(loaded.error().message);
+    }
+    if (!summed) unsummed(fmt::format("chunk at offset {}", info.offset));
+    bool ok = true;
+    const bool complete = for_each_record(records_, [&](auto code, ByteSpan content, std::size_t) {
+      MessageView message;
+      ok = code != opcode::kMessage || get_message(content, message);
+      messages_ += code == opcode::kMessage && ok ? 1 : 0;
+      return ok;
+    });
+    if (!ok || !complete) damage_at("chunk", info.offset, "has a record that is not whole");
+  }
+
+  /// The checksum of all data also covers what has none of its own.
+  void check_data() {
+    Bytes bytes;
+    std::uint32_t sum = 0;
+    for (std::uint64_t at = 0; at < file_.data_end; at += bytes.size()) {
+      const auto size = std::min(kReadBytes, file_.data_end - at);
+      if (const Status read = source_.read(at, size, bytes); !read) {
+        return damage(read.error().message);
+      }
+      sum = crc32(bytes, sum);
+    }
+    const Status read = source_.read(file_.data_end, kRecordHead + 4, bytes);
+    ByteReader reader(bytes);
+    if (!read || reader.get<std::uint8_t>() != opcode::kDataEnd ||
+        reader.get<std::uint64_t>() != sizeof(std::uint32_t)) {
+      return damage(fmt::format("`{}`: the data do not end at offset {} as they should",
+                                source_.name(), file_.data_end));
+    }
+    const auto crc = reader.get<std::uint32_t>();
+    if (crc == 0) return unsummed("data section");
+    if (crc == sum) return;
+    damage(fmt::format("`{}`: the data before offset {} do not match their checksum{}",
+                       source_.name(), file_.data_end,
+                       checked_.damages.empty()
+                           ? ": the header, metadata, or the head or index of a chunk is damaged"
+                           : ""));
+  }
+
+  const RecordFile& file_;
+  const ByteSource& source_;
+  CheckedFile checked_;
+  std::uint64_t messages_ = 0;
+  Bytes records_;
+};
+
+}  // namespace
+
+CheckedFile check_file(const RecordFile& file) { return FileCheck(file).run(); }
+
+}  // namespace rave::record

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "chunk_place.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "mcap_format.hpp"
+
+namespace rave::record {
+namespace {
+
+/// Opcode, length, two times, size, checksum, `zstd` or nothing, packed size.
+constexpr std::size_t kLongestHead = kRecordHead + 8 + 8 + 8 + 4 + 4 + 4 + 8;
+
+[[nodiscard]] Status read_at(int fd, std::uint64_t offset, std::size_t size,
+                             const std::string& path, Bytes& out) {
+  out.resize(size);
+  std::size_t done = 0;
+  while (done < size) {
+    const ssize_t count =
+        ::pread(fd, out.data() + done, size - done, static_cast<off_t>(offset + done));
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) {
+      return fail(ErrorCode::kIo, "cannot read `{}` back at offset {}: {}", path, offset + done,
+                  count == 0 ? "the file became shorter" : std::strerror(errno));
+    }
+    done += static_cast<std::size_t>(count);
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<ChunkInfo> read_back(int fd, const ChunkPlace& place, const std::string& path,
+                            Bytes& buffer) {
+  const auto changed = [&] {
+    return fail(ErrorCode::kIo, "`{}` was changed at offset {} while it was written", path,
+                place.offset);
+  };
+  ChunkInfo info;
+  info.offset = place.offset;
+  info.message_index_length = place.index_length;
+  // A chunk is never the last thing in the file: the end of the data follows.
+  RAVE_TRY(read_at(fd, place.offset, kLongestHead, path, buffer));
+  ByteReader head(buffer);
+  const auto code = head.get<std::uint8_t>();
+  info.length = kRecordHead + head.get<std::uint64_t>();
+  info.start_ns = head.get<std::uint64_t>();
+  info.end_ns = head.get<std::uint64_t>();
+  info.uncompressed_size = head.get<std::uint64_t>();
+  static_cast<void>(head.get<std::uint32_t>());
+  info.compression = head.string();
+  info.compressed_size = head.get<std::uint64_t>();
+  if (!head.ok() || code != opcode::kChunk) return changed();
+  RAVE_TRY(read_at(fd, place.offset + info.length, place.index_length, path, buffer));
+  ByteReader indexes(buffer);
+  while (indexes.rest() > 0) {
+    const std::uint64_t at = place.offset + info.length + indexes.position();
+    const auto kind = indexes.get<std::uint8_t>();
+    ByteReader index(indexes.raw(indexes.get<std::uint64_t>()));
+    info.channels.emplace_back(index.get<std::uint16_t>(), at);
+    if (!indexes.ok() || !index.ok() || kind != opcode::kMessageIndex) return changed();
+  }
+  return info;
+}
+
+}  // namespace rave::record

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "live_guard.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "pose_reading.hpp"
+#include "rave/math/transform.hpp"
+#include "sensor_age.hpp"
+
+namespace rave::sim {
+namespace {
+
+/// A long gap between two calls counts less and less: half of it after about 70 calls.
+constexpr double kForgetGap = 0.99;
+constexpr std::int64_t kQuiet_ns = from_seconds(kGuardQuiet_s).ns;
+
+double age_s(SimTime now, SimTime then) noexcept { return std::max(0.0, (now - then).seconds()); }
+
+}  // namespace
+
+LiveGuard::LiveGuard(GuardSpec limits, LivePose pose, std::vector<LiveSensor> sensors,
+                     Duration period)
+    : limits_(std::move(limits)),
+      pose_(pose),
+      sensors_(std::move(sensors)),
+      period_s_(period.seconds()),
+      ages_(sensors_.size()) {}
+
+std::uint32_t LiveGuard::take_begun() noexcept { return std::exchange(begun_, 0); }
+
+/// A command stands until the next one. That comes as late as the last ones did.
+void LiveGuard::note_gap(SimTime now) {
+  const double gap_s = last_call_ ? age_s(now, *last_call_) : 0;
+  gap_s_ = std::min(std::max(gap_s, kForgetGap * gap_s_), kLongestGap_s);
+  last_call_ = now;
+}
+
+void LiveGuard::look_where(const GuardOrder& order, SimTime now) {
+  if (pose_.queue == nullptr) {
+    const ReportedPose& told = order.reported;
+    input_.X_WR = {told.pose.x_m, told.pose.y_m, told.pose.yaw_rad};
+    input_.velocity = told.velocity;
+    input_.pose_age_s = age_s(now, told.stamp);
+    input_.pose_known = told.known && !told.stale && now - told.stamp <= pose_.staleness;
+    return;
+  }
+  SampleHeader header;
+  alignas(8) std::byte record[std::max(sizeof(PoseReading), sizeof(OdometryReading))];
+  if (pose_.queue->newest(&header, record) && header.count > 0) {
+    const PoseReading read = pose_reading(pose_.kind, record);
+    const Pose2 X_WR = compose(pose_.X_WM, {read.x_m, read.y_m, read.yaw_rad});
+    const bool finite = std::isfinite(X_WR.x) && std::isfinite(X_WR.y) && std::isfinite(X_WR.yaw);
+    if (finite) static_cast<void>(track_.add({header.stamp_ns}, X_WR));
+  }
+  const auto stamp = track_.newest();
+  // A stamp from far ahead would count as fresh for as long as it lies ahead.
+  input_.pose_known = stamp && now - *stamp <= pose_.staleness && *stamp - now <= pose_.staleness;
+  if (!input_.pose_known) return;
+  input_.X_WR = *track_.at(*stamp);
+  input_.velocity = track_.velocity();
+  input_.pose_age_s = age_s(now, *stamp);
+}
+
+void LiveGuard::look_at_sensors() {
+  for (std::size_t i = 0; i < sensors_.size(); ++i) {
+    const LiveSensor& sensor = sensors_[i];
+    ages_[i] = {sensor.index, live_age_s(*sensor.queue, sensor.is_judged_by_link),
+                sensor.max_age_s};
+  }
+}
+
+/// Others have gone on since the world that they stand in, or have stopped there.
+void LiveGuard::look_around(const GuardOrder& order, double world_age_s) {
+  neighbours_ = order.neighbours;
+  const double since_s = std::min(world_age_s, limits_.world_timeout_s);
+  for (const GuardNeighbour& other : order.neighbours) {
+    if (other.velocity_W.vx == 0 && other.velocity_W.vy == 0) continue;
+    GuardNeighbour& later = neighbours_.emplace_back(other);
+    later.X_WB.x += since_s * other.velocity_W.vx;
+    later.X_WB.y += since_s * other.velocity_W.vy;
+  }
+}
+
+void LiveGuard::limit(const GuardOrder& order, SimTime now, std::span<Command> allowed) {
+  note_gap(now);
+  look_where(order, now);
+  look_at_sensors();
+  if (limits_.separation_m >= 0 && !order.sees_others) input_.pose_known = false;
+  input_.world_age_s = age_s(now, order.world_time);
+  look_around(order, input_.world_age_s);
+  input_.dt_s = std::max(period_s_, gap_s_);
+  input_.radius_m = order.radius_m;
+  input_.body = order.body.get();
+  guard_.set_holds(order.holds);
+  for (std::size_t a = 0; a < order.wishes.size(); ++a) {
+    const ActuatorWish& wish = order.wishes[a];
+    GuardInput input = input_;
+    input.neighbours = neighbours_;
+    input.sensors = ages_;
+    input.command = wish.command;
+    input.expected = wish.expected;
+    if (wish.watched) {
+      input.command_age_s =
+          wish.given ? age_s(now, *wish.given) : std::numeric_limits<double>::infinity();
+    }
+    const GuardOutput output = guard_.limit(limits_, input);
+    allowed[a] = output.command;
+    if (output.by(GuardLimit::kSensorLost)) lost_sensor_ = output.lost_sensor;
+    begun_ |= guard_.begin(output.acted, now.ns, kQuiet_ns);
+  }
+}
+
+}  // namespace rave::sim

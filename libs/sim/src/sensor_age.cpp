@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sensor_age.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+namespace rave::sim {
+namespace {
+
+/// So many periods without a sample are no accident of a line.
+constexpr double kPeriods = 3;
+/// A computer that is busy delays a sample by so much.
+constexpr double kLeast_s = 0.2;
+constexpr double kInfinite_s = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+bool is_judged_by_link(const SensorSpec& sensor) noexcept {
+  return sensor.timing == SampleTiming::kEvents && !sensor.max_age_s;
+}
+
+Result<std::optional<double>> max_age_s(const SensorSpec& sensor,
+                                        const HardwareDeclaration& declaration,
+                                        bool is_pose_source) {
+  if (sensor.max_age_s) return sensor.max_age_s;
+  if (sensor.timing == SampleTiming::kUnknown) return std::optional<double>();
+  const double period_s = declaration.period_s;
+  if (sensor.timing == SampleTiming::kPeriodic && !(period_s > 0 && std::isfinite(period_s))) {
+    return fail(ErrorCode::kPlugin, "is periodic, but declared a period of {} s", period_s);
+  }
+  if (is_pose_source) return std::optional<double>();
+  return std::max(kPeriods * period_s, kLeast_s);
+}
+
+double live_age_s(const SampleQueue& queue, bool judged_by_link) {
+  if (judged_by_link) return queue.failed() ? kInfinite_s : 0;
+  const auto arrival = queue.newest_arrival();
+  if (!arrival) return kInfinite_s;
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - *arrival).count();
+}
+
+double told_max_age_s(const SensorSlots& slots) noexcept {
+  constexpr double kLater = 1.5;
+  if (!slots.max_age_s || is_judged_by_link(*slots.spec)) return kInfinite_s;
+  return kLater * *slots.max_age_s + slots.spec->processing.latency_s;
+}
+
+double sensor_age_s(const SensorSlots& slots, std::size_t member, SimTime now) {
+  const bool by_link = is_judged_by_link(*slots.spec);
+  if (slots.live) return live_age_s(*slots.queues[member], by_link);
+  if (by_link) return slots.failed[member] != 0 ? kInfinite_s : 0;
+  const std::int64_t heard_ns = slots.heard_ns[member];
+  return heard_ns == kNeverHeard_ns ? kInfinite_s : Duration{now.ns - heard_ns}.seconds();
+}
+
+void find_watched_sensors(const RobotGroup& group, std::size_t member, SimTime now,
+                          std::vector<GuardSensor>& sensors) {
+  sensors.clear();
+  for (std::uint32_t s = 0; s < group.sensors.size(); ++s) {
+    const SensorSlots& slots = group.sensors[s];
+    if (!slots.max_age_s) continue;
+    sensors.push_back({s, sensor_age_s(slots, member, now), *slots.max_age_s});
+  }
+}
+
+std::string sensor_lost_text(const SensorSlots& slots) {
+  if (is_judged_by_link(*slots.spec)) {
+    return fmt::format("sensor lost: the driver of `{}` has failed", slots.spec->name);
+  }
+  return fmt::format("sensor lost: `{}` has given nothing for more than {:g} s", slots.spec->name,
+                     *slots.max_age_s);
+}
+
+}  // namespace rave::sim

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <memory>
+#include <utility>
 
 #include "rave/base/control_characters.hpp"
 
@@ -57,9 +58,12 @@ Identity read_identity(const dds_qos_t* qos) {
   return identity;
 }
 
-Participants::Participants(dds_entity_t participant, const RunId& run)
+Participants::Participants(dds_entity_t participant, const RunId& run, Duration lease)
     : run_(run),
-      reader_(dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, nullptr, nullptr)) {
+      reader_(dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, nullptr, nullptr)),
+      // A process is heard of each 0.8 leases at least, so a fifth without us may lose it. Those
+      // that have lost us as well must be found again.
+      standstill_({lease.ns / 5}, lease * 3) {
   dds_guid_t guid{};
   dds_get_guid(participant, &guid);
   self_ = key_of(guid);
@@ -72,15 +76,36 @@ void Participants::collect(std::vector<BusEvent>& events) {
     std::array<dds_sample_info_t, kBatch> infos{};
     const dds_return_t count =
         dds_take(reader_, samples.data(), infos.data(), kBatch, std::uint32_t{kBatch});
-    if (count <= 0) return;
+    if (count <= 0) break;
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
       const auto& sample = *static_cast<const dds_builtintopic_participant_t*>(samples[i]);
       // Who came and went since the last time has one sample that says both.
       if (infos[i].valid_data) appear(sample, events);
-      if (infos[i].instance_state != DDS_ALIVE_INSTANCE_STATE) disappear(sample.key, events);
+      if (infos[i].instance_state != DDS_ALIVE_INSTANCE_STATE) disappear(sample.key);
     }
     dds_return_loan(reader_, samples.data(), count);
   }
+  judge(events);
+}
+
+/// Tells who is gone, unless it is this process that was.
+void Participants::judge(std::vector<BusEvent>& events) {
+  // Not before: whoever is missed because of a standstill has been read after it.
+  standstill_.look();
+  if (missed_.empty()) told_ = false;
+  if (missed_.empty()) return;
+  if (Standstill::Clock::now() < standstill_.silence_counts_from()) {
+    if (std::exchange(told_, true)) return;
+    events.push_back({EventKind::kStoodStill, "", "", 0,
+                      fmt::format("this process, for {:.1f} s; who else is there is found out anew",
+                                  standstill_.stood().seconds())});
+    return;
+  }
+  told_ = false;
+  for (const auto& [key, who] : missed_) {
+    events.push_back({EventKind::kParticipantLost, "", who.name, who.writer, ""});
+  }
+  missed_.clear();
 }
 
 void Participants::appear(const dds_builtintopic_participant_t& sample,
@@ -88,6 +113,7 @@ void Participants::appear(const dds_builtintopic_participant_t& sample,
   const Guid key = key_of(sample.key);
   if (key == self_ || known_.contains(key)) return;
   const Identity& who = known_[key] = read_identity(sample.qos);
+  if (missed_.erase(key) > 0) return;
   if (foreign(who)) {
     events.push_back({EventKind::kForeignRun, "", who.name, who.writer,
                       "a process of run " + who.run.text() + " is in this domain"});
@@ -96,13 +122,10 @@ void Participants::appear(const dds_builtintopic_participant_t& sample,
   }
 }
 
-void Participants::disappear(const dds_guid_t& guid, std::vector<BusEvent>& events) {
+void Participants::disappear(const dds_guid_t& guid) {
   auto node = known_.extract(key_of(guid));
   if (node.empty()) return;
-  if (!foreign(node.mapped())) {
-    events.push_back(
-        {EventKind::kParticipantLost, "", node.mapped().name, node.mapped().writer, ""});
-  }
+  if (!foreign(node.mapped())) missed_.insert({node.key(), node.mapped()});
   if (gone_.size() >= kMostGone) gone_.erase(gone_.begin());
   gone_.insert(std::move(node));
 }

@@ -61,6 +61,7 @@ LiveBoard::LiveBoard(const LiveManagerOptions& options, Parts parts)
     const config::PlannedHost& host = options.hosts[h];
     LiveSeat& seat = seats_.emplace_back();
     seat.name = host.name;
+    if (h < options.commands.size()) seat.command = options.commands[h];
     seat.robots = static_cast<std::uint32_t>(host.robots.size());
     for (const std::size_t robot : host.robots) {
       seat_of_[robot] = h;
@@ -130,8 +131,10 @@ Status LiveBoard::look_at_processes(bool goes) {
       lose(event.writer, goes);
       continue;
     }
+    if (event.kind == kStoodStill && goes) ++standstills_;
     const bool worth = event.kind == kRefused || event.kind == kIncompatible ||
-                       event.kind == kForeignRun || event.kind == kNotice;
+                       event.kind == kForeignRun || event.kind == kNotice ||
+                       event.kind == kStoodStill;
     if (worth && options_.log != nullptr) options_.log->warn("bus", "{}", event.line());
   }
   return {};
@@ -152,7 +155,8 @@ void LiveBoard::lose(std::uint64_t writer, bool goes) {
     if (!goes) continue;
     ++seat.losses;
     if (options_.log != nullptr) {
-      options_.log->error(kSource, "host `{}` is gone; the others go on", seat.name);
+      options_.log->error(kSource, "host `{}` is gone; the others go on{}{}", seat.name,
+                          seat.command.empty() ? "" : "; start it again with: ", seat.command);
     }
   }
 }

@@ -111,7 +111,8 @@ Result<std::vector<std::uint64_t>> Switchboard::look_at_processes(bool begun) {
       continue;
     }
     const bool worth = event.kind == kRefused || event.kind == kIncompatible ||
-                       event.kind == kForeignRun || event.kind == kNotice;
+                       event.kind == kForeignRun || event.kind == kNotice ||
+                       event.kind == kStoodStill;
     if (!worth || log_ == nullptr) continue;
     // Whoever says the same wrong thing again and again does not fill the log.
     std::string line = event.line();

@@ -10,6 +10,7 @@
 #include "commands/doctor.hpp"
 #include "commands/drivers.hpp"
 #include "commands/edit.hpp"
+#include "commands/end.hpp"
 #include "commands/hand_over.hpp"
 #include "commands/hosts.hpp"
 #include "commands/info.hpp"
@@ -35,9 +36,9 @@ using Command =
     std::variant<Finished, RunCommand, RobotCommand, EnvCommand, CheckCommand, DriversCommand,
                  DescribeCommand, NewCommand, SchemaCommand, InfoCommand, VerifyCommand,
                  PlayCommand, GapCommand, PsCommand, StopCommand, ArmCommand, SetCommand,
-                 HandOverCommand, ShadowCommand, EditCommand, HoldCommand, BenchSwarmCommand,
-                 BenchCompareCommand, KeysNewCommand, KeysAddCommand, KeysShowCommand, TopCommand,
-                 DoctorCommand, VersionCommand>;
+                 HandOverCommand, ShadowCommand, EditCommand, HoldCommand, EndCommand,
+                 BenchSwarmCommand, BenchCompareCommand, KeysNewCommand, KeysAddCommand,
+                 KeysShowCommand, TopCommand, DoctorCommand, VersionCommand>;
 
 /// Reads the command line. Prints help and complaints itself.
 [[nodiscard]] Command parse_arguments(int argc, const char* const* argv);

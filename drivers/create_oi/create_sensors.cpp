@@ -12,6 +12,8 @@ namespace {
 /// The halves of the bumper meet in front; the middle of each lies half way to the side.
 constexpr float kBumperBearing_rad = static_cast<float>(kPi / 4);
 
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
 }  // namespace
 
 Status DeviceSensor::configure(const HardwareSetup& setup, HardwareDeclaration& declaration) {
@@ -125,7 +127,7 @@ void CreateBattery::take(const OiState& state, double moment_s) {
   due_s_ = moment_s + period_s_;
   const double charge_ah = state.charge_mah * 1e-3;
   const double capacity_ah = state.capacity_mah * 1e-3;
-  const std::array values{capacity_ah > 0 ? charge_ah / capacity_ah : 0,
+  const std::array values{capacity_ah > 0 ? charge_ah / capacity_ah : kUnknown,
                           state.voltage_mv * 1e-3,
                           state.current_ma * 1e-3,
                           charge_ah,

@@ -85,8 +85,8 @@ inline constexpr std::array<ParamSpec, 1> kBatteryParams{
     number_param("period_s", "s", 1, 0.015, 600, "Time between two samples."),
 };
 
-/// Six values: charge (0 to 1), voltage V, current A (negative: discharging), charge Ah, capacity
-/// Ah, temperature degrees Celsius.
+/// Six values: charge (0 to 1; NaN: the capacity is not known), voltage V, current A (negative:
+/// discharging), charge Ah, capacity Ah, temperature degrees Celsius.
 class CreateBattery final : public DeviceSensor {
  public:
   static constexpr ReadingKind kReading = ReadingKind::kValues;

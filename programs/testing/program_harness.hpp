@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <limits>
 #include <memory>
+#include <vector>
 
 #include "programs/testing/plugin_under_test.hpp"
 #include "rave/math/scalar.hpp"
@@ -208,5 +211,37 @@ class ProgramUnderTest {
   std::uint64_t seed_ = 0;
   std::uint32_t decision_ = 0;
 };
+
+/// Nothing is near, and the sensor that says so falls silent: what the one robot of a program
+/// commands by a scan that is fresh, by the same when it is older than 0.3 s, and when scans come
+/// again. The program must not have been started; `beside` gives what else it needs to drive.
+template <class Beside>
+std::array<Command, 3> commands_by_age(ProgramUnderTest& program, const Beside& beside) {
+  Rig& rig = *program.rigs.front();
+  RigSensor& scanner = rig.add_ranges({-0.4, -0.2, 0, 0.2, 0.4}, 0, 8.0);
+  scanner.info.max_age_s = 0.3;
+  EXPECT_EQ(program.start(1), "");
+  const std::vector<float> free(5, std::numeric_limits<float>::infinity());
+  const auto decide = [&](double t_s) {
+    beside();
+    program.decide({from_seconds(t_s).ns});
+    return rig.command();
+  };
+  std::array<Command, 3> commands;
+  scanner.give(free, from_seconds(10).ns);
+  (void)decide(10);
+  commands[0] = decide(10.25);
+  commands[1] = decide(10.4);
+  scanner.give(free, from_seconds(10.5).ns);
+  commands[2] = decide(10.5);
+  return commands;
+}
+
+/// Expects of commands_by_age() that an old scan is no free space.
+inline void expect_stand_when_old(const std::array<Command, 3>& commands) {
+  EXPECT_NE(commands[0].value[0], 0);
+  EXPECT_EQ(commands[1], velocity_command(0, 0));
+  EXPECT_NE(commands[2].value[0], 0);
+}
 
 }  // namespace rave::testing

@@ -78,6 +78,21 @@ TEST(CreateRun, ARobotThatVanishesAndReturnsDrivesOn) {
   EXPECT_EQ(result["devices"][0]["connects"], 2);
 }
 
+TEST(CreateRun, ALaserThatFallsSilentStopsTheRobotUntilItSpeaksAgain) {
+  CreateRun run("create", 600);
+  run.start();
+  run.await_state(testing::wheels_turn);
+  run.peer->tell("laser mute");
+  run.await_console("sensor lost: `laser`", 1);
+  const Json stopped = run.await_state(testing::wheels_stand);
+  run.await_console("sensor `laser`: the laser at", 1);  // it has been away for 2 s
+  EXPECT_EQ(run.state()["path_m"], stopped["path_m"]);
+  run.peer->tell("laser speak");
+  run.await_state(testing::wheels_turn);
+  run.rave->interrupt();
+  (void)run.rave->wait();
+}
+
 TEST(CreateRun, ARobotThatIsNotThereIsAnErrorOfTheStart) {
   CreateRun run("create", 5);
   run.peer->tell("vanish");

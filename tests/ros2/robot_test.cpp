@@ -69,6 +69,39 @@ TEST(Ros2Robot, ARobotThatIsKilledIsMarkedAndTheRunGoesOn) {
   EXPECT_GE(result["events"]["pose_stale"], 1);
 }
 
+/// While its odometry, its localisation and its wheels are well.
+void expect_stop_by_laser(const std::string& trouble) {
+  CartRun run;
+  ASSERT_NO_FATAL_FAILURE(run.start(600));
+  run.await_state(testing::wheels_turn);
+  run.peer->tell(trouble);
+  run.await_console("sensor lost: `laser`", 1);
+  const Json stopped = run.await_state(testing::wheels_stand);
+  // The topic is reported as lost after 1 s, when the drive used to refuse for a moment and then
+  // went on by the last scan.
+  run.await_console("sensor `laser`: no ", 1);
+  const int told = run.state()["commands"].get<int>();
+  const Json later =
+      run.await_state([&](const Json& now) { return now["commands"].get<int>() > told + 40; });
+  for (const char* const key : {"x", "y", "yaw"}) EXPECT_EQ(later[key], stopped[key]) << trouble;
+  run.peer->tell("see");
+  run.await_state(testing::wheels_turn);
+  run.rave->interrupt();
+  (void)run.rave->wait();
+  const Json result = run.result();
+  ASSERT_TRUE(result.is_object());
+  EXPECT_EQ(result["events"]["driver_failed"], 1) << "of the laser, and not of the wheels";
+  EXPECT_EQ(result["events"]["driver_back"], 1);
+}
+
+TEST(Ros2Robot, ALaserThatFallsSilentStopsTheRobotUntilItSpeaksAgain) {
+  expect_stop_by_laser("blind");
+}
+
+TEST(Ros2Robot, ALaserThatReadsNothingButNegativeRangesStopsTheRobot) {
+  expect_stop_by_laser("invert");
+}
+
 TEST(Ros2Robot, ARobotWhoseHostIsKilledStopsByItself) {
   CartRun run;
   ASSERT_NO_FATAL_FAILURE(run.start(600));

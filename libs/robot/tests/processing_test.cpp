@@ -86,6 +86,42 @@ TEST(Noise, RangesNeverTurnNegativeAndNoReturnStays) {
                      [&](const SampleHeader&, float range) { ASSERT_EQ(range, kNoReturn); });
 }
 
+TEST(Noise, PutsNoRangeBeyondWhatTheSensorMeasures) {
+  for (const NoiseSpec& noise :
+       {NoiseSpec{.length_sigma_m = 0.1}, NoiseSpec{.length_quantum_m = 0.3},
+        NoiseSpec{.length_sigma_m = 0.1, .length_quantum_m = 0.01}}) {
+    const auto chain =
+        Processing::make({noise, 0, {}}, ReadingKind::kRanges, 19, 0.1, {0.25, 4}).value();
+    int beyond = 0;
+    int nearest = 0;
+    for (std::uint32_t i = 0; i < 1000; ++i) {
+      float rays[19];
+      // In odd places at the largest range, in even ones at the least.
+      for (std::size_t k = 0; k < 19; ++k) rays[k] = k % 2 == 1 ? 4.0F : 0.25F;
+      rays[0] = kNoReturn;
+      rays[2] = -kNoReturn;
+      SampleHeader header = header_of(0, 19);
+      chain.apply_noise(header, rays, stream(i));
+      EXPECT_EQ(rays[0], kNoReturn);
+      EXPECT_EQ(rays[2], -kNoReturn);
+      for (std::size_t k = 3; k < 19; ++k) {
+        if (rays[k] == kNoReturn) {
+          ++beyond;
+          EXPECT_EQ(k % 2, 1U);
+          continue;
+        }
+        ASSERT_LE(rays[k], 4.0F) << "a finite range that no such sensor gives";
+        ASSERT_GE(rays[k], 0.25F);
+        if (rays[k] == 0.25F) ++nearest;
+      }
+    }
+    if (noise.length_sigma_m > 0) {
+      EXPECT_NEAR(beyond, 4000, 300) << "half of those at the largest range";
+      EXPECT_GT(nearest, 3000);
+    }
+  }
+}
+
 TEST(Noise, QuantisationGivesExactMultiplesAndAUniformError) {
   constexpr double kQuantum_m = 0.25;
   Moments moments;

@@ -399,6 +399,34 @@ TEST(SampleQueue, AStreamThatIsLiveCanRecoverAndAnotherCannot) {
   EXPECT_EQ(live.failure(), "gone again");
 }
 
+TEST(SampleQueue, TellsWhenTheNewestSampleArrivedWhateverItsStamp) {
+  class StillClock final : public RunClock {
+   public:
+    [[nodiscard]] SimTime now() const noexcept override { return {}; }
+    [[nodiscard]] std::chrono::steady_clock::time_point wall_time_of(
+        SimTime) const noexcept override {
+      return {};
+    }
+  } clock;
+  SampleQueue queue(ReadingKind::kValues, 1, 4, &clock);
+  EXPECT_EQ(queue.newest_arrival(), std::nullopt);
+  const double value = 1;
+  const auto before = std::chrono::steady_clock::now();
+  ASSERT_TRUE(queue.publish({5}, &value, 1));
+  const auto first = queue.newest_arrival();
+  ASSERT_TRUE(first);
+  EXPECT_GE(*first, before);
+  EXPECT_LE(*first, std::chrono::steady_clock::now());
+  ASSERT_TRUE(queue.publish({4}, &value, 1));
+  EXPECT_EQ(queue.newest_arrival(), first) << "one that is dropped is no sign of life";
+  EXPECT_FALSE(queue.failed());
+  queue.fail("gone", 4);
+  EXPECT_TRUE(queue.failed());
+  queue.reopen();
+  EXPECT_EQ(queue.newest_arrival(), std::nullopt);
+  EXPECT_FALSE(queue.failed());
+}
+
 TEST(SampleQueue, DropsSamplesThatDoNotFit) {
   SampleQueue queue = values(4);
   const double records[3] = {1, 2, 3};

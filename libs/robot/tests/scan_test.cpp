@@ -58,6 +58,19 @@ TEST_F(ScanTest, AConeStandsForItsWholeArc) {
   EXPECT_NEAR(scan.hits()[5].p_R.y, -3.0 * sin(0.2), 1e-12);
 }
 
+TEST_F(ScanTest, IsOldWhenASensorHasNotSpokenForLongerThanItMay) {
+  header_.sequence = 1;
+  EXPECT_FALSE(scan_of(0, {2.0F, 3.0F}).is_old()) << "it has no largest age";
+  info_.max_age_s = 0.3;
+  EXPECT_FALSE(scan_of(0, {2.0F, 3.0F}).is_old());
+  header_.stamp_ns = -299'999'999;
+  EXPECT_FALSE(scan_of(0, {2.0F, 3.0F}).is_old());
+  header_.stamp_ns = -300'000'001;
+  EXPECT_TRUE(scan_of(0, {2.0F, 3.0F}).is_old());
+  header_ = {};
+  EXPECT_TRUE(scan_of(0, {}).is_old()) << "nothing has come yet";
+}
+
 TEST_F(ScanTest, NoReturnIsFreeAndNotANumberIsNothing) {
   const Scan scan =
       scan_of(0, {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()});

@@ -104,7 +104,7 @@ void describe(SensorSlots& slots, double step_s) {
   info.X_RS = slots.spec->X_RS;
   info.z_m = slots.spec->z_m;
   info.period_s = slots.spec->period_steps * step_s;
-  if (slots.max_age_s) info.max_age_s = *slots.max_age_s + slots.spec->processing.latency_s;
+  info.max_age_s = told_max_age_s(slots);
 }
 
 Status configure_virtual(const GroupContext& context, RobotGroup& group, SensorSlots& slots) {

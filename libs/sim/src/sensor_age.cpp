@@ -41,6 +41,12 @@ double live_age_s(const SampleQueue& queue, bool judged_by_link) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - *arrival).count();
 }
 
+double told_max_age_s(const SensorSlots& slots) noexcept {
+  constexpr double kLater = 1.5;
+  if (!slots.max_age_s || is_judged_by_link(*slots.spec)) return kInfinite_s;
+  return kLater * *slots.max_age_s + slots.spec->processing.latency_s;
+}
+
 double sensor_age_s(const SensorSlots& slots, std::size_t member, SimTime now) {
   const bool by_link = is_judged_by_link(*slots.spec);
   if (slots.live) return live_age_s(*slots.queues[member], by_link);

@@ -26,6 +26,11 @@ inline constexpr std::int64_t kNeverHeard_ns = INT64_MIN;
                                                       const HardwareDeclaration& declaration,
                                                       bool is_pose_source);
 
+/// What a program is told of it (SensorInfo::max_age_s): by half more, so that the guard has
+/// stopped the robot, and said why, when its program sees that the sample is old. The latency of
+/// the file comes on top.
+[[nodiscard]] double told_max_age_s(const SensorSlots& slots) noexcept;
+
 /// Time since the newest raw sample of a sensor: in a live run since it arrived, on the wall clock;
 /// in a stepped one since its stamp. Of a sensor of events 0, or infinity while it is lost.
 /// Infinite before the first sample. In a live run any thread, without the engine's lock; in a

@@ -48,6 +48,12 @@ class CruiseTest : public ::testing::Test {
   std::int64_t k_ = 0;
 };
 
+TEST(Cruise, AnOldScanIsNoFreeSpace) {
+  testing::ProgramUnderTest program(rave_register_plugin, "cruise");
+  (void)program.add_robot();
+  testing::expect_stand_when_old(testing::commands_by_age(program, [] {}));
+}
+
 TEST_F(CruiseTest, DrivesStraightOnWhileNothingIsNearAhead) {
   start();
   program_.decide({});  // before the first sample

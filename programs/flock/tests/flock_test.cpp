@@ -36,6 +36,13 @@ class FlockTest : public ::testing::Test {
   testing::RigRadio& radio = rig.add_radio("air");
 };
 
+TEST(Flock, AnOldScanIsNoFreeSpace) {
+  testing::ProgramUnderTest program(rave_register_plugin, "flock");
+  testing::Rig& rig = program.add_robot();
+  rig.add_radio("air");
+  testing::expect_stand_when_old(testing::commands_by_age(program, [] {}));
+}
+
 TEST_F(FlockTest, AloneItGoesStraightAheadAndSaysWhereItIs) {
   start(1, 1, 1);
   rig.pose.x_m = 1;

@@ -55,6 +55,13 @@ Trip go(Suite suite, const Room& room, double gx_m, double gy_m, double limit_s)
   return result;
 }
 
+TEST(GoToGoal, AnOldScanIsNoFreeSpace) {
+  testing::ProgramUnderTest program(rave_register_plugin, "go_to_goal");
+  testing::Rig& rig = program.add_robot();
+  rig.params.set("goal_x_m", 5).set("goal_y_m", 0);
+  testing::expect_stand_when_old(testing::commands_by_age(program, [] {}));
+}
+
 TEST(GoToGoal, ReachesAGoalInTheOpenInAboutTheTimeOfAStraightLine) {
   Room room;
   room.box(-10, -10, 10, 10);

@@ -65,6 +65,14 @@ Room plain() {
   return room;
 }
 
+TEST(Predator, AnOldScanIsNoFreeSpace) {
+  testing::ProgramUnderTest program(rave_register_plugin, "predator");
+  testing::Rig& rig = program.add_robot();
+  testing::RigSensor& eyes = rig.add(ReadingKind::kNeighbours, "neighbours");
+  eyes.give(std::vector<NeighbourReading>{{9, 3, 0, 0, 0, 0}}, 0);
+  testing::expect_stand_when_old(testing::commands_by_age(program, [] {}));
+}
+
 TEST(Predator, CatchesASlowPreyInTheOpenAndSaysSoOnce) {
   const Hunt result = hunt(plain(), 0.3, 60);
   EXPECT_GT(result.captured_s, 0);

@@ -32,6 +32,14 @@ class PreyTest : public ::testing::Test {
   Rig& rig = program.add_robot();
 };
 
+TEST(Prey, AnOldScanIsNoFreeSpace) {
+  testing::ProgramUnderTest program(rave_register_plugin, "prey");
+  testing::Rig& rig = program.add_robot();
+  testing::RigSensor& eyes = rig.add(ReadingKind::kNeighbours, "neighbours");
+  eyes.give(std::vector<NeighbourReading>{}, 0);
+  testing::expect_stand_when_old(testing::commands_by_age(program, [] {}));
+}
+
 TEST_F(PreyTest, FleesAtItsNewSpeed) {
   begin();
   rig.params.set("max_speed_mps", 0.25);

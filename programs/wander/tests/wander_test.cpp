@@ -56,6 +56,12 @@ Tour tour(Suite suite, std::uint64_t seed, double duration_s) {
   return result;
 }
 
+TEST(Wander, AnOldScanIsNoFreeSpace) {
+  testing::ProgramUnderTest program(rave_register_plugin, "wander");
+  (void)program.add_robot();
+  testing::expect_stand_when_old(testing::commands_by_age(program, [] {}));
+}
+
 TEST(Wander, NeverHitsAnythingAndGetsAround) {
   for (const Suite suite : testing::kSuites) {
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {

@@ -68,6 +68,62 @@ TEST(Build, PartsOfADeviceNameIt) {
   EXPECT_NE(built->live_reason.find("`base`"), std::string::npos) << built->live_reason;
 }
 
+/// A robot of ROS 2 that drives, with one more sensor.
+std::string cart(const std::string& sensor, const std::string& drive =
+                                                ", actuators: [{name: motors, driver: "
+                                                "ros2_velocity, device: base}]") {
+  return one(
+      "devices: [{name: base, driver: ros2}], pose_from: pose, sensors: [{name: pose, "
+      "driver: ros2_pose, device: base}, " +
+      sensor + "]" + drive);
+}
+
+TEST(Build, ASensorIsGivenItsLargestAgeAndWhenItsSamplesCome) {
+  Host host;
+  const auto built =
+      host.build_text(cart("{name: eye, driver: ros2_laser, device: base, max_age_s: 0.5}, "
+                           "{name: wish, driver: ros2_command, device: base}, {name: scanner, "
+                           "driver: scip_laser, params: {device: /dev/x}}"));
+  ASSERT_TRUE(built.has_value()) << built.error().text();
+  const auto& sensors = built->spec.types.at(0).sensors;
+  EXPECT_EQ(sensors.at(0).max_age_s, std::nullopt);
+  EXPECT_EQ(sensors.at(1).max_age_s, 0.5);
+  EXPECT_EQ(sensors.at(1).timing, SampleTiming::kUnknown);
+  EXPECT_EQ(sensors.at(2).timing, SampleTiming::kEvents);
+  EXPECT_EQ(sensors.at(3).timing, SampleTiming::kPeriodic);
+}
+
+TEST(BuildErrors, ARangeSensorOfUnknownPaceNeedsALargestAgeIfItsRobotDrives) {
+  const std::string expected =
+      "robot `anna` is real, and the driver `ros2_laser` of its range sensor `eye` does not know "
+      "how often samples come: expected `max_age_s`, the age of the newest sample in seconds after "
+      "which the robot is stopped, such as three periods of the sensor (`max_age_s: 0.3` at 10 Hz)";
+  Host host;
+  const std::string plain = "{name: eye, driver: ros2_laser, device: base}";
+  const std::string error = host.error_of(cart(plain));
+  EXPECT_EQ(error.find("s.yaml:6:"), 0U) << error;
+  EXPECT_NE(error.find(expected), std::string::npos) << error;
+  const std::string hybrid = host.error_of(
+      cart("{name: eye, driver: hybrid_ranges, real: {driver: ros2_laser, device: base}, virtual: "
+           "{driver: virtual_laser, params: {rays_of_real_half: true}}}"));
+  EXPECT_NE(hybrid.find(expected), std::string::npos) << hybrid;
+  EXPECT_EQ(host.error_of(cart(plain, "")), "none") << "it cannot drive";
+  EXPECT_EQ(host.error_of(cart("{name: accu, driver: ros2_battery, device: base}")), "none");
+}
+
+TEST(BuildErrors, AVirtualSensorHasNoLargestAge) {
+  Host host;
+  const std::string error =
+      host.error_of(one("sensors: [{name: eye, driver: virtual_laser, max_age_s: 1}], " + kWheels));
+  EXPECT_EQ(error.find("s.yaml:6:"), 0U) << error;
+  EXPECT_NE(error.find("`max_age_s` is for real sensors; the driver `virtual_laser` of sensor "
+                       "`eye` is virtual"),
+            std::string::npos)
+      << error;
+  EXPECT_NE(host.error_of(cart("{name: eye, driver: ros2_laser, device: base, max_age_s: 0}")),
+            "none");
+}
+
 TEST(Build, ADriverLearnsWhereTheWorldLiesUnlessItsFileSaysSo) {
   const auto origin_of = [](const std::string& params) {
     Host host;

@@ -24,6 +24,9 @@ bool obey(const std::vector<std::string>& command, Console& console, Ros2Robot& 
   if (name == "speak") robot.set_mute(false);
   if (name == "lose-fix") robot.set_fix(false);
   if (name == "find-fix") robot.set_fix(true);
+  if (name == "blind") robot.set_laser(Ros2Robot::Laser::kSilent);
+  if (name == "invert") robot.set_laser(Ros2Robot::Laser::kNegative);
+  if (name == "see") robot.set_laser(Ros2Robot::Laser::kWorks);
   if (name == "pattern") robot.set_pattern(true);
   if (name == "garbage" && command.size() > 1) robot.write_garbage(std::atoi(command[1].c_str()));
   console.say("ok " + name);

@@ -222,8 +222,10 @@ sensor_msgs::msg::dds_::LaserScan_ Ros2Robot::scan(std::int64_t stamp_ns) const 
 }
 
 void Ros2Robot::write_scan(std::int64_t stamp_ns) {
+  if (laser_ == Laser::kSilent) return;
   ++written_;
   auto message = scan(stamp_ns);
+  if (laser_ == Laser::kNegative) message.ranges().assign(rays_, -1.0F);
   scan_->write(&message);
 }
 

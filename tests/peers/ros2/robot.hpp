@@ -19,6 +19,9 @@ namespace peer {
 /// One thread, but commands come on those of Fast DDS.
 class Ros2Robot {
  public:
+  /// What its laser does.
+  enum class Laser { kWorks, kSilent, kNegative };
+
   explicit Ros2Robot(const Arguments& given);
 
   /// Moves on to now and writes what is due; returns when it wants to be called again (CLOCK
@@ -27,6 +30,8 @@ class Ros2Robot {
   /// From now on what it writes follows a rule instead of physics: see README.md.
   void set_pattern(bool pattern) { pattern_ = pattern; }
   void set_mute(bool mute) { mute_ = mute; }
+  /// Silent: it writes no more scans, while all else goes on. Negative: each range is -1.
+  void set_laser(Laser laser) { laser_ = laser; }
   /// Whether its satellite navigation knows where it is.
   void set_fix(bool fix) { has_fix_ = fix; }
   /// Writes messages that nobody can use, `count` of each kind.
@@ -68,6 +73,7 @@ class Ros2Robot {
   std::int64_t watchdog_ns_;
   std::size_t rays_;
   bool mute_ = false;
+  Laser laser_ = Laser::kWorks;
   bool pattern_ = false;
   bool has_fix_ = true;
   std::array<double, 3> origin_{};  ///< Latitude, longitude, altitude of the room's origin.

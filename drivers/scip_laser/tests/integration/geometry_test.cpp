@@ -89,7 +89,7 @@ TEST(ScipLaser, PolledWithTwoCharactersAndFewerSteps) {
   ASSERT_NO_FATAL_FAILURE(bench.start());
   bench.sink->await_more(20);
   EXPECT_EQ(bench.driver.declaration().capacity, 2U);
-  EXPECT_DOUBLE_EQ(bench.driver.declaration().range_max_m, 4.095);
+  EXPECT_DOUBLE_EQ(bench.driver.declaration().range_max_m, 4.094);
   EXPECT_DOUBLE_EQ(bench.driver.declaration().bearings_rad[1],
                    (301 - 384) * 2 * std::numbers::pi / 1024);
   for (const auto& sample : bench.sink->samples()) {

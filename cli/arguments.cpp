@@ -140,6 +140,7 @@ Command chosen_command(const CLI::App& root, const Everything& all) {
   if (name == "top") return all.top;
   if (name == "doctor") return all.doctor;
   if (name == "edit") return chosen_edit(chosen_app(root).get_name(), all.control.edit);
+  if (name == "end") return all.control.end;
   HoldCommand hold = all.control.hold;
   if (name == "pause") return hold;
   if (name == "resume" || name == "step") {

@@ -10,6 +10,7 @@
 #include "commands/doctor.hpp"
 #include "commands/drivers.hpp"
 #include "commands/edit.hpp"
+#include "commands/end.hpp"
 #include "commands/gui.hpp"
 #include "commands/hand_over.hpp"
 #include "commands/hosts.hpp"
@@ -36,7 +37,7 @@ using Command =
     std::variant<Finished, RunCommand, RobotCommand, EnvCommand, CheckCommand, DriversCommand,
                  DescribeCommand, NewCommand, SchemaCommand, InfoCommand, VerifyCommand,
                  PlayCommand, GapCommand, GuiCommand, PsCommand, StopCommand, ArmCommand,
-                 SetCommand, HandOverCommand, ShadowCommand, EditCommand, HoldCommand,
+                 SetCommand, HandOverCommand, ShadowCommand, EditCommand, HoldCommand, EndCommand,
                  BenchSwarmCommand, BenchCompareCommand, KeysNewCommand, KeysAddCommand,
                  KeysShowCommand, TopCommand, DoctorCommand, VersionCommand>;
 

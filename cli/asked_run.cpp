@@ -188,6 +188,44 @@ Result<AskedRun> AskedRun::find(const std::string& word, const BusOptions& optio
   return AskedRun(std::move(name), found.bus, std::move(peer));
 }
 
+Result<std::vector<AskedRun>> AskedRun::find_to_end(const std::string& word,
+                                                    const BusOptions& options) {
+  RAVE_TRY_ASSIGN(const auto runs, run_control::running_runs());
+  std::vector<AskedRun> hosts;
+  bool any = false;
+  for (const std::string& run : runs) {
+    const std::size_t mark = run.find(kOfHost);
+    const std::string scenario = run.substr(0, mark == std::string::npos ? run.rfind('-') : mark);
+    if (!word.empty() && scenario != word) continue;
+    any = any || mark == std::string::npos;
+    if (mark != std::string::npos) hosts.emplace_back(run);
+  }
+  auto here = run_control::find_run(word);
+  // A host is meant where nothing else can be, and where it is named.
+  if (here && (!word.empty() || here->find(kOfHost) == std::string::npos)) {
+    return std::vector<AskedRun>{AskedRun(*std::move(here))};
+  }
+  if (!here && (any || here.error().code != ErrorCode::kNotFound)) {
+    return tl::unexpected(std::move(here).error());
+  }
+  const auto found = search_bus(word, options);
+  if (!found && !hosts.empty()) return hosts;
+  if (!found) return tl::unexpected(found.error());
+  std::vector<BusPeer> peers = found->bus->all();
+  std::erase_if(peers, [&](const BusPeer& peer) {
+    return !found->host.empty() && (peer.manager || peer.name != found->host);
+  });
+  const auto manager = std::ranges::find_if(peers, &BusPeer::manager);
+  if (manager != peers.end()) peers = {BusPeer(*manager)};
+  // None is heard, and that has a reason.
+  if (peers.empty()) return tl::unexpected(found->bus->find(found->host, Duration{}).error());
+  std::vector<AskedRun> processes;
+  for (const BusPeer& peer : peers) {
+    processes.push_back(AskedRun(name_of(*found, peer), found->bus, peer));
+  }
+  return processes;
+}
+
 Result<AskedRun> AskedRun::find_on_bus(const std::string& word, const BusOptions& options,
                                        const Has& has) {
   RAVE_TRY_ASSIGN(const Found found, search_bus(word, options));

@@ -60,6 +60,12 @@ class AskedRun {
   /// `sure`, else those of all.
   [[nodiscard]] Result<std::vector<AskedRun>> controllers(bool sure) const;
 
+  /// Those that have to be asked to end a run: the one that does it alone, its environment manager,
+  /// or where that is gone its hosts. A run on this machine as of run_control::find_run(); else on
+  /// the bus; else hosts on this machine of the scenario that the word is. Errors: those of find().
+  [[nodiscard]] static Result<std::vector<AskedRun>> find_to_end(const std::string& word,
+                                                                 const BusOptions& options);
+
   /// The runs on the bus, each asked how it stands; those of this machine are among them. Looks for
   /// 1.5 s, or 3 s beyond loopback, and asks one after the other. Errors: those of
   /// bus::Bus::open().

@@ -51,12 +51,14 @@ Result<bus::BusConfig> read_bus_options(const BusOptions& options, std::string p
   return config;
 }
 
-void make_room(bus::BusConfig& config, std::size_t hosts) {
+void make_room(bus::BusConfig& config, std::size_t hosts, bus::Reach reach) {
   // The manager, and those who look on.
   constexpr std::size_t kOthers = 14;
-  constexpr std::size_t kMost = 119;
-  config.max_processes =
-      std::max(config.max_processes, static_cast<int>(std::min(hosts + kOthers, kMost)));
+  constexpr std::size_t kMost = bus::BusConfig::kMostPlain;
+  const bool crowd = hosts + kOthers > static_cast<std::size_t>(config.max_processes);
+  if (!crowd) return;
+  config.max_processes = static_cast<int>(std::min(hosts + kOthers, kMost));
+  config.reach = reach;
 }
 
 std::vector<std::string> words_of(const BusOptions& options, const bus::RunId& run) {

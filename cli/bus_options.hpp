@@ -38,9 +38,10 @@ struct BusOptions {
 /// As many processes as one command starts; who looks on may look for all of them.
 inline constexpr std::size_t kMostHosts = 100;
 
-/// Lets so many hosts find one another if all run on this machine. Each process that there may be
-/// costs every other one a look now and then.
-void make_room(bus::BusConfig& config, std::size_t hosts);
+/// Lets so many hosts find one another, or their manager, if all run on this machine. Each process
+/// that there may be costs every other one a look now and then; of many, hosts look for their
+/// manager alone. `reach`: what this process then is.
+void make_room(bus::BusConfig& config, std::size_t hosts, bus::Reach reach = bus::Reach::kAll);
 
 /// The same as words for the command line of another process of the run.
 [[nodiscard]] std::vector<std::string> words_of(const BusOptions& options, const bus::RunId& run);

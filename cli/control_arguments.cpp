@@ -76,6 +76,21 @@ void add_hold(CLI::App& root, HoldCommand& c) {
   add_value(step, "--count", c.count, "How many [1]", "N")->check(CLI::Range(1, 1'000'000'000));
 }
 
+void add_end(CLI::App& root, EndCommand& c) {
+  CLI::App& app = *root.add_subcommand("end", "End a run with all its processes");
+  add_run_name(app, c.run);
+  add_network_options(app, c.bus);
+  app.footer(
+      "The run ends before its next step and still writes its results. Its environment manager "
+      "tells\n"
+      "the hosts; where that is gone, the hosts themselves are asked: those that were forgotten "
+      "wait\n"
+      "for another one. `rave stop` is for robots: the run goes on.\n\n"
+      "Examples:\n"
+      "  rave end predator-prey\n"
+      "  rave end 3f2a91c0 --interface 192.168.1.9 --peer 192.168.1.2");
+}
+
 void add_hand_over(CLI::App& root, HandOverCommand& c) {
   CLI::App& app = *root.add_subcommand("hand-over", "Give a robot its other drivers while it runs");
   add_word(app, "robot", c.robot, "One whose entry in the scenario has `twin:`", "ROBOT");
@@ -156,6 +171,7 @@ void add_control_commands(CLI::App& root, ControlCommands& commands) {
   add_arm(root, commands.arm);
   add_set(root, commands.set);
   add_hold(root, commands.hold);
+  add_end(root, commands.end);
   add_hand_over(root, commands.hand_over);
   add_shadow(root, commands.shadow);
   add_edit(root, commands.edit);

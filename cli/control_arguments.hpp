@@ -3,6 +3,7 @@
 
 #include "commands/control.hpp"
 #include "commands/edit.hpp"
+#include "commands/end.hpp"
 #include "commands/hand_over.hpp"
 
 namespace CLI {  // its own name. NOLINT(readability-identifier-naming)
@@ -18,12 +19,14 @@ struct ControlCommands {
   ArmCommand arm;
   SetCommand set;
   HoldCommand hold;  ///< Of `pause`, `resume` and `step`.
+  EndCommand end;
   HandOverCommand hand_over;
   ShadowCommand shadow;
   EditCommand edit;
 };
 
-/// Adds `ps`, `stop`, `arm`, `set`, `pause`, `resume`, `step`, `hand-over`, `shadow` and `edit`,
+/// Adds `ps`, `stop`, `arm`, `set`, `pause`, `resume`, `step`, `end`, `hand-over`, `shadow` and
+/// `edit`,
 /// which write what they are given to `commands`.
 void add_control_commands(CLI::App& root, ControlCommands& commands);
 

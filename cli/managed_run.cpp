@@ -7,6 +7,7 @@
 #include <cmath>
 #include <thread>
 
+#include "host_command.hpp"
 #include "places.hpp"
 #include "rave/base/file.hpp"
 #include "rave/environment_manager/live_manager.hpp"
@@ -20,6 +21,9 @@ namespace rave::cli {
 namespace {
 
 using environment_manager::LiveManagerOutcome;
+
+/// As many find one another on a machine of two cores.
+constexpr std::size_t kMostLiveHosts = 50;
 
 /// The world alone: what the robots do is for their hosts.
 Result<robot_host::BuiltScenario> world_of(const ManagedRun& run) {
@@ -48,6 +52,24 @@ lock_step::Identity manager_of(const config::ExpandedScenario& scenario, bool re
           real_time};
 }
 
+/// How each host is started again by hand, if that is not done by `rave run`.
+std::vector<std::string> commands_of(const ManagedRun& run,
+                                     const std::vector<config::PlannedHost>& hosts) {
+  const bool restarts =
+      run.hosts_ended && run.scenario.scenario.on_lost_host == config::LostHost::kRestart;
+  std::vector<std::string> commands;
+  for (const config::PlannedHost& host : hosts) {
+    const bool by_itself = restarts && !host.elsewhere;
+    commands.push_back(by_itself ? "" : host_command(run.options, host.name, run.bus.run));
+  }
+  return commands;
+}
+
+/// Whether it goes on with a run that has lost its manager.
+bool resumes(const ManagedRun& run) {
+  return run.resume || run.scenario.scenario.on_lost_host == config::LostHost::kRestart;
+}
+
 /// What processes of hosts have sent goes to the host that it is of.
 void take_findings(std::vector<lock_step::Findings> findings, ManagedEnd& end) {
   for (lock_step::Findings& sent : findings) {
@@ -66,6 +88,8 @@ Result<ManagedEnd> manage_steps(const ManagedRun& run, robot_host::BuiltScenario
   how.bus = run.bus;
   how.identity = manager_of(run.scenario, false);
   how.scenario = file.name.value;
+  how.resume = resumes(run);
+  how.commands = commands_of(run, hosts);
   how.hosts = std::move(hosts);
   how.steps = static_cast<std::uint64_t>(std::llround(file.duration_s / file.step_s.value));
   how.on_lost_host = file.on_lost_host;
@@ -165,8 +189,18 @@ Result<ManagedEnd> manage_time(const ManagedRun& run, robot_host::BuiltScenario 
   run.console.warn("run", "the run goes at real time, because {}", built.live_reason);
   environment_manager::LiveManagerOptions how;
   how.bus = run.bus;
+  how.bus.reach = bus::Reach::kAll;
+  if (hosts.size() > kMostLiveHosts) {
+    return fail(
+        ErrorCode::kInvalidArgument,
+        "the run has {} hosts and is in real time, in which each looks for all others: more "
+        "than {} do not find one another; give fewer hosts more robots each",
+        hosts.size(), kMostLiveHosts);
+  }
   how.identity = manager_of(run.scenario, true);
   how.scenario = file.name.value;
+  how.resume = resumes(run);
+  how.commands = commands_of(run, hosts);
   how.hosts = std::move(hosts);
   for (const sim::RobotSpec& robot : built.spec.robots) {
     const sim::RobotType& type = built.spec.types[robot.type];

@@ -29,6 +29,8 @@ struct ManagedRun {
   std::function<bool()> stopping;
   /// Set: the hosts belong to this process; whether all of them have ended.
   std::function<bool()> hosts_ended;
+  /// Go on with a run that has lost its manager; under the policy `restart` in any case.
+  bool resume = false;
 };
 
 /// Lets other terminals control a managed run, under the name of its scenario, until it is

@@ -11,8 +11,7 @@ void add_run(CLI::App& root, RunCommand& c) {
   CLI::App& app = *root.add_subcommand("run", "Run a scenario");
   add_scenario(app, c.scenario);
   add_run_options(app, c);
-  add_value(app, "--processes", c.processes, "Share the robots evenly among so many processes", "N")
-      ->check(CLI::Range(1, 100));
+  add_processes(app, c.processes, "Share the robots evenly among so many processes", 1);
   add_bus_options(app, c.bus);
   app.footer(
       "Exit code: 0 if the run was whole and its checks hold, 1 if not, 2 for bad input.\n"
@@ -31,8 +30,7 @@ void add_robot(CLI::App& root, RobotCommand& c) {
             "Give up after so many seconds without an environment manager [never]", "S")
       ->check(CLI::Range(0.1, 1e9));
   add_run_options(app, c.run);
-  add_value(app, "--processes", c.run.processes, "As of `rave env`", "N")
-      ->check(CLI::Range(2, 100));
+  add_processes(app, c.run.processes, "As of `rave env`", 2);
   add_bus_options(app, c.run.bus);
   app.footer(
       "It waits for the environment manager of the run (`rave env`, or `rave run` of the same\n"
@@ -48,16 +46,18 @@ void add_env(CLI::App& root, EnvCommand& c) {
   CLI::App& app =
       *root.add_subcommand("env", "Manage the world of a scenario that several hosts share");
   add_scenario(app, c.run.scenario);
+  app.add_flag("--resume", c.resume,
+               "Go on with a run that has lost its manager; on_lost_host: restart does it anyway");
   add_run_options(app, c.run);
-  add_value(app, "--processes", c.run.processes, "Share the robots evenly among host-1, host-2 ...",
-            "N")
-      ->check(CLI::Range(2, 100));
+  add_processes(app, c.run.processes, "Share the robots evenly among host-1, host-2 ...", 2);
   add_bus_options(app, c.run.bus);
   app.footer(
       "The hosts are started with `rave robot`, in any order. If it dies, another one goes on in\n"
-      "its place. Exit code: 0 if the run was whole, 1 if not, 2 for bad input.\n\n"
-      "Example:\n"
-      "  rave env lab");
+      "its place with --resume; without it, hosts of a run that has begun are left alone, and\n"
+      "`rave end` ends them. Exit code: 0 if the run was whole, 1 if not, 2 for bad input.\n\n"
+      "Examples:\n"
+      "  rave env lab\n"
+      "  rave env lab --resume");
 }
 
 }  // namespace

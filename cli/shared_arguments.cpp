@@ -1,7 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shared_arguments.hpp"
 
+#include <fmt/format.h>
+
+#include "bus_options.hpp"
+
 namespace rave::cli {
+
+void add_processes(CLI::App& app, std::optional<int>& processes, const char* what, int least) {
+  const auto check = [least](const std::string& word) -> std::string {
+    const int most = static_cast<int>(kMostHosts);
+    if (CLI::Range(least, most)(word).empty()) return {};
+    return fmt::format(
+        "expected {} to {}: a machine has room for so many hosts in a DDS domain; give each more "
+        "robots",
+        least, most);
+  };
+  add_value(app, "--processes", processes, what, "N")->check(check);
+}
 
 void add_plugins(CLI::App& app, std::vector<std::string>& folders) {
   add_values(app, "--plugins", folders,

@@ -4,6 +4,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,9 @@ void add_threads(CLI::App& app, T& threads,
                  const char* what = "Threads; they do not change the result") {
   add_value(app, "--threads", threads, what, "N")->check(CLI::Range(1, 1024));
 }
+
+/// Into how many processes the robots are shared: `least` to kMostHosts.
+void add_processes(CLI::App& app, std::optional<int>& processes, const char* what, int least);
 
 /// Folders of plug-ins beside those that are found anyway.
 void add_plugins(CLI::App& app, std::vector<std::string>& folders);

@@ -8,6 +8,7 @@
 
 #include "console.hpp"
 #include "error_text.hpp"
+#include "host_command.hpp"
 #include "host_process.hpp"
 #include "interrupt.hpp"
 #include "managed_run.hpp"
@@ -153,15 +154,6 @@ class Crew {
   std::vector<Member> members_;
 };
 
-/// How somebody starts a host that is elsewhere.
-std::string invitation(const config::ExpandedScenario& scenario, const config::PlannedHost& host,
-                       const RunCommand& options, const bus::BusConfig& bus) {
-  std::string words;
-  for (const std::string& word : words_of(options.bus, bus.run)) words += " " + word;
-  return fmt::format("waits for host `{}`: rave robot {} --host {}{}", host.name,
-                     scenario.scenario.name.value, host.name, words);
-}
-
 /// Puts together what all have left.
 Result<robot_host::RunOutcome> put_together(ManagedEnd& managed, const Crew& crew,
                                             const std::vector<std::string>& problems) {
@@ -180,7 +172,7 @@ int run_shared(const RunCommand& options, const config::ExpandedScenario& scenar
   if (bus_options.run.empty()) bus_options.run = bus::RunId::random().text();
   auto bus = bus_config(bus_options, "environment manager", robot_host::shared_number(scenario));
   if (!bus) return complain(bus.error());
-  make_room(*bus, hosts.size());
+  make_room(*bus, hosts.size(), bus::Reach::kHub);
   const auto folder =
       RunFolder::create({options.output, options.replace}, scenario.scenario.name.value);
   if (!folder) return complain(folder.error());
@@ -196,7 +188,8 @@ int run_shared(const RunCommand& options, const config::ExpandedScenario& scenar
   Crew crew(options, *bus, folder->path(), scenario.scenario, console);
   for (const config::PlannedHost& host : hosts) {
     if (host.elsewhere) {
-      console.warn("run", "{}", invitation(scenario, host, options, *bus));
+      console.warn("run", "waits for host `{}`: {}", host.name,
+                   host_command(options, host.name, bus->run));
       continue;
     }
     if (auto started = crew.start(host); !started) return complain(started.error());

@@ -130,6 +130,7 @@ std::string state_text(const robot_host::RunStatus& status) {
   std::string text = status.paused ? "paused" : "running";
   if (stopped > 0) text += fmt::format(", {} stopped", stopped);
   if (unarmed > 0) text += fmt::format(", {} not armed", unarmed);
+  if (!status.waits_for.empty()) text += ", waits for " + status.waits_for;
   return text;
 }
 

@@ -36,10 +36,10 @@ int tell(const RunCommand& options, bool whole, const std::string& summary,
 }
 
 Result<bus::BusConfig> bus_of_run(const BusOptions& options, const std::string& participant,
-                                  const config::ExpandedScenario& scenario) {
+                                  const config::ExpandedScenario& scenario, bus::Reach reach) {
   RAVE_TRY_ASSIGN(const auto hosts, config::plan_hosts(scenario));
   RAVE_TRY_ASSIGN(auto bus, bus_config(options, participant, robot_host::shared_number(scenario)));
-  make_room(bus, hosts.size());
+  make_room(bus, hosts.size(), reach);
   return bus;
 }
 
@@ -61,7 +61,7 @@ int robot(const RobotCommand& options) {
   how.host = options.host;
   how.manager_patience = from_seconds(options.manager_patience_s);
   how.others = std::move(others);
-  auto bus = bus_of_run(run.bus, options.host, *scenario);
+  auto bus = bus_of_run(run.bus, options.host, *scenario, bus::Reach::kHubs);
   if (!bus) return complain(bus.error());
   how.bus = *bus;
   const auto folder = RunFolder::create({run.output, run.replace}, name);
@@ -97,7 +97,7 @@ int env(const EnvCommand& options) {
   const RunCommand& run = options.run;
   auto scenario = read_scenario(run);
   if (!scenario) return complain(scenario.error());
-  auto bus = bus_of_run(run.bus, "environment manager", *scenario);
+  auto bus = bus_of_run(run.bus, "environment manager", *scenario, bus::Reach::kHub);
   if (!bus) return complain(bus.error());
   const auto folder =
       RunFolder::create({run.output, run.replace}, scenario->scenario.name.value + "-env");
@@ -119,7 +119,8 @@ int env(const EnvCommand& options) {
                                started = true;
                                return control.stopping();
                              },
-                             {}});
+                             {},
+                             options.resume});
   console.clear();
   if (!managed && !started) folder->discard();
   if (!managed) return complain(managed.error());

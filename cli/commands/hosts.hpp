@@ -18,6 +18,7 @@ struct RobotCommand {
 /// `rave env`: the environment manager of a scenario that hosts share.
 struct EnvCommand {
   RunCommand run;
+  bool resume = false;  ///< Go on with a run that has lost its manager.
 };
 
 /// Return 0 if the run was whole for them, 1 if not, 2 on bad input.

@@ -189,7 +189,9 @@ TEST_F(EditsOverHosts, AManagerThatIsKilledIsReplacedByOneThatKnowsTheObstacles)
   signal("env", SIGKILL);
   EXPECT_EQ(end_of("env"), -1);
   wait_for_line("one", "the environment manager is gone");
-  start("second", "env", "edited.yaml", span);
+  Words goes_on = span;
+  goes_on.emplace_back("--resume");
+  start("second", "env", "edited.yaml", goes_on);
   EXPECT_EQ(end_of("second"), 1) << "of the change that was refused before";
   EXPECT_NE(result("second")["problems"].dump().find("obstacle `lid` would overlap"),
             std::string::npos)
@@ -212,7 +214,7 @@ TEST_F(EditsOverHosts, ASuccessorGoesOnWithWhatWasEditedByHand) {
   signal("env", SIGKILL);
   EXPECT_EQ(end_of("env"), -1);
   wait_for_line("one", "the environment manager is gone");
-  start("second", "env", "crowd.yaml", {"--duration", "100000"});
+  start("second", "env", "crowd.yaml", {"--duration", "100000", "--resume"});
   wait_for_line("second", "takes over from a manager that is gone");
   wait_until_it_runs();
   const Ended listed = rave({"edit", "list"});
@@ -318,6 +320,7 @@ class LiveEdits : public Garbage {
   void begin(const std::string& who, const std::string& name) {
     Words words = {"--run", run_.text()};
     if (who != "env") words.insert(words.end(), {"--host", who});
+    if (who == "env" && name != who) words.emplace_back("--resume");
     start(name, who == "env" ? "env" : "robot", "live.yaml", words);
   }
   void begin_all() {

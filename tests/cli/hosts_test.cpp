@@ -152,7 +152,7 @@ TEST_F(Hosts, AManagerThatIsKilledIsReplacedAndNothingIsLost) {
   signal("env", SIGKILL);
   EXPECT_EQ(end_of("env"), -1);
   wait_for_line("one", "the environment manager is gone");
-  start("second", "env", scenario, span);
+  start("second", "env", scenario, {"--duration", "40", "--no-picture", "--resume"});
   EXPECT_EQ(end_of("second"), 0) << console("second");
   EXPECT_NE(console("second").find("takes over from a manager that is gone"), std::string::npos);
   EXPECT_EQ(end_of("one"), 0) << console("one");
@@ -183,7 +183,7 @@ TEST_F(Hosts, AManagerOfAnotherScenarioIsNotBelieved) {
   // It says that the run has failed when it goes.
   signal("stranger", SIGINT);
   EXPECT_EQ(end_of("stranger"), 1);
-  start("second", "env", scenario_, {"--run", "crowd", "--duration", "100000"});
+  start("second", "env", scenario_, {"--run", "crowd", "--duration", "100000", "--resume"});
   wait_for_line("second", "takes over from a manager that is gone");
   wait_for_more("one");
   wait_for_more("two");
@@ -235,7 +235,8 @@ TEST_F(Hosts, HostsOfARunThatIsKilledWaitForAnotherManagerForAMinute) {
   signal("run", SIGKILL);
   EXPECT_EQ(end_of("run"), -1);
   wait_for_line("run/hosts/one", "the environment manager is gone");
-  start("second", "env", scenario_, {"--duration", "100000", "--run", "crowd", "--no-picture"});
+  start("second", "env", scenario_,
+        {"--duration", "100000", "--run", "crowd", "--no-picture", "--resume"});
   wait_for_line("second", "takes over from a manager that is gone");
   signal("second", SIGINT);
   EXPECT_EQ(end_of("second"), 1);

@@ -147,7 +147,9 @@ TEST_P(AManagerIsKilled, AnotherTakesOverAndTheHashIsThatOfOneProcess) {
       wait_for_line("one", "the environment manager is gone");
     }
     manager = "manager-" + std::to_string(kill + 2);
-    start(manager, "env", "crowd.yaml", words);
+    Words goes_on = words;
+    goes_on.emplace_back("--resume");
+    start(manager, "env", "crowd.yaml", goes_on);
   }
   EXPECT_EQ(end_of(manager), 0) << console(manager);
   EXPECT_EQ(result(manager)["hash"], kAlone);

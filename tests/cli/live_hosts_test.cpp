@@ -31,6 +31,7 @@ class LiveHosts : public SharedWorld {
   void begin(const std::string& who, const std::string& name) {
     Words words = {"--run", run_.text()};
     if (who != "env") words.insert(words.end(), {"--host", who});
+    if (who == "env" && name != who) words.emplace_back("--resume");
     start(name, who == "env" ? "env" : "robot", "live.yaml", words);
   }
   void begin_all() {

@@ -26,6 +26,7 @@ class LiveKill : public KillRound {
   void begin(const std::string& who, const std::string& name) {
     Words words = of_run({});
     if (who != "env") words.insert(words.end(), {"--host", who});
+    if (who == "env" && name != who) words.emplace_back("--resume");
     start(name, who == "env" ? "env" : "robot", "live.yaml", words);
   }
   void begin_all() {

@@ -35,7 +35,7 @@ struct Golden {
 constexpr Golden kGolden[] = {
     {Sensing::kA, Noise::kNone, 0x3c05eebbfadb9c88, 0xa754269e5aca0840},
     {Sensing::kB, Noise::kNone, 0xdbd6301c5584c1e4, 0x8f12f80416b71068},
-    {Sensing::kA, Noise::kGaussian, 0x0141c34eefd66940, 0x16e60573d2705ba1},
+    {Sensing::kA, Noise::kGaussian, 0xc05e6b8e68688ce1, 0x1fd18b94b64891a5},
 };
 
 class SwarmGolden : public testing::TestWithParam<Golden> {

@@ -92,6 +92,7 @@ Result<std::unique_ptr<Bus>> Bus::open(const BusConfig& config) {
 }
 
 Status Bus::open_domain() {
+  if (config_.reach == Reach::kHub) return open_hub();
   const std::string settings = cyclone_xml(config_);
   std::uint32_t attempt = 0;
   do {
@@ -101,6 +102,19 @@ Status Bus::open_domain() {
            ++attempt < kMostBeside);
   if (domain_ < 0) return refused(domain_);
   return {};
+}
+
+/// In the first place that no other hub of this machine has.
+Status Bus::open_hub() {
+  for (int hub = 0; hub < BusConfig::kMostHubs; ++hub) {
+    domain_ = dds_create_domain(number_, cyclone_xml(config_, hub).c_str());
+    if (domain_ == DDS_RETCODE_PRECONDITION_NOT_MET) break;
+    if (domain_ < 0) continue;
+    // That a place was taken concerns nobody.
+    if (log_) static_cast<void>(log_->take());
+    return {};
+  }
+  return refused(domain_);
 }
 
 Status Bus::open_participant() {
@@ -122,7 +136,7 @@ Status Bus::open_participant() {
   const Qos partition = partition_of(config_.run);
   publisher_ = dds_create_publisher(participant_, partition.get(), nullptr);
   subscriber_ = dds_create_subscriber(participant_, partition.get(), nullptr);
-  participants_ = std::make_unique<Participants>(participant_, config_.run, secured);
+  participants_ = std::make_unique<Participants>(participant_, config_.run, config_.lease, secured);
   const dds_return_t worst = std::min(
       {publisher_, subscriber_, std::ranges::min(participants_->readers()), dds_entity_t{0}});
   if (worst < 0) return refused(worst);
@@ -270,6 +284,8 @@ bool Bus::speaks_for(dds_entity_t reader, dds_instance_handle_t from, std::uint6
   end->heard.push_back({from, participant});
   return participants_->speaks_for(participant, writer);
 }
+
+const Standstill& Bus::standstill() const noexcept { return participants_->standstill(); }
 
 void Bus::collect_matches(Endpoint& endpoint) {
   std::uint32_t status = 0;

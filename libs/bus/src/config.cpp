@@ -72,22 +72,43 @@ std::string general(const BusConfig& config) {
   return xml + "</General>";
 }
 
-std::string discovery(const BusConfig& config) {
+/// The places of peers where those are whom a process with this reach looks for. Empty: at any.
+std::vector<int> places(const BusConfig& config) {
+  if (config.multicast != Multicast::kOff || config.reach == Reach::kAll) return {};
+  std::vector<int> places;
+  const int plain = config.reach == Reach::kHubs ? 0 : config.max_processes;
+  for (int i = 0; i < plain; ++i) places.push_back(i);
+  for (int i = 0; i < BusConfig::kMostHubs; ++i) places.push_back(BusConfig::kMostPlain + i);
+  return places;
+}
+
+/// The UDP port at which the process in a place hears of others (RTPS 2.2, 9.6.1.1).
+int port_of(const BusConfig& config, int place) {
+  return 7400 + 250 * static_cast<int>(config.domain) + 10 + 2 * place;
+}
+
+std::string discovery(const BusConfig& config, int hub) {
   std::vector<std::string> peers = config.peers;
   if (peers.empty() && config.loopback()) peers = {config.interface};
+  const std::vector<int> where = places(config);
+  const bool is_hub = config.reach == Reach::kHub && !where.empty();
   // With `none` as index and without multicast every process sees itself alone and says nothing.
   std::string xml = fmt::format(
-      "<Discovery><ParticipantIndex>auto</ParticipantIndex>"
+      "<Discovery><ParticipantIndex>{}</ParticipantIndex>"
       "<MaxAutoParticipantIndex>{}</MaxAutoParticipantIndex>"
       "<LeaseDuration>{}ms</LeaseDuration>",
-      config.max_processes - 1, config.lease.ns / 1'000'000);
+      is_hub ? std::to_string(BusConfig::kMostPlain + hub) : "auto", config.max_processes - 1,
+      config.lease.ns / 1'000'000);
   // The number that its domain has within this process is another one then.
   if (config.beside) xml += fmt::format("<ExternalDomainId>{}</ExternalDomainId>", config.domain);
   if (!config.tag.empty()) xml += fmt::format("<Tag>{}</Tag>", escape(config.tag));
   if (!peers.empty()) {
     xml += "<Peers>";
     for (const std::string& peer : peers) {
-      xml += fmt::format("<Peer address=\"{}\"/>", escape(peer));
+      if (where.empty()) xml += fmt::format("<Peer address=\"{}\"/>", escape(peer));
+      for (const int place : where) {
+        xml += fmt::format("<Peer address=\"{}:{}\"/>", escape(peer), port_of(config, place));
+      }
     }
     xml += "</Peers>";
   }
@@ -165,6 +186,10 @@ Status validate(const BusConfig& config) {
   if (config.max_processes < 1 || config.max_processes > 119) {
     return fail(kBad, "max_processes: {} is not in 1 to 119", config.max_processes);
   }
+  if (config.reach != Reach::kAll && config.max_processes > BusConfig::kMostPlain) {
+    return fail(kBad, "max_processes: {} is not in 1 to {}, beside hubs", config.max_processes,
+                BusConfig::kMostPlain);
+  }
   if (config.lease.ns < 100'000'000 || config.lease.ns > 3600'000'000'000) {
     return fail(kBad, "lease: {} s is not in 0.1 s to 3600 s", config.lease.seconds());
   }
@@ -183,9 +208,9 @@ Status validate(const BusConfig& config) {
   return {};
 }
 
-std::string cyclone_xml(const BusConfig& config) {
+std::string cyclone_xml(const BusConfig& config, int hub) {
   std::string xml =
-      "<CycloneDDS><Domain Id=\"any\">" + general(config) + discovery(config) + internals();
+      "<CycloneDDS><Domain Id=\"any\">" + general(config) + discovery(config, hub) + internals();
   if (!config.security.empty()) xml += security(config.security);
   xml += "</Domain></CycloneDDS>";
   if (!config.cyclone_settings.empty()) xml += "," + config.cyclone_settings;

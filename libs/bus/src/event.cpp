@@ -27,6 +27,8 @@ std::string_view to_string(EventKind kind) noexcept {
       return "refused";
     case EventKind::kNotice:
       return "notice";
+    case EventKind::kStoodStill:
+      return "stood still";
   }
   return "unknown";
 }

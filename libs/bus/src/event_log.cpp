@@ -44,7 +44,8 @@ std::string printable(std::string_view text) {
 void EventLog::note(const BusEvent& event, Clock::time_point now) {
   using enum EventKind;
   const bool worth = event.kind == kRefused || event.kind == kIncompatible ||
-                     event.kind == kForeignRun || event.kind == kNotice;
+                     event.kind == kForeignRun || event.kind == kNotice ||
+                     event.kind == kStoodStill;
   if (!worth || log_ == nullptr) return;
   std::string line = event.line();
   const auto told = told_.find(event.writer);

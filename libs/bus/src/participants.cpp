@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <memory>
+#include <utility>
 
 #include "rave/base/control_characters.hpp"
 
@@ -76,8 +77,12 @@ Identity read_identity(const dds_qos_t* qos) {
   return identity;
 }
 
-Participants::Participants(dds_entity_t participant, const RunId& run, bool secured)
-    : run_(run), secured_(secured) {
+Participants::Participants(dds_entity_t participant, const RunId& run, Duration lease, bool secured)
+    : run_(run),
+      secured_(secured),
+      // A process is heard of each 0.8 leases at least, so a fifth without us may lose it. Those
+      // that have lost us as well must be found again.
+      standstill_({lease.ns / 5}, lease * 3) {
   readers_.push_back(
       dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, nullptr, nullptr));
   if (secured_) {
@@ -109,13 +114,34 @@ void Participants::collect(std::vector<BusEvent>& events) {
       [this, &events](const dds_builtintopic_participant_t& sample, const auto& info) {
         // Who came and went since the last time has one sample that says both.
         if (info.valid_data) appear(sample, events);
-        if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) disappear(sample.key, events);
+        if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) disappear(sample.key);
       });
   for (const auto& [key, who] : said) {
     const auto known = known_.find(key);
     if (known == known_.end() || known->second.writer != 0) continue;
     learn(key, who, events);
   }
+  judge(events);
+}
+
+/// Tells who is gone, unless it is this process that was.
+void Participants::judge(std::vector<BusEvent>& events) {
+  // Not before: whoever is missed because of a standstill has been read after it.
+  standstill_.look();
+  if (missed_.empty()) told_ = false;
+  if (missed_.empty()) return;
+  if (Standstill::Clock::now() < standstill_.silence_counts_from()) {
+    if (std::exchange(told_, true)) return;
+    events.push_back({EventKind::kStoodStill, "", "", 0,
+                      fmt::format("this process, for {:.1f} s; who else is there is found out anew",
+                                  standstill_.stood().seconds())});
+    return;
+  }
+  told_ = false;
+  for (const auto& [key, who] : missed_) {
+    events.push_back({EventKind::kParticipantLost, "", who.name, who.writer, ""});
+  }
+  missed_.clear();
 }
 
 void Participants::appear(const dds_builtintopic_participant_t& sample,
@@ -127,12 +153,15 @@ void Participants::appear(const dds_builtintopic_participant_t& sample,
 
 void Participants::learn(const Guid& key, const Identity& who, std::vector<BusEvent>& events) {
   known_[key] = who;
-  if (!foreign(who)) {
-    events.push_back({EventKind::kParticipantAppeared, "", who.name, who.writer, ""});
-    if (who.writer == 0 || who.run != run_) return;
+  if (who.writer != 0 && who.run == run_) {
     dds_guid_t guid{};
     std::ranges::copy(key, guid.v);
     owners_.try_emplace(who.writer, guid);
+  }
+  // It is back before anybody was told that it had gone.
+  if (missed_.erase(key) > 0) return;
+  if (!foreign(who)) {
+    events.push_back({EventKind::kParticipantAppeared, "", who.name, who.writer, ""});
     return;
   }
   // A run may have many processes, of which each process of this one would be told.
@@ -141,13 +170,11 @@ void Participants::learn(const Guid& key, const Identity& who, std::vector<BusEv
                     "a process of run " + who.run.text() + " is in this domain"});
 }
 
-void Participants::disappear(const dds_guid_t& guid, std::vector<BusEvent>& events) {
+void Participants::disappear(const dds_guid_t& guid) {
   auto node = known_.extract(key_of(guid));
   if (node.empty()) return;
   const std::uint64_t writer = node.mapped().writer;
-  if (!foreign(node.mapped())) {
-    events.push_back({EventKind::kParticipantLost, "", node.mapped().name, writer, ""});
-  }
+  if (!foreign(node.mapped())) missed_.insert({node.key(), node.mapped()});
   const auto owner = owners_.find(writer);
   if (owner != owners_.end() && key_of(owner->second) == node.key()) {
     owners_.erase(owner);

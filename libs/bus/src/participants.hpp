@@ -13,6 +13,7 @@
 #include "rave/bus/bus.hpp"
 #include "rave/bus/event.hpp"
 #include "rave/bus/run_id.hpp"
+#include "rave/bus/standstill.hpp"
 
 namespace rave::bus {
 
@@ -35,10 +36,12 @@ void write_identity(const Identity& identity, dds_qos_t* qos);
 /// without a name, and again with it as soon as that writer is known.
 class Participants {
  public:
-  Participants(dds_entity_t participant, const RunId& run, bool secured);
+  /// `lease`: after which a silent process is lost.
+  Participants(dds_entity_t participant, const RunId& run, Duration lease, bool secured);
 
   /// Reads what is new. Those of this run, and those that are not of RAVE, become events; of
-  /// another run the first process that is seen becomes one.
+  /// another run the first process that is seen becomes one. After this process stood still, the
+  /// others have a grace in which they may come back as if they had never been missed.
   void collect(std::vector<BusEvent>& events);
   /// Who has the participant; empty if nobody known.
   [[nodiscard]] Identity find(const dds_guid_t& guid) const;
@@ -52,26 +55,33 @@ class Participants {
   [[nodiscard]] const dds_guid_t* owner_of(std::uint64_t writer) const;
   /// Whose samples say that something may have changed.
   [[nodiscard]] const std::vector<dds_entity_t>& readers() const noexcept { return readers_; }
+  /// To be called often, and after each wait.
+  [[nodiscard]] Standstill& standstill() noexcept { return standstill_; }
 
  private:
   using Guid = std::array<std::uint8_t, 16>;
   void appear(const dds_builtintopic_participant_t& sample, std::vector<BusEvent>& events);
-  void disappear(const dds_guid_t& guid, std::vector<BusEvent>& events);
+  void disappear(const dds_guid_t& guid);
   /// A known participant has said who it is.
   void learn(const Guid& key, const Identity& who, std::vector<BusEvent>& events);
   /// Who has said so with a writer since the last call.
   [[nodiscard]] std::map<Guid, Identity> take_writers() const;
+  void judge(std::vector<BusEvent>& events);
   [[nodiscard]] bool foreign(const Identity& who) const;
 
   RunId run_;
   bool secured_;
   Guid self_{};
   std::vector<dds_entity_t> readers_;  ///< Of participants, and with `secured_` of writers.
+  Standstill standstill_;
   std::map<Guid, Identity> known_;
   std::map<std::uint64_t, dds_guid_t> owners_;  ///< Of this run, by writer.
   std::set<std::string> foreign_told_;          ///< Runs, by their numbers.
   /// Names stay known after their owners have gone: their endpoints are told of later.
   std::map<Guid, Identity> gone_;
+  /// Seem to be gone, and nobody has been told so.
+  std::map<Guid, Identity> missed_;
+  bool told_ = false;  ///< Why nobody is told.
 };
 
 }  // namespace rave::bus

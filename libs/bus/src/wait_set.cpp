@@ -75,6 +75,7 @@ void WaitSet::ring() const noexcept { dds_set_guardcondition(bell_, true); }
 
 Woken WaitSet::wait(Duration timeout, const std::stop_token& stop) {
   auto came = Relay::Came::kNothing;
+  bus_->participants_->standstill().look();
   {
     const std::stop_callback wake(stop, [this] { dds_set_guardcondition(stop_, true); });
     std::array<dds_attach_t, 1> woken{};
@@ -85,6 +86,7 @@ Woken WaitSet::wait(Duration timeout, const std::stop_token& stop) {
       came = Relay::Came::kSet;
     }
   }
+  bus_->participants_->standstill().look(timeout);
   // Nobody sets it any more: the next wait may have another token.
   if (stop.stop_requested()) dds_set_guardcondition(stop_, false);
   // Whoever rings after this has done what it rings for before the caller looks again.

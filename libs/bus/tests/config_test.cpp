@@ -88,6 +88,31 @@ TEST(BusConfig, TakesTheVariableOnlyIfToldTo) {
   ::unsetenv("CYCLONEDDS_URI");
 }
 
+TEST(BusConfig, OfManyProcessesHostsLookForHubsAlone) {
+  BusConfig config = good();
+  config.domain = 2;
+  config.max_processes = 3;
+  config.reach = Reach::kHubs;
+  const std::string host = cyclone_xml(config);
+  // Behind 114 places of two ports each.
+  EXPECT_TRUE(has(host, "<Peers><Peer address=\"127.0.0.1:8138\"/>")) << host;
+  EXPECT_TRUE(has(host, "<Peer address=\"127.0.0.1:8148\"/></Peers>")) << host;
+  EXPECT_TRUE(has(host, "<ParticipantIndex>auto</ParticipantIndex>")) << host;
+  config.reach = Reach::kHub;
+  const std::string hub = cyclone_xml(config, 5);
+  EXPECT_TRUE(has(hub, "<ParticipantIndex>119</ParticipantIndex>")) << hub;
+  EXPECT_TRUE(has(hub, "<Peers><Peer address=\"127.0.0.1:7910\"/>")) << hub;
+  EXPECT_TRUE(has(hub, "<Peer address=\"127.0.0.1:7914\"/><Peer address=\"127.0.0.1:8138\"/>"))
+      << hub;
+  config.multicast = Multicast::kDiscovery;
+  EXPECT_TRUE(has(cyclone_xml(config), "<ParticipantIndex>auto</ParticipantIndex>"))
+      << "multicast finds all anyway";
+  config = good();
+  config.reach = Reach::kHubs;
+  config.max_processes = 115;
+  EXPECT_EQ(reason(config), "max_processes: 115 is not in 1 to 114, beside hubs");
+}
+
 TEST(BusConfig, RefusesWhatCannotWork) {
   BusConfig config = good();
   config.participant = "";

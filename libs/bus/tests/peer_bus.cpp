@@ -24,6 +24,8 @@ int main(int argc, char** argv) {
   if (const int lease_s = std::atoi(arguments["lease_s"].c_str()); lease_s > 0) {
     config.lease = rave::from_seconds(lease_s);
   }
+  if (arguments["reach"] == "hub") config.reach = Reach::kHub;
+  if (arguments["reach"] == "hubs") config.reach = Reach::kHubs;
   const auto run = RunId::parse(arguments["run"]);
   if (!run) return 2;
   config.run = *run;

@@ -52,6 +52,34 @@ TEST(Processes, APacketGoesThereAndBack) {
   EXPECT_EQ(peer.end(), 0);
 }
 
+TEST(Processes, WhoLooksForHubsFindsTheseAloneAndIsFoundByOthers) {
+  const TestDomain domain;
+  PeerProcess first(domain, "idle", "first", {"reach=hub"});
+  PeerProcess second(domain, "idle", "second", {"reach=hub"});
+  PeerProcess host(domain, "idle", "host", {"reach=hubs"});
+  for (PeerProcess* const peer : {&first, &second, &host}) ASSERT_EQ(peer->line(), "ready");
+  BusConfig config = domain.config("another host");
+  config.reach = Reach::kHubs;
+  const auto ours = Bus::open(config);
+  ASSERT_TRUE(ours) << ours.error().text();
+  const auto knows = [](Bus& bus, const std::string& name) {
+    static_cast<void>(bus.take_events());
+    return std::ranges::any_of(bus.processes(),
+                               [&](const BusProcess& process) { return process.name == name; });
+  };
+  EXPECT_TRUE(eventually([&] { return knows(**ours, "first") && knows(**ours, "second"); }));
+  config = domain.config("onlooker");
+  config.beside = true;
+  const auto onlooker = Bus::open(config);
+  ASSERT_TRUE(onlooker) << onlooker.error().text();
+  EXPECT_TRUE(eventually([&] {
+    return knows(**onlooker, "first") && knows(**onlooker, "host") &&
+           knows(**onlooker, "another host");
+  }));
+  EXPECT_FALSE(knows(**ours, "host"));
+  EXPECT_EQ(host.end(), 0);
+}
+
 TEST(Processes, AStuckReaderHoldsNobodyUpAndHearsAgainLater) {
   const TestDomain domain;
   PeerProcess peer(domain, "echo", "stuck", {"lease_s=600"});

@@ -172,7 +172,7 @@ TEST_F(CheckedRecord, AFileWithoutIndexAndChecksumsIsNeverWhole) {
 }
 
 TEST_F(CheckedRecord, WithoutTheLookAtAllOfItDamageInTheDataIsNotSeenAndNotDenied) {
-  const ChunkInfo& chunk = reader_->chunks()[1];
+  const ChunkInfo& chunk = reader_->chunks()[reader_->chunks().size() / 2];
   file_.write(flipped(chunk.offset + chunk.length / 2));
   const auto quick = describe_record(file_.path());
   ASSERT_TRUE(quick);

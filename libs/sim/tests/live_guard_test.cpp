@@ -181,8 +181,8 @@ TEST_F(LiveGuardTest, APoseThatIsNoNumberIsNone) {
 }
 
 TEST_F(LiveGuardTest, WithoutALivePoseSourceTheReportedPoseCounts) {
-  guard_.emplace(fence_alone(), LivePose{nullptr, ReadingKind::kPose, {}, from_seconds(0.5)}, {},
-                 from_seconds(kPeriod_s));
+  guard_.emplace(fence_alone(), LivePose{nullptr, ReadingKind::kPose, {}, from_seconds(0.5)},
+                 std::vector<LiveSensor>{}, from_seconds(kPeriod_s));
   order_.body = disc();
   order_.radius_m = kRadius_m;
   order(0.2);

@@ -69,6 +69,7 @@ LiveBoard::LiveBoard(const LiveManagerOptions& options, Parts parts)
     const config::PlannedHost& host = options.hosts[h];
     LiveSeat& seat = seats_.emplace_back();
     seat.name = host.name;
+    if (h < options.commands.size()) seat.command = options.commands[h];
     seat.robots = static_cast<std::uint32_t>(host.robots.size());
     for (const std::size_t robot : host.robots) {
       seat_of_[robot] = h;
@@ -134,6 +135,7 @@ Status LiveBoard::look_at_processes(bool goes) {
       lose(event.writer, goes);
       continue;
     }
+    if (event.kind == kStoodStill && goes) ++standstills_;
     foreign_.note(event);
   }
   return {};
@@ -155,7 +157,8 @@ void LiveBoard::lose(std::uint64_t writer, bool goes) {
     if (!goes) continue;
     ++seat.losses;
     if (options_.log != nullptr) {
-      options_.log->error(kSource, "host `{}` is gone; the others go on", seat.name);
+      options_.log->error(kSource, "host `{}` is gone; the others go on{}{}", seat.name,
+                          seat.command.empty() ? "" : "; start it again with: ", seat.command);
     }
   }
 }

@@ -13,6 +13,7 @@
 
 #include "rave/bus/event_log.hpp"
 #include "rave/bus/host_claims.hpp"
+#include "rave/bus/standstill.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/wish_box.hpp"
 #include "rave/bus/writer.hpp"
@@ -30,6 +31,7 @@ namespace rave::environment_manager {
 /// The place of one host of a run in real time, whoever sits in it.
 struct LiveSeat {
   std::string name;
+  std::string command{};  ///< That starts it again; empty: nobody has to.
   std::uint32_t robots = 0;
   std::uint32_t real = 0;    ///< Of these.
   std::uint64_t writer = 0;  ///< The process; 0: nobody.
@@ -70,6 +72,9 @@ class LiveBoard {
   }
   /// What its messages are signed with.
   [[nodiscard]] std::uint64_t writer() const noexcept { return bus_->writer(); }
+  [[nodiscard]] const bus::Standstill& standstill() const noexcept { return bus_->standstill(); }
+  /// How often this process stood still for so long that hosts seemed to be gone.
+  [[nodiscard]] std::uint64_t standstills() const noexcept { return standstills_; }
   /// Whether a process that asks for the time sits in its host's place, as it does now if that was
   /// free.
   bool sit_down(const bus::ClockPing& ping);
@@ -169,6 +174,7 @@ class LiveBoard {
   std::set<std::uint64_t> wrong_hands_;  ///< Processes that handed over what cannot be.
   std::uint64_t states_taken_ = 0;
   std::uint64_t worlds_sent_ = 0;
+  std::uint64_t standstills_ = 0;
   bool news_ = false;
 };
 

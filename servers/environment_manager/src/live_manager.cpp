@@ -38,6 +38,7 @@ class LiveRun {
   Status listen();
   void hear(const bus::ClockPing& ping);
   void take_over(std::int64_t run_ns);
+  void leave_alone(std::int64_t run_ns);
   void begin_if_ready();
   void begin_in(std::chrono::nanoseconds lead);
   void send_world();
@@ -70,6 +71,7 @@ class LiveRun {
   std::vector<std::uint8_t> stale_;  ///< By robot.
   bool ended_ = false;
   std::vector<std::string> problems_;
+  std::optional<Error> left_alone_;  ///< Hosts are in a run that this one does not go on with.
 };
 
 std::string LiveRun::missing() const {
@@ -108,11 +110,24 @@ void LiveRun::begin_if_ready() {
     begin_in(kLead);
     edits_->begin(false);
     log(LogLevel::kInfo, "all hosts are there: the run begins");
-  } else if (Clock::now() - first_host_ > std::chrono::nanoseconds(options_.host_timeout.ns)) {
+  } else if (Clock::now() - std::max(first_host_, board_->standstill().silence_counts_from()) >
+             std::chrono::nanoseconds(options_.host_timeout.ns)) {
     begin_in(kLead);
     edits_->begin(false);
     log(LogLevel::kWarning, "the run begins without {}", waits_for);
   }
+}
+
+/// Hosts that are in the middle of a run and have lost its manager are not part of a new one.
+void LiveRun::leave_alone(std::int64_t run_ns) {
+  left_alone_ = Error{
+      ErrorCode::kState,
+      fmt::format(
+          "hosts are at {:.1f} s of a run that has lost its environment manager: --resume "
+          "goes on with that run, `rave end {}` ends it, and --run with a name begins another "
+          "one beside it",
+          Duration{run_ns}.seconds(), options_.scenario),
+      {}};
 }
 
 void LiveRun::hear(const bus::ClockPing& ping) {
@@ -121,7 +136,10 @@ void LiveRun::hear(const bus::ClockPing& ping) {
     next_look_ = {};  // it may have introduced itself just now
     return;
   }
-  if (!begun_ && ping.run_ns >= 0) take_over(ping.run_ns);
+  if (!begun_ && ping.run_ns >= 0) {
+    if (!options_.resume) return leave_alone(ping.run_ns);
+    take_over(ping.run_ns);
+  }
   bus::ClockPong pong{};
   pong.target = ping.writer;
   pong.number = ping.number;
@@ -136,6 +154,7 @@ void LiveRun::hear(const bus::ClockPing& ping) {
 
 Status LiveRun::listen() {
   board_->take_pings([this](const bus::ClockPing& ping) { hear(ping); });
+  if (left_alone_) return tl::unexpected(*left_alone_);
   board_->take_states();
   board_->take_findings();
   board_->serve_wishes();
@@ -281,11 +300,19 @@ LiveManagerOutcome LiveRun::outcome() {
                       seat.losses == 1 ? "once" : fmt::format("{} times", seat.losses)));
     }
   }
+  if (board_->standstills() > 0) {
+    problems_.push_back(fmt::format(
+        "the environment manager stood still for longer than the lease of its hosts{}: no worlds "
+        "were sent meanwhile",
+        board_->standstills() == 1 ? "" : fmt::format(" ({} times)", board_->standstills())));
+  }
   const bool over = begun_ && now().ns >= options_.duration.ns;
   outcome.problems = problems_;
   outcome.whole = over && problems_.empty() && outcome.refused.empty();
   // Who only stops managing leaves the hosts to their run.
-  if (!over && !options_.ends_hosts) {
+  const bool ends =
+      options_.ends_hosts || (options_.control != nullptr && options_.control->ends_everybody());
+  if (!over && !ends) {
     board_->take_findings();
     outcome.findings = board_->findings().hand_out();
     order_by_sitting(board_->seats(), outcome.findings);

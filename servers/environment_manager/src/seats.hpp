@@ -29,6 +29,7 @@ struct Seat {
   std::uint64_t last_writer = 0;   ///< Of a lost one.
   std::vector<std::uint64_t> sat;  ///< All that have sat here, in the order of their first times.
   std::string loss;                ///< How it was lost; empty if nothing came of it.
+  std::string command;             ///< That starts it again; empty: nobody has to.
   std::uint64_t last_step = 0;     ///< Of its last report.
   bool reported = false;           ///< `report` is what comes next.
   std::uint64_t hash = 0;          ///< Of its part of the steps that are done.

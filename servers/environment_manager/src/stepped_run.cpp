@@ -10,6 +10,7 @@ namespace rave::environment_manager {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using config::LostHost;
 
 /// Wall time of a step at this pace; 0: there is none.
 Clock::duration period_of(const sim::EngineSpec& spec, double pace) {
@@ -38,7 +39,11 @@ SteppedRun::SteppedRun(const ManagerOptions& options,
       wishes_(options.control, options.log),
       claims_(static_cast<std::uint32_t>(options.hosts.size())),
       roster_(planned_robots(authority_->spec()), options.hosts),
-      lateness_(period_of(authority_->spec(), options.pace)) {}
+      lateness_(period_of(authority_->spec(), options.pace)) {
+  for (std::size_t h = 0; h < std::min(seats_.size(), options.commands.size()); ++h) {
+    seats_[h].command = options.commands[h];
+  }
+}
 
 bool SteppedRun::complete() const {
   const bool all = options_.on_lost_host == config::LostHost::kWait;
@@ -63,6 +68,7 @@ Result<SteppedRun::Gathered> SteppedRun::gather() {
     // Most steps are done before anybody could ask.
     if (now - since < kLook) continue;
     look_at_clock(since);
+    note_waiting(waited_for());
     if (now >= next_tell_) {
       tell_state(begun_ ? rave_wire_RUN_WAITS : rave_wire_RUN_GATHERS,
                  fmt::format("waiting for {}", waited_for()));
@@ -71,6 +77,7 @@ Result<SteppedRun::Gathered> SteppedRun::gather() {
     wishes_.put_off(fmt::format("the run waits for {}", waited_for()));
     if (stopping()) return Gathered::kStopped;
   }
+  note_waiting({});
   return Gathered::kAll;
 }
 
@@ -96,6 +103,12 @@ Status SteppedRun::take_over() {
   RAVE_TRY(authority_->resume(world_, state_));
   log(LogLevel::kWarning, "takes over from a manager that is gone, at step {}", step_);
   for (Seat& seat : seats_) {
+    // A new process begins anew where the one before it was in the run.
+    if (seat.last_step + 1 < step_) {
+      seat.loss = fmt::format("host `{}` was not there from step {} to step {}", seat.name,
+                              seat.last_step, step_ - 1);
+      miss_steps(seat);
+    }
     if (!seat.reported || authority_->check(seat.report)) continue;
     seat.reported = false;
     seat.report = {};
@@ -166,6 +179,11 @@ void SteppedRun::hold() {
     if (failure_) return;
     wishes_.listen(*authority_);
     wishes_.put_off("the run is paused");
+    // The next step is made without a host that is gone now, and the one after it is not.
+    note_waiting(join_names(names_of(seats_, [this](const Seat& seat) {
+      return seat.state == SeatState::kLost &&
+             seat.needed(options_.on_lost_host == LostHost::kWait);
+    })));
     if (Clock::now() >= next_tell_) tell_state(rave_wire_RUN_WAITS, "paused");
     tell_progress("somebody who has paused it");
   }
@@ -227,8 +245,8 @@ Result<ManagerOutcome> SteppedRun::go() {
 
 void SteppedRun::give_up(const Error& error) {
   over_ = true;
-  // The hosts are in good hands.
-  if (board_->is_second()) return;
+  // The hosts are in good hands, or wait for them.
+  if (board_->is_second() || left_alone_) return;
   tell_state(rave_wire_RUN_FAILED, error.message);
   see_off(false);
 }

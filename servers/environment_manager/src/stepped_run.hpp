@@ -50,6 +50,7 @@ class SteppedRun {
   void lose(Seat& seat, std::string_view why);
   void miss_steps(Seat& seat);
   void look_at_clock(std::chrono::steady_clock::time_point since);
+  Status leave_alone(const bus::HostReport& message);
   Status take_over();
   Status make_step();
   [[nodiscard]] std::chrono::steady_clock::time_point due_of(std::uint64_t step) const;
@@ -63,6 +64,7 @@ class SteppedRun {
   }
   void tell_state(rave_wire_RunPhase phase, std::string_view text);
   void tell_progress(std::string waiting);
+  void note_waiting(std::string hosts);
   [[nodiscard]] std::string waited_for() const;
   [[nodiscard]] bool complete() const;
   [[nodiscard]] bool stopping() const { return options_.stopping && options_.stopping(); }
@@ -86,11 +88,13 @@ class SteppedRun {
   bool begun_ = false;      ///< All hosts have been there at once.
   bool lost_any_ = false;
   bool ending_ = false;
-  bool over_ = false;  ///< Nothing comes any more.
+  bool over_ = false;        ///< Nothing comes any more.
+  bool left_alone_ = false;  ///< The hosts are in a run that this one does not go on with.
   sim::WorldStep world_;
   sim::AuthorityState state_;
   bool handed_over_ = false;  ///< `world_` and `state_` are of a manager that was here before.
   std::uint64_t newest_report_ = 0;
+  std::string waits_for_;  ///< As those were told who ask.
   std::uint64_t contacts_ = 0;
   std::vector<std::string> problems_;
   std::chrono::steady_clock::time_point began_;

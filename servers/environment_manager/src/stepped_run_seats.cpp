@@ -30,7 +30,9 @@ void SteppedRun::lose(Seat& seat, std::string_view why) {
                                         "its robots stand until it is back"};
   std::string text = fmt::format("host `{}` {} in step {}; {}", seat.name, why, step_,
                                  kThen[static_cast<std::size_t>(options_.on_lost_host)]);
-  log(LogLevel::kError, "{}", text);
+  const bool again = !for_good && !seat.command.empty();
+  log(LogLevel::kError, "{}{}{}", text, again ? "; start it again with: " : "",
+      again ? seat.command : "");
   seat.loss = std::move(text);
   next_tell_ = {};
 }
@@ -87,8 +89,22 @@ Status SteppedRun::refuse_ahead(const Seat& seat, const bus::HostReport& message
   return {};
 }
 
+/// A host that is in the middle of a run and has lost its manager is not part of a new one.
+Status SteppedRun::leave_alone(const bus::HostReport& message) {
+  // Who has a manager, or has not missed it yet, is none of them.
+  if (begun_ || options_.resume || message.step == 0 || message.epoch != 0) return {};
+  left_alone_ = true;
+  return fail(
+      ErrorCode::kState,
+      "host `{}` is in step {} of a run that has lost its environment manager: --resume goes "
+      "on with that run, `rave end {}` ends it, and --run with a name begins another one "
+      "beside it",
+      seats_[message.host].name, message.step, options_.scenario);
+}
+
 Status SteppedRun::hear(const bus::HostReport& message) {
   if (message.host >= seats_.size() || !board_->knows(message.writer)) return {};
+  RAVE_TRY(leave_alone(message));
   Seat& seat = seats_[message.host];
   if (const Status sits = sit_down(seat, message); !sits) {
     board_->refuse(message, sits.error().message);
@@ -147,7 +163,10 @@ void SteppedRun::miss(std::uint64_t writer) {
       lose(seat, "is gone");
       continue;
     }
-    if (!begun_) log(LogLevel::kWarning, "host `{}` is gone before the run began", seat.name);
+    if (!begun_) {
+      log(LogLevel::kWarning, "host `{}` is gone before the run began{}{}", seat.name,
+          seat.command.empty() ? "" : "; start it again with: ", seat.command);
+    }
     claims_.release(writer);
     seat.writer = 0;
     seat.state = SeatState::kMissing;
@@ -200,6 +219,8 @@ void SteppedRun::look_at_roster() {
 /// Who has not answered for too long.
 void SteppedRun::look_at_clock(Clock::time_point since) {
   const auto patience = std::chrono::nanoseconds(options_.host_timeout.ns);
+  // They may have answered while this process stood still.
+  since = std::max(since, board_->standstill().silence_counts_from());
   if (!begun_ || Clock::now() - since < patience) return;
   for (Seat& seat : seats_) {
     if (seat.reported || seat.state != SeatState::kRuns) continue;

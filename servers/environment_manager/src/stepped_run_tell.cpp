@@ -46,6 +46,13 @@ void SteppedRun::tell_state(rave_wire_RunPhase phase, std::string_view text) {
   next_tell_ = Clock::now() + kTell;
 }
 
+/// Tells those who ask for the status.
+void SteppedRun::note_waiting(std::string hosts) {
+  if (hosts == waits_for_) return;
+  waits_for_ = std::move(hosts);
+  if (options_.control != nullptr && begun_) options_.control->set_waits_for(waits_for_);
+}
+
 void SteppedRun::tell_progress(std::string waiting) {
   const auto now = Clock::now();
   if (!options_.on_progress || now < next_progress_) return;

@@ -9,6 +9,7 @@
 #include "rave/base/log.hpp"
 #include "rave/base/result.hpp"
 #include "rave/bus/event_log.hpp"
+#include "rave/bus/standstill.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/wish_box.hpp"
 #include "rave/bus/writer.hpp"
@@ -45,6 +46,7 @@ class Switchboard {
   [[nodiscard]] Result<std::vector<std::uint64_t>> look_at_processes(bool begun);
   /// Whether that error was the reason: the run is another manager's.
   [[nodiscard]] bool is_second() const noexcept { return second_; }
+  [[nodiscard]] const bus::Standstill& standstill() const noexcept { return bus_->standstill(); }
   /// Whether a process said who it is, and fits.
   [[nodiscard]] bool knows(std::uint64_t writer) const { return fitting_.contains(writer); }
 

@@ -8,6 +8,7 @@
 
 #include "rave/bus/event_log.hpp"
 #include "rave/bus/sequence.hpp"
+#include "rave/bus/standstill.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/wish_box.hpp"
 #include "rave/bus/writer.hpp"
@@ -27,6 +28,8 @@ constexpr milliseconds kLook{100};
 /// A report that is not answered is sent again after this, then after twice as long.
 constexpr milliseconds kFirstPatience{20};
 constexpr milliseconds kLongestPatience{1000};
+/// How soon somebody is missed who was not found again after this process stood still.
+constexpr std::chrono::seconds kMissedAtOnce{1};
 /// The epoch in worlds that hosts hand back: of no authority, but not 0.
 constexpr std::uint64_t kHandedOver = 1;
 /// More processes that have gone are not remembered.
@@ -51,7 +54,7 @@ struct HostPort::Impl {
   Roster roster;
   FindingsSender findings;
   bus::HostInfo introduced;  ///< What the others were told of this process.
-  Duration patience;         ///< Without a manager; 0: without limit.
+  Patience patience;
   ReportMessage message{};
   WorldMessage last_message{};
   /// Of the last world; with obstacles only if it brought them.
@@ -67,6 +70,7 @@ struct HostPort::Impl {
   std::set<std::uint64_t> gone{};  ///< Processes that have been missed, and not come back.
   RunWords words{};                ///< What is said of the run, and by whom.
   Clock::time_point alone_since = Clock::now();  ///< While there is none.
+  bool overslept = false;                        ///< It was missed after this process stood still.
   std::string told{};                            ///< What the log was told last.
   Ending ending{};
   std::optional<Error> unfit{};
@@ -159,6 +163,10 @@ void HostPort::Impl::lose(std::uint64_t writer) {
   manager = 0;
   epoch = 0;
   alone_since = Clock::now();
+  // Whoever was not found again is missed as soon as silence counts.
+  const bus::Standstill& still = bus->standstill();
+  overslept = still.stood() > bus->config().lease &&
+              alone_since - still.silence_counts_from() < kMissedAtOnce;
   if (over) return;
   tell(LogLevel::kError, "the environment manager is gone; robots stand until one is back");
 }
@@ -182,10 +190,16 @@ void HostPort::Impl::look_at_processes() {
 
 /// Who was started for a run that is no more does not wait for ever.
 void HostPort::Impl::look_at_patience() {
-  if (over || patience.ns <= 0 || manager != 0) return;
-  if (Clock::now() - alone_since < std::chrono::nanoseconds(patience.ns)) return;
+  const bool short_of_it = overslept && patience.after_standstill.ns > 0;
+  const Duration longest = short_of_it ? patience.after_standstill : patience.usual;
+  if (over || longest.ns <= 0 || manager != 0) return;
+  const auto since = std::max(alone_since, bus->standstill().silence_counts_from());
+  if (Clock::now() - since < std::chrono::nanoseconds(longest.ns)) return;
   over = true;
-  ending = {false, fmt::format("there was no environment manager for {} s", patience.seconds())};
+  ending = {
+      false,
+      fmt::format("there was no environment manager for {} s{}", longest.seconds(),
+                  short_of_it ? " after this host stood still: the run went on without it" : "")};
   tell(LogLevel::kError, fmt::format("gives up: {}", ending.text));
 }
 
@@ -255,7 +269,7 @@ HostPort::HostPort(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 HostPort::~HostPort() = default;
 
 Result<std::unique_ptr<HostPort>> HostPort::open(const bus::BusConfig& config, Identity identity,
-                                                 LogSink* log, Duration patience,
+                                                 LogSink* log, Patience patience,
                                                  bus::BeginWish begin_wish) {
   RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
   RAVE_TRY_ASSIGN(auto reports, bus::Writer<bus::HostReport>::create(*bus));

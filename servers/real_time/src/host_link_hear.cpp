@@ -5,6 +5,7 @@
 
 #include "host_link_impl.hpp"
 #include "rave/bus/sequence.hpp"
+#include "rave/bus/standstill.hpp"
 
 namespace rave::real_time {
 namespace {
@@ -187,7 +188,8 @@ void HostLink::Impl::lose(std::uint64_t writer) {
 void HostLink::Impl::look_at_patience() {
   const Duration longest = options.manager_patience;
   if (!options.managed || ending || longest.ns <= 0 || manager != 0) return;
-  if (Clock::now() - alone_since < std::chrono::nanoseconds(longest.ns)) return;
+  const auto since = std::max(alone_since, bus->standstill().silence_counts_from());
+  if (Clock::now() - since < std::chrono::nanoseconds(longest.ns)) return;
   ending =
       Ending{false, fmt::format("there was no environment manager for {} s", longest.seconds())};
   tell(LogLevel::kError, "gives up: " + ending->text);

@@ -197,6 +197,7 @@ ControlledHost::ControlledHost(const sim::Engine& engine, const config::Scenario
   status.duration_s = file.duration_s;
   status.pace = live ? 1 : file.pace.factor;
   status.live = live;
+  status.follows = !live;
   refresh_status(engine, status);
   control_->begin(std::move(status));
 }

@@ -24,6 +24,9 @@ namespace {
 
 using lock_step::HostPort;
 
+/// For another manager of a run that lost its own while this process stood still.
+constexpr Duration kAfterStandstill = from_seconds(10);
+
 /// A host on its way through a run in lock-step.
 struct Journey : HostJourney {
   Journey(HostJourney host, HostPort& to, const config::ExpandedScenario& scenario)
@@ -34,6 +37,7 @@ struct Journey : HostJourney {
   sim::HostReport report;
   sim::WorldStep world;
   bool came_to_end = false;
+  std::uint64_t joined_at = 0;  ///< After the last gap, if there was one.
 };
 
 Status propose(Journey& journey) {
@@ -73,6 +77,7 @@ Result<bool> take_step(Journey& journey) {
         fmt::format("was not there from step {} to step {}", next, journey.world.step);
     journey.console.warn("host", "{}; its robots go on where they stand", text);
     journey.problems.push_back(std::move(text));
+    journey.joined_at = journey.world.step;
   }
   if (journey.world.last) {
     journey.came_to_end = true;
@@ -122,6 +127,9 @@ HostOutcome judge(const Journey& journey) {
 RunFacts facts_of(Journey& journey, const std::string& record_problem) {
   RunFacts facts = gather(journey.observers, journey.engine);
   if (!record_problem.empty()) facts.problems.push_back(record_problem);
+  // A manager that took over does not know it.
+  facts.problems.insert(facts.problems.end(), journey.problems.begin(), journey.problems.end());
+  facts.first_step = journey.joined_at;
   if (journey.port.changed_hands()) {
     WorldFacts told = journey.account.facts();
     // Who was not there all along cannot fill the gap of a manager.
@@ -180,8 +188,13 @@ Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::C
   std::function<void()> look;
   built.spec.on_step_done = [&look] { look(); };
   RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(built.spec)));
-  RAVE_TRY_ASSIGN(const auto port, HostPort::open(options.bus, std::move(self), &console,
-                                                  options.manager_patience, options.begin_wish));
+  HostPort::Patience patience{options.manager_patience, {}};
+  // Under the others a run may have gone on, and ended, while this process stood still.
+  if (scenario.scenario.on_lost_host != config::LostHost::kWait) {
+    patience.after_standstill = kAfterStandstill;
+  }
+  RAVE_TRY_ASSIGN(const auto port, HostPort::open(options.bus, std::move(self), &console, patience,
+                                                  options.begin_wish));
   introduce_robots(port->roster(), engine->spec(), seat.robots, console);
   RAVE_TRY_ASSIGN(const auto ros2, Ros2Face::open(scenario, *engine, options.host));
   Observers observers(scenario, built.robot_kinds, engine->spec(), run.picture);

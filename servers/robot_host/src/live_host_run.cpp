@@ -257,6 +257,8 @@ Status write_results(const LiveJourney& journey, const RunFacts& facts,
 Result<HostLink::Options> link_options(const LiveHost& host, const BuiltScenario& built) {
   HostLink::Options options;
   options.bus = host.options.bus;
+  // Robots of all hosts talk to one another.
+  options.bus.reach = bus::Reach::kAll;
   options.self = {host.seat.number,
                   host.options.host,
                   static_cast<std::uint32_t>(host.seat.robots.size()),

@@ -160,6 +160,11 @@ void RunControl::Asked::answer(Result<std::string> text) {
   if (std::exchange(open_, false)) promise_.set_value(std::move(text));
 }
 
+void RunControl::set_waits_for(std::string hosts) {
+  const std::lock_guard lock(mutex_);
+  status_.waits_for = std::move(hosts);
+}
+
 void RunControl::refresh(const std::function<void(RunStatus&)>& refresh) {
   const std::lock_guard lock(mutex_);
   refresh(status_);

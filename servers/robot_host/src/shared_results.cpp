@@ -69,8 +69,9 @@ struct SharedResults::Impl {
   RunFacts facts;
   std::vector<sim::Event> seen;  ///< Captures of the step that is not done yet.
   bool begun = false;
-  bool taken_over = false;  ///< From another manager.
-  std::uint64_t noted = 0;  ///< Steps whose events have been taken.
+  bool taken_over = false;    ///< From another manager.
+  bool missed_steps = false;  ///< A host was not there in some, perhaps before this manager.
+  std::uint64_t noted = 0;    ///< Steps whose events have been taken.
 };
 
 /// What a manager before knew and is a problem of the run.
@@ -113,6 +114,7 @@ Status SharedResults::Impl::add(const SharedHost& host, std::string bytes,
       RunFacts found,
       decode_facts(std::as_bytes(std::span(bytes)), {shared_number(scenario), host.name},
                    {static_cast<std::uint32_t>(spec.robots.size()), kinds.count()}));
+  missed_steps = missed_steps || found.first_step > 0;
   merge(std::move(found), facts);
   added.push_back(std::move(bytes));
   return {};
@@ -255,7 +257,7 @@ Result<RunOutcome> SharedResults::write(const SharedEnd& end) {
   findings.states = end.states;
   findings.edits = end.edits;
   findings.wall_s = end.wall_s;
-  findings.hash = end.hash;
+  if (!impl.missed_steps) findings.hash = end.hash;
   return write_results(findings, impl.options.folder, impl.options.picture);
 }
 

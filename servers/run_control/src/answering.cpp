@@ -36,18 +36,25 @@ Kind kind_of(What what) {
 Answer hold(robot_host::RunControl& control, const Request& request) {
   const robot_host::RunStatus status = control.status();
   if (status.scenario.empty()) return {false, "no run is under way", {}};
+  if (status.follows) {
+    return {false, "this host goes as its environment manager says: ask that one", {}};
+  }
   if (status.live) return {false, "a live run cannot be held: the world outside goes on", {}};
+  const std::string waits =
+      status.waits_for.empty() ? "" : fmt::format("; the run waits for {}", status.waits_for);
   if (request.what == What::kPause) {
     control.pause();
-    return {true, "paused", {}};
+    return {true, "paused" + waits, {}};
   }
   if (request.what == What::kResume) {
     control.resume();
-    return {true, "resumed", {}};
+    return {true, "resumed" + waits, {}};
   }
   if (!status.paused) return {false, "the run is not paused", {}};
   control.step(request.count);
-  return {true, fmt::format("{} step{}", request.count, request.count == 1 ? "" : "s"), {}};
+  const std::string steps = fmt::format("{} step{}", request.count, request.count == 1 ? "" : "s");
+  if (waits.empty()) return {true, steps, {}};
+  return {true, fmt::format("{} asked for{}, which is late or gone", steps, waits), {}};
 }
 
 }  // namespace
@@ -60,6 +67,9 @@ std::optional<Answer> answer_at_once(robot_host::RunControl& control, const Requ
     case What::kResume:
     case What::kStep:
       return hold(control, request);
+    case What::kEnd:
+      control.end_run();
+      return Answer{true, "ends", {}};
     default:
       return std::nullopt;
   }

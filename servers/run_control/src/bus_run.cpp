@@ -44,6 +44,7 @@ Result<Answer> read_answer(std::string_view line) {
   RAVE_TRY_ASSIGN(Answer answer, parse_answer(line));
   answer.text = plain(answer.text);
   answer.status.scenario = plain(answer.status.scenario);
+  answer.status.waits_for = plain(answer.status.waits_for);
   for (robot_host::RunStatus::Robot& robot : answer.status.robots) {
     robot.name = plain(robot.name);
     if (robot.hand_over) robot.hand_over->last = plain(robot.hand_over->last);

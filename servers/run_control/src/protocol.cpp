@@ -28,6 +28,7 @@ constexpr std::array kWords = {Word{"status", Request::What::kStatus},
                                Word{"pause", Request::What::kPause},
                                Word{"resume", Request::What::kResume},
                                Word{"step", Request::What::kStep},
+                               Word{"end", Request::What::kEnd},
                                Word{"add", Request::What::kAdd},
                                Word{"move", Request::What::kMove},
                                Word{"remove", Request::What::kRemove},
@@ -142,6 +143,7 @@ Json status_json(const robot_host::RunStatus& status) {
       {"pace", status.pace},         {"live", status.live},   {"paused", status.paused},
       {"robots", Json::array()}};
   if (status.lateness) json["lateness"] = lateness_json(*status.lateness);
+  if (!status.waits_for.empty()) json["waits_for"] = status.waits_for;
   for (const robot_host::RunStatus::Robot& robot : status.robots) {
     json["robots"].push_back({{"name", robot.name},
                               {"simulated", robot.simulated},
@@ -223,6 +225,7 @@ bool read_status(const Json& json, robot_host::RunStatus& status) {
               read_number(json, "pace", status.pace) && read_bool(json, "live", status.live) &&
               read_bool(json, "paused", status.paused) && json.contains("robots") &&
               json.at("robots").is_array();
+  if (good && json.contains("waits_for")) good = read_text(json, "waits_for", status.waits_for);
   if (!good) return false;
   if (json.contains("lateness")) {
     good =

@@ -80,8 +80,8 @@ class ScenarioRun {
     EXPECT_GE(counted.get<int>(), times) << text;
   }
   [[nodiscard]] std::string file(const std::string& name) const { return scratch_.file(name); }
-  /// A scenario that does not say how late it may be may be as late as it likes: a machine that runs
-  /// tests has no time to spare, and that is not what they are about.
+  /// A scenario that does not say how late it may be may be as late as it likes: a machine that
+  /// runs tests has no time to spare, and that is not what they are about.
   void write(const std::string& name, const std::string& text) const {
     const bool silent = text.find("max_missed_pct:") == std::string::npos;
     scratch_.write(name, name == "scenario.yaml" && silent ? text + "max_missed_pct: 100\n" : text);

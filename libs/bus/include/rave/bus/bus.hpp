@@ -21,6 +21,7 @@ class Participants;
 class ShortReceiver;
 class ShortSender;
 class ShortSocket;
+class Standstill;
 
 /// Another process in the domain, as it introduces itself. A value.
 struct BusProcess {
@@ -55,6 +56,9 @@ class Bus {
   /// The other processes in the domain, of this and of other runs, as of the last take_events().
   [[nodiscard]] std::vector<BusProcess> processes() const;
 
+  /// When this process stood still the last time: who has not been heard of may be there.
+  [[nodiscard]] const Standstill& standstill() const noexcept;
+
   /// How many samples of other runs came by, and by the short way also of strangers.
   [[nodiscard]] std::uint64_t foreign_samples() const noexcept { return foreign_samples_; }
   /// How many samples were refused by validation.
@@ -84,6 +88,7 @@ class Bus {
 
   explicit Bus(BusConfig config);
   [[nodiscard]] Status open_domain();
+  [[nodiscard]] Status open_hub();
   [[nodiscard]] Status open_participant();
   /// Says who this process is with a writer that writes nothing: what is told of it is encrypted.
   [[nodiscard]] Status introduce();

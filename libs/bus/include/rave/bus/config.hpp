@@ -19,6 +19,14 @@ enum class Multicast : std::uint8_t {
   kOn,         ///< For data to several receivers too.
 };
 
+/// Whom a process looks for. Where all look for all, the effort grows with the square of their
+/// number.
+enum class Reach : std::uint8_t {
+  kAll,   ///< Every process.
+  kHub,   ///< The same; it is also found by those that look for hubs.
+  kHubs,  ///< Hubs. Others find this process if they look for it.
+};
+
 /// How a process takes part in a run. A plain value; the defaults stay on this machine.
 struct BusConfig {
   /// Shown to others, in events and tables: 1 to 64 bytes.
@@ -40,6 +48,11 @@ struct BusConfig {
   /// Most processes of one machine in a domain, of this and other runs: 1 to 119. Without multicast
   /// each of them is looked for, so a larger number costs messages.
   int max_processes = 64;
+  /// Counts without multicast only. Hubs have places of their own, behind those of `kMostPlain`
+  /// other processes; a machine has room for six in a domain.
+  Reach reach = Reach::kAll;
+  static constexpr int kMostPlain = 114;
+  static constexpr int kMostHubs = 6;
   /// A process that has been silent for this long is lost.
   Duration lease{1'000'000'000};
   /// Processes with another tag do not exist for this one, whatever their run. Usually empty.
@@ -63,7 +76,8 @@ struct BusConfig {
 /// Whether a bus can be made of it. Error kInvalidArgument names the field.
 [[nodiscard]] Status validate(const BusConfig& config);
 
-/// The settings of Cyclone DDS that follow from a valid configuration.
-[[nodiscard]] std::string cyclone_xml(const BusConfig& config);
+/// The settings of Cyclone DDS that follow from a valid configuration. `hub`: which of the places
+/// of hubs a hub takes, below BusConfig::kMostHubs.
+[[nodiscard]] std::string cyclone_xml(const BusConfig& config, int hub = 0);
 
 }  // namespace rave::bus

@@ -42,6 +42,11 @@ struct LiveManagerOptions {
   Duration host_timeout = from_seconds(10);
   /// The hosts belong to this process: when it is stopped, they are told to end.
   bool ends_hosts = false;
+  /// Go on with a run that has lost its manager; else hosts whose run goes already are left alone.
+  bool resume = false;
+  /// By host, the command that starts it again when it is lost; empty: that is done without
+  /// anybody.
+  std::vector<std::string> commands;
   LogSink* log = nullptr;  ///< Not owned; may be null.
   /// Asked about ten times a second whether to end; may be empty.
   std::function<bool()> stopping;
@@ -96,7 +101,8 @@ struct LiveManagerOutcome {
 /// it may be ended and started anew at any time: it then goes on with the time that the hosts have.
 /// Whoever becomes late, lost or stale is in the log once and, for all processes, in the topics
 /// `rave/world` and `rave/run`. Errors: the bus cannot be opened; kState (there is a manager of
-/// this run already).
+/// this run already; hosts have lost theirs in the middle of a run that this one is not to
+/// `resume`).
 [[nodiscard]] Result<LiveManagerOutcome> manage_live(sim::EngineSpec spec,
                                                      const LiveManagerOptions& options);
 

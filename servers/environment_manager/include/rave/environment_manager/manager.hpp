@@ -30,7 +30,12 @@ struct ManagerOptions {
   std::uint64_t steps = 0;
   config::LostHost on_lost_host = config::LostHost::kWait;
   Duration host_timeout = from_seconds(10);
-  double pace = 0;         ///< Simulated seconds per second; 0: as fast as it can.
+  double pace = 0;  ///< Simulated seconds per second; 0: as fast as it can.
+  /// Go on with a run that has lost its manager; else hosts beyond step 0 are left alone.
+  bool resume = false;
+  /// By host, the command that starts it again when it is lost; empty: that is done without
+  /// anybody.
+  std::vector<std::string> commands;
   LogSink* log = nullptr;  ///< Not owned; may be null.
   /// Asked about ten times a second whether to end the run; may be empty.
   std::function<bool()> stopping;
@@ -73,8 +78,9 @@ struct ManagerOutcome {
 /// ended. Hosts are awaited, told apart and, when they are late or gone, treated as the policy
 /// says; everything of that is in the log and, for all processes, in the topic `rave/run`. What is
 /// asked of obstacles and robots by `control` counts from the next step on, on all hosts. Errors:
-/// the bus cannot be opened; kState (there is a manager of this run already; a host cannot go on
-/// and the policy is to wait); kInvalidArgument (the scenario).
+/// the bus cannot be opened; kState (there is a manager of this run already; hosts have lost theirs
+/// in the middle of a run that this one is not to `resume`; a host cannot go on and the policy is
+/// to wait); kInvalidArgument (the scenario).
 [[nodiscard]] Result<ManagerOutcome> manage(sim::EngineSpec spec, const ManagerOptions& options);
 
 }  // namespace rave::environment_manager

@@ -31,13 +31,19 @@ class HostPort {
     kEnded,    ///< The run has ended; ending() says how.
   };
 
-  /// Goes on the bus. `log` is not owned and may be null. `patience`: without an environment
-  /// manager for longer than this the run has ended for this host; 0: it waits without limit.
-  /// `begin_wish`, called in exchange(): what is done with what others ask on the bus; may be
-  /// empty. Errors: those of bus::Bus::open().
+  /// Without an environment manager for longer than this the run has ended for a host.
+  struct Patience {
+    Duration usual;  ///< 0: it waits without limit.
+    /// When it is missed after this process stood still for longer than its lease, and the run did
+    /// not wait; 0: as usual.
+    Duration after_standstill;
+  };
+
+  /// Goes on the bus. `log` is not owned and may be null. `begin_wish`, called in exchange(): what
+  /// is done with what others ask on the bus; may be empty. Errors: those of bus::Bus::open().
   [[nodiscard]] static Result<std::unique_ptr<HostPort>> open(const bus::BusConfig& bus,
                                                               Identity identity, LogSink* log,
-                                                              Duration patience = {},
+                                                              Patience patience = {},
                                                               bus::BeginWish begin_wish = {});
   HostPort(const HostPort&) = delete;
   HostPort& operator=(const HostPort&) = delete;

@@ -93,6 +93,9 @@ struct RunStatus {
   double pace = 1;  ///< Simulated seconds per second; 0: as fast as it can.
   bool live = false;
   bool paused = false;
+  /// A host that goes as its environment manager says, which alone can hold it.
+  bool follows = false;
+  std::string waits_for;  ///< Hosts without which it does not go on; empty: none.
   /// How a run with a pace keeps its deadlines.
   struct Lateness {
     std::uint64_t deadlines = 0;  ///< That have passed.
@@ -112,6 +115,12 @@ class RunControl {
  public:
   /// Ends the run before its next step; its results are written. Async-signal-safe.
   void stop() noexcept { stop_.store(true); }
+  /// The same for all processes of the run, if this is its environment manager in real time: else
+  /// that leaves the hosts to their run.
+  void end_run() noexcept {
+    everybody_.store(true);
+    stop();
+  }
   /// Holds the run before its next step. A live run cannot be held: the world outside goes on.
   void pause();
   /// Lets a paused run go on.
@@ -120,6 +129,7 @@ class RunControl {
   void step(std::uint64_t count = 1);
 
   [[nodiscard]] bool stopping() const noexcept { return stop_.load(); }
+  [[nodiscard]] bool ends_everybody() const noexcept { return everybody_.load(); }
   [[nodiscard]] bool paused() const;
 
   /// Makes robots stand until they are released; lets them go; arms them; changes a parameter or
@@ -169,6 +179,8 @@ class RunControl {
   void serve(const Serve& serve, const std::function<void(RunStatus&)>& refresh);
   /// Brings the status up to date though nothing was asked.
   void refresh(const std::function<void(RunStatus&)>& refresh);
+  /// Says for which hosts the run waits, in its status.
+  void set_waits_for(std::string hosts);
   void set_time(double sim_s) noexcept { sim_s_.store(sim_s); }
   /// No more requests; those that wait get an error.
   void end();
@@ -182,6 +194,7 @@ class RunControl {
     std::chrono::steady_clock::time_point since;
   };
   std::atomic<bool> stop_{false};
+  std::atomic<bool> everybody_{false};
   static_assert(std::atomic<bool>::is_always_lock_free);
   std::atomic<bool> asked_{false};
   std::atomic<double> sim_s_{0};

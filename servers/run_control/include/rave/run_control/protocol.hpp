@@ -26,6 +26,7 @@ struct Request {
     kPause,
     kResume,
     kStep,
+    kEnd,
     kAdd,
     kMove,
     kRemove,

@@ -7,8 +7,9 @@ rave_tools_of_group() {
   case "$1" in
     build) echo "g++ cmake ninja ccache pkg-config git python3" ;;
     library) echo "idlc" ;;
+    page) echo "node npm" ;;
     check) echo "clang-format-16 readelf nm ip nft" ;;
-    full) echo "clang++-16 clang-tidy-16 node npm" ;;
+    full) echo "clang++-16 clang-tidy-16" ;;
   esac
 }
 

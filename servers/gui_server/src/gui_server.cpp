@@ -133,7 +133,10 @@ Result<std::unique_ptr<GuiServer>> GuiServer::start(const GuiOptions& options,
                                                     std::shared_ptr<Source> source) {
   auto files = web::StaticFiles::load(options.page);
   if (!files) {
-    return fail(ErrorCode::kNotFound, "the page was not built: {}", files.error().message);
+    return fail(ErrorCode::kNotFound,
+                "the page is missing: {}; with nodejs and npm installed, "
+                "`ninja -C build/release rave_page` builds it",
+                files.error().message);
   }
   auto impl = std::make_unique<Impl>(*std::move(files), std::move(source), options.log);
   RAVE_TRY(impl->listen(options.port));

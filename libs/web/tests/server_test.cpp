@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// Real sockets: what strangers send, and what the server says.
+#include "rave/web/server.hpp"
+
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <atomic>
+
+namespace rave::web {
+namespace {
+
+class Echo final : public Handler {
+ public:
+  Response serve(const Request& request) override {
+    ++served;
+    return text_response(200, fmt::format("path {}\n", request.path));
+  }
+  Admission admit(const Request& request) override {
+    if (request.cookie("key") == "good") return {};
+    return {4401, "not signed in"};
+  }
+  void opened(std::uint64_t, Socket& socket, const Request&) override {
+    ++open;
+    socket.send_text(std::make_shared<const std::string>("welcome"));
+  }
+  void received(std::uint64_t, std::string_view) override { ++messages; }
+  void closed(std::uint64_t) override { --open; }
+
+  std::atomic<int> served = 0;
+  std::atomic<int> open = 0;
+  std::atomic<int> messages = 0;
+};
+
+class WebServer : public testing::Test {
+ protected:
+  void SetUp() override {
+    auto started = Server::start(options(), handler_);
+    ASSERT_TRUE(started) << started.error().text();
+    server_ = *std::move(started);
+  }
+  static ServerOptions options() {
+    ServerOptions options;
+    options.request_bytes = 4096;
+    return options;
+  }
+  [[nodiscard]] int connected() const {
+    const int fd = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(server_->port());
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    EXPECT_EQ(::connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+    return fd;
+  }
+  /// Sends bytes and reads what comes until the other end closes, or `end` was read.
+  [[nodiscard]] std::string ask(const std::string& bytes, std::string_view end = {}) const {
+    const int fd = connected();
+    EXPECT_EQ(::send(fd, bytes.data(), bytes.size(), MSG_NOSIGNAL), std::ssize(bytes));
+    std::string answer;
+    char buffer[4096];
+    while (end.empty() || answer.find(end) == std::string::npos) {
+      const ssize_t got = ::recv(fd, buffer, sizeof buffer, 0);
+      if (got <= 0) break;
+      answer.append(buffer, static_cast<std::size_t>(got));
+    }
+    ::close(fd);
+    return answer;
+  }
+  [[nodiscard]] std::string get(const std::string& target, const std::string& more = {}) const {
+    return ask(fmt::format("GET {} HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nConnection: close\r\n{}\r\n",
+                           target, server_->port(), more));
+  }
+  [[nodiscard]] std::string upgrade(const std::string& more, std::string_view end) const {
+    return ask(fmt::format("GET /ws HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nConnection: Upgrade\r\n"
+                           "Upgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
+                           "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n{}\r\n",
+                           server_->port(), more),
+               end);
+  }
+
+  Echo handler_;
+  std::unique_ptr<Server> server_;
+};
+
+TEST_F(WebServer, AnswersWithAStrictPolicy) {
+  const std::string answer = get("/a/b?c=d");
+  EXPECT_TRUE(answer.starts_with("HTTP/1.1 200")) << answer;
+  EXPECT_NE(answer.find("path /a/b\n"), std::string::npos);
+  EXPECT_NE(answer.find("Content-Security-Policy: default-src 'none'"), std::string::npos);
+  EXPECT_NE(answer.find("X-Content-Type-Options: nosniff"), std::string::npos);
+}
+
+TEST_F(WebServer, RefusesPathsThatLeadOut) {
+  EXPECT_TRUE(get("/../etc/passwd").starts_with("HTTP/1.1 400"));
+  EXPECT_TRUE(get("/%2e%2e/etc/passwd").starts_with("HTTP/1.1 400"));
+  EXPECT_EQ(handler_.served, 0);
+}
+
+TEST_F(WebServer, RefusesNamesThatAreNotItsOwn) {
+  const std::string answer =
+      ask("GET / HTTP/1.1\r\nHost: evil.example\r\nConnection: close\r\n\r\n");
+  EXPECT_TRUE(answer.starts_with("HTTP/1.1 421")) << answer;
+  EXPECT_EQ(handler_.served, 0);
+}
+
+TEST_F(WebServer, RefusesWritingAndSocketsOfOtherOrigins) {
+  const std::string post =
+      ask(fmt::format("POST / HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nOrigin: "
+                      "http://evil.example\r\nContent-Length: 0\r\n"
+                      "Connection: close\r\n\r\n",
+                      server_->port()));
+  EXPECT_TRUE(post.starts_with("HTTP/1.1 403")) << post;
+  const std::string socket = upgrade("Origin: http://evil.example\r\nCookie: key=good\r\n", "\n\n");
+  EXPECT_TRUE(socket.starts_with("HTTP/1.1 403")) << socket;
+  EXPECT_EQ(handler_.served, 0);
+  EXPECT_EQ(handler_.open, 0);
+}
+
+TEST_F(WebServer, RefusesWhatIsTooLargeOrMalformed) {
+  EXPECT_TRUE(get("/", "X-Long: " + std::string(9000, 'x') + "\r\n").starts_with("HTTP/1.1 413"));
+  EXPECT_EQ(ask("NONSENSE\r\n\r\n").find("200"), std::string::npos);
+  EXPECT_TRUE(
+      ask(fmt::format("DELETE / HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nConnection: close\r\n\r\n",
+                      server_->port()))
+          .starts_with("HTTP/1.1 405"));
+}
+
+TEST_F(WebServer, LetsInWhoIsAdmittedAlone) {
+  const std::string in = upgrade("Cookie: key=good\r\n", "welcome");
+  EXPECT_TRUE(in.starts_with("HTTP/1.1 101")) << in;
+  EXPECT_NE(in.find("welcome"), std::string::npos);
+  // The close frame: code 4401, big endian, and the reason.
+  const std::string out = upgrade("", "not signed in");
+  EXPECT_NE(out.find("\x11\x31not signed in"), std::string::npos);
+  EXPECT_EQ(out.find("welcome"), std::string::npos);
+}
+
+TEST_F(WebServer, EndsWithConnectionsThatSayNothing) {
+  const int silent = connected();
+  server_->stop();
+  char byte = 0;
+  EXPECT_LE(::recv(silent, &byte, 1, 0), 0);
+  ::close(silent);
+}
+
+TEST(WebServerStart, TakesTheNextPortWhereOneIsTaken) {
+  Echo handler;
+  const auto first = Server::start({}, handler);
+  ASSERT_TRUE(first);
+  ServerOptions options;
+  options.port = (*first)->port();
+  const auto refused = Server::start(options, handler);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("cannot listen on 127.0.0.1"), std::string::npos);
+  options.ports_to_try = 20;
+  const auto next = Server::start(options, handler);
+  ASSERT_TRUE(next) << next.error().text();
+  EXPECT_NE((*next)->port(), (*first)->port());
+}
+
+}  // namespace
+}  // namespace rave::web

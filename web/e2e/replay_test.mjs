@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// A person looks at a recording: node replay_test.mjs RAVE SCENARIO FOLDER
+import assert from 'node:assert/strict';
+import {execFileSync} from 'node:child_process';
+import {mkdirSync, rmSync} from 'node:fs';
+import http from 'node:http';
+import {join} from 'node:path';
+import {launch, startGui} from './browser.mjs';
+
+const [rave, scenario, folder] = process.argv.slice(2);
+let passed = 0;
+
+/** Waits until a function of the page gives something true. */
+const until = (page, what, given) => page.waitForFunction(what, given, {timeout: 20000});
+const app = 'document.querySelector("rave-app")';
+
+async function check(name, act) {
+  await act();
+  ++passed;
+  console.log(`ok ${name}`);
+}
+
+function get(url, headers = {}) {
+  return new Promise((resolve, reject) => {
+    http.get(url, {headers}, (response) => {
+      let body = '';
+      response.on('data', (data) => (body += data));
+      response.on('end', () => resolve({status: response.statusCode, headers: response.headers, body}));
+    }).on('error', reject);
+  });
+}
+
+rmSync(folder, {recursive: true, force: true});
+mkdirSync(folder, {recursive: true});
+const run = join(folder, 'run');
+execFileSync(rave, ['run', scenario, '--duration', '20', '--pace', 'max', '--quiet', '--no-picture', '--output', run], {
+  stdio: ['ignore', 'ignore', 'inherit'],
+});
+const gui = await startGui(rave, run);
+const origin = new URL(gui.link).origin;
+const browser = await launch();
+try {
+  const context = await browser.newContext({viewport: {width: 1400, height: 900}});
+  const page = await context.newPage();
+  const errors = [];
+  const foreign = [];
+  page.on('console', (message) => message.type() === 'error' && errors.push(message.text()));
+  page.on('pageerror', (error) => errors.push(String(error)));
+  page.on('request', (request) => !/^(data|blob):/.test(request.url()) && new URL(request.url()).origin !== origin && foreign.push(request.url()));
+
+  await check('a stranger gets the page and no run', async () => {
+    const other = await (await browser.newContext()).newPage();
+    await other.goto(origin);
+    await other.getByText('You are not signed in').waitFor();
+    await other.close();
+  });
+
+  await check('the link signs in, once', async () => {
+    await page.goto(gui.link);
+    await until(page, `${app}?.model?.robots?.length === 16`);
+    const again = await get(gui.link);
+    assert.equal(again.status, 403);
+    assert.match(again.body, /used already/);
+  });
+
+  await check('robots, bodies and events of the recording are there', async () => {
+    await until(page, `${app}.model.poses.newest !== null`);
+    const seen = await page.evaluate(() => {
+      const {model} = document.querySelector('rave-app');
+      return {
+        name: model.hello.run.name, hash: model.hello.run.hash,
+        real: model.robots.filter((robot) => robot.kind === 'real').length,
+        kinds: [...new Set([...model.bodies.values()].map((body) => body.kind))].sort(),
+        known: [...model.poses.newest.flags].filter((flags) => flags & 1).length,
+      };
+    });
+    assert.equal(seen.name, 'mixed-reality');
+    assert.match(seen.hash, /^[0-9a-f]{16}$/);
+    assert.equal(seen.real, 5);
+    assert.deepEqual(seen.kinds, ['landmark', 'virtual']);
+    assert.equal(seen.known, 16);
+  });
+
+  await check('it plays: time goes on, and pauses', async () => {
+    const before = await page.evaluate(`${app}.model.poses.newest.time_s`);
+    await until(page, `${app}.model.poses.newest.time_s > ${before} + 0.5`);
+    await page.keyboard.press('k');
+    await until(page, `${app}.model.time.state === 'paused'`);
+  });
+
+  await check('a seek shows the moment, with the trails before it', async () => {
+    await page.keyboard.press('Control+k');
+    await page.keyboard.type('12.5');
+    await page.keyboard.press('Enter');
+    await until(page, `Math.abs(${app}.model.poses.newest?.time_s - 12.5) < 0.011`);
+    const past = await page.evaluate(`${app}.model.poses.past.length`);
+    assert.ok(past > 55, `${past} frames of the past`);
+  });
+
+  await check('a step on is one step', async () => {
+    const step = await page.evaluate(`${app}.model.poses.newest.step`);
+    await page.keyboard.press('.');
+    await until(page, `${app}.model.poses.newest.step === ${step} + 1`);
+  });
+
+  await check('a click on a row selects, and the sensor of that robot is read', async () => {
+    await page.locator('rave-robots .row', {hasText: 'real-3'}).click();
+    await until(page, `${app}.selection.primary !== null`);
+    await until(page, `(() => { const a = ${app}; const slot = a.selection.primary;
+      const laser = a.model.robots[slot].sensors.findIndex((sensor) => sensor.kind === 'ranges');
+      return a.model.readings.of(slot, laser)?.rows === 121; })()`);
+    await page.locator('rave-sensors').getByText('121 rays').waitFor();
+  });
+
+  await check('a click in the World View selects the robot that is there', async () => {
+    await page.keyboard.press('Escape');
+    await page.keyboard.press('f');
+    await page.waitForTimeout(600);
+    const at = await page.evaluate(() => {
+      const world = document.querySelector('rave-world');
+      const box = world.renderRoot.querySelector('canvas').getBoundingClientRect();
+      const slot = document.querySelector('rave-app').model.robots.findIndex((robot) => robot.name === 'hunter');
+      return {x: box.left + world.camera.toScreenX(world.placed.x[slot]), y: box.top + world.camera.toScreenY(world.placed.y[slot]), slot};
+    });
+    await page.mouse.click(at.x, at.y);
+    await until(page, `${app}.selection.primary === ${at.slot}`);
+  });
+
+  await check('a recording cannot be stopped, and the page says so', async () => {
+    await page.getByText('View only').waitFor();
+  });
+
+  await check('light and dark', async () => {
+    const before = await page.evaluate('document.documentElement.dataset.theme');
+    await page.getByLabel('Light or dark').click();
+    assert.notEqual(await page.evaluate('document.documentElement.dataset.theme'), before);
+  });
+
+  await check('a killed server comes back to the page by itself', async () => {
+    const port = new URL(origin).port;
+    await gui.end();
+    await page.getByText(/Link lost/).first().waitFor();
+    const next = await startGui(rave, run, '--port', port);
+    // Sessions end with the server that began them; the page says that it needs another link.
+    await page.getByText('You are not signed in').waitFor({timeout: 20000});
+    await page.goto(next.link);
+    await until(page, `${app}?.model?.robots?.length === 16`);
+    assert.equal(await next.end(), 0);
+  });
+
+  await check('nothing was asked of another origin, and nothing was complained of', async () => {
+    assert.deepEqual(foreign, []);
+    // The link that was lost is told by the browser as well.
+    assert.deepEqual(errors.filter((text) => !/WebSocket|ERR_CONNECTION_REFUSED|Failed to load resource/.test(text)), []);
+  });
+} finally {
+  await browser.close();
+  gui.child.kill('SIGKILL');
+}
+console.log(`${passed} passed, 0 failed`);
+process.exit(0);

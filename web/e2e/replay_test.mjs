@@ -2,7 +2,7 @@
 // A person looks at a recording: node replay_test.mjs RAVE SCENARIO FOLDER
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
-import {mkdirSync, rmSync} from 'node:fs';
+import {mkdirSync, rmSync, writeFileSync} from 'node:fs';
 import http from 'node:http';
 import {join} from 'node:path';
 import {launch, startGui} from './browser.mjs';
@@ -46,6 +46,11 @@ try {
   const foreign = [];
   page.on('console', (message) => message.type() === 'error' && errors.push(message.text()));
   page.on('pageerror', (error) => errors.push(String(error)));
+  const said = [];
+  page.on('websocket', (socket) => {
+    socket.on('framereceived', ({payload}) => typeof payload === 'string' && said.push(JSON.parse(payload)));
+    socket.on('framesent', ({payload}) => typeof payload === 'string' && said.push(JSON.parse(payload)));
+  });
   page.on('request', (request) => !/^(data|blob):/.test(request.url()) && new URL(request.url()).origin !== origin && foreign.push(request.url()));
 
   await check('a stranger gets the page and no run', async () => {
@@ -146,6 +151,14 @@ try {
     await page.goto(next.link);
     await until(page, `${app}?.model?.robots?.length === 16`);
     assert.equal(await next.end(), 0);
+  });
+
+  await check('every message is as the schema describes it', async () => {
+    const kinds = new Set(said.map((message) => message.type));
+    for (const kind of ['hello', 'scene', 'roster', 'time', 'events', 'look', 'ack', 'transport']) assert.ok(kinds.has(kind), kind);
+    const file = join(folder, 'messages.json');
+    writeFileSync(file, JSON.stringify(said));
+    execFileSync('python3', [new URL('check_messages.py', import.meta.url).pathname, file], {stdio: 'inherit'});
   });
 
   await check('nothing was asked of another origin, and nothing was complained of', async () => {

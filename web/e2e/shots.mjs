@@ -27,7 +27,7 @@ for (const [name, width, height, theme] of kViews) {
   await page.addInitScript((value) => localStorage.setItem('rave.theme', value), theme);
   await page.goto(`${origin}/#t=${seconds}`);
   await page.waitForSelector('rave-world');
-  await page.waitForFunction(() => document.querySelector('rave-app')?.model?.poses?.newest !== null);
+  await page.waitForTimeout(1500);
   await page.keyboard.press('k');
   if (robot) await page.evaluate((wanted) => {
     const app = document.querySelector('rave-app');

@@ -2,6 +2,7 @@
 import {DockviewComponent, type IContentRenderer, type GroupPanelPartInitParameters, type SerializedDockview} from 'dockview-core';
 import type {PanelContext, PanelElement, PanelKind} from '../panel_api';
 
+/** Each class of widths has a layout of its own. */
 const kKept = 'rave.layout';
 /** Another number makes layouts that were kept void. */
 const kVersion = 1;
@@ -25,6 +26,8 @@ class DockedPanel implements IContentRenderer {
 export class Dock {
   private readonly view: DockviewComponent;
   private restoring = false;
+  private readonly kept: string;
+  private readonly width = document.documentElement.clientWidth;
 
   constructor(host: HTMLElement, private readonly kinds: readonly PanelKind[], context: PanelContext) {
     this.view = new DockviewComponent(host, {
@@ -36,9 +39,10 @@ export class Dock {
         return new DockedPanel(kind, context);
       },
     });
-    this.restore();
+    this.kept = `${kKept}.${this.width >= 1280 ? 'wide' : this.width >= 900 ? 'middle' : 'narrow'}`;
+    if (!this.restore()) this.resetWhenSized(host);
     this.view.onDidLayoutChange(() => {
-      if (!this.restoring) localStorage.setItem(kKept, JSON.stringify({version: kVersion, layout: this.view.toJSON()}));
+      if (!this.restoring) localStorage.setItem(this.kept, JSON.stringify({version: kVersion, layout: this.view.toJSON()}));
     });
   }
 
@@ -67,15 +71,14 @@ export class Dock {
   reset(): void {
     this.restoring = true;
     this.view.clear();
-    const add = (id: string, position?: object) =>
-      this.view.addPanel({id, component: id, title: this.kinds.find((kind) => kind.id === id)?.title ?? id, ...(position ? {position} : {})} as never);
-    const width = document.documentElement.clientWidth;
+    const add = (id: string, position?: object, size?: object) =>
+      this.view.addPanel({id, component: id, title: this.kinds.find((kind) => kind.id === id)?.title ?? id, ...(position ? {position} : {}), ...size} as never);
     add('world');
-    if (width >= 1280) {
-      add('robots', {referencePanel: 'world', direction: 'left'});
-      add('sensors', {referencePanel: 'world', direction: 'right'});
-      add('log', {referencePanel: 'sensors', direction: 'below'});
-    } else if (width >= 900) {
+    if (this.width >= 1280) {
+      add('robots', {referencePanel: 'world', direction: 'left'}, {initialWidth: 292});
+      add('sensors', {referencePanel: 'world', direction: 'right'}, {initialWidth: 392});
+      add('log', {referencePanel: 'sensors', direction: 'below'}, {initialHeight: 340});
+    } else if (this.width >= 900) {
       add('robots', {referencePanel: 'world', direction: 'right'});
       add('sensors', {referencePanel: 'robots', direction: 'below'});
       add('log', {referencePanel: 'sensors', direction: 'within'});
@@ -85,31 +88,30 @@ export class Dock {
       add('log', {referencePanel: 'robots', direction: 'within'});
     }
     this.show('world');
-    this.resize(width);
     this.restoring = false;
   }
 
-  /** Columns of a new layout keep their width only once the dock has its own. */
-  private resize(width: number): void {
-    if (width < 1280) return;
-    requestAnimationFrame(() => {
-      const panel = (id: string) => this.view.panels.find((open) => open.id === id);
-      panel('robots')?.group.api.setSize({width: 292});
-      panel('sensors')?.group.api.setSize({width: 392});
-      panel('log')?.group.api.setSize({height: 340});
+  /** Columns can be given a width only once the dock has its own. */
+  private resetWhenSized(host: HTMLElement): void {
+    const watch = new ResizeObserver(() => {
+      if (host.clientWidth < 100) return;
+      watch.disconnect();
+      this.view.layout(host.clientWidth, host.clientHeight);
+      this.reset();
     });
+    watch.observe(host);
   }
 
-  private restore(): void {
+  private restore(): boolean {
     try {
-      const kept = JSON.parse(localStorage.getItem(kKept) ?? 'null') as {version: number; layout: SerializedDockview} | null;
+      const kept = JSON.parse(localStorage.getItem(this.kept) ?? 'null') as {version: number; layout: SerializedDockview} | null;
       if (kept?.version === kVersion) {
         this.view.fromJSON(kept.layout);
-        return;
+        return true;
       }
     } catch {
       // A layout of another version: the one that comes with the page is better than none.
     }
-    this.reset();
+    return false;
   }
 }

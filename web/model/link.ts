@@ -108,11 +108,11 @@ export class Link {
       this.model.takeMessage(JSON.parse(data) as ServerMessage);
       return;
     }
-    ++this.frames;
     this.bytes += data.byteLength;
     const sequence = this.model.takeFrame(data, performance.now());
     // Once it can be drawn: a page that cannot keep up is sent less.
     if (sequence !== null) {
+      ++this.frames;
       const acknowledge = () => this.send({type: 'ack', sequence});
       if (document.visibilityState === 'hidden') acknowledge();
       else requestAnimationFrame(acknowledge);

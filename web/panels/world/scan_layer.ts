@@ -145,11 +145,15 @@ export function withAlpha(colour: string, alpha: number): string {
   return colour + byte.toString(16).padStart(2, '0');
 }
 
-/** Sensors of a robot that the World View draws, by their index. */
+/** Sensors of a robot that the World View draws, by their index. The virtual twin of a real camera
+ * says what that should see; it is shown beside it in the Sensor Display, not over the world. */
 export function drawnSensors(robot: Robot): number[] {
+  const sees = (sensor: Sensor) => sensor.kind === 'sightings' && sensor.origin !== 'virtual';
+  const hasCamera = robot.sensors.some(sees);
   const drawn: number[] = [];
   robot.sensors.forEach((sensor, i) => {
-    if (sensor.kind === 'ranges' || sensor.kind === 'sightings') drawn.push(i);
+    const camera = sensor.kind === 'sightings' && (!hasCamera || sees(sensor));
+    if (sensor.kind === 'ranges' || camera) drawn.push(i);
   });
   return drawn;
 }

@@ -18,6 +18,7 @@ const kNearNames_px = 60;
 const kMany = 400;
 const kTrail_s = 10;
 const kFarTrail_s = 4;
+const kOldest_s = 5;
 
 interface Outline {
   path: Path2D;
@@ -253,14 +254,18 @@ export class TopView {
       for (const index of drawnSensors(robot)) {
         const sensor = robot.sensors[index];
         const reading = this.model.readings.of(slot, index);
-        if (reading === null || placed.time_s - reading.stamp_s > Math.max(1, 3 * sensor.period_s)) continue;
+        if (reading === null) continue;
+        const age_s = placed.time_s - reading.stamp_s;
+        const fresh = age_s <= Math.max(1, 3 * sensor.period_s);
+        // What is old is faint where it is looked at, and gone elsewhere.
+        if (!fresh && (!strong || age_s > kOldest_s)) continue;
         const mount = mountOf(placed, slot, sensor);
         if (sensor.kind === 'sightings') {
           if (layers.sightings) drawSightings(ctx, camera, mount, reading, ink);
           continue;
         }
-        drawScan(ctx, camera, mount, sensor, reading, strong ? this.palette.hue(slot).fill : ink, strong);
-        if (layers.hits && this.surface !== null && camera.scale >= kFar_px) {
+        drawScan(ctx, camera, mount, sensor, reading, strong ? this.palette.hue(slot).fill : ink, strong && fresh);
+        if (fresh && layers.hits && this.surface !== null && camera.scale >= kFar_px) {
           drawHits(ctx, camera, mount, sensor, reading, slot, this.surface, this.palette);
         }
       }

@@ -31,6 +31,8 @@ export class WorldPanel extends LitElement {
   private layers: Layers = kLayers;
   private menuOpen = false;
   private fitted = false;
+  /** The person has chosen what is shown: it is not fitted again by itself. */
+  private moved = false;
   private drawQueued = false;
   private measuring = false;
   private measured: [number, number, number, number] | null = null;
@@ -53,7 +55,7 @@ export class WorldPanel extends LitElement {
     };
     this.ends.push(
       model.rosterChanged.on(() => {
-        this.fitted = false;
+        this.fitted = this.moved = false;
         refresh();
       }),
       model.sceneChanged.on(refresh),
@@ -163,6 +165,7 @@ export class WorldPanel extends LitElement {
     this.camera.height = clientHeight;
     canvas.width = Math.round(clientWidth * devicePixelRatio);
     canvas.height = Math.round(clientHeight * devicePixelRatio);
+    if (!this.moved) this.fitted = false;
     this.paint();
   }
 
@@ -254,6 +257,7 @@ export class WorldPanel extends LitElement {
 
   private wheel(event: WheelEvent): void {
     event.preventDefault();
+    this.moved = true;
     this.camera.zoom(Math.exp(-event.deltaY * (event.deltaMode === 1 ? 0.05 : 0.0015)), event.offsetX, event.offsetY);
     this.draw();
   }
@@ -288,6 +292,7 @@ export class WorldPanel extends LitElement {
       this.box = [pressed.x, pressed.y, event.offsetX, event.offsetY];
     } else {
       this.camera.pan(dx, dy);
+      this.moved = true;
       this.context.selection.follow(false);
     }
     this.draw();
@@ -302,6 +307,7 @@ export class WorldPanel extends LitElement {
       this.camera.pan((event.offsetX - last.x) / 2, (event.offsetY - last.y) / 2);
       this.draw();
     }
+    this.moved = true;
     if (this.pressed) this.pressed.moved = true;
   }
 

@@ -146,7 +146,7 @@ TEST_F(Control, EditsTheWorldAndVerifyDoesItAgain) {
   EXPECT_NE(listed.out.find("(40.000, 2.000) m, 30.0 deg"), std::string::npos) << listed.out;
   EXPECT_EQ(rave({"edit", "small", "move", "bale", "--at", "-40,1"}).exit_code, 0);
   EXPECT_EQ(rave({"edit", "add", "disc", "--name", "tube", "--at", "30,0", "--size", "0.25",
-                  "--layer", "mapped_real", "--barcode", "7"})
+                  "--layer", "mapped_real", "--barcode", "8"})
                 .exit_code,
             0);
   EXPECT_EQ(rave({"edit", "add", "polygon", "--name", "wedge", "--at", "30,9", "--corners",

@@ -178,12 +178,9 @@ TEST_F(LostRuns, TheLogGivesTheCommandThatStartsALostHostAgain) {
   const std::string log = console("env");
   const std::size_t from = log.find(mark) + mark.size();
   std::istringstream line(log.substr(from, log.find('\n', from) - from));
-  std::string what;
-  std::string scenario;
-  line >> what >> scenario;
   Words words;
   for (std::string word; line >> word;) words.push_back(word);
-  start("again", what, scenario, words);
+  start_as_told("again", words);
   wait_for_line("env", "host `one` is back");
   wait_for_steps(50);
 }

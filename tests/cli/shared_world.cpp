@@ -45,8 +45,19 @@ void SharedWorld::start(const std::string& name, const std::string& what,
 
 void SharedWorld::start_in(const std::string& runtime, const std::string& name,
                            std::vector<std::string> words) {
-  words.insert(words.end(), {"--output", folder(name)});
   for (const std::string& word : apart()) words.push_back(word);
+  start_words(runtime, name, std::move(words));
+}
+
+void SharedWorld::start_as_told(const std::string& name, std::vector<std::string> words) {
+  start_words(folder_.path(), name, std::move(words));
+}
+
+void SharedWorld::start_words(const std::string& runtime, const std::string& name,
+                              std::vector<std::string> words) {
+  // The folder of a run is refused to another one.
+  std::filesystem::remove_all(folder(name));
+  words.insert(words.end(), {"--output", folder(name)});
   const pid_t process = start_rave(
       words, {"XDG_RUNTIME_DIR=" + runtime, std::string("TMPDIR=") + folder_.path().string()});
   ASSERT_GT(process, 0);

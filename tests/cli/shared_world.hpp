@@ -23,12 +23,15 @@ class SharedWorld : public ::testing::Test {
   SharedWorld();
 
   /// Starts `rave WHAT SCENARIO` with what keeps tests apart, under a name of the test's choice.
+  /// The results of an earlier process of that name go.
   void start(const std::string& name, const std::string& what, const std::string& scenario,
              std::vector<std::string> more = {});
   /// The same of `rave robot` for the host `name`.
   void start_host(const std::string& host, const std::string& scenario,
                   std::vector<std::string> more = {});
-  /// The same as on another machine: none of its sockets is seen beside the others.
+  /// Starts `rave` with these words as they are; only the folder of its results is added.
+  void start_as_told(const std::string& name, std::vector<std::string> words);
+  /// The same as start_host() on another machine: none of its sockets is seen beside the others.
   void start_elsewhere(const std::string& host, const std::string& scenario);
   /// A copy of the scenario `crowd.yaml` that does this about lost hosts; its file.
   [[nodiscard]] std::string crowd_with_policy(const std::string& policy, double timeout_s) const;
@@ -53,6 +56,8 @@ class SharedWorld : public ::testing::Test {
  private:
   void start_in(const std::string& runtime, const std::string& name,
                 std::vector<std::string> words);
+  void start_words(const std::string& runtime, const std::string& name,
+                   std::vector<std::string> words);
   std::string tag_;
   int domain_ = 0;
   std::map<std::string, pid_t> processes_;

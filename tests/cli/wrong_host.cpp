@@ -29,8 +29,8 @@ bool WrongHost::introduce() {
   return met;
 }
 
-Status WrongHost::say(const sim::HostReport& report) {
-  return reports_.write(message_.fill(report, 0, 0));
+Status WrongHost::say(const sim::HostReport& report, std::uint64_t epoch) {
+  return reports_.write(message_.fill(report, epoch, 0));
 }
 
 }  // namespace rave::cli_test

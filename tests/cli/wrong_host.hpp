@@ -22,7 +22,8 @@ class WrongHost {
 
   /// Learns from the environment manager what fits, and says that it does; false until it is there.
   bool introduce();
-  Status say(const sim::HostReport& report);
+  /// `epoch`: of the manager that it answers; 0: of none.
+  Status say(const sim::HostReport& report, std::uint64_t epoch = 0);
 
  private:
   WrongHost(std::uint32_t host, std::unique_ptr<bus::Bus> bus, bus::Reader<bus::HostInfo> infos,

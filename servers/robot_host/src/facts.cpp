@@ -155,7 +155,10 @@ void merge_goals(const GoalFacts& from, GoalFacts& into) {
   into.touches.resize(std::max(into.touches.size(), from.touches.size()));
   for (std::size_t i = 0; i < from.touches.size(); ++i) into.touches[i] += from.touches[i];
   into.silent.resize(std::max(into.silent.size(), from.silent.size()));
-  for (std::size_t i = 0; i < from.silent.size(); ++i) append(into.silent[i], from.silent[i]);
+  for (std::size_t i = 0; i < from.silent.size(); ++i) {
+    append(into.silent[i], from.silent[i]);
+    std::ranges::sort(into.silent[i]);
+  }
   into.arrivals.resize(std::max(into.arrivals.size(), from.arrivals.size()));
   for (std::size_t i = 0; i < from.arrivals.size(); ++i) {
     const ArrivalFacts& found = from.arrivals[i];

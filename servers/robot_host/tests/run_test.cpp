@@ -138,15 +138,20 @@ TEST(Run, TouchesOfASensorThatNeverGaveAReadingAreNotCounted) {
 
 /// Whoever is nowhere touches nothing.
 TEST(Run, ContactsOfARobotWhosePlaceWasNeverKnownAreNotCounted) {
-  RunOutcome outcome;
-  const Json result = result_of(
-      "name: nowhere\nduration_s: 0.01\npace: max\nchecks: {touches: [{robots: [real-1]}]}\n"
-      "robots:\n  - {name: real-1, file: ../robots/recorded-create.yaml, variables: {robot: 1, "
-      "barcode: 5}}\n",
-      "nowhere", outcome);
-  EXPECT_FALSE(outcome.checks_hold);
-  EXPECT_EQ(result.at("checks").at(0).at("text"),
-            "not made: the place of `real-1` was never known");
+  for (const bool late : {true, false}) {
+    RunOutcome outcome;
+    const Json result = result_of(
+        fmt::format("name: nowhere\nduration_s: 0.1\npace: max\n"
+                    "checks: {{touches: [{{robots: [real-1]}}]}}\nrobots:\n  - {{name: real-1, "
+                    "robot: {{{}, pose_from: mocap, sensors: [{{name: mocap, driver: utias_mocap, "
+                    "params: {{folder: {}/data/utias-mrclam6/100-220, robot: 1, "
+                    "clock_offset_s: {}}}}}]}}}}\n",
+                    kBody, RAVE_SOURCE_DIR, late ? 5 : 0),
+        "nowhere", outcome);
+    EXPECT_EQ(outcome.checks_hold, !late);
+    EXPECT_EQ(result.at("checks").at(0).at("text"),
+              late ? "not made: the place of `real-1` was never known" : "0, expected at most 0");
+  }
 }
 
 TEST(Run, IsNotWholeWhenARecordingHasNoPoseOfItsRobot) {

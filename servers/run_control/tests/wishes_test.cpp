@@ -12,7 +12,7 @@ namespace {
 class WishesTest : public ::testing::Test {
  protected:
   void begin(bool live) {
-    robot_host::RunStatus status{"tests", 0, 10, 1, live, false, {}};
+    robot_host::RunStatus status{"tests", 0, 10, 1, live, false, false, {}, {}};
     status.robots.push_back({"anna", true, true, false});
     control_.begin(std::move(status));
   }

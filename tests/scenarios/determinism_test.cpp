@@ -9,7 +9,7 @@ namespace {
 constexpr double kSpan_s = 20;
 /// The hash of the first twenty seconds of `mixed-reality`. It changes with the scenario, its
 /// robots and their drivers; then look why, and write the new one here.
-constexpr std::uint64_t kGolden = 1204750424158264595ULL;
+constexpr std::uint64_t kGolden = 6282146545155268263ULL;
 /// The same of `flock`, whose robots talk.
 constexpr std::uint64_t kGoldenFlock = 2383855366677754669ULL;
 

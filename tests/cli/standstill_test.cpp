@@ -66,7 +66,10 @@ INSTANTIATE_TEST_SUITE_P(Policies, AManagerStandsStill,
 
 TEST_F(Standstill, AManagerInRealTimeCountsNoHostAsLostAndSaysThatItStood) {
   begin("live.yaml", {"--no-record"});
-  wait_for_line("env", "all hosts are there");
+  // Worlds come again only to hosts to which they have come.
+  for (const char* const host : {"one", "two"}) {
+    wait_for_line(host, "the clock of the environment manager is");
+  }
   let_manager_stand();
   for (const char* const host : {"one", "two"}) wait_for_line(host, "worlds come again");
   for (const char* const who : {"env", "one", "two"}) signal(who, SIGINT);
@@ -104,8 +107,11 @@ TEST_F(Standstill, AHostThatWasDroppedAsleepEndsThoughTheRunIsOver) {
   signal("one", SIGCONT);
   wait_until([this] { return !runs("one"); }, "the host ends");
   EXPECT_EQ(end_of("one"), 1);
-  EXPECT_NE(result("one")["ending"].dump().find("after this host stood still"), std::string::npos)
-      << result("one");
+  // It may still hear what was told to it while it slept.
+  const std::string why = result("one")["ending"].dump();
+  EXPECT_TRUE(why.find("after this host stood still") != std::string::npos ||
+              why.find("it went on without this host") != std::string::npos)
+      << why;
 }
 
 }  // namespace

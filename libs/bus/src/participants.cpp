@@ -80,6 +80,7 @@ Identity read_identity(const dds_qos_t* qos) {
 Participants::Participants(dds_entity_t participant, const RunId& run, Duration lease, bool secured)
     : run_(run),
       secured_(secured),
+      lease_(lease),
       // A process is heard of each 0.8 leases at least, so a fifth without us may lose it. Those
       // that have lost us as well must be found again.
       standstill_({lease.ns / 5}, lease * 3) {
@@ -128,10 +129,10 @@ void Participants::collect(std::vector<BusEvent>& events) {
 void Participants::judge(std::vector<BusEvent>& events) {
   // Not before: whoever is missed because of a standstill has been read after it.
   standstill_.look();
-  if (missed_.empty()) told_ = false;
-  if (missed_.empty()) return;
   if (Standstill::Clock::now() < standstill_.silence_counts_from()) {
-    if (std::exchange(told_, true)) return;
+    // Others may have missed this process though it has heard them again at once.
+    const bool long_enough = 2 * standstill_.stood().ns > lease_.ns;
+    if ((missed_.empty() && !long_enough) || std::exchange(told_, true)) return;
     events.push_back({EventKind::kStoodStill, "", "", 0,
                       fmt::format("this process, for {:.1f} s; who else is there is found out anew",
                                   standstill_.stood().seconds())});

@@ -71,6 +71,7 @@ class Participants {
 
   RunId run_;
   bool secured_;
+  Duration lease_;
   Guid self_{};
   std::vector<dds_entity_t> readers_;  ///< Of participants, and with `secured_` of writers.
   Standstill standstill_;

@@ -73,7 +73,7 @@ class LiveBoard {
   /// What its messages are signed with.
   [[nodiscard]] std::uint64_t writer() const noexcept { return bus_->writer(); }
   [[nodiscard]] const bus::Standstill& standstill() const noexcept { return bus_->standstill(); }
-  /// How often this process stood still for so long that hosts seemed to be gone.
+  /// How often this process stood still for so long that it may have been missed.
   [[nodiscard]] std::uint64_t standstills() const noexcept { return standstills_; }
   /// Whether a process that asks for the time sits in its host's place, as it does now if that was
   /// free.

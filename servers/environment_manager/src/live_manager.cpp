@@ -302,8 +302,8 @@ LiveManagerOutcome LiveRun::outcome() {
   }
   if (board_->standstills() > 0) {
     problems_.push_back(fmt::format(
-        "the environment manager stood still for longer than the lease of its hosts{}: no worlds "
-        "were sent meanwhile",
+        "the environment manager stood still for so long that hosts may have missed it{}: no "
+        "worlds were sent meanwhile",
         board_->standstills() == 1 ? "" : fmt::format(" ({} times)", board_->standstills())));
   }
   const bool over = begun_ && now().ns >= options_.duration.ns;

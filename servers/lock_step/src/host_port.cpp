@@ -163,9 +163,10 @@ void HostPort::Impl::lose(std::uint64_t writer) {
   manager = 0;
   epoch = 0;
   alone_since = Clock::now();
-  // Whoever was not found again is missed as soon as silence counts.
+  // Whoever was not found again is missed as soon as silence counts. The lease of this process
+  // began when it was heard of last, which was some time before it stood.
   const bus::Standstill& still = bus->standstill();
-  overslept = still.stood() > bus->config().lease &&
+  overslept = 2 * still.stood().ns > bus->config().lease.ns &&
               alone_since - still.silence_counts_from() < kMissedAtOnce;
   if (over) return;
   tell(LogLevel::kError, "the environment manager is gone; robots stand until one is back");

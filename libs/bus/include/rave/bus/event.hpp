@@ -18,7 +18,7 @@ enum class EventKind : std::uint8_t {
   kForeignRun,    ///< A process or sample of another run came by and was ignored.
   kRefused,       ///< A sample did not pass validation; the text says why.
   kNotice,        ///< Cyclone DDS has something to say, mostly a warning.
-  kStoodStill,    ///< This process did, for so long that others seem to be gone; see Standstill.
+  kStoodStill,    ///< This process did, for so long that others may be missed; see Standstill.
 };
 
 /// The lower-case name of a kind, for logs.

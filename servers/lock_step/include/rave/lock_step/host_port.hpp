@@ -34,8 +34,8 @@ class HostPort {
   /// Without an environment manager for longer than this the run has ended for a host.
   struct Patience {
     Duration usual;  ///< 0: it waits without limit.
-    /// When it is missed after this process stood still for longer than its lease, and the run did
-    /// not wait; 0: as usual.
+    /// When it is missed after this process stood still for longer than half its lease, and the run
+    /// did not wait; 0: as usual.
     Duration after_standstill;
   };
 

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// As many processes as a machine may be asked for.
+#include <fstream>
+
+#include "shared_world.hpp"
+
+namespace rave::cli_test {
+namespace {
+
+class ManyHosts : public SharedWorld {
+ protected:
+  [[nodiscard]] std::string robots(int count) const {
+    const std::string path = folder("many.yaml");
+    std::ofstream(path) << "name: many\nduration_s: 0.2\nrobots:\n  - {name: walker, file: "
+                        << RAVE_SOURCE_DIR
+                        << "/tests/cli/data/crowd_robot.yaml, scatter: {count: " << count
+                        << ", x_m: [0, 20], y_m: [0, 20], clearance_m: 0.1}}\n";
+    return path;
+  }
+};
+
+TEST_F(ManyHosts, EightyProcessesFindEachOtherAndGiveTheHashOfOne) {
+  const std::string scenario = robots(80);
+  const std::string alone = hash_alone(scenario, {});
+  ASSERT_EQ(alone.size(), 16U);
+  start("run", "run", scenario,
+        {"--processes", "80", "--pace", "max", "--no-record", "--no-picture"});
+  wait_until([this] { return !runs("run"); }, "the run ends");
+  if (HasFailure()) return;
+  EXPECT_EQ(end_of("run"), 0) << console("run");
+  const auto result = this->result("run");
+  EXPECT_EQ(result["hash"], alone);
+  EXPECT_EQ(result["hosts"].size(), 80U);
+}
+
+TEST_F(ManyHosts, MoreThanAMachineHasRoomForAreRefused) {
+  const Ended ended = run_rave({"run", robots(101), "--processes", "101"});
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_NE(ended.err.find("expected 1 to 100: a machine has room for so many hosts"),
+            std::string::npos)
+      << ended.err;
+}
+
+}  // namespace
+}  // namespace rave::cli_test

@@ -114,7 +114,8 @@ TEST_F(WebServer, RefusesWritingAndSocketsOfOtherOrigins) {
                       "Connection: close\r\n\r\n",
                       server_->port()));
   EXPECT_TRUE(post.starts_with("HTTP/1.1 403")) << post;
-  const std::string socket = upgrade("Origin: http://evil.example\r\nCookie: key=good\r\n", "refused");
+  const std::string socket =
+      upgrade("Origin: http://evil.example\r\nCookie: key=good\r\n", "refused");
   EXPECT_TRUE(socket.starts_with("HTTP/1.1 403")) << socket;
   EXPECT_EQ(handler_.served, 0);
   EXPECT_EQ(handler_.open, 0);

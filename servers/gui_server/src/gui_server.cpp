@@ -27,8 +27,8 @@ std::string cookie_name(std::uint16_t port) { return fmt::format("rave_{}", port
 
 class GuiServer::Impl final : public web::Handler {
  public:
-  Impl(web::StaticFiles files, std::shared_ptr<Source> source, LogSink* log)
-      : files_(std::move(files)), source_(std::move(source)), log_(log) {}
+  Impl(web::StaticFiles files, std::shared_ptr<Source> source)
+      : files_(std::move(files)), source_(std::move(source)) {}
   ~Impl() override {
     if (server_) server_->stop();
   }
@@ -120,7 +120,6 @@ class GuiServer::Impl final : public web::Handler {
 
   web::StaticFiles files_;
   std::shared_ptr<Source> source_;  ///< Shared with who may put another in its place.
-  LogSink* log_;
   Entrance entrance_;
   std::map<std::uint64_t, std::unique_ptr<Session>> sessions_;  ///< The thread of the server.
   std::unique_ptr<web::Server> server_;
@@ -138,7 +137,7 @@ Result<std::unique_ptr<GuiServer>> GuiServer::start(const GuiOptions& options,
                 "`ninja -C build/release rave_page` builds it",
                 files.error().message);
   }
-  auto impl = std::make_unique<Impl>(*std::move(files), std::move(source), options.log);
+  auto impl = std::make_unique<Impl>(*std::move(files), std::move(source));
   RAVE_TRY(impl->listen(options.port));
   return std::unique_ptr<GuiServer>(new GuiServer(std::move(impl)));
 }

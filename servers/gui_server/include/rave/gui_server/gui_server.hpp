@@ -6,7 +6,6 @@
 #include <memory>
 #include <string>
 
-#include "rave/base/log.hpp"
 #include "rave/base/result.hpp"
 
 namespace rave::gui_server {
@@ -16,7 +15,6 @@ class Source;
 struct GuiOptions {
   std::filesystem::path page;  ///< Folder of the built page.
   std::uint16_t port = 8080;   ///< Taken: one of the next ones.
-  LogSink* log = nullptr;      ///< Not owned; outlives the server. May be null.
 };
 
 /// The GUI Server: serves the page and, over WebSockets, what its source knows. Listens on loopback

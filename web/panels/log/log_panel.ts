@@ -18,6 +18,8 @@ export class LogPanel extends LitElement {
 
   override connectedCallback(): void {
     super.connectedCallback();
+    // The dock takes panels out while they are hidden: what came meanwhile is to be shown.
+    this.requestUpdate();
     const {model, palette} = this.context;
     const update = () => this.requestUpdate();
     this.ends.push(

@@ -26,6 +26,8 @@ export class RobotsPanel extends LitElement {
 
   override connectedCallback(): void {
     super.connectedCallback();
+    // The dock takes panels out while they are hidden: what came meanwhile is to be shown.
+    this.requestUpdate();
     const {model, selection, palette} = this.context;
     const update = () => this.requestUpdate();
     this.ends.push(model.rosterChanged.on(update), selection.changed.on(update), palette.changed.on(update));

@@ -30,6 +30,8 @@ export class SensorsPanel extends LitElement {
 
   override connectedCallback(): void {
     super.connectedCallback();
+    // The dock takes panels out while they are hidden: what came meanwhile is to be shown.
+    this.requestUpdate();
     const {model, selection, palette} = this.context;
     const changed = () => {
       this.surface = new Surface(model.bodies.values(), model.robots, palette);

@@ -13,7 +13,10 @@ export function launch() {
 
 /** Starts `rave gui` and waits for its link. `end()` stops it and gives its exit code. */
 export async function startGui(rave, recording, ...more) {
-  const child = spawn(rave, ['gui', recording, '--no-open', ...(more.includes('--port') ? [] : ['--port', '0']), ...more], {stdio: ['ignore', 'pipe', 'inherit']});
+  // Another page than the one that was built with the program, while the page is worked on.
+  const page = process.env.RAVE_PAGE ? ['--page', process.env.RAVE_PAGE] : [];
+  const port = more.includes('--port') ? [] : ['--port', '0'];
+  const child = spawn(rave, ['gui', recording, '--no-open', ...port, ...page, ...more], {stdio: ['ignore', 'pipe', 'inherit']});
   let text = '';
   const exited = new Promise((resolve) => child.once('exit', resolve));
   const link = await new Promise((resolve, reject) => {

@@ -6,26 +6,9 @@ import {mkdirSync, rmSync, writeFileSync} from 'node:fs';
 import http from 'node:http';
 import {join} from 'node:path';
 import {launch, startGui} from './browser.mjs';
+import {app, check, report, showFailures, until, watch} from './checks.mjs';
 
 const [rave, scenario, folder] = process.argv.slice(2);
-let passed = 0;
-
-/** Waits until an expression of the page is true. Asked from outside: the page's policy forbids eval. */
-async function until(page, expression, timeout_ms = 20000) {
-  const end = Date.now() + timeout_ms;
-  while (!(await page.evaluate(`Boolean(${expression})`))) {
-    if (Date.now() > end) throw new Error(`never true: ${expression}`);
-    await page.waitForTimeout(25);
-  }
-}
-const app = 'document.querySelector("rave-app")';
-
-async function check(name, act) {
-  await act();
-  ++passed;
-  console.log(`ok ${name}`);
-}
-
 function get(url, headers = {}) {
   return new Promise((resolve, reject) => {
     http.get(url, {headers}, (response) => {
@@ -48,16 +31,13 @@ const browser = await launch();
 try {
   const context = await browser.newContext({viewport: {width: 1400, height: 900}});
   const page = await context.newPage();
-  const errors = [];
-  const foreign = [];
-  page.on('console', (message) => message.type() === 'error' && errors.push(message.text()));
-  page.on('pageerror', (error) => errors.push(String(error)));
+  showFailures(page, join(folder, 'failed.png'));
+  const {errors, foreign} = watch(page, origin);
   const said = [];
   page.on('websocket', (socket) => {
     socket.on('framereceived', ({payload}) => typeof payload === 'string' && said.push(JSON.parse(payload)));
     socket.on('framesent', ({payload}) => typeof payload === 'string' && said.push(JSON.parse(payload)));
   });
-  page.on('request', (request) => !/^(data|blob):/.test(request.url()) && new URL(request.url()).origin !== origin && foreign.push(request.url()));
 
   await check('a stranger gets the page and no run', async () => {
     const other = await (await browser.newContext()).newPage();
@@ -129,9 +109,10 @@ try {
     await page.waitForTimeout(600);
     const at = await page.evaluate(() => {
       const world = document.querySelector('rave-world');
-      const box = world.renderRoot.querySelector('canvas').getBoundingClientRect();
+      const box = world.renderRoot.querySelector('.canvas').getBoundingClientRect();
       const slot = document.querySelector('rave-app').model.robots.findIndex((robot) => robot.name === 'hunter');
-      return {x: box.left + world.camera.toScreenX(world.placed.x[slot]), y: box.top + world.camera.toScreenY(world.placed.y[slot]), slot};
+      const [x, y] = world.screenOf(slot);
+      return {x: box.left + x, y: box.top + y, slot};
     });
     await page.mouse.click(at.x, at.y);
     await until(page, `${app}.selection.primary === ${at.slot}`);
@@ -176,5 +157,5 @@ try {
   await browser.close();
   gui.child.kill('SIGKILL');
 }
-console.log(`${passed} passed, 0 failed`);
+report();
 process.exit(0);

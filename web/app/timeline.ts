@@ -10,6 +10,8 @@ import {controls} from './styles';
 /** Events so near to each other become one mark, pixels. */
 const kMark_px = 9;
 const kRefresh_ms = 50;
+/** A recording may end a step before the planned end; its last tick is shown all the same. */
+const kEndSlack = 0.002;
 
 /** From the begin to the planned end: a knob to move in a replay, a head that goes by itself in a live run. */
 export class Timeline extends LitElement {
@@ -67,7 +69,7 @@ export class Timeline extends LitElement {
     const may = model.may('seek');
     const step = tickStep((end - begin) / Math.max(this.width / 90, 1));
     const ticks: number[] = [];
-    for (let t = Math.ceil(begin / step) * step; t <= end + 1e-9; t += step) ticks.push(t);
+    for (let t = Math.ceil(begin / step) * step; t <= end + kEndSlack * (end - begin); t += step) ticks.push(Math.min(t, end));
     return html`<div class="line ${model.live ? 'live' : ''}" role=${may ? 'slider' : 'img'} tabindex=${may ? '0' : nothing} aria-label="Time of the run"
         aria-valuemin=${may ? begin : nothing} aria-valuemax=${may ? end : nothing} aria-valuenow=${may ? now_s.toFixed(1) : nothing}
         aria-valuetext=${may ? `${clockText(now_s)} s` : nothing} title=${may ? '' : model.whyNot('seek')}

@@ -103,6 +103,27 @@ try {
     await page.getByText('225 µs').waitFor();
   });
 
+  await check('T shows the world in perspective, and a click picks there, too', async () => {
+    await page.keyboard.press('Escape');
+    await page.keyboard.press('t');
+    await until(page, `document.querySelector('rave-world').viewpoint().startsWith('3d')`);
+    await page.keyboard.press('k');
+    await page.waitForTimeout(500);
+    await page.evaluate(`document.querySelector('rave-world').lookFrom('3d,0,0,9,-1.6,1.3')`);
+    await page.waitForTimeout(1000);
+    const at = await page.evaluate(() => {
+      const world = document.querySelector('rave-world');
+      const box = world.renderRoot.querySelector('.canvas').getBoundingClientRect();
+      const [x, y] = world.screenOf(2);
+      return [box.left + x, box.top + y];
+    });
+    await page.mouse.click(...at);
+    await until(page, `${app}.selection.primary === 2`);
+    await page.keyboard.press('k');
+    await page.keyboard.press('t');
+    await until(page, `document.querySelector('rave-world').viewpoint().startsWith('top')`);
+  });
+
   await check('the end of the run turns into its replay; selection and camera stay', async () => {
     await page.evaluate(`${app}.selection.set([3])`);
     await page.mouse.move(700, 400);

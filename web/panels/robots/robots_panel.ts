@@ -132,7 +132,7 @@ export class RobotsPanel extends LitElement {
       <i class="glyph ${robot.kind}" style="--hue:${robot.kind === 'real' ? hue.fill : hue.ink}"></i>
       <span class="name" style=${marked ? `color:${hue.ink};font-weight:600` : ''}>${robot.name}</span>
       ${this.renderSparkline(slot, marked ? hue.ink : palette.token('text-3'))}
-      ${state === '' ? html`<span class="value">${this.speed(slot).toFixed(2)} m/s</span>` : html`<span class="state">${state}</span>`}
+      ${state === '' ? html`<span class="value">${speedText(this.speed(slot))}</span>` : html`<span class="state">${state}</span>`}
       <span class="mark" title=${robot.recorded ? 'Recorded: it obeys nobody' : ''}>${robot.recorded ? icon('lock', 13) : (this.flags(slot) & RobotFlag.touching) !== 0 ? icon('zap', 13) : nothing}</span>
     </div>`;
   }
@@ -178,7 +178,7 @@ export class RobotsPanel extends LitElement {
       <dl>
         ${row('Program', robot.program, robot.recorded ? '(does not obey)' : '')}
         ${row('Pose', known ? `${frame.x[slot].toFixed(2)}, ${frame.y[slot].toFixed(2)} m · ${degrees}°`.replaceAll('-', '−') : 'not known')}
-        ${row('Speed', known ? `${frame.speed[slot].toFixed(2)} m/s` : '')}
+        ${row('Speed', known ? speedText(frame.speed[slot]) : '')}
         ${row('Sensors', robot.sensors.map((sensor) => sensor.name).join(', '))}
         ${row('Drivers', robot.drivers.join(', '))}
         ${row('Host', robot.host ?? '')}
@@ -219,6 +219,11 @@ export class RobotsPanel extends LitElement {
       @media (pointer: coarse) { .row { height: 44px; } }
     `,
   ];
+}
+
+/** Without the sign of a zero. */
+function speedText(speed: number): string {
+  return `${(Math.abs(speed) < 0.005 ? 0 : speed).toFixed(2).replace('-', '−')} m/s`;
 }
 
 /** What is not normal about a robot, in words; empty if all is. */

@@ -42,6 +42,10 @@ export class LabelPlacer {
     this.add({x0: x - half_width, y0: y - half_height, x1: x + half_width, y1: y + half_height});
   }
 
+  isFree(x: number, y: number, half_width: number, half_height: number): boolean {
+    return this.free({x0: x - half_width, y0: y - half_height, x1: x + half_width, y1: y + half_height});
+  }
+
   /** Draws those that find a place, in order of their rank. */
   draw(ctx: CanvasRenderingContext2D, labels: Label[], halo: string): void {
     labels.sort((a, b) => a.rank - b.rank);

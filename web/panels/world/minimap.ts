@@ -8,6 +8,7 @@ import type {Bounds, Camera} from './camera';
 const kWidth = 190;
 const kHeight = 124;
 const kMargin = 12;
+const kDots_ms = 250;
 
 /** Whether more than half of the robots are outside of what is shown. */
 export function mostAreOutside(camera: Camera, placed: Placed): boolean {
@@ -25,6 +26,8 @@ export function mostAreOutside(camera: Camera, placed: Placed): boolean {
 
 /** All of the world in the lower left corner, with a frame about what is shown. */
 export class Minimap {
+  private readonly dots = document.createElement('canvas');
+  private dotsAt_ms = -Infinity;
   private place: {x: number; y: number; scale: number; bounds: Bounds} | null = null;
 
   hide(): void {
@@ -49,13 +52,7 @@ export class Minimap {
     ctx.stroke();
     ctx.save();
     ctx.clip();
-    ctx.fillStyle = palette.token('sim-ink');
-    ctx.globalAlpha = placed.count > 400 ? 0.5 : 0.9;
-    for (let slot = 0; slot < placed.count; ++slot) {
-      if ((placed.flags[slot] & RobotFlag.known) === 0 || robots[slot].kind === 'real') continue;
-      ctx.fillRect(ox + scale * placed.x[slot] - 0.5, oy - scale * placed.y[slot] - 0.5, 1.2, 1.2);
-    }
-    ctx.globalAlpha = 1;
+    this.drawDots(ctx, placed, robots, palette, left, top, [ox - left, oy - top], scale);
     robots.forEach((robot, slot) => {
       if (robot.kind !== 'real' || (placed.flags[slot] & RobotFlag.known) === 0) return;
       ctx.fillStyle = palette.hue(slot).fill;
@@ -67,6 +64,27 @@ export class Minimap {
     ctx.lineWidth = 1.5;
     ctx.strokeRect(ox + scale * x0, oy - scale * y1, scale * (x1 - x0), scale * (y1 - y0));
     ctx.restore();
+  }
+
+  /** Simulated robots as dots, drawn anew a few times a second: thousands of them cost more than they move. */
+  private drawDots(
+    ctx: CanvasRenderingContext2D, placed: Placed, robots: readonly Robot[], palette: Palette, left: number, top: number,
+    [ox, oy]: [number, number], scale: number,
+  ): void {
+    const now_ms = performance.now();
+    const pen = this.dots.getContext('2d');
+    if (pen !== null && Math.abs(now_ms - this.dotsAt_ms) > kDots_ms) {
+      this.dotsAt_ms = now_ms;
+      [this.dots.width, this.dots.height] = [kWidth * devicePixelRatio, kHeight * devicePixelRatio];
+      pen.scale(devicePixelRatio, devicePixelRatio);
+      pen.fillStyle = palette.token('sim-ink');
+      pen.globalAlpha = placed.count > 400 ? 0.5 : 0.9;
+      for (let slot = 0; slot < placed.count; ++slot) {
+        if ((placed.flags[slot] & RobotFlag.known) === 0 || robots[slot].kind === 'real') continue;
+        pen.fillRect(ox + scale * placed.x[slot] - 0.5, oy - scale * placed.y[slot] - 0.5, 1.2, 1.2);
+      }
+    }
+    ctx.drawImage(this.dots, left, top, kWidth, kHeight);
   }
 
   /** The place of the world under a pixel of the map; null beside it. */

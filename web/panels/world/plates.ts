@@ -7,8 +7,9 @@ import type {Camera} from './camera';
 import {kFont, type LabelPlacer} from './labels';
 
 const kLeastMembers = 20;
+const kShifts_px = [0, -32, 32, -64, 64, -96, 96];
 
-interface Team {
+export interface Team {
   name: string;
   count: number;
   x: number;
@@ -47,7 +48,10 @@ export function drawPlates(
     ctx.font = `400 11px ${kFont}`;
     const width = nameWidth + 8 + ctx.measureText(rest).width + 24;
     const x = camera.toScreenX(team.x) - width / 2;
-    const y = camera.toScreenY(team.y);
+    const middle = camera.toScreenY(team.y);
+    // A plate gives way to robots that matter.
+    const shift = kShifts_px.find((dy) => placer.isFree(x + width / 2, middle + dy, width / 2, 13)) ?? 0;
+    const y = middle + shift;
     if (x + width < 0 || x > camera.width || y < 0 || y > camera.height) continue;
     ctx.globalAlpha = 0.88;
     ctx.fillStyle = palette.token('bg-1');

@@ -6,7 +6,7 @@ import {Measure} from './measure';
 import {Minimap, mostAreOutside} from './minimap';
 import {radiusOf} from './outlines';
 import type {Stage, StageContext} from './stage';
-import {SwarmLayer} from './swarm_layer';
+import {makeSwarm} from './make_swarm';
 import {TopGestures} from './top_gestures';
 import {TopView} from './top_view';
 import {withAlpha} from './scan_layer';
@@ -26,7 +26,7 @@ export class TopStage implements Stage {
   private readonly view: TopView;
   private readonly base = document.createElement('canvas');
   private readonly over = document.createElement('canvas');
-  private readonly swarm = new SwarmLayer();
+  private readonly swarm = makeSwarm();
   private readonly minimap = new Minimap();
   private readonly gestures: TopGestures;
   private baseKey = '';
@@ -73,8 +73,8 @@ export class TopStage implements Stage {
     if (ctx === null) return going;
     ctx.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
     ctx.clearRect(0, 0, camera.width, camera.height);
-    this.swarm.begin(0);
-    this.view.drawLife(ctx, camera, placed, context.layers(), this.swarm.works ? this.swarm : null);
+    this.swarm.begin(0, camera);
+    this.view.drawLife(ctx, camera, placed, context.layers(), this.swarm);
     this.showSwarm();
     this.paintMinimap(ctx);
     this.lens.draw(ctx, camera, context.palette, (other) => {
@@ -89,7 +89,7 @@ export class TopStage implements Stage {
   private showSwarm(): void {
     const hidden = this.swarm.empty;
     if (this.swarm.canvas.hidden !== hidden) this.swarm.canvas.hidden = hidden;
-    if (!hidden) this.swarm.draw(this.camera, devicePixelRatio);
+    if (!hidden) this.swarm.draw();
   }
 
   /** Floor and bodies are drawn anew only when they or the camera changed; a crowd twice a second. */

@@ -2,7 +2,7 @@
 import type {Placed} from '../../model/pose_history';
 import type {RunModel} from '../../model/run_model';
 import type {Palette, Selection} from '../../panel_api';
-import {RobotFlag} from '../../protocol/frames';
+import {RobotFlag, type PoseFrame} from '../../protocol/frames';
 import type {Robot} from '../../protocol/messages';
 import {BodyLayer} from './body_layer';
 import type {Camera} from './camera';
@@ -11,21 +11,23 @@ import {drawGrid, drawScale, drawTicks} from './grid_layer';
 import {LabelPlacer} from './labels';
 import type {Layers} from './layers';
 import {bodyLabels, namesFit, robotLabels} from './name_layer';
-import {drawPlates, teamsOf} from './plates';
+import {drawPlates, teamsOf, type Team} from './plates';
 import {bytesOf, rampBytes, rampColour} from './ramp';
 import {drawReadings} from './reading_layer';
 import {RobotLayer} from './robot_layer';
 import {Surface} from './surface';
-import type {SwarmLayer, Tone} from './swarm_layer';
+import {kTailParts, type Swarm, type Tone} from './swarm';
 import {Tint} from './tint';
 import {drawTrail, kTrail_s, trailFrames} from './trail_layer';
 
 /** Below this many pixels per metre, or beyond so many robots in the picture, simulated ones are arrowheads. */
 const kFar_px = 30;
 const kMany = 400;
-const kMostTails = 20000;
+/** Tails of more robots have fewer parts. */
+const kManyTails = 3000;
 const kFarTrail_s = 4;
 const kCrowd = 200;
+const kCount_ms = 250;
 /** Share of the colour of an arrowhead inside it; the rest is floor. */
 const kInside = 0.22;
 
@@ -45,6 +47,7 @@ export class TopView {
   readonly tint = new Tint();
   private readonly density = new Density();
   private surface: Surface | null = null;
+  private counted: {at_ms: number; robots: readonly Robot[]; teams: Team[]} = {at_ms: -Infinity, robots: [], teams: []};
 
   constructor(
     private readonly model: RunModel,
@@ -81,7 +84,7 @@ export class TopView {
   }
 
   /** Robots and what they read. With `swarm`, far robots go there; it is empty where none is far. */
-  drawLife(ctx: CanvasRenderingContext2D, camera: Camera, placed: Placed, layers: Layers, swarm: SwarmLayer | null): void {
+  drawLife(ctx: CanvasRenderingContext2D, camera: Camera, placed: Placed, layers: Layers, swarm: Swarm | null): void {
     const {model, palette, selection} = this;
     if (this.surface !== null) this.surface.placed = placed;
     const cast = this.cast(camera, placed, layers, swarm !== null);
@@ -135,35 +138,69 @@ export class TopView {
     );
   }
 
-  private fillSwarm(swarm: SwarmLayer, camera: Camera, placed: Placed, layers: Layers, slots: readonly number[]): void {
+  private fillSwarm(swarm: Swarm, camera: Camera, placed: Placed, layers: Layers, slots: readonly number[]): void {
     const {palette, model} = this;
     const floor = bytesOf(palette.token('floor'));
     const mix = (tone: Tone, share: number): Tone => [0, 1, 2].map((k) => Math.round(floor[k] + share * (tone[k] - floor[k]))) as unknown as Tone;
     const plain = bytesOf(palette.token('sim-ink'));
     const inside = mix(bytesOf(palette.token('sim')), kInside);
     const stop = bytesOf(palette.token('stop-fill'));
+    const stopInside = mix(stop, 0.5);
     const speeds = model.poses.newest?.speed;
-    swarm.begin(slots.length);
-    const frame = layers.trails && slots.length <= kMostTails ? trailFrames(model.poses.past, placed, kFarTrail_s)[0] : undefined;
+    swarm.begin(slots.length, camera);
+    const frames = layers.trails ? this.tailFrames(placed, slots.length) : [];
+    const points = new Float32Array(2 * (kTailParts + 1));
+    // Written out, since it is done for each of many thousands, and for each picture.
+    const {scale} = camera;
+    const ox = camera.width / 2 - camera.x * scale;
+    const oy = camera.height / 2 + camera.y * scale;
+    const byKind = layers.colourBy === 'kind';
     for (const slot of slots) {
-      const x = camera.toScreenX(placed.x[slot]);
-      const y = camera.toScreenY(placed.y[slot]);
-      const r = Math.min(Math.max(this.robots.radius(slot) * camera.scale, 4), 14);
-      const share = layers.colourBy === 'kind' ? null : this.tint.share(layers.colourBy, slot, placed, speeds);
+      const x = ox + scale * placed.x[slot];
+      const y = oy - scale * placed.y[slot];
+      const r = Math.min(Math.max(this.robots.radius(slot) * scale, 4), 14);
+      const share = byKind ? null : this.tint.share(layers.colourBy, slot, placed, speeds);
       const stopped = (placed.flags[slot] & RobotFlag.stopped) !== 0;
       const edge = stopped ? stop : share === null ? plain : rampBytes(share, palette.theme);
-      if (frame !== undefined) swarm.addTail(camera, frame, slot, x, y, edge);
-      swarm.add(x, y, -placed.yaw[slot], r, edge, share === null && !stopped ? inside : mix(edge, 0.5));
+      if (frames.length > 0) {
+        let at = 0;
+        for (const frame of frames) {
+          points[at++] = ox + scale * frame.x[slot];
+          points[at++] = oy - scale * frame.y[slot];
+        }
+        points[at++] = x;
+        points[at++] = y;
+        // What the arrowhead hides is not drawn.
+        if ((points[0] - x) ** 2 + (points[1] - y) ** 2 > r * r) swarm.addTail(points, at / 2, edge);
+      }
+      swarm.add(x, y, -placed.yaw[slot], r, edge, stopped ? stopInside : share === null ? inside : mix(edge, 0.5));
     }
+  }
+
+  /** Counted a few times a second: a crowd moves slowly. */
+  private teams(placed: Placed): Team[] {
+    const now_ms = performance.now();
+    if (now_ms - this.counted.at_ms > kCount_ms || this.counted.robots !== this.model.robots) {
+      this.counted = {at_ms: now_ms, robots: this.model.robots, teams: teamsOf(this.model.robots, placed, this.model.poses.newest?.speed)};
+    }
+    return this.counted.teams;
+  }
+
+  /** A few moments of the last seconds, oldest first. */
+  private tailFrames(placed: Placed, robots: number): PoseFrame[] {
+    const all = trailFrames(this.model.poses.past, placed, kFarTrail_s);
+    const parts = robots > kManyTails ? 2 : kTailParts;
+    const step = Math.max(1, Math.floor(all.length / parts));
+    return all.filter((_, i) => i % step === 0).slice(0, parts);
   }
 
   private drawNames(ctx: CanvasRenderingContext2D, camera: Camera, placed: Placed, layers: Layers, cast: Cast): void {
     const {model, palette, selection} = this;
     const placer = new LabelPlacer(camera.width, camera.height);
     const near = namesFit(camera, placed.count);
-    if (cast.far && cast.swarm.length > 0) drawPlates(ctx, camera, teamsOf(model.robots, placed, model.poses.newest?.speed), palette, placer);
     const named = cast.whole.filter((slot) => near || this.outstanding(model.robots[slot], slot, placed));
     const labels = robotLabels(model.robots, named, camera, placed, (slot) => this.robots.radius(slot), selection, palette, placer);
+    if (cast.far && cast.swarm.length > 0) drawPlates(ctx, camera, this.teams(placed), palette, placer);
     labels.push(...bodyLabels(this.bodies.groups, camera, layers, near && !cast.far, palette, placer));
     placer.draw(ctx, labels, palette.token('floor'));
   }

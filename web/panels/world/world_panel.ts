@@ -21,6 +21,9 @@ type Mode = 'top' | '3d';
 export class WorldPanel extends LitElement {
   declare context: PanelContext;
   readonly placed = new Placed();
+  /** Pictures so far, and the time they took: for measuring. */
+  painted = 0;
+  paint_ms = 0;
   private mode: Mode = 'top';
   private stage!: Stage;
   private top!: TopStage;
@@ -227,6 +230,8 @@ export class WorldPanel extends LitElement {
       this.fitted = this.stage.fit(false);
     }
     const going = this.stage.paint(now_ms);
+    ++this.painted;
+    this.paint_ms += performance.now() - now_ms;
     if (going || model.poses.moving(now_ms)) this.draw();
   }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import {BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, Mesh, MeshBasicMaterial} from 'three';
-import type {Tone} from '../swarm_layer';
+import type {Tone} from '../swarm';
 
 const kFirst = 3 * 256;
 

@@ -5,7 +5,7 @@ import {bytesOf} from '../ramp';
 import type {Shown} from '../reading_layer';
 import {bearingsOf, mountOf} from '../scan_layer';
 import type {StageContext} from '../stage';
-import type {Tone} from '../swarm_layer';
+import type {Tone} from '../swarm';
 import {kTrail_s, trailFrames} from '../trail_layer';
 import type {FlatLayer} from './flat_layer';
 

@@ -3,7 +3,7 @@ import {BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, Group, Li
 import type {Placed} from '../../../model/pose_history';
 import {RobotFlag} from '../../../protocol/frames';
 import type {Robot} from '../../../protocol/messages';
-import type {Tone} from '../swarm_layer';
+import type {Tone} from '../swarm';
 import {addPrism, topOf, type Solid} from './prism';
 
 const kFine = 24;

@@ -7,7 +7,7 @@ import {bytesOf, rampBytes} from '../ramp';
 import {shownReadings} from '../reading_layer';
 import type {Stage, StageContext} from '../stage';
 import {Surface} from '../surface';
-import type {Tone} from '../swarm_layer';
+import type {Tone} from '../swarm';
 import {Tint} from '../tint';
 import {FlatLayer} from './flat_layer';
 import {Floor} from './floor';

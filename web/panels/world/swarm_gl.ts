@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 import type {Camera} from './camera';
-import type {PoseFrame} from '../../protocol/frames';
+import {kTailParts, type Swarm, type Tone} from './swarm';
 
 /** Two arrowheads, one within the other, are cheaper than an outline of lines. */
 const kVertices = 8;
 const kTriangles = 4;
-const kTail = 3;
+const kTail = 6 * kTailParts;
 
 const kVertex = `#version 300 es
 in vec2 place; in vec4 colour; uniform vec4 map; out vec4 tone;
@@ -13,17 +13,16 @@ void main() { tone = vec4(colour.rgb * colour.a, colour.a); gl_Position = vec4(p
 const kFragment = `#version 300 es
 precision mediump float; in vec4 tone; out vec4 pixel; void main() { pixel = tone; }`;
 
-/** What one robot of the swarm looks like. Bytes: red, green, blue. */
-export type Tone = readonly [number, number, number];
-
 /** Draws any number of robots as arrowheads from one vertex buffer with one call. */
-export class SwarmLayer {
+export class SwarmGl implements Swarm {
   readonly canvas = document.createElement('canvas');
   private readonly gl: WebGL2RenderingContext | null;
   private readonly map: WebGLUniformLocation | null = null;
   private capacity = 0;
   private count = 0;
+  /** Vertices of tails. */
   private tails = 0;
+  private camera: Camera | null = null;
   private places = new Float32Array(0);
   private tones = new Uint8Array(0);
   private buffers: {places: WebGLBuffer; tones: WebGLBuffer; heads: WebGLBuffer} | null = null;
@@ -39,11 +38,6 @@ export class SwarmLayer {
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
   }
 
-  /** Without WebGL robots are drawn one by one. */
-  get works(): boolean {
-    return this.gl !== null && !this.gl.isContextLost();
-  }
-
   get empty(): boolean {
     return this.count === 0;
   }
@@ -52,8 +46,8 @@ export class SwarmLayer {
     this.gl?.getExtension('WEBGL_lose_context')?.loseContext();
   }
 
-  /** Begins a picture of at most `most` robots. */
-  begin(most: number): void {
+  begin(most: number, camera: Camera): void {
+    this.camera = camera;
     this.count = 0;
     this.tails = 0;
     if (most <= this.capacity) return;
@@ -64,20 +58,24 @@ export class SwarmLayer {
     this.reserve();
   }
 
-  /** A tail from where the robot was, in `frame`, to where it is; thin at its end. Pixels. */
-  addTail(camera: Camera, frame: PoseFrame, slot: number, x: number, y: number, tone: Tone): void {
-    const dx = camera.toScreenX(frame.x[slot]) - x;
-    const dy = camera.toScreenY(frame.y[slot]) - y;
-    const length = Math.hypot(dx, dy);
-    if (length < 2 || length > 400) return;
-    const [nx, ny] = [(-0.9 * dy) / length, (0.9 * dx) / length];
-    const v = this.capacity * kVertices + kTail * this.tails++;
-    this.put(v, x + nx, y + ny, tone, 110);
-    this.put(v + 1, x - nx, y - ny, tone, 110);
-    this.put(v + 2, x + dx, y + dy, tone, 30);
+  addTail(points: Float32Array, count: number, tone: Tone): void {
+    for (let i = 0; i + 1 < count && i < kTailParts; ++i) {
+      const [ax, ay, bx, by] = [points[2 * i], points[2 * i + 1], points[2 * i + 2], points[2 * i + 3]];
+      const length = Math.hypot(bx - ax, by - ay);
+      if (length < 0.5 || length > 400) continue;
+      const [nx, ny] = [(-0.6 * (by - ay)) / length, (0.6 * (bx - ax)) / length];
+      const v = this.capacity * kVertices + this.tails;
+      const [from, to] = [30 + (100 * i) / count, 30 + (100 * (i + 1)) / count];
+      this.put(v, ax + nx, ay + ny, tone, from);
+      this.put(v + 1, ax - nx, ay - ny, tone, from);
+      this.put(v + 2, bx + nx, by + ny, tone, to);
+      this.put(v + 3, bx + nx, by + ny, tone, to);
+      this.put(v + 4, ax - nx, ay - ny, tone, from);
+      this.put(v + 5, bx - nx, by - ny, tone, to);
+      this.tails += 6;
+    }
   }
 
-  /** An arrowhead of radius `r`; its inside has the second colour. Pixels, heading clockwise. */
   add(x: number, y: number, heading: number, r: number, edge: Tone, inside: Tone): void {
     const c = Math.cos(heading);
     const s = Math.sin(heading);
@@ -87,10 +85,10 @@ export class SwarmLayer {
     this.arrowhead(v + 4, x - 0.1 * r * c, y - 0.1 * r * s, c, s, Math.max(r - 2.4, 0.45 * r), inside);
   }
 
-  draw(camera: Camera, ratio: number): void {
-    const {gl, buffers} = this;
-    if (gl === null || buffers === null) return;
-    const [w, h] = [Math.round(camera.width * ratio), Math.round(camera.height * ratio)];
+  draw(): void {
+    const {gl, buffers, camera} = this;
+    if (gl === null || buffers === null || camera === null) return;
+    const [w, h] = [Math.round(camera.width * devicePixelRatio), Math.round(camera.height * devicePixelRatio)];
     if (this.canvas.width !== w || this.canvas.height !== h) [this.canvas.width, this.canvas.height] = [w, h];
     gl.viewport(0, 0, w, h);
     gl.clearColor(0, 0, 0, 0);
@@ -99,8 +97,8 @@ export class SwarmLayer {
     const from = this.capacity * kVertices;
     this.upload(gl, buffers, 0, this.count * kVertices);
     if (this.tails > 0) {
-      this.upload(gl, buffers, from, this.tails * kTail);
-      gl.drawArrays(gl.TRIANGLES, from, this.tails * kTail);
+      this.upload(gl, buffers, from, this.tails);
+      gl.drawArrays(gl.TRIANGLES, from, this.tails);
     }
     gl.drawElements(gl.TRIANGLES, this.count * kTriangles * 3, gl.UNSIGNED_INT, 0);
   }

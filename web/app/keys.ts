@@ -21,7 +21,7 @@ export function bindKeys(actions: () => readonly KeyAction[]): void {
     const typing = target.matches?.('input:not([type=checkbox]), textarea, select, [contenteditable]');
     if (event.defaultPrevented || event.altKey || event.metaKey || (typing && event.key !== 'Escape')) return;
     const name = nameOf(event);
-    if (name === 'Space' && target.matches?.('button, a, input, [role=option], [role=slider]')) return;
+    if (name === 'Space' && target.matches?.('button, a, input, [role=button], [role=option], [role=slider]')) return;
     const action = actions().find((known) => known.keys.includes(name));
     if (action === undefined) return;
     event.preventDefault();

@@ -13,6 +13,7 @@ const kMany = 200;
 const kRefresh_ms = 250;
 const kRows = 400;
 const kBins = 12;
+const kStands_mps = 0.02;
 
 /** All robots by team: what they are, how fast they go, and what is not normal about them. */
 export class RobotsPanel extends LitElement {
@@ -75,7 +76,8 @@ export class RobotsPanel extends LitElement {
         <span class="chip"><i class="glyph simulated"></i>${robots.length - real} simulated</span>
         <span class="space"></span><em>last ${kHistory_s} s</em>
       </div>
-      <div class="rows" role="listbox" aria-label="Robots" aria-multiselectable="true">
+      ${robots.length > kMany ? html`<div class="heads"><span>By team</span><span>speed 0 … ${this.topSpeed.toFixed(1)}</span><span>mean</span></div>` : nothing}
+      <div class="rows" role="group" aria-label="Robots">
         ${[...teams].map(([team, slots]) => this.renderTeam(team, slots, robots.length > kMany))}
         ${teams.size === 0 ? html`<p class="none">${robots.length === 0 ? 'No robots in this run.' : 'No robot matches the filter.'}</p>` : nothing}
       </div>
@@ -96,18 +98,32 @@ export class RobotsPanel extends LitElement {
       this.requestUpdate();
     };
     return html`
-      <button class="team" aria-expanded=${open} @click=${toggle}>
+      <button class="team ${many ? 'many' : ''}" aria-expanded=${open} @click=${toggle}>
         <span class="turn ${open ? 'open' : ''}">${icon('chevronDown', 13)}</span>
-        ${team === '' ? 'no team' : team} <em>${slots.length}</em>
+        <span class="who"><span>${team === '' ? 'no team' : team} <em>${slots.length}</em></span>
+          ${many ? html`<small>${this.standText(slots)}</small>` : nothing}</span>
         ${many ? this.renderHistogram(slots) : nothing}
       </button>
       ${open ? slots.slice(0, kRows).map((slot) => this.renderRow(slot)) : nothing}
       ${open && slots.length > kRows ? html`<p class="none">${slots.length - kRows} more: filter to see them.</p>` : nothing}`;
   }
 
+  /** The same scale for all teams, so that they can be compared. */
+  private get topSpeed(): number {
+    let top = 0.4;
+    for (const speed of this.context.model.poses.newest?.speed ?? []) top = Math.max(top, Math.abs(speed));
+    return top;
+  }
+
+  private standText(slots: readonly number[]): string {
+    const stand = slots.filter((slot) => Math.abs(this.speed(slot)) < kStands_mps).length;
+    const stopped = slots.filter((slot) => (this.flags(slot) & RobotFlag.stopped) !== 0).length;
+    return stopped > 0 ? `${stopped} stopped` : `${stand} stand`;
+  }
+
   private renderHistogram(slots: number[]): TemplateResult {
     const speeds = slots.map((slot) => Math.abs(this.speed(slot)));
-    const top = Math.max(0.4, ...speeds);
+    const top = this.topSpeed;
     const bins = new Array<number>(kBins).fill(0);
     for (const speed of speeds) bins[Math.min(kBins - 1, Math.floor((speed / top) * kBins))] += 1;
     const most = Math.max(1, ...bins);
@@ -124,8 +140,8 @@ export class RobotsPanel extends LitElement {
     const hue = palette.hue(slot);
     const marked = robot.kind === 'real' || robot.word !== '';
     const state = stateOf(robot, this.flags(slot));
-    return html`<div class="row ${selection.has(slot) ? 'selected' : ''} ${selection.hovered === slot ? 'hovered' : ''}" role="option"
-        tabindex="0" aria-selected=${selection.has(slot)}
+    return html`<div class="row ${selection.has(slot) ? 'selected' : ''} ${selection.hovered === slot ? 'hovered' : ''}" role="button"
+        tabindex="0" aria-pressed=${selection.has(slot)}
         @click=${(event: MouseEvent) => (event.ctrlKey || event.metaKey ? selection.toggle(slot) : selection.set([slot]))}
         @keydown=${(event: KeyboardEvent) => this.rowKey(event, slot)}
         @pointerenter=${() => selection.hover(slot)} @pointerleave=${() => selection.hover(null)}>
@@ -196,6 +212,10 @@ export class RobotsPanel extends LitElement {
       .space { flex: 1; }
       .rows { flex: 1; overflow: auto; padding: 4px 0; }
       .team { display: flex; align-items: center; gap: 6px; width: 100%; height: 26px; padding: 0 12px; color: var(--text-2); font-size: var(--fs-12); text-align: left; }
+      .team.many { height: 40px; }
+      .who { display: flex; flex-direction: column; line-height: 1.3; }
+      .who small { color: var(--text-3); font-size: var(--fs-11); }
+      .heads { display: flex; justify-content: space-between; padding: 6px 12px 0; color: var(--text-3); font-size: var(--fs-11); }
       .team em { font-style: normal; color: var(--text-3); }
       .team rect { fill: var(--text-2); }
       .turn { transform: rotate(-90deg); }

@@ -4,7 +4,7 @@ import {icon, type IconName} from '../../app/icons';
 import {controls, glyphs} from '../../app/styles';
 import {Placed} from '../../model/pose_history';
 import type {PanelContext} from '../../panel_api';
-import {kLayers, readLayers, type Layers} from './layers';
+import {kColourBy, kLayers, readLayers, type Layers} from './layers';
 import {drawnSensors} from './scan_layer';
 import type {Stage, StageContext} from './stage';
 import {TopStage} from './top_stage';
@@ -14,6 +14,8 @@ const kKept = 'rave.world';
 const kKeptMode = 'rave.world.mode';
 /** Sensors of so many robots are drawn at a time. */
 const kScanned = 12;
+/** From so many robots on the colours are at hand without the menu. */
+const kCrowd = 100;
 
 type Mode = 'top' | '3d';
 
@@ -257,6 +259,7 @@ export class WorldPanel extends LitElement {
         </div><i class="rule"></i>
         ${renderLegend(this.context, this.layers, set)}
         <span class="space"></span>
+        ${model.robots.length >= kCrowd ? this.renderColourBy() : nothing}
         <div class="tools">
           ${tool('maximize', 'Show everything', 'F', null, () => this.fit())}
           ${tool('crosshair', 'Follow the selected robot', 'C', selection.following, () => selection.follow(!selection.following), primary === null)}
@@ -272,6 +275,11 @@ export class WorldPanel extends LitElement {
           : nothing}
         ${this.menuOpen ? renderMenu(this.layers, this.top.tint.scale(this.layers.colourBy), palette.theme, set) : nothing}
       </div>`;
+  }
+
+  private renderColourBy(): TemplateResult {
+    return html`<span class="colour-by">Colour by<div class="segments" role="radiogroup" aria-label="Colour by">${kColourBy.map((by) => html`
+      <button role="radio" aria-checked=${this.layers.colourBy === by} @click=${() => this.setLayers({...this.layers, colourBy: by})}>${by}</button>`)}</div></span>`;
   }
 
   private summary(): string {
@@ -290,6 +298,10 @@ export class WorldPanel extends LitElement {
       .segments { flex: none; }
       .space { flex: 1; }
       .tools { display: flex; gap: 2px; flex: none; }
+      .colour-by { display: flex; align-items: center; gap: 8px; margin-right: 6px; color: var(--text-3); font-size: var(--fs-12); white-space: nowrap; }
+      :host { container-type: inline-size; }
+      @container (max-width: 960px) { .colour-by { display: none; } }
+      @container (max-width: 640px) { .kind i { display: none; } .kind { padding: 0 5px; } }
       .stage { position: relative; flex: 1; min-height: 0; }
       .canvas { position: absolute; inset: 0; background: var(--floor); }
       .canvas:focus-visible { outline-offset: -2px; }

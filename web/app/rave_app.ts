@@ -6,7 +6,7 @@ import type {PanelContext, PanelElement, PanelKind} from '../panel_api';
 import {Palette} from '../panel_api/palette';
 import {Selection} from '../panel_api/selection';
 import type {WorldPanel} from '../panels/world/world_panel';
-import {Dock} from './dock';
+import {Dock, type LayoutName} from './dock';
 import './find_box';
 import {icon, type IconName} from './icons';
 import {keySheetStyles, renderKeys} from './key_sheet';
@@ -202,7 +202,8 @@ export class RaveApp extends LitElement {
     if (link.state === 'empty') return renderNoRun();
     const old = link.state === 'lost';
     return html`
-      <rave-top-bar .context=${this.context} @find=${() => this.open('finding')} @theme=${() => this.toggleTheme()}></rave-top-bar>
+      <rave-top-bar .context=${this.context} .layout=${this.phone.matches || innerWidth < 1280 ? '' : (this.dock?.name ?? 'Watch')}
+        @layout=${(event: CustomEvent<LayoutName>) => { this.dock?.reset(event.detail); this.requestUpdate(); }} @find=${() => this.open('finding')} @theme=${() => this.toggleTheme()}></rave-top-bar>
       ${old ? renderLost(model, link) : renderWaits(model)}
       ${this.refusal === '' ? nothing : html`<div class="strip refused" role="alert">${icon('circleX', 16)}<span>${this.refusal}</span>
         <button @click=${() => { this.refusal = ''; this.requestUpdate(); }}>Close</button></div>`}

@@ -3,6 +3,7 @@ import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
 import type {PanelContext} from '../panel_api';
 import type {Person} from '../protocol/messages';
 import './bell';
+import {kLayouts, type LayoutName} from './dock';
 import {icon} from './icons';
 import {logo} from './logo';
 import {controls} from './styles';
@@ -14,6 +15,9 @@ const kSlow_hz = 10;
 /** The run and its state, find, the line, people, alerts, role. */
 export class TopBar extends LitElement {
   declare context: PanelContext;
+  /** The layout that was chosen last; empty where there is no dock. */
+  declare layout: LayoutName | '';
+  static override properties = {layout: {}};
   private readonly ends: (() => void)[] = [];
 
   override connectedCallback(): void {
@@ -58,6 +62,8 @@ export class TopBar extends LitElement {
       <h1>${run?.name ?? ''}</h1>
       <span class="state ${look}" role="status">${look === 'replay' ? icon('rotateCcw', 13) : html`<i></i>`}${word}</span>
       <span class="about">${this.about()}</span>
+      ${this.layout ? html`<div class="segments" role="radiogroup" aria-label="Layout">${kLayouts.map((name) => html`
+        <button role="radio" aria-checked=${this.layout === name} title="Lay the panels out anew" @click=${() => this.dispatchEvent(new CustomEvent('layout', {detail: name}))}>${name}</button>`)}</div>` : nothing}
       <span class="space"></span>
       <button class="find" aria-label="Find a robot, panel or moment" @click=${() => ask('find')}>${icon('search', 15)}<span>Find a robot, panel or moment</span><kbd>Ctrl K</kbd></button>
       <span class="space"></span>

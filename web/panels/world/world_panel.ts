@@ -132,7 +132,7 @@ export class WorldPanel extends LitElement {
   /** Shows everything; where everything is shown already, the selection. */
   fit(animate = true): void {
     this.context.selection.follow(false);
-    this.stage.fit(animate && motion());
+    this.stage.fit(animate && motion(), true);
     this.draw();
   }
 

@@ -98,7 +98,7 @@ try {
   });
 
   await check('an obstacle that somebody adds stands on the page, moves and goes', async () => {
-    const edit = (...words) => execFileSync(rave, ['edit', ...words], {stdio: ['ignore', 'ignore', 'inherit']});
+    const edit = (...words) => execFileSync(rave, ['edit', String(live.child.pid), ...words], {stdio: ['ignore', 'ignore', 'inherit']});
     const parcel = `[...${app}.model.bodies.values()].find((body) => body.name === 'parcel')`;
     edit('add', 'box', '--name', 'parcel', '--at', '9,9', '--size', '0.3x0.3');
     await until(page, `${parcel}?.kind === 'virtual' && ${parcel}.pose[0] === 9`);

@@ -59,6 +59,8 @@ class QuietHost {
     ends_ = true;
     speak();
   }
+  /// From this step on it says that it is in one that cannot be.
+  void lie_from(std::uint64_t step) { lies_from_ = step; }
   void speak() {
     speaks_ = true;
     speaks_.notify_all();
@@ -78,6 +80,7 @@ class QuietHost {
       ASSERT_TRUE(engine->propose(report));
       if (silent_from_ && report.step >= *silent_from_) speaks_.wait(false);
       if (ends_) return;
+      report.step += report.step >= lies_from_ ? 1000U : 0U;
       const auto answer =
           (*port)->exchange(report, engine->hash().value(), world, [this] { return ends_.load(); });
       ASSERT_TRUE(answer) << answer.error().text();
@@ -89,6 +92,7 @@ class QuietHost {
   const std::optional<std::uint64_t> silent_from_;
   std::atomic<bool> speaks_ = false;
   std::atomic<bool> ends_ = false;
+  std::atomic<std::uint64_t> lies_from_ = ~std::uint64_t{0};
   std::thread thread_;
 };
 
@@ -176,6 +180,32 @@ TEST_F(SilentHost, ThatIsReplacedInTheMiddleMakesItAnotherRun) {
   EXPECT_FALSE(outcome.whole) << "its program began anew";
   EXPECT_FALSE(outcome.hash);
   EXPECT_EQ(outcome.problems.size(), 1U) << lines_.said();
+}
+
+TEST_F(SilentHost, ThatSpeaksOfAStepThatCannotBeEndsARunThatWouldWaitForIt) {
+  options_.on_lost_host = config::LostHost::kWait;
+  const QuietHost one(options_.bus, 0, "one");
+  QuietHost two(options_.bus, 1, "two");
+  two.lie_from(kSilentFrom);
+  const auto outcome = manage(two_robots(), options_);
+  ASSERT_FALSE(outcome);
+  EXPECT_EQ(outcome.error().code, ErrorCode::kState);
+  EXPECT_NE(outcome.error().message.find("a report of host `two` cannot be: it is of step 1007"),
+            std::string::npos)
+      << outcome.error().message;
+}
+
+TEST_F(SilentHost, ThatIsInTheMiddleOfAnotherRunIsLeftAlone) {
+  const QuietHost one(options_.bus, 0, "one");
+  QuietHost two(options_.bus, 1, "two");
+  two.lie_from(0);
+  const auto outcome = manage(two_robots(), options_);
+  ASSERT_FALSE(outcome);
+  EXPECT_EQ(outcome.error().code, ErrorCode::kState);
+  EXPECT_NE(outcome.error().message.find("host `two` is in step 1000 of a run that has lost its "
+                                         "environment manager: --resume"),
+            std::string::npos)
+      << outcome.error().message;
 }
 
 }  // namespace

@@ -135,6 +135,7 @@ Command chosen_command(const CLI::App& root, const Everything& all) {
     const std::string what = chosen_app(root).get_name();
     if (what == "new") return all.keys.make;
     if (what == "add") return all.keys.add;
+    if (what == "web") return all.keys.web;
     return all.keys.show;
   }
   if (name == "top") return all.top;

@@ -39,7 +39,7 @@ using Command =
                  PlayCommand, GapCommand, GuiCommand, PsCommand, StopCommand, ArmCommand,
                  SetCommand, HandOverCommand, ShadowCommand, EditCommand, HoldCommand, EndCommand,
                  BenchSwarmCommand, BenchCompareCommand, KeysNewCommand, KeysAddCommand,
-                 KeysShowCommand, TopCommand, DoctorCommand, VersionCommand>;
+                 KeysShowCommand, KeysWebCommand, TopCommand, DoctorCommand, VersionCommand>;
 
 /// Reads the command line. Prints help and complaints itself.
 [[nodiscard]] Command parse_arguments(int argc, const char* const* argv);

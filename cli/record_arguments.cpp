@@ -91,9 +91,7 @@ void add_report(CLI::App& root, GapCommand& c) {
 void add_gui(CLI::App& root, GuiCommand& c) {
   CLI::App& app = *root.add_subcommand("gui", "Show a recording in the browser");
   add_record(app, c.file);
-  add_value(app, "--port", c.port, "Port on 127.0.0.1; a busy one means the next [8080]", "PORT");
-  add_value(app, "--page", c.page, "Folder of the built page [that of this installation]", "DIR");
-  app.add_flag("--no-open", c.no_open, "Print the link, but open no browser");
+  add_page_options(app, c.page);
   app.footer("Example:\n  rave gui runs/20260101-120000-mixed-reality");
 }
 

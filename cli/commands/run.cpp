@@ -3,11 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+#include <thread>
+
 #include "console.hpp"
 #include "error_text.hpp"
 #include "interrupt.hpp"
 #include "places.hpp"
 #include "rave/config/expanded_scenario.hpp"
+#include "rave/gui_server/live_run.hpp"
 #include "rave/robot_host/build.hpp"
 #include "rave/robot_host/run.hpp"
 #include "rave/run_control/folder.hpp"
@@ -18,10 +22,31 @@
 #include "shared_run.hpp"
 
 namespace rave::cli {
+namespace {
+
+/// When the run is over, its page shows the recording until somebody ends this process.
+void replay_on_page(gui_server::GuiServer& page, gui_server::LiveRun& live,
+                    const RunCommand& options, const std::filesystem::path& recording,
+                    const robot_host::RunControl& control) {
+  if (control.stopping()) return;
+  if (options.no_record) {
+    live.end("The run is over. It was not recorded.");
+  } else if (auto source = gui_server::open_recording(recording)) {
+    page.show(*std::move(source));
+  } else {
+    live.end("The run is over. Its recording cannot be shown: " + source.error().text());
+  }
+  if (!options.quiet) put(stdout, "the page shows the recording; Ctrl-C ends\n");
+  std::fflush(stdout);
+  while (!control.stopping()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+}
+
+}  // namespace
 
 int run(const RunCommand& options) {
   auto scenario = read_scenario(options);
   if (!scenario) return complain(scenario.error());
+  if (options.gui && !options.pace) scenario->scenario.pace = config::Pace{1};
   const auto hosts = config::plan_hosts(*scenario);
   if (!hosts) return complain(hosts.error());
   if (!hosts->empty()) return run_shared(options, *scenario, *hosts);
@@ -56,9 +81,22 @@ int run(const RunCommand& options) {
   if (!server) {
     console.warn("run", "no other terminal can control this run: {}", server.error().message);
   }
+  std::unique_ptr<gui_server::GuiServer> page;
+  gui_server::LiveRun live(*scenario, control,
+                           [&page](auto source) { page->show(std::move(source)); });
+  if (options.gui) {
+    auto served = serve_page(options.page);
+    if (!served) return complain(served.error());
+    page = *std::move(served);
+    run_options.observers.push_back(&live.observer());
+  }
   const auto outcome = robot_host::run(*scenario, catalogue, run_options);
   console.clear();
-  if (outcome) return report_outcome(options, *outcome, folder->path());
+  if (outcome) {
+    const int code = report_outcome(options, *outcome, folder->path());
+    if (page) replay_on_page(*page, live, options, folder->path() / "run.mcap", control);
+    return code;
+  }
   // What a run left that broke off tells why.
   if (!started) folder->discard();
   return complain(outcome.error());

@@ -11,9 +11,37 @@ export function launch() {
   });
 }
 
-/** Starts `rave gui` and waits for its link. `end()` stops it and gives its exit code. */
-export async function startGui(rave, recording, ...more) {
-  const child = spawn(rave, ['gui', recording, '--no-open', ...(more.includes('--port') ? [] : ['--port', '0']), ...more], {stdio: ['ignore', 'pipe', 'inherit']});
+/** Waits until an expression of the page is true. Asked from outside: the page's policy forbids eval. */
+export async function until(page, expression, timeout_ms = 20000) {
+  const end = Date.now() + timeout_ms;
+  while (!(await page.evaluate(`Boolean(${expression})`))) {
+    if (Date.now() > end) throw new Error(`never true: ${expression}`);
+    await page.waitForTimeout(25);
+  }
+}
+
+/** Counts checks, and says which one has passed. */
+export class Checks {
+  passed = 0;
+
+  async check(name, act) {
+    await act();
+    ++this.passed;
+    console.log(`ok ${name}`);
+  }
+
+  end() {
+    console.log(`${this.passed} passed, 0 failed`);
+  }
+}
+
+/**
+ * Starts a process that serves the page (`gui RECORDING`, `run SCENARIO --gui`) and waits for its link.
+ * `end()` stops it and gives its exit code; `exited` is that code, `text()` what it has printed.
+ */
+export async function startServer(rave, words) {
+  const port = words.includes('--port') ? [] : ['--port', '0'];
+  const child = spawn(rave, [...words, '--no-open', ...port], {stdio: ['ignore', 'pipe', 'inherit']});
   let text = '';
   const exited = new Promise((resolve) => child.once('exit', resolve));
   const link = await new Promise((resolve, reject) => {
@@ -22,11 +50,13 @@ export async function startGui(rave, recording, ...more) {
       const found = /http:\S+/.exec(text);
       if (found) resolve(found[0]);
     });
-    exited.then((code) => reject(new Error(`rave gui ended with ${code}: ${text}`)));
+    exited.then((code) => reject(new Error(`rave ${words[0]} ended with ${code}: ${text}`)));
   });
   return {
     link,
     child,
+    exited,
+    text: () => text,
     end: () => {
       child.kill('SIGTERM');
       return exited;

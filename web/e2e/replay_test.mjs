@@ -5,26 +5,12 @@ import {execFileSync} from 'node:child_process';
 import {mkdirSync, rmSync, writeFileSync} from 'node:fs';
 import http from 'node:http';
 import {join} from 'node:path';
-import {launch, startGui} from './browser.mjs';
+import {Checks, launch, startServer, until} from './browser.mjs';
 
 const [rave, scenario, folder] = process.argv.slice(2);
-let passed = 0;
-
-/** Waits until an expression of the page is true. Asked from outside: the page's policy forbids eval. */
-async function until(page, expression, timeout_ms = 20000) {
-  const end = Date.now() + timeout_ms;
-  while (!(await page.evaluate(`Boolean(${expression})`))) {
-    if (Date.now() > end) throw new Error(`never true: ${expression}`);
-    await page.waitForTimeout(25);
-  }
-}
+const checks = new Checks();
+const check = (name, act) => checks.check(name, act);
 const app = 'document.querySelector("rave-app")';
-
-async function check(name, act) {
-  await act();
-  ++passed;
-  console.log(`ok ${name}`);
-}
 
 function get(url, headers = {}) {
   return new Promise((resolve, reject) => {
@@ -42,7 +28,7 @@ const run = join(folder, 'run');
 execFileSync(rave, ['run', scenario, '--pace', 'max', '--quiet', '--no-picture', '--output', run], {
   stdio: ['ignore', 'ignore', 'inherit'],
 });
-const gui = await startGui(rave, run);
+const gui = await startServer(rave, ['gui', run]);
 const origin = new URL(gui.link).origin;
 const browser = await launch();
 try {
@@ -151,7 +137,7 @@ try {
     const port = new URL(origin).port;
     await gui.end();
     await page.getByText(/Link lost/).first().waitFor();
-    const next = await startGui(rave, run, '--port', port);
+    const next = await startServer(rave, ['gui', run, '--port', port]);
     // Sessions end with the server that began them; the page says that it needs another link.
     await page.getByText('You are not signed in').waitFor({timeout: 20000});
     await page.goto(next.link);
@@ -176,5 +162,5 @@ try {
   await browser.close();
   gui.child.kill('SIGKILL');
 }
-console.log(`${passed} passed, 0 failed`);
+checks.end();
 process.exit(0);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "entrance.hpp"
@@ -41,11 +42,15 @@ class GuiServer::Impl final : public web::Handler {
     options.ports_to_try = kPortsToTry;
     options.subprotocol = "rave.gui.1";
     RAVE_TRY_ASSIGN(server_, web::Server::start(options, *this));
-    server_->every(kTick, [this] {
-      const auto now = Session::Clock::now();
-      for (auto& [id, session] : sessions_) session->tick(now);
-    });
+    server_->every(kTick, [this] { tick(); });
     return {};
+  }
+
+  void show(std::shared_ptr<Source> source) {
+    server_->post([this, source = std::move(source)] {
+      source_ = source;
+      for (auto& [id, session] : sessions_) session->show(source_);
+    });
   }
 
   [[nodiscard]] std::uint16_t port() const noexcept { return server_->port(); }
@@ -66,7 +71,9 @@ class GuiServer::Impl final : public web::Handler {
   }
 
   void opened(std::uint64_t id, web::Socket& socket, const web::Request& /*request*/) override {
-    sessions_.emplace(id, std::make_unique<Session>(socket, *source_, "you"));
+    Session& session =
+        *sessions_.emplace(id, std::make_unique<Session>(socket, "you")).first->second;
+    if (source_) session.show(source_);
   }
   void received(std::uint64_t id, std::string_view text) override {
     if (const auto found = sessions_.find(id); found != sessions_.end()) {
@@ -99,8 +106,28 @@ class GuiServer::Impl final : public web::Handler {
     return response;
   }
 
+  void tick() {
+    if (!source_) return;
+    const auto now = Session::Clock::now();
+    Audience audience;
+    for (const auto& [id, session] : sessions_) {
+      const LookMessage& look = session->look();
+      audience.any = audience.any || look.poses;
+      audience.parts = audience.parts || look.parts;
+      audience.looked_at.insert(audience.looked_at.end(), look.readings.begin(),
+                                look.readings.end());
+    }
+    std::sort(audience.looked_at.begin(), audience.looked_at.end());
+    audience.looked_at.erase(std::unique(audience.looked_at.begin(), audience.looked_at.end()),
+                             audience.looked_at.end());
+    source_->tick(now, audience);
+    std::map<std::uint32_t, web::Payload> frames;
+    for (auto& [id, session] : sessions_) session->tick(now, frames);
+  }
+
   web::Response recording(const web::Request& request) {
     if (!signed_in(request)) return web::text_response(401, "not signed in\n");
+    if (!source_) return web::text_response(404, "no run is in progress\n");
     const RunAbout& about = source_->about();
     if (about.recording.empty()) return web::text_response(404, "there is no recording\n");
     constexpr std::uint64_t kMostInMemory = std::uint64_t{256} << 20U;
@@ -119,7 +146,7 @@ class GuiServer::Impl final : public web::Handler {
   }
 
   web::StaticFiles files_;
-  std::shared_ptr<Source> source_;  ///< Shared with who may put another in its place.
+  std::shared_ptr<Source> source_;  ///< Null: none yet. The thread of the server.
   Entrance entrance_;
   std::map<std::uint64_t, std::unique_ptr<Session>> sessions_;  ///< The thread of the server.
   std::unique_ptr<web::Server> server_;
@@ -142,6 +169,7 @@ Result<std::unique_ptr<GuiServer>> GuiServer::start(const GuiOptions& options,
   return std::unique_ptr<GuiServer>(new GuiServer(std::move(impl)));
 }
 
+void GuiServer::show(std::shared_ptr<Source> source) { impl_->show(std::move(source)); }
 std::uint16_t GuiServer::port() const noexcept { return impl_->port(); }
 std::string GuiServer::entry() { return impl_->entry(); }
 

@@ -26,16 +26,6 @@ struct AckMessage {
   std::uint32_t sequence = 0;
 };
 
-struct TransportMessage {
-  enum class Do : std::uint8_t { kPlay, kPause, kStep, kSeek, kPace } what = Do::kPlay;
-  double value = 0;  ///< Finite.
-};
-
-struct HaltMessage {
-  bool stop = true;  ///< Otherwise: release.
-  std::vector<std::uint32_t> slots;
-};
-
 /// A super-user changes rights.
 struct SetRightMessage {
   RightChange change;

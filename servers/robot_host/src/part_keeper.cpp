@@ -47,14 +47,14 @@ void PartKeeper::follow(const sim::EngineSpec& spec) {
   hybrids_ = std::move(now.hybrids_);
 }
 
-Status PartKeeper::describe(const sim::EngineSpec& spec, record::RunRecorder& recorder) {
+record::StringMap PartKeeper::describe(const sim::EngineSpec& spec) {
   record::StringMap about;
   each_hybrid(spec, [&](std::uint32_t robot, std::uint32_t, const sim::SensorSpec& sensor) {
     about[spec.robots[robot].name + "/" + sensor.name] =
         fmt::format("{} of {} (real) and {} (virtual)", sensor.driver, sensor.hybrid->real_driver,
                     sensor.hybrid->virtual_driver);
   });
-  return about.empty() ? Status{} : recorder.describe(record::kHybridMetadata, about);
+  return about;
 }
 
 void PartKeeper::keep(const sim::Engine& engine, record::RunRecorder& recorder) {

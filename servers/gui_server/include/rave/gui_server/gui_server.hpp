@@ -23,11 +23,15 @@ struct GuiOptions {
 class GuiServer {
  public:
   /// Errors: kNotFound (the page was not built), kIo (no port).
-  [[nodiscard]] static Result<std::unique_ptr<GuiServer>> start(const GuiOptions& options,
-                                                                std::shared_ptr<Source> source);
+  /// Without a source pages wait for show().
+  [[nodiscard]] static Result<std::unique_ptr<GuiServer>> start(
+      const GuiOptions& options, std::shared_ptr<Source> source = nullptr);
   GuiServer(const GuiServer&) = delete;
   GuiServer& operator=(const GuiServer&) = delete;
   ~GuiServer();
+
+  /// All pages see this source from now on, without a reload. Any thread.
+  void show(std::shared_ptr<Source> source);
 
   [[nodiscard]] std::uint16_t port() const noexcept;
   /// A link that signs a browser in, once. Each call makes another one. Any thread.

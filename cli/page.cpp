@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "page.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+#include "error_text.hpp"
+#include "places.hpp"
+
+namespace rave::cli {
+namespace {
+
+bool is_set(const char* name) {
+  const char* const value = std::getenv(name);
+  return value != nullptr && *value != '\0';
+}
+
+/// Opens the page where there is a desktop; over SSH and without a display only the link is told.
+void open_browser(const std::string& link) {
+  if (is_set("SSH_CONNECTION") || (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY"))) return;
+  // The link has only characters that a shell leaves alone within quotes.
+  const std::string command = fmt::format("xdg-open '{}' >/dev/null 2>&1 &", link);
+  if (std::system(command.c_str()) != 0) return;  // The link was told; nothing is lost.
+}
+
+std::string how_to_reach(const std::string& link, std::uint16_t port) {
+  std::string text = fmt::format("open  {}\n", link);
+  if (is_set("SSH_CONNECTION")) {
+    text += fmt::format("from your machine, first:  ssh -L {0}:127.0.0.1:{0} THIS_MACHINE\n", port);
+  }
+  return text + "Ctrl-C ends\n";
+}
+
+}  // namespace
+
+Result<std::unique_ptr<gui_server::GuiServer>> serve_page(
+    const PageOptions& options, std::shared_ptr<gui_server::Source> source) {
+  gui_server::GuiOptions gui_options;
+  gui_options.page =
+      options.page.empty() ? share_folder() / "web" : std::filesystem::path(options.page);
+  gui_options.port = options.port;
+  RAVE_TRY_ASSIGN(auto server, gui_server::GuiServer::start(gui_options, std::move(source)));
+  const std::string link = server->entry();
+  put(stdout, how_to_reach(link, server->port()));
+  std::fflush(stdout);
+  if (!options.no_open) open_browser(link);
+  return server;
+}
+
+}  // namespace rave::cli

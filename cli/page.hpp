@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "rave/gui_server/gui_server.hpp"
+#include "rave/gui_server/source.hpp"
+
+namespace rave::cli {
+
+/// Where the page is served.
+struct PageOptions {
+  std::uint16_t port = 8080;
+  std::string page;  ///< Folder of the built page; empty: that of the installation.
+  bool no_open = false;
+};
+
+/// Serves the page, prints its link and opens it where there is a desktop. Without a source it
+/// waits for one. Errors: those of GuiServer::start().
+[[nodiscard]] Result<std::unique_ptr<gui_server::GuiServer>> serve_page(
+    const PageOptions& options, std::shared_ptr<gui_server::Source> source = nullptr);
+
+}  // namespace rave::cli

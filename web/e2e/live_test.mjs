@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// A person watches a run, holds it and stops robots: node live_test.mjs RAVE SCENARIO FOLDER
+import assert from 'node:assert/strict';
+import {execFileSync} from 'node:child_process';
+import {mkdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
+import {join} from 'node:path';
+import {Checks, launch, startServer, until} from './browser.mjs';
+
+const [rave, scenario, folder] = process.argv.slice(2);
+const checks = new Checks();
+const check = (name, act) => checks.check(name, act);
+const app = 'document.querySelector("rave-app")';
+const newest = `${app}.model.poses.newest`;
+const kStopped = 4;
+
+/** Says something to the server as the page does. */
+const say = (page, message) => page.evaluate((what) => document.querySelector('rave-app').link.send(what), message);
+const stopped = `[...${newest}.flags].filter((flags) => flags & ${kStopped}).length`;
+const hash = (run) => JSON.parse(readFileSync(join(run, 'result.json'))).hash;
+
+rmSync(folder, {recursive: true, force: true});
+mkdirSync(folder, {recursive: true});
+const quick = ['--pace', 'max', '--quiet', '--no-picture', '--duration', '20'];
+const alone = join(folder, 'alone');
+try {
+  execFileSync(rave, ['run', scenario, ...quick, '--output', alone], {stdio: 'ignore'});
+} catch (error) {
+  assert.equal(error.status, 1); // So short a run compares too little.
+}
+const browser = await launch();
+const servers = [];
+try {
+  const context = await browser.newContext({viewport: {width: 1400, height: 900}});
+  const page = await context.newPage();
+  const errors = [];
+  const said = [];
+  page.on('pageerror', (error) => errors.push(String(error)));
+  page.on('websocket', (socket) => {
+    socket.on('framereceived', ({payload}) => typeof payload === 'string' && said.push(JSON.parse(payload)));
+    socket.on('framesent', ({payload}) => typeof payload === 'string' && said.push(JSON.parse(payload)));
+  });
+  const run = join(folder, 'watched');
+  const live = await startServer(rave, ['run', scenario, '--gui', '--quiet', '--no-picture', '--duration', '60', '--output', run]);
+  servers.push(live);
+
+  await check('the run is alive on the page', async () => {
+    await page.goto(live.link);
+    await until(page, `${app}?.model?.robots?.length === 16 && ${newest} !== null`);
+    assert.equal(await page.evaluate(`${app}.model.hello.run.source`), 'live');
+    const before = await page.evaluate(`${newest}.time_s`);
+    await until(page, `${newest}.time_s > ${before} + 1`);
+    assert.ok((await page.evaluate(`${app}.model.bodies.size`)) > 10);
+    await until(page, `Math.abs(${app}.model.time.speed - 1) < 0.2`);
+  });
+
+  await check('it is held, and steps one by one', async () => {
+    await say(page, {type: 'transport', do: 'pause'});
+    await until(page, `${app}.model.time.state === 'paused'`);
+    // A page on a busy machine draws what is on its way first; the time comes once a second.
+    const times = () => said.filter((message) => message.type === 'time');
+    const before = times().length;
+    while (times().length < before + 2) await page.waitForTimeout(50);
+    const step = times().at(-1).step;
+    await until(page, `${newest}.step === ${step}`);
+    await say(page, {type: 'transport', do: 'step', value: 1});
+    await until(page, `${newest}.step === ${step} + 1`);
+  });
+
+  await check('readings of a robot that is looked at while the run is held', async () => {
+    await page.locator('rave-robots .row', {hasText: 'real-3'}).click();
+    await until(page, `(() => { const a = ${app}; const slot = a.selection.primary;
+      const laser = a.model.robots[slot].sensors.findIndex((sensor) => sensor.kind === 'ranges');
+      return a.model.readings.of(slot, laser)?.rows === 121; })()`);
+  });
+
+  await check('it goes on, faster', async () => {
+    await say(page, {type: 'transport', do: 'pace', value: 4});
+    await say(page, {type: 'transport', do: 'play'});
+    await until(page, `${app}.model.time.state === 'running' && ${app}.model.time.pace === 4`);
+    await until(page, `${app}.model.time.speed > 3`);
+    await say(page, {type: 'transport', do: 'pace', value: 1});
+  });
+
+  await check('all robots stop, and are released', async () => {
+    await say(page, {type: 'halt', do: 'stop', slots: []});
+    await until(page, `${stopped} === 16`);
+    await say(page, {type: 'halt', do: 'release', slots: []});
+    await until(page, `${stopped} === 0`);
+    assert.ok(said.some((message) => message.type === 'answer' && message.to === 'stop' && message.good));
+    await until(page, `${app}.model.events.some((event) => event.kind === 'stopped')`);
+  });
+
+  await check('one robot stops', async () => {
+    const slot = await page.evaluate(`${app}.model.robots.findIndex((robot) => robot.name === 'hunter')`);
+    await say(page, {type: 'halt', do: 'stop', slots: [slot]});
+    await until(page, `${stopped} === 1 && (${newest}.flags[${slot}] & ${kStopped}) !== 0`);
+    await say(page, {type: 'halt', do: 'release', slots: [slot]});
+  });
+
+  await check('an obstacle that somebody adds stands on the page, moves and goes', async () => {
+    const edit = (...words) => execFileSync(rave, ['edit', String(live.child.pid), ...words], {stdio: ['ignore', 'ignore', 'inherit']});
+    const parcel = `[...${app}.model.bodies.values()].find((body) => body.name === 'parcel')`;
+    edit('add', 'box', '--name', 'parcel', '--at', '9,9', '--size', '0.3x0.3');
+    await until(page, `${parcel}?.kind === 'virtual' && ${parcel}.pose[0] === 9`);
+    edit('move', 'parcel', '--at', '8,9');
+    await until(page, `${parcel}?.pose[0] === 8`);
+    edit('remove', 'parcel');
+    await until(page, `${parcel} === undefined`);
+  });
+
+  await check('a seek is refused with the reason', async () => {
+    await say(page, {type: 'transport', do: 'seek', value: 1});
+    const refused = () => said.find((message) => message.type === 'answer' && message.to === 'transport');
+    for (let i = 0; i < 200 && !refused(); ++i) await page.waitForTimeout(25);
+    assert.equal(refused()?.good, false);
+    assert.match(refused().text, /when the run is over/);
+  });
+
+  await check('a second page sees the same, and a page that leaves holds nobody up', async () => {
+    const second = await context.newPage();
+    await second.goto(new URL(live.link).origin);
+    await until(second, `${newest} != null`);
+    const there = await page.evaluate(`${newest}.time_s`);
+    await until(second, `Math.abs(${newest}.time_s - ${there}) < 3`);
+    await second.close();
+    const before = await page.evaluate(`${newest}.time_s`);
+    await until(page, `${newest}.time_s > ${before} + 0.5`);
+  });
+
+  await check('the run that is over turns into its own replay, without a reload', async () => {
+    await say(page, {type: 'transport', do: 'pace', value: 0});
+    await until(page, `${app}.model.hello.run.source === 'replay'`, 60000);
+    await until(page, `${newest} !== null && ${app}.model.may('seek')`);
+    assert.match(await page.evaluate(`${app}.model.hello.run.hash`), /^[0-9a-f]{16}$/);
+    await say(page, {type: 'transport', do: 'pause'});
+    await say(page, {type: 'transport', do: 'seek', value: 12.5});
+    await until(page, `Math.abs(${newest}.time_s - 12.5) < 0.011`);
+    await live.end();
+  });
+
+  await check('a run that is watched has the hash of one that is not', async () => {
+    const other = join(folder, 'same');
+    const same = await startServer(rave, ['run', scenario, '--gui', ...quick, '--output', other]);
+    servers.push(same);
+    const second = await context.newPage();
+    await second.goto(same.link);
+    await until(second, `${app}?.model?.hello?.run.source === 'replay'`, 60000);
+    await same.end();
+    assert.match(hash(alone), /^[0-9a-f]{16}$/);
+    assert.equal(hash(other), hash(alone));
+  });
+
+  await check('every message is as the schema describes it', async () => {
+    const file = join(folder, 'messages.json');
+    writeFileSync(file, JSON.stringify(said));
+    execFileSync('python3', [new URL('check_messages.py', import.meta.url).pathname, file], {stdio: 'inherit'});
+    for (const kind of ['scene_change', 'answer', 'halt']) assert.ok(said.some((message) => message.type === kind), kind);
+    assert.deepEqual(errors, []);
+  });
+} finally {
+  await browser.close();
+  for (const server of servers) server.child.kill('SIGKILL');
+}
+checks.end();
+process.exit(0);

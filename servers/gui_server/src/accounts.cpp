@@ -260,7 +260,7 @@ Result<std::string> Accounts::join(std::string_view secret, const std::string& n
     RAVE_TRY_ASSIGN(hash, hashed(password));
   }
   std::string session;
-  RAVE_TRY(change([&](AccountsFile& file) -> Status {
+  const auto take = [&](AccountsFile& file) -> Status {
     const auto found = std::ranges::find(file.invitations, hash_of(secret), &Invitation::hash);
     if (found == file.invitations.end()) return fail(ErrorCode::kState, "{}", kUnknown);
     RAVE_TRY(check_free(file, name));
@@ -268,7 +268,8 @@ Result<std::string> Accounts::join(std::string_view secret, const std::string& n
     --found->uses;
     session = begin_session(file, name, clock_() + kSessionLife_s);
     return {};
-  }));
+  };
+  RAVE_TRY(change(take));
   return session;
 }
 

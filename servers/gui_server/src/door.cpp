@@ -89,6 +89,8 @@ std::optional<web::Response> Door::serve(const web::Request& request) {
   if (request.path == "/login" && reads) return sign_in_page(200, "", "");
   if (request.path == "/join" && reads) {
     const std::string secret = field(request.query, "invite");
+    // It may have been made this very moment, by the command line.
+    if (!options_.accounts->knows_invitation(secret)) static_cast<void>(refresh());
     if (options_.accounts->knows_invitation(secret)) return join_page(200, "", "", secret);
     options_.audit->note("refused", {{"why", "invitation"}, {"from", request.peer}});
     return told_page(403, kUsedLink, true);

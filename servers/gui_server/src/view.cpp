@@ -165,6 +165,11 @@ std::optional<LogEvent> View::event(const LogEvent& event) const {
     mine.slots.push_back(*slot_of(robot));
   }
   if (names_hidden(event.text)) return std::nullopt;
+  // Obstacles that came later are none of the names that are known.
+  if (!may_any(InfoClass::kObstacles) && event.slots.empty() &&
+      (event.kind + event.text).find("obstacle") != std::string::npos) {
+    return std::nullopt;
+  }
   return mine;
 }
 
@@ -184,11 +189,15 @@ std::string View::bodies_json(const std::string& all) const {
   if (whole_) return all;
   OrderedJson mine = OrderedJson::array();
   for (const OrderedJson& body : OrderedJson::parse(all)) {
-    if (body.at("kind") == "virtual" && !may_any(InfoClass::kObstacles)) continue;
+    if (!sees_body(body.at("kind").get<std::string>())) continue;
     mine.push_back(body);
     mine.back()["id"] = body_id(body.at("id").get<std::int64_t>());
   }
   return mine.dump();
+}
+
+bool View::sees_body(std::string_view kind) const {
+  return kind != "virtual" || may_any(InfoClass::kObstacles);
 }
 
 std::int64_t View::body_id(std::int64_t id) const {

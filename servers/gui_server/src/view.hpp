@@ -65,6 +65,10 @@ class View {
   /// Bodies have numbers that tell nothing of how many there are.
   [[nodiscard]] std::string bodies_json(const std::string& all) const;
   [[nodiscard]] std::int64_t body_id(std::int64_t id) const;
+  /// Whether bodies of a kind are given.
+  [[nodiscard]] bool sees_body(std::string_view kind) const;
+  /// Whether a text names nobody who is withheld.
+  [[nodiscard]] bool may_read(std::string_view text) const { return !names_hidden(text); }
 
  private:
   void note(const Rights& rights, const Person& person);

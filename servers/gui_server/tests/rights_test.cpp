@@ -16,18 +16,19 @@ namespace {
 
 namespace fs = std::filesystem;
 using Kind = Reach::Kind;
-using Json = nlohmann::json;
+using RightsJson = nlohmann::json;
 
 const Teams kGreen{false, {"green"}};
 
 std::string roster() {
-  Json robots = Json::array();
+  RightsJson robots = RightsJson::array();
   for (const auto& [name, team] : {std::pair("walker-1", "green"), std::pair("spy-2", "blue"),
                                    std::pair("walker-3", "green"), std::pair("spy-20", "blue")}) {
-    robots.push_back({{"name", name},
-                      {"team", team},
-                      {"sensors", Json::array({{{"name", "scan"}, {"kind", "ranges"}},
-                                               {{"name", "others"}, {"kind", "neighbours"}}})}});
+    robots.push_back(
+        {{"name", name},
+         {"team", team},
+         {"sensors", RightsJson::array({{{"name", "scan"}, {"kind", "ranges"}},
+                                        {{"name", "others"}, {"kind", "neighbours"}}})}});
   }
   return robots.dump();
 }
@@ -102,7 +103,7 @@ TEST(RightsOfAScenario, ChangeTheUsualOnes) {
 TEST(RightsOfAScenario, HaveTheClassesOfTheTable) {
   const auto schema = read_file(fs::path(RAVE_SOURCE_DIR) / "schemas/config/scenario.schema.json");
   ASSERT_TRUE(schema);
-  Json names = Json::array();
+  RightsJson names = RightsJson::array();
   for (std::size_t i = 0; i < kInfoClasses; ++i) {
     names.push_back(to_string(static_cast<InfoClass>(i)));
   }
@@ -121,7 +122,7 @@ TEST(ViewOfARun, HasSlotsWithoutGapsForWhoIsSeen) {
   EXPECT_EQ(view.robot_of(2), std::nullopt);
   EXPECT_EQ(view.slot_of(1), std::nullopt);
   EXPECT_EQ(view.slot_of(2), 1U);
-  const Json robots = Json::parse(view.robots_json(roster()));
+  const RightsJson robots = RightsJson::parse(view.robots_json(roster()));
   ASSERT_EQ(robots.size(), 2U);
   EXPECT_EQ(robots[1]["name"], "walker-3");
   EXPECT_EQ(view.robots_json(roster()).find("spy"), std::string::npos);
@@ -176,7 +177,7 @@ TEST(ViewOfARun, WithholdsEventsThatNameTheUnseen) {
 
 TEST(ViewOfARun, WithholdsVirtualObstaclesAndHowManyThereAre) {
   const View view = own_team_view();
-  const Json bodies = Json::parse(view.bodies_json(kBodies));
+  const RightsJson bodies = RightsJson::parse(view.bodies_json(kBodies));
   ASSERT_EQ(bodies.size(), 1U);
   EXPECT_EQ(bodies[0]["name"], "hall");
   EXPECT_NE(bodies[0]["id"], 1);
@@ -252,11 +253,11 @@ TEST_F(DeskTest, WhatCannotBeIsRefusedAndChangesNothing) {
 TEST_F(DeskTest, TellsTheTable) {
   RightsDesk desk = opened();
   ASSERT_TRUE(desk.change({{}, "ben", InfoClass::kLog, Reach{Kind::kTeams, {"green"}}}));
-  const Json message = Json::parse(desk.message({ben_}));
+  const RightsJson message = RightsJson::parse(desk.message({ben_}));
   EXPECT_EQ(message["classes"].size(), kInfoClasses);
-  EXPECT_EQ(message["teams"], Json::parse(R"(["blue","green"])"));
+  EXPECT_EQ(message["teams"], RightsJson::parse(R"(["blue","green"])"));
   EXPECT_EQ(message["rows"][0]["cells"]["readings"], "own");
-  EXPECT_EQ(message["rows"][3], Json::parse(R"({"user":"ben","cells":{"log":["green"]}})"));
+  EXPECT_EQ(message["rows"][3], RightsJson::parse(R"({"user":"ben","cells":{"log":["green"]}})"));
   EXPECT_EQ(message["people"][0]["teams"], "green");
 }
 

@@ -43,13 +43,13 @@ class Connection final : public Link, public std::enable_shared_from_this<Connec
   void cut() override {
     if (!handed_over_) stream_.close();
   }
+  void answer(const Response& response);
 
  private:
   void read();
   void refuse_broken(Error error);
   void take();
   void dispatch(const Request& request);
-  void answer(const Response& response);
   void refuse(const Response& response);
   void send(const std::shared_ptr<Answer>& reply, Payload body, bool without_body);
   /// Why a request is refused before anybody looks at it.
@@ -116,10 +116,29 @@ void Connection::take() {
   dispatch(request);
 }
 
+/// Lets go of a connection in the thread of the server, wherever the last copy of a reply is
+/// dropped.
+class Held {
+ public:
+  Held(Core& core, std::shared_ptr<Connection> connection)
+      : core_(core), connection_(std::move(connection)) {}
+  Held(const Held&) = delete;
+  Held& operator=(const Held&) = delete;
+  ~Held() {
+    asio::post(core_.io(), [connection = std::move(connection_)] {});
+  }
+  void answer(const Response& response) const {
+    asio::post(core_.io(), [connection = connection_, response] { connection->answer(response); });
+  }
+
+ private:
+  Core& core_;
+  std::shared_ptr<Connection> connection_;  ///< Shared with the operations under way.
+};
+
 void Connection::dispatch(const Request& request) {
-  const Reply reply = [self = shared_from_this(), &core = core_](const Response& response) {
-    asio::post(core.io(), [self, response] { self->answer(response); });
-  };
+  const auto held = std::make_shared<Held>(core_, shared_from_this());
+  const Reply reply = [held](const Response& response) { held->answer(response); };
   // What takes time has a limit of its own; meanwhile nothing is read.
   stream_.expires_after(core_.options().idle);
   if (core_.handler().serve_later(request, reply)) return;

@@ -43,6 +43,7 @@ class Core {
   [[nodiscard]] bool has_room(const std::string& network) const;
 
   std::unique_ptr<Tls> tls;  ///< Null: none.
+  RateLimit accepts;         ///< As many as requests: a handshake of TLS costs more than they do.
   RateLimit requests;
   ServerCounts counts;
   std::uint16_t port = 0;

@@ -12,7 +12,8 @@
 namespace rave::web {
 
 Core::Core(const ServerOptions& options, Handler& handler)
-    : requests(options.requests_per_s, options.request_burst),
+    : accepts(options.requests_per_s, options.request_burst),
+      requests(options.requests_per_s, options.request_burst),
       options_(options),
       handler_(handler) {}
 
@@ -103,7 +104,9 @@ void ServerImpl::accept() {
     Error gone;
     const auto peer = error ? Tcp::endpoint() : socket.remote_endpoint(gone);
     const std::string address = peer.address().to_string();
-    if (!error && !gone && core_.has_room(network_of(address))) {
+    const std::string network = network_of(address);
+    if (!error && !gone && core_.has_room(network) &&
+        core_.accepts.take(network, RateLimit::Clock::now())) {
       ++core_.counts.connections;
       serve_connection(core_, std::move(socket), address);
     }

@@ -65,9 +65,9 @@ class GuiServer::Impl final : public web::Handler {
         door_({parts.accounts, parts.audit, !options.certificate.empty()}),
         visitors_(door_, std::move(parts.desk), parts.accounts, parts.audit) {}
   ~Impl() override {
-    // What the door still works at answers through the server.
-    door_.stop();
     if (server_) server_->stop();
+    // What it still works at answers through the server, which is there until then.
+    door_.stop();
   }
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;

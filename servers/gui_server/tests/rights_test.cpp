@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "rave/base/file.hpp"
+#include "rave/config/expanded_scenario.hpp"
+#include "rave/robot_host/host_run.hpp"
 #include "rights_desk.hpp"
 #include "scenario_rights.hpp"
 #include "view.hpp"
@@ -98,6 +100,17 @@ TEST(RightsOfAScenario, ChangeTheUsualOnes) {
   EXPECT_EQ(rights.of(Role::kObserver, InfoClass::kReadings), (Reach{Kind::kTeams, {"green"}}));
   EXPECT_EQ(rights.of(Role::kCommander, InfoClass::kPose).kind, Kind::kAll);
   EXPECT_EQ(rights.of({"eve", Role::kObserver, {}}, InfoClass::kStop).kind, Kind::kAll);
+}
+
+TEST(RightsOfAScenario, AreNoPartOfWhatProcessesCompare) {
+  config::ExpandedScenario plain;
+  plain.scenario.name = config::Located<std::string>("a");
+  config::ExpandedScenario shared = plain;
+  shared.scenario.gui.rights.push_back(
+      {config::GuiRole::kObserver, {}, {config::GuiClass::kPose}, config::GuiReach::kNone, {}});
+  EXPECT_EQ(robot_host::shared_number(plain), robot_host::shared_number(shared));
+  // But recordings have it, so that a replay applies it.
+  EXPECT_NE(config::write_expanded(shared).find("role: observer"), std::string::npos);
 }
 
 TEST(RightsOfAScenario, HaveTheClassesOfTheTable) {

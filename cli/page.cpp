@@ -9,6 +9,7 @@
 
 #include "error_text.hpp"
 #include "places.hpp"
+#include "rave/gui_server/accounts.hpp"
 
 namespace rave::cli {
 namespace {
@@ -42,6 +43,13 @@ Result<std::unique_ptr<gui_server::GuiServer>> serve_page(
   gui_options.page =
       options.page.empty() ? share_folder() / "web" : std::filesystem::path(options.page);
   gui_options.port = options.port;
+  gui_options.listen = options.listen;
+  gui_options.certificate = options.certificate;
+  gui_options.key = options.key;
+  gui_options.accounts = options.accounts;
+  if (options.accounts.empty() && options.listen != gui_server::GuiOptions().listen) {
+    gui_options.accounts = gui_server::Accounts::usual_folder();
+  }
   RAVE_TRY_ASSIGN(auto server, gui_server::GuiServer::start(gui_options, std::move(source)));
   const std::string link = server->entry();
   put(stdout, how_to_reach(link, server->port()));

@@ -16,6 +16,10 @@ struct PageOptions {
   std::uint16_t port = 8080;
   std::string page;  ///< Folder of the built page; empty: that of the installation.
   bool no_open = false;
+  std::string listen = "127.0.0.1";
+  std::string certificate;  ///< With `key`: TLS.
+  std::string key;
+  std::string accounts;  ///< Folder; empty: the user's, if it listens elsewhere than on loopback.
 };
 
 /// Serves the page, prints its link and opens it where there is a desktop. Without a source it

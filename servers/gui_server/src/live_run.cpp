@@ -3,6 +3,7 @@
 
 #include "live_feed.hpp"
 #include "live_source.hpp"
+#include "scenario_rights.hpp"
 #include "scene_json.hpp"
 
 namespace rave::gui_server {
@@ -34,6 +35,7 @@ struct LiveRun::Impl {
     start.about.seed = run.info.seed;
     start.about.lock_step = !run.live;
     start.about.duration_s = scenario.scenario.duration_s;
+    start.about.rights = rights_of(scenario.scenario.gui);
     start.robots_json = robots_of(scenario, run.info, run.hybrids);
     for (const record::RecordedRobot& robot : run.info.robots) start.robots.push_back(robot.name);
     start.bodies = std::move(bodies);

@@ -49,6 +49,7 @@ class Members {
     }
     return value;
   }
+  Result<const Json*> any(const char* name) { return find(name); }
   [[nodiscard]] bool has(const char* name) const { return object_.contains(name); }
   [[nodiscard]] Status finish() const {
     if (object_.size() != taken_) return fail(ErrorCode::kParse, "the message has unknown members");
@@ -137,6 +138,67 @@ Result<PageMessage> halt_of(Members& members) {
   return PageMessage(std::move(halt));
 }
 
+constexpr std::size_t kMostTeams = 1000;
+constexpr std::size_t kLongestName = 64;
+
+/// `role` or `user`; with neither both stay empty.
+Status whose(Members& members, std::optional<Role>& role, std::string& user) {
+  if (members.has("role")) {
+    RAVE_TRY_ASSIGN(const std::string word, members.word("role"));
+    role = role_named(word);
+    if (!role) return fail(ErrorCode::kParse, "`role`: expected observer, commander or super_user");
+  }
+  if (members.has("user")) {
+    RAVE_TRY_ASSIGN(user, members.word("user"));
+    if (user.empty() || user.size() > kLongestName) {
+      return fail(ErrorCode::kParse, "`user`: expected a name");
+    }
+  }
+  if (role && !user.empty()) return fail(ErrorCode::kParse, "expected `role` or `user`, not both");
+  return {};
+}
+
+Result<std::optional<Reach>> reach_in(const Json& value) {
+  if (value.is_null()) return std::optional<Reach>();
+  Reach reach;
+  if (value.is_array() && value.size() <= kMostTeams) {
+    reach.kind = Reach::Kind::kTeams;
+    for (const Json& team : value) {
+      if (!team.is_string() || team.get_ref<const std::string&>().size() > kLongestName) {
+        return fail(ErrorCode::kParse, "`reach`: expected names of teams");
+      }
+      reach.teams.insert(team.get<std::string>());
+    }
+    return std::optional<Reach>(std::move(reach));
+  }
+  for (const auto kind : {Reach::Kind::kNone, Reach::Kind::kOwn, Reach::Kind::kAll}) {
+    reach.kind = kind;
+    if (value == to_string(kind)) return std::optional<Reach>(std::move(reach));
+  }
+  return fail(ErrorCode::kParse, "`reach`: expected none, own, all, an array of teams, or null");
+}
+
+Result<PageMessage> right_of(Members& members) {
+  SetRightMessage set;
+  RAVE_TRY(whose(members, set.change.role, set.change.user));
+  if (!set.change.role && set.change.user.empty()) {
+    return fail(ErrorCode::kParse, "`role` or `user` is missing");
+  }
+  RAVE_TRY_ASSIGN(const std::string word, members.word("class"));
+  const auto what = class_named(word);
+  if (!what) return fail(ErrorCode::kParse, "`class`: expected one of the message `rights`");
+  set.change.what = *what;
+  RAVE_TRY_ASSIGN(const Json* const reach, members.any("reach"));
+  RAVE_TRY_ASSIGN(set.change.reach, reach_in(*reach));
+  return PageMessage(std::move(set));
+}
+
+Result<PageMessage> eyes_of(Members& members) {
+  SeeAsMessage see;
+  RAVE_TRY(whose(members, see.role, see.user));
+  return PageMessage(std::move(see));
+}
+
 }  // namespace
 
 Result<PageMessage> parse_page_message(std::string_view text) {
@@ -155,6 +217,10 @@ Result<PageMessage> parse_page_message(std::string_view text) {
     message = transport_of(members);
   } else if (type == "halt") {
     message = halt_of(members);
+  } else if (type == "set_right") {
+    message = right_of(members);
+  } else if (type == "see_as") {
+    message = eyes_of(members);
   }
   if (!message) return message;
   RAVE_TRY(members.finish());

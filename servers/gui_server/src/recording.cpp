@@ -9,6 +9,7 @@
 #include "rave/record/run_reader.hpp"
 #include "recording_cursor.hpp"
 #include "replay_playhead.hpp"
+#include "scenario_rights.hpp"
 #include "scene_json.hpp"
 
 namespace rave::gui_server {
@@ -80,6 +81,7 @@ Status Recording::read(const std::filesystem::path& file) {
   about_.started = run.started;
   about_.step_s = run.step_s;
   about_.seed = run.seed;
+  about_.rights = rights_of(scenario.scenario.gui);
   about_.recording = file;
   about_.recording_bytes = reader_.file_size();
   about_.recording_whole = reader_.whole();

@@ -49,7 +49,11 @@ const char* state_word(PlayState::Kind kind) {
   return "ended";
 }
 
-std::string hello_text(const Source& source, const std::string& user) {
+Json person_json(const Person& person) {
+  return {{"name", person.name}, {"role", to_string(person.role)}};
+}
+
+std::string hello_text(const Source& source, const Greeting& greeting) {
   const RunAbout& about = source.about();
   Json recording = nullptr;
   if (!about.recording.empty()) {
@@ -57,23 +61,26 @@ std::string hello_text(const Source& source, const std::string& user) {
                  {"bytes", about.recording_bytes},
                  {"whole", about.recording_whole}};
   }
-  const Powers powers = source.powers();
-  const Json hello = {{"type", "hello"},
-                      {"protocol", 1},
-                      {"server", "rave"},
-                      {"run",
-                       {{"name", about.name},
-                        {"source", about.live ? "live" : "replay"},
-                        {"clock", about.lock_step ? "lock_step" : "real_time"},
-                        {"started", about.started},
-                        {"step_s", about.step_s},
-                        {"seed", about.seed},
-                        {"hash", about.hash.empty() ? Json(nullptr) : Json(about.hash)},
-                        {"recording", std::move(recording)}}},
-                      {"user", {{"name", user}, {"role", "super_user"}}},
-                      {"may", powers.may},
-                      {"why_not", powers.why_not}};
-  return hello.dump();
+  Powers powers = source.powers();
+  if (greeting.user.role == Role::kSuperUser && !greeting.seen_by)
+    powers.may.emplace_back("rights");
+  Json hello = {{"type", "hello"},
+                {"protocol", 1},
+                {"server", "rave"},
+                {"run",
+                 {{"name", about.name},
+                  {"source", about.live ? "live" : "replay"},
+                  {"clock", about.lock_step ? "lock_step" : "real_time"},
+                  {"started", about.started},
+                  {"step_s", about.step_s},
+                  {"seed", about.seed},
+                  {"hash", about.hash.empty() ? Json(nullptr) : Json(about.hash)},
+                  {"recording", std::move(recording)}}},
+                {"user", person_json(greeting.user)},
+                {"may", powers.may},
+                {"why_not", powers.why_not}};
+  if (greeting.seen_by) hello["seen_by"] = person_json(*greeting.seen_by);
+  return hello.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 /// Events from `first` on; with 0 the page forgets those that it had.
@@ -94,15 +101,21 @@ std::string events_text(std::span<const LogEvent> events, std::size_t first) {
 
 }  // namespace
 
-Session::Session(web::Socket& socket, std::string user) : socket_(socket), user_(std::move(user)) {}
+Session::Session(web::Socket& socket, SessionCalls calls)
+    : socket_(socket), calls_(std::move(calls)) {}
 
-void Session::show(std::shared_ptr<Source> source) {
+void Session::show(std::shared_ptr<Source> source, const Greeting& greeting, bool same_run) {
+  const PlayState before = told_state_;
+  // They refer to the source that goes.
+  cursor_.reset();
+  playhead_.reset();
   source_ = std::move(source);
   playhead_ = source_->open_playhead();
   cursor_ = source_->open_cursor();
-  socket_.send_text(payload(hello_text(*source_, user_)));
-  socket_.send_text(
-      payload(R"({"type":"scene","hidden":[],"bodies":)" + source_->bodies_json() + "}"));
+  if (same_run) keep_place(before);
+  socket_.send_text(payload(hello_text(*source_, greeting)));
+  socket_.send_text(payload(R"({"type":"scene","hidden":)" + source_->hidden_kinds_json() +
+                            R"(,"bodies":)" + source_->bodies_json() + "}"));
   socket_.send_text(
       payload(R"({"type":"roster","revision":1,"robots":)" + source_->robots_json() + "}"));
   socket_.send_text(payload(events_text(source_->events(), 0)));
@@ -110,11 +123,21 @@ void Session::show(std::shared_ptr<Source> source) {
   told_bodies_ = source_->bodies_revision();
   told_hosts_ = 0;
   told_.clear();
-  forget_foreign_sensors();
+  // The slots are others now; the page says again what it looks at.
+  look_.readings.clear();
   changed_ = true;
   past_due_ = true;
   broken_ = false;
   send_time(playhead_->look(Clock::now()));
+}
+
+void Session::keep_place(const PlayState& before) {
+  using Do = TransportMessage::Do;
+  if (source_->about().live) return;
+  const auto now = Clock::now();
+  playhead_->take({Do::kPace, before.pace}, now);
+  playhead_->take({Do::kSeek, before.now_s}, now);
+  if (before.kind != PlayState::Kind::kRunning) playhead_->take({Do::kPause, 0}, now);
 }
 
 void Session::received(std::string_view text) {
@@ -165,13 +188,25 @@ void Session::take(const TransportMessage& transport) {
 void Session::take(const HaltMessage& halt) {
   const char* const to = halt.stop ? "stop" : "release";
   if (!source_) return answer(to, false, "No run is in progress.");
-  source_->halt(halt,
-                [this, to, alive = std::weak_ptr(alive_)](bool good, const std::string& text) {
-                  if (!alive.expired()) answer(to, good, text);
-                });
+  source_->halt(
+      halt, [this, to, halt, alive = std::weak_ptr(alive_)](bool good, const std::string& text) {
+        if (alive.expired()) return;
+        answer(to, good, text);
+        calls_.halted(halt, good);
+      });
 }
 
-void Session::tick(Clock::time_point now, std::map<std::uint32_t, web::Payload>& frames) {
+void Session::take(const SetRightMessage& set) {
+  const auto done = calls_.set_right(set.change);
+  answer("set_right", done.has_value(), done ? *done : done.error().message);
+}
+
+void Session::take(const SeeAsMessage& see) {
+  const auto done = calls_.see_as(see);
+  answer("see_as", done.has_value(), done ? *done : done.error().message);
+}
+
+void Session::tick(Clock::time_point now, SharedFrames& frames) {
   if (!source_) return;
   const PlayState state = playhead_->look(now);
   if (state.jumped) {
@@ -217,7 +252,7 @@ void Session::send_past(double now_s) {
   }
 }
 
-void Session::send_frame(std::map<std::uint32_t, web::Payload>& frames) {
+void Session::send_frame(SharedFrames& frames) {
   const PosesAt& poses = cursor_->poses();
   PoseFrameHead head;
   head.roster_revision = 1;
@@ -225,9 +260,9 @@ void Session::send_frame(std::map<std::uint32_t, web::Payload>& frames) {
     head.sequence = ++sequence_;
     socket_.send_binary(payload(encode_poses(poses, head)));
   } else {
-    // One encoding serves all pages.
+    // One encoding serves all pages of the same rights.
     head.sequence = sequence_ = poses.serial;
-    web::Payload& frame = frames[poses.serial];
+    web::Payload& frame = frames[{source_.get(), poses.serial}];
     if (!frame) frame = payload(encode_poses(poses, head));
     socket_.send_binary(frame);
   }
@@ -249,10 +284,14 @@ void Session::send_news() {
   if (const std::uint64_t revision = source_->events_revision(); revision != told_events_) {
     const std::size_t first = source_->events_changed_since(told_events_);
     told_events_ = revision;
-    socket_.send_text(payload(events_text(source_->events(), first)));
+    if (first < source_->events().size()) {
+      socket_.send_text(payload(events_text(source_->events(), first)));
+    }
   }
   if (const std::uint64_t revision = source_->bodies_revision(); revision != told_bodies_) {
-    socket_.send_text(payload(source_->bodies_changed_since(told_bodies_)));
+    if (auto change = source_->bodies_changed_since(told_bodies_); !change.empty()) {
+      socket_.send_text(payload(std::move(change)));
+    }
     told_bodies_ = revision;
   }
   if (const std::uint64_t revision = source_->hosts_revision(); revision != told_hosts_) {

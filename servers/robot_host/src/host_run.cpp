@@ -148,6 +148,7 @@ std::uint64_t shared_number(const config::ExpandedScenario& scenario) {
   shared.scenario.description.clear();
   shared.scenario.on_lost_host = usual.on_lost_host;
   shared.scenario.host_timeout_s = usual.host_timeout_s;
+  shared.scenario.gui = usual.gui;
   return lock_step::scenario_number(config::write_expanded(shared));
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "rave/base/result.hpp"
+#include "rave/gui_server/rights.hpp"
 
 // What the GUI Server shows comes from a source: a recording, or a run. Plain values; SI units,
 // frame W, angles in radians, times in seconds of the run.
@@ -39,6 +40,7 @@ struct RunAbout {
   double begin_s = 0;
   double end_s = 0;
   double duration_s = 0;
+  Rights rights;  ///< The usual ones, with what the scenario changes.
 };
 
 /// Bits of RobotState::flags, as they go into a pose frame.
@@ -172,6 +174,8 @@ class Source {
   /// The arrays `bodies` of a message `scene` and `robots` of a message `roster`, as JSON.
   [[nodiscard]] virtual const std::string& bodies_json() const noexcept = 0;
   [[nodiscard]] virtual const std::string& robots_json() const noexcept = 0;
+  /// Kinds of bodies that are withheld.
+  [[nodiscard]] virtual std::string hidden_kinds_json() const { return "[]"; }
   [[nodiscard]] virtual std::uint32_t robot_count() const noexcept = 0;
   [[nodiscard]] virtual std::span<const LogEvent> events() const noexcept = 0;
   [[nodiscard]] virtual std::unique_ptr<Cursor> open_cursor() = 0;

@@ -17,7 +17,8 @@ MOST_WORDS = 1500
 # History, and what is generated from the texts in sources, which are checked themselves.
 NOT_PAGES = ("CHANGELOG.md", "CODE_OF_CONDUCT.md", "docs/reference/drivers.md",
              "docs/reference/files.md", "data/")
-CODE = re.compile(r"^(```|~~~).*?^\1[^\n]*$|`[^`\n]*`|^ {4}[^\n]*$", re.MULTILINE | re.DOTALL)
+CODE = re.compile(r"^(```|~~~).*?^\1[^\n]*$|`[^`\n]*`|(?<=\n\n)(?: {4}[^\n]*\n)+",
+                  re.MULTILINE | re.DOTALL)
 TEXT = re.compile(r'"(?:\\.|[^"\\\n])*"(?:\s*"(?:\\.|[^"\\\n])*")*')
 SCRIPT_TEXT = re.compile(r"'(?:\\.|[^'\\\n])*'|\"(?:\\.|[^\"\\\n])*\"|`(?:\\.|[^`\\])*`")
 SCRIPT_FOLDERS = ("web/app/", "web/model/", "web/panels/", "web/panel_api/")
@@ -113,7 +114,7 @@ TABLE = f"# G\n{HEADING}\n| not | but | where |\n|---|---|---|\n"
 WORDS = TABLE + "| the old word | new | pages |\n| how … fare | state | sources |\n"
 CLEAN = {
     GLOSSARY: WORDS,
-    "docs/a.md": "A new word. `the old word`\n```\nthe old word\n```\n    the old word\n",
+    "docs/a.md": "A new word. `the old word`\n```\nthe old word\n```\n\n    the old word\n",
     "CHANGELOG.md": "the old word\n",
     "cli/a.cpp": '// how they fare\nauto a = "the old word";\n',
     "cli/tests/a_test.cpp": 'auto a = "how they fare";\n',
@@ -122,7 +123,7 @@ CLEAN = {
 }
 BREACHES = [
     ("docs/a.md:2: not `the old word`, but new",
-     {GLOSSARY: WORDS, "docs/a.md": "A\nb The old\nword.\n"}),
+     {GLOSSARY: WORDS, "docs/a.md": "A\n10. The old\n    word.\n"}),
     ("not `how … fare`", {GLOSSARY: WORDS, "docs/a.md": "See how hosts fare.\n"}),
     ("cli/a.cpp:1: not `how", {GLOSSARY: WORDS, "cli/a.cpp": 'auto a = "how hosts "\n  "fare";\n'}),
     ("web/app/a.ts:2: not `how", {GLOSSARY: WORDS, "web/app/a.ts": "\nconst a = 'How we fare';\n"}),

@@ -110,7 +110,7 @@ struct GuardOutput {
 [[nodiscard]] double guard_reach_m(const GuardSpec& spec, const GuardInput& input) noexcept;
 
 /// Limits one command. Pure: the same input gives the same bits; any thread; no allocation.
-/// Formulas and assumptions: docs/design/guard.md.
+/// Formulas and assumptions: docs/explanation/guard.md.
 ///
 /// Velocities are limited; `kJoint` and `kValues` pass if they are finite and nothing holds the
 /// robot, else the actuator gets nothing; `kGoal` is never passed on, since the way to it is the

@@ -10,6 +10,7 @@
 #include "error_text.hpp"
 #include "file_arguments.hpp"
 #include "keys_arguments.hpp"
+#include "people_arguments.hpp"
 #include "rave/base/names.hpp"
 #include "rave/base/result.hpp"
 #include "record_arguments.hpp"
@@ -29,6 +30,7 @@ struct Everything {
   BenchSwarmCommand bench_swarm;
   BenchCompareCommand bench_compare;
   KeysCommands keys;
+  PeopleCommand people;
   TopCommand top;
   DoctorCommand doctor;
 };
@@ -135,8 +137,10 @@ Command chosen_command(const CLI::App& root, const Everything& all) {
     const std::string what = chosen_app(root).get_name();
     if (what == "new") return all.keys.make;
     if (what == "add") return all.keys.add;
+    if (what == "web") return all.keys.web;
     return all.keys.show;
   }
+  if (name == "people") return chosen_people(chosen_app(root).get_name(), all.people);
   if (name == "top") return all.top;
   if (name == "doctor") return all.doctor;
   if (name == "edit") return chosen_edit(chosen_app(root).get_name(), all.control.edit);
@@ -164,6 +168,7 @@ Command parse_arguments(int argc, const char* const* argv) {
   add_control_commands(root, all.control);
   add_bench(root, all.bench_swarm, all.bench_compare);
   add_keys_commands(root, all.keys);
+  add_people(root, all.people);
   add_top(root, all.top);
   add_doctor(root, all.doctor);
   root.add_subcommand("version", "What this build is, and which plug-ins fit it");

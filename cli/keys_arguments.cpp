@@ -46,16 +46,30 @@ void add_show(CLI::App& parent, KeysShowCommand& c) {
       "  rave keys show lab-keys");
 }
 
+void add_web(CLI::App& parent, KeysWebCommand& c) {
+  CLI::App& app = *parent.add_subcommand("web", "Make the certificate that browsers are shown");
+  add_folder(app, c.folder, "Where; an authority that is there signs a new certificate");
+  add_word(app, "names", c.names, "Names and addresses that people type", "NAME");
+  add_value(app, "--days", c.days, "How long it is valid, 397 at most [397]", "N");
+  app.footer(
+      "The authority is made for these names alone and has nothing to do with `rave keys new`.\n\n"
+      "Example:\n"
+      "  rave keys web web-keys lab.example 192.168.1.20\n"
+      "  rave gui RUN --listen 192.168.1.20 --certificate web-keys/server.pem \\\n"
+      "    --key web-keys/server_key.pem");
+}
+
 }  // namespace
 
 void add_keys_commands(CLI::App& root, KeysCommands& commands) {
   CLI::App& parent =
-      *root.add_subcommand("keys", "Make the certificates with which processes talk in secret");
+      *root.add_subcommand("keys", "Make the certificates of processes and of the page");
   parent.require_subcommand(1);
   parent.footer("Example:\n  rave keys new lab-keys env left right");
   add_new(parent, commands.make);
   add_add(parent, commands.add);
   add_show(parent, commands.show);
+  add_web(parent, commands.web);
 }
 
 }  // namespace rave::cli

@@ -14,9 +14,11 @@ struct KeysCommands {
   KeysNewCommand make;
   KeysAddCommand add;
   KeysShowCommand show;
+  KeysWebCommand web;
 };
 
-/// Adds `keys new`, `keys add` and `keys show`, which write what they are given to `commands`.
+/// Adds `keys new`, `keys add`, `keys show` and `keys web`, which write what they are given to
+/// `commands`.
 void add_keys_commands(CLI::App& root, KeysCommands& commands);
 
 }  // namespace rave::cli

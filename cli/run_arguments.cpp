@@ -12,6 +12,10 @@ void add_run(CLI::App& root, RunCommand& c) {
   add_scenario(app, c.scenario);
   add_run_options(app, c);
   add_processes(app, c.processes, "Share the robots evenly among so many processes", 1);
+  app.add_flag("--gui", c.gui,
+               "Show the run in the browser, in real time unless --pace says otherwise; then its "
+               "recording, until Ctrl-C");
+  add_page_options(app, c.page);
   add_bus_options(app, c.bus);
   app.footer(
       "Exit code: 0 if the run was whole and its checks hold, 1 if not, 2 for bad input.\n"

@@ -30,6 +30,18 @@ void add_scenario(CLI::App& app, std::string& scenario) {
   add_word(app, "scenario", scenario, "A file, a folder with scenario.yaml, or a name", "SCENARIO");
 }
 
+void add_page_options(CLI::App& app, PageOptions& page) {
+  add_value(app, "--port", page.port, "Port; a busy one means the next [8080]", "PORT");
+  add_value(app, "--page", page.page, "Folder of the built page [that of this installation]",
+            "DIR");
+  app.add_flag("--no-open", page.no_open, "Print the link, but open no browser");
+  add_value(app, "--listen", page.listen, "Address; another one needs TLS and accounts [127.0.0.1]",
+            "ADDRESS");
+  add_value(app, "--certificate", page.certificate, "For TLS, as `rave keys web` makes it", "FILE");
+  add_value(app, "--key", page.key, "The private key of the certificate", "FILE");
+  add_value(app, "--accounts", page.accounts, "Folder of accounts: see `rave people`", "DIR");
+}
+
 void add_record(CLI::App& app, std::string& file) {
   add_word(app, "file", file, "A run.mcap, or the folder of a run", "FILE");
 }

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "page.hpp"
+
 /// What the arguments of several subcommands have in common. All write to what they are given.
 namespace rave::cli {
 
@@ -46,6 +48,9 @@ void add_plugins(CLI::App& app, std::vector<std::string>& folders);
 
 /// The scenario that a subcommand is about.
 void add_scenario(CLI::App& app, std::string& scenario);
+
+/// Where the page is served.
+void add_page_options(CLI::App& app, PageOptions& page);
 
 /// The record that a subcommand is about.
 void add_record(CLI::App& app, std::string& file);

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <string>
+
+#include "commands/run.hpp"
+#include "page.hpp"
 
 namespace rave::cli {
 
 /// `rave gui`.
 struct GuiCommand {
-  std::string file;  ///< A recording, or the folder of a run.
-  std::uint16_t port = 8080;
-  std::string page;  ///< Folder of the built page; empty: that of the installation.
-  bool no_open = false;
+  std::string file;  ///< A recording, the folder of a run, or a scenario.
+  RunCommand run;    ///< Of a scenario: where its run is, and plug-ins.
+  PageOptions page;
 };
 
 /// Serves the page until SIGINT or SIGTERM. Returns 0, or 2 on bad input.

@@ -8,6 +8,7 @@
 
 #include "error_text.hpp"
 #include "rave/keys/key_set.hpp"
+#include "rave/keys/web_keys.hpp"
 
 namespace rave::cli {
 namespace {
@@ -97,6 +98,24 @@ int show_keys(const KeysShowCommand& options) {
   bool usable = judge(set->authority, terminal);
   for (const keys::KeyInfo& member : set->members) usable = judge(member, terminal) && usable;
   return usable ? kGood : kNotGood;
+}
+
+int web_keys(const KeysWebCommand& options) {
+  const std::string folder = plain(options.folder);
+  const auto made = keys::make_web_keys({folder, options.names, options.days, now_s()});
+  if (!made) return complain(made.error());
+  put(stdout,
+      fmt::format("{} {} for {}; valid until {}\n", made->new_authority ? "made" : "renewed in",
+                  folder, list_of(options.names), keys::date_text(made->until_s)));
+  if (made->new_authority) {
+    put(stdout, fmt::format("next: tell browsers once to trust {0}/authority.pem\n"
+                            "  SHA-256 {1}\n"
+                            "Whoever has {0}/authority_key.pem can pretend to be this server.\n",
+                            folder, made->fingerprint));
+  }
+  put(stdout,
+      fmt::format("serve with  --certificate {0}/server.pem --key {0}/server_key.pem\n", folder));
+  return kGood;
 }
 
 }  // namespace rave::cli

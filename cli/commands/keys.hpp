@@ -26,10 +26,18 @@ struct KeysShowCommand {
   std::string folder;
 };
 
+/// `rave keys web`.
+struct KeysWebCommand {
+  std::string folder;
+  int days = 397;
+  std::vector<std::string> names;
+};
+
 // Each prints what was done, and never a private key. Returns 0; 2 for bad input; `keys show` 1 if
 // something cannot be used.
 [[nodiscard]] int new_keys(const KeysNewCommand& options);
 [[nodiscard]] int add_keys(const KeysAddCommand& options);
 [[nodiscard]] int show_keys(const KeysShowCommand& options);
+[[nodiscard]] int web_keys(const KeysWebCommand& options);
 
 }  // namespace rave::cli

@@ -8,6 +8,7 @@
 #include "interrupt.hpp"
 #include "places.hpp"
 #include "rave/config/expanded_scenario.hpp"
+#include "rave/gui_server/live_run.hpp"
 #include "rave/robot_host/build.hpp"
 #include "rave/robot_host/run.hpp"
 #include "rave/run_control/folder.hpp"
@@ -18,10 +19,10 @@
 #include "shared_run.hpp"
 
 namespace rave::cli {
-
 int run(const RunCommand& options) {
   auto scenario = read_scenario(options);
   if (!scenario) return complain(scenario.error());
+  if (options.gui && !options.pace) scenario->scenario.pace = config::Pace{1};
   const auto hosts = config::plan_hosts(*scenario);
   if (!hosts) return complain(hosts.error());
   if (!hosts->empty()) return run_shared(options, *scenario, *hosts);
@@ -56,9 +57,23 @@ int run(const RunCommand& options) {
   if (!server) {
     console.warn("run", "no other terminal can control this run: {}", server.error().message);
   }
+  std::unique_ptr<gui_server::GuiServer> page;
+  gui_server::LiveRun live(*scenario, control,
+                           [&page](auto source) { page->show(std::move(source)); });
+  if (options.gui) {
+    auto served = serve_page(options.page);
+    if (!served) return complain(served.error());
+    page = *std::move(served);
+    run_options.observers.push_back(&live.observer());
+  }
   const auto outcome = robot_host::run(*scenario, catalogue, run_options);
   console.clear();
-  if (outcome) return report_outcome(options, *outcome, folder->path());
+  if (outcome) {
+    const int code = report_outcome(options, *outcome, folder->path());
+    live.end("The run is over.");
+    if (page) replay_on_page(*page, options.quiet, folder->path(), control);
+    return code;
+  }
   // What a run left that broke off tells why.
   if (!started) folder->discard();
   return complain(outcome.error());

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bus_options.hpp"
+#include "page.hpp"
 
 namespace rave::cli {
 
@@ -26,6 +27,8 @@ struct RunCommand {
   std::vector<std::string> plugins;
   std::optional<int> processes;  ///< Share the robots among so many.
   BusOptions bus;                ///< Of runs with several processes.
+  bool gui = false;              ///< Show it in the browser, then its recording.
+  PageOptions page;
 };
 
 /// Runs a scenario. Returns 0 if it was whole and its checks hold, 1 if not, 2 on bad input.

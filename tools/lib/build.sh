@@ -61,3 +61,12 @@ rave_build() {
     grep --line-buffered -v '^ninja: Entering directory' | rave_show_progress "Building $preset"
   return "${PIPESTATUS[0]}"
 }
+
+# rave_build_page PRESET: the page of the GUI Server. A tree that was configured before npm was there
+# does not know it yet.
+rave_build_page() {
+  if ! ninja -C "$root/build/$1" -t query rave_page >/dev/null 2>&1; then
+    (cd "$root" && cmake --preset "$1") >"$root/build/$1-configure.log" 2>&1 || return
+  fi
+  rave_build "$1" rave_page
+}

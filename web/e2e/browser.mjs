@@ -13,12 +13,15 @@ export function launch() {
   });
 }
 
-/** Starts `rave gui` and waits for its link. `end()` stops it and gives its exit code. */
-export async function startGui(rave, recording, ...more) {
+/**
+ * Starts a process that serves the page (`gui RECORDING`, `run SCENARIO --gui`) and waits for its link.
+ * `end()` stops it and gives its exit code.
+ */
+export async function startServer(rave, words) {
   // Another page than the one that was built with the program, while the page is worked on.
   const page = process.env.RAVE_PAGE ? ['--page', process.env.RAVE_PAGE] : [];
-  const port = more.includes('--port') ? [] : ['--port', '0'];
-  const child = spawn(rave, ['gui', recording, '--no-open', ...port, ...page, ...more], {stdio: ['ignore', 'pipe', 'inherit']});
+  const port = words.includes('--port') ? [] : ['--port', '0'];
+  const child = spawn(rave, [...words, '--no-open', ...port, ...page], {stdio: ['ignore', 'pipe', 'inherit']});
   let text = '';
   const exited = new Promise((resolve) => child.once('exit', resolve));
   const link = await new Promise((resolve, reject) => {
@@ -27,7 +30,7 @@ export async function startGui(rave, recording, ...more) {
       const found = /http:\S+/.exec(text);
       if (found) resolve(found[0]);
     });
-    exited.then((code) => reject(new Error(`rave gui ended with ${code}: ${text}`)));
+    exited.then((code) => reject(new Error(`rave ended with ${code}: ${text}`)));
   });
   return {
     link,

@@ -5,7 +5,7 @@ import {execFileSync} from 'node:child_process';
 import {mkdirSync, rmSync, writeFileSync} from 'node:fs';
 import http from 'node:http';
 import {join} from 'node:path';
-import {launch, startGui} from './browser.mjs';
+import {launch, startServer} from './browser.mjs';
 import {app, check, report, showFailures, until, watch} from './checks.mjs';
 
 const [rave, scenario, folder] = process.argv.slice(2);
@@ -25,7 +25,7 @@ const run = join(folder, 'run');
 execFileSync(rave, ['run', scenario, '--pace', 'max', '--quiet', '--no-picture', '--output', run], {
   stdio: ['ignore', 'ignore', 'inherit'],
 });
-const gui = await startGui(rave, run);
+const gui = await startServer(rave, ['gui', run]);
 const origin = new URL(gui.link).origin;
 const browser = await launch();
 try {
@@ -154,7 +154,7 @@ try {
     const port = new URL(origin).port;
     await gui.end();
     await page.getByText(/Link lost/).first().waitFor();
-    const next = await startGui(rave, run, '--port', port);
+    const next = await startServer(rave, ['gui', run, '--port', port]);
     // Sessions end with the server that began them; the page says that it needs another link.
     await page.getByText('You are not signed in').waitFor({timeout: 20000});
     await page.goto(next.link);

@@ -2,7 +2,7 @@
 // Pictures of the page: node web/e2e/shots.mjs RAVE RECORDING FOLDER [SECONDS] [ROBOT]
 import {mkdirSync} from 'node:fs';
 import {join} from 'node:path';
-import {launch, startGui} from './browser.mjs';
+import {launch, startServer} from './browser.mjs';
 
 const [rave, recording, folder, seconds = '17.5', robot = ''] = process.argv.slice(2);
 const kViews = [
@@ -13,7 +13,7 @@ const kViews = [
 ];
 
 mkdirSync(folder, {recursive: true});
-const gui = await startGui(rave, recording);
+const gui = await startServer(rave, ['gui', recording]);
 const browser = await launch();
 const context = await browser.newContext();
 const first = await context.newPage();

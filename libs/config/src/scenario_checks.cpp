@@ -52,6 +52,16 @@ void validate(const RobotEntry& c, CheckContext& check) {
   }
 }
 
+void validate(const GuiRightFile& c, CheckContext& check) {
+  if (c.role.has_value() == c.user.has_value()) {
+    check.error("", "a right is of a `role` or of a `user`: exactly one of the two is given");
+  }
+  if (c.user && c.user->value.empty()) check.error("user", "`user`: expected a name");
+  if ((c.reach == GuiReach::kTeams) == c.teams.empty()) {
+    check.error("teams", "`teams` is given with `reach: teams`, and only then");
+  }
+}
+
 void validate(const ChangeFile& c, CheckContext& check) {
   const int kinds = int{c.robot || c.set || c.hand_over} + int{c.add_obstacle.has_value()} +
                     int{c.move_obstacle.has_value()} + int{c.remove_obstacle.has_value()};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "gui_fields.hpp"
 #include "rave/config/scenario_file.hpp"
 #include "robot_fields.hpp"
 #include "world_fields.hpp"
@@ -313,6 +314,7 @@ void describe(V& v, ScenarioFile& c) {
       {.doc = "Where the origin of the world lies on the earth, for satellite navigation; null: "
               "nobody knows."});
   v.field("ros2", c.ros2, {.doc = "Where robots with `ros2: true` show themselves."});
+  v.field("gui", c.gui, {.doc = "Who may see and do what on the page."});
 }
 
 void validate(const ScenarioFile& c, CheckContext& check);

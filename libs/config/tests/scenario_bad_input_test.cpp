@@ -203,6 +203,26 @@ const FileCase kScenarios[] = {
      "s.yaml:2:15: `nodes`: found the text \"humbel\", expected one of none, humble and iron; did "
      "you "
      "mean `humble`?"},
+    {"GuiNobody",
+     "name: a\ngui: {rights: [{classes: [pose], reach: all}]}\nrobots: [{name: r, file: r.yaml}]\n",
+     "s.yaml:2:16: a right is of a `role` or of a `user`: exactly one of the two is given"},
+    {"GuiTeams",
+     "name: a\ngui: {rights: [{role: observer, classes: [pose], reach: teams}]}\nrobots: [{name: "
+     "r, "
+     "file: r.yaml}]\n",
+     "s.yaml:2:16: `teams` is given with `reach: teams`, and only then"},
+    {"GuiSuperUser",
+     "name: a\ngui: {rights: [{role: super_user, classes: [pose], reach: none}]}\nrobots: [{name: "
+     "r, "
+     "file: r.yaml}]\n",
+     "s.yaml:2:23: `role`: found the text \"super_user\", expected one of observer and commander"},
+    {"GuiClass",
+     "name: a\ngui: {rights: [{role: observer, classes: [poses], reach: none}]}\nrobots: [{name: "
+     "r, "
+     "file: r.yaml}]\n",
+     "s.yaml:2:43: `classes`: found the text \"poses\", expected one of pose, true_pose, readings, "
+     "hybrid_parts, obstacles, goals, maps, chat, log, video, recording, stop, release and "
+     "run_control; did you mean `pose`?"},
     {"Instant",
      "name: a\nduration_s: 10\nrobots: [{name: r, file: r.yaml}]\n"
      "picture: {instant_s: 11}\n",

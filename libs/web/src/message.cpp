@@ -100,4 +100,13 @@ bool parse_target(std::string_view target, std::string& path,
   return mark == std::string_view::npos || parse_query(target.substr(mark + 1), query);
 }
 
+bool parse_form(std::string_view body, std::map<std::string, std::string>& fields) {
+  constexpr std::size_t kMostBytes = 8192;
+  constexpr std::ptrdiff_t kMostFields = 32;
+  fields.clear();
+  if (body.size() > kMostBytes) return false;
+  if (std::count(body.begin(), body.end(), '&') >= kMostFields) return false;
+  return parse_query(body, fields);
+}
+
 }  // namespace rave::web

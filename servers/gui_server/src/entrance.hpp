@@ -14,13 +14,14 @@ namespace rave::gui_server {
 /// sessions are kept as hashes only. Any thread.
 class Entrance {
  public:
-  Entrance();
   /// A key of 192 random bits, for a link; it works once, within a day.
   [[nodiscard]] std::string new_key();
   /// Takes a key and begins a session; returns its secret, or nothing if the key is not known.
   [[nodiscard]] std::optional<std::string> enter(std::string_view key);
   /// Whether a secret is that of a session.
   [[nodiscard]] bool knows(std::string_view secret) const;
+  /// Ends a session, if it is one.
+  void leave(std::string_view secret);
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -65,10 +65,19 @@ void EventFold::add(double t_s, int slot, std::string_view kind, std::string_vie
   if (last != last_.end() && t_s - events_[last->second].until_s <= kFold_s) {
     events_[last->second].until_s = t_s;
     ++events_[last->second].count;
+    changed_[last->second] = ++revision_;
     return;
   }
   last_[event.text] = events_.size();
   events_.push_back(std::move(event));
+  changed_.push_back(++revision_);
+}
+
+std::size_t EventFold::changed_since(std::uint64_t revision) const noexcept {
+  if (revision >= revision_) return events_.size();
+  const auto first = std::find_if(changed_.begin(), changed_.end(),
+                                  [=](std::uint64_t changed) { return changed > revision; });
+  return static_cast<std::size_t>(first - changed_.begin());
 }
 
 }  // namespace rave::gui_server

@@ -21,11 +21,17 @@ class EventFold {
   void add(double t_s, int slot, std::string_view kind, std::string_view text);
 
   [[nodiscard]] const std::vector<LogEvent>& events() const noexcept { return events_; }
+  /// Another number after each add().
+  [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
+  /// The first event that came or changed since then; with none, how many there are.
+  [[nodiscard]] std::size_t changed_since(std::uint64_t revision) const noexcept;
 
  private:
   std::vector<std::string> names_;
   std::map<std::string, std::uint32_t, std::less<>> slots_;
   std::vector<LogEvent> events_;
+  std::vector<std::uint64_t> changed_;  ///< By event: the revision of its last change.
+  std::uint64_t revision_ = 0;
   std::map<std::string, std::size_t> last_;  ///< By sentence: the event that may go on.
 };
 

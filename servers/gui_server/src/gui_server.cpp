@@ -3,105 +3,149 @@
 
 #include <fmt/format.h>
 
-#include <map>
+#include <algorithm>
 
-#include "entrance.hpp"
+#include "door.hpp"
+#include "metrics.hpp"
 #include "rave/base/file.hpp"
 #include "rave/gui_server/source.hpp"
+#include "rave/web/rate_limit.hpp"
 #include "rave/web/server.hpp"
 #include "rave/web/static_files.hpp"
-#include "session.hpp"
+#include "visitors.hpp"
 
 namespace rave::gui_server {
 namespace {
 
 constexpr auto kTick = std::chrono::milliseconds(16);
+constexpr auto kCheck = std::chrono::milliseconds(500);
 constexpr int kPortsToTry = 20;
 constexpr std::uint16_t kNotSignedIn = 4401;
 
-/// Cookies of several servers on one machine must not overwrite each other: browsers keep them by
-/// host, whatever the port.
-std::string cookie_name(std::uint16_t port) { return fmt::format("rave_{}", port); }
+/// Whether the server may be reached from elsewhere, and if so, what that needs is there.
+Status check_listen(const GuiOptions& options, const Accounts* accounts) {
+  if (web::is_loopback(options.listen)) return {};
+  if (options.certificate.empty() || options.key.empty()) {
+    return fail(
+        ErrorCode::kInvalidArgument,
+        "to listen on {0} needs TLS: `rave keys web web-keys {0}` makes a certificate; then "
+        "add --certificate web-keys/server.pem --key web-keys/server_key.pem",
+        options.listen);
+  }
+  if (accounts == nullptr) {
+    return fail(ErrorCode::kInvalidArgument, "to listen on {} needs accounts: add --accounts DIR",
+                options.listen);
+  }
+  const AccountsFile state = accounts->state();
+  const bool has_super_user = std::ranges::any_of(state.accounts, [](const Account& account) {
+    return account.person.role == Role::kSuperUser;
+  });
+  if (has_super_user) return {};
+  return fail(ErrorCode::kInvalidArgument,
+              "to listen on {} needs accounts, and `{}` has no super-user: `rave people add YOU "
+              "--role super_user --accounts {}` makes one",
+              options.listen, accounts->folder().string(), accounts->folder().string());
+}
 
 }  // namespace
 
 class GuiServer::Impl final : public web::Handler {
  public:
-  Impl(web::StaticFiles files, std::shared_ptr<Source> source)
-      : files_(std::move(files)), source_(std::move(source)) {}
+  struct Parts {
+    web::StaticFiles files;
+    std::shared_ptr<Accounts> accounts;
+    std::shared_ptr<AuditLog> audit;
+    RightsDesk desk;
+    std::string metrics_token;
+  };
+  Impl(Parts parts, const GuiOptions& options)
+      : files_(std::move(parts.files)),
+        audit_(parts.audit),
+        metrics_token_(std::move(parts.metrics_token)),
+        door_({parts.accounts, parts.audit, !options.certificate.empty()}),
+        visitors_(door_, std::move(parts.desk), parts.accounts, parts.audit) {}
   ~Impl() override {
     if (server_) server_->stop();
+    // What it still works at answers through the server, which is there until then.
+    door_.stop();
   }
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
-  Status listen(std::uint16_t port) {
-    web::ServerOptions options;
-    options.port = port;
-    options.ports_to_try = kPortsToTry;
-    options.subprotocol = "rave.gui.1";
-    RAVE_TRY_ASSIGN(server_, web::Server::start(options, *this));
-    server_->every(kTick, [this] {
-      const auto now = Session::Clock::now();
-      for (auto& [id, session] : sessions_) session->tick(now);
-    });
+  Status listen(const GuiOptions& options, std::shared_ptr<Source> source) {
+    web::ServerOptions web_options;
+    web_options.address = options.listen;
+    web_options.port = options.port;
+    web_options.certificate = options.certificate;
+    web_options.key = options.key;
+    web_options.ports_to_try = kPortsToTry;
+    web_options.subprotocol = "rave.gui.1";
+    RAVE_TRY_ASSIGN(server_, web::Server::start(web_options, *this));
+    server_->post([this, port = server_->port()] { door_.set_port(port); });
+    if (source) show(std::move(source));
+    server_->every(kTick, [this] { visitors_.tick(); });
+    server_->every(kCheck, [this] { visitors_.check(); });
     return {};
   }
 
+  void show(std::shared_ptr<Source> source) {
+    server_->post([this, source = std::move(source)] { visitors_.show(source); });
+  }
+
   [[nodiscard]] std::uint16_t port() const noexcept { return server_->port(); }
+  [[nodiscard]] std::string origin() const { return server_->origin(); }
   [[nodiscard]] std::string entry() {
-    return fmt::format("http://127.0.0.1:{}/enter?key={}", port(), entrance_.new_key());
+    return fmt::format("{}/enter?key={}", server_->origin(), door_.new_key());
+  }
+
+  bool serve_later(const web::Request& request, const web::Reply& reply) override {
+    return door_.serve_later(request, reply);
   }
 
   web::Response serve(const web::Request& request) override {
     if (request.path == "/healthz") return web::text_response(200, "ok\n");
-    if (request.path == "/enter") return enter(request);
+    if (request.path == "/metrics") return metrics(request);
+    if (auto answer = door_.serve(request)) return *std::move(answer);
+    if (request.method == "POST") return web::text_response(405, "method not allowed\n");
     if (request.path == "/recording") return recording(request);
     return files_.serve(request);
   }
 
   Admission admit(const web::Request& request) override {
-    if (signed_in(request)) return {};
+    if (door_.who(request)) return {};
     return {kNotSignedIn, "You are not signed in"};
   }
 
-  void opened(std::uint64_t id, web::Socket& socket, const web::Request& /*request*/) override {
-    sessions_.emplace(id, std::make_unique<Session>(socket, *source_, "you"));
+  void opened(std::uint64_t id, web::Socket& socket, const web::Request& request) override {
+    visitors_.opened(id, socket, door_.session_of(request));
   }
-  void received(std::uint64_t id, std::string_view text) override {
-    if (const auto found = sessions_.find(id); found != sessions_.end()) {
-      found->second->received(text);
-    }
-  }
-  void closed(std::uint64_t id) override { sessions_.erase(id); }
+  void received(std::uint64_t id, std::string_view text) override { visitors_.received(id, text); }
+  void closed(std::uint64_t id) override { visitors_.closed(id); }
 
  private:
-  [[nodiscard]] bool signed_in(const web::Request& request) const {
-    return entrance_.knows(request.cookie(cookie_name(port())));
-  }
-
-  web::Response enter(const web::Request& request) {
-    const auto key = request.query.find("key");
-    const auto secret = key == request.query.end() ? std::nullopt : entrance_.enter(key->second);
-    // Who is in already and follows the link again, as by "back", stays in.
-    if (!secret && !signed_in(request)) {
-      return web::text_response(403, "This link was used already, or is not one of this server.\n");
+  web::Response metrics(const web::Request& request) {
+    if (!may_read_metrics(request, metrics_token_)) {
+      audit_->note("refused", {{"why", "metrics"}, {"from", request.peer}});
+      return web::text_response(401, "the token of the server is missing\n");
     }
-    web::Response response;
-    response.status = 303;
-    response.headers.emplace_back("Location", "/");
-    response.headers.emplace_back("Cache-Control", "no-store");
-    if (secret) {
-      response.headers.emplace_back(
-          "Set-Cookie", fmt::format("{}={}; Path=/; HttpOnly; SameSite=Strict; Max-Age=604800",
-                                    cookie_name(port()), *secret));
-    }
+    web::Response response =
+        web::text_response(200, metrics_text(server_->counts(), visitors_.count(), audit_->lost()));
+    response.type = "text/plain; version=0.0.4; charset=utf-8";
     return response;
   }
 
   web::Response recording(const web::Request& request) {
-    if (!signed_in(request)) return web::text_response(401, "not signed in\n");
-    const RunAbout& about = source_->about();
+    const auto person = door_.who(request);
+    if (!person) return web::text_response(401, "not signed in\n");
+    const auto view = visitors_.view_of(*person);
+    if (!view) return web::text_response(404, "no run is in progress\n");
+    // A recording cannot be cut down, so who may not see all of it gets nothing.
+    if (!view->may_all(InfoClass::kRecording)) {
+      audit_->note("refused",
+                   {{"why", "recording"}, {"user", person->name}, {"from", request.peer}});
+      return web::text_response(403, "Your rights do not include the recording.\n");
+    }
+    const RunAbout& about = visitors_.source()->about();
     if (about.recording.empty()) return web::text_response(404, "there is no recording\n");
     constexpr std::uint64_t kMostInMemory = std::uint64_t{256} << 20U;
     if (about.recording_bytes > kMostInMemory) {
@@ -110,6 +154,7 @@ class GuiServer::Impl final : public web::Handler {
     }
     auto content = read_file(about.recording);
     if (!content) return web::text_response(500, content.error().text() + "\n");
+    audit_->note("recording", {{"user", person->name}, {"from", request.peer}});
     web::Response response;
     response.type = "application/octet-stream";
     response.headers.emplace_back("Content-Disposition",
@@ -119,9 +164,10 @@ class GuiServer::Impl final : public web::Handler {
   }
 
   web::StaticFiles files_;
-  std::shared_ptr<Source> source_;  ///< Shared with who may put another in its place.
-  Entrance entrance_;
-  std::map<std::uint64_t, std::unique_ptr<Session>> sessions_;  ///< The thread of the server.
+  std::shared_ptr<AuditLog> audit_;
+  std::string metrics_token_;
+  Door door_;
+  Visitors visitors_;
   std::unique_ptr<web::Server> server_;
 };
 
@@ -137,11 +183,27 @@ Result<std::unique_ptr<GuiServer>> GuiServer::start(const GuiOptions& options,
                 "`ninja -C build/release rave_page` builds it",
                 files.error().message);
   }
-  auto impl = std::make_unique<Impl>(*std::move(files), std::move(source));
-  RAVE_TRY(impl->listen(options.port));
+  std::shared_ptr<Accounts> accounts;
+  std::string token;
+  if (!options.accounts.empty()) {
+    RAVE_TRY_ASSIGN(accounts, Accounts::open(options.accounts));
+    RAVE_TRY_ASSIGN(token, metrics_token(options.accounts));
+  }
+  RAVE_TRY(check_listen(options, accounts.get()));
+  RAVE_TRY_ASSIGN(RightsDesk desk, RightsDesk::open(options.accounts));
+  auto impl = std::make_unique<Impl>(
+      Impl::Parts{*std::move(files), accounts, std::make_shared<AuditLog>(options.accounts),
+                  std::move(desk), std::move(token)},
+      options);
+  RAVE_TRY(impl->listen(options, std::move(source)));
+  // For the links of `rave people invite`.
+  if (accounts) {
+    RAVE_TRY(write_file_atomically(options.accounts / "address", impl->origin() + "\n"));
+  }
   return std::unique_ptr<GuiServer>(new GuiServer(std::move(impl)));
 }
 
+void GuiServer::show(std::shared_ptr<Source> source) { impl_->show(std::move(source)); }
 std::uint16_t GuiServer::port() const noexcept { return impl_->port(); }
 std::string GuiServer::entry() { return impl_->entry(); }
 

@@ -11,7 +11,7 @@
 namespace rave::gui_server {
 namespace {
 
-using Json = nlohmann::json;
+using PageJson = nlohmann::json;
 
 constexpr std::size_t kMostSensors = 256;
 constexpr std::size_t kMostSlots = 100'000;
@@ -19,42 +19,43 @@ constexpr std::size_t kMostSlots = 100'000;
 /// Takes members out of an object, so that what nobody knows is left over and refused.
 class Members {
  public:
-  explicit Members(const Json& object) : object_(object) {}
+  explicit Members(const PageJson& object) : object_(object) {}
 
   Result<bool> flag(const char* name) {
-    RAVE_TRY_ASSIGN(const Json* const value, find(name));
+    RAVE_TRY_ASSIGN(const PageJson* const value, find(name));
     if (!value->is_boolean()) return wrong(name, "true or false");
     return value->get<bool>();
   }
   Result<double> number(const char* name) {
-    RAVE_TRY_ASSIGN(const Json* const value, find(name));
+    RAVE_TRY_ASSIGN(const PageJson* const value, find(name));
     if (!value->is_number() || !std::isfinite(value->get<double>())) {
       return wrong(name, "a finite number");
     }
     return value->get<double>();
   }
   Result<std::uint32_t> index(const char* name) {
-    RAVE_TRY_ASSIGN(const Json* const value, find(name));
+    RAVE_TRY_ASSIGN(const PageJson* const value, find(name));
     return index_of(*value, name);
   }
   Result<std::string> word(const char* name) {
-    RAVE_TRY_ASSIGN(const Json* const value, find(name));
+    RAVE_TRY_ASSIGN(const PageJson* const value, find(name));
     if (!value->is_string()) return wrong(name, "a string");
     return value->get<std::string>();
   }
-  Result<const Json*> array(const char* name, std::size_t most) {
-    RAVE_TRY_ASSIGN(const Json* const value, find(name));
+  Result<const PageJson*> array(const char* name, std::size_t most) {
+    RAVE_TRY_ASSIGN(const PageJson* const value, find(name));
     if (!value->is_array() || value->size() > most) {
       return fail(ErrorCode::kParse, "`{}`: expected an array of at most {}", name, most);
     }
     return value;
   }
+  Result<const Json*> any(const char* name) { return find(name); }
   [[nodiscard]] bool has(const char* name) const { return object_.contains(name); }
   [[nodiscard]] Status finish() const {
     if (object_.size() != taken_) return fail(ErrorCode::kParse, "the message has unknown members");
     return {};
   }
-  static Result<std::uint32_t> index_of(const Json& value, const char* name) {
+  static Result<std::uint32_t> index_of(const PageJson& value, const char* name) {
     if (!value.is_number_unsigned() || value.get<std::uint64_t>() > 0xffffffffU) {
       return wrong(name, "a whole number from 0 to 4294967295");
     }
@@ -65,14 +66,14 @@ class Members {
   static tl::unexpected<Error> wrong(const char* name, const char* expected) {
     return fail(ErrorCode::kParse, "`{}`: expected {}", name, expected);
   }
-  Result<const Json*> find(const char* name) {
+  Result<const PageJson*> find(const char* name) {
     const auto found = object_.find(name);
     if (found == object_.end()) return fail(ErrorCode::kParse, "`{}` is missing", name);
     ++taken_;
     return &*found;
   }
 
-  const Json& object_;
+  const PageJson& object_;
   std::size_t taken_ = 0;
 };
 
@@ -85,8 +86,8 @@ Result<PageMessage> look_of(Members& members) {
   if (look.max_hz < 1 || look.max_hz > 60) {
     return fail(ErrorCode::kParse, "`max_hz`: expected 1 to 60");
   }
-  RAVE_TRY_ASSIGN(const Json* const readings, members.array("readings", kMostSensors));
-  for (const Json& pair : *readings) {
+  RAVE_TRY_ASSIGN(const PageJson* const readings, members.array("readings", kMostSensors));
+  for (const PageJson& pair : *readings) {
     if (!pair.is_array() || pair.size() != 2) {
       return fail(ErrorCode::kParse, "`readings`: expected pairs of slot and sensor");
     }
@@ -129,18 +130,79 @@ Result<PageMessage> halt_of(Members& members) {
     return fail(ErrorCode::kParse, "`do`: expected stop or release");
   }
   halt.stop = word == "stop";
-  RAVE_TRY_ASSIGN(const Json* const slots, members.array("slots", kMostSlots));
-  for (const Json& slot : *slots) {
+  RAVE_TRY_ASSIGN(const PageJson* const slots, members.array("slots", kMostSlots));
+  for (const PageJson& slot : *slots) {
     RAVE_TRY_ASSIGN(const std::uint32_t index, Members::index_of(slot, "slots"));
     halt.slots.push_back(index);
   }
   return PageMessage(std::move(halt));
 }
 
+constexpr std::size_t kMostTeams = 1000;
+constexpr std::size_t kLongestName = 64;
+
+/// `role` or `user`; with neither both stay empty.
+Status whose(Members& members, std::optional<Role>& role, std::string& user) {
+  if (members.has("role")) {
+    RAVE_TRY_ASSIGN(const std::string word, members.word("role"));
+    role = role_named(word);
+    if (!role) return fail(ErrorCode::kParse, "`role`: expected observer, commander or super_user");
+  }
+  if (members.has("user")) {
+    RAVE_TRY_ASSIGN(user, members.word("user"));
+    if (user.empty() || user.size() > kLongestName) {
+      return fail(ErrorCode::kParse, "`user`: expected a name");
+    }
+  }
+  if (role && !user.empty()) return fail(ErrorCode::kParse, "expected `role` or `user`, not both");
+  return {};
+}
+
+Result<std::optional<Reach>> reach_in(const Json& value) {
+  if (value.is_null()) return std::optional<Reach>();
+  Reach reach;
+  if (value.is_array() && value.size() <= kMostTeams) {
+    reach.kind = Reach::Kind::kTeams;
+    for (const Json& team : value) {
+      if (!team.is_string() || team.get_ref<const std::string&>().size() > kLongestName) {
+        return fail(ErrorCode::kParse, "`reach`: expected names of teams");
+      }
+      reach.teams.insert(team.get<std::string>());
+    }
+    return std::optional<Reach>(std::move(reach));
+  }
+  for (const auto kind : {Reach::Kind::kNone, Reach::Kind::kOwn, Reach::Kind::kAll}) {
+    reach.kind = kind;
+    if (value == to_string(kind)) return std::optional<Reach>(std::move(reach));
+  }
+  return fail(ErrorCode::kParse, "`reach`: expected none, own, all, an array of teams, or null");
+}
+
+Result<PageMessage> right_of(Members& members) {
+  SetRightMessage set;
+  RAVE_TRY(whose(members, set.change.role, set.change.user));
+  if (!set.change.role && set.change.user.empty()) {
+    return fail(ErrorCode::kParse, "`role` or `user` is missing");
+  }
+  RAVE_TRY_ASSIGN(const std::string word, members.word("class"));
+  const auto what = class_named(word);
+  if (!what) return fail(ErrorCode::kParse, "`class`: expected one of the message `rights`");
+  set.change.what = *what;
+  RAVE_TRY_ASSIGN(const Json* const reach, members.any("reach"));
+  RAVE_TRY_ASSIGN(set.change.reach, reach_in(*reach));
+  return PageMessage(std::move(set));
+}
+
+Result<PageMessage> eyes_of(Members& members) {
+  SeeAsMessage see;
+  RAVE_TRY(whose(members, see.role, see.user));
+  return PageMessage(std::move(see));
+}
+
 }  // namespace
 
 Result<PageMessage> parse_page_message(std::string_view text) {
-  const Json json = Json::parse(text, nullptr, false);
+  const PageJson json = PageJson::parse(text, nullptr, false);
   if (!json.is_object()) return fail(ErrorCode::kParse, "expected a JSON object");
   Members members(json);
   RAVE_TRY_ASSIGN(const std::string type, members.word("type"));
@@ -155,6 +217,10 @@ Result<PageMessage> parse_page_message(std::string_view text) {
     message = transport_of(members);
   } else if (type == "halt") {
     message = halt_of(members);
+  } else if (type == "set_right") {
+    message = right_of(members);
+  } else if (type == "see_as") {
+    message = eyes_of(members);
   }
   if (!message) return message;
   RAVE_TRY(members.finish());

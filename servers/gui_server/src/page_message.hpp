@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "rave/base/result.hpp"
+#include "rave/gui_server/rights.hpp"
 #include "rave/gui_server/source.hpp"
 
 // What a page says; schemas/gui/messages.schema.json describes it. Nothing of it is trusted.
@@ -25,17 +26,19 @@ struct AckMessage {
   std::uint32_t sequence = 0;
 };
 
-struct TransportMessage {
-  enum class Do : std::uint8_t { kPlay, kPause, kStep, kSeek, kPace } what = Do::kPlay;
-  double value = 0;  ///< Finite.
+/// A super-user changes rights.
+struct SetRightMessage {
+  RightChange change;
 };
 
-struct HaltMessage {
-  bool stop = true;  ///< Otherwise: release.
-  std::vector<std::uint32_t> slots;
+/// A super-user sees what somebody gets.
+struct SeeAsMessage {
+  std::optional<Role> role{};
+  std::string user{};  ///< Both empty: with their own eyes again.
 };
 
-using PageMessage = std::variant<LookMessage, AckMessage, TransportMessage, HaltMessage>;
+using PageMessage = std::variant<LookMessage, AckMessage, TransportMessage, HaltMessage,
+                                 SetRightMessage, SeeAsMessage>;
 
 /// Errors: kParse with what was expected.
 [[nodiscard]] Result<PageMessage> parse_page_message(std::string_view text);

@@ -8,13 +8,14 @@
 #include "rave/gui_server/source.hpp"
 #include "rave/record/run_reader.hpp"
 #include "recording_cursor.hpp"
+#include "replay_playhead.hpp"
+#include "scenario_rights.hpp"
 #include "scene_json.hpp"
 
 namespace rave::gui_server {
 namespace {
 
-/// A contact is told when it begins; so long it counts as going on.
-constexpr double kTouch_s = 0.5;
+constexpr const char* kNoStop = "A recording cannot be stopped.";
 
 class Recording final : public Source {
  public:
@@ -33,6 +34,17 @@ class Recording final : public Source {
     return std::make_unique<RecordingCursor>(reader_, flags_, real_, about_.step_s,
                                              longest_period_s_);
   }
+  [[nodiscard]] std::unique_ptr<Playhead> open_playhead() override {
+    return std::make_unique<ReplayPlayhead>(about_, Playhead::Clock::now());
+  }
+  [[nodiscard]] Powers powers() const override {
+    return {{"play", "seek", "pace", "step", "readings", "hybrid_parts", "obstacles", "log",
+             "recording"},
+            {{"stop", kNoStop},
+             {"release", kNoStop},
+             {"true_pose", "This view shows reported poses."}}};
+  }
+  void halt(const HaltMessage& /*halt*/, Reply reply) override { reply(false, kNoStop); }
 
  private:
   Status read_events(const record::RunInfo& run);
@@ -69,6 +81,7 @@ Status Recording::read(const std::filesystem::path& file) {
   about_.started = run.started;
   about_.step_s = run.step_s;
   about_.seed = run.seed;
+  about_.rights = rights_of(scenario.scenario.gui);
   about_.recording = file;
   about_.recording_bytes = reader_.file_size();
   about_.recording_whole = reader_.whole();

@@ -140,6 +140,32 @@ Result<std::string> bodies_of(const config::ExpandedScenario& scenario) {
   return bodies.dump();
 }
 
+std::string body_json(std::uint32_t id, const world::Obstacle& obstacle) {
+  const world::Body& body = obstacle.body;
+  const bool is_virtual = body.layer == Layer::kVirtualObstacles;
+  Json json = {{"id", id},
+               {"name", body.name},
+               {"kind", is_virtual ? "virtual" : (body.code ? "landmark" : "wall")},
+               {"pose", pose_json(obstacle.X_WB)},
+               {"shapes", Json::array()}};
+  for (const world::Shape& shape : body.shapes) {
+    Json piece = Json::object();
+    if (shape.kind == world::ShapeKind::kDisc) {
+      piece["disc"] = Json::array({shape.centre.x, shape.centre.y, shape.radius_m});
+    } else {
+      Json points = Json::array();
+      for (const Vec2& corner : shape.vertices())
+        points.push_back(Json::array({corner.x, corner.y}));
+      piece["polygon"] = std::move(points);
+    }
+    piece["z"] = Json::array({shape.z0_m, shape.z1_m});
+    json["shapes"].push_back(std::move(piece));
+  }
+  if (body.code) json["barcode"] = *body.code;
+  if (!body.colour.empty()) json["colour"] = body.colour;
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 std::string robots_of(const config::ExpandedScenario& scenario, const record::RunInfo& run,
                       const record::StringMap& hybrids) {
   Json robots = Json::array();

@@ -13,10 +13,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostOnTheirWay = 2;
-constexpr double kPast_s = 20;
-constexpr double kPastSpacing_s = 0.2;
-constexpr double kSlowest = 1.0 / 64;
-constexpr double kFastest = 64;
+/// How often a page is told what happened, and what came and went.
+constexpr auto kNewsInterval = std::chrono::milliseconds(100);
 /// Who sends so much nonsense is not our page.
 constexpr unsigned kMostRefusals = 20;
 constexpr std::uint16_t kBadMessages = 4400;
@@ -37,39 +35,59 @@ const char* level_word(LogEvent::Level level) {
   return "info";
 }
 
-std::string hello_text(const RunAbout& about, const std::string& user) {
+const char* state_word(PlayState::Kind kind) {
+  switch (kind) {
+    case PlayState::Kind::kRunning:
+      return "running";
+    case PlayState::Kind::kPaused:
+      return "paused";
+    case PlayState::Kind::kWaiting:
+      return "waiting";
+    case PlayState::Kind::kEnded:
+      return "ended";
+  }
+  return "ended";
+}
+
+Json person_json(const Person& person) {
+  return {{"name", person.name}, {"role", to_string(person.role)}};
+}
+
+std::string hello_text(const Source& source, const Greeting& greeting) {
+  const RunAbout& about = source.about();
   Json recording = nullptr;
   if (!about.recording.empty()) {
     recording = {{"name", about.recording.filename().string()},
                  {"bytes", about.recording_bytes},
                  {"whole", about.recording_whole}};
   }
-  const Json hello = {
-      {"type", "hello"},
-      {"protocol", 1},
-      {"server", "rave"},
-      {"run",
-       {{"name", about.name},
-        {"source", "replay"},
-        {"clock", about.lock_step ? "lock_step" : "real_time"},
-        {"started", about.started},
-        {"step_s", about.step_s},
-        {"seed", about.seed},
-        {"hash", about.hash.empty() ? Json(nullptr) : Json(about.hash)},
-        {"recording", std::move(recording)}}},
-      {"user", {{"name", user}, {"role", "super_user"}}},
-      {"may", {"play", "seek", "pace", "step", "readings", "obstacles", "log", "recording"}},
-      {"why_not",
-       {{"stop", "A recording cannot be stopped."},
-        {"release", "A recording cannot be released."},
-        {"true_pose", "This view shows reported poses."},
-        {"hybrid_parts", "This view shows what programs were given."}}}};
-  return hello.dump();
+  Powers powers = source.powers();
+  if (greeting.user.role == Role::kSuperUser && !greeting.seen_by)
+    powers.may.emplace_back("rights");
+  Json hello = {{"type", "hello"},
+                {"protocol", 1},
+                {"server", "rave"},
+                {"run",
+                 {{"name", about.name},
+                  {"source", about.live ? "live" : "replay"},
+                  {"clock", about.lock_step ? "lock_step" : "real_time"},
+                  {"started", about.started},
+                  {"step_s", about.step_s},
+                  {"seed", about.seed},
+                  {"hash", about.hash.empty() ? Json(nullptr) : Json(about.hash)},
+                  {"recording", std::move(recording)}}},
+                {"user", person_json(greeting.user)},
+                {"may", powers.may},
+                {"why_not", powers.why_not}};
+  if (greeting.seen_by) hello["seen_by"] = person_json(*greeting.seen_by);
+  return hello.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-std::string events_text(std::span<const LogEvent> events) {
-  Json message = {{"type", "events"}, {"reset", true}, {"first", 0}, {"events", Json::array()}};
-  for (const LogEvent& event : events) {
+/// Events from `first` on; with 0 the page forgets those that it had.
+std::string events_text(std::span<const LogEvent> events, std::size_t first) {
+  Json message = {
+      {"type", "events"}, {"reset", first == 0}, {"first", first}, {"events", Json::array()}};
+  for (const LogEvent& event : events.subspan(first)) {
     message["events"].push_back({{"t", event.t_s},
                                  {"until", event.until_s},
                                  {"count", event.count},
@@ -78,27 +96,48 @@ std::string events_text(std::span<const LogEvent> events) {
                                  {"text", event.text},
                                  {"slots", event.slots}});
   }
-  return message.dump();
+  return message.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace
 
-Session::Session(web::Socket& socket, Source& source, std::string user)
-    : socket_(socket), source_(source), user_(std::move(user)), cursor_(source.open_cursor()) {
-  since_ = Clock::now();
-  at_s_ = source_.about().begin_s;
-  begin();
+Session::Session(web::Socket& socket, SessionCalls calls)
+    : socket_(socket), calls_(std::move(calls)) {}
+
+void Session::show(std::shared_ptr<Source> source, const Greeting& greeting, bool same_run) {
+  const PlayState before = told_state_;
+  // They refer to the source that goes.
+  cursor_.reset();
+  playhead_.reset();
+  source_ = std::move(source);
+  playhead_ = source_->open_playhead();
+  cursor_ = source_->open_cursor();
+  if (same_run) keep_place(before);
+  socket_.send_text(payload(hello_text(*source_, greeting)));
+  socket_.send_text(payload(R"({"type":"scene","hidden":)" + source_->hidden_kinds_json() +
+                            R"(,"bodies":)" + source_->bodies_json() + "}"));
+  socket_.send_text(
+      payload(R"({"type":"roster","revision":1,"robots":)" + source_->robots_json() + "}"));
+  socket_.send_text(payload(events_text(source_->events(), 0)));
+  told_events_ = source_->events_revision();
+  told_bodies_ = source_->bodies_revision();
+  told_hosts_ = 0;
+  told_.clear();
+  // The slots are others now; the page says again what it looks at.
+  look_.readings.clear();
+  changed_ = true;
+  past_due_ = true;
+  broken_ = false;
+  send_time(playhead_->look(Clock::now()));
 }
 
-void Session::begin() {
-  socket_.send_text(payload(hello_text(source_.about(), user_)));
-  socket_.send_text(
-      payload(R"({"type":"scene","hidden":[],"bodies":)" + source_.bodies_json() + "}"));
-  socket_.send_text(
-      payload(R"({"type":"roster","revision":1,"robots":)" + source_.robots_json() + "}"));
-  socket_.send_text(payload(events_text(source_.events())));
-  go_to(at_s_);
-  send_time();
+void Session::keep_place(const PlayState& before) {
+  using Do = TransportMessage::Do;
+  if (source_->about().live) return;
+  const auto now = Clock::now();
+  playhead_->take({Do::kPace, before.pace}, now);
+  playhead_->take({Do::kSeek, before.now_s}, now);
+  if (before.kind != PlayState::Kind::kRunning) playhead_->take({Do::kPause, 0}, now);
 }
 
 void Session::received(std::string_view text) {
@@ -111,10 +150,15 @@ void Session::received(std::string_view text) {
   std::visit([this](const auto& what) { take(what); }, *message);
 }
 
+void Session::forget_foreign_sensors() {
+  if (!source_) return;
+  std::erase_if(look_.readings,
+                [this](const LookedAt& looked) { return looked.slot >= source_->robot_count(); });
+}
+
 void Session::take(const LookMessage& look) {
   look_ = look;
-  std::erase_if(look_.readings,
-                [this](const LookedAt& looked) { return looked.slot >= source_.robot_count(); });
+  forget_foreign_sensors();
   told_.clear();
   changed_ = true;
 }
@@ -128,86 +172,78 @@ void Session::take(const AckMessage& ack) {
 }
 
 void Session::take(const TransportMessage& transport) {
-  using Do = TransportMessage::Do;
+  if (!playhead_) return answer("transport", false, "No run is in progress.");
   const auto now = Clock::now();
-  const RunAbout& about = source_.about();
-  at_s_ = due_s(now);
-  since_ = now;
-  switch (transport.what) {
-    case Do::kPlay:
-      running_ = true;
-      // At the end, play begins anew.
-      if (at_s_ >= about.end_s) go_to(about.begin_s);
-      break;
-    case Do::kPause:
-      running_ = false;
-      break;
-    case Do::kStep:
-      running_ = false;
-      go_to(cursor_->poses().time_s + std::round(transport.value) * about.step_s);
-      break;
-    case Do::kSeek:
-      go_to(transport.value);
-      break;
-    case Do::kPace:
-      pace_ = std::clamp(transport.value, kSlowest, kFastest);
-      break;
+  if (const std::string why_not = playhead_->take(transport, now); !why_not.empty()) {
+    return answer("transport", false, why_not);
   }
-  send_time();
+  changed_ = true;
+  broken_ = false;
+  const PlayState state = playhead_->look(now);
+  past_due_ = past_due_ || state.jumped;
+  if (past_due_) told_.clear();
+  send_time(state);
 }
 
 void Session::take(const HaltMessage& halt) {
-  answer(halt.stop ? "stop" : "release", false, "A recording cannot be stopped.");
+  const char* const to = halt.stop ? "stop" : "release";
+  if (!source_) return answer(to, false, "No run is in progress.");
+  source_->halt(
+      halt, [this, to, halt, alive = std::weak_ptr(alive_)](bool good, const std::string& text) {
+        if (alive.expired()) return;
+        answer(to, good, text);
+        calls_.halted(halt, good);
+      });
 }
 
-double Session::due_s(Clock::time_point now) const {
-  if (!running_) return at_s_;
-  const double gone_s = std::chrono::duration<double>(now - since_).count();
-  return std::min(at_s_ + pace_ * gone_s, source_.about().end_s);
+void Session::take(const SetRightMessage& set) {
+  const auto done = calls_.set_right(set.change);
+  answer("set_right", done.has_value(), done ? *done : done.error().message);
 }
 
-void Session::go_to(double time_s) {
-  const RunAbout& about = source_.about();
-  const double before_s = cursor_->poses().time_s;
-  at_s_ = std::clamp(time_s, about.begin_s, about.end_s);
-  since_ = Clock::now();
-  if (at_s_ < before_s || at_s_ > before_s + 1) past_due_ = true;
-  if (past_due_) told_.clear();
-  changed_ = true;
+void Session::take(const SeeAsMessage& see) {
+  const auto done = calls_.see_as(see);
+  answer("see_as", done.has_value(), done ? *done : done.error().message);
 }
 
-void Session::tick(Clock::time_point now) {
-  const double due = due_s(now);
-  if (running_ && due >= source_.about().end_s) {
-    at_s_ = due;
-    running_ = false;
-    changed_ = true;
-    send_time();
+void Session::tick(Clock::time_point now, SharedFrames& frames) {
+  if (!source_) return;
+  const PlayState state = playhead_->look(now);
+  if (state.jumped) {
+    past_due_ = true;
+    told_.clear();
   }
-  if (now - last_time_ >= std::chrono::seconds(1)) send_time();
-  if (!look_.poses || on_their_way_.size() >= kMostOnTheirWay) return;
-  if (!running_ && !changed_) return;
+  const bool differs = state.kind != told_state_.kind || state.pace != told_state_.pace ||
+                       state.reason != told_state_.reason;
+  if (differs) changed_ = true;
+  if (differs || now - last_time_ >= std::chrono::seconds(1)) send_time(state);
+  if (now - last_news_ >= kNewsInterval) {
+    last_news_ = now;
+    send_news();
+  }
+  if (!look_.poses || broken_ || on_their_way_.size() >= kMostOnTheirWay) return;
+  if (state.picture == picture_ && !changed_) return;
   const auto spacing = std::chrono::duration<double>(0.9 / look_.max_hz);
   if (now - last_frame_ < spacing && !changed_) return;
   last_frame_ = now;
-  if (past_due_) send_past();
-  if (const auto gone = cursor_->go_to(due); !gone) {
+  if (past_due_) send_past(state.now_s);
+  if (const auto gone = cursor_->go_to(state.now_s); !gone) {
     answer("replay", false, gone.error().text());
-    running_ = false;
-    changed_ = false;
+    broken_ = true;
     return;
   }
   send_readings();
-  send_frame();
+  send_frame(frames);
+  picture_ = state.picture;
   changed_ = false;
 }
 
-void Session::send_past() {
+void Session::send_past(double now_s) {
   past_due_ = false;
-  const double now_s = due_s(Clock::now());
-  const double begin_s = std::max(source_.about().begin_s, now_s - kPast_s);
-  for (double t = begin_s; t < now_s - kPastSpacing_s / 2; t += kPastSpacing_s) {
+  for (double t = now_s - kPast_s; t < now_s - kPastSpacing_s / 2; t += kPastSpacing_s) {
+    if (t < 0) continue;
     if (!cursor_->go_to(t)) return;
+    if (cursor_->poses().robots.empty() || cursor_->poses().time_s > t + kPastSpacing_s) continue;
     PoseFrameHead head;
     head.sequence = ++sequence_;
     head.roster_revision = 1;
@@ -216,12 +252,21 @@ void Session::send_past() {
   }
 }
 
-void Session::send_frame() {
+void Session::send_frame(SharedFrames& frames) {
+  const PosesAt& poses = cursor_->poses();
   PoseFrameHead head;
-  head.sequence = ++sequence_;
   head.roster_revision = 1;
+  if (poses.serial == 0) {
+    head.sequence = ++sequence_;
+    socket_.send_binary(payload(encode_poses(poses, head)));
+  } else {
+    // One encoding serves all pages of the same rights.
+    head.sequence = sequence_ = poses.serial;
+    web::Payload& frame = frames[{source_.get(), poses.serial}];
+    if (!frame) frame = payload(encode_poses(poses, head));
+    socket_.send_binary(frame);
+  }
   on_their_way_.push_back(head.sequence);
-  socket_.send_binary(payload(encode_poses(cursor_->poses(), head)));
 }
 
 void Session::send_readings() {
@@ -235,22 +280,40 @@ void Session::send_readings() {
   }
 }
 
-void Session::send_time() {
+void Session::send_news() {
+  if (const std::uint64_t revision = source_->events_revision(); revision != told_events_) {
+    const std::size_t first = source_->events_changed_since(told_events_);
+    told_events_ = revision;
+    if (first < source_->events().size()) {
+      socket_.send_text(payload(events_text(source_->events(), first)));
+    }
+  }
+  if (const std::uint64_t revision = source_->bodies_revision(); revision != told_bodies_) {
+    if (auto change = source_->bodies_changed_since(told_bodies_); !change.empty()) {
+      socket_.send_text(payload(std::move(change)));
+    }
+    told_bodies_ = revision;
+  }
+  if (const std::uint64_t revision = source_->hosts_revision(); revision != told_hosts_) {
+    socket_.send_text(payload(R"({"type":"hosts","hosts":)" + source_->hosts_json() + "}"));
+    told_hosts_ = revision;
+  }
+}
+
+void Session::send_time(const PlayState& state) {
   last_time_ = Clock::now();
-  const RunAbout& about = source_.about();
-  const double now_s = due_s(last_time_);
-  const bool at_end = !running_ && now_s >= about.end_s;
+  told_state_ = state;
   const Json time = {{"type", "time"},
-                     {"now_s", now_s},
-                     {"step", std::llround(now_s / about.step_s)},
-                     {"begin_s", about.begin_s},
-                     {"end_s", about.end_s},
-                     {"duration_s", about.duration_s},
-                     {"state", running_ ? "running" : (at_end ? "ended" : "paused")},
-                     {"reason", ""},
-                     {"pace", pace_},
-                     {"speed", running_ ? pace_ : 0.0}};
-  socket_.send_text(payload(time.dump()));
+                     {"now_s", state.now_s},
+                     {"step", std::llround(state.now_s / source_->about().step_s)},
+                     {"begin_s", state.begin_s},
+                     {"end_s", state.end_s},
+                     {"duration_s", state.duration_s},
+                     {"state", state_word(state.kind)},
+                     {"reason", state.reason},
+                     {"pace", state.pace},
+                     {"speed", state.speed}};
+  socket_.send_text(payload(time.dump(-1, ' ', false, Json::error_handler_t::replace)));
 }
 
 void Session::answer(std::string_view to, bool good, std::string_view text) {

@@ -4,63 +4,96 @@
 #include <chrono>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
 
 #include "page_message.hpp"
+#include "rave/gui_server/person.hpp"
 #include "rave/gui_server/source.hpp"
 #include "rave/web/server.hpp"
 
 namespace rave::gui_server {
 
+/// Frames of a tick that several pages are sent, by source and serial number of the picture.
+using SharedFrames = std::map<std::pair<const Source*, std::uint32_t>, web::Payload>;
+
+/// As whom a page is greeted.
+struct Greeting {
+  Person user;
+  std::optional<Person> seen_by{};  ///< The super-user who sees what `user` gets.
+};
+
+/// What a session asks of its server: each returns a sentence, or an error that the page is told.
+struct SessionCalls {
+  std::function<Result<std::string>(const RightChange&)> set_right;
+  std::function<Result<std::string>(const SeeAsMessage&)> see_as;
+  /// After an answer to stop or release.
+  std::function<void(const HaltMessage&, bool good)> halted;
+};
+
 /// One page that is connected: what it looks at, its place in time, what is on its way to it. The
 /// thread of the server.
 class Session {
  public:
-  using Clock = std::chrono::steady_clock;
+  using Clock = Playhead::Clock;
 
-  /// Says hello and all that does not change. `socket` and `source` outlive the session.
-  Session(web::Socket& socket, Source& source, std::string user);
+  /// `socket` outlives the session, and what `calls` use as well.
+  Session(web::Socket& socket, SessionCalls calls);
 
+  /// From now on the page sees this source: hello, and all that does not change. `same_run`: it is
+  /// the same run with other rights, so the page stays where it is in time.
+  void show(std::shared_ptr<Source> source, const Greeting& greeting, bool same_run);
+  void send(web::Payload text) { socket_.send_text(std::move(text)); }
   void received(std::string_view text);
-  /// Sends what is due; called some 60 times a second.
-  void tick(Clock::time_point now);
+  /// Sends what is due; called some 60 times a second. `frames`: those of this tick that other
+  /// pages were sent.
+  void tick(Clock::time_point now, SharedFrames& frames);
+  [[nodiscard]] const LookMessage& look() const noexcept { return look_; }
 
  private:
-  void begin();
   void take(const LookMessage& look);
   void take(const AckMessage& ack);
   void take(const TransportMessage& transport);
   void take(const HaltMessage& halt);
-  void go_to(double time_s);
-  void send_past();
-  void send_frame();
+  void take(const SetRightMessage& set);
+  void take(const SeeAsMessage& see);
+  void keep_place(const PlayState& before);
+  void forget_foreign_sensors();
+  void send_past(double now_s);
+  void send_frame(SharedFrames& frames);
   void send_readings();
-  void send_time();
+  void send_time(const PlayState& state);
+  void send_news();
   void answer(std::string_view to, bool good, std::string_view text);
-  /// Where the replay should be by now.
-  [[nodiscard]] double due_s(Clock::time_point now) const;
 
   web::Socket& socket_;
-  Source& source_;
-  std::string user_;
+  SessionCalls calls_;
+  std::shared_ptr<Source> source_;  ///< Null: there is none yet.
+  std::unique_ptr<Playhead> playhead_;
   std::unique_ptr<Cursor> cursor_;
   LookMessage look_;
-  bool running_ = true;
-  double pace_ = 1;
-  double at_s_ = 0;  ///< At `since_`.
-  Clock::time_point since_{};
+  PlayState told_state_;  ///< As the page knows it.
   Clock::time_point last_frame_{};
   Clock::time_point last_time_{};
+  Clock::time_point last_news_{};
   std::uint32_t sequence_ = 0;
   std::deque<std::uint32_t> on_their_way_;
   std::map<std::pair<LookedAt, std::uint8_t>, double> told_;  ///< Stamp of what was sent last.
-  bool changed_ = true;   ///< Something is to be shown that has not been sent.
-  bool past_due_ = true;  ///< The page has no past to draw trails with.
+  std::uint64_t told_events_ = 0;
+  std::uint64_t told_bodies_ = 0;
+  std::uint64_t told_hosts_ = 0;
+  std::uint64_t picture_ = 0;  ///< Of the last frame.
+  bool changed_ = true;        ///< Something is to be shown that has not been sent.
+  bool past_due_ = true;       ///< The page has no past to draw trails with.
+  bool broken_ = false;        ///< The source could not show this moment.
   unsigned refusals_ = 0;
+  std::shared_ptr<const bool> alive_ =
+      std::make_shared<bool>(true);  ///< For answers that come late.
 };
 
 }  // namespace rave::gui_server

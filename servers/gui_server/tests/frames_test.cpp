@@ -23,14 +23,14 @@ std::string hex_of(const std::string& bytes) {
 }
 
 std::vector<PosesAt> sample_poses() {
-  PosesAt plain{17.5, 1750, {}};
+  PosesAt plain{0, 17.5, 1750, {}};
   plain.robots = {{3.64, -1.45, 1.763, 0.062, kKnown | kReal},
                   {-0.00004, 1e-4, -3.1, -0.2, kKnown | kStale},
                   {0, 0, 0, 0, kReal}};
-  PosesAt far{0.01, 1, {}};
+  PosesAt far{0, 0.01, 1, {}};
   far.robots = {{500000.25, -7000000.5, 0, 1e9, kKnown},
                 {500001.25, -7000001.5, 6.2831, 0, kKnown | kStopped | kTouching}};
-  return {plain, far, PosesAt{1, 100, {}}};
+  return {plain, far, PosesAt{0, 1, 100, {}}};
 }
 
 std::vector<ReadingAt> sample_readings() {

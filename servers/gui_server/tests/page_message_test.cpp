@@ -17,6 +17,19 @@ TEST(PageMessage, LooksAreReadAndSortedOnce) {
   EXPECT_EQ(look.readings, (std::vector<LookedAt>{{0, 2}, {3, 1}}));
 }
 
+TEST(PageMessage, RightsAreSetOfARoleOrAUser) {
+  const auto role = parse_page_message(
+      R"({"type":"set_right","role":"observer","class":"readings","reach":["green"]})");
+  ASSERT_TRUE(role) << role.error().text();
+  EXPECT_EQ(std::get<SetRightMessage>(*role).change,
+            (RightChange{
+                Role::kObserver, {}, InfoClass::kReadings, Reach{Reach::Kind::kTeams, {"green"}}}));
+  const auto user =
+      parse_page_message(R"({"type":"set_right","user":"ben","class":"log","reach":null})");
+  ASSERT_TRUE(user) << user.error().text();
+  EXPECT_EQ(std::get<SetRightMessage>(*user).change, (RightChange{{}, "ben", InfoClass::kLog, {}}));
+}
+
 struct Refused {
   const char* text;
   const char* reason;
@@ -46,6 +59,15 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{R"({"type":"transport","do":"seek"})", "`value` is missing"},
         Refused{R"({"type":"transport","do":"seek","value":"1"})", "finite number"},
         Refused{R"({"type":"transport","do":"seek","value":1e999})", "JSON object"},
+        Refused{R"({"type":"set_right","class":"pose","reach":"none"})", "`role` or `user`"},
+        Refused{R"({"type":"set_right","role":"root","class":"pose","reach":"none"})", "observer"},
+        Refused{R"({"type":"set_right","role":"observer","class":"poses","reach":"none"})",
+                "`class`"},
+        Refused{R"({"type":"set_right","role":"observer","class":"pose","reach":"some"})",
+                "none, own, all"},
+        Refused{R"({"type":"set_right","role":"observer","class":"pose","reach":[1]})", "teams"},
+        Refused{R"({"type":"see_as","role":"observer","user":"ben"})", "not both"},
+        Refused{R"({"type":"see_as","user":""})", "expected a name"},
         Refused{R"({"type":"halt","do":"go","slots":[]})", "stop or release"},
         Refused{R"({"type":"halt","do":"stop","slots":[-1]})", "whole number"},
         Refused{

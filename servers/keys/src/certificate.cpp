@@ -11,6 +11,9 @@
 
 #include <ctime>
 #include <memory>
+#include <span>
+
+#include "web_names.hpp"
 
 namespace rave::keys {
 namespace {
@@ -29,6 +32,14 @@ using Extension = std::unique_ptr<X509_EXTENSION, Freer<X509_EXTENSION_free>>;
 using Number = std::unique_ptr<BIGNUM, Freer<BN_free>>;
 using Stream = std::unique_ptr<BIO, Freer<BIO_free_all>>;
 using Signed = std::unique_ptr<PKCS7, Freer<PKCS7_free>>;
+using Store = std::unique_ptr<X509_STORE, Freer<X509_STORE_free>>;
+using Check = std::unique_ptr<X509_STORE_CTX, Freer<X509_STORE_CTX_free>>;
+
+/// What a certificate says beside the usual.
+struct Extra {
+  int kind = 0;
+  std::string value;
+};
 
 struct StackFree {
   /// The certificates in it belong to others.
@@ -141,17 +152,20 @@ Result<std::string> text_of(const Key& key) {
 
 /// A fresh key with a certificate. Without an issuer it signs itself.
 Result<Credential> make_credential(const Name& name, const Validity& validity, X509* issuer,
-                                   EVP_PKEY* issuer_key) {
+                                   EVP_PKEY* issuer_key, std::span<const Extra> extras = {}) {
   const Key key(EVP_PKEY_Q_keygen(nullptr, nullptr, "EC", "P-256"));
   const Certificate certificate(X509_new());
   if (!key || !certificate || !name) return failed(ErrorCode::kIo, "cannot make a key");
   X509* const made = certificate.get();
   if (issuer == nullptr) issuer = made;
-  const bool filled = X509_set_version(made, X509_VERSION_3) == 1 && set_serial(made) &&
-                      X509_set_subject_name(made, name.get()) == 1 &&
-                      X509_set_issuer_name(made, X509_get_subject_name(issuer)) == 1 &&
-                      set_validity(made, validity) && X509_set_pubkey(made, key.get()) == 1 &&
-                      add_extensions(issuer, made);
+  bool filled = X509_set_version(made, X509_VERSION_3) == 1 && set_serial(made) &&
+                X509_set_subject_name(made, name.get()) == 1 &&
+                X509_set_issuer_name(made, X509_get_subject_name(issuer)) == 1 &&
+                set_validity(made, validity) && X509_set_pubkey(made, key.get()) == 1 &&
+                add_extensions(issuer, made);
+  for (const Extra& extra : extras) {
+    filled = filled && add_extension(issuer, made, extra.kind, extra.value.c_str());
+  }
   EVP_PKEY* const signer = issuer_key == nullptr ? key.get() : issuer_key;
   const Stream stream = writing();
   if (!filled || X509_sign(made, signer, EVP_sha256()) == 0 ||
@@ -207,6 +221,52 @@ Result<Credential> make_member(const Credential& authority, const std::string& n
   RAVE_TRY_ASSIGN(const Certificate issuer, parse_certificate(authority.certificate));
   RAVE_TRY_ASSIGN(const Key issuer_key, parse_key(authority.key));
   return make_credential(make_name(name, lab), validity, issuer.get(), issuer_key.get());
+}
+
+namespace {
+
+constexpr const char* kWebLab = "RAVE pages";
+
+}  // namespace
+
+Result<Credential> make_web_authority(const std::vector<std::string>& names,
+                                      const Validity& validity) {
+  ERR_clear_error();
+  const std::vector<Extra> extras = {{NID_name_constraints, constraints_for(names)},
+                                     {NID_ext_key_usage, "serverAuth"}};
+  const Name name = make_name("Authority for " + names.front().substr(0, 50), kWebLab);
+  return make_credential(name, validity, nullptr, nullptr, extras);
+}
+
+Result<Credential> make_web_server(const Credential& authority,
+                                   const std::vector<std::string>& names,
+                                   const Validity& validity) {
+  RAVE_TRY_ASSIGN(const Certificate issuer, parse_certificate(authority.certificate));
+  RAVE_TRY_ASSIGN(const Key issuer_key, parse_key(authority.key));
+  const std::vector<Extra> extras = {{NID_subject_alt_name, alternatives_for(names)},
+                                     {NID_ext_key_usage, "serverAuth"}};
+  // With a blank in it nobody takes the name for that of a host, of which only the list counts.
+  const Name name = make_name("Page of " + names.front().substr(0, 50), kWebLab);
+  return make_credential(name, validity, issuer.get(), issuer_key.get(), extras);
+}
+
+Status check_web_server(const std::string& authority, const std::string& certificate,
+                        std::int64_t now_s) {
+  RAVE_TRY_ASSIGN(const Certificate trusted, parse_certificate(authority));
+  RAVE_TRY_ASSIGN(const Certificate shown, parse_certificate(certificate));
+  const Store store(X509_STORE_new());
+  const Check check(X509_STORE_CTX_new());
+  if (!store || !check || X509_STORE_add_cert(store.get(), trusted.get()) != 1 ||
+      X509_STORE_CTX_init(check.get(), store.get(), shown.get(), nullptr) != 1) {
+    return failed(ErrorCode::kIo, "cannot check a certificate");
+  }
+  X509_STORE_CTX_set_purpose(check.get(), X509_PURPOSE_SSL_SERVER);
+  X509_STORE_CTX_set_time(check.get(), 0, now_s);
+  if (X509_verify_cert(check.get()) != 1) {
+    const int reason = X509_STORE_CTX_get_error(check.get());
+    return fail(ErrorCode::kState, "{}", X509_verify_cert_error_string(reason));
+  }
+  return {};
 }
 
 Result<std::string> sign(const Credential& signer, const std::string& text) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "rave/base/result.hpp"
 
@@ -37,6 +38,18 @@ struct CertificateFacts {
 /// Errors: kIo.
 [[nodiscard]] Result<Credential> make_member(const Credential& authority, const std::string& name,
                                              const std::string& lab, const Validity& validity);
+
+/// An authority for browsers, which can speak for these names and addresses alone, and a server
+/// that shows itself as them. `names`: checked, see check_web_name(). Errors: kIo.
+[[nodiscard]] Result<Credential> make_web_authority(const std::vector<std::string>& names,
+                                                    const Validity& validity);
+[[nodiscard]] Result<Credential> make_web_server(const Credential& authority,
+                                                 const std::vector<std::string>& names,
+                                                 const Validity& validity);
+/// Whether a browser that trusts the authority takes the certificate for a server's. Errors:
+/// kParse, and kState if not.
+[[nodiscard]] Status check_web_server(const std::string& authority, const std::string& certificate,
+                                      std::int64_t now_s);
 
 /// The text with a signature, as S/MIME. Errors: kIo.
 [[nodiscard]] Result<std::string> sign(const Credential& signer, const std::string& text);

@@ -31,8 +31,8 @@ CaptureWatch::CaptureWatch(const config::CaptureCheckFile& check,
       closest_m_(std::numeric_limits<double>::infinity()),
       closest_before_m_(closest_m_) {}
 
-void CaptureWatch::after_step(sim::Engine& engine) {
-  look(engine.snapshot(), engine.steps_done() - 1);
+void CaptureWatch::after_step(const StepView& step) {
+  look(step.engine.snapshot(), step.engine.steps_done() - 1);
 }
 
 void CaptureWatch::look(const world::Snapshot& world, std::uint64_t step) {

@@ -5,18 +5,18 @@
 #include <vector>
 
 #include "facts.hpp"
-#include "observer.hpp"
 #include "rave/config/expanded_scenario.hpp"
+#include "rave/robot_host/run_observer.hpp"
 
 namespace rave::robot_host {
 
 /// Sees when a predator comes near enough to a prey. Each prey is caught once. Where robots are is
 /// what others sense: the truth of simulated, the reported pose of real ones.
-class CaptureWatch final : public Observer {
+class CaptureWatch final : public RunObserver {
  public:
   CaptureWatch(const config::CaptureCheckFile& check, const config::ExpandedScenario& scenario);
 
-  void after_step(sim::Engine& engine) override;
+  void after_step(const StepView& step) override;
   /// The same without an engine: the world as that step senses it.
   void look(const world::Snapshot& world, std::uint64_t step);
   /// As if the last look had not been: that step was never done.
@@ -24,7 +24,7 @@ class CaptureWatch final : public Observer {
 
   [[nodiscard]] CaptureFacts facts() const;
   /// Those of the last step, as events of it.
-  [[nodiscard]] const std::vector<sim::Event>& events() const noexcept { return events_; }
+  [[nodiscard]] std::span<const sim::Event> events() const noexcept override { return events_; }
   /// Whether the run is to end now.
   [[nodiscard]] bool ends_run() const noexcept { return check_.end_run && !captures_.empty(); }
 

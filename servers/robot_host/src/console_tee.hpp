@@ -48,18 +48,4 @@ class ConsoleTee final : public LogSink {
   std::vector<Line> waiting_;
 };
 
-/// Lets the console speak to a record as long as both exist.
-class RecordedConsole {
- public:
-  RecordedConsole(ConsoleTee& console, record::RunRecorder* recorder) : console_(console) {
-    if (recorder != nullptr) console_.attach(recorder);
-  }
-  RecordedConsole(const RecordedConsole&) = delete;
-  RecordedConsole& operator=(const RecordedConsole&) = delete;
-  ~RecordedConsole() { console_.attach(nullptr); }
-
- private:
-  ConsoleTee& console_;
-};
-
 }  // namespace rave::robot_host

@@ -21,7 +21,8 @@ Encounters::Encounters(const BodyKinds& kinds, const sim::EngineSpec& spec)
   }
 }
 
-void Encounters::after_step(sim::Engine& engine) {
+void Encounters::after_step(const StepView& step) {
+  const sim::Engine& engine = step.engine;
   if ((engine.steps_done() - 1) % every_ != 0) return;
   const auto count = static_cast<std::uint32_t>(engine.spec().robots.size());
   const world::WorldModel& model = engine.spec().world;

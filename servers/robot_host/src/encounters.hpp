@@ -9,18 +9,18 @@
 
 #include "facts.hpp"
 #include "kinds.hpp"
-#include "observer.hpp"
+#include "rave/robot_host/run_observer.hpp"
 
 namespace rave::robot_host {
 
 /// Keeps the closest approach of each kind of pair, such as `real-simulated`. Bodies farther apart
 /// than its reach never count. Of robots of several hosts, each pair is its host's whose id is
 /// lower.
-class Encounters final : public Observer {
+class Encounters final : public RunObserver {
  public:
   Encounters(const BodyKinds& kinds, const sim::EngineSpec& spec);
 
-  void after_step(sim::Engine& engine) override;
+  void after_step(const StepView& step) override;
 
   [[nodiscard]] std::map<std::string, Encounter> closest() const;
   /// `real-simulated 0.42 m` of the closest of all robot pairs; empty if there was none.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "event_words.hpp"
+#include "rave/robot_host/run_observer.hpp"
 #include "requests.hpp"
 
 namespace rave::robot_host {
@@ -48,13 +49,18 @@ void tell_events(const sim::Engine& engine, std::span<const sim::Event> events, 
   }
 }
 
+std::string words_of(const BodyKinds& kinds, const sim::Event& event) {
+  if (!event.other.valid() || is_of_obstacle(event.kind)) return event.text;
+  return fmt::format("with {} {}", kinds.name(event.other.value()), event.text);
+}
+
 std::string events_log(const sim::EngineSpec& spec, const BodyKinds& kinds,
                        const std::vector<sim::Event>& events) {
   std::string text;
   for (const sim::Event& event : events) {
-    text += fmt::format(
-        "{:10.3f} s  {:<16} {:<14} {}{}\n", static_cast<double>(event.step) * spec.step.seconds(),
-        subject_of(spec, event), to_string(event.kind), with_whom(kinds, event), event.text);
+    text += fmt::format("{:10.3f} s  {:<16} {:<14} {}\n",
+                        static_cast<double>(event.step) * spec.step.seconds(),
+                        subject_of(spec, event), to_string(event.kind), words_of(kinds, event));
   }
   return text;
 }

@@ -15,10 +15,4 @@ namespace rave::robot_host {
   return event.robot.valid() ? std::string_view(spec.robots[event.robot.value()].name) : "world";
 }
 
-/// `with NAME `, if there is somebody else.
-[[nodiscard]] inline std::string with_whom(const BodyKinds& kinds, const sim::Event& event) {
-  if (!event.other.valid() || is_of_obstacle(event.kind)) return {};
-  return fmt::format("with {} ", kinds.name(event.other.value()));
-}
-
 }  // namespace rave::robot_host

@@ -75,7 +75,8 @@ void GoalChecks::count_readings(const sim::Engine& engine, Touches& touches) {
   }
 }
 
-void GoalChecks::after_step(sim::Engine& engine) {
+void GoalChecks::after_step(const StepView& step) {
+  const sim::Engine& engine = step.engine;
   for (Touches& touches : touches_) count_readings(engine, touches);
   for (Arrival& arrival : arrivals_) {
     ArrivalFacts& facts = arrival.facts;

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "facts.hpp"
-#include "observer.hpp"
 #include "rave/config/expanded_scenario.hpp"
+#include "rave/robot_host/run_observer.hpp"
 
 namespace rave::robot_host {
 
@@ -20,11 +20,11 @@ struct CheckResult {
 };
 
 /// What a scenario wants its robots to do: come to places, and not touch things.
-class GoalChecks final : public Observer {
+class GoalChecks final : public RunObserver {
  public:
   GoalChecks(const config::ExpandedScenario& scenario, const sim::EngineSpec& spec);
 
-  void after_step(sim::Engine& engine) override;
+  void after_step(const StepView& step) override;
 
   /// Of robots that run here.
   [[nodiscard]] GoalFacts facts() const;

@@ -8,7 +8,8 @@ constexpr std::string_view kNothing = "nothing";
 
 }  // namespace
 
-void HitCounter::after_step(sim::Engine& engine) {
+void HitCounter::after_step(const StepView& view) {
+  const sim::Engine& engine = view.engine;
   const sim::EngineSpec& spec = engine.spec();
   for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
     if (!engine.is_local(RobotId(r))) continue;

@@ -9,16 +9,16 @@
 #include <vector>
 
 #include "kinds.hpp"
-#include "observer.hpp"
+#include "rave/robot_host/run_observer.hpp"
 
 namespace rave::robot_host {
 
 /// Counts what the rays of virtual range sensors met, for real and for simulated robots apart.
-class HitCounter final : public Observer {
+class HitCounter final : public RunObserver {
  public:
   explicit HitCounter(const BodyKinds& kinds) : kinds_(&kinds) {}
 
-  void after_step(sim::Engine& engine) override;
+  void after_step(const StepView& step) override;
 
   /// By who looks (`real`, `simulated`) and what was met (a word of BodyKinds, or `nothing`).
   [[nodiscard]] std::map<std::string, std::map<std::string, std::uint64_t>> counts() const;

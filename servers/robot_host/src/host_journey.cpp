@@ -88,49 +88,30 @@ void serve_requests(HostJourney& journey) {
   if (control == nullptr) return;
   control->serve(
       [&journey](const RunRequest& request) {
-        if (request.kind == RunRequest::Kind::kResetShadow && journey.shadows != nullptr) {
-          return journey.shadows->reset(request.robot);
-        }
-        auto answer = serve_request(journey.engine, request);
-        const bool asks = request.kind == RunRequest::Kind::kList;
-        if (answer && !asks && journey.record != nullptr) {
-          journey.record->keep(request, journey.engine.steps_done());
-        }
-        return answer;
+        return journey.observers.serve(journey.engine, request);
       },
       [&journey](RunStatus& status) { refresh(journey, status); });
 }
 
 void refresh(const HostJourney& journey, RunStatus& status) {
   refresh_status(journey.engine, status);
-  if (journey.shadows != nullptr) journey.shadows->refresh(status);
+  if (const Shadows* const shadows = journey.observers.shadows()) shadows->refresh(status);
 }
 
 void look_back(HostJourney& journey, std::span<const sim::Event> beside,
-               std::span<const sim::ResizedRobot> resized) {
+               std::span<const sim::ResizedRobot> resized, bool late) {
   sim::Engine& engine = journey.engine;
   RunControl* const control = journey.options.run.control;
   if (control != nullptr) control->set_time(engine.time().seconds());
   if (control != nullptr && changes_status(engine.events())) {
     control->refresh([&journey](RunStatus& status) { refresh(journey, status); });
   }
-  journey.observers.after_step(engine);
-  if (journey.ros2 != nullptr) journey.ros2->after_step(engine);
-  if (journey.record != nullptr) {
-    journey.record->after_step(engine);
-    journey.record->keep(beside);
-  }
-  if (journey.shadows != nullptr) {
-    Shadows& shadows = *journey.shadows;
-    shadows.after_step(engine, beside);
-    if (journey.record != nullptr) {
-      journey.record->keep(shadows.events());
-      shadows.keep(journey.record->recorder());
-    }
-    tell_events(engine, shadows.events(), &journey.console, journey.events);
-  }
+  const StepView step(engine, beside, late);
+  journey.observers.after_step(step);
+  journey.observers.keep(step);
   tell_events(engine, engine.events(), &journey.console, journey.events);
   tell_events(engine, beside, &journey.console, journey.events);
+  journey.observers.tell_found(engine, &journey.console, journey.events);
   keep_roster(journey, resized);
   for (const sim::Event& event : engine.events()) {
     if (event.kind != sim::EventKind::kProgramFailed &&

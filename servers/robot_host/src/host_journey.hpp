@@ -8,16 +8,13 @@
 #include <vector>
 
 #include "console_tee.hpp"
-#include "observers.hpp"
+#include "observer_list.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/lock_step/roster.hpp"
 #include "rave/robot_host/build.hpp"
 #include "rave/robot_host/host_run.hpp"
 #include "rave/sim/engine.hpp"
 #include "rave/sim/world_step.hpp"
-#include "record_keeper.hpp"
-#include "ros2_face.hpp"
-#include "shadows.hpp"
 #include "wall_pace.hpp"
 
 namespace rave::robot_host {
@@ -39,9 +36,7 @@ struct Seat {
 /// One host on its way through a run, whether the hosts wait for one another or not.
 struct HostJourney {
   sim::Engine& engine;
-  Observers& observers;
-  RecordKeeper* record;  ///< May be null.
-  Ros2Face* ros2;        ///< May be null.
+  ObserverList& observers;
   lock_step::Roster& roster;
   const HostOptions& options;
   ConsoleTee& console;
@@ -49,7 +44,6 @@ struct HostJourney {
   std::vector<sim::Event> events{};
   std::vector<std::string> losses{};    ///< Of programs and drivers, which are events, too.
   std::vector<std::string> problems{};  ///< What else is not as it should be.
-  Shadows* shadows = nullptr;           ///< Of a run in real time; may be null.
   bool world_tells = false;             ///< What concerns no robot is for the manager to note.
   bool stopped = false;
   bool ended = false;  ///< By the manager.
@@ -73,8 +67,8 @@ void refresh(const HostJourney& journey, RunStatus& status);
 /// A step is done (EngineSpec::on_step_done): all look at it, it is recorded, its events are told,
 /// and those that `beside` the engine has. `resized`: who has another size in this step, robots of
 /// other hosts too.
-void look_back(HostJourney& journey, std::span<const sim::Event> beside = {},
-               std::span<const sim::ResizedRobot> resized = {});
+void look_back(HostJourney& journey, std::span<const sim::Event> beside,
+               std::span<const sim::ResizedRobot> resized, bool late);
 
 /// What ended a host's part beside its losses: that it was stopped, or how the manager ended it.
 void note_end(const HostJourney& journey, std::string_view ending, bool good, HostOutcome& outcome);

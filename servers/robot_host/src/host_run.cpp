@@ -12,12 +12,9 @@
 #include "rave/lock_step/host_port.hpp"
 #include "rave/robot/interface_hash.hpp"
 #include "rave/robot_host/build.hpp"
-#include "rave/robot_host/provenance.hpp"
 #include "rave/robot_host/world_request.hpp"
-#include "record_keeper.hpp"
 #include "wall_pace.hpp"
 #include "world_account.hpp"
-#include "world_record.hpp"
 
 namespace rave::robot_host {
 namespace {
@@ -49,9 +46,8 @@ Status propose(Journey& journey) {
 
 /// What was asked of the world by hand counts from the step that comes now on.
 void keep_requests(Journey& journey) {
-  if (journey.record == nullptr) return;
   for (const RunRequest& request : requests_in(journey.engine.spec(), journey.world)) {
-    journey.record->keep(request, journey.world.step);
+    journey.observers.keep(request, journey.world.step);
   }
 }
 
@@ -110,7 +106,7 @@ Status write_results(const Journey& journey, const HostOutcome& outcome) {
   json["problems"] = outcome.problems;
   RAVE_TRY(write_file_atomically(
       folder / "events.log",
-      events_log(journey.engine.spec(), journey.observers.kinds, journey.events)));
+      events_log(journey.engine.spec(), journey.observers.results().kinds, journey.events)));
   return write_file_atomically(
       folder / "result.json",
       json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
@@ -125,7 +121,7 @@ HostOutcome judge(const Journey& journey) {
 
 /// What this host knows when all is over. Changes what the engine shows of robots.
 RunFacts facts_of(Journey& journey, const std::string& record_problem) {
-  RunFacts facts = gather(journey.observers, journey.engine);
+  RunFacts facts = gather(journey.observers.results(), journey.engine);
   if (!record_problem.empty()) facts.problems.push_back(record_problem);
   // A manager that took over does not know it.
   facts.problems.insert(facts.problems.end(), journey.problems.begin(), journey.problems.end());
@@ -152,6 +148,7 @@ std::uint64_t shared_number(const config::ExpandedScenario& scenario) {
   shared.scenario.description.clear();
   shared.scenario.on_lost_host = usual.on_lost_host;
   shared.scenario.host_timeout_s = usual.host_timeout_s;
+  shared.scenario.gui = usual.gui;
   return lock_step::scenario_number(config::write_expanded(shared));
 }
 
@@ -196,39 +193,24 @@ Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::C
   RAVE_TRY_ASSIGN(const auto port, HostPort::open(options.bus, std::move(self), &console, patience,
                                                   options.begin_wish));
   introduce_robots(port->roster(), engine->spec(), seat.robots, console);
-  RAVE_TRY_ASSIGN(const auto ros2, Ros2Face::open(scenario, *engine, options.host));
-  Observers observers(scenario, built.robot_kinds, engine->spec(), run.picture);
-  std::unique_ptr<RecordKeeper> record;
-  if (run.record) {
-    RAVE_TRY_ASSIGN(auto hosts, hosts_for_record(scenario));
-    RAVE_TRY_ASSIGN(
-        record, RecordKeeper::begin(
-                    run.output / "run.mcap", *engine, observers.kinds,
-                    {scenario.scenario.name.value, expanded, versions_of(engine->spec(), catalogue),
-                     input_files(scenario, *engine), true, options.host, std::move(hosts)},
-                    run.log));
-  }
-  const RecordedConsole recorded(console, record ? &record->recorder() : nullptr);
-  Journey journey({*engine, observers, record.get(), ros2.get(), port->roster(), options, console,
-                   shared_number(scenario)},
+  RAVE_TRY_ASSIGN(const auto observers,
+                  ObserverList::open({scenario, expanded, built.robot_kinds, *engine, catalogue,
+                                      run, console, options.host}));
+  Journey journey({*engine, *observers, port->roster(), options, console, shared_number(scenario)},
                   *port, scenario);
   journey.report.host = seat.number;
   journey.world_tells = true;
-  look = [&journey] {
-    look_back(journey, obstacle_events(journey.world), journey.world.resized);
+  look = [&journey, &seat] {
+    look_back(journey, obstacle_events(journey.world), journey.world.resized, false);
     journey.account.after_step(journey.engine);
+    journey.port.show(journey.engine, seat.robots);
   };
   const ControlledHost controlled(*engine, scenario.scenario, run.control, false);
   tell_who_waits(*engine, run, console);
   const Status went = go_through(journey);
   engine->halt();
-  console.attach(nullptr);
+  const std::string record_problem = observers->end_record(engine->hash().value());
   HostOutcome outcome = judge(journey);
-  std::string record_problem;
-  if (record) {
-    const Status written = record->end(engine->hash().value());
-    if (!written) record_problem = "the record is not whole: " + written.error().text();
-  }
   if (!record_problem.empty()) outcome.problems.push_back(record_problem);
   outcome.whole = outcome.whole && outcome.problems.empty();
   // A full disk here is no reason to keep from others what this host knows.

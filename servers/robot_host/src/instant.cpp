@@ -35,7 +35,8 @@ std::vector<Vec2> outline_of(const world::Shape& shape, const Pose2& X_WB) {
   return outline;
 }
 
-void InstantKeeper::after_step(sim::Engine& engine) {
+void InstantKeeper::after_step(const StepView& step) {
+  sim::Engine& engine = step.engine;
   if (instant_) return;
   const double now_s = engine.time().seconds();
   if (now_s >= instant_s_ - kSightingWindow_s) remember_sightings(engine);

@@ -5,18 +5,18 @@
 
 #include "facts.hpp"
 #include "kinds.hpp"
-#include "observer.hpp"
 #include "rave/report/picture.hpp"
+#include "rave/robot_host/run_observer.hpp"
 
 namespace rave::robot_host {
 
 /// Freezes one instant of the run for the picture: robots, laser hits and real sightings of robots
 /// that run here.
-class InstantKeeper final : public Observer {
+class InstantKeeper final : public RunObserver {
  public:
   InstantKeeper(const BodyKinds& kinds, double instant_s) : kinds_(&kinds), instant_s_(instant_s) {}
 
-  void after_step(sim::Engine& engine) override;
+  void after_step(const StepView& step) override;
 
   [[nodiscard]] const std::optional<InstantFacts>& facts() const noexcept { return instant_; }
 

@@ -14,13 +14,10 @@
 #include "rave/base/file.hpp"
 #include "rave/real_time/host_link.hpp"
 #include "rave/robot_host/build.hpp"
-#include "rave/robot_host/provenance.hpp"
 #include "requests.hpp"
 #include "shadow_report.hpp"
-#include "shadows.hpp"
 #include "stall_watch.hpp"
 #include "wall_pace.hpp"
-#include "world_record.hpp"
 
 namespace rave::robot_host {
 namespace {
@@ -137,8 +134,7 @@ void show_status(LiveJourney& journey) {
 void look_back(LiveJourney& journey) {
   Lateness& count = journey.late.count();
   count.worked(journey.engine.phase_times(), Clock::now());
-  journey.observers.tracks.thin(journey.late.behind());
-  look_back(journey, journey.live.events(), journey.world.resized);
+  look_back(journey, journey.live.events(), journey.world.resized, journey.late.behind());
   count.did(Lateness::Part::kOnlookers, Clock::now());
   journey.late.look(journey.engine.spec(), journey.engine.events(), journey.link.world_age());
 }
@@ -248,7 +244,7 @@ Status write_results(const LiveJourney& journey, const RunFacts& facts,
   json["problems"] = outcome.problems;
   RAVE_TRY(write_file_atomically(
       folder / "events.log",
-      events_log(journey.engine.spec(), journey.observers.kinds, journey.events)));
+      events_log(journey.engine.spec(), journey.observers.results().kinds, journey.events)));
   return write_file_atomically(
       folder / "result.json",
       json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
@@ -286,27 +282,14 @@ Result<HostLink::Options> link_options(const LiveHost& host, const BuiltScenario
 Result<HostOutcome> go(const LiveHost& host, sim::Engine& engine, HostLink& link, LiveWorld& live,
                        const BuiltScenario& built, bool begun, std::function<void()>& look) {
   const RunOptions& run = host.options.run;
-  RAVE_TRY_ASSIGN(const auto ros2, Ros2Face::open(host.scenario, engine, host.options.host));
-  RAVE_TRY_ASSIGN(const auto shadows,
-                  Shadows::create(host.scenario, host.catalogue, engine, &host.console));
-  Observers observers(host.scenario, built.robot_kinds, engine.spec(), run.picture);
-  std::unique_ptr<RecordKeeper> record;
-  if (run.record) {
-    RAVE_TRY_ASSIGN(auto hosts, hosts_for_record(host.scenario));
-    RAVE_TRY_ASSIGN(record, RecordKeeper::begin(run.output / "run.mcap", engine, observers.kinds,
-                                                {host.scenario.scenario.name.value, host.expanded,
-                                                 versions_of(engine.spec(), host.catalogue),
-                                                 input_files(host.scenario, engine), false,
-                                                 host.options.host, std::move(hosts)},
-                                                run.log));
-  }
-  const RecordedConsole recorded(host.console, record ? &record->recorder() : nullptr);
+  RAVE_TRY_ASSIGN(
+      const auto observers,
+      ObserverList::open({host.scenario, host.expanded, built.robot_kinds, engine, host.catalogue,
+                          run, host.console, host.options.host, true, true}));
   const config::ScenarioFile& file = host.scenario.scenario;
-  LiveJourney journey({engine, observers, record.get(), ros2.get(), link.roster(), host.options,
-                       host.console, shared_number(host.scenario)},
-                      link, live, host.pace, report_groups(host.scenario, host.seat),
-                      host.seat.robots);
-  journey.shadows = shadows.get();
+  LiveJourney journey(
+      {engine, *observers, link.roster(), host.options, host.console, shared_number(host.scenario)},
+      link, live, host.pace, report_groups(host.scenario, host.seat), host.seat.robots);
   look = [&journey] { look_back(journey); };
   journey.steps = static_cast<std::uint64_t>(std::llround(file.duration_s / file.step_s.value));
   const ControlledHost controlled(engine, file, run.control, true);
@@ -319,20 +302,17 @@ Result<HostOutcome> go(const LiveHost& host, sim::Engine& engine, HostLink& link
     journey.ended = link.ending().has_value();
   }
   engine.halt();
-  host.console.attach(nullptr);
+  const std::string record_problem = observers->end_record(std::nullopt);
   add(lateness_problems(journey.late.facts(), file.max_missed_pct), journey.problems);
   HostOutcome outcome = judge(journey, built.live_reason);
-  RunFacts facts = gather(observers, engine);
+  RunFacts facts = gather(observers->results(), engine);
   facts.first_step = journey.first;
   facts.problems = journey.problems;
   facts.lateness = journey.late.facts();
-  if (shadows) facts.shadows = shadows->facts();
-  if (record) {
-    const Status written = record->end(std::nullopt);
-    if (!written) {
-      outcome.problems.push_back("the record is not whole: " + written.error().text());
-      facts.problems.push_back(outcome.problems.back());
-    }
+  if (observers->shadows() != nullptr) facts.shadows = observers->shadows()->facts();
+  if (!record_problem.empty()) {
+    outcome.problems.push_back(record_problem);
+    facts.problems.push_back(record_problem);
   }
   outcome.whole = outcome.whole && outcome.problems.empty();
   // A full disk here is no reason to keep from others what this host knows.

@@ -74,16 +74,16 @@ Observers::Observers(const config::ExpandedScenario& scenario,
   if (file.picture) instant.emplace(kinds, file.picture->instant_s.value_or(file.duration_s / 2));
 }
 
-void Observers::after_step(sim::Engine& engine) {
-  kinds.learn(engine.spec().world);
-  kinds.follow(engine);
-  tracks.after_step(engine);
-  encounters.after_step(engine);
-  hits.after_step(engine);
-  goals.after_step(engine);
-  if (sightings) sightings->after_step(engine);
-  if (instant) instant->after_step(engine);
-  if (capture) capture->after_step(engine);
+void Observers::after_step(const StepView& step) {
+  kinds.learn(step.engine.spec().world);
+  kinds.follow(step.engine);
+  tracks.after_step(step);
+  encounters.after_step(step);
+  hits.after_step(step);
+  goals.after_step(step);
+  if (sightings) sightings->after_step(step);
+  if (instant) instant->after_step(step);
+  if (capture) capture->after_step(step);
 }
 
 RunFacts gather(const Observers& observers, const sim::Engine& engine) {

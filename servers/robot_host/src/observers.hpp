@@ -35,7 +35,11 @@ struct Observers {
   Observers(const Observers&) = delete;
   Observers& operator=(const Observers&) = delete;
 
-  void after_step(sim::Engine& engine);
+  void after_step(const StepView& step);
+  /// What they found in the last step.
+  [[nodiscard]] std::span<const sim::Event> events() const noexcept {
+    return capture ? capture->events() : std::span<const sim::Event>();
+  }
 };
 
 /// What observers need of the past: set before the scenario is built.

@@ -64,21 +64,15 @@ RecordKeeper::RecordKeeper(record::RunRecorder recorder, const sim::Engine& engi
   }
 }
 
-Result<std::unique_ptr<RecordKeeper>> RecordKeeper::begin(const std::filesystem::path& path,
-                                                          const sim::Engine& engine,
-                                                          const BodyKinds& kinds,
-                                                          const About& about, LogSink* log) {
-  const sim::EngineSpec& spec = engine.spec();
-  record::RunInfo info = info_of(spec, kinds);
-  info.scenario = about.scenario;
-  info.expanded_scenario = about.expanded;
-  info.versions = about.versions;
-  info.inputs = about.inputs;
-  for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
-    if (engine.is_local(RobotId(r))) describe_sensors(engine, r, info);
-  }
+Result<std::unique_ptr<RecordKeeper>> RecordKeeper::open(const std::filesystem::path& path,
+                                                         const sim::Engine& engine,
+                                                         const BodyKinds& kinds,
+                                                         const record::RunInfo& info,
+                                                         const About& about, LogSink* log) {
   RAVE_TRY_ASSIGN(auto recorder, record::RunRecorder::open(path, info, {}, log));
-  RAVE_TRY(PartKeeper::describe(spec, recorder));
+  if (!about.hybrids.empty()) {
+    RAVE_TRY(recorder.describe(record::kHybridMetadata, about.hybrids));
+  }
   if (!about.host.empty()) {
     RAVE_TRY(recorder.describe(record::kHostMetadata, {{"name", about.host}}));
     RAVE_TRY(recorder.describe(record::kHostsMetadata, about.hosts));
@@ -87,7 +81,8 @@ Result<std::unique_ptr<RecordKeeper>> RecordKeeper::begin(const std::filesystem:
       new RecordKeeper(std::move(recorder), engine, kinds, about.hashed));
 }
 
-void RecordKeeper::after_step(sim::Engine& engine) {
+void RecordKeeper::after_step(const StepView& step) {
+  const sim::Engine& engine = step.engine;
   recorder_.begin_step(engine.steps_done() - 1, engine.time());
   follow(engine);
   parts_.keep(engine, recorder_);
@@ -162,6 +157,14 @@ void RecordKeeper::keep(std::span<const sim::Event> events) {
   record_events(*kinds_, events, recorder_);
 }
 
+record::RunInfo info_of(const sim::Engine& engine, const BodyKinds& kinds) {
+  record::RunInfo info = info_of(engine.spec(), kinds);
+  for (std::uint32_t r = 0; r < info.robots.size(); ++r) {
+    if (engine.is_local(RobotId(r))) describe_sensors(engine, r, info);
+  }
+  return info;
+}
+
 record::RunInfo info_of(const sim::EngineSpec& spec, const BodyKinds& kinds) {
   record::RunInfo info;
   info.started = utc_now();
@@ -181,7 +184,7 @@ void record_events(const BodyKinds& kinds, std::span<const sim::Event> events,
     record::RunEvent recorded;
     recorded.robot = event.robot;
     recorded.kind = to_string(event.kind);
-    recorded.text = with_whom(kinds, event) + event.text;
+    recorded.text = words_of(kinds, event);
     // Names of obstacles may be used again, numbers are not.
     if (is_of_obstacle(event.kind)) {
       recorded.values.push_back(static_cast<double>(event.other.value()));

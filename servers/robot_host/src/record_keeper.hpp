@@ -8,33 +8,32 @@
 #include <vector>
 
 #include "kinds.hpp"
-#include "observer.hpp"
 #include "part_keeper.hpp"
 #include "rave/record/run_record.hpp"
 #include "rave/robot_host/run_control.hpp"
+#include "rave/robot_host/run_observer.hpp"
 #include "record_columns.hpp"
 
 namespace rave::robot_host {
 
 /// Writes the record of a run: every percept as the program got it, every command, pose and event.
-class RecordKeeper final : public Observer {
+class RecordKeeper final : public RunObserver {
  public:
-  /// What the record says of its run beside what the engine knows.
+  /// What the record says of its run beside RunInfo.
   struct About {
-    std::string scenario;
-    std::string expanded;
-    record::StringMap versions;
-    record::StringMap inputs;
+    record::StringMap hybrids;  ///< PartKeeper::describe().
     bool hashed = true;         ///< A lock-step run, whose hash is kept of each step.
     std::string host{};         ///< Of one of several: its name.
     record::StringMap hosts{};  ///< ... and which robots each of them runs.
   };
   /// Begins the file. `log` hears of a full disk, once; the run goes on without a record then.
-  [[nodiscard]] static Result<std::unique_ptr<RecordKeeper>> begin(
-      const std::filesystem::path& path, const sim::Engine& engine, const BodyKinds& kinds,
-      const About& about, LogSink* log);
+  [[nodiscard]] static Result<std::unique_ptr<RecordKeeper>> open(const std::filesystem::path& path,
+                                                                  const sim::Engine& engine,
+                                                                  const BodyKinds& kinds,
+                                                                  const record::RunInfo& info,
+                                                                  const About& about, LogSink* log);
 
-  void after_step(sim::Engine& engine) override;
+  void after_step(const StepView& step) override;
 
   /// Events of the last step that observers found.
   void keep(std::span<const sim::Event> events);
@@ -66,7 +65,10 @@ class RecordKeeper final : public Observer {
   bool hashed_;
 };
 
-/// What the engine knows for the beginning of a record: start, seed, step and robots.
+/// What an engine knows for the beginning of a record: start, seed, step, all robots, and the
+/// sensors of those that run here.
+[[nodiscard]] record::RunInfo info_of(const sim::Engine& engine, const BodyKinds& kinds);
+/// The same without sensors.
 [[nodiscard]] record::RunInfo info_of(const sim::EngineSpec& spec, const BodyKinds& kinds);
 
 /// Writes events of the present step, in the words of people.

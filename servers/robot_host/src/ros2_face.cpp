@@ -215,7 +215,8 @@ void Ros2Face::write_static(const sim::Engine& engine) {
 }
 
 // A message that could not be written is no reason to end a run: the next one follows.
-void Ros2Face::after_step(sim::Engine& engine) {
+void Ros2Face::after_step(const StepView& step) {
+  const sim::Engine& engine = step.engine;
   if (clock_) {
     ros2::Clock now{};
     now.clock = ros2::time_of(engine.time().ns);

@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
-#include "observer.hpp"
 #include "rave/config/expanded_scenario.hpp"
+#include "rave/robot_host/run_observer.hpp"
 #include "rave/ros2/writer.hpp"
 #include "ros2_messages.hpp"
 
@@ -18,7 +18,7 @@ namespace rave::robot_host {
 /// their readings, transforms, description, and the time of the run, which all stamps are of. One
 /// of several hosts shows its own robots, and the time if the first of all robots that are shown is
 /// among them: a clock must have one writer, and so all hosts agree on it without a word.
-/// docs/design/ros2.md has the table of topics.
+/// docs/reference/ros2.md has the table of topics.
 class Ros2Face final : public Observer {
  public:
   /// Null if no robot of this process wants it. `host`: its name, empty if it is alone. Errors:
@@ -27,7 +27,7 @@ class Ros2Face final : public Observer {
       const config::ExpandedScenario& scenario, const sim::Engine& engine,
       const std::string& host = {});
 
-  void after_step(sim::Engine& engine) override;
+  void after_step(const StepView& step) override;
 
  private:
   using AnyWriter = std::variant<ros2::Writer<ros2::LaserScan>, ros2::Writer<ros2::Range>,

@@ -9,14 +9,10 @@
 #include "event_log.hpp"
 #include "event_words.hpp"
 #include "late_watch.hpp"
-#include "observers.hpp"
+#include "observer_list.hpp"
 #include "outcome.hpp"
 #include "rave/base/file.hpp"
-#include "rave/robot_host/provenance.hpp"
-#include "record_keeper.hpp"
 #include "requests.hpp"
-#include "ros2_face.hpp"
-#include "shadows.hpp"
 #include "stall_watch.hpp"
 #include "wall_pace.hpp"
 
@@ -30,34 +26,10 @@ constexpr auto kStatusInterval = std::chrono::milliseconds(50);
 /// So many times as old while steps come late.
 constexpr int kLateFactor = 10;
 
-/// Who looks on, and who takes down what happens.
-struct Onlookers : Observers {
-  std::unique_ptr<RecordKeeper> record;
-  std::unique_ptr<Ros2Face> ros2;
-  std::unique_ptr<Shadows> shadows;
-
-  using Observers::Observers;
-
-  void after_step(sim::Engine& engine) {
-    Observers::after_step(engine);
-    if (ros2) ros2->after_step(engine);
-    if (shadows) shadows->after_step(engine);
-  }
-  /// Behind after_step().
-  void keep_record(sim::Engine& engine) {
-    if (!record) return;
-    record->after_step(engine);
-    if (capture) record->keep(capture->events());
-    if (!shadows) return;
-    record->keep(shadows->events());
-    shadows->keep(record->recorder());
-  }
-};
-
 /// A run on its way: what the loop needs, and what it leaves.
 struct Journey {
   sim::Engine& engine;
-  Onlookers& observers;
+  ObserverList& observers;
   WallPace& pace;
   LateWatch& late;
   bool live = false;
@@ -74,23 +46,15 @@ struct Journey {
 
 void refresh(const Journey& journey, RunStatus& status) {
   refresh_status(journey.engine, status);
-  if (journey.observers.shadows) journey.observers.shadows->refresh(status);
+  if (const Shadows* const shadows = journey.observers.shadows()) shadows->refresh(status);
 }
 
 /// Does what somebody has asked for since the last step.
 void serve_requests(Journey& journey) {
   if (journey.options.control == nullptr) return;
-  sim::Engine& engine = journey.engine;
-  RecordKeeper* const record = journey.observers.record.get();
   journey.options.control->serve(
-      [&engine, record, &journey](const RunRequest& request) {
-        if (request.kind == RunRequest::Kind::kResetShadow && journey.observers.shadows) {
-          return journey.observers.shadows->reset(request.robot);
-        }
-        auto answer = serve_request(engine, request);
-        const bool asks = request.kind == RunRequest::Kind::kList;
-        if (answer && !asks && record != nullptr) record->keep(request, engine.steps_done());
-        return answer;
+      [&journey](const RunRequest& request) {
+        return journey.observers.serve(journey.engine, request);
       },
       [&journey](RunStatus& status) { refresh(journey, status); });
 }
@@ -103,10 +67,15 @@ bool wait_for_turn(Journey& journey) {
     const auto asked = Clock::now();
     // The world outside a live run goes on, so that is not held.
     const bool held = !journey.live && control->paused();
-    if (held ? !control->wait_for_turn(serve) : control->stopping()) return false;
+    const auto show = [&journey] { journey.observers.held(journey.engine); };
+    if (held ? !control->wait_for_turn(serve, show) : control->stopping()) return false;
     if (held) journey.pace.shift(Clock::now() - asked);
   }
   const auto steps = static_cast<std::int64_t>(journey.engine.steps_done());
+  if (const auto factor =
+          control == nullptr || journey.live ? std::nullopt : control->take_pace()) {
+    journey.pace.change_factor(*factor, SimTime{steps * journey.engine.spec().step.ns});
+  }
   const SimTime due{steps * journey.engine.spec().step.ns};
   journey.pace.wait_for(due, control, serve);
   Lateness& count = journey.late.count();
@@ -121,7 +90,7 @@ void tell_progress(const Journey& journey) {
   journey.options.on_progress({sim_s / journey.file.duration_s, sim_s, journey.file.duration_s,
                                journey.wall_s > 0 ? sim_s / journey.wall_s : 0,
                                journey.engine.spec().robots.size(),
-                               journey.observers.encounters.headline()});
+                               journey.observers.results().encounters.headline()});
 }
 
 /// A step is done. False: a check ends the run with it.
@@ -132,20 +101,16 @@ bool look_back(Journey& journey) {
   if (journey.options.control != nullptr) {
     journey.options.control->set_time(engine.time().seconds());
   }
-  journey.observers.tracks.thin(journey.live && journey.late.behind());
-  journey.observers.after_step(engine);
+  const StepView step(engine, {}, journey.live && journey.late.behind());
+  journey.observers.after_step(step);
   count.did(Lateness::Part::kOnlookers, Clock::now());
-  journey.observers.keep_record(engine);
+  journey.observers.keep(step);
   count.did(Lateness::Part::kRecord, Clock::now());
   if (journey.live) journey.late.look(engine.spec(), engine.events(), {});
   tell_events(engine, engine.events(), &journey.console, journey.events);
-  if (journey.observers.shadows) {
-    tell_events(engine, journey.observers.shadows->events(), &journey.console, journey.events);
-  }
-  if (!journey.observers.capture) return true;
-  const CaptureWatch& capture = *journey.observers.capture;
-  tell_events(engine, capture.events(), &journey.console, journey.events);
-  return !capture.ends_run();
+  journey.observers.tell_found(engine, &journey.console, journey.events);
+  const auto& capture = journey.observers.results().capture;
+  return !capture || !capture->ends_run();
 }
 
 /// What others see of the run between two requests.
@@ -271,21 +236,11 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
   }
   RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(built.spec)));
 
-  Onlookers observers(adjusted, built.robot_kinds, engine->spec(), options.picture);
-  RAVE_TRY_ASSIGN(observers.ros2, Ros2Face::open(adjusted, *engine));
-  RAVE_TRY_ASSIGN(observers.shadows, Shadows::create(adjusted, catalogue, *engine, &console));
-  if (options.record) {
-    RAVE_TRY_ASSIGN(
-        observers.record,
-        RecordKeeper::begin(options.output / "run.mcap", *engine, observers.kinds,
-                            {file.name.value, expanded, versions_of(engine->spec(), catalogue),
-                             input_files(scenario, *engine), !live},
-                            options.log));
-  }
-  const RecordedConsole recorded(console,
-                                 observers.record ? &observers.record->recorder() : nullptr);
+  RAVE_TRY_ASSIGN(const auto observers,
+                  ObserverList::open({adjusted, expanded, built.robot_kinds, *engine, catalogue,
+                                      options, console, "", live, true}));
   LateWatch late(period, console, options.control);
-  Journey journey{*engine, observers, pace, late, live, file, options, console};
+  Journey journey{*engine, *observers, pace, late, live, file, options, console};
   if (!live) pace.start();  // a live run counts from when its sensors were opened
   const Controlled controlled(journey);
   tell_who_waits(*engine, options, console);
@@ -294,18 +249,15 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
   // Writing the results takes a while; nobody drives on meanwhile.
   engine->halt();
   if (options.control != nullptr) options.control->end();
-  console.attach(nullptr);
-  RunFacts facts = gather(observers, *engine);
+  const std::string record_problem =
+      observers->end_record(live ? std::nullopt : std::optional(engine->hash().value()));
+  RunFacts facts = gather(observers->results(), *engine);
   facts.events = std::move(journey.events);
   facts.lateness = late.facts();
   if (live) facts.problems = lateness_problems(late.facts(), file.max_missed_pct);
-  if (observers.shadows) facts.shadows = observers.shadows->facts();
-  if (observers.record) {
-    const auto hash = live ? std::nullopt : std::optional(engine->hash().value());
-    const Status written = observers.record->end(hash);
-    if (!written) facts.problems.push_back("the record is not whole: " + written.error().text());
-  }
-  Findings findings{adjusted, engine->spec(), observers.kinds, built.live_reason, facts};
+  if (observers->shadows() != nullptr) facts.shadows = observers->shadows()->facts();
+  if (!record_problem.empty()) facts.problems.push_back(record_problem);
+  Findings findings{adjusted, engine->spec(), observers->results().kinds, built.live_reason, facts};
   findings.wall_s = journey.wall_s;
   findings.ended_early = journey.stopped;
   if (!live) findings.hash = engine->hash().value();

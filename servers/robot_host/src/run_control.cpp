@@ -57,6 +57,23 @@ void RunControl::step(std::uint64_t count) {
   changed_.notify_all();
 }
 
+void RunControl::set_pace(double factor) {
+  const std::lock_guard lock(mutex_);
+  status_.pace = factor;
+  pace_asked_.store(factor);
+}
+
+double RunControl::pace() const {
+  const std::lock_guard lock(mutex_);
+  return status_.pace;
+}
+
+std::optional<double> RunControl::take_pace() {
+  if (pace_asked_.load(std::memory_order_relaxed) < 0) return std::nullopt;
+  const double factor = pace_asked_.exchange(-1);
+  return factor < 0 ? std::nullopt : std::optional(factor);
+}
+
 bool RunControl::paused() const {
   const std::lock_guard lock(mutex_);
   return paused_;
@@ -182,7 +199,8 @@ void RunControl::end() {
   wake_ = std::stop_source();
 }
 
-bool RunControl::wait_for_turn(const std::function<void()>& serve) {
+bool RunControl::wait_for_turn(const std::function<void()>& serve,
+                               const std::function<void()>& held) {
   // A signal handler cannot notify, so a held run looks up by itself now and then.
   constexpr auto kLook = std::chrono::milliseconds(50);
   std::unique_lock lock(mutex_);
@@ -197,6 +215,11 @@ bool RunControl::wait_for_turn(const std::function<void()>& serve) {
     if (steps_ > 0) {
       --steps_;
       return true;
+    }
+    if (held) {
+      lock.unlock();
+      held();
+      lock.lock();
     }
     changed_.wait_for(lock, kLook);
   }

@@ -89,15 +89,16 @@ Result<std::unique_ptr<Shadows>> Shadows::create(const config::ExpandedScenario&
   return shadows;
 }
 
-void Shadows::after_step(sim::Engine& engine, std::span<const sim::Event> beside) {
+void Shadows::after_step(const StepView& step) {
   events_.clear();
   for (Shadow& shadow : shadows_) {
     shadow.fresh = false;
-    if (shadow.world) step(engine, beside, shadow);
+    if (shadow.world) follow(step, shadow);
   }
 }
 
-void Shadows::step(sim::Engine& engine, std::span<const sim::Event> beside, Shadow& shadow) {
+void Shadows::follow(const StepView& step, Shadow& shadow) {
+  sim::Engine& engine = step.engine;
   const sim::EngineSpec& spec = engine.spec();
   const sim::ReportedPose& pose = engine.reported(shadow.robot);
   const bool real = !spec.types[spec.robots[shadow.robot.value()].type].simulated;
@@ -109,7 +110,7 @@ void Shadows::step(sim::Engine& engine, std::span<const sim::Event> beside, Shad
     start =
         integrate({pose.pose.x_m, pose.pose.y_m, pose.pose.yaw_rad}, pose.velocity, age.seconds());
   }
-  const Status done = shadow.world->step(engine, beside, start, running);
+  const Status done = shadow.world->step(engine, step.beside, start, running);
   if (!done) {
     if (log_ != nullptr) {
       log_->error("shadow", "the shadow of robot `{}` ends: {}", shadow.name, done.error().text());
@@ -244,7 +245,7 @@ void Shadows::keep_moment(double time_s, Shadow& shadow) const {
   shadow.moment_every_s *= 2;
 }
 
-void Shadows::keep(record::RunRecorder& recorder) const {
+void Shadows::record(record::RunRecorder& recorder) const {
   for (const Shadow& shadow : shadows_) {
     if (!shadow.fresh) continue;
     record::ShadowRecord recorded;

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "facts.hpp"
-#include "observer.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/plugin/catalogue.hpp"
 #include "rave/record/run_record.hpp"
 #include "rave/robot_host/run_control.hpp"
+#include "rave/robot_host/run_observer.hpp"
 #include "shadow_world.hpp"
 
 namespace rave::robot_host {
@@ -41,7 +41,7 @@ struct ShadowDifference {
 
 /// Runs the shadows of a run beside it and measures how far they are from their robots. No part of
 /// the run: nothing in it depends on them.
-class Shadows final : public Observer {
+class Shadows final : public RunObserver {
  public:
   struct Moment {
     double time_s = 0;   ///< Of the run.
@@ -56,13 +56,9 @@ class Shadows final : public Observer {
       const config::ExpandedScenario& scenario, plugin::Catalogue& catalogue,
       const sim::Engine& engine, LogSink* log);
 
-  void after_step(sim::Engine& engine) override { after_step(engine, {}); }
-  /// The same of an engine that is one of several hosts, which has events of obstacles `beside` it.
-  void after_step(sim::Engine& engine, std::span<const sim::Event> beside);
-  /// Writes what the last step found.
-  void keep(record::RunRecorder& recorder) const;
-  /// What happened to shadows in the last step.
-  [[nodiscard]] std::span<const sim::Event> events() const noexcept { return events_; }
+  void after_step(const StepView& step) override;
+  void record(record::RunRecorder& recorder) const override;
+  [[nodiscard]] std::span<const sim::Event> events() const noexcept override { return events_; }
 
   /// Puts the shadow of a robot, or of all with an empty name, where the robot is, with the next
   /// step. Errors: kNotFound.
@@ -95,7 +91,7 @@ class Shadows final : public Observer {
   };
 
   explicit Shadows(LogSink* log) : log_(log) {}
-  void step(sim::Engine& engine, std::span<const sim::Event> beside, Shadow& shadow);
+  void follow(const StepView& step, Shadow& shadow);
   void begin(const sim::Engine& engine, Shadow& shadow);
   void compare(const sim::Engine& engine, Shadow& shadow);
   void compare_readings(const sim::Engine& engine, Shadow& shadow);

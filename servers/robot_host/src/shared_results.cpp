@@ -215,7 +215,8 @@ bool SharedResults::after_step(const sim::WorldAuthority& authority) {
   impl_->note_step(authority);
   if (!impl_->capture) return false;
   impl_->capture->look(authority.snapshot(), authority.steps_done());
-  impl_->seen = impl_->capture->events();
+  const auto seen = impl_->capture->events();
+  impl_->seen.assign(seen.begin(), seen.end());
   return impl_->capture->ends_run();
 }
 

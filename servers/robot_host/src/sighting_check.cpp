@@ -48,7 +48,8 @@ SightingCheck::SightingCheck(const config::SightingsCheckFile& file, const sim::
   }
 }
 
-void SightingCheck::after_step(sim::Engine& engine) {
+void SightingCheck::after_step(const StepView& step) {
+  sim::Engine& engine = step.engine;
   learn(engine);
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     if (engine.is_local(pairs_[p].robot)) gather(engine, p);

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "facts.hpp"
-#include "observer.hpp"
 #include "rave/config/scenario_file.hpp"
+#include "rave/robot_host/run_observer.hpp"
 
 namespace rave::robot_host {
 
@@ -19,11 +19,11 @@ inline constexpr Duration kLongestWaitForPoses = from_seconds(0.8);
 /// virtual camera on the same robot says at that very instant. It is compared when poses from
 /// before and after it are known, so that the step of the run is no part of the result; those of
 /// the last moments of a run, of which that cannot be said, are not compared.
-class SightingCheck final : public Observer {
+class SightingCheck final : public RunObserver {
  public:
   SightingCheck(const config::SightingsCheckFile& file, const sim::EngineSpec& spec);
 
-  void after_step(sim::Engine& engine) override;
+  void after_step(const StepView& step) override;
 
   [[nodiscard]] const SightingFacts& facts() const noexcept { return facts_; }
 

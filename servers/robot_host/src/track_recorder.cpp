@@ -10,6 +10,8 @@ namespace rave::robot_host {
 namespace {
 
 constexpr double kLeastInterval_s = 0.1;
+/// So many times fewer points are kept while steps come late.
+constexpr std::uint64_t kLateFactor = 10;
 /// More than a picture can show. What a long run takes more and more of is mostly its tracks.
 constexpr double kMostPoints = 2000;
 /// A pose source that is silent for longer than this share of what its robot allows has a gap worth
@@ -56,8 +58,10 @@ TrackRecorder::TrackRecorder(const BodyKinds& kinds, const sim::EngineSpec& spec
   }
 }
 
-void TrackRecorder::after_step(sim::Engine& engine) {
-  const bool keep = wanted_ && (engine.steps_done() - 1) % (every_ * rarer_) == 0;
+void TrackRecorder::after_step(const StepView& step) {
+  const sim::Engine& engine = step.engine;
+  const std::uint64_t every = step.late ? kLateFactor * every_ : every_;
+  const bool keep = wanted_ && (engine.steps_done() - 1) % every == 0;
   for (std::uint32_t r = 0; r < poses_.size(); ++r) {
     if (told_[r] != 0) reported_[r] = engine.reported(RobotId(r));
     if (here_[r] == 0 || !engine.snapshot().robot(RobotId(r)).present) continue;

@@ -7,14 +7,14 @@
 
 #include "facts.hpp"
 #include "kinds.hpp"
-#include "observer.hpp"
 #include "rave/report/picture.hpp"
+#include "rave/robot_host/run_observer.hpp"
 
 namespace rave::robot_host {
 
 /// Keeps where each robot was, thinned to what a picture can show, with the gaps of its pose source
 /// and, for real robots, the track that their commanded velocity alone would give.
-class TrackRecorder final : public Observer {
+class TrackRecorder final : public RunObserver {
  public:
   struct Wish {
     double duration_s = 0;        ///< Of the run.
@@ -24,11 +24,8 @@ class TrackRecorder final : public Observer {
   /// `spec.local` says which robots run here.
   TrackRecorder(const BodyKinds& kinds, const sim::EngineSpec& spec, const Wish& wish);
 
-  void after_step(sim::Engine& engine) override;
-  /// From the next step on only one point in ten is kept, until somebody says otherwise: steps come
-  /// late, and a picture can do with less.
-  void thin(bool thin) noexcept { rarer_ = thin ? 10 : 1; }
-
+  /// Of a step that comes late only one point in ten is kept: a picture can do with less.
+  void after_step(const StepView& step) override;
   /// Of robots that run here: one track each, then the odometry-only ones; none if none are wanted.
   [[nodiscard]] std::vector<TrackFacts> facts() const;
 
@@ -51,7 +48,6 @@ class TrackRecorder final : public Observer {
 
   bool wanted_ = true;
   std::uint64_t every_ = 1;
-  std::uint64_t rarer_ = 1;
   std::vector<report::PictureTrack> poses_;
   std::vector<report::PictureTrack> odometry_tracks_;
   std::vector<std::optional<Odometry>> odometry_;

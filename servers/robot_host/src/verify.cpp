@@ -313,9 +313,8 @@ Result<VerifyOutcome> verify(const fs::path& record, plugin::Catalogue& catalogu
   compare_versions(run, versions_of(engine.spec(), catalogue), outcome);
   RAVE_TRY_ASSIGN(const auto hashes, read_hashes(reader));
   RAVE_TRY_ASSIGN(const Scratch scratch, Scratch::create());
-  RAVE_TRY_ASSIGN(const auto keeper,
-                  RecordKeeper::begin(scratch.file(), engine, kinds,
-                                      {run.scenario, "", {}, {}, true}, options.log));
+  RAVE_TRY_ASSIGN(const auto keeper, RecordKeeper::open(scratch.file(), engine, kinds,
+                                                        info_of(engine, kinds), {}, options.log));
   RAVE_TRY_ASSIGN(auto inputs, read_inputs(reader));
   SecondRun second{again, *keeper, kinds};
   const auto& checks = scenario.scenario.checks;

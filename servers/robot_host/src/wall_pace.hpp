@@ -30,6 +30,12 @@ class WallPace final : public RunClock {
   explicit WallPace(double factor) : factor_(factor) {}
 
   void set_factor(double factor) noexcept { factor_ = factor; }
+  /// The same of a run under way, of which `now` is the time.
+  void change_factor(double factor, SimTime now) noexcept {
+    factor_ = factor;
+    begin_.store(Clock::now());
+    begin_.store(begin_.load() - (wall_time_of(now) - begin_.load()));
+  }
   void start() noexcept { begin_.store(Clock::now()); }
   /// Simulation time is 0 at `begin`, which may be past or to come.
   void start_at(Clock::time_point begin) noexcept { begin_.store(begin); }

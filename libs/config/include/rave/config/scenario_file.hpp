@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "rave/base/result.hpp"
+#include "rave/config/gui_file.hpp"
 #include "rave/config/located.hpp"
 #include "rave/config/pace.hpp"
 #include "rave/config/robot_file.hpp"
@@ -210,6 +211,7 @@ struct ScenarioFile {
   std::optional<PictureFile> picture;
   std::optional<GeoOriginFile> geo_origin;  ///< Unset: nobody knows where the world lies.
   Ros2File ros2;
+  GuiFile gui;
   bool operator==(const ScenarioFile&) const = default;
 };
 

@@ -43,4 +43,9 @@ struct Response {
 [[nodiscard]] bool parse_target(std::string_view target, std::string& path,
                                 std::map<std::string, std::string>& query);
 
+/// Takes the body of a form apart (`application/x-www-form-urlencoded`). Of equal names the first
+/// counts. False: it is malformed, has control characters, is longer than 8 KiB or has more than 32
+/// fields.
+[[nodiscard]] bool parse_form(std::string_view body, std::map<std::string, std::string>& fields);
+
 }  // namespace rave::web

@@ -13,21 +13,30 @@ namespace rave::gui_server {
 class Source;
 
 struct GuiOptions {
-  std::filesystem::path page;  ///< Folder of the built page.
-  std::uint16_t port = 8080;   ///< Taken: one of the next ones.
+  std::filesystem::path page;         ///< Folder of the built page.
+  std::uint16_t port = 8080;          ///< Taken: one of the next ones.
+  std::string listen = "127.0.0.1";   ///< Another address needs TLS and accounts.
+  std::filesystem::path certificate;  ///< With `key`: TLS. See `rave keys web`.
+  std::filesystem::path key;
+  std::filesystem::path accounts;  ///< Folder; empty: nobody but who has the link comes in.
 };
 
-/// The GUI Server: serves the page and, over WebSockets, what its source knows. Listens on loopback
-/// alone. Who has the link of entry() comes in as super-user; it works once, and the session that
-/// it begins lasts as long as the server.
+/// The GUI Server: serves the page and, over WebSockets, what its source knows, to each what their
+/// rights allow. Who has the link of entry() comes in as super-user; it works once, and the session
+/// that it begins lasts as long as the server. Others sign in with an account or an invitation.
 class GuiServer {
  public:
-  /// Errors: kNotFound (the page was not built), kIo (no port).
-  [[nodiscard]] static Result<std::unique_ptr<GuiServer>> start(const GuiOptions& options,
-                                                                std::shared_ptr<Source> source);
+  /// Without a source pages wait for show(). Errors: kNotFound (the page was not built),
+  /// kInvalidArgument (to listen elsewhere needs TLS and accounts), kIo (no port), those of
+  /// web::Server::start() of the certificate and of Accounts::open().
+  [[nodiscard]] static Result<std::unique_ptr<GuiServer>> start(
+      const GuiOptions& options, std::shared_ptr<Source> source = nullptr);
   GuiServer(const GuiServer&) = delete;
   GuiServer& operator=(const GuiServer&) = delete;
   ~GuiServer();
+
+  /// All pages see this source from now on, without a reload. Any thread.
+  void show(std::shared_ptr<Source> source);
 
   [[nodiscard]] std::uint16_t port() const noexcept;
   /// A link that signs a browser in, once. Each call makes another one. Any thread.

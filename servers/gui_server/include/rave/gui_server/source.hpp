@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -10,13 +13,21 @@
 #include <vector>
 
 #include "rave/base/result.hpp"
+#include "rave/gui_server/rights.hpp"
 
-// What the GUI Server shows comes from a source: today a recording, next a run. Plain values; SI
-// units, frame W, angles in radians, times in seconds of the run.
+// What the GUI Server shows comes from a source: a recording, or a run. Plain values; SI units,
+// frame W, angles in radians, times in seconds of the run.
 namespace rave::gui_server {
+
+/// A page draws trails of so many seconds; it gets what it has not seen of them at this spacing.
+inline constexpr double kPast_s = 20;
+inline constexpr double kPastSpacing_s = 0.2;
+/// A contact is told when it begins; so long it counts as going on.
+inline constexpr double kTouch_s = 0.5;
 
 /// What the run is called and where it comes from.
 struct RunAbout {
+  bool live = false;  ///< It goes on; otherwise this is its recording.
   std::string name;
   std::string started;  ///< ISO 8601; empty if unknown.
   double step_s = 0;
@@ -29,6 +40,7 @@ struct RunAbout {
   double begin_s = 0;
   double end_s = 0;
   double duration_s = 0;
+  Rights rights;  ///< The usual ones, with what the scenario changes.
 };
 
 /// Bits of RobotState::flags, as they go into a pose frame.
@@ -52,6 +64,7 @@ struct RobotState {
 
 /// Where all robots are at one moment; by index of the roster.
 struct PosesAt {
+  std::uint32_t serial = 0;  ///< Of a picture that several pages share; 0: it is of one page alone.
   double time_s = 0;
   std::uint64_t step = 0;
   std::vector<RobotState> robots;
@@ -99,17 +112,98 @@ class Cursor {
                                                         bool parts) = 0;
 };
 
+/// Where a page is in the time of a run, and what that time does.
+struct PlayState {
+  enum class Kind : std::uint8_t { kRunning, kPaused, kWaiting, kEnded } kind = Kind::kRunning;
+  double now_s = 0;
+  double begin_s = 0;     ///< Earliest moment that can be shown.
+  double end_s = 0;       ///< Latest moment that is known.
+  double duration_s = 0;  ///< Planned.
+  double pace = 1;        ///< What was asked for; 0: as fast as it goes.
+  double speed = 0;       ///< Seconds of the run per second on the wall.
+  std::string reason{};   ///< Of kWaiting and kEnded.
+  /// Changes with each new picture; equal ones need not be sent again.
+  std::uint64_t picture = 0;
+  bool jumped = false;  ///< The page has no past to draw trails with.
+};
+
+/// What a page asks of the time of a run.
+struct TransportMessage {
+  enum class Do : std::uint8_t { kPlay, kPause, kStep, kSeek, kPace } what = Do::kPlay;
+  double value = 0;  ///< Finite. kStep: how many; kSeek: seconds of the run; kPace: factor.
+};
+
+/// The time of one page: its own in a recording, that of the run in a live one. One thread.
+class Playhead {
+ public:
+  using Clock = std::chrono::steady_clock;
+  virtual ~Playhead() = default;
+  /// Returns why not; empty: it is done.
+  virtual std::string take(const TransportMessage& transport, Clock::time_point now) = 0;
+  virtual PlayState look(Clock::time_point now) = 0;
+};
+
+/// What pages may ask for, by the words of the messages (`play`, `stop` ...), and why not.
+struct Powers {
+  std::vector<std::string> may;
+  std::map<std::string, std::string> why_not;
+};
+
+/// What is asked of robots.
+struct HaltMessage {
+  bool stop = true;                  ///< Otherwise: release.
+  std::vector<std::uint32_t> slots;  ///< Empty: all robots.
+};
+
+/// What all pages together look at.
+struct Audience {
+  bool any = false;                 ///< A page wants poses.
+  std::vector<LookedAt> looked_at;  ///< Ascending, without repetitions.
+  bool parts = false;               ///< Also the halves of hybrid sensors.
+};
+
 /// One thread, which is that of the server.
 class Source {
  public:
+  /// What came of something that was asked. May come later.
+  using Reply = std::function<void(bool good, std::string text)>;
+
   virtual ~Source() = default;
   [[nodiscard]] virtual const RunAbout& about() const noexcept = 0;
+  [[nodiscard]] virtual Powers powers() const = 0;
   /// The arrays `bodies` of a message `scene` and `robots` of a message `roster`, as JSON.
   [[nodiscard]] virtual const std::string& bodies_json() const noexcept = 0;
   [[nodiscard]] virtual const std::string& robots_json() const noexcept = 0;
+  /// Kinds of bodies that are withheld.
+  [[nodiscard]] virtual std::string hidden_kinds_json() const { return "[]"; }
   [[nodiscard]] virtual std::uint32_t robot_count() const noexcept = 0;
   [[nodiscard]] virtual std::span<const LogEvent> events() const noexcept = 0;
   [[nodiscard]] virtual std::unique_ptr<Cursor> open_cursor() = 0;
+  [[nodiscard]] virtual std::unique_ptr<Playhead> open_playhead() = 0;
+
+  // A run that goes on.
+  /// Called some 60 times a second, before the pages are served.
+  virtual void tick(Playhead::Clock::time_point /*now*/, const Audience& /*audience*/) {}
+  /// Another number whenever events came or changed; since a number of before, those from this
+  /// index on did.
+  [[nodiscard]] virtual std::uint64_t events_revision() const noexcept { return 0; }
+  [[nodiscard]] virtual std::size_t events_changed_since(
+      std::uint64_t /*revision*/) const noexcept {
+    return 0;
+  }
+  /// The same of the bodies of the scene, with the message that says what changed.
+  [[nodiscard]] virtual std::uint64_t bodies_revision() const noexcept { return 0; }
+  [[nodiscard]] virtual std::string bodies_changed_since(std::uint64_t /*revision*/) const {
+    return {};
+  }
+  /// The array `hosts` of a message of that name, and another number whenever it changed; 0: the
+  /// run has no hosts.
+  [[nodiscard]] virtual std::uint64_t hosts_revision() const noexcept { return 0; }
+  [[nodiscard]] virtual const std::string& hosts_json() const noexcept {
+    static const std::string none = "[]";
+    return none;
+  }
+  virtual void halt(const HaltMessage& halt, Reply reply) = 0;
 };
 
 /// Plays the record of a run. Errors: those of record::open_run() and McapReader::open(), kParse

@@ -15,6 +15,8 @@
 
 namespace rave::robot_host {
 
+class RunObserver;
+
 /// How to run a scenario. What the command line overrides (seed, duration, threads, pace) is put
 /// into the ExpandedScenario before.
 struct RunOptions {
@@ -26,6 +28,8 @@ struct RunOptions {
   LogSink* log = nullptr;                ///< Not owned; outlives the call.
   /// Called in the calling thread about ten times a second of wall time; may be empty.
   std::function<void(const report::Progress&)> on_progress;
+  /// Who else looks at the run. Not owned; they outlive it.
+  std::vector<RunObserver*> observers{};
   /// Pauses, steps and ends the run from elsewhere; may be null. Not owned.
   RunControl* control = nullptr;
   /// Arm all robots when the run starts; without it those that must be armed wait for somebody.

@@ -128,6 +128,12 @@ class RunControl {
   /// Does `count` steps of a paused run, which then is paused again.
   void step(std::uint64_t count = 1);
 
+  /// Another pace from the next step on, of a run that has one process and is not live: simulated
+  /// seconds per second, 0: as fast as it can.
+  void set_pace(double factor);
+
+  /// What the pace is, or will be with the next step.
+  [[nodiscard]] double pace() const;
   [[nodiscard]] bool stopping() const noexcept { return stop_.load(); }
   [[nodiscard]] bool ends_everybody() const noexcept { return everybody_.load(); }
   [[nodiscard]] bool paused() const;
@@ -166,6 +172,8 @@ class RunControl {
     std::chrono::steady_clock::time_point since_;
     bool open_ = true;
   };
+  /// What set_pace() asked for since the last call.
+  [[nodiscard]] std::optional<double> take_pace();
   /// All that was asked since the last call, in order, for a run that answers later.
   [[nodiscard]] std::vector<Asked> take();
   /// Wakes who waits for something else, with the next request since take().
@@ -184,8 +192,10 @@ class RunControl {
   void set_time(double sim_s) noexcept { sim_s_.store(sim_s); }
   /// No more requests; those that wait get an error.
   void end();
-  /// Waits until a step may be done, serving requests; false: the run is to end.
-  bool wait_for_turn(const std::function<void()>& serve = {});
+  /// Waits until a step may be done, serving requests, and calling `held` now and then meanwhile;
+  /// false: the run is to end.
+  bool wait_for_turn(const std::function<void()>& serve = {},
+                     const std::function<void()>& held = {});
 
  private:
   struct Pending {
@@ -197,6 +207,7 @@ class RunControl {
   std::atomic<bool> everybody_{false};
   static_assert(std::atomic<bool>::is_always_lock_free);
   std::atomic<bool> asked_{false};
+  std::atomic<double> pace_asked_{-1};  ///< Negative: none.
   std::atomic<double> sim_s_{0};
   mutable std::mutex mutex_;
   std::condition_variable changed_;

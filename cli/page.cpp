@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "page.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <thread>
+
+#include "error_text.hpp"
+#include "places.hpp"
+#include "rave/gui_server/accounts.hpp"
+
+namespace rave::cli {
+namespace {
+
+bool is_set(const char* name) {
+  const char* const value = std::getenv(name);
+  return value != nullptr && *value != '\0';
+}
+
+/// Opens the page where there is a desktop; over SSH and without a display only the link is told.
+void open_browser(const std::string& link) {
+  if (is_set("SSH_CONNECTION") || (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY"))) return;
+  // The link has only characters that a shell leaves alone within quotes.
+  const std::string command = fmt::format("xdg-open '{}' >/dev/null 2>&1 &", link);
+  if (std::system(command.c_str()) != 0) return;  // The link was told; nothing is lost.
+}
+
+std::string how_to_reach(const std::string& link, std::uint16_t port) {
+  std::string text = fmt::format("open  {}\n", link);
+  if (is_set("SSH_CONNECTION")) {
+    text += fmt::format("from your machine, first:  ssh -L {0}:127.0.0.1:{0} THIS_MACHINE\n", port);
+  }
+  return text + "Ctrl-C ends\n";
+}
+
+}  // namespace
+
+Result<std::unique_ptr<gui_server::GuiServer>> serve_page(
+    const PageOptions& options, std::shared_ptr<gui_server::Source> source) {
+  gui_server::GuiOptions gui_options;
+  gui_options.page =
+      options.page.empty() ? share_folder() / "web" : std::filesystem::path(options.page);
+  gui_options.port = options.port;
+  gui_options.listen = options.listen;
+  gui_options.certificate = options.certificate;
+  gui_options.key = options.key;
+  gui_options.accounts = options.accounts;
+  if (options.accounts.empty() && options.listen != gui_server::GuiOptions().listen) {
+    gui_options.accounts = gui_server::Accounts::usual_folder();
+  }
+  RAVE_TRY_ASSIGN(auto server, gui_server::GuiServer::start(gui_options, std::move(source)));
+  const std::string link = server->entry();
+  put(stdout, how_to_reach(link, server->port()));
+  std::fflush(stdout);
+  if (!options.no_open) open_browser(link);
+  return server;
+}
+
+void replay_on_page(gui_server::GuiServer& page, bool quiet, const std::filesystem::path& folder,
+                    const robot_host::RunControl& control) {
+  if (control.stopping()) return;
+  auto source = record_file(folder.string()).and_then(gui_server::open_recording);
+  if (source) page.show(*std::move(source));
+  if (!quiet) {
+    put(stdout, source ? "the page shows the recording; Ctrl-C ends\n"
+                       : fmt::format("the page shows no recording: {}; Ctrl-C ends\n",
+                                     source.error().text()));
+  }
+  std::fflush(stdout);
+  while (!control.stopping()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+}
+
+}  // namespace rave::cli

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "rave/gui_server/gui_server.hpp"
+#include "rave/gui_server/source.hpp"
+#include "rave/robot_host/run_control.hpp"
+
+namespace rave::cli {
+
+/// Where the page is served.
+struct PageOptions {
+  std::uint16_t port = 8080;
+  std::string page;  ///< Folder of the built page; empty: that of the installation.
+  bool no_open = false;
+  std::string listen = "127.0.0.1";
+  std::string certificate;  ///< With `key`: TLS.
+  std::string key;
+  std::string accounts;  ///< Folder; empty: the user's, if it listens elsewhere than on loopback.
+};
+
+/// Serves the page, prints its link and opens it where there is a desktop. Without a source it
+/// waits for one. Errors: those of GuiServer::start().
+[[nodiscard]] Result<std::unique_ptr<gui_server::GuiServer>> serve_page(
+    const PageOptions& options, std::shared_ptr<gui_server::Source> source = nullptr);
+
+/// When a run is over, its page shows the recording in `folder` until somebody ends this process.
+void replay_on_page(gui_server::GuiServer& page, bool quiet, const std::filesystem::path& folder,
+                    const robot_host::RunControl& control);
+
+}  // namespace rave::cli

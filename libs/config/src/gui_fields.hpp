@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "file_checks.hpp"
+#include "rave/config/gui_file.hpp"
+#include "robot_fields.hpp"
+
+// How `gui:` of scenario files is read, written and described.
+namespace rave::config {
+
+constexpr auto enum_names(EnumTag<GuiRole> /*tag*/) {
+  return std::array{EnumName{GuiRole::kObserver, "observer"},
+                    EnumName{GuiRole::kCommander, "commander"}};
+}
+
+constexpr auto enum_names(EnumTag<GuiClass> /*tag*/) {
+  return std::array{EnumName{GuiClass::kPose, "pose"},
+                    EnumName{GuiClass::kTruePose, "true_pose"},
+                    EnumName{GuiClass::kReadings, "readings"},
+                    EnumName{GuiClass::kHybridParts, "hybrid_parts"},
+                    EnumName{GuiClass::kObstacles, "obstacles"},
+                    EnumName{GuiClass::kGoals, "goals"},
+                    EnumName{GuiClass::kMaps, "maps"},
+                    EnumName{GuiClass::kChat, "chat"},
+                    EnumName{GuiClass::kLog, "log"},
+                    EnumName{GuiClass::kVideo, "video"},
+                    EnumName{GuiClass::kRecording, "recording"},
+                    EnumName{GuiClass::kStop, "stop"},
+                    EnumName{GuiClass::kRelease, "release"},
+                    EnumName{GuiClass::kRunControl, "run_control"}};
+}
+
+constexpr auto enum_names(EnumTag<GuiReach> /*tag*/) {
+  return std::array{EnumName{GuiReach::kNone, "none"}, EnumName{GuiReach::kOwn, "own"},
+                    EnumName{GuiReach::kAll, "all"}, EnumName{GuiReach::kTeams, "teams"}};
+}
+
+template <class V>
+void describe(V& v, GuiRightFile& c) {
+  v.field("role", c.role, {.doc = "Of all users with this role; null: `user` says of whom."});
+  v.field("user", c.user, {.doc = "Of one user, whatever the role; null: `role` says of whom."});
+  v.required("classes", c.classes,
+             {.doc = "What is given or withheld.", .min_items = 1, .max_items = 14});
+  v.required("reach", c.reach,
+             {.doc = "Of which robots: none, those of the user's own teams, all, or those of "
+                     "`teams`."});
+  v.field("teams", c.teams, {.doc = "With `reach: teams`.", .max_items = 1000});
+}
+
+void validate(const GuiRightFile& c, CheckContext& check);
+
+template <class V>
+void describe(V& v, GuiFile& c) {
+  v.field("rights", c.rights,
+          {.doc = "Changes of the usual rights; later ones go before earlier ones.",
+           .max_items = 1000});
+}
+
+}  // namespace rave::config

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+// One of the two files that include Boost.Beast with its HTTP or WebSockets: each takes a gigabyte
+// and half a minute to compile.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
+#include <optional>
+
+#include "websocket.hpp"
+
+namespace rave::web {
+namespace {
+
+namespace http = beast::http;
+using Message = http::request<http::string_body>;
+using Answer = http::response<http::span_body<const char>>;
+
+// `connect-src 'self'` keeps the page from telling anybody else; images of the page itself may be
+// data. Styles are set by the docking library on elements, which needs 'unsafe-inline' for styles.
+constexpr const char* kPolicy =
+    "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: "
+    "blob:; font-src 'self'; connect-src 'self'; manifest-src 'self'; worker-src 'self'; base-uri "
+    "'none'; form-action 'self'; frame-ancestors 'none'";
+
+/// One connection before it becomes a WebSocket: one request after the other.
+class Connection final : public Link, public std::enable_shared_from_this<Connection> {
+ public:
+  Connection(Core& core, Tcp::socket socket, const std::string& peer)
+      : core_(core),
+        stream_(std::move(socket), core.tls ? &core.tls->context() : nullptr),
+        seat_(std::make_shared<Seat>(core, network_of(peer))),
+        peer_(peer) {
+    core_.connections.insert(this);
+  }
+  ~Connection() override { core_.connections.erase(this); }
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+
+  void begin();
+  void cut() override {
+    if (!handed_over_) stream_.close();
+  }
+  void answer(const Response& response);
+
+ private:
+  void read();
+  void refuse_broken(Error error);
+  void take();
+  void dispatch(const Request& request);
+  void refuse(const Response& response);
+  void send(const std::shared_ptr<Answer>& reply, Payload body, bool without_body);
+  /// Why a request is refused before anybody looks at it.
+  [[nodiscard]] std::optional<Response> refusal(Request& request);
+  void upgrade(Request request);
+
+  Core& core_;
+  Stream stream_;
+  std::shared_ptr<Seat> seat_;  ///< Handed over to the WebSocket that this becomes.
+  std::string peer_;
+  beast::flat_buffer buffer_;
+  std::optional<http::request_parser<http::string_body>> parser_;
+  Message message_;
+  bool handed_over_ = false;
+};
+
+void Connection::begin() {
+  stream_.expires_after(core_.options().idle);
+  stream_.handshake([self = shared_from_this()](Error error) {
+    if (error) {
+      ++self->core_.counts.failed_handshakes;
+      return self->stream_.close();
+    }
+    self->read();
+  });
+}
+
+void Connection::read() {
+  parser_.emplace();
+  parser_->header_limit(static_cast<std::uint32_t>(core_.options().request_bytes));
+  parser_->body_limit(core_.options().request_bytes);
+  stream_.expires_after(core_.options().idle);
+  http::async_read(stream_, buffer_, *parser_,
+                   [self = shared_from_this()](Error error, std::size_t) {
+                     if (error) return self->refuse_broken(error);
+                     self->take();
+                   });
+}
+
+void Connection::refuse_broken(Error error) {
+  const bool large = error == http::error::header_limit || error == http::error::body_limit;
+  if (!large) return stream_.close();
+  message_ = {};
+  message_.keep_alive(false);
+  message_.version(11);
+  refuse(text_response(413, "the request is too large\n"));
+}
+
+void Connection::take() {
+  ++core_.counts.requests;
+  message_ = parser_->release();
+  Request request;
+  request.method = std::string(message_.method_string());
+  for (const auto& field : message_) {
+    std::string name(field.name_string());
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    request.headers.emplace(std::move(name), std::string(field.value()));
+  }
+  request.peer = peer_;
+  if (const auto refused = refusal(request)) return refuse(*refused);
+  if (beast::websocket::is_upgrade(message_)) return upgrade(std::move(request));
+  request.body = std::move(message_.body());
+  dispatch(request);
+}
+
+/// Lets go of a connection in the thread of the server, wherever the last copy of a reply is
+/// dropped.
+class Held {
+ public:
+  Held(Core& core, std::shared_ptr<Connection> connection)
+      : core_(core), connection_(std::move(connection)) {}
+  Held(const Held&) = delete;
+  Held& operator=(const Held&) = delete;
+  ~Held() {
+    asio::post(core_.io(), [connection = std::move(connection_)] {});
+  }
+  void answer(const Response& response) const {
+    asio::post(core_.io(), [connection = connection_, response] { connection->answer(response); });
+  }
+
+ private:
+  Core& core_;
+  std::shared_ptr<Connection> connection_;  ///< Shared with the operations under way.
+};
+
+void Connection::dispatch(const Request& request) {
+  const auto held = std::make_shared<Held>(core_, shared_from_this());
+  const Reply reply = [held](const Response& response) { held->answer(response); };
+  // What takes time has a limit of its own; meanwhile nothing is read.
+  stream_.expires_after(core_.options().idle);
+  if (core_.handler().serve_later(request, reply)) return;
+  answer(core_.handler().serve(request));
+}
+
+std::optional<Response> Connection::refusal(Request& request) {
+  if (!core_.requests.take(seat_->network(), RateLimit::Clock::now())) {
+    Response response = text_response(429, "too many requests; try again in a few seconds\n");
+    response.headers.emplace_back("Retry-After", "5");
+    return response;
+  }
+  const std::string target(message_.target());
+  if (!parse_target(target, request.path, request.query)) {
+    return text_response(400, "malformed request target\n");
+  }
+  if (request.method != "GET" && request.method != "HEAD" && request.method != "POST") {
+    return text_response(405, "method not allowed\n");
+  }
+  // A name of somebody else that leads here is how foreign pages reach servers on loopback.
+  if (!core_.is_own_host(request.header("host"))) {
+    return text_response(421, "this server does not have that name\n");
+  }
+  const std::string_view origin = request.header("origin");
+  const bool writes = request.method == "POST" || beast::websocket::is_upgrade(message_);
+  if (writes && !origin.empty() &&
+      origin != fmt::format("{}{}", core_.scheme(), request.header("host"))) {
+    return text_response(403, "requests of other origins are refused\n");
+  }
+  return std::nullopt;
+}
+
+void Connection::upgrade(Request request) {
+  if (request.path != "/ws") return refuse(text_response(404, "not found\n"));
+  stream_.set_send_buffer(core_.options().send_buffer_bytes);
+  handed_over_ = true;
+  serve_websocket(core_, std::move(stream_), std::move(seat_), std::move(request), message_);
+}
+
+void Connection::refuse(const Response& response) {
+  ++core_.counts.refused_requests;
+  answer(response);
+}
+
+void Connection::answer(const Response& response) {
+  auto reply = std::make_shared<Answer>();
+  reply->version(message_.version());
+  reply->result(static_cast<unsigned>(response.status));
+  reply->set(http::field::content_type, response.type);
+  reply->set("Content-Security-Policy", kPolicy);
+  reply->set("X-Content-Type-Options", "nosniff");
+  reply->set("Referrer-Policy", "no-referrer");
+  reply->set("Cross-Origin-Opener-Policy", "same-origin");
+  // Thirty days: who goes back to plain HTTP on that machine can wait that out.
+  if (core_.tls) reply->set("Strict-Transport-Security", "max-age=2592000");
+  // A header of the handler takes the place of the usual one, but may come several times itself.
+  for (const auto& [name, value] : response.headers) {
+    if (name == "Content-Security-Policy") {
+      reply->set(name, value);
+    } else {
+      reply->insert(name, value);
+    }
+  }
+  const std::size_t size = response.body ? response.body->size() : 0;
+  const bool without = message_.method() == http::verb::head || response.status == 304;
+  if (response.body && !without) reply->body() = {response.body->data(), size};
+  reply->keep_alive(message_.keep_alive());
+  reply->content_length(size);
+  send(reply, response.body, without);
+}
+
+void Connection::send(const std::shared_ptr<Answer>& reply, Payload body, bool without_body) {
+  const auto done = [self = shared_from_this(), reply, body = std::move(body)](Error error,
+                                                                               std::size_t) {
+    if (error) return self->stream_.close();
+    if (reply->keep_alive() && !self->core_.stopping) return self->read();
+    self->stream_.finish([self] {});
+  };
+  stream_.expires_after(core_.options().idle);
+  if (!without_body) return http::async_write(stream_, *reply, done);
+  auto serializer =
+      std::make_shared<http::response_serializer<http::span_body<const char>>>(*reply);
+  http::async_write_header(
+      stream_, *serializer,
+      [serializer, done](Error error, std::size_t size_out) { done(error, size_out); });
+}
+
+}  // namespace
+
+void serve_connection(Core& core, Tcp::socket socket, const std::string& peer) {
+  std::make_shared<Connection>(core, std::move(socket), peer)->begin();
+}
+
+}  // namespace rave::web

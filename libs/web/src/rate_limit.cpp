@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/web/rate_limit.hpp"
+
+#include <arpa/inet.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+namespace rave::web {
+namespace {
+
+constexpr std::size_t kMostNames = 10'000;
+
+/// An address of IPv4 within IPv6, as a listener on `::` gets it.
+constexpr std::string_view kMapped = "::ffff:";
+
+}  // namespace
+
+double RateLimit::tokens_of(const Bucket& bucket, Clock::time_point now) const {
+  const double gone_s = std::chrono::duration<double>(now - bucket.at).count();
+  return std::min(burst_, bucket.tokens + per_s_ * std::max(gone_s, 0.0));
+}
+
+bool RateLimit::take(std::string_view name, Clock::time_point now) {
+  auto found = buckets_.find(name);
+  if (found == buckets_.end()) {
+    make_room(now);
+    found = buckets_.emplace(std::string(name), Bucket{burst_, now}).first;
+  }
+  Bucket& bucket = found->second;
+  bucket.tokens = tokens_of(bucket, now);
+  bucket.at = now;
+  if (bucket.tokens < 1) return false;
+  bucket.tokens -= 1;
+  return true;
+}
+
+bool RateLimit::has(std::string_view name, Clock::time_point now) const {
+  const auto found = buckets_.find(name);
+  return found == buckets_.end() || tokens_of(found->second, now) >= 1;
+}
+
+void RateLimit::make_room(Clock::time_point now) {
+  if (buckets_.size() < kMostNames) return;
+  std::erase_if(buckets_,
+                [&](const auto& entry) { return tokens_of(entry.second, now) >= burst_; });
+  // So many at once are an attack; that one of them is forgotten helps it little.
+  if (buckets_.size() >= kMostNames) buckets_.erase(buckets_.begin());
+}
+
+std::string network_of(const std::string& address) {
+  if (address.starts_with(kMapped)) return address.substr(kMapped.size());
+  std::array<unsigned char, 16> bytes{};
+  if (inet_pton(AF_INET6, address.substr(0, address.find('%')).c_str(), bytes.data()) != 1) {
+    return address;
+  }
+  std::fill(bytes.begin() + 8, bytes.end(), static_cast<unsigned char>(0));
+  std::array<char, INET6_ADDRSTRLEN> text{};
+  inet_ntop(AF_INET6, bytes.data(), text.data(), text.size());
+  return std::string(text.data()) + "/64";
+}
+
+bool is_loopback(const std::string& address) {
+  const std::string plain = address.starts_with(kMapped) ? address.substr(kMapped.size()) : address;
+  return plain.starts_with("127.") || plain == "::1";
+}
+
+}  // namespace rave::web

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stream.hpp"
+
+#include <boost/asio/ssl/context.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/ssl/ssl_stream.hpp>
+#include <optional>
+
+namespace rave::web {
+
+struct Stream::Impl {
+  // Beast's stream puts the head of a frame and its body into one record of TLS.
+  using Tls = beast::ssl_stream<Tcp::socket>;
+
+  Impl(Tcp::socket from, asio::ssl::context* context) : timer(from.get_executor()) {
+    if (context == nullptr) {
+      plain.emplace(std::move(from));
+    } else {
+      tls.emplace(std::move(from), *context);
+    }
+  }
+  [[nodiscard]] Tcp::socket& socket() { return tls ? tls->next_layer() : *plain; }
+  void close() noexcept {
+    Error ignored;
+    timer.cancel(ignored);
+    socket().close(ignored);
+  }
+
+  std::optional<Tcp::socket> plain;
+  std::optional<Tls> tls;
+  asio::steady_timer timer;
+};
+
+Stream::Stream(Tcp::socket socket, asio::ssl::context* tls)
+    : impl_(std::make_shared<Impl>(std::move(socket), tls)) {}
+
+Stream::executor_type Stream::get_executor() { return impl_->socket().get_executor(); }
+
+void Stream::handshake(std::function<void(Error)> done) {
+  if (!impl_->tls) {
+    done({});
+    return;
+  }
+  impl_->tls->async_handshake(asio::ssl::stream_base::server,
+                              [impl = impl_, done = std::move(done)](Error error) { done(error); });
+}
+
+void Stream::expires_after(std::chrono::steady_clock::duration time) {
+  impl_->timer.expires_after(time);
+  impl_->timer.async_wait([weak = std::weak_ptr(impl_)](Error error) {
+    if (error) return;
+    if (const auto impl = weak.lock()) impl->close();
+  });
+}
+
+void Stream::expires_never() {
+  Error ignored;
+  impl_->timer.cancel(ignored);
+}
+
+void Stream::finish(std::function<void()> done) {
+  const auto end = [impl = impl_, done = std::move(done)] {
+    Error ignored;
+    impl->socket().shutdown(Tcp::socket::shutdown_send, ignored);
+    done();
+  };
+  if (!impl_->tls || !impl_->socket().is_open()) {
+    asio::post(get_executor(), end);
+    return;
+  }
+  expires_after(std::chrono::seconds(2));
+  impl_->tls->async_shutdown([end](Error /*error*/) { end(); });
+}
+
+void Stream::close() noexcept { impl_->close(); }
+
+void Stream::set_send_buffer(int bytes) {
+  Error ignored;
+  impl_->socket().set_option(asio::socket_base::send_buffer_size(bytes), ignored);
+  impl_->socket().set_option(Tcp::no_delay(true), ignored);
+}
+
+void Stream::read_some(const Buffers<asio::mutable_buffer>& buffers, Done done) {
+  auto kept = [impl = impl_, done = std::move(done)](Error error, std::size_t size) {
+    done(error, size);
+  };
+  if (impl_->tls) {
+    impl_->tls->async_read_some(buffers, std::move(kept));
+  } else {
+    impl_->plain->async_read_some(buffers, std::move(kept));
+  }
+}
+
+void Stream::write_some(const Buffers<asio::const_buffer>& buffers, Done done) {
+  auto kept = [impl = impl_, done = std::move(done)](Error error, std::size_t size) {
+    done(error, size);
+  };
+  if (impl_->tls) {
+    impl_->tls->async_write_some(buffers, std::move(kept));
+  } else {
+    impl_->plain->async_write_some(buffers, std::move(kept));
+  }
+}
+
+}  // namespace rave::web

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <boost/asio/async_result.hpp>
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/beast/core/error.hpp>
+#include <boost/beast/core/role.hpp>
+#include <chrono>
+#include <functional>
+#include <memory>
+
+namespace boost::asio::ssl {  // their own name. NOLINT(readability-identifier-naming)
+class context;
+}
+
+namespace rave::web {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+using Tcp = asio::ip::tcp;
+using Error = beast::error_code;
+
+/// A few buffers of a sequence; what is left over is for the next call.
+template <class Buffer>
+class Buffers {
+ public:
+  using value_type = Buffer;
+  using const_iterator = const Buffer*;
+
+  template <class Sequence>
+  explicit Buffers(const Sequence& sequence) {
+    const auto end = asio::buffer_sequence_end(sequence);
+    for (auto it = asio::buffer_sequence_begin(sequence); it != end && size_ < items_.size();
+         ++it) {
+      const Buffer buffer(*it);
+      if (buffer.size() > 0) items_[size_++] = buffer;
+    }
+  }
+  [[nodiscard]] const_iterator begin() const noexcept { return items_.data(); }
+  [[nodiscard]] const_iterator end() const noexcept { return items_.data() + size_; }
+
+ private:
+  std::array<Buffer, 8> items_{};
+  std::size_t size_ = 0;
+};
+
+/// A connection with or without TLS behind one type, so that HTTP and WebSockets are compiled once.
+/// One thread, that of its io_context.
+class Stream {
+ public:
+  using executor_type = Tcp::socket::executor_type;
+  using Done = std::function<void(Error, std::size_t)>;
+
+  /// `tls`: null for a connection without it; otherwise it outlives the stream.
+  Stream(Tcp::socket socket, asio::ssl::context* tls);
+  Stream(Stream&&) noexcept = default;
+  Stream& operator=(Stream&&) noexcept = default;
+  ~Stream() = default;
+
+  [[nodiscard]] executor_type get_executor();
+  /// The first thing to do; without TLS it is done at once.
+  void handshake(std::function<void(Error)> done);
+  /// Cuts the connection then, unless this is called again or never() is.
+  void expires_after(std::chrono::steady_clock::duration time);
+  void expires_never();
+  /// Says that nothing more will be sent, within two seconds.
+  void finish(std::function<void()> done);
+  void close() noexcept;
+  /// Makes the kernel keep little, so that a slow line shows at once.
+  void set_send_buffer(int bytes);
+
+  template <class Sequence, class Token>
+  auto async_read_some(const Sequence& buffers, Token&& token) {
+    return asio::async_initiate<Token, void(Error, std::size_t)>(
+        [this](auto handler, const Buffers<asio::mutable_buffer>& some) {
+          read_some(some, erased(std::move(handler)));
+        },
+        token, Buffers<asio::mutable_buffer>(buffers));
+  }
+  template <class Sequence, class Token>
+  auto async_write_some(const Sequence& buffers, Token&& token) {
+    return asio::async_initiate<Token, void(Error, std::size_t)>(
+        [this](auto handler, const Buffers<asio::const_buffer>& some) {
+          write_some(some, erased(std::move(handler)));
+        },
+        token, Buffers<asio::const_buffer>(buffers));
+  }
+
+ private:
+  struct Impl;
+  /// Handlers can only be moved; the one place that holds this one calls it once.
+  template <class Handler>
+  static Done erased(Handler handler) {
+    auto shared = std::make_shared<Handler>(std::move(handler));
+    return [shared](Error error, std::size_t size) { std::move (*shared)(error, size); };
+  }
+  void read_some(const Buffers<asio::mutable_buffer>& buffers, Done done);
+  void write_some(const Buffers<asio::const_buffer>& buffers, Done done);
+
+  std::shared_ptr<Impl> impl_;  ///< Shared with the operations under way.
+};
+
+// What Beast asks of a stream under a WebSocket, found by the type of the argument.
+inline void teardown(beast::role_type /*role*/, Stream& stream, Error& error) {
+  stream.close();
+  error = {};
+}
+template <class Handler>
+void async_teardown(beast::role_type /*role*/, Stream& stream, Handler&& handler) {
+  auto shared = std::make_shared<std::decay_t<Handler>>(std::forward<Handler>(handler));
+  stream.finish([shared] { std::move (*shared)(Error()); });
+}
+inline void beast_close_socket(Stream& stream) { stream.close(); }
+
+}  // namespace rave::web

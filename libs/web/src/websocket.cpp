@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+// One of the two files that include Boost.Beast with its HTTP or WebSockets: each takes a gigabyte
+// and half a minute to compile.
+#include "websocket.hpp"
+
+#include <algorithm>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/websocket.hpp>
+#include <deque>
+#include <optional>
+
+namespace rave::web {
+namespace {
+
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+
+constexpr std::uint16_t kTooMany = 4429;
+
+/// A WebSocket with a queue of its own. Lives as long as an operation of it is under way.
+class WebSocket final : public SocketLink, public std::enable_shared_from_this<WebSocket> {
+ public:
+  WebSocket(Core& core, Stream stream, std::shared_ptr<Seat> seat, Request request)
+      : core_(core),
+        stream_(std::move(stream)),
+        seat_(std::move(seat)),
+        request_(std::move(request)),
+        rate_(core.options().messages_per_s, core.options().message_burst) {}
+  ~WebSocket() override { core_.sockets.erase(this); }
+  WebSocket(const WebSocket&) = delete;
+  WebSocket& operator=(const WebSocket&) = delete;
+
+  void accept(const http::request<http::string_body>& upgrade);
+  void send_text(Payload text) override { queue({std::move(text), true}); }
+  void send_binary(Payload bytes) override { queue({std::move(bytes), false}); }
+  void close(std::uint16_t code, std::string_view reason) override;
+  [[nodiscard]] std::size_t waiting_bytes() const noexcept override { return waiting_; }
+  void cut() override { stream_.next_layer().close(); }
+
+ private:
+  struct Out {
+    Payload payload;
+    bool text = false;
+  };
+  void opened();
+  void queue(Out out);
+  void write();
+  void read();
+  void take(std::string_view message);
+  void start_closing();
+  void end();
+
+  Core& core_;
+  websocket::stream<Stream> stream_;
+  std::shared_ptr<Seat> seat_;  ///< Handed over by the connection that this was.
+  Request request_;
+  RateLimit rate_;
+  beast::flat_buffer buffer_;
+  std::deque<Out> out_;
+  std::size_t waiting_ = 0;
+  std::uint64_t id_ = 0;
+  std::optional<websocket::close_reason> closing_;
+  bool writing_ = false;
+  bool ended_ = false;
+};
+
+void WebSocket::accept(const http::request<http::string_body>& upgrade) {
+  const ServerOptions& options = core_.options();
+  stream_.next_layer().expires_never();
+  stream_.set_option(websocket::stream_base::timeout{options.idle, options.idle, true});
+  stream_.read_message_max(options.message_bytes);
+  stream_.auto_fragment(false);
+  if (!options.subprotocol.empty()) {
+    stream_.set_option(
+        websocket::stream_base::decorator([this](websocket::response_type& response) {
+          response.set(http::field::sec_websocket_protocol, core_.options().subprotocol);
+        }));
+  }
+  stream_.async_accept(upgrade, [self = shared_from_this()](Error error) {
+    if (!error && !self->core_.stopping) self->opened();
+  });
+}
+
+void WebSocket::opened() {
+  core_.sockets.insert(this);
+  const Handler::Admission admission = core_.handler().admit(request_);
+  if (admission.refusal != 0) {
+    close(admission.refusal, admission.reason);
+  } else {
+    id_ = core_.next_id();
+    core_.handler().opened(id_, *this, request_);
+  }
+  read();
+}
+
+void WebSocket::queue(Out out) {
+  if (ended_ || closing_) return;
+  waiting_ += out.payload->size();
+  out_.push_back(std::move(out));
+  if (waiting_ > core_.options().waiting_bytes) {
+    // Who does not read for so long is gone, or worse; others must not pay for it.
+    cut();
+    return;
+  }
+  if (!writing_) write();
+}
+
+void WebSocket::write() {
+  if (out_.empty()) {
+    writing_ = false;
+    if (closing_) start_closing();
+    return;
+  }
+  writing_ = true;
+  const Out& next = out_.front();
+  stream_.text(next.text);
+  stream_.async_write(asio::buffer(*next.payload),
+                      [self = shared_from_this()](Error error, std::size_t) {
+                        if (error) return self->end();
+                        const std::size_t size = self->out_.front().payload->size();
+                        self->waiting_ -= size;
+                        self->core_.counts.sent_bytes += size;
+                        self->out_.pop_front();
+                        self->write();
+                      });
+}
+
+void WebSocket::read() {
+  stream_.async_read(buffer_, [self = shared_from_this()](Error error, std::size_t) {
+    if (error) return self->end();
+    const auto data = self->buffer_.cdata();
+    self->take({static_cast<const char*>(data.data()), data.size()});
+    self->buffer_.consume(data.size());
+    self->read();
+  });
+}
+
+void WebSocket::take(std::string_view message) {
+  // Pages send text alone; anything else is nobody we know.
+  if (!stream_.got_text()) return close(1003, "text messages only");
+  if (closing_ || id_ == 0) return;
+  if (!rate_.take("", RateLimit::Clock::now())) {
+    ++core_.counts.sockets_closed_for_rate;
+    return close(kTooMany, "too many messages");
+  }
+  core_.handler().received(id_, message);
+}
+
+void WebSocket::close(std::uint16_t code, std::string_view reason) {
+  if (ended_ || closing_) return;
+  constexpr std::size_t kMostReason = 120;
+  closing_ = websocket::close_reason(
+      static_cast<websocket::close_code>(code),
+      beast::string_view(reason.data(), std::min(reason.size(), kMostReason)));
+  if (!writing_) start_closing();
+}
+
+void WebSocket::start_closing() {
+  writing_ = true;
+  stream_.async_close(*closing_, [self = shared_from_this()](Error) { self->end(); });
+}
+
+void WebSocket::end() {
+  if (ended_) return;
+  ended_ = true;
+  out_.clear();
+  waiting_ = 0;
+  core_.sockets.erase(this);
+  if (id_ != 0) core_.handler().closed(id_);
+  cut();
+}
+
+}  // namespace
+
+void serve_websocket(Core& core, Stream stream, std::shared_ptr<Seat> seat, Request request,
+                     const http::request<http::string_body>& upgrade) {
+  std::make_shared<WebSocket>(core, std::move(stream), std::move(seat), std::move(request))
+      ->accept(upgrade);
+}
+
+}  // namespace rave::web

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <boost/beast/http/message.hpp>
+#include <boost/beast/http/string_body.hpp>
+
+#include "core.hpp"
+
+namespace rave::web {
+
+/// Makes a WebSocket of a connection whose request asked for one. `seat` is shared with nobody else
+/// from then on.
+void serve_websocket(Core& core, Stream stream, std::shared_ptr<Seat> seat, Request request,
+                     const beast::http::request<beast::http::string_body>& upgrade);
+
+}  // namespace rave::web

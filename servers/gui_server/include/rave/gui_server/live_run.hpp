@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "rave/config/expanded_scenario.hpp"
+#include "rave/gui_server/source.hpp"
+#include "rave/robot_host/run_control.hpp"
+#include "rave/robot_host/run_observer.hpp"
+
+namespace rave::gui_server {
+
+/// A run of this process, for pages: an observer of the run, and the source that shows what the
+/// observer hands over. The run never waits for the pages.
+class LiveRun {
+ public:
+  /// `control` is that of the run: what pages ask for goes there. `ready` gets the source when the
+  /// run is there, in the thread of the run. Both outlive the run.
+  LiveRun(const config::ExpandedScenario& scenario, robot_host::RunControl& control,
+          std::function<void(std::shared_ptr<Source>)> ready);
+  LiveRun(const LiveRun&) = delete;
+  LiveRun& operator=(const LiveRun&) = delete;
+  ~LiveRun();
+
+  /// For RunOptions::observers.
+  [[nodiscard]] robot_host::RunObserver& observer() noexcept;
+  /// The run is over: pages say so, with the reason. Any thread.
+  void end(std::string reason);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace rave::gui_server

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "audit_log.hpp"
+
+#include <fcntl.h>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+namespace rave::gui_server {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr const char* kFile = "audit.jsonl";
+constexpr std::size_t kLongestField = 200;
+
+}  // namespace
+
+void AuditLog::note(std::string_view what, Fields fields) {
+  if (folder_.empty()) return;
+  const auto now =
+      std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::system_clock::now());
+  nlohmann::ordered_json line = {{"time", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", now)},
+                                 {"what", what}};
+  for (const auto& [name, value] : fields) {
+    if (!value.empty()) line[std::string(name)] = value.substr(0, kLongestField);
+  }
+  // What strangers typed may be no UTF-8.
+  const std::string text =
+      line.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  const std::lock_guard lock(mutex_);
+  turn_over();
+  const int file =
+      ::open((folder_ / kFile).c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
+  const bool written =
+      file >= 0 && ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+  if (file >= 0) ::close(file);
+  if (!written) ++lost_;
+}
+
+std::uint64_t AuditLog::lost() const {
+  const std::lock_guard lock(mutex_);
+  return lost_;
+}
+
+void AuditLog::turn_over() {
+  std::error_code error;
+  const auto size = fs::file_size(folder_ / kFile, error);
+  if (error || size < most_bytes_) return;
+  const auto older = [this](int n) { return folder_ / fmt::format("audit.{}.jsonl", n); };
+  for (int n = kOlderOnes; n > 1; --n) fs::rename(older(n - 1), older(n), error);
+  fs::rename(folder_ / kFile, older(1), error);
+}
+
+}  // namespace rave::gui_server

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace rave::gui_server {
+
+/// Who did what, as lines of JSON in `audit.jsonl` of a folder, which is turned over at 4 MiB, four
+/// older ones kept. It must never be given a secret. Any thread.
+class AuditLog {
+ public:
+  static constexpr std::uintmax_t kMostBytes = std::uintmax_t{4} << 20U;
+  static constexpr int kOlderOnes = 4;
+  using Fields = std::initializer_list<std::pair<std::string_view, std::string_view>>;
+
+  /// An empty folder: nothing is kept.
+  explicit AuditLog(std::filesystem::path folder, std::uintmax_t most_bytes = kMostBytes)
+      : folder_(std::move(folder)), most_bytes_(most_bytes) {}
+
+  /// `what`: `login`, `refused`, `stop`, `right`, ...; a field that is empty is left out. What
+  /// cannot be written, as on a full disk, is lost: a server goes on without it, and counts it.
+  void note(std::string_view what, Fields fields);
+  [[nodiscard]] std::uint64_t lost() const;
+
+ private:
+  void turn_over();
+
+  std::filesystem::path folder_;
+  std::uintmax_t most_bytes_;
+  mutable std::mutex mutex_;
+  std::uint64_t lost_ = 0;
+};
+
+}  // namespace rave::gui_server

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "live_feed.hpp"
+
+#include <cmath>
+
+#include "reading_rows.hpp"
+#include "scene_json.hpp"
+
+namespace rave::gui_server {
+namespace {
+
+constexpr auto kWatchedInterval = std::chrono::microseconds(16'000);
+/// Somebody who comes sees the present at once, even if the run is held then.
+constexpr auto kUnwatchedInterval = std::chrono::milliseconds(250);
+/// So many times rarer while steps come late: pages get thinner before anything else does.
+constexpr int kLateFactor = 10;
+/// A crowd may touch thousands of times in a step, and nobody reads that.
+constexpr std::size_t kMostEvents = 100;
+
+}  // namespace
+
+Status LiveFeed::run_begins(const robot_host::RunView& run) {
+  kinds_ = &run.kinds;
+  touching_until_s_.assign(run.engine.spec().robots.size(), -1);
+  const world::WorldModel& world = run.engine.spec().world;
+  std::vector<std::pair<std::uint32_t, std::string>> bodies;
+  for (std::size_t o = 0; o < world.obstacle_count(); ++o) {
+    const std::uint32_t id = world.obstacle_id(o);
+    const world::Obstacle& obstacle = *world.obstacle(id);
+    if (!obstacle.removed) bodies.emplace_back(id, body_json(id, obstacle));
+  }
+  return begun_(run, std::move(bodies));
+}
+
+void LiveFeed::after_step(const robot_host::StepView& step) {
+  take_news(step);
+  const auto now = Clock::now();
+  const bool watched = box_->watched.load(std::memory_order_relaxed);
+  const auto since = now - drawn_;
+  const auto interval = (watched ? Clock::duration(kWatchedInterval) : kUnwatchedInterval) *
+                        (step.late ? kLateFactor : 1);
+  if (since < interval) return;
+  draw(step.engine);
+}
+
+void LiveFeed::held(const sim::Engine& engine) {
+  // The last step before a hold may have been left out, and somebody may look elsewhere now.
+  draw(engine);
+}
+
+void LiveFeed::take_news(const robot_host::StepView& step) {
+  const sim::Engine& engine = step.engine;
+  if (engine.events().empty() && step.beside.empty()) return;
+  auto news = std::make_unique<LiveNews>();
+  std::size_t left_out = 0;
+  const auto take = [&](const sim::Event& event) {
+    if (event.kind == sim::EventKind::kContact && event.robot.valid()) {
+      touching_until_s_[event.robot.value()] = engine.time().seconds() + kTouch_s;
+    }
+    if (is_of_obstacle(event.kind) && event.other.valid()) {
+      const std::uint32_t id = event.other.value();
+      const world::Obstacle* const obstacle = engine.spec().world.obstacle(id);
+      if (obstacle == nullptr || obstacle->removed) {
+        news->gone.push_back(id);
+      } else {
+        news->set.emplace_back(id, body_json(id, *obstacle));
+      }
+    }
+    if (news->events.size() >= kMostEvents && event.kind == sim::EventKind::kContact) {
+      ++left_out;
+      return;
+    }
+    news->events.push_back(
+        {engine.time().seconds(), event.robot.valid() ? static_cast<int>(event.robot.value()) : -1,
+         std::string(to_string(event.kind)), robot_host::words_of(*kinds_, event)});
+  };
+  for (const sim::Event& event : engine.events()) take(event);
+  for (const sim::Event& event : step.beside) take(event);
+  if (left_out > 0) {
+    news->events.push_back(
+        {engine.time().seconds(), -1, "contact", fmt::format("{} more in this step", left_out)});
+  }
+  box_->news.push(std::move(news));
+}
+
+void LiveFeed::draw(const sim::Engine& engine) {
+  drawn_ = Clock::now();
+  static_cast<void>(box_->wants.take());
+  LivePicture& picture = box_->pictures.draft();
+  draw_poses(engine, picture.poses);
+  // 0 says that a picture is of one page alone.
+  if (++serial_ == 0) ++serial_;
+  picture.poses.serial = serial_;
+  draw_readings(engine, box_->wants.value(), picture);
+  box_->pictures.publish();
+}
+
+void LiveFeed::draw_poses(const sim::Engine& engine, PosesAt& poses) const {
+  const sim::EngineSpec& spec = engine.spec();
+  poses.time_s = engine.time().seconds();
+  poses.step = engine.steps_done() == 0 ? 0 : engine.steps_done() - 1;
+  poses.robots.resize(spec.robots.size());
+  for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
+    const sim::ReportedPose& reported = engine.reported(RobotId(r));
+    RobotState& robot = poses.robots[r];
+    robot = {reported.pose.x_m, reported.pose.y_m, reported.pose.yaw_rad, 0, 0};
+    const Twist2 v_W = engine.snapshot().velocity_W(RobotId(r));
+    const double ahead = v_W.vx * std::cos(robot.yaw_rad) + v_W.vy * std::sin(robot.yaw_rad);
+    robot.speed_mps = std::copysign(std::hypot(v_W.vx, v_W.vy), ahead);
+    const auto set = [&robot](bool on, RobotFlag flag) {
+      if (on) robot.flags = static_cast<std::uint16_t>(robot.flags | flag);
+    };
+    set(reported.known, kKnown);
+    set(reported.stale, kStale);
+    set(engine.stopped(RobotId(r)), kStopped);
+    set(!engine.armed(RobotId(r)), kUnarmed);
+    set(!spec.types[spec.robots[r].type].simulated, kReal);
+    set(touching_until_s_[r] >= poses.time_s, kTouching);
+  }
+}
+
+void LiveFeed::draw_readings(const sim::Engine& engine, const LiveWants& wants,
+                             LivePicture& picture) {
+  picture.reading_count = 0;
+  const sim::EngineSpec& spec = engine.spec();
+  const auto put = [&picture](const LookedAt& looked, std::uint8_t part, ReadingKind kind,
+                              const SampleHeader* header, const void* records) {
+    if (header == nullptr || header->sequence == 0) return;
+    if (picture.reading_count == picture.readings.size()) picture.readings.emplace_back();
+    ReadingAt& reading = picture.readings[picture.reading_count++];
+    reading.slot = looked.slot;
+    reading.sensor = looked.sensor;
+    reading.part = part;
+    reading.stamp_s = SimTime{header->stamp_ns}.seconds();
+    fill_rows(kind, header->count,
+              {static_cast<const std::byte*>(records), header->count * record_size(kind)}, reading);
+  };
+  for (const LookedAt& looked : wants.sensors) {
+    const RobotId robot(looked.slot);
+    if (looked.slot >= spec.robots.size() || !engine.is_local(robot)) continue;
+    const auto& sensors = spec.types[spec.robots[looked.slot].type].sensors;
+    if (looked.sensor >= sensors.size()) continue;
+    const ReadingKind kind = sensors[looked.sensor].kind;
+    const sim::SensorSample sample = engine.sensor(robot, looked.sensor);
+    put(looked, 0, kind, sample.header, sample.records);
+    if (!wants.parts) continue;
+    const sim::SensorParts parts = engine.sensor_parts(robot, looked.sensor);
+    put(looked, 1, kind, parts.real, parts.real_records);
+    put(looked, 2, kind, parts.imagined, parts.imagined_records);
+  }
+}
+
+}  // namespace rave::gui_server

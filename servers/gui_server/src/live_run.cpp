@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/gui_server/live_run.hpp"
+
+#include "live_feed.hpp"
+#include "live_source.hpp"
+#include "scenario_rights.hpp"
+#include "scene_json.hpp"
+
+namespace rave::gui_server {
+namespace {
+
+const char* const kHeldByNobody =
+    "A run with real robots cannot be held: the world outside goes on.";
+
+}  // namespace
+
+struct LiveRun::Impl {
+  Impl(const config::ExpandedScenario& of, robot_host::RunControl& with,
+       std::function<void(std::shared_ptr<Source>)> call)
+      : scenario(of),
+        control(with),
+        ready(std::move(call)),
+        box(std::make_shared<LiveBox>()),
+        feed(box, [this](const robot_host::RunView& run, auto bodies) {
+          return begin(run, std::move(bodies));
+        }) {}
+
+  Status begin(const robot_host::RunView& run,
+               std::vector<std::pair<std::uint32_t, std::string>> bodies) {
+    LiveSource::Start start;
+    start.about.live = true;
+    start.about.name = run.info.scenario;
+    start.about.started = run.info.started;
+    start.about.step_s = run.info.step_s;
+    start.about.seed = run.info.seed;
+    start.about.lock_step = !run.live;
+    start.about.duration_s = scenario.scenario.duration_s;
+    start.about.rights = rights_of(scenario.scenario.gui);
+    start.robots_json = robots_of(scenario, run.info, run.hybrids);
+    for (const record::RecordedRobot& robot : run.info.robots) start.robots.push_back(robot.name);
+    start.bodies = std::move(bodies);
+    source = std::make_shared<LiveSource>(
+        std::move(start), box, std::make_unique<LocalPort>(control, run.live ? kHeldByNobody : ""));
+    ready(source);
+    return {};
+  }
+
+  const config::ExpandedScenario& scenario;
+  robot_host::RunControl& control;
+  std::function<void(std::shared_ptr<Source>)> ready;
+  std::shared_ptr<LiveBox> box;
+  std::shared_ptr<LiveSource> source;
+  LiveFeed feed;
+};
+
+LiveRun::LiveRun(const config::ExpandedScenario& scenario, robot_host::RunControl& control,
+                 std::function<void(std::shared_ptr<Source>)> ready)
+    : impl_(std::make_unique<Impl>(scenario, control, std::move(ready))) {}
+
+LiveRun::~LiveRun() = default;
+
+robot_host::RunObserver& LiveRun::observer() noexcept { return impl_->feed; }
+
+void LiveRun::end(std::string reason) {
+  if (impl_->source) impl_->source->end(std::move(reason));
+}
+
+}  // namespace rave::gui_server

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "live_source.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace rave::gui_server {
+namespace {
+
+/// Poses that are kept for trails, of all robots and moments together: some 100 MB.
+constexpr std::size_t kMostPast = 2'000'000;
+/// Over so long the speed of a run is measured.
+constexpr auto kMeasure = std::chrono::milliseconds(500);
+constexpr auto kStatusInterval = std::chrono::milliseconds(250);
+constexpr double kFastestRun = 1000;
+constexpr double kSlowestRun = 1.0 / 64;
+
+const char* const kSeekLater = "The time line opens when the run is over.";
+
+class LiveCursor final : public Cursor {
+ public:
+  explicit LiveCursor(const LiveSource& source) : source_(source) {}
+
+  /// Moments before the present one are those that trails are made of.
+  Status go_to(double time_s) override {
+    past_ = nullptr;
+    const auto& past = source_.past();
+    if (time_s >= source_.poses().time_s) return {};
+    const auto later = std::find_if(past.begin(), past.end(), [=](const PosesAt& poses) {
+      return poses.time_s > time_s + 1e-9;
+    });
+    if (later != past.begin()) past_ = &*std::prev(later);
+    return {};
+  }
+  [[nodiscard]] const PosesAt& poses() const noexcept override {
+    return past_ != nullptr ? *past_ : source_.poses();
+  }
+  [[nodiscard]] std::vector<ReadingAt> readings(std::span<const LookedAt> sensors,
+                                                bool parts) override {
+    std::vector<ReadingAt> readings;
+    const LivePicture& picture = source_.picture();
+    for (std::size_t i = 0; i < picture.reading_count; ++i) {
+      const ReadingAt& reading = picture.readings[i];
+      const LookedAt looked{reading.slot, reading.sensor};
+      if (reading.part != 0 && !parts) continue;
+      if (std::find(sensors.begin(), sensors.end(), looked) == sensors.end()) continue;
+      readings.push_back(reading);
+    }
+    return readings;
+  }
+
+ private:
+  const LiveSource& source_;
+  const PosesAt* past_ = nullptr;
+};
+
+/// All pages are at the present of the run.
+class LivePlayhead final : public Playhead {
+ public:
+  explicit LivePlayhead(LiveSource& source) : source_(source) {}
+
+  std::string take(const TransportMessage& transport, Clock::time_point /*now*/) override {
+    return source_.take(transport);
+  }
+  PlayState look(Clock::time_point /*now*/) override {
+    PlayState state = source_.state();
+    state.jumped = std::exchange(new_, false);
+    return state;
+  }
+
+ private:
+  LiveSource& source_;
+  bool new_ = true;
+};
+
+}  // namespace
+
+LiveSource::LiveSource(Start start, std::shared_ptr<LiveBox> box, std::unique_ptr<RunPort> port)
+    : start_(std::move(start)), box_(std::move(box)), port_(std::move(port)), fold_(start_.robots) {
+  write_bodies();
+  state_.duration_s = start_.about.duration_s;
+  for (std::uint32_t slot = 0; slot < start_.robots.size(); ++slot) {
+    slots_.emplace(start_.robots[slot], slot);
+  }
+}
+
+Powers LiveSource::powers() const {
+  Powers powers{{"stop", "release", "readings", "hybrid_parts", "obstacles", "log"},
+                {{"seek", kSeekLater},
+                 {"recording", "The recording can be downloaded when the run is over."},
+                 {"true_pose", "This view shows reported poses."}}};
+  for (const char* const word : {"play", "pace", "step"}) {
+    if (const std::string why_not = port_->why_not_held(); !why_not.empty()) {
+      powers.why_not[word] = why_not;
+    } else {
+      powers.may.emplace_back(word);
+    }
+  }
+  return powers;
+}
+
+std::unique_ptr<Cursor> LiveSource::open_cursor() { return std::make_unique<LiveCursor>(*this); }
+
+std::unique_ptr<Playhead> LiveSource::open_playhead() {
+  return std::make_unique<LivePlayhead>(*this);
+}
+
+void LiveSource::tick(Playhead::Clock::time_point now, const Audience& audience) {
+  box_->watched.store(audience.any, std::memory_order_relaxed);
+  if (audience.looked_at != wants_.sensors || audience.parts != wants_.parts) {
+    wants_ = {audience.looked_at, audience.parts};
+    box_->wants.draft() = wants_;
+    box_->wants.publish();
+  }
+  take_news();
+  learn_flags(now);
+  take_picture(now);
+  answer_asked();
+  const std::lock_guard lock(mutex_);
+  if (ended_) {
+    state_.kind = PlayState::Kind::kEnded;
+    state_.reason = end_reason_;
+    state_.speed = 0;
+  } else if (const auto& standing = picture().standing) {
+    const bool held = port_->paused() && standing->kind != PlayState::Kind::kEnded;
+    state_.kind = held ? PlayState::Kind::kPaused : standing->kind;
+    state_.reason = held ? "" : standing->reason;
+    state_.speed = standing->speed;
+  } else {
+    state_.kind = port_->paused() ? PlayState::Kind::kPaused : PlayState::Kind::kRunning;
+  }
+}
+
+void LiveSource::take_news() {
+  for (const auto& news : box_->news.take()) {
+    for (const LiveEvent& event : news->events) {
+      fold_.add(event.t_s, event.slot, event.kind, event.text);
+    }
+    for (const auto& [id, json] : news->set) {
+      body_changes_.push_back({++bodies_revision_, id, json});
+    }
+    for (const std::uint32_t id : news->gone) {
+      body_changes_.push_back({++bodies_revision_, id, ""});
+    }
+    if (!news->set.empty() || !news->gone.empty()) write_bodies();
+  }
+}
+
+void LiveSource::take_picture(Playhead::Clock::time_point now) {
+  if (box_->pictures.take()) {
+    poses_ = picture().poses;
+    const PosesAt& poses = poses_;
+    for (std::size_t r = 0; r < std::min(flags_.size(), poses_.robots.size()); ++r) {
+      poses_.robots[r].flags = static_cast<std::uint16_t>(poses_.robots[r].flags | flags_[r]);
+    }
+    state_.now_s = state_.end_s = poses.time_s;
+    state_.begin_s = poses.time_s;
+    state_.picture = poses.serial;
+    if (past_.empty() || poses.time_s >= past_.back().time_s + kPastSpacing_s) {
+      past_.push_back(poses);
+    }
+    const std::size_t most = kMostPast / std::max<std::size_t>(1, poses.robots.size());
+    while (!past_.empty() &&
+           (past_.front().time_s < poses.time_s - kPast_s || past_.size() > most)) {
+      past_.pop_front();
+    }
+  }
+  if (now - measured_at_ < kMeasure) return;
+  const double passed_s = std::chrono::duration<double>(now - measured_at_).count();
+  const bool measured = measured_at_ != Playhead::Clock::time_point();
+  if (measured) state_.speed = std::max(0.0, (state_.now_s - measured_s_) / passed_s);
+  measured_at_ = now;
+  measured_s_ = state_.now_s;
+  state_.pace = port_->pace();
+}
+
+/// A picture that comes over a bus does not say who is stopped.
+void LiveSource::learn_flags(Playhead::Clock::time_point now) {
+  if (!picture().standing || now - flags_at_ < kStatusInterval) return;
+  flags_at_ = now;
+  flags_.assign(start_.robots.size(), 0);
+  for (const robot_host::RunStatus::Robot& robot : port_->robots()) {
+    const auto slot = slots_.find(robot.name);
+    if (slot == slots_.end()) continue;
+    std::uint16_t& flags = flags_[slot->second];
+    if (robot.stopped) flags |= kStopped;
+    if (!robot.armed) flags |= kUnarmed;
+  }
+}
+
+void LiveSource::write_bodies() {
+  for (const BodyChange& change : body_changes_) {
+    auto& bodies = start_.bodies;
+    const auto known = std::find_if(bodies.begin(), bodies.end(),
+                                    [&](const auto& body) { return body.first == change.id; });
+    if (change.json.empty()) {
+      if (known != bodies.end()) bodies.erase(known);
+    } else if (known != bodies.end()) {
+      known->second = change.json;
+    } else {
+      bodies.emplace_back(change.id, change.json);
+    }
+  }
+  bodies_json_.assign(1, '[');
+  for (const auto& [id, json] : start_.bodies) {
+    if (bodies_json_.size() > 1) bodies_json_ += ',';
+    bodies_json_ += json;
+  }
+  bodies_json_ += ']';
+  // Pages that are there get the last ones; older changes are in the scene of who comes.
+  constexpr std::size_t kKept = 1000;
+  if (body_changes_.size() > kKept) {
+    body_changes_.erase(body_changes_.begin(), body_changes_.end() - kKept);
+  }
+}
+
+std::string LiveSource::bodies_changed_since(std::uint64_t revision) const {
+  std::map<std::uint32_t, const std::string*> changed;
+  for (const BodyChange& change : body_changes_) {
+    if (change.revision > revision) changed[change.id] = &change.json;
+  }
+  std::string set;
+  std::string gone;
+  for (const auto& [id, json] : changed) {
+    std::string& list = json->empty() ? gone : set;
+    if (!list.empty()) list += ',';
+    list += json->empty() ? std::to_string(id) : *json;
+  }
+  return fmt::format(R"({{"type":"scene_change","set":[{}],"gone":[{}]}})", set, gone);
+}
+
+std::string LiveSource::take(const TransportMessage& transport) {
+  using Do = TransportMessage::Do;
+  if (transport.what == Do::kSeek) return kSeekLater;
+  if (std::string why_not = port_->why_not_held(); !why_not.empty()) return why_not;
+  if (state_.kind == PlayState::Kind::kEnded) return "The run is over.";
+  switch (transport.what) {
+    case Do::kPlay:
+      port_->resume();
+      break;
+    case Do::kPause:
+      port_->pause();
+      break;
+    case Do::kStep:
+      if (transport.value < 1) return "A run cannot go backwards.";
+      port_->pause();
+      port_->step(static_cast<std::uint64_t>(std::min(std::round(transport.value), 1e6)));
+      break;
+    case Do::kPace:
+      port_->set_pace(transport.value <= 0 ? 0
+                                           : std::clamp(transport.value, kSlowestRun, kFastestRun));
+      state_.pace = port_->pace();
+      break;
+    case Do::kSeek:
+      break;
+  }
+  state_.kind = port_->paused() ? PlayState::Kind::kPaused : PlayState::Kind::kRunning;
+  return {};
+}
+
+void LiveSource::halt(const HaltMessage& halt, Reply reply) {
+  using Kind = robot_host::RunRequest::Kind;
+  std::vector<std::string> robots;
+  for (const std::uint32_t slot : halt.slots) {
+    if (slot < start_.robots.size()) robots.push_back(start_.robots[slot]);
+  }
+  if (halt.slots.empty()) robots.emplace_back();
+  if (robots.empty()) return reply(false, "There is no such robot.");
+  for (std::string& robot : robots) {
+    robot_host::RunRequest request;
+    request.kind = halt.stop ? Kind::kStop : Kind::kRelease;
+    request.robot = std::move(robot);
+    auto answer = port_->post(std::move(request));
+    if (!answer) return reply(false, answer.error().message);
+    asked_.push_back({*std::move(answer), reply});
+  }
+}
+
+void LiveSource::answer_asked() {
+  std::vector<Asked> waiting;
+  for (Asked& asked : asked_) {
+    if (asked.answer.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+      waiting.push_back(std::move(asked));
+      continue;
+    }
+    const auto answer = asked.answer.get();
+    asked.reply(answer.has_value(), answer ? *answer : answer.error().message);
+  }
+  asked_ = std::move(waiting);
+}
+
+void LiveSource::end(std::string reason) {
+  const std::lock_guard lock(mutex_);
+  ended_ = true;
+  end_reason_ = std::move(reason);
+}
+
+}  // namespace rave::gui_server

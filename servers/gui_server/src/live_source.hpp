@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <future>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "event_fold.hpp"
+#include "live_box.hpp"
+#include "run_port.hpp"
+
+namespace rave::gui_server {
+
+/// A run of this process as its feed shows it. The server's thread, but for end().
+class LiveSource : public Source {
+ public:
+  struct Start {
+    RunAbout about;
+    std::string robots_json;
+    std::vector<std::string> robots;  ///< Names, by slot.
+    std::vector<std::pair<std::uint32_t, std::string>> bodies;
+  };
+  LiveSource(Start start, std::shared_ptr<LiveBox> box, std::unique_ptr<RunPort> port);
+
+  [[nodiscard]] const RunAbout& about() const noexcept override { return start_.about; }
+  [[nodiscard]] Powers powers() const override;
+  [[nodiscard]] const std::string& bodies_json() const noexcept override { return bodies_json_; }
+  [[nodiscard]] const std::string& robots_json() const noexcept override {
+    return start_.robots_json;
+  }
+  [[nodiscard]] std::uint32_t robot_count() const noexcept override {
+    return static_cast<std::uint32_t>(start_.robots.size());
+  }
+  [[nodiscard]] std::span<const LogEvent> events() const noexcept override {
+    return fold_.events();
+  }
+  [[nodiscard]] std::unique_ptr<Cursor> open_cursor() override;
+  [[nodiscard]] std::unique_ptr<Playhead> open_playhead() override;
+  void tick(Playhead::Clock::time_point now, const Audience& audience) override;
+  [[nodiscard]] std::uint64_t events_revision() const noexcept override { return fold_.revision(); }
+  [[nodiscard]] std::size_t events_changed_since(std::uint64_t revision) const noexcept override {
+    return fold_.changed_since(revision);
+  }
+  [[nodiscard]] std::uint64_t bodies_revision() const noexcept override { return bodies_revision_; }
+  [[nodiscard]] std::string bodies_changed_since(std::uint64_t revision) const override;
+  [[nodiscard]] std::uint64_t hosts_revision() const noexcept override {
+    return picture().hosts_revision;
+  }
+  [[nodiscard]] const std::string& hosts_json() const noexcept override { return picture().hosts; }
+  void halt(const HaltMessage& halt, Reply reply) override;
+
+  /// Nothing more comes; `reason` for people. Any thread.
+  void end(std::string reason);
+
+  // For its cursors and playheads.
+  [[nodiscard]] const LivePicture& picture() const noexcept { return box_->pictures.value(); }
+  /// The newest poses, with what is known of stops.
+  [[nodiscard]] const PosesAt& poses() const noexcept { return poses_; }
+  /// Poses of the last 20 s, for trails; older ones first.
+  [[nodiscard]] const std::deque<PosesAt>& past() const noexcept { return past_; }
+  [[nodiscard]] const PlayState& state() const noexcept { return state_; }
+  std::string take(const TransportMessage& transport);
+
+ private:
+  struct Asked {
+    std::future<Result<std::string>> answer;
+    Reply reply;
+  };
+  struct BodyChange {
+    std::uint64_t revision = 0;
+    std::uint32_t id = 0;
+    std::string json;  ///< Empty: it went.
+  };
+  void take_news();
+  void take_picture(Playhead::Clock::time_point now);
+  void write_bodies();
+  void answer_asked();
+  void learn_flags(Playhead::Clock::time_point now);
+
+  Start start_;
+  std::shared_ptr<LiveBox> box_;
+  std::unique_ptr<RunPort> port_;
+  std::string bodies_json_;
+  std::vector<BodyChange> body_changes_;
+  std::uint64_t bodies_revision_ = 0;
+  EventFold fold_;
+  PosesAt poses_;
+  std::map<std::string, std::uint32_t, std::less<>> slots_;
+  std::vector<std::uint16_t> flags_;  ///< By robot: what the port knows beside the picture.
+  Playhead::Clock::time_point flags_at_{};
+  std::deque<PosesAt> past_;
+  PlayState state_;
+  LiveWants wants_;
+  std::vector<Asked> asked_;
+  Playhead::Clock::time_point measured_at_{};
+  double measured_s_ = 0;
+  std::mutex mutex_;
+  bool ended_ = false;        ///< Guarded by the mutex.
+  std::string end_reason_{};  ///< Guarded by the mutex.
+};
+
+}  // namespace rave::gui_server

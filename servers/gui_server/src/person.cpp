@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/gui_server/person.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "rave/base/control_characters.hpp"
+
+namespace rave::gui_server {
+namespace {
+
+constexpr std::array<std::pair<Role, std::string_view>, 3> kRoles = {
+    {{Role::kObserver, "observer"},
+     {Role::kCommander, "commander"},
+     {Role::kSuperUser, "super_user"}}};
+
+}  // namespace
+
+std::string_view to_string(Role role) noexcept {
+  return kRoles[static_cast<std::size_t>(role)].second;
+}
+
+std::optional<Role> role_named(std::string_view word) noexcept {
+  for (const auto& [role, name] : kRoles) {
+    if (name == word) return role;
+  }
+  return std::nullopt;
+}
+
+std::string Teams::text() const {
+  if (all) return "*";
+  if (names.empty()) return "-";
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ",") + name;
+  return text;
+}
+
+Result<Teams> parse_teams(std::string_view text) {
+  Teams teams;
+  if (text == "*") return teams;
+  teams.all = false;
+  if (text == "-") return teams;
+  while (true) {
+    const std::string_view name = text.substr(0, text.find(','));
+    if (name.empty() || name.size() > 64 || has_control_characters(name)) {
+      return fail(ErrorCode::kParse,
+                  "expected teams such as green,blue, or * for all, or - for none");
+    }
+    teams.names.emplace(name);
+    if (name.size() == text.size()) return teams;
+    text.remove_prefix(name.size() + 1);
+  }
+}
+
+}  // namespace rave::gui_server

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "restricted_source.hpp"
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+namespace rave::gui_server {
+namespace {
+
+using BodyJson = nlohmann::ordered_json;
+
+constexpr const char* kNotYours = "Your rights do not include this.";
+
+class RestrictedCursor final : public Cursor {
+ public:
+  RestrictedCursor(RestrictedSource& source, std::unique_ptr<Cursor> all, const View& view)
+      : source_(source), all_(std::move(all)), view_(view) {}
+
+  Status go_to(double time_s) override {
+    RAVE_TRY(all_->go_to(time_s));
+    poses_ = source_.cut(all_->poses());
+    return {};
+  }
+  [[nodiscard]] const PosesAt& poses() const noexcept override { return poses_; }
+  [[nodiscard]] std::vector<ReadingAt> readings(std::span<const LookedAt> sensors,
+                                                bool parts) override {
+    std::vector<LookedAt> wanted;
+    for (const LookedAt& sensor : sensors) {
+      const auto robot = view_.robot_of(sensor.slot);
+      if (robot && view_.may(InfoClass::kReadings, *robot)) {
+        wanted.push_back({*robot, sensor.sensor});
+      }
+    }
+    if (wanted.empty()) return {};
+    std::vector<ReadingAt> mine;
+    for (ReadingAt& reading : all_->readings(wanted, parts)) {
+      if (view_.reading(reading)) mine.push_back(std::move(reading));
+    }
+    return mine;
+  }
+
+ private:
+  RestrictedSource& source_;
+  std::unique_ptr<Cursor> all_;
+  const View& view_;
+  PosesAt poses_;
+};
+
+/// Of a run that goes on: its time belongs to all, so not everybody moves it.
+class WatchedPlayhead final : public Playhead {
+ public:
+  explicit WatchedPlayhead(std::unique_ptr<Playhead> all) : all_(std::move(all)) {}
+  std::string take(const TransportMessage& /*transport*/, Clock::time_point /*now*/) override {
+    return kNotYours;
+  }
+  PlayState look(Clock::time_point now) override { return all_->look(now); }
+
+ private:
+  std::unique_ptr<Playhead> all_;
+};
+
+/// What a power needs.
+bool allowed(const View& view, bool live, const std::string& power) {
+  static const std::map<std::string, InfoClass> kOfSome = {
+      {"stop", InfoClass::kStop},
+      {"release", InfoClass::kRelease},
+      {"true_pose", InfoClass::kTruePose},
+      {"readings", InfoClass::kReadings},
+      {"hybrid_parts", InfoClass::kHybridParts},
+      {"obstacles", InfoClass::kObstacles},
+      {"log", InfoClass::kLog},
+  };
+  if (const auto found = kOfSome.find(power); found != kOfSome.end()) {
+    return view.may_any(found->second);
+  }
+  if (power == "recording") return view.may_all(InfoClass::kRecording);
+  return !live || power == "seek" || view.may_all(InfoClass::kRunControl);
+}
+
+}  // namespace
+
+RestrictedSource::RestrictedSource(std::shared_ptr<Source> all, std::shared_ptr<const View> view)
+    : all_(std::move(all)),
+      view_(std::move(view)),
+      about_(all_->about()),
+      robots_json_(view_->robots_json(all_->robots_json())) {
+  if (!view_->may_all(InfoClass::kRecording)) about_.recording.clear();
+}
+
+Powers RestrictedSource::powers() const {
+  Powers powers = all_->powers();
+  std::erase_if(powers.may, [&](const std::string& power) {
+    if (allowed(*view_, about_.live, power)) return false;
+    powers.why_not[power] = kNotYours;
+    return true;
+  });
+  return powers;
+}
+
+void RestrictedSource::take_bodies() const {
+  if (has_bodies_ && bodies_revision_ == all_->bodies_revision()) return;
+  has_bodies_ = true;
+  bodies_revision_ = all_->bodies_revision();
+  bodies_json_ = view_->bodies_json(all_->bodies_json());
+  for (const BodyJson& body : BodyJson::parse(all_->bodies_json())) {
+    if (view_->sees_body(body.at("kind").get<std::string>())) {
+      shown_bodies_.insert(body.at("id").get<std::int64_t>());
+    }
+  }
+}
+
+const std::string& RestrictedSource::bodies_json() const noexcept {
+  take_bodies();
+  return bodies_json_;
+}
+
+std::string RestrictedSource::hidden_kinds_json() const {
+  return view_->sees_body("virtual") ? "[]" : R"(["virtual"])";
+}
+
+std::uint64_t RestrictedSource::bodies_revision() const noexcept { return all_->bodies_revision(); }
+
+std::string RestrictedSource::bodies_changed_since(std::uint64_t revision) const {
+  const BodyJson all = BodyJson::parse(all_->bodies_changed_since(revision), nullptr, false);
+  if (!all.is_object()) return {};
+  BodyJson mine = {
+      {"type", "scene_change"}, {"set", BodyJson::array()}, {"gone", BodyJson::array()}};
+  for (const BodyJson& body : all.at("set")) {
+    if (!view_->sees_body(body.at("kind").get<std::string>())) continue;
+    const auto id = body.at("id").get<std::int64_t>();
+    shown_bodies_.insert(id);
+    mine["set"].push_back(body);
+    mine["set"].back()["id"] = view_->body_id(id);
+  }
+  for (const BodyJson& id : all.at("gone")) {
+    if (shown_bodies_.contains(id)) mine["gone"].push_back(view_->body_id(id));
+  }
+  // That something changed which is withheld is not told either.
+  if (mine["set"].empty() && mine["gone"].empty()) return {};
+  return mine.dump();
+}
+
+void RestrictedSource::take_events() const {
+  const std::uint64_t revision = all_->events_revision();
+  if (has_events_ && revision == events_revision_) return;
+  const std::size_t first = has_events_ ? all_->events_changed_since(events_revision_) : 0;
+  while (!event_places_.empty() && event_places_.back() >= first) {
+    event_places_.pop_back();
+    events_.pop_back();
+  }
+  const auto all = all_->events();
+  for (std::size_t i = first; i < all.size(); ++i) {
+    if (auto mine = view_->event(all[i])) {
+      events_.push_back(*std::move(mine));
+      event_places_.push_back(i);
+    }
+  }
+  has_events_ = true;
+  events_revision_ = revision;
+}
+
+std::span<const LogEvent> RestrictedSource::events() const noexcept {
+  take_events();
+  return events_;
+}
+
+std::uint64_t RestrictedSource::events_revision() const noexcept { return all_->events_revision(); }
+
+std::size_t RestrictedSource::events_changed_since(std::uint64_t revision) const noexcept {
+  take_events();
+  const std::size_t first = all_->events_changed_since(revision);
+  const auto place = std::lower_bound(event_places_.begin(), event_places_.end(), first);
+  return static_cast<std::size_t>(place - event_places_.begin());
+}
+
+PosesAt RestrictedSource::cut(const PosesAt& all) {
+  if (all.serial == 0) return view_->poses(all, false);
+  if (shared_.serial != all.serial || shared_.time_s != all.time_s) {
+    shared_ = view_->poses(all, false);
+  }
+  return shared_;
+}
+
+std::unique_ptr<Cursor> RestrictedSource::open_cursor() {
+  return std::make_unique<RestrictedCursor>(*this, all_->open_cursor(), *view_);
+}
+
+std::unique_ptr<Playhead> RestrictedSource::open_playhead() {
+  auto playhead = all_->open_playhead();
+  if (!about_.live || view_->may_all(InfoClass::kRunControl)) return playhead;
+  return std::make_unique<WatchedPlayhead>(std::move(playhead));
+}
+
+void RestrictedSource::halt(const HaltMessage& halt, Reply reply) {
+  const InfoClass what = halt.stop ? InfoClass::kStop : InfoClass::kRelease;
+  HaltMessage mine;
+  mine.stop = halt.stop;
+  for (const std::uint32_t slot : halt.slots) {
+    const auto robot = view_->robot_of(slot);
+    if (!robot || !view_->may(what, *robot)) return reply(false, kNotYours);
+    mine.slots.push_back(*robot);
+  }
+  if (halt.slots.empty() && !view_->may_all(what)) {
+    // "All" is all of those that they may.
+    for (std::uint32_t slot = 0; slot < view_->robots(); ++slot) {
+      const std::uint32_t robot = *view_->robot_of(slot);
+      if (view_->may(what, robot)) mine.slots.push_back(robot);
+    }
+    if (mine.slots.empty()) return reply(false, kNotYours);
+  }
+  all_->halt(mine, [reply = std::move(reply), view = view_](bool good, std::string text) {
+    // The answer of a host may name robots that are not seen.
+    if (!view->may_read(text)) text = good ? "Done." : "It could not be done.";
+    reply(good, std::move(text));
+  });
+}
+
+}  // namespace rave::gui_server

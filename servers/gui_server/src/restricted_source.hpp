@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "rave/gui_server/source.hpp"
+#include "view.hpp"
+
+namespace rave::gui_server {
+
+/// A run as people with certain rights get it. Sessions are given this in the place of the run, so
+/// what is withheld does not even reach the code that encodes. One for all sessions with equal
+/// rights. The thread of the server.
+class RestrictedSource final : public Source {
+ public:
+  /// `all` and `view` are shared with those who have other rights.
+  RestrictedSource(std::shared_ptr<Source> all, std::shared_ptr<const View> view);
+
+  [[nodiscard]] const RunAbout& about() const noexcept override { return about_; }
+  [[nodiscard]] Powers powers() const override;
+  [[nodiscard]] const std::string& bodies_json() const noexcept override;
+  [[nodiscard]] std::string hidden_kinds_json() const override;
+  [[nodiscard]] const std::string& robots_json() const noexcept override { return robots_json_; }
+  [[nodiscard]] std::uint32_t robot_count() const noexcept override { return view_->robots(); }
+  [[nodiscard]] std::span<const LogEvent> events() const noexcept override;
+  [[nodiscard]] std::unique_ptr<Cursor> open_cursor() override;
+  [[nodiscard]] std::unique_ptr<Playhead> open_playhead() override;
+  [[nodiscard]] std::uint64_t events_revision() const noexcept override;
+  [[nodiscard]] std::size_t events_changed_since(std::uint64_t revision) const noexcept override;
+  [[nodiscard]] std::uint64_t bodies_revision() const noexcept override;
+  [[nodiscard]] std::string bodies_changed_since(std::uint64_t revision) const override;
+  void halt(const HaltMessage& halt, Reply reply) override;
+
+  /// A picture that several pages share is cut down once.
+  [[nodiscard]] PosesAt cut(const PosesAt& all);
+
+ private:
+  void take_events() const;
+  void take_bodies() const;
+
+  std::shared_ptr<Source> all_;
+  std::shared_ptr<const View> view_;
+  RunAbout about_;
+  std::string robots_json_;
+  PosesAt shared_;  ///< The last shared picture.
+  // What is made of the run when it is asked for.
+  mutable std::vector<LogEvent> events_;
+  mutable std::vector<std::size_t> event_places_;  ///< Of each event, its index in the run.
+  mutable std::uint64_t events_revision_ = 0;
+  mutable bool has_events_ = false;
+  mutable std::string bodies_json_;
+  mutable std::uint64_t bodies_revision_ = 0;
+  mutable bool has_bodies_ = false;
+  mutable std::set<std::int64_t> shown_bodies_;  ///< That somebody was told of, as the run counts.
+};
+
+}  // namespace rave::gui_server

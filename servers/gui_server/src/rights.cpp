@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/gui_server/rights.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace rave::gui_server {
+namespace {
+
+using Kind = Reach::Kind;
+
+/// A line of the table: what it is called, what an observer and a commander may, and in words.
+struct Line {
+  InfoClass what;
+  std::string_view name;
+  Kind observer;
+  Kind commander;
+  std::string_view meaning;
+};
+
+constexpr std::array<Line, kInfoClasses> kLines = {{
+    {InfoClass::kPose, "pose", Kind::kAll, Kind::kAll,
+     "that a robot is there, its name, its shape and its reported pose"},
+    {InfoClass::kTruePose, "true_pose", Kind::kNone, Kind::kNone,
+     "where it is in the simulated world"},
+    {InfoClass::kReadings, "readings", Kind::kOwn, Kind::kOwn, "its sensors and what they read"},
+    {InfoClass::kHybridParts, "hybrid_parts", Kind::kNone, Kind::kOwn,
+     "the real and the virtual half of its hybrid sensors"},
+    {InfoClass::kObstacles, "obstacles", Kind::kAll, Kind::kAll, "virtual obstacles"},
+    {InfoClass::kGoals, "goals", Kind::kOwn, Kind::kOwn, "where it is sent"},
+    {InfoClass::kMaps, "maps", Kind::kOwn, Kind::kOwn, "the maps that it makes"},
+    {InfoClass::kChat, "chat", Kind::kOwn, Kind::kOwn, "what is said about it and to it"},
+    {InfoClass::kLog, "log", Kind::kAll, Kind::kAll, "events of robots that are seen"},
+    {InfoClass::kVideo, "video", Kind::kNone, Kind::kOwn, "pictures of its cameras"},
+    {InfoClass::kRecording, "recording", Kind::kNone, Kind::kNone, "the file of the whole run"},
+    {InfoClass::kStop, "stop", Kind::kNone, Kind::kAll, "stopping it"},
+    {InfoClass::kRelease, "release", Kind::kNone, Kind::kOwn, "releasing it after a stop"},
+    {InfoClass::kRunControl, "run_control", Kind::kNone, Kind::kNone,
+     "pause, step, resume and pace of a run in progress"},
+}};
+
+const Line& line_of(InfoClass what) { return kLines[static_cast<std::size_t>(what)]; }
+
+const Reach& everything() {
+  static const Reach all{Kind::kAll, {}};
+  return all;
+}
+
+}  // namespace
+
+std::string_view to_string(InfoClass what) noexcept { return line_of(what).name; }
+
+std::optional<InfoClass> class_named(std::string_view word) noexcept {
+  for (const Line& line : kLines) {
+    if (line.name == word) return line.what;
+  }
+  return std::nullopt;
+}
+
+std::string_view to_string(Reach::Kind kind) noexcept {
+  switch (kind) {
+    case Kind::kNone:
+      return "none";
+    case Kind::kOwn:
+      return "own";
+    case Kind::kAll:
+      return "all";
+    case Kind::kTeams:
+      return {};
+  }
+  return {};
+}
+
+bool Reach::covers(std::string_view team, const Teams& own) const {
+  switch (kind) {
+    case Kind::kNone:
+      return false;
+    case Kind::kOwn:
+      return own.has(team);
+    case Kind::kAll:
+      return true;
+    case Kind::kTeams:
+      return teams.contains(team);
+  }
+  return false;
+}
+
+bool Reach::covers_all(const Teams& own) const {
+  return kind == Kind::kAll || (kind == Kind::kOwn && own.all);
+}
+
+Rights::Rights() {
+  for (const Line& line : kLines) {
+    const auto column = static_cast<std::size_t>(line.what);
+    roles_[static_cast<std::size_t>(Role::kObserver)][column].kind = line.observer;
+    roles_[static_cast<std::size_t>(Role::kCommander)][column].kind = line.commander;
+    roles_[static_cast<std::size_t>(Role::kSuperUser)][column] = everything();
+  }
+}
+
+Status Rights::set(Role role, InfoClass what, Reach reach) {
+  if (role == Role::kSuperUser) {
+    return fail(ErrorCode::kInvalidArgument, "a super-user has every right, always");
+  }
+  roles_[static_cast<std::size_t>(role)][static_cast<std::size_t>(what)] = std::move(reach);
+  return {};
+}
+
+void Rights::set_user(const std::string& user, InfoClass what, std::optional<Reach> reach) {
+  if (reach) {
+    users_[user].insert_or_assign(what, *std::move(reach));
+    return;
+  }
+  const auto found = users_.find(user);
+  if (found == users_.end()) return;
+  found->second.erase(what);
+  if (found->second.empty()) users_.erase(found);
+}
+
+const Reach& Rights::of(Role role, InfoClass what) const {
+  return roles_[static_cast<std::size_t>(role)][static_cast<std::size_t>(what)];
+}
+
+const Reach& Rights::of(const Person& person, InfoClass what) const {
+  if (person.role == Role::kSuperUser) return everything();
+  if (const auto user = users_.find(person.name); user != users_.end()) {
+    if (const auto own = user->second.find(what); own != user->second.end()) return own->second;
+  }
+  return of(person.role, what);
+}
+
+std::string Rights::usual_table() {
+  std::string table =
+      "| class | observer | commander | super-user | what it is |\n|---|---|---|---|---|\n";
+  for (const Line& line : kLines) {
+    table += fmt::format("| `{}` | {} | {} | all | {} |\n", line.name, to_string(line.observer),
+                         to_string(line.commander), line.meaning);
+  }
+  return table;
+}
+
+}  // namespace rave::gui_server

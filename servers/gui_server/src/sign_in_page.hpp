@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "rave/web/message.hpp"
+
+// The pages that strangers see: plain HTML without a script. They say nothing of the run.
+namespace rave::gui_server {
+
+/// The form of `/login`. `note`: what went wrong; empty: nothing yet. `name`: as it was typed.
+[[nodiscard]] web::Response sign_in_page(int status, std::string_view note, std::string_view name);
+
+/// The form of `/join`, with the secret of the invitation.
+[[nodiscard]] web::Response join_page(int status, std::string_view note, std::string_view name,
+                                      std::string_view invitation);
+
+/// A page with a sentence, and a link to `/login` if people sign in here.
+[[nodiscard]] web::Response told_page(int status, std::string_view sentence, bool sign_in);
+
+/// `/login.css`.
+[[nodiscard]] web::Response sign_in_style();
+
+/// Text as it may stand in HTML, in attributes too.
+[[nodiscard]] std::string escaped_html(std::string_view text);
+
+}  // namespace rave::gui_server

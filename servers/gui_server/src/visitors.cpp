@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "visitors.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace rave::gui_server {
+namespace {
+
+constexpr std::uint16_t kSignedOut = 4401;
+constexpr const char* kSuperUsersOnly = "Only a super-user can do this.";
+
+std::string right_text(const RightChange& change) {
+  std::string reach = "usual";
+  if (change.reach && change.reach->kind == Reach::Kind::kTeams) {
+    reach = Teams{false, change.reach->teams}.text();
+  } else if (change.reach) {
+    reach = to_string(change.reach->kind);
+  }
+  return fmt::format("{} of {}: {}", to_string(change.what),
+                     change.role ? to_string(*change.role) : std::string_view(change.user), reach);
+}
+
+std::string halt_text(const HaltMessage& halt, bool good) {
+  const std::string robots =
+      halt.slots.empty() ? "all robots" : fmt::format("{} robots", halt.slots.size());
+  return fmt::format("{}{}", robots, good ? "" : ", in vain");
+}
+
+}  // namespace
+
+Visitors::Visitors(Door& door, RightsDesk desk, std::shared_ptr<Accounts> accounts,
+                   std::shared_ptr<AuditLog> audit)
+    : door_(door),
+      desk_(std::move(desk)),
+      accounts_(std::move(accounts)),
+      audit_(std::move(audit)) {}
+
+void Visitors::show(std::shared_ptr<Source> source) {
+  source_ = std::move(source);
+  restricted_.clear();
+  const RunAbout& about = source_->about();
+  desk_.begin(
+      about.name, about.rights,
+      std::make_shared<const Cast>(cast_of(source_->robots_json(), source_->bodies_json())));
+  for (auto& [id, visitor] : visitors_) {
+    visitor.view = desk_.view_of(visitor.eyes.value_or(visitor.person));
+    show_to(visitor, false);
+  }
+  tell_rights();
+}
+
+void Visitors::opened(std::uint64_t id, web::Socket& socket, const std::string& session) {
+  Visitor visitor;
+  visitor.socket = &socket;
+  visitor.session = session;
+  visitor.person = door_.whose(session).value_or(Person{"", Role::kObserver, {false, {}}});
+  visitor.page = std::make_unique<Session>(socket, calls_of(id));
+  Visitor& kept = visitors_.emplace(id, std::move(visitor)).first->second;
+  if (!source_) return;
+  kept.view = desk_.view_of(kept.person);
+  show_to(kept, false);
+  if (kept.person.role == Role::kSuperUser) {
+    kept.page->send(std::make_shared<const std::string>(desk_.message(people())));
+  }
+}
+
+void Visitors::received(std::uint64_t id, std::string_view text) {
+  if (const auto found = visitors_.find(id); found != visitors_.end()) {
+    found->second.page->received(text);
+  }
+}
+
+std::shared_ptr<Source> Visitors::source_for(const std::shared_ptr<const View>& view) {
+  if (view->whole()) return source_;
+  auto& shared = restricted_[view.get()];
+  if (auto known = shared.lock()) return known;
+  auto restricted = std::make_shared<RestrictedSource>(source_, view);
+  shared = restricted;
+  return restricted;
+}
+
+void Visitors::show_to(Visitor& visitor, bool same_run) {
+  Greeting greeting{visitor.eyes.value_or(visitor.person), {}};
+  if (visitor.eyes) greeting.seen_by = visitor.person;
+  visitor.page->show(source_for(visitor.view), greeting, same_run);
+}
+
+void Visitors::show_again_if_other() {
+  if (!source_) return;
+  for (auto& [id, visitor] : visitors_) {
+    auto view = desk_.view_of(visitor.eyes.value_or(visitor.person));
+    const bool same = visitor.view && view->key() == visitor.view->key();
+    if (same) continue;
+    visitor.view = std::move(view);
+    show_to(visitor, true);
+  }
+  std::erase_if(restricted_, [](const auto& entry) { return entry.second.expired(); });
+}
+
+void Visitors::tell_rights() {
+  web::Payload message;
+  for (const auto& [id, visitor] : visitors_) {
+    if (visitor.person.role != Role::kSuperUser || visitor.eyes) continue;
+    if (!message) message = std::make_shared<const std::string>(desk_.message(people()));
+    visitor.page->send(message);
+  }
+}
+
+void Visitors::tick() {
+  if (!source_) return;
+  const auto now = Session::Clock::now();
+  Audience audience;
+  for (const auto& [id, visitor] : visitors_) {
+    const LookMessage& look = visitor.page->look();
+    audience.any = audience.any || look.poses;
+    audience.parts = audience.parts || look.parts;
+    for (const LookedAt& looked : look.readings) {
+      // What is withheld is not even gathered.
+      const auto robot = visitor.view->robot_of(looked.slot);
+      if (robot && visitor.view->may(InfoClass::kReadings, *robot)) {
+        audience.looked_at.push_back({*robot, looked.sensor});
+      }
+    }
+  }
+  auto& looked_at = audience.looked_at;
+  std::sort(looked_at.begin(), looked_at.end());
+  looked_at.erase(std::unique(looked_at.begin(), looked_at.end()), looked_at.end());
+  source_->tick(now, audience);
+  SharedFrames frames;
+  for (auto& [id, visitor] : visitors_) visitor.page->tick(now, frames);
+}
+
+void Visitors::check() {
+  const Status read = door_.refresh();
+  const std::string trouble = read ? "" : read.error().text();
+  if (!trouble.empty() && trouble != trouble_) audit_->note("accounts", {{"why", trouble}});
+  trouble_ = trouble;
+  bool changed = false;
+  for (auto& [id, visitor] : visitors_) {
+    const auto person = door_.whose(visitor.session);
+    if (!person) {
+      visitor.socket->close(kSignedOut, "You are signed out");
+      continue;
+    }
+    if (*person == visitor.person) continue;
+    visitor.person = *person;
+    if (person->role != Role::kSuperUser) visitor.eyes.reset();
+    changed = true;
+  }
+  if (changed) show_again_if_other();
+}
+
+std::shared_ptr<const View> Visitors::view_of(const Person& person) {
+  return source_ ? desk_.view_of(person) : nullptr;
+}
+
+SessionCalls Visitors::calls_of(std::uint64_t id) {
+  SessionCalls calls;
+  calls.set_right = [this, id](const RightChange& change) { return set_right(id, change); };
+  calls.see_as = [this, id](const SeeAsMessage& see) { return see_as(id, see); };
+  calls.halted = [this, id](const HaltMessage& halt, bool good) {
+    const auto found = visitors_.find(id);
+    if (found == visitors_.end()) return;
+    audit_->note(halt.stop ? "stop" : "release",
+                 {{"user", found->second.person.name}, {"what", halt_text(halt, good)}});
+  };
+  return calls;
+}
+
+Result<std::string> Visitors::set_right(std::uint64_t id, const RightChange& change) {
+  const Visitor& visitor = visitors_.at(id);
+  if (visitor.person.role != Role::kSuperUser || visitor.eyes) {
+    audit_->note("refused", {{"why", "right"}, {"user", visitor.person.name}});
+    return fail(ErrorCode::kState, "{}", kSuperUsersOnly);
+  }
+  if (!source_) return fail(ErrorCode::kState, "No run is in progress.");
+  const Status changed = desk_.change(change);
+  if (!changed && changed.error().code != ErrorCode::kIo) return tl::unexpected(changed.error());
+  audit_->note("right", {{"user", visitor.person.name}, {"what", right_text(change)}});
+  show_again_if_other();
+  tell_rights();
+  if (!changed) return tl::unexpected(changed.error());
+  return right_text(change);
+}
+
+Result<std::string> Visitors::see_as(std::uint64_t id, const SeeAsMessage& see) {
+  Visitor& visitor = visitors_.at(id);
+  if (visitor.person.role != Role::kSuperUser)
+    return fail(ErrorCode::kState, "{}", kSuperUsersOnly);
+  std::optional<Person> eyes;
+  if (see.role) {
+    eyes = Person{std::string(to_string(*see.role)), *see.role, {}};
+  } else if (!see.user.empty()) {
+    for (const Person& person : people()) {
+      if (person.name == see.user) eyes = person;
+    }
+    if (!eyes) return fail(ErrorCode::kNotFound, "Nobody is called `{}`.", see.user);
+  }
+  audit_->note("see_as", {{"user", visitor.person.name}, {"what", eyes ? eyes->name : "self"}});
+  visitor.eyes = std::move(eyes);
+  if (!source_) return std::string();
+  visitor.view = desk_.view_of(visitor.eyes.value_or(visitor.person));
+  show_to(visitor, true);
+  if (!visitor.eyes) tell_rights();
+  return std::string();
+}
+
+std::vector<Person> Visitors::people() const {
+  std::vector<Person> people;
+  if (!accounts_) return people;
+  for (const Account& account : accounts_->state().accounts) people.push_back(account.person);
+  return people;
+}
+
+}  // namespace rave::gui_server

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "audit_log.hpp"
+#include "door.hpp"
+#include "restricted_source.hpp"
+#include "rights_desk.hpp"
+#include "session.hpp"
+
+namespace rave::gui_server {
+
+/// All pages that are connected, each with what its user gets of the run. The thread of the server.
+class Visitors {
+ public:
+  /// `door` outlives it. `accounts`: null without any; shared with the door.
+  Visitors(Door& door, RightsDesk desk, std::shared_ptr<Accounts> accounts,
+           std::shared_ptr<AuditLog> audit);
+
+  /// All see this run from now on.
+  void show(std::shared_ptr<Source> source);
+  /// Somebody came whose session the door knows.
+  void opened(std::uint64_t id, web::Socket& socket, const std::string& session);
+  void received(std::uint64_t id, std::string_view text);
+  void closed(std::uint64_t id) { visitors_.erase(id); }
+  /// Some 60 times a second.
+  void tick();
+  /// Once a second: who was removed or signed out elsewhere is out, who got another role has its
+  /// rights.
+  void check();
+
+  /// What somebody gets, as for the recording; null: there is no run.
+  [[nodiscard]] std::shared_ptr<const View> view_of(const Person& person);
+  [[nodiscard]] const std::shared_ptr<Source>& source() const noexcept { return source_; }
+  [[nodiscard]] std::size_t count() const noexcept { return visitors_.size(); }
+
+ private:
+  struct Visitor {
+    web::Socket* socket = nullptr;
+    std::string session;  ///< The secret; to ask whether it still holds.
+    Person person;
+    std::optional<Person> eyes;  ///< With whose eyes a super-user looks.
+    std::shared_ptr<const View> view;
+    std::unique_ptr<Session> page;
+  };
+  void show_to(Visitor& visitor, bool same_run);
+  void show_again_if_other();
+  void tell_rights();
+  [[nodiscard]] std::shared_ptr<Source> source_for(const std::shared_ptr<const View>& view);
+  [[nodiscard]] SessionCalls calls_of(std::uint64_t id);
+  [[nodiscard]] Result<std::string> set_right(std::uint64_t id, const RightChange& change);
+  [[nodiscard]] Result<std::string> see_as(std::uint64_t id, const SeeAsMessage& see);
+  [[nodiscard]] std::vector<Person> people() const;
+
+  Door& door_;
+  RightsDesk desk_;
+  std::shared_ptr<Accounts> accounts_;
+  std::shared_ptr<AuditLog> audit_;
+  std::shared_ptr<Source> source_;  ///< Null: none yet.
+  std::map<const View*, std::weak_ptr<RestrictedSource>> restricted_;
+  std::map<std::uint64_t, Visitor> visitors_;
+  std::string trouble_;  ///< With the accounts; told once.
+};
+
+}  // namespace rave::gui_server

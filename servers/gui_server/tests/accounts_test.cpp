@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/gui_server/accounts.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "audit_log.hpp"
+#include "rave/base/file.hpp"
+#include "secrets.hpp"
+
+namespace rave::gui_server {
+namespace {
+
+namespace fs = std::filesystem;
+
+class AccountsTest : public testing::Test {
+ protected:
+  AccountsTest() {
+    std::string name = fs::temp_directory_path() / "rave-accounts-XXXXXX";
+    if (::mkdtemp(name.data()) != nullptr) folder_ = name;
+  }
+  ~AccountsTest() override {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+  [[nodiscard]] std::unique_ptr<Accounts> opened() {
+    auto accounts = Accounts::open(folder_ / "gui", [this] { return now_s_; });
+    EXPECT_TRUE(accounts) << accounts.error().text();
+    return *std::move(accounts);
+  }
+  [[nodiscard]] std::string text() const {
+    return read_file(folder_ / "gui/accounts").value_or("");
+  }
+  template <class T>
+  static std::string error_of(const Result<T>& result) {
+    return result ? "none" : result.error().message;
+  }
+
+  fs::path folder_;
+  std::int64_t now_s_ = 1'800'000'000;
+};
+
+TEST_F(AccountsTest, SignInWithTheRightPasswordAlone) {
+  const auto accounts = opened();
+  ASSERT_TRUE(accounts->add({"ada", Role::kCommander, {false, {"green"}}}, "correct horse"));
+  const auto session = accounts->sign_in("ada", "correct horse");
+  ASSERT_TRUE(session) << session.error().text();
+  const auto person = accounts->who(*session);
+  ASSERT_TRUE(person);
+  EXPECT_EQ(*person, (Person{"ada", Role::kCommander, {false, {"green"}}}));
+  for (const auto& [name, password] :
+       {std::pair("ada", "wrong horse"), std::pair("eve", "correct horse"), std::pair("ada", "")}) {
+    EXPECT_EQ(error_of(accounts->sign_in(name, password)), "the name or the password is wrong");
+  }
+  EXPECT_FALSE(accounts->who(""));
+  EXPECT_FALSE(accounts->who("0000"));
+}
+
+TEST_F(AccountsTest, KeepNoSecretInTheirFile) {
+  const auto accounts = opened();
+  ASSERT_TRUE(accounts->add({"ada", Role::kSuperUser, {}}, "correct horse"));
+  const auto session = accounts->sign_in("ada", "correct horse");
+  const auto invitation = accounts->invite(Role::kObserver, {}, 1, 7, "ada");
+  ASSERT_TRUE(session && invitation);
+  EXPECT_NE(text().find("$argon2id$"), std::string::npos);
+  for (const std::string& secret : {std::string("correct horse"), *session, *invitation}) {
+    EXPECT_EQ(text().find(secret), std::string::npos);
+  }
+  struct stat info {};
+  ASSERT_EQ(::stat((folder_ / "gui").c_str(), &info), 0);
+  EXPECT_EQ(info.st_mode & 07777U, 0700U);
+}
+
+TEST_F(AccountsTest, OutliveTheirServer) {
+  std::string session;
+  std::string invitation;
+  {
+    const auto accounts = opened();
+    ASSERT_TRUE(accounts->add({"ada", Role::kSuperUser, {}}, "correct horse"));
+    session = *accounts->sign_in("ada", "correct horse");
+    invitation = *accounts->invite(Role::kObserver, {false, {"blue", "green"}}, 2, 7, "ada");
+  }
+  const auto accounts = opened();
+  EXPECT_TRUE(accounts->who(session));
+  const auto guest = accounts->join(invitation, "ben", "");
+  ASSERT_TRUE(guest) << guest.error().text();
+  EXPECT_EQ(accounts->who(*guest)->teams.text(), "blue,green");
+}
+
+TEST_F(AccountsTest, AnInvitationIsGoodForSoManyPeopleAndSoLong) {
+  const auto accounts = opened();
+  const auto two = accounts->invite(Role::kObserver, {}, 2, 7, "ada");
+  ASSERT_TRUE(accounts->join(*two, "ben", ""));
+  EXPECT_EQ(error_of(accounts->join(*two, "BEN", "")), "the name `ben` is taken");
+  ASSERT_TRUE(accounts->join(*two, "cleo", "ten letters!"));
+  const std::string gone =
+      "this invitation was used already, has ended, or is not one of this server";
+  EXPECT_EQ(error_of(accounts->join(*two, "dora", "")), gone);
+  EXPECT_EQ(error_of(accounts->join("feed", "dora", "")), gone);
+  const auto old = accounts->invite(Role::kObserver, {}, 1, 7, "ada");
+  now_s_ += 8 * 86'400;
+  EXPECT_EQ(error_of(accounts->join(*old, "dora", "")), gone);
+  EXPECT_EQ(error_of(accounts->invite(Role::kObserver, {}, 0, 7, "ada")),
+            "an invitation is good for 1 to 1000 people");
+  EXPECT_EQ(error_of(accounts->invite(Role::kObserver, {}, 1, 366, "ada")),
+            "an invitation is good for 1 to 365 days");
+}
+
+TEST_F(AccountsTest, GuestsGoWithTheirSession) {
+  const auto accounts = opened();
+  const auto link = accounts->invite(Role::kObserver, {}, 5, 30, "ada");
+  const auto guest = accounts->join(*link, "ben", "");
+  ASSERT_TRUE(guest);
+  EXPECT_EQ(error_of(accounts->sign_in("ben", "")), "the name or the password is wrong");
+  now_s_ += Accounts::kSessionLife_s + 1;
+  EXPECT_FALSE(accounts->who(*guest));
+  EXPECT_TRUE(accounts->state().accounts.empty());
+  EXPECT_TRUE(accounts->join(*link, "ben", ""));
+}
+
+TEST_F(AccountsTest, WhoIsRemovedOrSignsOutIsOut) {
+  const auto accounts = opened();
+  ASSERT_TRUE(accounts->add({"ada", Role::kSuperUser, {}}, "correct horse"));
+  const std::string one = *accounts->sign_in("ada", "correct horse");
+  const std::string two = *accounts->sign_in("ada", "correct horse");
+  ASSERT_TRUE(accounts->sign_out(one));
+  EXPECT_FALSE(accounts->who(one));
+  EXPECT_TRUE(accounts->who(two));
+  EXPECT_EQ(error_of(accounts->remove("adda")), "nobody is called `adda`; did you mean `ada`?");
+  // Another process removes; the first one learns of it.
+  ASSERT_TRUE(opened()->remove("ada"));
+  ASSERT_TRUE(accounts->refresh());
+  EXPECT_FALSE(accounts->who(two));
+}
+
+TEST_F(AccountsTest, NamesAndPasswordsAreChecked) {
+  const auto accounts = opened();
+  const Person ada{"ada", Role::kObserver, {}};
+  EXPECT_EQ(error_of(accounts->add(ada, "too short")), "a password has 10 to 256 characters");
+  ASSERT_TRUE(accounts->add(ada, "long enough"));
+  EXPECT_EQ(error_of(accounts->add({"Ada", Role::kObserver, {}}, "long enough")),
+            "the name `ada` is taken");
+  for (const char* const bad : {"", "-a", "a b", "a\tb", "a\nb", "<b>", "\xc3\xa4"}) {
+    EXPECT_FALSE(check_user_name(bad)) << bad;
+  }
+  EXPECT_TRUE(check_user_name("ada.l-1@lab_2"));
+}
+
+TEST_F(AccountsTest, AFolderThatOthersReadIsRefused) {
+  fs::create_directory(folder_ / "open");
+  fs::permissions(folder_ / "open", fs::perms(0755));
+  const auto accounts = Accounts::open(folder_ / "open");
+  ASSERT_FALSE(accounts);
+  EXPECT_NE(accounts.error().message.find("chmod 700"), std::string::npos);
+}
+
+struct BadFile {
+  const char* text;
+  const char* error;
+};
+class BadAccounts : public testing::TestWithParam<BadFile> {};
+
+TEST_P(BadAccounts, AreRefusedWithTheirLine) {
+  const auto file = parse_accounts(GetParam().text, "accounts");
+  ASSERT_FALSE(file);
+  EXPECT_EQ(file.error().text(), GetParam().error);
+}
+
+#define HASH "00112233445566778899aabbccddeeff00112233445566778899aabbccddeeff"
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadAccounts,
+    testing::Values(
+        BadFile{"",
+                "accounts:1: expected `rave-accounts 1`; it is no file of accounts, or one of a "
+                "later version"},
+        BadFile{"rave-accounts 1\nhost\tx\n",
+                "accounts:2: expected user, invitation or session, found `host`"},
+        BadFile{"rave-accounts 1\nuser\tada\tobserver\t*\n",
+                "accounts:2: expected 5 columns, separated by tabs, found 4"},
+        BadFile{"rave-accounts 1\nuser\tada\troot\t*\t-\n",
+                "accounts:2: expected observer, commander or super_user, found `root`"},
+        BadFile{"rave-accounts 1\nuser\tada\tobserver\ta,,b\t-\n",
+                "accounts:2: expected teams such as green,blue, or * for all, or - for none"},
+        BadFile{"rave-accounts 1\nuser\tada\tobserver\t*\tplain\n",
+                "accounts:2: expected a hash by Argon2id, or - for none"},
+        BadFile{"rave-accounts 1\nuser\tada\tobserver\t*\t-\nuser\tada\tobserver\t*\t-\n",
+                "accounts:3: `ada` has an account already"},
+        BadFile{"rave-accounts 1\nsession\tshort\tada\t1\n",
+                "accounts:2: expected a hash of 64 digits"},
+        BadFile{"rave-accounts 1\nsession\t" HASH "\tada\t1e9\n",
+                "accounts:2: expected a number up to 99999999999"},
+        BadFile{"rave-accounts 1\ninvitation\t" HASH "\tobserver\t*\t1001\t5\tada\n",
+                "accounts:2: expected a number up to 1000"}));
+
+TEST(AccountsFileTest, IsReadAsItWasWritten) {
+  const std::string text =
+      "rave-accounts 1\nuser\tada\tsuper_user\t*\t$argon2id$v=19$m=65536,t=2,p=1$c2FsdA$aGFzaA\n"
+      "user\tben\tobserver\tblue,green\t-\ninvitation\t" HASH
+      "\tcommander\t-\t3\t1800000000\tada\n"
+      "session\t" HASH "\tben\t1800000001\n";
+  const auto file = parse_accounts(text, "accounts");
+  ASSERT_TRUE(file) << file.error().text();
+  EXPECT_EQ(write_accounts(*file), text);
+  // The session of somebody whose line was removed by hand.
+  const auto orphan = parse_accounts("rave-accounts 1\nsession\t" HASH "\tben\t5\n", "accounts");
+  ASSERT_TRUE(orphan);
+  EXPECT_TRUE(orphan->sessions.empty());
+}
+
+TEST_F(AccountsTest, TheAuditLogIsBoundedAndOneLineEach) {
+  AuditLog log(folder_, 2000);
+  for (int i = 0; i < 200; ++i) {
+    log.note("refused", {{"why", "two\nlines \"\xff"}, {"user", ""}, {"from", "::1"}});
+  }
+  std::size_t files = 0;
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    ++files;
+    EXPECT_LT(entry.file_size(), 2300U);
+    struct stat info {};
+    ASSERT_EQ(::stat(entry.path().c_str(), &info), 0);
+    EXPECT_EQ(info.st_mode & 07777U, 0600U);
+    std::ifstream in(entry.path());
+    for (std::string line; std::getline(in, line);) {
+      EXPECT_TRUE(line.starts_with("{\"time\":\"20")) << line;
+      EXPECT_TRUE(line.ends_with("\"from\":\"::1\"}")) << line;
+      EXPECT_EQ(line.find("user"), std::string::npos);
+    }
+  }
+  EXPECT_EQ(files, 5U);
+  EXPECT_EQ(log.lost(), 0U);
+}
+
+TEST(Secrets, AreLongAndNeverTheSame) {
+  EXPECT_EQ(new_secret().size(), 48U);
+  EXPECT_NE(new_secret(), new_secret());
+  EXPECT_EQ(hash_of("a"), hash_of("a"));
+  EXPECT_TRUE(is_password_hash(password_hash("x")));
+  EXPECT_FALSE(password_fits("x", ""));
+}
+
+}  // namespace
+}  // namespace rave::gui_server

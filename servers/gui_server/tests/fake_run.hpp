@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "rave/gui_server/source.hpp"
+
+namespace rave::gui_server::testing {
+
+/// A run that goes on for ever, with two robots of team green and two of team blue. What is blue,
+/// and the virtual obstacle, has names and numbers that can be searched for.
+class FakeRun final : public Source {
+ public:
+  static constexpr double kSecretX_m = 7777.25;
+  static constexpr float kSecretRange_m = 1234.5F;
+  static constexpr float kOpenRange_m = 2.5F;
+  static constexpr float kHalfRange_m = 987.5F;
+
+  FakeRun() {
+    about_.live = true;
+    about_.name = "fake";
+    about_.step_s = 0.01;
+    about_.recording = "/nowhere/fake.mcap";
+    for (const auto& [name, team] : {std::pair("walker-1", "green"), std::pair("spy-2", "blue"),
+                                     std::pair("walker-3", "green"), std::pair("spy-4", "blue")}) {
+      robots_ += robots_.empty() ? "[" : ",";
+      robots_ += std::string(R"({"name":")") + name + R"(","team":")" + team +
+                 R"(","kind":"simulated","word":"","recorded":false,"program":"","drivers":[],)" +
+                 R"("shapes":[],"sensors":[{"name":"scan","kind":"ranges","origin":"hybrid",)" +
+                 R"("driver":"","mount":[0,0,0],"z":0,"period_s":0.1,"fields":["range [m]"]}]})";
+    }
+    robots_ += "]";
+    events_.push_back({1, 1, 1, "stopped", LogEvent::Level::kWarn, "spy-2: stopped", {1}});
+    events_.push_back(
+        {2, 2, 1, "contact", LogEvent::Level::kInfo, "walker-1 and spy-2 touch", {0, 1}});
+    events_.push_back({3, 3, 1, "hint", LogEvent::Level::kInfo, "walker-1: saw spy-4", {0}});
+    events_.push_back({4, 4, 1, "hint", LogEvent::Level::kInfo, "walker-1: at home", {0}});
+    for (int i = 0; i < 4; ++i) {
+      poses_.robots.push_back({i % 2 == 0 ? 1.0 : kSecretX_m, 0, 0, 0, kKnown});
+    }
+  }
+
+  [[nodiscard]] const RunAbout& about() const noexcept override { return about_; }
+  [[nodiscard]] Powers powers() const override {
+    return {{"play", "pace", "step", "stop", "release", "true_pose", "readings", "hybrid_parts",
+             "obstacles", "log", "recording"},
+            {}};
+  }
+  [[nodiscard]] const std::string& bodies_json() const noexcept override { return bodies_; }
+  [[nodiscard]] const std::string& robots_json() const noexcept override { return robots_; }
+  [[nodiscard]] std::uint32_t robot_count() const noexcept override { return 4; }
+  [[nodiscard]] std::span<const LogEvent> events() const noexcept override { return events_; }
+  [[nodiscard]] std::unique_ptr<Cursor> open_cursor() override {
+    return std::make_unique<FakeCursor>(*this);
+  }
+  [[nodiscard]] std::unique_ptr<Playhead> open_playhead() override {
+    return std::make_unique<FakePlayhead>(*this);
+  }
+  void tick(Playhead::Clock::time_point /*now*/, const Audience& /*audience*/) override {
+    ++poses_.serial;
+    poses_.time_s = 0.01 * poses_.serial;
+  }
+  void halt(const HaltMessage& halt, Reply reply) override {
+    halted_robots += halt.slots.empty() ? 4 : static_cast<int>(halt.slots.size());
+    reply(true, "stopped walker-1 and spy-2");
+  }
+
+  std::atomic<int> halted_robots = 0;
+  std::atomic<int> moved = 0;  ///< How often somebody moved the time of the run.
+
+ private:
+  class FakeCursor final : public Cursor {
+   public:
+    explicit FakeCursor(const FakeRun& run) : run_(run) {}
+    Status go_to(double /*time_s*/) override { return {}; }
+    [[nodiscard]] const PosesAt& poses() const noexcept override { return run_.poses_; }
+    [[nodiscard]] std::vector<ReadingAt> readings(std::span<const LookedAt> sensors,
+                                                  bool parts) override {
+      std::vector<ReadingAt> readings;
+      for (const LookedAt& sensor : sensors) {
+        const float range = sensor.slot % 2 == 0 ? kOpenRange_m : kSecretRange_m;
+        const double stamp_s = run_.poses_.time_s;
+        readings.push_back({sensor.slot, 0, 0, stamp_s, 1, 1, {range}});
+        if (parts) readings.push_back({sensor.slot, 0, 1, stamp_s, 1, 1, {kHalfRange_m}});
+      }
+      return readings;
+    }
+
+   private:
+    const FakeRun& run_;
+  };
+  class FakePlayhead final : public Playhead {
+   public:
+    explicit FakePlayhead(FakeRun& run) : run_(run) {}
+    std::string take(const TransportMessage& /*transport*/, Clock::time_point /*now*/) override {
+      ++run_.moved;
+      return {};
+    }
+    PlayState look(Clock::time_point /*now*/) override {
+      PlayState state;
+      state.now_s = run_.poses_.time_s;
+      state.picture = run_.poses_.serial;
+      return state;
+    }
+
+   private:
+    FakeRun& run_;
+  };
+
+  RunAbout about_;
+  std::string robots_;
+  std::string bodies_ =
+      R"([{"id":0,"name":"secret-pond","kind":"virtual","pose":[0,0,0],"shapes":[]},)"
+      R"({"id":1,"name":"hall","kind":"wall","pose":[0,0,0],"shapes":[]}])";
+  std::vector<LogEvent> events_;
+  PosesAt poses_;
+};
+
+}  // namespace rave::gui_server::testing

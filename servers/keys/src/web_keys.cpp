@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/keys/web_keys.hpp"
+
+#include <arpa/inet.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "certificate.hpp"
+#include "layout.hpp"
+#include "private_files.hpp"
+#include "rave/base/file.hpp"
+#include "rave/keys/key_set.hpp"
+
+namespace rave::keys {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr ErrorCode kBadWeb = ErrorCode::kInvalidArgument;
+constexpr std::size_t kMostNames = 50;
+/// The authority lasts ten years, so that browsers are told once.
+constexpr std::int64_t kAuthorityDays = 3650;
+/// For machines whose clock is a little late; counts as part of the days.
+constexpr std::int64_t kEarly_s = 3600;
+
+constexpr const char* kServer = "server.pem";
+constexpr const char* kServerKey = "server_key.pem";
+
+bool is_address(std::string_view name) {
+  in6_addr ignored{};
+  const std::string text(name);
+  return inet_pton(AF_INET, text.c_str(), &ignored) == 1 ||
+         inet_pton(AF_INET6, text.c_str(), &ignored) == 1;
+}
+
+bool is_label(std::string_view label) {
+  const auto fits = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-';
+  };
+  return !label.empty() && label.size() <= 63 && label.front() != '-' && label.back() != '-' &&
+         std::ranges::all_of(label, fits);
+}
+
+Status check(const NewWebKeys& wanted) {
+  if (wanted.names.empty() || wanted.names.size() > kMostNames) {
+    return fail(kBadWeb, "expected 1 to {} names, such as lab.example or 192.168.1.20", kMostNames);
+  }
+  for (const std::string& name : wanted.names) RAVE_TRY(check_web_name(name));
+  if (wanted.days < 1 || wanted.days > kMostWebDays) {
+    return fail(kBadWeb,
+                "{} days are not in 1 to {}: browsers refuse certificates that last longer",
+                wanted.days, kMostWebDays);
+  }
+  return {};
+}
+
+Result<Credential> read_web_authority(const fs::path& folder, std::int64_t now_s) {
+  Credential authority;
+  RAVE_TRY_ASSIGN(authority.certificate, read_file(folder / kAuthority, kLargestFile));
+  RAVE_TRY_ASSIGN(authority.key, read_file(folder / kAuthorityKey, kLargestFile));
+  RAVE_TRY(check_pair(authority));
+  RAVE_TRY_ASSIGN(const CertificateFacts facts, read_certificate(authority.certificate));
+  if (facts.validity.until_s <= now_s) {
+    return fail(ErrorCode::kState, "the authority in `{}` has expired on {}; make another folder",
+                folder.string(), date_text(facts.validity.until_s));
+  }
+  return authority;
+}
+
+Status replace_file(const fs::path& file, const std::string& content) {
+  fs::path part = file;
+  part += ".part";
+  std::error_code error;
+  fs::remove(part, error);
+  RAVE_TRY(write_private_file(part, content));
+  fs::rename(part, file, error);
+  if (error) return fail(ErrorCode::kIo, "cannot write `{}`: {}", file.string(), error.message());
+  return {};
+}
+
+Validity server_validity(const NewWebKeys& wanted) {
+  const std::int64_t from_s = wanted.now_s - kEarly_s;
+  return {from_s, from_s + wanted.days * kDay_s};
+}
+
+Status renew(const NewWebKeys& wanted, const fs::path& folder, const Credential& authority) {
+  RAVE_TRY_ASSIGN(const Credential server,
+                  make_web_server(authority, wanted.names, server_validity(wanted)));
+  const Status good = check_web_server(authority.certificate, server.certificate, wanted.now_s);
+  if (!good) {
+    return fail(
+        ErrorCode::kState,
+        "the authority in `{}` cannot speak for these names ({}); nothing was changed; make "
+        "another folder",
+        folder.string(), good.error().message);
+  }
+  RAVE_TRY(replace_file(folder / kServerKey, server.key));
+  return replace_file(folder / kServer, server.certificate);
+}
+
+Status make_new(const NewWebKeys& wanted, const fs::path& folder, Credential& authority) {
+  const Validity validity{wanted.now_s - kEarly_s, wanted.now_s + kAuthorityDays * kDay_s};
+  RAVE_TRY_ASSIGN(authority, make_web_authority(wanted.names, validity));
+  RAVE_TRY_ASSIGN(const ScratchFolder scratch, ScratchFolder::inside(parent_of(folder)));
+  const fs::path whole = scratch.path() / "web";
+  RAVE_TRY(make_private_folder(whole));
+  RAVE_TRY(write_private_file(whole / kAuthority, authority.certificate));
+  RAVE_TRY(write_private_file(whole / kAuthorityKey, authority.key));
+  RAVE_TRY(renew(wanted, whole, authority));
+  return move_to_free_name(whole, folder);
+}
+
+}  // namespace
+
+Status check_web_name(std::string_view name) {
+  if (is_address(name)) return {};
+  std::string_view rest = name;
+  bool good = !name.empty() && name.size() <= 253;
+  while (good) {
+    const std::string_view label = rest.substr(0, rest.find('.'));
+    good = is_label(label);
+    if (label.size() == rest.size()) break;
+    rest.remove_prefix(label.size() + 1);
+  }
+  if (good) return {};
+  return fail(kBadWeb, "`{}` is neither the name of a host nor an address", name);
+}
+
+Result<WebKeys> make_web_keys(const NewWebKeys& wanted) {
+  RAVE_TRY(check(wanted));
+  const fs::path folder = without_slash(wanted.folder);
+  WebKeys made;
+  Credential authority;
+  std::error_code error;
+  if (is_taken(folder)) {
+    if (!fs::is_regular_file(folder / kAuthorityKey, error)) {
+      return fail(kBadWeb, "`{}` is there already and has no {}; take another name",
+                  folder.string(), kAuthorityKey);
+    }
+    RAVE_TRY_ASSIGN(authority, read_web_authority(folder, wanted.now_s));
+    RAVE_TRY(renew(wanted, folder, authority));
+  } else {
+    made.new_authority = true;
+    RAVE_TRY(make_new(wanted, folder, authority));
+  }
+  RAVE_TRY_ASSIGN(const CertificateFacts facts, read_certificate(authority.certificate));
+  made.fingerprint = facts.fingerprint;
+  made.until_s = server_validity(wanted).until_s;
+  return made;
+}
+
+}  // namespace rave::keys

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+// Names and addresses of a page as libcrypto takes them for the fields of a certificate. They have
+// been checked by check_web_name(), so that nothing of them can pass for another field. Any thread.
+namespace rave::keys {
+
+/// What an authority may speak for. Of a kind that is not named at all everything would be allowed:
+/// then a name or an address that nobody has takes its place.
+[[nodiscard]] std::string constraints_for(const std::vector<std::string>& names);
+
+/// The names of a server.
+[[nodiscard]] std::string alternatives_for(const std::vector<std::string>& names);
+
+}  // namespace rave::keys

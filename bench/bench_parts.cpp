@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The parts of a step by themselves, in the workloads of `rave bench swarm`: a robot on 10 m^2,
-// half as many boxes, four walls. How to run it and what it measures: docs/design/engine.md.
+// half as many boxes, four walls. How to run it and what it measures: docs/benchmarks.md.
 #include <benchmark/benchmark.h>
 
 #include <chrono>

@@ -7,7 +7,7 @@
     bench/message_load.py --measure build/release/bin/rave
 
 Prints JSON: what each process sends and gets, in bytes and messages per second, and the share of a
-core it takes, for three ways to share a world (docs/design/distribution.md, How it grows). With
+core it takes, for three ways to share a world (docs/explanation/scaling.md). With
 --measure it runs small cases in a network namespace of its own, counts the bytes on its loopback, and
 exits with 1 if the model is off by more than a tenth, with 77 if there can be no such namespace.
 """
@@ -35,7 +35,7 @@ NETWORKS = {
     "ethernet": {"fragment": 1344, "frame": 1500, "frame_head": 38},
 }
 # Nanoseconds of a core per robot, as perf shows them in a run of three processes with 10 000 robots
-# (docs/design/distribution.md, Where the rest goes), and per message.
+# (docs/benchmarks.md, Where a step of three processes goes), and per message.
 COSTS_NS = {
     "read_report": 41, "step": 179, "write_world": 22, "send": 10,    # the manager
     "read_world": 50, "join": 84, "own": 555,                         # a host

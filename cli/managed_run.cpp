@@ -12,6 +12,7 @@
 #include "rave/base/file.hpp"
 #include "rave/environment_manager/live_manager.hpp"
 #include "rave/environment_manager/manager.hpp"
+#include "rave/gui_server/bus_run.hpp"
 #include "rave/robot_host/build.hpp"
 #include "rave/robot_host/host_run.hpp"
 #include "rave/run_control/folder.hpp"
@@ -24,17 +25,6 @@ using environment_manager::LiveManagerOutcome;
 
 /// As many find one another on a machine of two cores.
 constexpr std::size_t kMostLiveHosts = 50;
-
-/// The world alone: what the robots do is for their hosts.
-Result<robot_host::BuiltScenario> world_of(const ManagedRun& run) {
-  plugin::Catalogue catalogue(robot_host::host_stamp());
-  RAVE_TRY(add_plugin_folders(run.options.plugins, catalogue));
-  robot_host::BuildOptions how;
-  how.log = &run.console;
-  how.local.emplace();
-  how.others = &catalogue;
-  return robot_host::build(run.scenario, catalogue, how);
-}
 
 Result<std::unique_ptr<robot_host::SharedResults>> results_of(
     const ManagedRun& run, const robot_host::BuiltScenario& built) {
@@ -231,6 +221,28 @@ Result<ManagedEnd> manage_time(const ManagedRun& run, robot_host::BuiltScenario 
 
 }  // namespace
 
+Result<robot_host::BuiltScenario> build_world(const config::ExpandedScenario& scenario,
+                                              const std::vector<std::string>& plugins,
+                                              LogSink& log) {
+  plugin::Catalogue catalogue(robot_host::host_stamp());
+  RAVE_TRY(add_plugin_folders(plugins, catalogue));
+  robot_host::BuildOptions how;
+  how.log = &log;
+  how.local.emplace();
+  how.others = &catalogue;
+  return robot_host::build(scenario, catalogue, how);
+}
+
+Result<std::unique_ptr<gui_server::GuiServer>> show_run(const RunCommand& options,
+                                                        const config::ExpandedScenario& scenario,
+                                                        const bus::BusConfig& bus,
+                                                        robot_host::RunControl* control,
+                                                        LogSink& log) {
+  RAVE_TRY_ASSIGN(const auto built, build_world(scenario, options.plugins, log));
+  RAVE_TRY_ASSIGN(auto source, gui_server::watch_run(scenario, built, bus, control));
+  return serve_page(options.page, std::move(source));
+}
+
 std::unique_ptr<run_control::Server> serve_control(const std::string& scenario,
                                                    robot_host::RunControl& control, LogSink& log) {
   auto server = run_control::Server::start(run_control::own_run_name(scenario), control);
@@ -242,7 +254,7 @@ std::unique_ptr<run_control::Server> serve_control(const std::string& scenario,
 Result<ManagedEnd> manage_run(const ManagedRun& run) {
   RAVE_TRY(
       write_file_atomically(run.folder / "scenario.yaml", config::write_expanded(run.scenario)));
-  RAVE_TRY_ASSIGN(auto built, world_of(run));
+  RAVE_TRY_ASSIGN(auto built, build_world(run.scenario, run.options.plugins, run.console));
   RAVE_TRY_ASSIGN(auto hosts, config::plan_hosts(run.scenario));
   if (hosts.empty()) {
     return fail(ErrorCode::kInvalidArgument,

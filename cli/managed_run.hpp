@@ -12,6 +12,7 @@
 #include "rave/base/result.hpp"
 #include "rave/bus/config.hpp"
 #include "rave/config/expanded_scenario.hpp"
+#include "rave/robot_host/build.hpp"
 #include "rave/robot_host/run_control.hpp"
 #include "rave/robot_host/shared_results.hpp"
 #include "rave/run_control/server.hpp"
@@ -38,6 +39,17 @@ struct ManagedRun {
 [[nodiscard]] std::unique_ptr<run_control::Server> serve_control(const std::string& scenario,
                                                                  robot_host::RunControl& control,
                                                                  LogSink& log);
+
+/// The world of a scenario alone: what its robots do is for their hosts. No plug-in stays loaded.
+[[nodiscard]] Result<robot_host::BuiltScenario> build_world(
+    const config::ExpandedScenario& scenario, const std::vector<std::string>& plugins,
+    LogSink& log);
+
+/// Serves a page that looks on at a run on the bus. `control`: that of its manager, if it is in
+/// this process; may be null.
+[[nodiscard]] Result<std::unique_ptr<gui_server::GuiServer>> show_run(
+    const RunCommand& options, const config::ExpandedScenario& scenario, const bus::BusConfig& bus,
+    robot_host::RunControl* control, LogSink& log);
 
 /// How it ended.
 struct ManagedEnd {

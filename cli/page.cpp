@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cstdlib>
+#include <thread>
 
 #include "error_text.hpp"
 #include "places.hpp"
@@ -54,6 +56,20 @@ Result<std::unique_ptr<gui_server::GuiServer>> serve_page(
   std::fflush(stdout);
   if (!options.no_open) open_browser(link);
   return server;
+}
+
+void replay_on_page(gui_server::GuiServer& page, bool quiet, const std::filesystem::path& folder,
+                    const robot_host::RunControl& control) {
+  if (control.stopping()) return;
+  auto source = record_file(folder.string()).and_then(gui_server::open_recording);
+  if (source) page.show(*std::move(source));
+  if (!quiet) {
+    put(stdout, source ? "the page shows the recording; Ctrl-C ends\n"
+                       : fmt::format("the page shows no recording: {}; Ctrl-C ends\n",
+                                     source.error().text()));
+  }
+  std::fflush(stdout);
+  while (!control.stopping()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
 }
 
 }  // namespace rave::cli

@@ -7,6 +7,7 @@
 
 #include "rave/gui_server/gui_server.hpp"
 #include "rave/gui_server/source.hpp"
+#include "rave/robot_host/run_control.hpp"
 
 namespace rave::cli {
 
@@ -25,5 +26,9 @@ struct PageOptions {
 /// waits for one. Errors: those of GuiServer::start().
 [[nodiscard]] Result<std::unique_ptr<gui_server::GuiServer>> serve_page(
     const PageOptions& options, std::shared_ptr<gui_server::Source> source = nullptr);
+
+/// When a run is over, its page shows the recording in `folder` until somebody ends this process.
+void replay_on_page(gui_server::GuiServer& page, bool quiet, const std::filesystem::path& folder,
+                    const robot_host::RunControl& control);
 
 }  // namespace rave::cli

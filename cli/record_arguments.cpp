@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record_arguments.hpp"
 
+#include "bus_arguments.hpp"
 #include "run_arguments.hpp"
 #include "shared_arguments.hpp"
 
@@ -89,10 +90,19 @@ void add_report(CLI::App& root, GapCommand& c) {
 }
 
 void add_gui(CLI::App& root, GuiCommand& c) {
-  CLI::App& app = *root.add_subcommand("gui", "Show a recording in the browser");
-  add_record(app, c.file);
+  CLI::App& app = *root.add_subcommand("gui", "Show a run or a recording in the browser");
+  add_word(app, "what", c.file, "A recording, the folder of a run, or the scenario of a run",
+           "WHAT");
   add_page_options(app, c.page);
-  app.footer("Example:\n  rave gui runs/20260101-120000-mixed-reality");
+  add_processes(app, c.run.processes, "As of `rave env`", 2);
+  add_plugins(app, c.run.plugins);
+  add_bus_options(app, c.run.bus);
+  app.footer(
+      "Of a scenario, the run of several processes is shown that goes on, or will; it is found on\n"
+      "the bus as its processes are. `rave run --gui` shows a run of one process.\n\n"
+      "Examples:\n"
+      "  rave gui runs/20260101-120000-mixed-reality\n"
+      "  rave gui lab --interface 192.168.1.7 --peer 192.168.1.2");
 }
 
 }  // namespace

@@ -200,6 +200,12 @@ int run_shared(const RunCommand& options, const config::ExpandedScenario& scenar
     crew.look_after();
     return control.stopping() || crew.all_dead();
   };
+  std::unique_ptr<gui_server::GuiServer> page;
+  if (options.gui) {
+    auto served = show_run(options, scenario, *bus, &control, console);
+    if (!served) return complain(served.error());
+    page = *std::move(served);
+  }
   auto managed = manage_run({scenario, options, *bus, folder->path(), console, control, stopping,
                              [&crew] { return crew.all_ended(); }});
   // In lock-step the last step tells them.
@@ -208,7 +214,10 @@ int run_shared(const RunCommand& options, const config::ExpandedScenario& scenar
   console.clear();
   if (!managed) return complain(managed.error());
   const auto outcome = put_together(*managed, crew, problems);
-  return outcome ? report_outcome(options, *outcome, folder->path()) : complain(outcome.error());
+  if (!outcome) return complain(outcome.error());
+  const int code = report_outcome(options, *outcome, folder->path());
+  if (page) replay_on_page(*page, options.quiet, folder->path(), control);
+  return code;
 }
 
 }  // namespace rave::cli

@@ -2,11 +2,43 @@
 #include "commands/gui.hpp"
 
 #include <csignal>
+#include <filesystem>
 
+#include "console.hpp"
 #include "error_text.hpp"
+#include "managed_run.hpp"
 #include "places.hpp"
+#include "rave/robot_host/host_run.hpp"
+#include "run_scenario.hpp"
 
 namespace rave::cli {
+namespace {
+
+Result<std::unique_ptr<gui_server::GuiServer>> serve(const GuiCommand& options) {
+  const auto file = record_file(options.file);
+  std::error_code error;
+  if (file && std::filesystem::exists(*file, error)) {
+    RAVE_TRY_ASSIGN(auto source, gui_server::open_recording(*file));
+    return serve_page(options.page, std::move(source));
+  }
+  RunCommand run = options.run;
+  run.scenario = options.file;
+  run.page = options.page;
+  const auto scenario = read_scenario(run);
+  // There is no scenario of this name either.
+  if (!scenario && scenario.error().code == ErrorCode::kNotFound) {
+    return fail(ErrorCode::kNotFound, "`{}` is no recording, no folder of a run, and no scenario",
+                options.file);
+  }
+  if (!scenario) return tl::unexpected(scenario.error());
+  RAVE_TRY_ASSIGN(auto bus,
+                  bus_config(run.bus, "GUI Server", robot_host::shared_number(*scenario)));
+  make_room(bus, kMostHosts);
+  Console console(false);
+  return show_run(run, *scenario, bus, nullptr, console);
+}
+
+}  // namespace
 
 int gui(const GuiCommand& options) {
   // Before the server has threads, so that none of them gets the signals.
@@ -16,11 +48,7 @@ int gui(const GuiCommand& options) {
   sigaddset(&signals, SIGTERM);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 
-  const auto file = record_file(options.file);
-  if (!file) return complain(file.error());
-  auto source = gui_server::open_recording(*file);
-  if (!source) return complain(source.error());
-  const auto server = serve_page(options.page, *std::move(source));
+  const auto server = serve(options);
   if (!server) return complain(server.error());
   int signal = 0;
   sigwait(&signals, &signal);

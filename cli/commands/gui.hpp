@@ -3,13 +3,15 @@
 
 #include <string>
 
+#include "commands/run.hpp"
 #include "page.hpp"
 
 namespace rave::cli {
 
 /// `rave gui`.
 struct GuiCommand {
-  std::string file;  ///< A recording, or the folder of a run.
+  std::string file;  ///< A recording, the folder of a run, or a scenario.
+  RunCommand run;    ///< Of a scenario: where its run is, and plug-ins.
   PageOptions page;
 };
 

@@ -3,9 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-#include <thread>
-
 #include "console.hpp"
 #include "error_text.hpp"
 #include "interrupt.hpp"
@@ -22,27 +19,6 @@
 #include "shared_run.hpp"
 
 namespace rave::cli {
-namespace {
-
-/// When the run is over, its page shows the recording until somebody ends this process.
-void replay_on_page(gui_server::GuiServer& page, gui_server::LiveRun& live,
-                    const RunCommand& options, const std::filesystem::path& recording,
-                    const robot_host::RunControl& control) {
-  if (control.stopping()) return;
-  if (options.no_record) {
-    live.end("The run is over. It was not recorded.");
-  } else if (auto source = gui_server::open_recording(recording)) {
-    page.show(*std::move(source));
-  } else {
-    live.end("The run is over. Its recording cannot be shown: " + source.error().text());
-  }
-  if (!options.quiet) put(stdout, "the page shows the recording; Ctrl-C ends\n");
-  std::fflush(stdout);
-  while (!control.stopping()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
-}
-
-}  // namespace
-
 int run(const RunCommand& options) {
   auto scenario = read_scenario(options);
   if (!scenario) return complain(scenario.error());
@@ -94,7 +70,8 @@ int run(const RunCommand& options) {
   console.clear();
   if (outcome) {
     const int code = report_outcome(options, *outcome, folder->path());
-    if (page) replay_on_page(*page, live, options, folder->path() / "run.mcap", control);
+    live.end("The run is over.");
+    if (page) replay_on_page(*page, options.quiet, folder->path(), control);
     return code;
   }
   // What a run left that broke off tells why.

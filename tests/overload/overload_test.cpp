@@ -18,8 +18,8 @@ constexpr double kSpeed_mps = 0.3;
 constexpr double kRadius_m = 0.174;
 constexpr double kFence_m = 2;
 constexpr double kWall_m = 3;  ///< In the world of the run alone: the room goes on behind it.
-/// From its command until the robot stands, by the formula of the guard (docs/design/guard.md) with
-/// its usual reaction of 0.1 s, deceleration of 0.5 m/s2 and a period of 0.02 s.
+/// From its command until the robot stands, by the formula of the guard (docs/explanation/guard.md)
+/// with its usual reaction of 0.1 s, deceleration of 0.5 m/s2 and a period of 0.02 s.
 constexpr double kStop_m = kSpeed_mps * (0.02 + 0.1) + kSpeed_mps * kSpeed_mps / (2 * 0.5);
 
 struct Load {

@@ -20,20 +20,20 @@ INTRODUCTION = """\
 # Keys of robot, world and scenario files
 
 Made by `tools/docs/files_reference.py` from the [schemas](../../schemas/config); edit the
-descriptions in the code instead. What a driver takes under `params` stands in
+descriptions in the code instead. The keys under `params` of a driver are in
 [drivers.md](drivers.md).
 
 All files are YAML, read strictly: an unknown key, a wrong type or a value out of range is an error
-with file, line, column and the nearest right name. The end of a key says its unit: `_m`, `_s`,
+with file, line, column and the nearest right name. A key ends in its unit: `_m`, `_s`,
 `_mps`, `_radps`, `_kg`, `_deg`. Degrees exist in files only
-([frames and units](../frames-and-units.md)). A file name is relative to the file that it stands in.
-`$(name)` in a robot file stands for a variable. `rave check --expand FILE` writes a file with all
+([frames and units](../frames-and-units.md)). A file name is relative to the file that contains it.
+`$(name)` in a robot file is the value of a variable. `rave check --expand FILE` writes a file with all
 defaults.
 """
 WHAT = {
-    "robot": "What a robot is made of, which drivers serve it, and which program it runs.",
-    "world": "What stands still.",
-    "scenario": "Which robots run where, for how long, and what must hold at the end.",
+    "robot": "The parts of a robot, their drivers, and its program.",
+    "world": "The static bodies.",
+    "scenario": "Which robots run where, for how long, and which checks must hold.",
 }
 UNITS = re.compile(r"^\[([^\]]+)\]\s*")
 

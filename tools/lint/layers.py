@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Who may include and link whom, by the table in docs/design/layers.md.
+"""Who may include and link whom, by the table in docs/explanation/layers.md.
 
 Reads every #include and the link lines of every CMake file. A test or benchmark may use what it
 likes, but nobody includes a file through `..`, and nobody outside drivers/ and tests links what is
@@ -11,7 +11,7 @@ import re
 
 import common
 
-TABLE = "docs/design/layers.md"
+TABLE = "docs/explanation/layers.md"
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]')
 CALL = re.compile(r"\b(\w+)\s*\(([^()]*(?:\([^()]*\)[^()]*)*)\)")
 RAVE_NAME = re.compile(r"^rave(?:::|_)([a-z0-9_]+)$")

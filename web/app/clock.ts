@@ -21,6 +21,6 @@ export function bigClock(time_s: number): string {
 export function tickClock(time_s: number): string {
   if (time_s === 0) return '0';
   if (time_s < 60) return `${Number(time_s.toFixed(1))} s`;
-  const minutes = Math.floor(time_s / 60);
-  return `${minutes}:${String(Math.round(time_s % 60)).padStart(2, '0')}`;
+  const seconds = Math.round(time_s);
+  return `${Math.floor(seconds / 60)}:${String(seconds % 60).padStart(2, '0')}`;
 }

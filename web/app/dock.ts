@@ -5,7 +5,7 @@ import type {PanelContext, PanelElement, PanelKind} from '../panel_api';
 /** Each class of widths has a layout of its own. */
 const kKept = 'rave.layout';
 /** Another number makes layouts that were kept void. */
-const kVersion = 1;
+const kVersion = 2;
 
 /** A panel in the dock: makes the element and gives it its context. */
 class DockedPanel implements IContentRenderer {
@@ -76,17 +76,22 @@ export class Dock {
     add('world');
     if (this.width >= 1280) {
       add('robots', {referencePanel: 'world', direction: 'left'}, {initialWidth: 292});
+      add('hosts', {referencePanel: 'robots', direction: 'within'});
       add('sensors', {referencePanel: 'world', direction: 'right'}, {initialWidth: 392});
       add('log', {referencePanel: 'sensors', direction: 'below'}, {initialHeight: 340});
     } else if (this.width >= 900) {
       add('robots', {referencePanel: 'world', direction: 'right'});
+      add('hosts', {referencePanel: 'robots', direction: 'within'});
       add('sensors', {referencePanel: 'robots', direction: 'below'});
       add('log', {referencePanel: 'sensors', direction: 'within'});
     } else {
       add('robots', {referencePanel: 'world', direction: 'below'});
       add('sensors', {referencePanel: 'robots', direction: 'within'});
       add('log', {referencePanel: 'robots', direction: 'within'});
+      add('hosts', {referencePanel: 'robots', direction: 'within'});
     }
+    if (this.width >= 900) this.show('sensors');
+    this.show('robots');
     this.show('world');
     this.restoring = false;
   }

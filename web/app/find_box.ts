@@ -29,7 +29,7 @@ export class FindBox extends LitElement {
     const words = this.text.toLowerCase().split(/\s+/).filter(Boolean);
     const fits = (text: string) => words.every((word) => text.toLowerCase().includes(word));
     const {model, selection} = this.context;
-    const all: Found[] = [];
+    const all: Found[] = [...this.stops(words, fits)];
     model.robots.forEach((robot, slot) => {
       if (!fits(`${robot.name} ${robot.team} ${robot.kind}`)) return;
       all.push({
@@ -57,6 +57,25 @@ export class FindBox extends LitElement {
     return all.slice(0, kMost);
   }
 
+  /** Who may stop robots finds that, too: `stop wal`. */
+  private stops(words: readonly string[], fits: (text: string) => boolean): Found[] {
+    const {model, link} = this.context;
+    if (!model.may('stop') || words.length === 0 || !'stop'.startsWith(words[0].slice(0, 4))) return [];
+    const stop = (slots: number[]) => () => link.send({type: 'halt', do: 'stop', slots});
+    const found: Found[] = [];
+    const teams = new Map<string, number[]>();
+    model.robots.forEach((robot, slot) => {
+      if (robot.team !== '') teams.set(robot.team, [...(teams.get(robot.team) ?? []), slot]);
+      if (found.length < kMost / 2 && fits(`stop ${robot.name}`)) {
+        found.push({icon: 'octagonX', text: `Stop ${robot.name}`, note: `${robot.kind}${robot.team ? `, team ${robot.team}` : ''}`, act: stop([slot])});
+      }
+    });
+    for (const [team, slots] of teams) {
+      if (fits(`stop team ${team}`)) found.push({icon: 'octagonX', text: `Stop team ${team}`, note: `${slots.length} robots`, act: stop(slots)});
+    }
+    return found;
+  }
+
   override render(): TemplateResult {
     const found = this.found();
     this.at = Math.min(this.at, Math.max(found.length - 1, 0));
@@ -66,7 +85,7 @@ export class FindBox extends LitElement {
           @input=${(event: InputEvent) => { this.text = (event.target as HTMLInputElement).value; this.at = 0; this.requestUpdate(); }}
           @keydown=${(event: KeyboardEvent) => this.key(event, found)}><kbd>Esc</kbd></label>
         <ul role="listbox">${found.map((item, i) => html`<li role="option" aria-selected=${i === this.at} @click=${() => this.take(item)}>
-          ${icon(item.icon, 16)}<span>${item.text}</span><em>${item.note}</em></li>`)}</ul>
+          <i class=${item.icon}>${icon(item.icon, 16)}</i><span>${item.text}</span><em>${item.note}</em></li>`)}</ul>
         ${found.length === 0 ? html`<p>Nothing is called that.</p>` : nothing}
       </div></div>`;
   }
@@ -101,6 +120,7 @@ export class FindBox extends LitElement {
       kbd { padding: 0 6px; border: 1px solid var(--line-2); border-radius: var(--r-2); font: 500 var(--fs-11) var(--font-ui); color: var(--text-2); }
       ul { list-style: none; margin: 0; padding: 6px; max-height: 56vh; overflow: auto; }
       li { display: flex; align-items: center; gap: 10px; height: 36px; padding: 0 10px; border-radius: var(--r-3); cursor: pointer; color: var(--text-2); }
+      .octagonX { color: var(--danger); }
       li span { color: var(--text-1); overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
       li em { font-style: normal; color: var(--text-3); font-size: var(--fs-12); white-space: nowrap; }
       li[aria-selected='true'], li:hover { background: var(--intent-soft); }

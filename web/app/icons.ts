@@ -14,6 +14,7 @@ import download from 'lucide-static/icons/download.svg?raw';
 import eye from 'lucide-static/icons/eye.svg?raw';
 import fileText from 'lucide-static/icons/file-text.svg?raw';
 import filter from 'lucide-static/icons/funnel.svg?raw';
+import hourglass from 'lucide-static/icons/hourglass.svg?raw';
 import info from 'lucide-static/icons/info.svg?raw';
 import layers from 'lucide-static/icons/layers.svg?raw';
 import link from 'lucide-static/icons/link.svg?raw';
@@ -21,12 +22,14 @@ import list from 'lucide-static/icons/list.svg?raw';
 import lock from 'lucide-static/icons/lock.svg?raw';
 import maximize from 'lucide-static/icons/maximize.svg?raw';
 import moon from 'lucide-static/icons/moon.svg?raw';
+import octagonX from 'lucide-static/icons/octagon-x.svg?raw';
 import pause from 'lucide-static/icons/pause.svg?raw';
 import play from 'lucide-static/icons/play.svg?raw';
 import radar from 'lucide-static/icons/radar.svg?raw';
 import rotateCcw from 'lucide-static/icons/rotate-ccw.svg?raw';
 import ruler from 'lucide-static/icons/ruler.svg?raw';
 import search from 'lucide-static/icons/search.svg?raw';
+import server from 'lucide-static/icons/server.svg?raw';
 import skipBack from 'lucide-static/icons/skip-back.svg?raw';
 import skipForward from 'lucide-static/icons/skip-forward.svg?raw';
 import stepBack from 'lucide-static/icons/step-back.svg?raw';
@@ -35,12 +38,13 @@ import sun from 'lucide-static/icons/sun.svg?raw';
 import target from 'lucide-static/icons/target.svg?raw';
 import triangleAlert from 'lucide-static/icons/triangle-alert.svg?raw';
 import wifiOff from 'lucide-static/icons/wifi-off.svg?raw';
+import x from 'lucide-static/icons/x.svg?raw';
 import zap from 'lucide-static/icons/zap.svg?raw';
 
 const kIcons = {
-  activity, bell, bot, camera, chevronDown, circleX, compass, crosshair, download, eye, fileText, filter, info,
-  layers, link, list, lock, maximize, moon, pause, play, radar, rotateCcw, ruler, search, skipBack, skipForward,
-  stepBack, stepForward, sun, target, triangleAlert, wifiOff, zap,
+  activity, bell, bot, camera, chevronDown, circleX, compass, crosshair, download, eye, fileText, filter, hourglass, info,
+  layers, link, list, lock, maximize, moon, octagonX, pause, play, radar, rotateCcw, ruler, search, server, skipBack, skipForward,
+  stepBack, stepForward, sun, target, triangleAlert, wifiOff, x, zap,
 };
 
 export type IconName = keyof typeof kIcons;

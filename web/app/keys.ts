@@ -5,6 +5,13 @@ export interface KeyAction {
   keys: string[];
   what: string;
   act(event: KeyboardEvent): void;
+  /** The key was lifted; only of keys that are held. */
+  end?(): void;
+}
+
+function nameOf(event: KeyboardEvent): string {
+  const key = event.key === ' ' ? 'Space' : event.key.length === 1 ? event.key.toUpperCase() : event.key;
+  return (event.ctrlKey ? 'Ctrl ' : '') + key;
 }
 
 /** Calls the action of a key, but never while text is typed; Space on a control presses that. */
@@ -12,12 +19,15 @@ export function bindKeys(actions: () => readonly KeyAction[]): void {
   document.addEventListener('keydown', (event) => {
     const target = event.composedPath()[0] as HTMLElement;
     const typing = target.matches?.('input:not([type=checkbox]), textarea, select, [contenteditable]');
-    if (event.altKey || event.metaKey || (typing && event.key !== 'Escape')) return;
-    const name = (event.ctrlKey ? 'Ctrl ' : '') + (event.key === ' ' ? 'Space' : event.key.length === 1 ? event.key.toUpperCase() : event.key);
-    if (name === 'Space' && target.matches?.('button, a, [role=option], [role=slider]')) return;
+    if (event.defaultPrevented || event.altKey || event.metaKey || (typing && event.key !== 'Escape')) return;
+    const name = nameOf(event);
+    if (name === 'Space' && target.matches?.('button, a, input, [role=button], [role=option], [role=slider]')) return;
     const action = actions().find((known) => known.keys.includes(name));
     if (action === undefined) return;
     event.preventDefault();
     action.act(event);
+  });
+  document.addEventListener('keyup', (event) => {
+    actions().find((known) => known.end && known.keys.includes(nameOf(event)))?.end?.();
   });
 }

@@ -4,5 +4,6 @@ import '../panels/world/world_panel';
 import '../panels/robots/robots_panel';
 import '../panels/sensors/sensors_panel';
 import '../panels/log/log_panel';
+import '../panels/hosts/hosts_panel';
 import './run_bar';
 import './rave_app';

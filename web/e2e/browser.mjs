@@ -3,45 +3,25 @@
 import {spawn} from 'node:child_process';
 import {chromium} from 'playwright-core';
 
-/** Headless Chromium with software WebGL. */
+/** Headless Chromium as a machine without a graphics card runs it: pages are drawn by the processor, and
+ * WebGL by SwiftShader. With `--use-angle=swiftshader` the whole page would go through an emulated card,
+ * which takes twenty times as long. */
 export function launch() {
   return chromium.launch({
     executablePath: process.env.RAVE_CHROMIUM ?? '/usr/bin/chromium',
-    args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+    args: ['--no-sandbox', '--enable-unsafe-swiftshader'],
   });
-}
-
-/** Waits until an expression of the page is true. Asked from outside: the page's policy forbids eval. */
-export async function until(page, expression, timeout_ms = 20000) {
-  const end = Date.now() + timeout_ms;
-  while (!(await page.evaluate(`Boolean(${expression})`))) {
-    if (Date.now() > end) throw new Error(`never true: ${expression}`);
-    await page.waitForTimeout(25);
-  }
-}
-
-/** Counts checks, and says which one has passed. */
-export class Checks {
-  passed = 0;
-
-  async check(name, act) {
-    await act();
-    ++this.passed;
-    console.log(`ok ${name}`);
-  }
-
-  end() {
-    console.log(`${this.passed} passed, 0 failed`);
-  }
 }
 
 /**
  * Starts a process that serves the page (`gui RECORDING`, `run SCENARIO --gui`) and waits for its link.
- * `end()` stops it and gives its exit code; `exited` is that code, `text()` what it has printed.
+ * `end()` stops it and gives its exit code.
  */
 export async function startServer(rave, words) {
+  // Another page than the one that was built with the program, while the page is worked on.
+  const page = process.env.RAVE_PAGE ? ['--page', process.env.RAVE_PAGE] : [];
   const port = words.includes('--port') ? [] : ['--port', '0'];
-  const child = spawn(rave, [...words, '--no-open', ...port], {stdio: ['ignore', 'pipe', 'inherit']});
+  const child = spawn(rave, [...words, '--no-open', ...port, ...page], {stdio: ['ignore', 'pipe', 'inherit']});
   let text = '';
   const exited = new Promise((resolve) => child.once('exit', resolve));
   const link = await new Promise((resolve, reject) => {
@@ -50,13 +30,11 @@ export async function startServer(rave, words) {
       const found = /http:\S+/.exec(text);
       if (found) resolve(found[0]);
     });
-    exited.then((code) => reject(new Error(`rave ${words[0]} ended with ${code}: ${text}`)));
+    exited.then((code) => reject(new Error(`rave ended with ${code}: ${text}`)));
   });
   return {
     link,
     child,
-    exited,
-    text: () => text,
     end: () => {
       child.kill('SIGTERM');
       return exited;

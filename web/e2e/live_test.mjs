@@ -4,12 +4,10 @@ import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import {mkdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
-import {Checks, launch, startServer, until} from './browser.mjs';
+import {launch, startServer} from './browser.mjs';
+import {app, check, report, until} from './checks.mjs';
 
 const [rave, scenario, folder] = process.argv.slice(2);
-const checks = new Checks();
-const check = (name, act) => checks.check(name, act);
-const app = 'document.querySelector("rave-app")';
 const newest = `${app}.model.poses.newest`;
 const kStopped = 4;
 
@@ -161,5 +159,5 @@ try {
   await browser.close();
   for (const server of servers) server.child.kill('SIGKILL');
 }
-checks.end();
+report();
 process.exit(0);

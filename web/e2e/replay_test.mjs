@@ -5,13 +5,10 @@ import {execFileSync} from 'node:child_process';
 import {mkdirSync, rmSync, writeFileSync} from 'node:fs';
 import http from 'node:http';
 import {join} from 'node:path';
-import {Checks, launch, startServer, until} from './browser.mjs';
+import {launch, startServer} from './browser.mjs';
+import {app, check, report, showFailures, until, watch} from './checks.mjs';
 
 const [rave, scenario, folder] = process.argv.slice(2);
-const checks = new Checks();
-const check = (name, act) => checks.check(name, act);
-const app = 'document.querySelector("rave-app")';
-
 function get(url, headers = {}) {
   return new Promise((resolve, reject) => {
     http.get(url, {headers}, (response) => {
@@ -34,16 +31,13 @@ const browser = await launch();
 try {
   const context = await browser.newContext({viewport: {width: 1400, height: 900}});
   const page = await context.newPage();
-  const errors = [];
-  const foreign = [];
-  page.on('console', (message) => message.type() === 'error' && errors.push(message.text()));
-  page.on('pageerror', (error) => errors.push(String(error)));
+  showFailures(page, join(folder, 'failed.png'));
+  const {errors, foreign} = watch(page, origin);
   const said = [];
   page.on('websocket', (socket) => {
     socket.on('framereceived', ({payload}) => typeof payload === 'string' && said.push(JSON.parse(payload)));
     socket.on('framesent', ({payload}) => typeof payload === 'string' && said.push(JSON.parse(payload)));
   });
-  page.on('request', (request) => !/^(data|blob):/.test(request.url()) && new URL(request.url()).origin !== origin && foreign.push(request.url()));
 
   await check('a stranger gets the page and no run', async () => {
     const other = await (await browser.newContext()).newPage();
@@ -115,9 +109,10 @@ try {
     await page.waitForTimeout(600);
     const at = await page.evaluate(() => {
       const world = document.querySelector('rave-world');
-      const box = world.renderRoot.querySelector('canvas').getBoundingClientRect();
+      const box = world.renderRoot.querySelector('.canvas').getBoundingClientRect();
       const slot = document.querySelector('rave-app').model.robots.findIndex((robot) => robot.name === 'hunter');
-      return {x: box.left + world.camera.toScreenX(world.placed.x[slot]), y: box.top + world.camera.toScreenY(world.placed.y[slot]), slot};
+      const [x, y] = world.screenOf(slot);
+      return {x: box.left + x, y: box.top + y, slot};
     });
     await page.mouse.click(at.x, at.y);
     await until(page, `${app}.selection.primary === ${at.slot}`);
@@ -162,5 +157,5 @@ try {
   await browser.close();
   gui.child.kill('SIGKILL');
 }
-checks.end();
+report();
 process.exit(0);

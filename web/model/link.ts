@@ -6,7 +6,12 @@ import {Signal} from './signal';
 const kFirstRetry_ms = 500;
 const kLongestRetry_ms = 8000;
 
-export type LinkState = 'opening' | 'open' | 'lost' | 'refused';
+/** `refused`: this person may not come in. `empty`: the server has no run. */
+export type LinkState = 'opening' | 'open' | 'lost' | 'refused' | 'empty';
+
+const kNotSignedIn = 4401;
+const kNotAllowed = 4403;
+const kNoRun = 4404;
 
 /** Something that shows readings says which: slot and index of each sensor. */
 export type Interest = readonly [number, number][];
@@ -49,20 +54,18 @@ export class Link {
     socket.binaryType = 'arraybuffer';
     this.socket = socket;
     socket.onopen = () => {
-      this.retry_ms = kFirstRetry_ms;
       this.lastLook = '';
-      this.set('open');
       this.queueLook();
     };
     socket.onmessage = (message: MessageEvent<string | ArrayBuffer>) => this.take(socket, message.data);
     socket.onclose = (event) => {
       if (this.socket !== socket) return;
-      if (event.code === 4401 || event.code === 4403) {
+      if (event.code === kNotSignedIn || event.code === kNotAllowed) {
         this.refusal = event.reason;
         this.set('refused');
         return;
       }
-      this.lose();
+      this.lose(event.code === kNoRun ? 'empty' : 'lost');
     };
   }
 
@@ -106,6 +109,11 @@ export class Link {
     if (this.socket !== socket) return;
     if (typeof data === 'string') {
       this.model.takeMessage(JSON.parse(data) as ServerMessage);
+      // Only now is it known that the server has something to say.
+      if (this.state !== 'open') {
+        this.retry_ms = kFirstRetry_ms;
+        this.set('open');
+      }
       return;
     }
     this.bytes += data.byteLength;
@@ -119,12 +127,13 @@ export class Link {
     }
   }
 
-  private lose(): void {
+  private lose(state: 'lost' | 'empty'): void {
     if (this.state !== 'lost') this.lostAt_ms = performance.now();
     this.retryAt_ms = performance.now() + this.retry_ms;
     this.timer = window.setTimeout(() => this.open(), this.retry_ms);
     this.retry_ms = Math.min(2 * this.retry_ms, kLongestRetry_ms);
-    this.set('lost');
+    // A server that keeps telling that it has no run is reached again and again without a flicker.
+    this.set(state);
   }
 
   private set(state: LinkState): void {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type {PoseFrame} from '../protocol/frames';
+import {RobotFlag, type PoseFrame} from '../protocol/frames';
 
 /** How far back trails and sparklines reach, seconds of the run. */
 export const kHistory_s = 20;
@@ -15,6 +15,8 @@ export class PoseHistory {
   private interval_ms = 33;
   /** Oldest first. */
   readonly past: PoseFrame[] = [];
+  /** When the pose of each robot was last no stale one, seconds of the run. */
+  private fresh = new Float64Array(0);
 
   /** Takes a frame that arrived at `now_ms` (performance.now()). */
   add(frame: PoseFrame, now_ms: number): void {
@@ -22,6 +24,7 @@ export class PoseHistory {
     const other = last !== null && (last.revision !== frame.revision || last.x.length !== frame.x.length);
     if (last !== null && (other || frame.time_s < last.time_s - 1e-9)) this.clear();
     this.keep(frame);
+    this.note(frame);
     if (frame.past) return;
     if (this.newest !== null && frame.time_s - this.newest.time_s < kJump_s) {
       const gap = Math.min(Math.max(now_ms - this.arrived_ms, 8), 500);
@@ -38,6 +41,7 @@ export class PoseHistory {
     this.newest = null;
     this.before = null;
     this.past.length = 0;
+    this.fresh = new Float64Array(0);
   }
 
   /** Writes where everybody is at `now_ms` to `out`: between the newest two frames, never beyond. */
@@ -50,6 +54,7 @@ export class PoseHistory {
     const n = to.x.length;
     out.resize(n);
     out.flags = to.flags;
+    out.fresh = this.fresh;
     const from = this.before;
     const share = from === null ? 1 : Math.min((now_ms - this.arrived_ms) / this.interval_ms, 1);
     out.time_s = from === null ? to.time_s : from.time_s + share * (to.time_s - from.time_s);
@@ -73,6 +78,12 @@ export class PoseHistory {
     return this.before !== null && now_ms - this.arrived_ms < this.interval_ms;
   }
 
+  private note(frame: PoseFrame): void {
+    const n = frame.flags.length;
+    if (this.fresh.length !== n) this.fresh = new Float64Array(n).fill(frame.time_s);
+    for (let i = 0; i < n; ++i) if ((frame.flags[i] & RobotFlag.stale) === 0) this.fresh[i] = frame.time_s;
+  }
+
   private keep(frame: PoseFrame): void {
     const last = this.past[this.past.length - 1];
     if (last !== undefined && frame.time_s - last.time_s < kSpacing_s - 1e-9) return;
@@ -88,6 +99,12 @@ export class Placed {
   y = new Float64Array(0);
   yaw = new Float32Array(0);
   flags: Uint16Array = new Uint16Array(0);
+  fresh = new Float64Array(0);
+
+  /** When the pose of a robot was last no stale one, seconds of the run. */
+  freshAt(slot: number): number {
+    return Math.min(this.fresh[slot] ?? this.time_s, this.time_s);
+  }
 
   get count(): number {
     return this.x.length;

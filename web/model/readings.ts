@@ -31,6 +31,11 @@ export class Readings {
     return this.newest.get(keyOf(slot, sensor, part)) ?? null;
   }
 
+  /** The newest reading of each sensor, halves of hybrids left out. */
+  each(visit: (slot: number, sensor: number, reading: Reading) => void): void {
+    for (const reading of this.newest.values()) if (reading.part === 0) visit(reading.slot, reading.sensor, reading);
+  }
+
   course(slot: number, sensor: number, part = 0): readonly CoursePoint[] {
     return this.courses.get(keyOf(slot, sensor, part)) ?? [];
   }

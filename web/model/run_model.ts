@@ -29,6 +29,11 @@ export class RunModel {
   readonly pictureChanged = new Signal();
   readonly answered = new Signal<Answer>();
 
+  /** The run goes on at this moment; otherwise what is shown is its recording. */
+  get live(): boolean {
+    return this.hello?.run.source === 'live';
+  }
+
   may(power: string): boolean {
     return this.hello?.may.some((known) => known === power) ?? false;
   }
@@ -98,9 +103,12 @@ export class RunModel {
     return frame.past ? null : frame.sequence;
   }
 
+  /** A connection begins, or on the same one a live run has become its recording. */
   private begin(hello: Hello): void {
     this.hello = hello;
+    this.time = null;
     this.events = [];
+    this.hosts = [];
     this.poses.clear();
     this.readings.clear();
     this.runChanged.emit();

@@ -18,6 +18,8 @@ export interface PanelContext {
   seek(time_s: number): void;
   /** Brings a panel to the front. */
   show(panel: string): void;
+  /** Puts this moment and camera into the address and onto the clipboard. */
+  copyLink(): void;
 }
 
 /** An element that shows a panel. `context` is set before the element is connected. */
@@ -32,6 +34,8 @@ export interface PanelKind {
   icon: string;
   /** Name of its custom element. */
   tag: string;
+  /** Has a tab on a phone. */
+  phone: boolean;
   /** Number beside the title; none if undefined. */
   count?(context: PanelContext): number;
 }

@@ -9,6 +9,7 @@ export class Selection {
   /** The World View keeps the selected robot in the middle. */
   following = false;
   readonly changed = new Signal();
+  private names: readonly string[] = [];
 
   get primary(): number | null {
     return this.slots[this.slots.length - 1] ?? null;
@@ -22,6 +23,15 @@ export class Selection {
     if (slots.length === 0) this.following = false;
     this.slots = slots;
     this.changed.emit();
+  }
+
+  /** Another roster: who was chosen stays chosen, found again by name. */
+  adopt(names: readonly string[]): void {
+    const slotOf = new Map(names.map((name, slot) => [name, slot]));
+    const kept = this.slots.map((slot) => slotOf.get(this.names[slot] ?? '')).filter((slot) => slot !== undefined);
+    this.names = names;
+    this.hovered = null;
+    this.set(kept);
   }
 
   toggle(slot: number): void {

@@ -129,6 +129,25 @@ TEST_F(CheckedRecord, EachPieceIsNamedWhenItIsDamaged) {
   expect_said(flipped(whole_.size() - 1), "without a footer", "mark at the end");
 }
 
+TEST_F(CheckedRecord, IsNotWholeWithMoreOrFewerMessagesThanItSays) {
+  std::size_t at = summary_at();
+  while (static_cast<std::uint8_t>(whole_.at(at)) != opcode::kStatistics) {
+    std::uint64_t size = 0;
+    std::memcpy(&size, whole_.data() + at + 1, sizeof size);
+    at += kRecordHead + size;
+  }
+  std::uint64_t count = 0;
+  std::memcpy(&count, whole_.data() + at + kRecordHead, sizeof count);
+  ASSERT_EQ(count, reader_->statistics().message_count);
+  for (const std::uint64_t said : {count - 1, count + 1}) {
+    std::string bytes = whole_;
+    std::memcpy(bytes.data() + at + kRecordHead, &said, sizeof said);
+    // Without a checksum of the index nothing else tells.
+    std::fill_n(bytes.end() - static_cast<std::ptrdiff_t>(kMagic.size() + 4), 4, '\0');
+    expect_said(bytes, fmt::format("says it has {} messages; there are {}", said, count), "count");
+  }
+}
+
 TEST_F(CheckedRecord, IsNotWholeWithOneByteChangedAnywhere) {
   for (std::size_t at = 0; at < whole_.size(); at += 13) {
     EXPECT_NE(said_of(flipped(at)), "") << "byte " << at << " of " << whole_.size();

@@ -177,6 +177,46 @@ TEST_F(Merged, WhatIsMissingOrTornIsNamed) {
   EXPECT_EQ(missing_parts(*reader), run.notes);
 }
 
+TEST_F(Merged, ARecordThatWasNotEndedIsTornThoughItIsReadable) {
+  write_host("a", 2, 5);
+  write_world(2);
+  fs::create_directories(folder_ / "hosts/b");
+  {
+    RunInfo info = sample_info();
+    info.sensors.clear();
+    auto recorder = RunRecorder::open(folder_ / "hosts/b/run.mcap", info);
+    ASSERT_TRUE(recorder);
+    ASSERT_TRUE(recorder->describe(kHostMetadata, {{"name", "b"}}));
+    record_sample(*recorder, 2);
+  }
+  const OpenedRun run = open();
+  ASSERT_EQ(run.notes.size(), 1U);
+  EXPECT_NE(run.notes[0].find("hosts/b/run.mcap` is torn: it has no end"), std::string::npos)
+      << run.notes[0];
+  const auto reader = McapReader::open(run.file);
+  ASSERT_TRUE(reader);
+  EXPECT_FALSE(read_run_end(*reader)) << "nobody shall take it for whole";
+}
+
+TEST_F(Merged, WithoutTheHashOfOneHostInOneStepThereIsNoneFromThenOn) {
+  write_host("a", 4, 5);
+  write_world(4);
+  write("hosts/b/run.mcap", "b", 4, [](RunRecorder& recorder, std::uint64_t step) {
+    if (step != 2) static_cast<void>(recorder.hash(step));
+  });
+  const auto reader = McapReader::open(open().file);
+  ASSERT_TRUE(reader);
+  std::vector<std::uint64_t> steps;
+  ASSERT_TRUE(for_each_message(*reader, topic::kHash, [&](const MessageView& message) -> Status {
+    steps.push_back(decode_hash(message.bytes)->step);
+    return {};
+  }));
+  EXPECT_EQ(steps, (std::vector<std::uint64_t>{0, 1}));
+  const auto end = read_run_end(*reader);
+  ASSERT_TRUE(end);
+  EXPECT_FALSE(end->hash);
+}
+
 TEST_F(Merged, RecordsOfDifferentRunsAreRefused) {
   write_host("a", 2, 5);
   RunInfo info = sample_info();

@@ -73,6 +73,7 @@ Command Engine::Impl::guarded(const RobotGroup& group, const ActuatorSlots& slot
   input.pose_known = pose.known && !pose.stale;
   input.X_WR = {pose.pose.x_m, pose.pose.y_m, pose.pose.yaw_rad};
   input.pose_age_s = std::max(0.0, (now - pose.stamp).seconds());
+  input.pose_stamp = pose.stamp;
   input.velocity = pose.velocity;
   find_watched_sensors(group, member, now, worker.sensors);
   input.sensors = worker.sensors;

@@ -91,7 +91,13 @@ class Motion {
   }
   /// What it may have gone since its pose was taken.
   [[nodiscard]] double blind_way_m(const Drive& drive) const noexcept {
-    return in_.pose_age_s * std::max(std::abs(drive.v_mps), std::abs(in_.velocity.vx));
+    return in_.pose_age_s *
+           std::max({std::abs(drive.v_mps), std::abs(in_.velocity.vx), in_.fastest_mps});
+  }
+  /// Whether a drive takes it away from the fence by half of its way at least.
+  [[nodiscard]] bool leads_inward(const GuardPath& path, double way_m) const noexcept {
+    const double later_m = inside_distance(spec_.fence_W, path.at(way_m).position());
+    return later_m - in_.radius_m >= clearance_m_ + 0.5 * way_m;
   }
 
   [[nodiscard]] std::uint32_t forbidding(const Drive& drive, double way_m,
@@ -99,8 +105,9 @@ class Motion {
     std::uint32_t limits = 0;
     const GuardPath path{in_.X_WR, drive.v_mps, drive.w_radps, std::max(way_m, 0.0)};
     if (!spec_.fence_W.empty()) {
-      const bool slides = commanded && in_.touching && clearance_m_ >= 0 &&
-                          std::abs(drive.v_mps) * in_.dt_s > clearance_m_;
+      const double step_m = std::abs(drive.v_mps) * in_.dt_s;
+      const bool slides = commanded && in_.touching && step_m > std::max(clearance_m_, 0.0) &&
+                          !leads_inward(path, step_m);
       if (slides || !stays_inside(spec_.fence_W, path, in_.radius_m)) {
         limits |= bit(GuardLimit::kFence);
       }
@@ -241,7 +248,8 @@ double guard_reach_m(const GuardSpec& spec, const GuardInput& input) noexcept {
   const double delay_s = input.dt_s + spec.reaction_s + input.pose_age_s;
   const double sane_mps = sane_speed_mps(delay_s, spec.deceleration_mps2);
   const double speed_mps = std::clamp(
-      std::max(std::abs(input.command.value[0]), std::abs(input.velocity.vx)), 0.0, sane_mps);
+      std::max({std::abs(input.command.value[0]), std::abs(input.velocity.vx), input.fastest_mps}),
+      0.0, sane_mps);
   // NaN is clamped to itself; such a command goes nowhere.
   const double way_m =
       std::isfinite(speed_mps)

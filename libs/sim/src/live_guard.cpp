@@ -43,6 +43,7 @@ void LiveGuard::look_where(const GuardOrder& order, SimTime now) {
     input_.X_WR = {told.pose.x_m, told.pose.y_m, told.pose.yaw_rad};
     input_.velocity = told.velocity;
     input_.pose_age_s = age_s(now, told.stamp);
+    input_.pose_stamp = told.stamp;
     input_.pose_known = told.known && !told.stale && now - told.stamp <= pose_.staleness;
     return;
   }
@@ -61,6 +62,7 @@ void LiveGuard::look_where(const GuardOrder& order, SimTime now) {
   input_.X_WR = *track_.at(*stamp);
   input_.velocity = track_.velocity();
   input_.pose_age_s = age_s(now, *stamp);
+  input_.pose_stamp = *stamp;
 }
 
 void LiveGuard::look_at_sensors() {

@@ -25,7 +25,7 @@ struct MotionArrays {
 /// The resolve phase of a step. A broad phase that runs on all threads finds the robots that can
 /// meet nothing, whatever the others do, and moves them at once; the rest goes through the
 /// resolver, one after the other in the order of their ids. The result is to the bit that of the
-/// resolver alone, for any number of threads; docs/design/engine.md shows why. Belongs to one
+/// resolver alone, for any number of threads; docs/explanation/motion.md shows why. Belongs to one
 /// thread.
 class MotionPhase {
  public:

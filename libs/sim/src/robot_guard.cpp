@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot_guard.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace rave::sim {
@@ -19,11 +21,30 @@ Command RobotGuard::limit(const Command& command, CommandKind expected) const no
   return is_free() ? command : standing(expected);
 }
 
-GuardOutput RobotGuard::limit(const GuardSpec& limits, GuardInput input) const noexcept {
-  if (holds_.held) return {standing(input.expected), 0};
+GuardOutput RobotGuard::limit(const GuardSpec& limits, GuardInput input) noexcept {
+  recall(input);
   input.stopped = holds_.stopped;
   input.armed = holds_.armed;
-  return guard(limits, input);
+  const GuardOutput output =
+      holds_.held ? GuardOutput{standing(input.expected), 0} : guard(limits, input);
+  if (input.expected == CommandKind::kVelocity) remember(output.command);
+  return output;
+}
+
+/// What the way since the pose depends on, and whether it still stands where it was stopped by
+/// something.
+void RobotGuard::recall(GuardInput& input) noexcept {
+  if (input.pose_stamp != pose_stamp_) fastest_mps_ = told_mps_;
+  pose_stamp_ = input.pose_stamp;
+  input.fastest_mps = fastest_mps_;
+  touching_ = input.touching || (touching_ && stands_);
+  input.touching = touching_;
+}
+
+void RobotGuard::remember(const Command& told) noexcept {
+  told_mps_ = std::abs(told.value[0]);
+  stands_ = told.value[0] == 0 && told.value[1] == 0;
+  fastest_mps_ = std::max(fastest_mps_, told_mps_);
 }
 
 std::uint32_t RobotGuard::begin(std::uint32_t acted, std::int64_t now,

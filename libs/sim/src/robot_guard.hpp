@@ -43,7 +43,8 @@ class RobotGuard {
   /// What a robot without limits is told.
   [[nodiscard]] Command limit(const Command& command, CommandKind expected) const noexcept;
   /// What a robot with limits is told. `stopped` and `armed` of the input do not count.
-  [[nodiscard]] GuardOutput limit(const GuardSpec& limits, GuardInput input) const noexcept;
+  /// `touching` is that of the last motion, `fastest_mps` is known here.
+  [[nodiscard]] GuardOutput limit(const GuardSpec& limits, GuardInput input) noexcept;
 
   /// Takes note of the limits that acted at a moment. Returns those that begin to act: they had
   /// not acted for longer than `quiet`.
@@ -51,10 +52,18 @@ class RobotGuard {
                                     std::int64_t quiet) noexcept;
 
  private:
+  void recall(GuardInput& input) noexcept;
+  void remember(const Command& told) noexcept;
+
   static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::min() / 2;
 
   GuardHolds holds_;
   std::array<std::int64_t, kGuardLimits> last_{};  ///< When each limit acted last.
+  SimTime pose_stamp_;
+  double fastest_mps_ = 0;  ///< Of what was told since that pose.
+  double told_mps_ = 0;     ///< Last, either way.
+  bool touching_ = false;
+  bool stands_ = true;  ///< As it was told last.
 };
 
 /// A limit that has not acted for so long begins anew when it acts again.

@@ -5,16 +5,10 @@
 #include <memory>
 #include <thread>
 
-#include "engine_fixture.hpp"
+#include "hand_over_drivers.hpp"
 
 namespace rave::sim::testing {
 namespace {
-
-/// Gives the robot that was added last other drivers.
-void add_drivers(EngineSpec& spec, RobotType type) {
-  spec.robots.back().twin = static_cast<std::uint32_t>(spec.types.size());
-  spec.types.push_back(std::move(type));
-}
 
 RobotType roaming(Numbers wheels = {}, double range_m = 3) {
   RobotType type = simulated_type(wheels);
@@ -204,18 +198,6 @@ struct OpenAtLast {
   }
 };
 
-/// A simulated robot at the origin whose other drivers are real, with this source of its pose.
-template <class Source>
-RobotId add_simulated_or_real(EngineSpec& spec) {
-  RobotType simulated = simulated_type();
-  simulated.sensors.push_back(virtual_sensor<Beacon>("mocap"));
-  RobotType real = real_type({});
-  real.sensors.front() = real_sensor<Source>("mocap", {});
-  const RobotId robot = add_robot(spec, std::move(simulated));
-  add_drivers(spec, std::move(real));
-  return robot;
-}
-
 TEST(HandOver, ToDriversThatDoNotOpenIsGivenUpAndTheOldOnesStay) {
   const ClockAtZero clock;
   EngineSpec spec;
@@ -244,23 +226,6 @@ TEST(HandOver, ToDriversThatDoNotOpenIsGivenUpAndTheOldOnesStay) {
   EXPECT_EQ(LateToOpen::closed, 1);
   EXPECT_TRUE(engine->hand_over(robot, DriverSet::kTwin));
 }
-
-/// A pose source that says what the test tells it, while it is open.
-class Told final : public HardwareSensor {
- public:
-  static constexpr ReadingKind kReading = ReadingKind::kPose;
-  static std::atomic<SampleSink*> open_sink;
-  Status configure(const HardwareSetup&, HardwareDeclaration& declaration) override {
-    declaration.clock = DriverClock::kLive;
-    return {};
-  }
-  Status open(SampleSink& sink) override {
-    open_sink = &sink;
-    return {};
-  }
-  void close() override { open_sink = nullptr; }
-};
-std::atomic<SampleSink*> Told::open_sink = nullptr;
 
 TEST(HandOver, OthersMakeWayForARobotThatHasBecomeReal) {
   const ClockAtZero clock;

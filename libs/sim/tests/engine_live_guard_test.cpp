@@ -162,6 +162,35 @@ TEST_F(EngineLiveGuard, ACommandIsAsOldAsTheWallSays) {
   EXPECT_EQ(cart_.hand.told().back(), velocity_command(0, 0));
 }
 
+TEST_F(EngineLiveGuard, TheTimeOfTheEngineMayBeFarBehindTheWall) {
+  RobotType type = cart_type(0.3);
+  type.guard->watchdog_s = 0.3;
+  cart_.stands_still = true;
+  const auto engine = make_engine(live_spec(std::move(type)));
+  run(*engine, 1);
+  cart_.clock.advance(5);
+  cart_.say();
+  // Its program commands in this step, 0.01 s after the first by the engine's time.
+  run(*engine, 1);
+  EXPECT_TRUE(cart_.hand.await(velocity_command(0.3, 0)));
+  cart_.clock.advance(0.31);
+  cart_.say();
+  EXPECT_TRUE(cart_.hand.await(velocity_command(0, 0)));
+}
+
+TEST_F(EngineLiveGuard, TheWorldIsAsOldAsWhoBringsItSays) {
+  cart_.stands_still = true;
+  const auto engine = make_engine(live_spec(cart_type(0.3)));
+  run(*engine, 1);
+  ASSERT_TRUE(cart_.hand.await(velocity_command(0.3, 0)));
+  engine->set_world_age(from_seconds(0.6));
+  run(*engine, 1);
+  ASSERT_TRUE(cart_.hand.await(velocity_command(0, 0)));
+  engine->set_world_age({});
+  run(*engine, 1);
+  EXPECT_TRUE(cart_.hand.await(velocity_command(0.3, 0)));
+}
+
 TEST_F(EngineLiveGuard, AStopCountsBeforeTheNextStepAndStays) {
   cart_.stands_still = true;
   const auto engine = make_engine(live_spec(cart_type(0.3)));

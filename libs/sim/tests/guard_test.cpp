@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "../src/guard_fence.hpp"
+#include "guard_inputs.hpp"
 #include "rave/base/random.hpp"
 #include "rave/math/decompose.hpp"
 #include "rave/math/scalar.hpp"
@@ -17,28 +18,6 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
-
-const world::Body& disc() {
-  static const world::Body kBody = [] {
-    world::Body made;
-    made.shapes.push_back(world::make_disc({}, 0.2, 0, 0.3).value());
-    return made;
-  }();
-  return kBody;
-}
-
-GuardInput input(double v_mps, double w_radps, const Pose2& X_WR = {}) {
-  GuardInput in;
-  in.command = velocity_command(v_mps, w_radps);
-  in.X_WR = X_WR;
-  in.radius_m = 0.2;
-  in.body = &disc();
-  return in;
-}
-
-std::vector<Vec2> square(double half_m) {
-  return {{-half_m, -half_m}, {half_m, -half_m}, {half_m, half_m}, {-half_m, half_m}};
-}
 
 TEST(Guard, PassesWhatIsWithinAllLimits) {
   const GuardOutput output = guard(GuardSpec{}, input(0.4, -0.3));

@@ -158,6 +158,20 @@ TEST_F(LiveGuardTest, ThePoseIsLostByTheWallThoughTheEngineStillHasOne) {
   EXPECT_TRUE(begun(GuardLimit::kPoseLost));
 }
 
+TEST_F(LiveGuardTest, NearTheFenceItStopsInTimeThoughItsPoseFallsSilent) {
+  for (const double from_m : {1.0, 1.5, 1.7, 1.77}) {
+    clock_.set(0);
+    queue_.reopen();
+    x_m_ = 0;
+    v_mps_ = 0;
+    begin(fence_alone());
+    order(1);
+    while (x_m_ < from_m) drive(kPeriod_s);
+    drive(0.48, kPeriod_s, false);
+    EXPECT_LE(x_m_, kFence_m - kRadius_m + 1e-3) << from_m;
+  }
+}
+
 TEST_F(LiveGuardTest, AStampFromFarAheadIsNoPose) {
   begin(fence_alone());
   order(0.2);

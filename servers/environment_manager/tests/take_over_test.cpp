@@ -2,14 +2,13 @@
 // A manager in real time that takes over: what it believes of the obstacles that hosts hand over,
 // and what it tells hosts that come later.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <chrono>
-#include <random>
 
 #include "../src/live_board.hpp"
 #include "../src/live_edits.hpp"
 #include "engine_fixture.hpp"
+#include "own_corner.hpp"
 
 namespace rave::environment_manager {
 namespace {
@@ -18,20 +17,15 @@ using namespace sim::testing;
 const lock_step::Identity kManager{rave_wire_kNone, "environment manager", 0, 7, 9, true};
 constexpr std::uint32_t kFirstAdded = 2;  // behind a post and a robot
 
-bus::BusConfig own_corner() {
-  std::random_device chance;
-  bus::BusConfig config;
-  config.participant = "manager";
-  config.run = bus::RunId::random();
-  config.domain = 1 + chance() % 90;
-  config.tag = fmt::format("take-over-{}-{}", ::getpid(), chance());
-  return config;
-}
-
 sim::EngineSpec a_robot_and_a_post() {
   sim::EngineSpec spec;
   spec.world.obstacles.push_back(box({8, 0, 0}, 0.2, 1, 1, "post"));
   add_robot(spec, simulated_type());
+  sim::ObstacleChange late;
+  late.name = "late";
+  late.X_WB = {-5, 0, 0};
+  late.body = box({}, 0.2, 0.2).body;
+  spec.obstacle_changes.push_back({9'000, late});
   return spec;
 }
 
@@ -133,6 +127,15 @@ TEST_F(TakeOver, WithFewerObstaclesThanHostsHaveNobodyIsToldToWaitForTheRest) {
   EXPECT_NE(ears_.heard.find("hosts have obstacles up to change 7, but handed over only 1"),
             std::string::npos)
       << ears_.heard;
+}
+
+TEST_F(TakeOver, ChangesAreNumberedOnFromWhatHostsHave) {
+  // Made by the manager before, and lost with it.
+  host_->hand_over(kFirstAdded, 1);
+  take_over(7, 1);
+  ASSERT_TRUE(edits_->look(SimTime{from_seconds(100).ns}));
+  EXPECT_TRUE(has(kFirstAdded + 1)) << "the change of the scenario";
+  EXPECT_EQ(edits_->revision(), 8U) << "hosts would take a smaller number for one they have had";
 }
 
 TEST_F(TakeOver, ObstaclesThatCannotBeSpoilNothing) {

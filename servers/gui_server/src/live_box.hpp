@@ -5,6 +5,7 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,10 @@ struct LivePicture {
   PosesAt poses;
   std::vector<ReadingAt> readings;  ///< The first `reading_count` count.
   std::size_t reading_count = 0;
+  /// How the run stands, where this is not known here. Not set: it goes, unless it is held.
+  std::optional<PlayState> standing;
+  std::uint64_t hosts_revision = 0;
+  std::string hosts;  ///< As Source::hosts_json().
 };
 
 /// What pages look at.

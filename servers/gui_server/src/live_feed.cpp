@@ -16,8 +16,6 @@ constexpr auto kUnwatchedInterval = std::chrono::milliseconds(250);
 constexpr int kLateFactor = 10;
 /// A crowd may touch thousands of times in a step, and nobody reads that.
 constexpr std::size_t kMostEvents = 100;
-/// A contact is told when it begins; so long it counts as going on.
-constexpr double kTouch_s = 0.5;
 
 }  // namespace
 

@@ -7,6 +7,12 @@
 #include "scene_json.hpp"
 
 namespace rave::gui_server {
+namespace {
+
+const char* const kHeldByNobody =
+    "A run with real robots cannot be held: the world outside goes on.";
+
+}  // namespace
 
 struct LiveRun::Impl {
   Impl(const config::ExpandedScenario& of, robot_host::RunControl& with,
@@ -33,8 +39,8 @@ struct LiveRun::Impl {
     start.robots_json = robots_of(scenario, run.info, run.hybrids);
     for (const record::RecordedRobot& robot : run.info.robots) start.robots.push_back(robot.name);
     start.bodies = std::move(bodies);
-    start.real_time = run.live;
-    source = std::make_shared<LiveSource>(std::move(start), box, control);
+    source = std::make_shared<LiveSource>(
+        std::move(start), box, std::make_unique<LocalPort>(control, run.live ? kHeldByNobody : ""));
     ready(source);
     return {};
   }

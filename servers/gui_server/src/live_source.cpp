@@ -9,17 +9,14 @@
 namespace rave::gui_server {
 namespace {
 
-constexpr double kPast_s = 20;
-constexpr double kPastSpacing_s = 0.2;
 /// Poses that are kept for trails, of all robots and moments together: some 100 MB.
 constexpr std::size_t kMostPast = 2'000'000;
 /// Over so long the speed of a run is measured.
 constexpr auto kMeasure = std::chrono::milliseconds(500);
-constexpr double kFastest = 1000;
-constexpr double kSlowest = 1.0 / 64;
+constexpr auto kStatusInterval = std::chrono::milliseconds(250);
+constexpr double kFastestRun = 1000;
+constexpr double kSlowestRun = 1.0 / 64;
 
-const char* const kHeldByNobody =
-    "A run with real robots cannot be held: the world outside goes on.";
 const char* const kSeekLater = "The time line opens when the run is over.";
 
 class LiveCursor final : public Cursor {
@@ -30,7 +27,7 @@ class LiveCursor final : public Cursor {
   Status go_to(double time_s) override {
     past_ = nullptr;
     const auto& past = source_.past();
-    if (time_s >= source_.picture().poses.time_s) return {};
+    if (time_s >= source_.poses().time_s) return {};
     const auto later = std::find_if(past.begin(), past.end(), [=](const PosesAt& poses) {
       return poses.time_s > time_s + 1e-9;
     });
@@ -38,7 +35,7 @@ class LiveCursor final : public Cursor {
     return {};
   }
   [[nodiscard]] const PosesAt& poses() const noexcept override {
-    return past_ != nullptr ? *past_ : source_.picture().poses;
+    return past_ != nullptr ? *past_ : source_.poses();
   }
   [[nodiscard]] std::vector<ReadingAt> readings(std::span<const LookedAt> sensors,
                                                 bool parts) override {
@@ -80,10 +77,13 @@ class LivePlayhead final : public Playhead {
 
 }  // namespace
 
-LiveSource::LiveSource(Start start, std::shared_ptr<LiveBox> box, robot_host::RunControl& control)
-    : start_(std::move(start)), box_(std::move(box)), control_(control), fold_(start_.robots) {
+LiveSource::LiveSource(Start start, std::shared_ptr<LiveBox> box, std::unique_ptr<RunPort> port)
+    : start_(std::move(start)), box_(std::move(box)), port_(std::move(port)), fold_(start_.robots) {
   write_bodies();
   state_.duration_s = start_.about.duration_s;
+  for (std::uint32_t slot = 0; slot < start_.robots.size(); ++slot) {
+    slots_.emplace(start_.robots[slot], slot);
+  }
 }
 
 Powers LiveSource::powers() const {
@@ -92,8 +92,8 @@ Powers LiveSource::powers() const {
                  {"recording", "The recording can be downloaded when the run is over."},
                  {"true_pose", "This view shows reported poses."}}};
   for (const char* const word : {"play", "pace", "step"}) {
-    if (start_.real_time) {
-      powers.why_not[word] = kHeldByNobody;
+    if (const std::string why_not = port_->why_not_held(); !why_not.empty()) {
+      powers.why_not[word] = why_not;
     } else {
       powers.may.emplace_back(word);
     }
@@ -115,6 +115,7 @@ void LiveSource::tick(Playhead::Clock::time_point now, const Audience& audience)
     box_->wants.publish();
   }
   take_news();
+  learn_flags(now);
   take_picture(now);
   answer_asked();
   const std::lock_guard lock(mutex_);
@@ -122,8 +123,13 @@ void LiveSource::tick(Playhead::Clock::time_point now, const Audience& audience)
     state_.kind = PlayState::Kind::kEnded;
     state_.reason = end_reason_;
     state_.speed = 0;
+  } else if (const auto& standing = picture().standing) {
+    const bool held = port_->paused() && standing->kind != PlayState::Kind::kEnded;
+    state_.kind = held ? PlayState::Kind::kPaused : standing->kind;
+    state_.reason = held ? "" : standing->reason;
+    state_.speed = standing->speed;
   } else {
-    state_.kind = control_.paused() ? PlayState::Kind::kPaused : PlayState::Kind::kRunning;
+    state_.kind = port_->paused() ? PlayState::Kind::kPaused : PlayState::Kind::kRunning;
   }
 }
 
@@ -144,7 +150,11 @@ void LiveSource::take_news() {
 
 void LiveSource::take_picture(Playhead::Clock::time_point now) {
   if (box_->pictures.take()) {
-    const PosesAt& poses = picture().poses;
+    poses_ = picture().poses;
+    const PosesAt& poses = poses_;
+    for (std::size_t r = 0; r < std::min(flags_.size(), poses_.robots.size()); ++r) {
+      poses_.robots[r].flags = static_cast<std::uint16_t>(poses_.robots[r].flags | flags_[r]);
+    }
     state_.now_s = state_.end_s = poses.time_s;
     state_.begin_s = poses.time_s;
     state_.picture = poses.serial;
@@ -163,7 +173,21 @@ void LiveSource::take_picture(Playhead::Clock::time_point now) {
   if (measured) state_.speed = std::max(0.0, (state_.now_s - measured_s_) / passed_s);
   measured_at_ = now;
   measured_s_ = state_.now_s;
-  state_.pace = control_.pace();
+  state_.pace = port_->pace();
+}
+
+/// A picture that comes over a bus does not say who is stopped.
+void LiveSource::learn_flags(Playhead::Clock::time_point now) {
+  if (!picture().standing || now - flags_at_ < kStatusInterval) return;
+  flags_at_ = now;
+  flags_.assign(start_.robots.size(), 0);
+  for (const robot_host::RunStatus::Robot& robot : port_->robots()) {
+    const auto slot = slots_.find(robot.name);
+    if (slot == slots_.end()) continue;
+    std::uint16_t& flags = flags_[slot->second];
+    if (robot.stopped) flags |= kStopped;
+    if (!robot.armed) flags |= kUnarmed;
+  }
 }
 
 void LiveSource::write_bodies() {
@@ -179,7 +203,7 @@ void LiveSource::write_bodies() {
       bodies.emplace_back(change.id, change.json);
     }
   }
-  bodies_json_ = "[";
+  bodies_json_.assign(1, '[');
   for (const auto& [id, json] : start_.bodies) {
     if (bodies_json_.size() > 1) bodies_json_ += ',';
     bodies_json_ += json;
@@ -210,28 +234,29 @@ std::string LiveSource::bodies_changed_since(std::uint64_t revision) const {
 std::string LiveSource::take(const TransportMessage& transport) {
   using Do = TransportMessage::Do;
   if (transport.what == Do::kSeek) return kSeekLater;
-  if (start_.real_time) return kHeldByNobody;
+  if (std::string why_not = port_->why_not_held(); !why_not.empty()) return why_not;
   if (state_.kind == PlayState::Kind::kEnded) return "The run is over.";
   switch (transport.what) {
     case Do::kPlay:
-      control_.resume();
+      port_->resume();
       break;
     case Do::kPause:
-      control_.pause();
+      port_->pause();
       break;
     case Do::kStep:
       if (transport.value < 1) return "A run cannot go backwards.";
-      control_.pause();
-      control_.step(static_cast<std::uint64_t>(std::min(std::round(transport.value), 1e6)));
+      port_->pause();
+      port_->step(static_cast<std::uint64_t>(std::min(std::round(transport.value), 1e6)));
       break;
     case Do::kPace:
-      control_.set_pace(transport.value <= 0 ? 0 : std::clamp(transport.value, kSlowest, kFastest));
-      state_.pace = control_.pace();
+      port_->set_pace(transport.value <= 0 ? 0
+                                           : std::clamp(transport.value, kSlowestRun, kFastestRun));
+      state_.pace = port_->pace();
       break;
     case Do::kSeek:
       break;
   }
-  state_.kind = control_.paused() ? PlayState::Kind::kPaused : PlayState::Kind::kRunning;
+  state_.kind = port_->paused() ? PlayState::Kind::kPaused : PlayState::Kind::kRunning;
   return {};
 }
 
@@ -247,7 +272,7 @@ void LiveSource::halt(const HaltMessage& halt, Reply reply) {
     robot_host::RunRequest request;
     request.kind = halt.stop ? Kind::kStop : Kind::kRelease;
     request.robot = std::move(robot);
-    auto answer = control_.post(std::move(request));
+    auto answer = port_->post(std::move(request));
     if (!answer) return reply(false, answer.error().message);
     asked_.push_back({*std::move(answer), reply});
   }

@@ -12,22 +12,20 @@
 
 #include "event_fold.hpp"
 #include "live_box.hpp"
-#include "rave/robot_host/run_control.hpp"
+#include "run_port.hpp"
 
 namespace rave::gui_server {
 
 /// A run of this process as its feed shows it. The server's thread, but for end().
-class LiveSource final : public Source {
+class LiveSource : public Source {
  public:
   struct Start {
     RunAbout about;
     std::string robots_json;
     std::vector<std::string> robots;  ///< Names, by slot.
     std::vector<std::pair<std::uint32_t, std::string>> bodies;
-    bool real_time = false;  ///< It cannot be held.
   };
-  /// `control` outlives it.
-  LiveSource(Start start, std::shared_ptr<LiveBox> box, robot_host::RunControl& control);
+  LiveSource(Start start, std::shared_ptr<LiveBox> box, std::unique_ptr<RunPort> port);
 
   [[nodiscard]] const RunAbout& about() const noexcept override { return start_.about; }
   [[nodiscard]] Powers powers() const override;
@@ -50,6 +48,10 @@ class LiveSource final : public Source {
   }
   [[nodiscard]] std::uint64_t bodies_revision() const noexcept override { return bodies_revision_; }
   [[nodiscard]] std::string bodies_changed_since(std::uint64_t revision) const override;
+  [[nodiscard]] std::uint64_t hosts_revision() const noexcept override {
+    return picture().hosts_revision;
+  }
+  [[nodiscard]] const std::string& hosts_json() const noexcept override { return picture().hosts; }
   void halt(const HaltMessage& halt, Reply reply) override;
 
   /// Nothing more comes; `reason` for people. Any thread.
@@ -57,6 +59,8 @@ class LiveSource final : public Source {
 
   // For its cursors and playheads.
   [[nodiscard]] const LivePicture& picture() const noexcept { return box_->pictures.value(); }
+  /// The newest poses, with what is known of stops.
+  [[nodiscard]] const PosesAt& poses() const noexcept { return poses_; }
   /// Poses of the last 20 s, for trails; older ones first.
   [[nodiscard]] const std::deque<PosesAt>& past() const noexcept { return past_; }
   [[nodiscard]] const PlayState& state() const noexcept { return state_; }
@@ -76,14 +80,19 @@ class LiveSource final : public Source {
   void take_picture(Playhead::Clock::time_point now);
   void write_bodies();
   void answer_asked();
+  void learn_flags(Playhead::Clock::time_point now);
 
   Start start_;
   std::shared_ptr<LiveBox> box_;
-  robot_host::RunControl& control_;
+  std::unique_ptr<RunPort> port_;
   std::string bodies_json_;
   std::vector<BodyChange> body_changes_;
   std::uint64_t bodies_revision_ = 0;
   EventFold fold_;
+  PosesAt poses_;
+  std::map<std::string, std::uint32_t, std::less<>> slots_;
+  std::vector<std::uint16_t> flags_;  ///< By robot: what the port knows beside the picture.
+  Playhead::Clock::time_point flags_at_{};
   std::deque<PosesAt> past_;
   PlayState state_;
   LiveWants wants_;

@@ -11,7 +11,7 @@
 namespace rave::gui_server {
 namespace {
 
-using Json = nlohmann::json;
+using PageJson = nlohmann::json;
 
 constexpr std::size_t kMostSensors = 256;
 constexpr std::size_t kMostSlots = 100'000;
@@ -19,31 +19,31 @@ constexpr std::size_t kMostSlots = 100'000;
 /// Takes members out of an object, so that what nobody knows is left over and refused.
 class Members {
  public:
-  explicit Members(const Json& object) : object_(object) {}
+  explicit Members(const PageJson& object) : object_(object) {}
 
   Result<bool> flag(const char* name) {
-    RAVE_TRY_ASSIGN(const Json* const value, find(name));
+    RAVE_TRY_ASSIGN(const PageJson* const value, find(name));
     if (!value->is_boolean()) return wrong(name, "true or false");
     return value->get<bool>();
   }
   Result<double> number(const char* name) {
-    RAVE_TRY_ASSIGN(const Json* const value, find(name));
+    RAVE_TRY_ASSIGN(const PageJson* const value, find(name));
     if (!value->is_number() || !std::isfinite(value->get<double>())) {
       return wrong(name, "a finite number");
     }
     return value->get<double>();
   }
   Result<std::uint32_t> index(const char* name) {
-    RAVE_TRY_ASSIGN(const Json* const value, find(name));
+    RAVE_TRY_ASSIGN(const PageJson* const value, find(name));
     return index_of(*value, name);
   }
   Result<std::string> word(const char* name) {
-    RAVE_TRY_ASSIGN(const Json* const value, find(name));
+    RAVE_TRY_ASSIGN(const PageJson* const value, find(name));
     if (!value->is_string()) return wrong(name, "a string");
     return value->get<std::string>();
   }
-  Result<const Json*> array(const char* name, std::size_t most) {
-    RAVE_TRY_ASSIGN(const Json* const value, find(name));
+  Result<const PageJson*> array(const char* name, std::size_t most) {
+    RAVE_TRY_ASSIGN(const PageJson* const value, find(name));
     if (!value->is_array() || value->size() > most) {
       return fail(ErrorCode::kParse, "`{}`: expected an array of at most {}", name, most);
     }
@@ -55,7 +55,7 @@ class Members {
     if (object_.size() != taken_) return fail(ErrorCode::kParse, "the message has unknown members");
     return {};
   }
-  static Result<std::uint32_t> index_of(const Json& value, const char* name) {
+  static Result<std::uint32_t> index_of(const PageJson& value, const char* name) {
     if (!value.is_number_unsigned() || value.get<std::uint64_t>() > 0xffffffffU) {
       return wrong(name, "a whole number from 0 to 4294967295");
     }
@@ -66,14 +66,14 @@ class Members {
   static tl::unexpected<Error> wrong(const char* name, const char* expected) {
     return fail(ErrorCode::kParse, "`{}`: expected {}", name, expected);
   }
-  Result<const Json*> find(const char* name) {
+  Result<const PageJson*> find(const char* name) {
     const auto found = object_.find(name);
     if (found == object_.end()) return fail(ErrorCode::kParse, "`{}` is missing", name);
     ++taken_;
     return &*found;
   }
 
-  const Json& object_;
+  const PageJson& object_;
   std::size_t taken_ = 0;
 };
 
@@ -86,8 +86,8 @@ Result<PageMessage> look_of(Members& members) {
   if (look.max_hz < 1 || look.max_hz > 60) {
     return fail(ErrorCode::kParse, "`max_hz`: expected 1 to 60");
   }
-  RAVE_TRY_ASSIGN(const Json* const readings, members.array("readings", kMostSensors));
-  for (const Json& pair : *readings) {
+  RAVE_TRY_ASSIGN(const PageJson* const readings, members.array("readings", kMostSensors));
+  for (const PageJson& pair : *readings) {
     if (!pair.is_array() || pair.size() != 2) {
       return fail(ErrorCode::kParse, "`readings`: expected pairs of slot and sensor");
     }
@@ -130,8 +130,8 @@ Result<PageMessage> halt_of(Members& members) {
     return fail(ErrorCode::kParse, "`do`: expected stop or release");
   }
   halt.stop = word == "stop";
-  RAVE_TRY_ASSIGN(const Json* const slots, members.array("slots", kMostSlots));
-  for (const Json& slot : *slots) {
+  RAVE_TRY_ASSIGN(const PageJson* const slots, members.array("slots", kMostSlots));
+  for (const PageJson& slot : *slots) {
     RAVE_TRY_ASSIGN(const std::uint32_t index, Members::index_of(slot, "slots"));
     halt.slots.push_back(index);
   }
@@ -202,7 +202,7 @@ Result<PageMessage> eyes_of(Members& members) {
 }  // namespace
 
 Result<PageMessage> parse_page_message(std::string_view text) {
-  const Json json = Json::parse(text, nullptr, false);
+  const PageJson json = PageJson::parse(text, nullptr, false);
   if (!json.is_object()) return fail(ErrorCode::kParse, "expected a JSON object");
   Members members(json);
   RAVE_TRY_ASSIGN(const std::string type, members.word("type"));

@@ -15,8 +15,6 @@
 namespace rave::gui_server {
 namespace {
 
-/// A contact is told when it begins; so long it counts as going on.
-constexpr double kTouch_s = 0.5;
 constexpr const char* kNoStop = "A recording cannot be stopped.";
 
 class Recording final : public Source {

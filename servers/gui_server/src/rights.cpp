@@ -37,7 +37,7 @@ constexpr std::array<Line, kInfoClasses> kLines = {{
     {InfoClass::kStop, "stop", Kind::kNone, Kind::kAll, "stopping it"},
     {InfoClass::kRelease, "release", Kind::kNone, Kind::kOwn, "releasing it after a stop"},
     {InfoClass::kRunControl, "run_control", Kind::kNone, Kind::kNone,
-     "pause, step, resume and pace of a run that goes on"},
+     "pause, step, resume and pace of a run in progress"},
 }};
 
 const Line& line_of(InfoClass what) { return kLines[static_cast<std::size_t>(what)]; }

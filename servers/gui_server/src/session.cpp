@@ -13,8 +13,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostOnTheirWay = 2;
-constexpr double kPast_s = 20;
-constexpr double kPastSpacing_s = 0.2;
 /// How often a page is told what happened, and what came and went.
 constexpr auto kNewsInterval = std::chrono::milliseconds(100);
 /// Who sends so much nonsense is not our page.
@@ -123,6 +121,7 @@ void Session::show(std::shared_ptr<Source> source, const Greeting& greeting, boo
   socket_.send_text(payload(events_text(source_->events(), 0)));
   told_events_ = source_->events_revision();
   told_bodies_ = source_->bodies_revision();
+  told_hosts_ = 0;
   told_.clear();
   // The slots are others now; the page says again what it looks at.
   look_.readings.clear();
@@ -294,6 +293,10 @@ void Session::send_news() {
       socket_.send_text(payload(std::move(change)));
     }
     told_bodies_ = revision;
+  }
+  if (const std::uint64_t revision = source_->hosts_revision(); revision != told_hosts_) {
+    socket_.send_text(payload(R"({"type":"hosts","hosts":)" + source_->hosts_json() + "}"));
+    told_hosts_ = revision;
   }
 }
 

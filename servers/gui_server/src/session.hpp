@@ -86,6 +86,7 @@ class Session {
   std::map<std::pair<LookedAt, std::uint8_t>, double> told_;  ///< Stamp of what was sent last.
   std::uint64_t told_events_ = 0;
   std::uint64_t told_bodies_ = 0;
+  std::uint64_t told_hosts_ = 0;
   std::uint64_t picture_ = 0;  ///< Of the last frame.
   bool changed_ = true;        ///< Something is to be shown that has not been sent.
   bool past_due_ = true;       ///< The page has no past to draw trails with.

@@ -15,6 +15,7 @@
 #include "rave/lock_step/findings.hpp"
 #include "rave/lock_step/messages.hpp"
 #include "rave/lock_step/pulse.hpp"
+#include "rave/lock_step/robot_columns.hpp"
 #include "rave/lock_step/run_words.hpp"
 #include "rave/sim/obstacle_history.hpp"
 
@@ -25,6 +26,7 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 constexpr milliseconds kLook{100};
+constexpr milliseconds kShowInterval{33};
 /// A report that is not answered is sent again after this, then after twice as long.
 constexpr milliseconds kFirstPatience{20};
 constexpr milliseconds kLongestPatience{1000};
@@ -74,6 +76,9 @@ struct HostPort::Impl {
   std::string told{};                            ///< What the log was told last.
   Ending ending{};
   std::optional<Error> unfit{};
+  std::optional<bus::Writer<bus::HostState>> states_out{};  ///< For those who look on.
+  RobotColumns columns{};
+  Clock::time_point next_show{};
 
   void tell(LogLevel level, const std::string& text);
   void tell_foreign(LogLevel level, const std::string& text);
@@ -296,6 +301,8 @@ Result<std::unique_ptr<HostPort>> HostPort::open(const bus::BusConfig& config, I
                std::move(own_info), std::move(last_worlds), std::move(worlds), std::move(states),
                std::move(infos), std::move(wishes), std::move(waits), std::move(pulse),
                std::move(roster), std::move(findings), info, patience});
+  RAVE_TRY_ASSIGN(auto states_out, bus::Writer<bus::HostState>::create(*impl->bus));
+  impl->states_out.emplace(std::move(states_out));
   return std::unique_ptr<HostPort>(new HostPort(std::move(impl)));
 }
 
@@ -329,6 +336,23 @@ Result<HostPort::Answer> HostPort::exchange(const sim::HostReport& report, std::
     if (stopping()) return Answer::kStopped;
     next_stop = Clock::now() + kLook;
   }
+}
+
+void HostPort::show(const sim::Engine& engine, std::span<const RobotId> robots) {
+  Impl& port = *impl_;
+  const auto now = Clock::now();
+  if (now < port.next_show) return;
+  port.next_show = now + kShowInterval;
+  if (port.states_out->readers() == 0) return;
+  port.columns.clear();
+  for (const RobotId robot : robots) port.columns.add(engine, robot, Duration{});
+  if (port.columns.size() == 0) return;
+  bus::HostState message{};
+  message.host = port.self.host;
+  message.step = engine.steps_done();
+  port.columns.lend(message.resolved);
+  // Who looks on and does not keep up misses some.
+  static_cast<void>(port.states_out->write(message));
 }
 
 Roster& HostPort::roster() noexcept { return impl_->roster; }

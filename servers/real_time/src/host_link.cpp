@@ -200,14 +200,7 @@ void HostLink::tell(const sim::Engine& engine, std::span<const RobotId> robots) 
   Impl& link = *impl_;
   const Duration shift = link.shift();
   link.columns.clear();
-  for (const RobotId robot : robots) {
-    const world::RobotState state = engine.snapshot().robot(robot);
-    if (!state.present) continue;
-    const bool simulated = engine.spec().types[engine.spec().robots[robot.value()].type].simulated;
-    const SimTime stamp = simulated ? engine.time() : engine.reported(robot).stamp;
-    const Vec2 v_B = rotate(-state.X_WR.yaw, {state.velocity_W.vx, state.velocity_W.vy});
-    link.columns.add({robot, stamp + shift, state.X_WR, {v_B.x, v_B.y, state.velocity_W.wz}});
-  }
+  for (const RobotId robot : robots) link.columns.add(engine, robot, shift);
   if (link.columns.size() == 0) return;
   bus::HostState message{};
   message.host = link.options.self.host;

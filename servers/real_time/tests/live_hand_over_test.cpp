@@ -121,6 +121,48 @@ TEST(LiveHandOver, OtherHostsSeeWhatItIs) {
   EXPECT_NEAR(host.engine->snapshot().pose(kChanges).x, 1.1, 1e-9);
 }
 
+TEST(LiveHandOver, HowLongItMayBeSilentIsAsItsDriversSay) {
+  sim::EngineSpec spec = with_a_twin(kPlain);
+  spec.types[0].staleness = from_seconds(0.5);
+  spec.types[1].staleness = from_seconds(2);
+  auto world = LiveWorld::create(spec).value();
+  sim::HostReport own;
+  sim::WorldStep step;
+  std::uint64_t number = 0;
+  const auto is_stale_after = [&](std::uint64_t until) {
+    for (; number <= until; ++number) {
+      own.begin(number);
+      if (number > 0) own.proposals = {{1}, {0}, {0}, {0}};
+      EXPECT_TRUE(world->step(own, step));
+    }
+    for (const sim::PoseReport& pose : step.poses) {
+      if (pose.robot == kChanges) return pose.reported.stale;
+    }
+    ADD_FAILURE() << "nothing of the robot";
+    return false;
+  };
+  ASSERT_TRUE(world->see({kChanges, SimTime{}, {1, 2, 0}, {}}));
+  EXPECT_FALSE(is_stale_after(50));
+  EXPECT_TRUE(is_stale_after(60)) << "real";
+  ASSERT_TRUE(world->set_reality(kChanges, true));
+  EXPECT_FALSE(is_stale_after(199)) << "simulated";
+  ASSERT_TRUE(world->set_reality(kChanges, false));
+  EXPECT_TRUE(is_stale_after(200)) << "real again";
+}
+
+TEST(LiveHandOver, WhoIsNoLongerRealHasNoPast) {
+  for (const bool becomes_simulated : {false, true}) {
+    auto world = LiveWorld::create(with_a_twin(kPlain)).value();
+    ASSERT_TRUE(world->see({kChanges, SimTime{}, {1, 2, 0}, {}}));
+    ASSERT_TRUE(!becomes_simulated || world->set_reality(kChanges, true));
+    sim::HostReport own;
+    sim::WorldStep step;
+    own.begin(0);
+    ASSERT_TRUE(world->step(own, step));
+    EXPECT_EQ(step.samples.size(), becomes_simulated ? 0U : 1U);
+  }
+}
+
 TEST(LiveHandOver, WhatCannotBeIsRefused) {
   Host host(kChanges);
   host.steps(2);

@@ -87,6 +87,7 @@ class LiveWorlds : public ::testing::Test {
   std::unique_ptr<LiveWorld> live_;
   sim::HostReport own_;
   WorldStep world_;
+  std::uint32_t said_ = 0;
 };
 
 TEST_F(LiveWorlds, WhoHasNotBeenHeardOfIsNotThere) {
@@ -217,6 +218,25 @@ TEST_F(LiveWorlds, MessagesAreOfTheStepInWhichTheyAreHeard) {
   EXPECT_TRUE(step(6).sent.packets.empty());
 }
 
+TEST_F(LiveWorlds, MessagesWithNumbersThatAreNoneAreNotHeard) {
+  const auto heard = [this](auto spoil) {
+    sim::SentPacket packet;
+    packet.robot = kSimulated;
+    packet.sequence = ++said_;
+    spoil(packet);
+    return live_->hear(1, packet, {});
+  };
+  EXPECT_TRUE(heard([](sim::SentPacket&) {}));
+  for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+    EXPECT_FALSE(heard([bad](sim::SentPacket& packet) { packet.x_m = bad; })) << bad;
+    EXPECT_FALSE(heard([bad](sim::SentPacket& packet) { packet.y_m = bad; })) << bad;
+    EXPECT_FALSE(heard([bad](sim::SentPacket& packet) { packet.antenna_z_m = bad; })) << bad;
+    EXPECT_FALSE(heard([bad](sim::SentPacket& packet) { packet.range_m = bad; })) << bad;
+  }
+  EXPECT_FALSE(heard([](sim::SentPacket& packet) { packet.range_m = -0.1; }));
+  EXPECT_TRUE(heard([](sim::SentPacket& packet) { packet.range_m = 0; }));
+}
+
 TEST_F(LiveWorlds, WhatIsHeardBeforeTheFirstStepIsKept) {
   EXPECT_TRUE(hear(1));
   EXPECT_TRUE(step(0).sent.packets.empty());
@@ -266,6 +286,22 @@ TEST_F(LiveWorlds, AHostThatComesLateBeginsWhereTheWorldShowsIt) {
   EXPECT_EQ(world_.x_m[1], 4);
   steps(353, 362, 1);
   EXPECT_NEAR(world_.x_m[0], -2 + 0.1 * std::cos(0.3), 1e-6);
+}
+
+TEST(LiveWorldSchedule, AHostThatComesLateMakesTheChangesOfBefore) {
+  sim::EngineSpec spec = three_robots();
+  const sim::ParameterChange larger{sim::ParameterChange::Part::kBody, 0, "scale", 1.2};
+  spec.changes.push_back({5, kOwn, {larger}});
+  auto live = LiveWorld::create(spec);
+  ASSERT_TRUE(live) << live.error().text();
+  sim::HostReport own;
+  own.begin(0);
+  ASSERT_TRUE((*live)->begin_at(352, {}, own));
+  WorldStep world;
+  ASSERT_TRUE((*live)->step(own, world));
+  ASSERT_EQ(world.resized.size(), 1U);
+  EXPECT_EQ(world.resized[0].robot, kOwn);
+  EXPECT_EQ(world.resized[0].scale, 1.2);
 }
 
 TEST(LiveEngine, SensesOthersInTheirLayerAndMarksThemStale) {

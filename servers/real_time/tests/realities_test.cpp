@@ -8,7 +8,7 @@
 namespace rave::real_time {
 namespace {
 
-/// Robots 0 and 1 run on host 0, which is this one, and 2 on host 1.
+/// Robots 0 and 1 run on host 0, which is this one, 2 on host 1 and 3 on host 2.
 class RealitiesTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -20,7 +20,7 @@ class RealitiesTest : public ::testing::Test {
     auto bus = bus::Bus::open(config);
     ASSERT_TRUE(bus) << bus.error().text();
     bus_ = *std::move(bus);
-    auto made = Realities::create(*bus_, 0, {0, 0, 1});
+    auto made = Realities::create(*bus_, 0, {0, 0, 1, 2});
     ASSERT_TRUE(made) << made.error().text();
     realities_.emplace(*std::move(made));
   }
@@ -66,6 +66,13 @@ TEST_F(RealitiesTest, OfTwoProcessesOfAHostTheFirstCounts) {
   realities_->lose(7);
   EXPECT_EQ(news(), "simulated") << "whoever came in its place is";
   realities_->lose(8);
+  EXPECT_EQ(news(), "nothing");
+}
+
+TEST_F(RealitiesTest, AProcessSpeaksForTheHostThatItSpokeForFirst) {
+  say(7, 1, 2, true);
+  EXPECT_EQ(news(), "simulated");
+  say(7, 2, 3, false);
   EXPECT_EQ(news(), "nothing");
 }
 

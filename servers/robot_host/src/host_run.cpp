@@ -200,9 +200,10 @@ Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::C
                   *port, scenario);
   journey.report.host = seat.number;
   journey.world_tells = true;
-  look = [&journey] {
+  look = [&journey, &seat] {
     look_back(journey, obstacle_events(journey.world), journey.world.resized, false);
     journey.account.after_step(journey.engine);
+    journey.port.show(journey.engine, seat.robots);
   };
   const ControlledHost controlled(*engine, scenario.scenario, run.control, false);
   tell_who_waits(*engine, run, console);

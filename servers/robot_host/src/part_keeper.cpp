@@ -8,10 +8,11 @@ namespace {
 
 /// Calls `take(robot, sensor index, spec)` for each hybrid sensor of each robot.
 template <class Take>
-void each_hybrid(const sim::EngineSpec& spec, Take take) {
+void each_hybrid(const sim::EngineSpec& spec, Take take, bool all = false) {
   for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
-    const bool here = !spec.local || std::find(spec.local->begin(), spec.local->end(),
-                                               RobotId(r)) != spec.local->end();
+    const bool here =
+        all || !spec.local ||
+        std::find(spec.local->begin(), spec.local->end(), RobotId(r)) != spec.local->end();
     if (!here) continue;
     const auto& sensors = spec.types[spec.robots[r].type].sensors;
     for (std::uint32_t s = 0; s < sensors.size(); ++s) {
@@ -47,13 +48,16 @@ void PartKeeper::follow(const sim::EngineSpec& spec) {
   hybrids_ = std::move(now.hybrids_);
 }
 
-record::StringMap PartKeeper::describe(const sim::EngineSpec& spec) {
+record::StringMap PartKeeper::describe(const sim::EngineSpec& spec, bool all) {
   record::StringMap about;
-  each_hybrid(spec, [&](std::uint32_t robot, std::uint32_t, const sim::SensorSpec& sensor) {
-    about[spec.robots[robot].name + "/" + sensor.name] =
-        fmt::format("{} of {} (real) and {} (virtual)", sensor.driver, sensor.hybrid->real_driver,
-                    sensor.hybrid->virtual_driver);
-  });
+  each_hybrid(
+      spec,
+      [&](std::uint32_t robot, std::uint32_t, const sim::SensorSpec& sensor) {
+        about[spec.robots[robot].name + "/" + sensor.name] =
+            fmt::format("{} of {} (real) and {} (virtual)", sensor.driver,
+                        sensor.hybrid->real_driver, sensor.hybrid->virtual_driver);
+      },
+      all);
   return about;
 }
 

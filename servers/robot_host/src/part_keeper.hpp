@@ -16,7 +16,8 @@ class PartKeeper {
   explicit PartKeeper(const sim::EngineSpec& spec);
 
   /// Which sensors are hybrids and of what, by `robot/sensor` (metadata `rave.hybrid`).
-  [[nodiscard]] static record::StringMap describe(const sim::EngineSpec& spec);
+  /// `all`: of robots that run elsewhere, too.
+  [[nodiscard]] static record::StringMap describe(const sim::EngineSpec& spec, bool all = false);
   /// A robot has its other set of drivers: `spec` is that of the engine from now on. Readings of a
   /// sensor go on counting, so what was kept is not kept again.
   void follow(const sim::EngineSpec& spec);

@@ -18,8 +18,8 @@ namespace rave::robot_host {
 /// their readings, transforms, description, and the time of the run, which all stamps are of. One
 /// of several hosts shows its own robots, and the time if the first of all robots that are shown is
 /// among them: a clock must have one writer, and so all hosts agree on it without a word.
-/// docs/design/ros2.md has the table of topics.
-class Ros2Face final : public RunObserver {
+/// docs/reference/ros2.md has the table of topics.
+class Ros2Face final : public Observer {
  public:
   /// Null if no robot of this process wants it. `host`: its name, empty if it is alone. Errors:
   /// those of ros2::Participant::open().

@@ -2,6 +2,7 @@
 #include "rave/watch/run_model.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "moments.hpp"
 #include "rave/bus/sequence.hpp"
@@ -129,6 +130,10 @@ void RunModel::place(const rave_wire_PlanarRobots& robots, std::size_t i, std::i
   robot.x_m = robots.x_m._buffer[i];
   robot.y_m = robots.y_m._buffer[i];
   robot.yaw_rad = robots.yaw_rad._buffer[i];
+  const double vx_mps = robots.vx_mps._buffer[i];
+  const double vy_mps = robots.vy_mps._buffer[i];
+  robot.speed_mps = std::copysign(std::hypot(vx_mps, vy_mps), vx_mps * std::cos(robot.yaw_rad) +
+                                                                  vy_mps * std::sin(robot.yaw_rad));
 }
 
 void RunModel::hear(const bus::HostState& state, std::int64_t now_ns, std::int64_t delay_ns) {

@@ -177,7 +177,9 @@ HostView RunModel::host_view(std::uint32_t host, std::int64_t now_ns) const {
     }
     view.rate_hz = process->steps.at(now_ns);
     if (process->real_time) view.rate_hz.reset();
-    if (process->reported > 0) tell_reports(host, *process, view, now_ns);
+    // In lock-step they are for those who look on, and say nothing of how the host fares.
+    const bool counts = process->real_time || !process->introduced;
+    if (counts && process->reported > 0) tell_reports(host, *process, view, now_ns);
   }
   if (sight == nullptr) return view;
   view.robots = sight->robots;
@@ -201,6 +203,7 @@ RobotView RunModel::robot_view(const Robot& robot, std::int64_t now_ns) const {
   view.x_m = robot.x_m;
   view.y_m = robot.y_m;
   view.yaw_rad = robot.yaw_rad;
+  view.speed_mps = robot.speed_mps;
   return view;
 }
 

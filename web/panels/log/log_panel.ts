@@ -18,6 +18,8 @@ export class LogPanel extends LitElement {
 
   override connectedCallback(): void {
     super.connectedCallback();
+    // The dock takes panels out while they are hidden: what came meanwhile is to be shown.
+    this.requestUpdate();
     const {model, palette} = this.context;
     const update = () => this.requestUpdate();
     this.ends.push(
@@ -61,7 +63,7 @@ export class LogPanel extends LitElement {
         <label class="field">${icon('filter', 13)}<input placeholder="source, text" aria-label="Filter events" .value=${this.text}
           @input=${(event: InputEvent) => { this.text = (event.target as HTMLInputElement).value.toLowerCase(); this.requestUpdate(); }}></label>
       </div>
-      <div class="rows">${rows}
+      <div class="rows">${rows}${lineDrawn || rows.length === 0 ? nothing : this.renderNow(now_s)}
         ${shown.length > kRows ? html`<p>${shown.length - kRows} older events: filter to see them.</p>` : nothing}
         ${shown.length === 0 ? html`<p>${model.may('log') ? 'Nothing has happened yet.' : model.whyNot('log')}</p>` : nothing}
       </div>`;

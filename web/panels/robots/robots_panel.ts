@@ -13,6 +13,7 @@ const kMany = 200;
 const kRefresh_ms = 250;
 const kRows = 400;
 const kBins = 12;
+const kStands_mps = 0.02;
 
 /** All robots by team: what they are, how fast they go, and what is not normal about them. */
 export class RobotsPanel extends LitElement {
@@ -26,6 +27,8 @@ export class RobotsPanel extends LitElement {
 
   override connectedCallback(): void {
     super.connectedCallback();
+    // The dock takes panels out while they are hidden: what came meanwhile is to be shown.
+    this.requestUpdate();
     const {model, selection, palette} = this.context;
     const update = () => this.requestUpdate();
     this.ends.push(model.rosterChanged.on(update), selection.changed.on(update), palette.changed.on(update));
@@ -73,7 +76,8 @@ export class RobotsPanel extends LitElement {
         <span class="chip"><i class="glyph simulated"></i>${robots.length - real} simulated</span>
         <span class="space"></span><em>last ${kHistory_s} s</em>
       </div>
-      <div class="rows" role="listbox" aria-label="Robots" aria-multiselectable="true">
+      ${robots.length > kMany ? html`<div class="heads"><span>By team</span><span>speed 0 … ${this.topSpeed.toFixed(1)}</span><span>mean</span></div>` : nothing}
+      <div class="rows" role="group" aria-label="Robots">
         ${[...teams].map(([team, slots]) => this.renderTeam(team, slots, robots.length > kMany))}
         ${teams.size === 0 ? html`<p class="none">${robots.length === 0 ? 'No robots in this run.' : 'No robot matches the filter.'}</p>` : nothing}
       </div>
@@ -94,18 +98,32 @@ export class RobotsPanel extends LitElement {
       this.requestUpdate();
     };
     return html`
-      <button class="team" aria-expanded=${open} @click=${toggle}>
+      <button class="team ${many ? 'many' : ''}" aria-expanded=${open} @click=${toggle}>
         <span class="turn ${open ? 'open' : ''}">${icon('chevronDown', 13)}</span>
-        ${team === '' ? 'no team' : team} <em>${slots.length}</em>
+        <span class="who"><span>${team === '' ? 'no team' : team} <em>${slots.length}</em></span>
+          ${many ? html`<small>${this.standText(slots)}</small>` : nothing}</span>
         ${many ? this.renderHistogram(slots) : nothing}
       </button>
       ${open ? slots.slice(0, kRows).map((slot) => this.renderRow(slot)) : nothing}
       ${open && slots.length > kRows ? html`<p class="none">${slots.length - kRows} more: filter to see them.</p>` : nothing}`;
   }
 
+  /** The same scale for all teams, so that they can be compared. */
+  private get topSpeed(): number {
+    let top = 0.4;
+    for (const speed of this.context.model.poses.newest?.speed ?? []) top = Math.max(top, Math.abs(speed));
+    return top;
+  }
+
+  private standText(slots: readonly number[]): string {
+    const stand = slots.filter((slot) => Math.abs(this.speed(slot)) < kStands_mps).length;
+    const stopped = slots.filter((slot) => (this.flags(slot) & RobotFlag.stopped) !== 0).length;
+    return stopped > 0 ? `${stopped} stopped` : `${stand} stand`;
+  }
+
   private renderHistogram(slots: number[]): TemplateResult {
     const speeds = slots.map((slot) => Math.abs(this.speed(slot)));
-    const top = Math.max(0.4, ...speeds);
+    const top = this.topSpeed;
     const bins = new Array<number>(kBins).fill(0);
     for (const speed of speeds) bins[Math.min(kBins - 1, Math.floor((speed / top) * kBins))] += 1;
     const most = Math.max(1, ...bins);
@@ -122,15 +140,15 @@ export class RobotsPanel extends LitElement {
     const hue = palette.hue(slot);
     const marked = robot.kind === 'real' || robot.word !== '';
     const state = stateOf(robot, this.flags(slot));
-    return html`<div class="row ${selection.has(slot) ? 'selected' : ''} ${selection.hovered === slot ? 'hovered' : ''}" role="option"
-        tabindex="0" aria-selected=${selection.has(slot)}
+    return html`<div class="row ${selection.has(slot) ? 'selected' : ''} ${selection.hovered === slot ? 'hovered' : ''}" role="button"
+        tabindex="0" aria-pressed=${selection.has(slot)}
         @click=${(event: MouseEvent) => (event.ctrlKey || event.metaKey ? selection.toggle(slot) : selection.set([slot]))}
         @keydown=${(event: KeyboardEvent) => this.rowKey(event, slot)}
         @pointerenter=${() => selection.hover(slot)} @pointerleave=${() => selection.hover(null)}>
       <i class="glyph ${robot.kind}" style="--hue:${robot.kind === 'real' ? hue.fill : hue.ink}"></i>
       <span class="name" style=${marked ? `color:${hue.ink};font-weight:600` : ''}>${robot.name}</span>
       ${this.renderSparkline(slot, marked ? hue.ink : palette.token('text-3'))}
-      ${state === '' ? html`<span class="value">${this.speed(slot).toFixed(2)} m/s</span>` : html`<span class="state">${state}</span>`}
+      ${state === '' ? html`<span class="value">${speedText(this.speed(slot))}</span>` : html`<span class="state">${state}</span>`}
       <span class="mark" title=${robot.recorded ? 'Recorded: it obeys nobody' : ''}>${robot.recorded ? icon('lock', 13) : (this.flags(slot) & RobotFlag.touching) !== 0 ? icon('zap', 13) : nothing}</span>
     </div>`;
   }
@@ -176,7 +194,7 @@ export class RobotsPanel extends LitElement {
       <dl>
         ${row('Program', robot.program, robot.recorded ? '(does not obey)' : '')}
         ${row('Pose', known ? `${frame.x[slot].toFixed(2)}, ${frame.y[slot].toFixed(2)} m · ${degrees}°`.replaceAll('-', '−') : 'not known')}
-        ${row('Speed', known ? `${frame.speed[slot].toFixed(2)} m/s` : '')}
+        ${row('Speed', known ? speedText(frame.speed[slot]) : '')}
         ${row('Sensors', robot.sensors.map((sensor) => sensor.name).join(', '))}
         ${row('Drivers', robot.drivers.join(', '))}
         ${row('Host', robot.host ?? '')}
@@ -194,6 +212,10 @@ export class RobotsPanel extends LitElement {
       .space { flex: 1; }
       .rows { flex: 1; overflow: auto; padding: 4px 0; }
       .team { display: flex; align-items: center; gap: 6px; width: 100%; height: 26px; padding: 0 12px; color: var(--text-2); font-size: var(--fs-12); text-align: left; }
+      .team.many { height: 40px; }
+      .who { display: flex; flex-direction: column; line-height: 1.3; }
+      .who small { color: var(--text-3); font-size: var(--fs-11); }
+      .heads { display: flex; justify-content: space-between; padding: 6px 12px 0; color: var(--text-3); font-size: var(--fs-11); }
       .team em { font-style: normal; color: var(--text-3); }
       .team rect { fill: var(--text-2); }
       .turn { transform: rotate(-90deg); }
@@ -217,6 +239,11 @@ export class RobotsPanel extends LitElement {
       @media (pointer: coarse) { .row { height: 44px; } }
     `,
   ];
+}
+
+/** Without the sign of a zero. */
+function speedText(speed: number): string {
+  return `${(Math.abs(speed) < 0.005 ? 0 : speed).toFixed(2).replace('-', '−')} m/s`;
 }
 
 /** What is not normal about a robot, in words; empty if all is. */

@@ -12,10 +12,10 @@ function halfOpening(bearings: readonly number[], cone: number): number {
   return Math.min(Math.max(widest, 0.35), Math.PI);
 }
 
-/** Draws a range reading with ahead up. `met` says what a ray hit, or null. */
+/** Draws a range reading with ahead up. `met` says what a ray hit, or null; `real` is the real half of a hybrid. */
 export function drawPolar(
   ctx: CanvasRenderingContext2D, width: number, height: number, sensor: Sensor, reading: Reading | null,
-  hue: {fill: string; ink: string}, palette: Palette, met: (ray: number) => Met | null,
+  hue: {fill: string; ink: string}, palette: Palette, met: (ray: number) => Met | null, real: Reading | null = null,
 ): void {
   const max = sensor.range?.[1] ?? 4;
   const bearings = bearingsOf(sensor, reading?.rows ?? sensor.bearings?.length ?? 0);
@@ -58,6 +58,7 @@ export function drawPolar(
     ctx.strokeStyle = withAlpha(hue.ink, 0.8);
     ctx.lineWidth = 1;
     ctx.stroke();
+    if (real !== null && real.rows === reading.rows) drawHalf(ctx, real, max, radius, bearings, at, palette);
     for (let i = 0; i < reading.rows; ++i) {
       if (!(reading.values[i] < max)) continue;
       const hit = met(i);
@@ -73,6 +74,28 @@ export function drawPolar(
   ctx.fillStyle = palette.token('text-2');
   ctx.textAlign = 'center';
   ctx.fillText('ahead', ox, 10);
+}
+
+/** What the real half of a hybrid measured: a thin line below its result. */
+function drawHalf(
+  ctx: CanvasRenderingContext2D, real: Reading, max: number, radius: number, bearings: readonly number[],
+  at: (bearing: number, r: number) => [number, number], palette: Palette,
+): void {
+  ctx.strokeStyle = palette.token('wall-ink');
+  ctx.lineWidth = 1.25;
+  ctx.beginPath();
+  let pen = false;
+  for (let i = 0; i < real.rows; ++i) {
+    if (!(real.values[i] < max)) {
+      pen = false;
+      continue;
+    }
+    const [x, y] = at(bearings[i], (real.values[i] / max) * radius);
+    if (pen) ctx.lineTo(x, y);
+    else ctx.moveTo(x, y);
+    pen = true;
+  }
+  ctx.stroke();
 }
 
 function drawRings(

@@ -7,9 +7,12 @@ import type {PanelContext} from '../../panel_api';
 import type {Reading} from '../../protocol/frames';
 import type {Robot, Sensor} from '../../protocol/messages';
 import {bearingsOf, mountOf} from '../world/scan_layer';
+import {shortName} from '../world/name_layer';
 import {Surface, pointSurface, type Met} from '../world/surface';
 import {drawCourse} from './course_plot';
 import {drawPolar} from './polar_plot';
+import {drawSightingsPlot, pairsOf, type Named} from './sightings_plot';
+import {twinOf} from './twin';
 
 const kTextRefresh_ms = 200;
 const kTableRows = 40;
@@ -30,6 +33,8 @@ export class SensorsPanel extends LitElement {
 
   override connectedCallback(): void {
     super.connectedCallback();
+    // The dock takes panels out while they are hidden: what came meanwhile is to be shown.
+    this.requestUpdate();
     const {model, selection, palette} = this.context;
     const changed = () => {
       this.surface = new Surface(model.bodies.values(), model.robots, palette);
@@ -84,8 +89,16 @@ export class SensorsPanel extends LitElement {
   private lookAround(): void {
     const slot = this.shownSlot;
     const robot = slot === null ? undefined : this.context.model.robots[slot];
-    if (slot === null || robot === undefined || robot.sensors.length === 0) this.context.link.look(this, []);
-    else this.context.link.look(this, [[slot, this.sensorIndex(slot, robot)]]);
+    const {link} = this.context;
+    if (slot === null || robot === undefined || robot.sensors.length === 0) {
+      link.look(this, []);
+      return;
+    }
+    const index = this.sensorIndex(slot, robot);
+    const twin = twinOf(robot, index);
+    link.parts = robot.sensors[index].origin === 'hybrid';
+    link.look(this, twin === null ? [[slot, index]] : [[slot, index], [slot, twin]]);
+    link.queueLook();
   }
 
   override render(): TemplateResult {
@@ -131,11 +144,27 @@ export class SensorsPanel extends LitElement {
     const ranges = sensor.kind === 'ranges';
     const fields = sensor.fields;
     const shown = Math.min(this.shownField(sensor), fields.length - 1);
+    if (sensor.kind === 'sightings') return this.renderSightings(slot, sensor, reading);
     return html`
+      ${sensor.origin === 'hybrid' ? html`<p class="halves"><span><i class="line"></i>real half</span><span><i class="dot"></i>result from it</span><span><i class="square"></i>result from the virtual half</span></p>` : nothing}
       ${ranges ? html`<canvas class="polar" role="img" aria-label="Ranges around the robot; the numbers are behind the button Show the numbers"></canvas>` : this.renderValues(sensor, reading)}
       ${ranges ? html`<p class="sentence">${this.nearest(slot, sensor, reading)}<em>nearest, 15 s</em></p>` : html`
         <div class="fields segments">${fields.map((name, i) => html`<button aria-pressed=${i === shown} @click=${() => { this.field = i; this.requestUpdate(); }}>${name.replace(/ \[.*/, '')}</button>`)}</div>`}
       <canvas class="course" role="img" aria-label="Course of ${ranges ? 'the nearest range' : fields[shown] ?? 'the sensor'}"></canvas>`;
+  }
+
+  /** A camera beside its twin: what it saw, and what it should see. */
+  private renderSightings(slot: number, sensor: Sensor, reading: Reading | null): TemplateResult {
+    const robot = this.context.model.robots[slot];
+    const twin = twinOf(robot, robot.sensors.indexOf(sensor));
+    const expected = twin === null ? null : this.context.model.readings.of(slot, twin);
+    const count = pairsOf(reading, expected);
+    return html`
+      <p class="halves"><span><i class="dot saw"></i>saw ${reading?.rows ?? 0}</span>
+        ${twin === null ? nothing : html`<span><i class="square"></i>${robot.sensors[twin].name} ${sensor.origin === 'virtual' ? 'saw' : 'expects'} ${expected?.rows ?? 0}</span>
+        <span class="space"></span><em>${count} of ${expected?.rows ?? 0} in both</em>`}</p>
+      <canvas class="sightings" role="img" aria-label="Range and bearing of what the camera saw; the numbers are behind the button Show the numbers"></canvas>
+      ${this.renderValues(sensor, reading)}`;
   }
 
   /** Of several fields the first that is no stamp or code. */
@@ -158,7 +187,7 @@ export class SensorsPanel extends LitElement {
     if (reading === null) return html`<p class="none">No reading yet.</p>`;
     const bearings = sensor.kind === 'ranges' ? bearingsOf(sensor, reading.rows) : null;
     const rows = Array.from({length: Math.min(reading.rows, kTableRows * 5)}, (_, row) => row);
-    return html`<div class="table"><table>
+    return html`<div class="table" tabindex="0" role="region" aria-label="Numbers of ${sensor.name}"><table>
       <thead><tr>${bearings ? html`<th>bearing [°]</th>` : nothing}${sensor.fields.map((name) => html`<th>${name}</th>`)}</tr></thead>
       <tbody>${rows.map((row) => html`<tr>${bearings ? html`<td>${((bearings[row] * 180) / Math.PI).toFixed(1)}</td>` : nothing}
         ${sensor.fields.map((_, i) => html`<td>${numberText(reading.values[row * reading.fields + i])}</td>`)}</tr>`)}</tbody></table></div>`;
@@ -170,6 +199,17 @@ export class SensorsPanel extends LitElement {
     const angle = mount.yaw + bearingsOf(sensor, reading.rows)[ray];
     const r = reading.values[ray];
     return pointSurface(this.surface, mount.x + r * Math.cos(angle), mount.y + r * Math.sin(angle), slot);
+  }
+
+  /** The robot or tube that carries a barcode. */
+  private namedCode(code: number): Named {
+    const {model, palette} = this.context;
+    const slot = model.robots.findIndex((robot) => robot.barcode === code);
+    if (slot >= 0) return {name: model.robots[slot].name, colour: palette.hue(slot).ink};
+    for (const body of model.bodies.values()) {
+      if (body.barcode === code) return {name: shortName(body.name), colour: palette.token('landmark-ink')};
+    }
+    return {name: `code ${code}`, colour: palette.token('text-3')};
   }
 
   private nearest(slot: number, sensor: Sensor, reading: Reading | null): TemplateResult | string {
@@ -206,9 +246,14 @@ export class SensorsPanel extends LitElement {
     model.poses.interpolate(performance.now(), this.placed);
     if (this.surface !== null) this.surface.placed = this.placed;
     const hue = palette.hue(slot);
+    const halves = sensor.origin === 'hybrid' ? model.readings.of(slot, index, 1) : null;
     this.onCanvas('.polar', (ctx, width, height) => {
       drawPolar(ctx, width, height, sensor, reading, hue, palette, (ray) =>
-        reading === null ? null : this.met(slot, sensor, reading, ray));
+        reading === null ? null : this.met(slot, sensor, reading, ray), halves);
+    });
+    this.onCanvas('.sightings', (ctx, width, height) => {
+      const twin = twinOf(robot, index);
+      drawSightingsPlot(ctx, width, height, sensor, reading, twin === null ? null : model.readings.of(slot, twin), (code) => this.namedCode(code), palette);
     });
     this.onCanvas('.course', (ctx, width, height) => {
       const field = sensor.kind === 'ranges' ? 0 : this.shownField(sensor);
@@ -234,7 +279,7 @@ export class SensorsPanel extends LitElement {
     css`
       :host { display: flex; flex-direction: column; height: 100%; background: var(--bg-1); overflow: hidden; }
       .head, .about { display: flex; align-items: center; gap: 8px; padding: 8px 12px 0; flex-wrap: wrap; }
-      .about { color: var(--text-2); font-size: var(--fs-12); padding-top: 4px; }
+      .about { color: var(--text-2); font-size: var(--fs-12); padding-top: 4px; flex-wrap: nowrap; white-space: nowrap; overflow: hidden; }
       .space { flex: 1; }
       .tag { display: inline-flex; align-items: center; gap: 6px; padding: 1px 8px; border-radius: var(--r-2); background: var(--virtual-fill); color: var(--virtual-ink); }
       .polar { flex: 1 1 160px; min-height: 100px; width: 100%; }
@@ -242,6 +287,14 @@ export class SensorsPanel extends LitElement {
       .sentence { display: flex; gap: 4px; margin: 0; padding: 0 12px; font-size: var(--fs-12); align-items: baseline; }
       .sentence b { font-size: var(--fs-15); font-weight: var(--fw-strong); }
       .sentence em { margin-left: auto; color: var(--text-3); font-style: normal; font-size: var(--fs-11); }
+      .sightings { flex: 1 1 180px; min-height: 120px; width: 100%; }
+      .halves { display: flex; flex-wrap: wrap; gap: 4px 14px; margin: 6px 12px 0; color: var(--text-2); font-size: var(--fs-11); }
+      .halves span { display: inline-flex; align-items: center; gap: 6px; }
+      .halves em { color: var(--text-3); font-style: normal; }
+      .halves .dot { width: 6px; height: 6px; border-radius: 50%; background: var(--wall-ink); }
+      .halves .saw { background: var(--text-1); }
+      .halves .square { width: 7px; height: 7px; border: 1.5px solid var(--virtual-ink); }
+      .halves .line { width: 14px; height: 0; border-top: 1.5px solid var(--wall-ink); }
       .fields { margin: 4px 12px 0; align-self: flex-start; flex-wrap: wrap; }
       dl { display: flex; flex-wrap: wrap; gap: 6px 24px; margin: 8px 14px; }
       dt { color: var(--text-3); font-size: var(--fs-11); }

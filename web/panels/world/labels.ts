@@ -13,6 +13,8 @@ export interface Label {
   rank: number;
   /** Below the thing and centred only, as for obstacles. */
   below?: boolean;
+  /** Fades what is far away; 1 if left out. */
+  alpha?: number;
 }
 
 interface Box {
@@ -36,8 +38,12 @@ export class LabelPlacer {
   constructor(private readonly width: number, private readonly height: number) {}
 
   /** Keeps a rectangle free. */
-  block(x: number, y: number, radius: number): void {
-    this.add({x0: x - radius, y0: y - radius, x1: x + radius, y1: y + radius});
+  block(x: number, y: number, half_width: number, half_height = half_width): void {
+    this.add({x0: x - half_width, y0: y - half_height, x1: x + half_width, y1: y + half_height});
+  }
+
+  isFree(x: number, y: number, half_width: number, half_height: number): boolean {
+    return this.free({x0: x - half_width, y0: y - half_height, x1: x + half_width, y1: y + half_height});
   }
 
   /** Draws those that find a place, in order of their rank. */
@@ -49,15 +55,17 @@ export class LabelPlacer {
     for (const label of labels) {
       if (label.x < -80 || label.y < -40 || label.x > this.width + 80 || label.y > this.height + 40) continue;
       ctx.font = `${label.weight} 12px ${kFont}`;
-      const w = ctx.measureText(label.text).width;
+      const w = widthOf(ctx, label);
       const box = this.place(label, w);
       if (box === null) continue;
       this.add(box);
+      ctx.globalAlpha = label.alpha ?? 1;
       ctx.strokeStyle = halo;
       ctx.lineWidth = 3;
       ctx.strokeText(label.text, box.x0 + 2, box.y0 + kHeight / 2);
       ctx.fillStyle = label.colour;
       ctx.fillText(label.text, box.x0 + 2, box.y0 + kHeight / 2);
+      ctx.globalAlpha = 1;
     }
   }
 
@@ -88,6 +96,20 @@ export class LabelPlacer {
       else cell.push(box);
     }
   }
+}
+
+/** Measuring a text costs more than drawing it. */
+const widths = new Map<string, number>();
+const kMostWidths = 5000;
+
+function widthOf(ctx: CanvasRenderingContext2D, label: Label): number {
+  const key = `${label.weight} ${label.text}`;
+  let width = widths.get(key);
+  if (width === undefined) {
+    if (widths.size > kMostWidths) widths.clear();
+    widths.set(key, (width = ctx.measureText(label.text).width));
+  }
+  return width;
 }
 
 export const kFont = '"Inter Variable", Inter, system-ui, "DejaVu Sans", sans-serif';

@@ -2,6 +2,7 @@
 
 /** Kinds that the legend can hide. */
 export type Kind = 'real' | 'simulated' | 'virtual' | 'wall' | 'landmark';
+export type ColourBy = 'kind' | 'team' | 'speed' | 'age';
 
 /** What the World View shows. Saved with the layout. */
 export interface Layers {
@@ -12,7 +13,14 @@ export interface Layers {
   hits: boolean;
   names: boolean;
   grid: boolean;
+  density: boolean;
+  minimap: boolean;
+  colourBy: ColourBy;
 }
+
+export type Flag = {[K in keyof Layers]: Layers[K] extends boolean ? K : never}[keyof Layers];
+
+export const kColourBy: readonly ColourBy[] = ['kind', 'team', 'speed', 'age'];
 
 export const kLayers: Layers = {
   hidden: [],
@@ -22,20 +30,19 @@ export const kLayers: Layers = {
   hits: true,
   names: true,
   grid: true,
+  density: true,
+  minimap: true,
+  colourBy: 'kind',
 };
 
 /** What was kept, with defaults for what is missing or odd. */
 export function readLayers(kept: unknown): Layers {
   const given = typeof kept === 'object' && kept !== null ? (kept as Partial<Layers>) : {};
-  const flag = (name: 'trails' | 'sightings' | 'hits' | 'names' | 'grid') =>
-    typeof given[name] === 'boolean' ? given[name] : kLayers[name];
-  return {
-    hidden: Array.isArray(given.hidden) ? given.hidden : [],
-    trails: flag('trails'),
-    scans: given.scans === 'off' || given.scans === 'selected' ? given.scans : 'real',
-    sightings: flag('sightings'),
-    hits: flag('hits'),
-    names: flag('names'),
-    grid: flag('grid'),
-  };
+  const layers: Layers = {...kLayers, hidden: Array.isArray(given.hidden) ? given.hidden : []};
+  for (const name of ['trails', 'sightings', 'hits', 'names', 'grid', 'density', 'minimap'] satisfies Flag[]) {
+    if (typeof given[name] === 'boolean') layers[name] = given[name];
+  }
+  if (given.scans === 'off' || given.scans === 'selected') layers.scans = given.scans;
+  if (given.colourBy !== undefined && kColourBy.includes(given.colourBy)) layers.colourBy = given.colourBy;
+  return layers;
 }

@@ -60,7 +60,7 @@ struct BusConfig {
   /// Another bus of this process may be in the domain already; this one is then beside it as that
   /// of another process would be. For drivers, whose host may have a bus of its own.
   bool beside = false;
-  /// A folder with certificates switches DDS Security on; see docs/design/distribution.md.
+  /// A folder with certificates switches DDS Security on; see docs/explanation/security.md.
   std::filesystem::path security;
   /// Small samples of lock-step may go from process to process of this machine beside DDS. Never
   /// with `security`, nor for those who are `anonymous`.

@@ -46,7 +46,7 @@ struct TopicSpec {
 };
 
 /// The topic of a message type. This is the one place with names and qualities of service; the
-/// table of docs/design/distribution.md says the same.
+/// table of docs/reference/bus.md says the same.
 template <class Message>
 [[nodiscard]] TopicSpec topic_of();
 

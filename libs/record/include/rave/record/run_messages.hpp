@@ -14,8 +14,9 @@
 #include "rave/math/pose.hpp"
 #include "rave/record/run_info.hpp"
 
-// What is in the messages of a record, and how to read them back. docs/design/record.md has the
-// table of topics. Everything comes back with the bits that went in.
+// What is in the messages of a record, and how to read them back.
+// docs/reference/recording-format.md has the table of topics. Everything comes back with the bits
+// that went in.
 namespace rave::record {
 
 /// Topics of the exact streams.

@@ -9,7 +9,8 @@
 
 #include "rave/robot/message.hpp"
 
-// What transmitters of the real world carry between hosts. docs/design/radio.md has the layout.
+// What transmitters of the real world carry between hosts. docs/reference/radio-packet.md has the
+// layout.
 namespace rave {
 
 /// One message on its way between hosts. Names travel as radio_name_hash(): hosts need not number

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "rave/base/time.hpp"
 #include "rave/math/pose.hpp"
 #include "rave/robot/command.hpp"
 #include "rave/world/body.hpp"
@@ -80,12 +81,16 @@ struct GuardInput {
   bool pose_known = true;  ///< The reported pose is there and fresh.
   Pose2 X_WR;              ///< Reported.
   double pose_age_s = 0;
-  Twist2 velocity;  ///< Reported, body frame.
+  SimTime pose_stamp;      ///< By any clock: another one says that this pose is another.
+  Twist2 velocity;         ///< Reported, body frame.
+  double fastest_mps = 0;  ///< Either way, of what it was told since that pose was taken.
   std::span<const GuardSensor> sensors;
   double world_age_s = 0;
   double dt_s = 0.01;
-  bool touching = false;  ///< Something limited the last motion: the next may slide along it.
-  double radius_m = 0;    ///< Of the disc about the robot's origin that holds its body; above 0.
+  /// Something limited the last motion, or did before the robot was made to stand there: the next
+  /// one may slide along it.
+  bool touching = false;
+  double radius_m = 0;  ///< Of the disc about the robot's origin that holds its body; above 0.
   const world::Body* body = nullptr;
   std::span<const GuardNeighbour> neighbours;  ///< Those within guard_reach_m().
 };
@@ -105,7 +110,7 @@ struct GuardOutput {
 [[nodiscard]] double guard_reach_m(const GuardSpec& spec, const GuardInput& input) noexcept;
 
 /// Limits one command. Pure: the same input gives the same bits; any thread; no allocation.
-/// Formulas and assumptions: docs/design/guard.md.
+/// Formulas and assumptions: docs/explanation/guard.md.
 ///
 /// Velocities are limited; `kJoint` and `kValues` pass if they are finite and nothing holds the
 /// robot, else the actuator gets nothing; `kGoal` is never passed on, since the way to it is the

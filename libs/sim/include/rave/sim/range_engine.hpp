@@ -72,7 +72,7 @@ struct SensorPlace {
 /// Casts one fan from `place` at height `z_m`. `ranges` and `bodies` have one place per reading; a
 /// ray that meets nothing reads +infinity and no body. `owner` is not seen. A sensor inside a body
 /// reads 0 in all directions (then range_min). Any thread, each with its own scratch. The algorithm
-/// stands in docs/design/engine.md.
+/// stands in docs/explanation/ranges.md.
 void cast_fan(const world::Snapshot& world, const FanTable& fan, const SensorPlace& place,
               double z_m, BodyId owner, FanScratch& scratch, std::span<float> ranges,
               std::span<std::uint32_t> bodies);

@@ -13,7 +13,7 @@ namespace rave::sim {
 
 /// One message that left its robot completely in a step, and what a receiver must know of the
 /// sender at that moment to find out by itself whether it hears it: the same that a packet on a
-/// real radio carries (docs/design/radio.md).
+/// real radio carries (docs/reference/radio-packet.md).
 struct SentPacket {
   RobotId robot;                   ///< Who sent it.
   std::uint32_t communicator = 0;  ///< Index among the sender's communicators.

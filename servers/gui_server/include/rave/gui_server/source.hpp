@@ -19,6 +19,12 @@
 // frame W, angles in radians, times in seconds of the run.
 namespace rave::gui_server {
 
+/// A page draws trails of so many seconds; it gets what it has not seen of them at this spacing.
+inline constexpr double kPast_s = 20;
+inline constexpr double kPastSpacing_s = 0.2;
+/// A contact is told when it begins; so long it counts as going on.
+inline constexpr double kTouch_s = 0.5;
+
 /// What the run is called and where it comes from.
 struct RunAbout {
   bool live = false;  ///< It goes on; otherwise this is its recording.
@@ -189,6 +195,13 @@ class Source {
   [[nodiscard]] virtual std::uint64_t bodies_revision() const noexcept { return 0; }
   [[nodiscard]] virtual std::string bodies_changed_since(std::uint64_t /*revision*/) const {
     return {};
+  }
+  /// The array `hosts` of a message of that name, and another number whenever it changed; 0: the
+  /// run has no hosts.
+  [[nodiscard]] virtual std::uint64_t hosts_revision() const noexcept { return 0; }
+  [[nodiscard]] virtual const std::string& hosts_json() const noexcept {
+    static const std::string none = "[]";
+    return none;
   }
   virtual void halt(const HaltMessage& halt, Reply reply) = 0;
 };

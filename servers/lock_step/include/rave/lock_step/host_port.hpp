@@ -16,6 +16,7 @@
 #include "rave/lock_step/introduction.hpp"
 #include "rave/lock_step/roster.hpp"
 #include "rave/sim/authority_state.hpp"
+#include "rave/sim/engine.hpp"
 #include "rave/sim/host_report.hpp"
 #include "rave/sim/world_step.hpp"
 
@@ -58,6 +59,9 @@ class HostPort {
   [[nodiscard]] Result<Answer> exchange(const sim::HostReport& report, std::uint64_t hash,
                                         sim::WorldStep& world,
                                         const std::function<bool()>& stopping);
+  /// Says where robots of this host are, for those who look on: 30 times a second at most, and
+  /// while somebody reads it. Nobody in the run does.
+  void show(const sim::Engine& engine, std::span<const RobotId> robots);
   /// What is told of the robots of this host, which nobody in the run waits for.
   [[nodiscard]] Roster& roster() noexcept;
   /// What the authority knew beside the last world, with the obstacles of before only if this host

@@ -9,18 +9,13 @@
 #include <vector>
 
 #include "rave/base/result.hpp"
+#include "rave/lock_step/robot_columns.hpp"
 #include "rave/real_time/talk_limit.hpp"
 #include "rave/sim/world_authority.hpp"
 
 namespace rave::real_time {
 
-/// Where a robot was, as its own host said.
-struct RobotSight {
-  RobotId robot;
-  SimTime stamp;    ///< By the clock of the engine that shall know it.
-  Pose2 X_WR;       ///< Finite.
-  Twist2 velocity;  ///< Body frame; finite.
-};
+using lock_step::RobotSight;
 
 /// How an obstacle stands that is not as it was at the start, as the manager of the run says.
 struct ObstacleSight {

@@ -5,25 +5,12 @@
 #include <vector>
 
 #include "rave/bus/topics.hpp"
+#include "rave/lock_step/robot_columns.hpp"
 #include "rave/real_time/live_world.hpp"
 
 namespace rave::real_time {
 
-/// Robots in the plane, in the columns that a message borrows. One owner thread.
-class RobotColumns {
- public:
-  void clear() noexcept;
-  /// Behind those with lower numbers. Stamps by the clock of the run.
-  void add(const RobotSight& sight);
-  /// The message holds until this object changes.
-  void lend(rave_wire_PlanarRobots& robots) noexcept;
-  [[nodiscard]] std::size_t size() const noexcept { return id_.size(); }
-
- private:
-  std::vector<std::uint32_t> id_;
-  std::vector<double> x_m_, y_m_, yaw_rad_, vx_mps_, vy_mps_, wz_radps_;
-  std::vector<std::int64_t> stamp_ns_;
-};
+using lock_step::RobotColumns;
 
 /// The robot at a place of a message, which has passed bus::validate(). `shift` is put on its
 /// stamp.

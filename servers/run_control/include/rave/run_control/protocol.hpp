@@ -9,7 +9,7 @@
 #include "rave/robot_host/run_control.hpp"
 
 // What is said over the socket of a run: one JSON object in a line each way. See
-// docs/design/guard.md.
+// docs/reference/control-socket.md.
 namespace rave::run_control {
 
 inline constexpr std::size_t kMaxLineBytes = 16'384;

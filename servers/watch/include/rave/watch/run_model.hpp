@@ -103,7 +103,7 @@ class RunModel {
     double reported = 0;
     std::optional<std::int64_t> stamp_ns;
     std::optional<std::int64_t> heard_ns;
-    double x_m = 0, y_m = 0, yaw_rad = 0;
+    double x_m = 0, y_m = 0, yaw_rad = 0, speed_mps = 0;
   };
   /// What the manager says of a host.
   struct Sight {

@@ -73,6 +73,7 @@ struct RobotView {
   std::optional<double> rate_hz;  ///< Reports per second.
   std::optional<double> asked_rate_hz;
   std::optional<double> x_m, y_m, yaw_rad;  ///< World frame.
+  std::optional<double> speed_mps;          ///< Forward positive.
 };
 
 /// A run as an onlooker knows it at one moment. A value.

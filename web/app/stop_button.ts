@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
+import {countStopped, Hold, kTwice_ms, Twice, type StopCount} from '../model/stop_state';
+import type {PanelContext} from '../panel_api';
+import {bigClock} from './clock';
+import {icon} from './icons';
+import {controls} from './styles';
+
+/** STOP, and once all robots stand, the button that is held to release them. */
+export class StopButton extends LitElement {
+  declare context: PanelContext;
+  private readonly hold = new Hold();
+  private readonly twice = new Twice();
+  /** One press of Space has come; the second one stops. */
+  private half = false;
+  private stoppedAt_s: number | null = null;
+  private shown = '';
+  private readonly ends: (() => void)[] = [];
+
+  override connectedCallback(): void {
+    super.connectedCallback();
+    const {model, link} = this.context;
+    const update = () => this.requestUpdate();
+    for (const signal of [model.rosterChanged, model.runChanged, model.timeChanged, link.changed]) this.ends.push(signal.on(update));
+    this.ends.push(model.pictureChanged.on(() => {
+      const count = countStopped(model);
+      const now = `${count.stopped} ${count.latched}`;
+      if (now === this.shown) return;
+      this.shown = now;
+      update();
+    }));
+  }
+
+  override disconnectedCallback(): void {
+    super.disconnectedCallback();
+    for (const end of this.ends.splice(0)) end();
+  }
+
+  /** Space Space. Does nothing in a replay. */
+  key(event: KeyboardEvent): void {
+    if (event.repeat || !this.context.model.may('stop')) return;
+    if (this.twice.press(performance.now())) {
+      this.half = false;
+      this.stop();
+      return;
+    }
+    this.half = true;
+    this.requestUpdate();
+    setTimeout(() => {
+      this.half = false;
+      this.requestUpdate();
+    }, kTwice_ms);
+  }
+
+  private stop(): void {
+    const {model, link} = this.context;
+    this.stoppedAt_s = model.poses.newest?.time_s ?? model.time?.now_s ?? 0;
+    link.send({type: 'halt', do: 'stop', slots: []});
+    this.requestUpdate();
+  }
+
+  private press(event: Event): void {
+    if (event instanceof PointerEvent) (event.currentTarget as HTMLElement).setPointerCapture(event.pointerId);
+    this.hold.press(performance.now());
+    this.grow();
+  }
+
+  private lift(): void {
+    this.hold.lift();
+    this.requestUpdate();
+  }
+
+  /** Goes on with the ring while the button is held; a full ring releases. */
+  private grow(): void {
+    if (!this.hold.pressed) return;
+    if (this.hold.share(performance.now()) >= 1) {
+      this.hold.lift();
+      this.stoppedAt_s = null;
+      this.context.link.send({type: 'halt', do: 'release', slots: []});
+    } else requestAnimationFrame(() => this.grow());
+    this.requestUpdate();
+  }
+
+  override render(): TemplateResult {
+    const {model, link} = this.context;
+    const count = countStopped(model);
+    if (model.hello !== null && !model.may('stop')) return this.renderViewOnly();
+    const out = link.state !== 'open';
+    return html`<div aria-live="polite" class="spoken">${count.stopped > 0 ? `${count.stopped} robots are stopped.` : nothing}</div>
+      ${count.latched && model.may('release') ? this.renderRelease(count, true) : html`
+        ${count.stopped > 0 && model.may('release') ? this.renderRelease(count, false) : nothing}
+        <button class="stop" ?disabled=${out} title="Stop all robots (Space Space)" @click=${() => this.stop()}>
+          ${icon('octagonX', 28)}<span><b>STOP</b><small>${this.stopText(count, out)}</small></span></button>`}`;
+  }
+
+  private stopText(count: StopCount, out: boolean): string {
+    if (out) return 'out of reach';
+    if (this.half) return 'Space again';
+    if (count.latched) return 'all stand';
+    return count.robots === 1 ? 'the robot' : `all ${count.robots} robots`;
+  }
+
+  private renderViewOnly(): TemplateResult {
+    const {model} = this.context;
+    return html`<div class="view-only" title=${model.whyNot('stop')}>${icon('eye', 18)}
+      <span>View only<small>${model.live ? 'observers do not stop' : 'this is a recording'}</small></span></div>`;
+  }
+
+  private renderRelease(count: StopCount, large: boolean): TemplateResult {
+    const when = this.stoppedAt_s === null ? 'stopped' : `stopped by you at ${bigClock(this.stoppedAt_s).slice(0, 5)}`;
+    const turn = 2 * Math.PI * 9;
+    const share = this.hold.share(performance.now());
+    const key = (event: KeyboardEvent, act: () => void) => {
+      if (event.key === ' ' || event.key === 'Enter') {
+        event.preventDefault();
+        act();
+      }
+    };
+    return html`<button class="release ${large ? 'large' : ''}" aria-label="Hold to release ${count.stopped} robots"
+        title="Hold for 0.6 s" @pointerdown=${this.press} @pointerup=${this.lift} @pointercancel=${this.lift} @blur=${this.lift}
+        @contextmenu=${(event: Event) => event.preventDefault()}
+        @keydown=${(event: KeyboardEvent) => key(event, () => { if (!event.repeat) this.press(event); })}
+        @keyup=${(event: KeyboardEvent) => key(event, () => this.lift())}>
+      <svg width="24" height="24" viewBox="0 0 24 24" aria-hidden="true"><circle cx="12" cy="12" r="9" class="ring"/>
+        <circle cx="12" cy="12" r="9" class="done" stroke-dasharray="${share * turn} ${turn}" transform="rotate(-90 12 12)"/></svg>
+      <span><b>Hold to release</b><small>${count.stopped} ${count.stopped === 1 ? 'robot' : 'robots'}${large ? `, ${when}` : ''}</small></span></button>`;
+  }
+
+  static override styles = [
+    controls,
+    css`
+      :host { display: flex; gap: 8px; flex: none; }
+      .stop, .view-only, .release { display: flex; align-items: center; justify-content: center; gap: 12px; min-width: var(--w-stop); height: 60px; border-radius: var(--r-6); text-align: left; flex: none; touch-action: none; user-select: none; }
+      .stop { background: var(--stop-fill); border: 1px solid var(--stop-edge); color: #fff; }
+      .stop:active { filter: brightness(.88); }
+      .stop b { display: block; font-size: var(--fs-20); line-height: 1.1; letter-spacing: .02em; }
+      small { display: block; font-size: var(--fs-12); white-space: nowrap; }
+      .release { padding: 0 14px; border: 2px solid var(--danger); background: var(--bg-1); color: var(--danger); }
+      .release:hover { background: var(--danger-soft); }
+      .release b { display: block; font-size: var(--fs-13); font-weight: var(--fw-strong); white-space: nowrap; }
+      .release small { color: var(--text-1); font-size: var(--fs-11); }
+      circle { fill: none; stroke-width: 3; }
+      .ring { stroke: var(--bg-4); }
+      .done { stroke: var(--danger); }
+      .view-only { border: 1px dashed var(--line-2); color: var(--text-2); font-size: var(--fs-13); }
+      .view-only small { color: var(--text-3); }
+      .spoken { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
+      @media (max-width: 599px) { .stop, .view-only, .release { min-width: 140px; } .release:not(.large) { min-width: 0; padding: 0 8px; } .release:not(.large) span { display: none; } }
+    `,
+  ];
+}
+
+customElements.define('rave-stop', StopButton);

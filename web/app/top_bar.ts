@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
+import type {PanelContext} from '../panel_api';
+import type {Person} from '../protocol/messages';
+import './bell';
+import {icon} from './icons';
+import {logo} from './logo';
+import {controls} from './styles';
+import {initials, roleText, sizeText, startedText} from './words';
+
+const kFaces = 3;
+const kSlow_hz = 10;
+
+/** The run and its state, find, the line, people, alerts, role. */
+export class TopBar extends LitElement {
+  declare context: PanelContext;
+  private readonly ends: (() => void)[] = [];
+
+  override connectedCallback(): void {
+    super.connectedCallback();
+    const {model, link, palette} = this.context;
+    const update = () => this.requestUpdate();
+    for (const signal of [model.runChanged, model.timeChanged, model.peopleChanged, link.changed, palette.changed]) this.ends.push(signal.on(update));
+  }
+
+  override disconnectedCallback(): void {
+    super.disconnectedCallback();
+    for (const end of this.ends.splice(0)) end();
+  }
+
+  /** The state in a word, and the class that gives it its colour. */
+  private state(): [string, string] {
+    const {model, link} = this.context;
+    if (link.state === 'lost') return ['Link lost', 'lost'];
+    if (model.hello === null) return ['Opening', 'opening'];
+    if (!model.live) return ['Replay', 'replay'];
+    if (model.time?.state === 'waiting') return ['Waits', 'waits'];
+    if (model.time?.state === 'paused') return ['Paused', 'waits'];
+    return model.time?.state === 'ended' ? ['Ended', 'opening'] : ['Live', 'live'];
+  }
+
+  private about(): string {
+    const {model} = this.context;
+    const run = model.hello?.run;
+    if (run === undefined) return '';
+    if (!model.live) return [run.started && startedText(run.started), run.hash && `hash ${run.hash.slice(0, 8)}`].filter(Boolean).join(', ');
+    const hosts = model.hosts.length > 1 ? `, ${model.hosts.length} hosts` : '';
+    return (run.clock === 'lock_step' ? 'lock-step' : 'real time') + hosts;
+  }
+
+  override render(): TemplateResult {
+    const {model, palette} = this.context;
+    const run = model.hello?.run;
+    const [word, look] = this.state();
+    const ask = (name: string) => this.dispatchEvent(new CustomEvent(name));
+    return html`
+      <span class="brand">${logo()}<b>RAVE</b></span><i class="rule"></i>
+      <h1>${run?.name ?? ''}</h1>
+      <span class="state ${look}" role="status">${look === 'replay' ? icon('rotateCcw', 13) : html`<i></i>`}${word}</span>
+      <span class="about">${this.about()}</span>
+      <span class="space"></span>
+      <button class="find" aria-label="Find a robot, panel or moment" @click=${() => ask('find')}>${icon('search', 15)}<span>Find a robot, panel or moment</span><kbd>Ctrl K</kbd></button>
+      <span class="space"></span>
+      ${run?.recording && !model.live ? html`<span class="chip wide">${icon('fileText', 14)} ${run.recording.name} ${sizeText(run.recording.bytes)}${run.recording.whole ? '' : ', cut off'}</span>` : nothing}
+      ${this.renderRate()}
+      ${this.renderPeople()}
+      <rave-bell .context=${this.context}></rave-bell>
+      <button class="icon-button theme" title="Light or dark" aria-label="Light or dark" @click=${() => ask('theme')}>${icon(palette.theme === 'dark' ? 'sun' : 'moon')}</button>
+      ${model.hello ? html`<i class="rule"></i><span class="person">${face(model.hello.user, true)}<span>${roleText(model.hello.user.role)}</span></span>` : nothing}`;
+  }
+
+  private renderRate(): TemplateResult {
+    const {link, model} = this.context;
+    const slow = model.time?.state === 'running' && link.state === 'open' && link.rate_hz < kSlow_hz;
+    return html`<span class="chip rate ${slow ? 'slow' : ''}" title="Pictures per second, and how much comes over the line">${icon('activity', 14)}
+      ${link.rate_hz} Hz <em>${sizeText(link.bytesPerSecond)}/s</em></span>`;
+  }
+
+  private renderPeople(): TemplateResult | typeof nothing {
+    const {people} = this.context.model;
+    if (people.length < 2) return nothing;
+    const title = people.map((person) => `${person.name}, ${roleText(person.role)}`).join('\n');
+    return html`<span class="people" title=${title} role="img" aria-label="${people.length} people watch">
+      ${people.slice(0, kFaces).map((person) => face(person, false))}
+      ${people.length > kFaces ? html`<i class="face">+${people.length - kFaces}</i>` : nothing}</span>`;
+  }
+
+  static override styles = [
+    controls,
+    css`
+      :host { display: flex; align-items: center; gap: 10px; height: var(--h-topbar); flex: none; padding: 0 14px; }
+      .brand { display: flex; align-items: center; gap: 8px; letter-spacing: .04em; }
+      .rule { width: 1px; height: 20px; background: var(--line-2); }
+      h1 { margin: 0; font-size: var(--fs-15); font-weight: var(--fw-strong); white-space: nowrap; overflow: hidden; text-overflow: ellipsis; }
+      .state { display: inline-flex; align-items: center; gap: 6px; height: 22px; padding: 0 10px; border-radius: var(--r-full); font-size: var(--fs-12); background: var(--ok-soft); color: var(--ok); white-space: nowrap; }
+      .state i { width: 7px; height: 7px; border-radius: 50%; background: currentColor; }
+      .state.replay { background: var(--intent-soft); color: var(--intent); }
+      .state.waits { background: var(--warn-soft); color: var(--warn); }
+      .state.lost { background: var(--danger-soft); color: var(--danger); }
+      .state.opening { background: var(--bg-2); color: var(--text-2); }
+      .about { color: var(--text-2); font-size: var(--fs-12); white-space: nowrap; }
+      .space { flex: 1; }
+      .find { display: flex; align-items: center; gap: 8px; flex: 0 1 300px; min-width: 40px; height: 30px; padding: 0 8px; border: 1px solid var(--line-2); border-radius: var(--r-3); background: var(--bg-1); color: var(--text-3); font-size: var(--fs-12); overflow: hidden; }
+      .find span { flex: 1; text-align: left; white-space: nowrap; overflow: hidden; text-overflow: ellipsis; }
+      kbd { padding: 0 6px; border: 1px solid var(--line-2); border-radius: var(--r-2); background: var(--bg-2); color: var(--text-2); font: 500 var(--fs-11) var(--font-ui); white-space: nowrap; }
+      .rate em { font-style: normal; color: var(--text-3); }
+      .rate.slow { background: var(--warn-soft); color: var(--warn); }
+      .person { display: flex; align-items: center; gap: 8px; font-size: var(--fs-12); white-space: nowrap; }
+      .people { display: flex; }
+      .face { display: grid; place-items: center; width: 24px; height: 24px; border-radius: 50%; background: var(--bg-4); color: var(--text-1); font-style: normal; font-size: 10px; font-weight: 600; }
+      .face.you { background: var(--intent-fill); color: #fff; }
+      .people .face { margin-left: -4px; box-shadow: 0 0 0 2px var(--bg-0); }
+      @media (max-width: 1100px) { .about, .rate em, .wide { display: none; } }
+      @media (max-width: 800px) { .people, .rule { display: none; } .person span { display: none; } }
+      @media (max-width: 599px) {
+        :host { padding: 0 10px; height: 52px; } .brand b, .find span, .find kbd, .rate { display: none; }
+        .find { flex: none; width: 40px; height: 40px; justify-content: center; background: none; border-color: transparent; }
+        .space:first-of-type { display: none; } h1 { flex: 0 1 auto; }
+      }
+    `,
+  ];
+}
+
+function face(person: Person, you: boolean): TemplateResult {
+  return html`<i class="face ${you ? 'you' : ''}" aria-hidden="true">${initials(person.name)}</i>`;
+}
+
+customElements.define('rave-top-bar', TopBar);

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// How numbers, names and dates are said in the bars of the page.
+
+export function sizeText(bytes: number): string {
+  if (bytes < 1000) return `${bytes} B`;
+  if (bytes < 1e6) return `${(bytes / 1e3).toFixed(0)} kB`;
+  return bytes < 1e9 ? `${(bytes / 1e6).toFixed(1)} MB` : `${(bytes / 1e9).toFixed(2)} GB`;
+}
+
+/** ISO 8601 as `today 12:03` or `3 Aug 2026 12:03`. */
+export function startedText(started: string): string {
+  const date = new Date(started);
+  if (Number.isNaN(date.getTime())) return started;
+  const today = new Date().toDateString() === date.toDateString();
+  const day = today ? 'today' : date.toLocaleDateString('en-GB', {day: 'numeric', month: 'short', year: 'numeric'});
+  return `${day} ${String(date.getHours()).padStart(2, '0')}:${String(date.getMinutes()).padStart(2, '0')}`;
+}
+
+export function initials(name: string): string {
+  const words = name.split(/[\s._-]+/).filter(Boolean);
+  return (words.length > 1 ? words[0][0] + words[1][0] : name.slice(0, 2)).toUpperCase();
+}
+
+export function roleText(role: string): string {
+  return {observer: 'Observer', commander: 'Commander', super_user: 'Super-User'}[role] ?? role;
+}

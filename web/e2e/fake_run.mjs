@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// A made-up run of any size, as messages and frames of the GUI Server, for tests of the page alone.
+
+const kTeams = ['north', 'south', 'east', 'scouts'];
+const kRange_m = 4;
+const kRays = 61;
+const kPoseHeader = 48;
+
+/** A roster of `count` robots: the first `real` of them are real and have a laser. */
+export function makeRobots(count, real = 5) {
+  return Array.from({length: count}, (_, i) => {
+    const isReal = i < real;
+    return {
+      name: isReal ? `real-${i + 1}` : `walker-${i + 1 - real}`,
+      team: isReal ? 'utias' : kTeams[i % kTeams.length],
+      kind: isReal ? 'real' : 'simulated', word: '', recorded: false, program: 'wander', drivers: ['create'],
+      host: `host-${(i % 3) + 1}`,
+      shapes: [{disc: [0, 0, 0.17], z: [0, 0.12]}, ...(isReal ? [{disc: [0, 0, 0.04], z: [0.12, 0.5]}] : [])],
+      sensors: isReal || count <= 64 ? [laser()] : [],
+    };
+  });
+}
+
+function laser() {
+  const bearings = Array.from({length: kRays}, (_, i) => -2 + (4 * i) / (kRays - 1));
+  return {name: 'laser', kind: 'ranges', origin: 'virtual', driver: 'virtual_laser', mount: [0.1, 0, 0], z: 0.2,
+    period_s: 0.1, range: [0.05, kRange_m], bearings, fields: ['range [m]']};
+}
+
+export function makeBodies(half_m) {
+  const box = (w, h) => [[-w, -h], [w, -h], [w, h], [-w, h]];
+  return [
+    {id: 1, name: 'crate', kind: 'virtual', pose: [-half_m / 3, half_m / 4, 0.4], shapes: [{polygon: box(0.5, 0.3), z: [0, 0.5]}]},
+    {id: 2, name: 'pond', kind: 'virtual', pose: [half_m / 3, -half_m / 3, 0], shapes: [{disc: [0, 0, 0.5], z: [0, 0.3]}]},
+    {id: 3, name: 'tube-1', kind: 'landmark', pose: [0, half_m / 2, 0], shapes: [{disc: [0, 0, 0.04], z: [0, 0.7]}], barcode: 23},
+    {id: 4, name: 'wall', kind: 'wall', pose: [0, -half_m, 0], shapes: [{polygon: box(half_m, 0.05), z: [0, 1]}]},
+  ];
+}
+
+/** Robots on circles of their own about the middle of their team. */
+export class FakeRun {
+  constructor(count, options = {}) {
+    this.robots = makeRobots(count, options.real ?? Math.min(5, count));
+    this.half_m = Math.max(4, 0.6 * Math.sqrt(count));
+    this.bodies = makeBodies(this.half_m);
+    this.name = options.name ?? 'fake';
+    this.duration_s = options.duration_s ?? 120;
+    this.source = options.source ?? 'live';
+    this.may = options.may ?? ['play', 'pace', 'step', 'stop', 'release', 'readings', 'obstacles', 'log'];
+    this.role = options.role ?? 'commander';
+    this.now_s = options.now_s ?? 0;
+    this.state = 'running';
+    this.reason = '';
+    this.pace = 1;
+    this.stopped = new Set();
+    this.hosts = null;
+    this.events = [{t: 0, until: 0, count: 1, kind: 'begin', level: 'info', text: `Run begins: ${count} robots`, slots: []}];
+    this.travelled = this.robots.map(() => 0);
+  }
+
+  hello() {
+    const why = {seek: 'A live run cannot be moved in time.', play: 'Only a super-user holds the run.', stop: 'Observers do not stop robots.'};
+    const every = ['play', 'seek', 'pace', 'step', 'stop', 'release', 'true_pose', 'readings', 'hybrid_parts', 'obstacles', 'log', 'recording'];
+    const why_not = Object.fromEntries(every.filter((power) => !this.may.includes(power)).map((power) => [power, why[power] ?? 'Not given to this role.']));
+    return {type: 'hello', protocol: 1, server: 'fake 0', user: {name: 'Ada N', role: this.role}, may: this.may, why_not,
+      run: {name: this.name, source: this.source, clock: 'lock_step', started: '', step_s: 0.01, seed: 1, hash: null, recording: null}};
+  }
+
+  time() {
+    return {type: 'time', now_s: this.now_s, step: Math.round(this.now_s * 100), begin_s: 0, duration_s: this.duration_s,
+      end_s: this.source === 'live' ? this.now_s : this.duration_s, state: this.state, reason: this.reason,
+      pace: this.pace, speed: this.state === 'running' ? this.pace : 0};
+  }
+
+  opening() {
+    const all = this.may.includes('obstacles');
+    const bodies = this.bodies.filter((body) => all || body.kind !== 'virtual');
+    return [this.hello(), {type: 'scene', bodies, hidden: all ? [] : ['virtual']},
+      {type: 'roster', revision: 1, robots: this.robots},
+      {type: 'events', reset: true, first: 0, events: this.events}, this.time(),
+      ...(this.hosts ? [{type: 'hosts', hosts: this.hosts}] : []),
+      {type: 'people', people: [{name: 'Ada N', role: this.role}, {name: 'Ben K', role: 'observer'}]}];
+  }
+
+  advance(seconds) {
+    if (this.state !== 'running') return;
+    this.now_s += seconds * this.pace;
+    this.robots.forEach((_, i) => { if (!this.stopped.has(i)) this.travelled[i] += seconds * this.pace; });
+  }
+
+  place(i) {
+    const team = i % kTeams.length;
+    const golden = i * 2.399963;
+    const spread = 0.55 * Math.sqrt(i / kTeams.length + 1);
+    const cx = this.half_m * 0.45 * Math.cos((team * Math.PI) / 2 + 0.5) + spread * Math.cos(golden);
+    const cy = this.half_m * 0.45 * Math.sin((team * Math.PI) / 2 + 0.5) + spread * Math.sin(golden);
+    const a = golden + (0.2 * this.travelled[i]) / 0.4;
+    return [cx + 0.4 * Math.cos(a), cy + 0.4 * Math.sin(a), a + Math.PI / 2];
+  }
+
+  frame(sequence) {
+    const n = this.robots.length;
+    const buffer = new ArrayBuffer(kPoseHeader + 14 * n);
+    const view = new DataView(buffer);
+    view.setUint8(0, 1);
+    view.setUint16(2, 1, true);
+    view.setUint32(4, sequence, true);
+    view.setFloat64(8, this.now_s, true);
+    view.setUint32(16, Math.round(this.now_s * 100), true);
+    view.setUint32(20, n, true);
+    view.setFloat32(40, 1e-4, true);
+    const xy = new Int32Array(buffer, kPoseHeader, 2 * n);
+    const yaw = new Uint16Array(buffer, kPoseHeader + 8 * n, n);
+    const speed = new Int16Array(buffer, kPoseHeader + 10 * n, n);
+    const flags = new Uint16Array(buffer, kPoseHeader + 12 * n, n);
+    const turn = 2 * Math.PI;
+    for (let i = 0; i < n; ++i) {
+      const [x, y, a] = this.place(i);
+      xy[i] = Math.round(x / 1e-4);
+      xy[n + i] = Math.round(y / 1e-4);
+      yaw[i] = Math.round(((((a % turn) + turn) % turn) / turn) * 65536) & 0xffff;
+      const stopped = this.stopped.has(i);
+      speed[i] = stopped || this.state !== 'running' ? 0 : 200;
+      flags[i] = 1 + (stopped ? 4 : 0) + (this.robots[i].kind === 'real' ? 16 : 0);
+    }
+    return buffer;
+  }
+
+  reading(slot, sensor) {
+    const buffer = new ArrayBuffer(32 + 4 * kRays);
+    const view = new DataView(buffer);
+    view.setUint8(0, 2);
+    view.setUint16(2, sensor, true);
+    view.setUint32(4, slot, true);
+    view.setFloat64(8, this.now_s, true);
+    view.setFloat64(16, this.now_s, true);
+    view.setUint32(24, kRays, true);
+    view.setUint32(28, 1, true);
+    for (let i = 0; i < kRays; ++i) view.setFloat32(32 + 4 * i, i % 20 < 12 ? Infinity : 1 + 0.05 * (i % 7), true);
+    return buffer;
+  }
+}

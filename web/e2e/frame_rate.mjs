@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Frames per second of the World View in headless Chromium with software GL, for made-up runs:
+// node frame_rate.mjs PAGE [ROBOTS ...]. Prints one line of JSON for each number of robots.
+import {loadavg} from 'node:os';
+import {launch} from './browser.mjs';
+import {FakeRun} from './fake_run.mjs';
+import {serveFake} from './fake_server.mjs';
+
+const [built, ...counts] = process.argv.slice(2);
+const kWarm_ms = 3000;
+const kMeasured_ms = Number(process.env.RAVE_MEASURE_MS ?? 8000);
+const kViewport = {width: 1600, height: 1000};
+
+/** Counts pictures of the World View, and how long the main thread worked on each. */
+async function measure(page) {
+  return page.evaluate(async (span_ms) => {
+    const world = document.querySelector('rave-world');
+    const app = document.querySelector('rave-app');
+    const [painted, paint_ms] = [world.painted, world.paint_ms];
+    let ticks = 0;
+    let longest_ms = 0;
+    const begin = performance.now();
+    let last = begin;
+    await new Promise((resolve) => {
+      const tick = (now) => {
+        ++ticks;
+        longest_ms = Math.max(longest_ms, now - last);
+        last = now;
+        if (performance.now() - begin < span_ms) requestAnimationFrame(tick);
+        else resolve();
+      };
+      requestAnimationFrame(tick);
+    });
+    const seconds = (performance.now() - begin) / 1000;
+    const pictures = world.painted - painted;
+    return {
+      robots: app.model.robots.length, pictures_per_s: pictures / seconds, browser_frames_per_s: ticks / seconds,
+      main_thread_ms: (world.paint_ms - paint_ms) / Math.max(pictures, 1), longest_ms, received_hz: app.link.rate_hz,
+      view: world.viewpoint().split(',')[0],
+    };
+  }, kMeasured_ms);
+}
+
+const browser = await launch();
+for (const count of counts.length > 0 ? counts.map(Number) : [16, 1000, 10000]) {
+  const server = await serveFake(built, new FakeRun(count, {now_s: 20}));
+  const page = await (await browser.newContext({viewport: kViewport})).newPage();
+  if (process.env.RAVE_VIEW) await page.addInitScript((mode) => localStorage.setItem('rave.world.mode', mode), process.env.RAVE_VIEW);
+  await page.goto(server.origin);
+  await page.waitForTimeout(kWarm_ms);
+  const result = await measure(page);
+  for (const key of Object.keys(result)) if (typeof result[key] === 'number') result[key] = Number(result[key].toFixed(1));
+  console.log(JSON.stringify({...result, load: Number(loadavg()[0].toFixed(1))}));
+  await page.close();
+  await server.end();
+}
+await browser.close();
+process.exit(0);

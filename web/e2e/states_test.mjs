@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// All states of a page, of a made-up run: node states_test.mjs PAGE FOLDER
+import assert from 'node:assert/strict';
+import {execFileSync} from 'node:child_process';
+import {mkdirSync, writeFileSync} from 'node:fs';
+import {join} from 'node:path';
+import {launch} from './browser.mjs';
+import {app, check, report, showFailures, until, untilHere, watch} from './checks.mjs';
+import {FakeRun} from './fake_run.mjs';
+import {serveFake} from './fake_server.mjs';
+
+const [built, folder] = process.argv.slice(2);
+mkdirSync(folder, {recursive: true});
+const run = new FakeRun(16, {now_s: 5});
+let server = await serveFake(built, run);
+const port = Number(new URL(server.origin).port);
+const browser = await launch();
+const heard = (type, what) => server.heard.filter((message) => message.type === type && (what === undefined || message.do === what));
+try {
+  const page = await (await browser.newContext({viewport: {width: 1400, height: 900}})).newPage();
+  showFailures(page, join(folder, 'failed.png'));
+  const seen = watch(page, server.origin);
+  const said = [];
+  page.on('websocket', (socket) => {
+    for (const way of ['framereceived', 'framesent']) socket.on(way, ({payload}) => typeof payload === 'string' && said.push(JSON.parse(payload)));
+  });
+  await page.goto(server.origin);
+  await until(page, `${app}?.model?.poses?.newest !== null`);
+
+  await check('a live run goes on by itself, without a knob', async () => {
+    await page.getByText('Live', {exact: true}).waitFor();
+    assert.equal(await page.locator('rave-timeline .knob').count(), 0);
+    assert.equal(await page.locator('rave-timeline .head').count(), 1);
+    const before = await page.evaluate(`${app}.model.poses.newest.time_s`);
+    await until(page, `${app}.model.poses.newest.time_s > ${before} + 0.3`);
+  });
+
+  await check('the time of a live run cannot be chosen', async () => {
+    const box = await page.locator('rave-timeline .line').boundingBox();
+    await page.mouse.click(box.x + 20, box.y + 30);
+    await page.waitForTimeout(100);
+    assert.deepEqual(heard('transport', 'seek'), []);
+    assert.equal(await page.locator('rave-timeline .line').getAttribute('title'), 'A live run cannot be moved in time.');
+  });
+
+  await check('one click stops all robots; a short press releases nobody, a long one does', async () => {
+    await page.getByText('STOP', {exact: true}).click();
+    await untilHere(page, () => run.stopped.size === 16, 'all stopped');
+    const release = page.getByRole('button', {name: 'Hold to release 16 robots'});
+    await release.waitFor();
+    await release.click({delay: 100});
+    await page.waitForTimeout(200);
+    assert.equal(run.stopped.size, 16);
+    await release.hover();
+    await page.mouse.down();
+    await untilHere(page, () => run.stopped.size === 0, 'released');
+    await page.mouse.up();
+    await page.getByText('STOP', {exact: true}).waitFor();
+  });
+
+  await check('one Space does nothing, two stop', async () => {
+    await page.locator('rave-world .canvas').focus();
+    await page.keyboard.press(' ');
+    await page.getByText('Space again').waitFor();
+    await page.waitForTimeout(900);
+    assert.equal(run.stopped.size, 0);
+    await page.keyboard.press(' ');
+    await page.keyboard.press(' ');
+    await untilHere(page, () => run.stopped.size === 16, 'all stopped');
+    await page.getByText(/stopped by you at/).waitFor();
+    run.stopped.clear();
+  });
+
+  await check('pause, step and pace reach the server', async () => {
+    await page.keyboard.press('k');
+    await page.getByText('Paused', {exact: true}).waitFor();
+    await page.keyboard.press('.');
+    await untilHere(page, () => heard('transport', 'step').length === 1, 'step');
+    await page.getByRole('radio', {name: 'Max'}).click();
+    await untilHere(page, () => heard('transport', 'pace').some((message) => message.value === 0), 'pace');
+    run.pace = 1;
+    await page.keyboard.press('k');
+    await page.getByText('Live', {exact: true}).waitFor();
+  });
+
+  await check('a run that waits says for whom', async () => {
+    Object.assign(run, {state: 'waiting', reason: 'Waiting for host-3: no answer for 2.9 s (limit 10 s).'});
+    server.say(run.time());
+    await page.getByText('Waiting for host-3').waitFor();
+    Object.assign(run, {state: 'running', reason: ''});
+    server.say(run.time());
+  });
+
+  await check('bodies come, move and go', async () => {
+    server.say({type: 'scene_change', set: [{id: 9, name: 'cone', kind: 'virtual', pose: [1, 1, 0], shapes: [{disc: [0, 0, 0.2], z: [0, 0.4]}]}], gone: [1]});
+    await until(page, `${app}.model.bodies.has(9) && !${app}.model.bodies.has(1)`);
+  });
+
+  await check('hosts are listed', async () => {
+    server.say({type: 'hosts', hosts: [{name: 'host-3', machine: 'lab-3', state: 'late', late_s: 2.9, real: 0, simulated: 5, step: 1461, steps_per_s: 0, delay_s: 0.000225, cpu: 0, lost: 2}]});
+    await page.locator('.dv-tab', {hasText: 'Hosts'}).click();
+    await page.getByText('late 2.9 s', {exact: true}).waitFor();
+    await page.getByText('225 µs').waitFor();
+  });
+
+  await check('T shows the world in perspective, and a click picks there, too', async () => {
+    await page.keyboard.press('Escape');
+    await page.keyboard.press('t');
+    await until(page, `document.querySelector('rave-world').viewpoint().startsWith('3d')`);
+    await page.keyboard.press('k');
+    await page.waitForTimeout(500);
+    await page.evaluate(`document.querySelector('rave-world').lookFrom('3d,0,0,9,-1.6,1.3')`);
+    await page.waitForTimeout(1000);
+    const at = await page.evaluate(() => {
+      const world = document.querySelector('rave-world');
+      const box = world.renderRoot.querySelector('.canvas').getBoundingClientRect();
+      const [x, y] = world.screenOf(2);
+      return [box.left + x, box.top + y];
+    });
+    await page.mouse.click(...at);
+    await until(page, `${app}.selection.primary === 2`);
+    await page.keyboard.press('k');
+    await page.keyboard.press('t');
+    await until(page, `document.querySelector('rave-world').viewpoint().startsWith('top')`);
+  });
+
+  await check('the end of the run turns into its replay; selection and camera stay', async () => {
+    await page.evaluate(`${app}.selection.set([3])`);
+    await page.mouse.move(700, 400);
+    await page.mouse.wheel(0, -300);
+    const scale = await page.evaluate(`document.querySelector('rave-world').viewpoint()`);
+    const robots = [...run.robots].reverse();
+    server.turnInto({source: 'replay', robots, may: ['play', 'seek', 'pace', 'step', 'readings', 'log', 'recording', 'obstacles']});
+    await page.getByText('Replay', {exact: true}).waitFor();
+    await page.getByText('this is a recording').waitFor();
+    assert.equal(await page.locator('rave-timeline .knob').count(), 1);
+    assert.equal(await page.evaluate(`${app}.selection.primary`), 12);
+    assert.equal(await page.evaluate(`document.querySelector('rave-world').viewpoint()`), scale);
+    await page.keyboard.press('Control+k');
+    await page.keyboard.type('3.5');
+    await page.keyboard.press('Enter');
+    await untilHere(page, () => heard('transport', 'seek').some((message) => message.value === 3.5), 'seek');
+  });
+
+  await check('a server that comes back is reached without a reload', async () => {
+    const mark = await page.evaluate('window.mark = 7');
+    await server.end();
+    await page.getByText(/Link lost/).first().waitFor();
+    const again = new FakeRun(16, {now_s: 50, may: ['readings', 'log'], role: 'observer'});
+    server = await serveFake(built, again, port);
+    await page.getByText('Live', {exact: true}).waitFor();
+    assert.equal(await page.evaluate('window.mark'), mark);
+    await page.getByText('observers do not stop').waitFor();
+    assert.equal(await page.locator('rave-stop button').count(), 0);
+    await page.getByText('virtual obstacles').waitFor();
+  });
+
+  await check('every message is as the schema describes it', async () => {
+    const file = join(folder, 'messages.json');
+    writeFileSync(file, JSON.stringify(said));
+    execFileSync('python3', [new URL('check_messages.py', import.meta.url).pathname, file], {stdio: 'inherit'});
+  });
+
+  await check('nothing was asked of another origin, and nothing was complained of', async () => {
+    assert.deepEqual(seen.foreign, []);
+    assert.deepEqual(seen.errors.filter((text) => !/WebSocket|ERR_CONNECTION_REFUSED/.test(text)), []);
+  });
+} finally {
+  await browser.close();
+}
+report();
+process.exit(0);

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+import {describe, expect, it} from 'vitest';
+import type {Body, Hello, Time} from '../protocol/messages';
+import {RunModel} from './run_model';
+
+function hello(source: 'live' | 'replay', may: Hello['may']): Hello {
+  return {
+    type: 'hello', protocol: 1, server: 'test', user: {name: 'a', role: 'commander'}, may, why_not: {seek: 'It goes on.'},
+    run: {name: 'r', source, clock: 'lock_step', started: '', step_s: 0.01, seed: 1, hash: null, recording: null},
+  };
+}
+
+const kTime: Time = {
+  type: 'time', now_s: 9, step: 900, begin_s: 0, end_s: 9, duration_s: 60, state: 'running', reason: '', pace: 1, speed: 1,
+};
+
+function body(id: number, x: number): Body {
+  return {id, name: `b${id}`, kind: 'virtual', pose: [x, 0, 0], shapes: []};
+}
+
+describe('a live run', () => {
+  it('cannot be moved in time, with the reason of the server', () => {
+    const model = new RunModel();
+    model.takeMessage(hello('live', ['stop']));
+    expect(model.live).toBe(true);
+    expect(model.may('seek')).toBe(false);
+    expect(model.whyNot('seek')).toBe('It goes on.');
+    expect(model.whyNot('stop')).toBe('');
+  });
+
+  it('becomes its recording on the same connection', () => {
+    const model = new RunModel();
+    model.takeMessage(hello('live', ['stop']));
+    model.takeMessage(kTime);
+    model.takeMessage({type: 'events', reset: false, first: 0, events: []});
+    model.takeMessage({type: 'hosts', hosts: []});
+    model.takeMessage(hello('replay', ['seek']));
+    expect(model.live).toBe(false);
+    expect(model.may('seek')).toBe(true);
+    expect(model.time).toBeNull();
+    expect(model.events).toEqual([]);
+  });
+});
+
+describe('bodies', () => {
+  it('come, move and go', () => {
+    const model = new RunModel();
+    let told = 0;
+    model.sceneChanged.on(() => ++told);
+    model.takeMessage({type: 'scene', bodies: [body(1, 0), body(2, 0)], hidden: []});
+    model.takeMessage({type: 'scene_change', set: [body(2, 5), body(3, 1)], gone: [1]});
+    expect([...model.bodies.keys()]).toEqual([2, 3]);
+    expect(model.bodies.get(2)?.pose[0]).toBe(5);
+    expect(told).toBe(2);
+  });
+});

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+import {RobotFlag} from '../protocol/frames';
+import type {RunModel} from './run_model';
+
+/** How long a release is held, so that no slip of a finger sets robots in motion. */
+export const kHold_ms = 600;
+/** Two presses of Space within this time are a STOP. */
+export const kTwice_ms = 600;
+
+/** How many robots there are to stop, and who stands already. */
+export interface StopCount {
+  robots: number;
+  stopped: number;
+  /** Nobody is left who could be stopped: the button releases. */
+  latched: boolean;
+}
+
+/** Recorded robots obey nobody, so they do not keep the others from counting as all. */
+export function countStopped(model: RunModel): StopCount {
+  const flags = model.poses.newest?.flags;
+  let stopped = 0;
+  let moving = 0;
+  model.robots.forEach((robot, slot) => {
+    if (((flags?.[slot] ?? 0) & RobotFlag.stopped) !== 0) ++stopped;
+    else if (!robot.recorded) ++moving;
+  });
+  return {robots: model.robots.length, stopped, latched: stopped > 0 && moving === 0};
+}
+
+/** A press that counts only after it was held for long enough. */
+export class Hold {
+  private since_ms: number | null = null;
+
+  constructor(private readonly needed_ms = kHold_ms) {}
+
+  get pressed(): boolean {
+    return this.since_ms !== null;
+  }
+
+  press(now_ms: number): void {
+    this.since_ms ??= now_ms;
+  }
+
+  lift(): void {
+    this.since_ms = null;
+  }
+
+  /** From 0 to 1, where it counts. */
+  share(now_ms: number): number {
+    return this.since_ms === null ? 0 : Math.min((now_ms - this.since_ms) / this.needed_ms, 1);
+  }
+}
+
+/** Whether a key was pressed twice in a short time. */
+export class Twice {
+  private last_ms = -Infinity;
+
+  /** True on the second press. */
+  press(now_ms: number): boolean {
+    const second = now_ms - this.last_ms <= kTwice_ms;
+    this.last_ms = second ? -Infinity : now_ms;
+    return second;
+  }
+}

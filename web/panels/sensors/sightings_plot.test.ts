@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+import {expect, it} from 'vitest';
+import type {Reading} from '../../protocol/frames';
+import type {Robot, Sensor} from '../../protocol/messages';
+import {pairsOf, sightingsOf} from './sightings_plot';
+import {twinOf} from './twin';
+
+function reading(...rows: [number, number, number][]): Reading {
+  return {slot: 0, sensor: 0, part: 0, stamp_s: 0, time_s: 0, rows: rows.length, fields: 3, values: Float32Array.from(rows.flat())};
+}
+
+it('pairs what was seen with what was expected by its code', () => {
+  const saw = reading([7, 1, 0], [9, 2, 0.5]);
+  expect(sightingsOf(saw)[1]).toEqual({code: 9, range_m: 2, bearing_rad: 0.5});
+  expect(pairsOf(saw, reading([9, 2.1, 0.5], [11, 3, 0]))).toBe(1);
+  expect(pairsOf(null, saw)).toBe(0);
+});
+
+it('finds the twin of a camera, both ways', () => {
+  const sensor = (name: string, kind: Sensor['kind'], origin: Sensor['origin']): Sensor => ({name, kind, origin, driver: '', mount: [0, 0, 0], z: 0, period_s: 0, fields: []});
+  const robot: Robot = {
+    name: 'a', team: '', kind: 'real', word: '', recorded: false, program: '', drivers: [], shapes: [],
+    sensors: [sensor('laser', 'ranges', 'virtual'), sensor('camera', 'sightings', 'real'), sensor('twin', 'sightings', 'virtual')],
+  };
+  expect([0, 1, 2].map((index) => twinOf(robot, index))).toEqual([null, 2, 1]);
+});

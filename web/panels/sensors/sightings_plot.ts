@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+import type {Palette} from '../../panel_api';
+import type {Reading} from '../../protocol/frames';
+import type {Sensor} from '../../protocol/messages';
+import {kFont, LabelPlacer, type Label} from '../world/labels';
+import {roundStep} from '../world/ticks';
+
+/** What carries a code. */
+export interface Named {
+  name: string;
+  colour: string;
+}
+
+/** A row of a reading of a camera: code, range, bearing. */
+interface Sighting {
+  code: number;
+  range_m: number;
+  bearing_rad: number;
+}
+
+const kLeast_rad = 0.3;
+const kMargin = {left: 34, right: 14, top: 10, bottom: 22};
+
+export function sightingsOf(reading: Reading | null): Sighting[] {
+  if (reading === null || reading.fields < 3) return [];
+  return Array.from({length: reading.rows}, (_, row) => {
+    const at = row * reading.fields;
+    return {code: reading.values[at], range_m: reading.values[at + 1], bearing_rad: reading.values[at + 2]};
+  });
+}
+
+/** How many codes are in both readings. */
+export function pairsOf(saw: Reading | null, expected: Reading | null): number {
+  const codes = new Set(sightingsOf(saw).map((one) => one.code));
+  return sightingsOf(expected).filter((one) => codes.has(one.code)).length;
+}
+
+/** Range over bearing: discs were seen, squares are expected, a line joins a pair. */
+export function drawSightingsPlot(
+  ctx: CanvasRenderingContext2D, width: number, height: number, sensor: Sensor, reading: Reading | null,
+  twin: Reading | null, named: (code: number) => Named, palette: Palette,
+): void {
+  const [saw, expected] = sensor.origin === 'virtual' ? [sightingsOf(twin), sightingsOf(reading)] : [sightingsOf(reading), sightingsOf(twin)];
+  const all = [...saw, ...expected];
+  const half = Math.max(kLeast_rad, ...all.map((one) => Math.abs(one.bearing_rad))) * 1.12;
+  const far = Math.max(1, ...all.map((one) => one.range_m)) * 1.1;
+  const x = (bearing: number) => kMargin.left + ((half - bearing) / (2 * half)) * (width - kMargin.left - kMargin.right);
+  const y = (range: number) => height - kMargin.bottom - (range / far) * (height - kMargin.top - kMargin.bottom);
+  drawAxes(ctx, width, half, far, x, y, palette);
+  const seen = new Map(saw.map((one) => [one.code, one]));
+  const placer = new LabelPlacer(width, height);
+  const labels: Label[] = [];
+  const label = (one: Sighting, rank: number) => {
+    const {name, colour} = named(one.code);
+    placer.block(x(one.bearing_rad), y(one.range_m), 4);
+    labels.push({text: name, x: x(one.bearing_rad), y: y(one.range_m), gap: 6, colour, weight: 400, rank});
+  };
+  for (const one of expected) {
+    const [px, py] = [x(one.bearing_rad), y(one.range_m)];
+    const pair = seen.get(one.code);
+    ctx.strokeStyle = palette.token('virtual-ink');
+    ctx.lineWidth = 1.25;
+    if (pair !== undefined) {
+      ctx.beginPath();
+      ctx.moveTo(px, py);
+      ctx.lineTo(x(pair.bearing_rad), y(pair.range_m));
+      ctx.stroke();
+    }
+    ctx.strokeRect(px - 3.5, py - 3.5, 7, 7);
+    label(one, 1);
+  }
+  const twinned = new Set(expected.map((one) => one.code));
+  for (const one of saw) {
+    ctx.fillStyle = named(one.code).colour;
+    ctx.beginPath();
+    ctx.arc(x(one.bearing_rad), y(one.range_m), 3, 0, 2 * Math.PI);
+    ctx.fill();
+    if (!twinned.has(one.code)) label(one, 0);
+  }
+  placer.draw(ctx, labels, palette.token('bg-1'));
+}
+
+function drawAxes(
+  ctx: CanvasRenderingContext2D, width: number, half: number, far: number, x: (bearing: number) => number, y: (range: number) => number,
+  palette: Palette,
+): void {
+  ctx.font = `400 10px ${kFont}`;
+  ctx.lineWidth = 1;
+  ctx.strokeStyle = palette.token('line-1');
+  ctx.fillStyle = palette.token('text-3');
+  ctx.textBaseline = 'middle';
+  ctx.textAlign = 'right';
+  const step = roundStep(far / 4);
+  for (let range = 0; range <= far; range += step) {
+    ctx.beginPath();
+    ctx.moveTo(kMargin.left, Math.round(y(range)) + 0.5);
+    ctx.lineTo(width - kMargin.right, Math.round(y(range)) + 0.5);
+    ctx.stroke();
+    ctx.fillText(range === 0 ? '0 m' : String(Number(range.toFixed(2))), kMargin.left - 5, y(range));
+  }
+  ctx.textAlign = 'center';
+  const degrees = roundStep((half * 180) / Math.PI / 2.2);
+  for (let k = -4; k <= 4; ++k) {
+    const bearing = (k * degrees * Math.PI) / 180;
+    if (Math.abs(bearing) > half) continue;
+    ctx.beginPath();
+    ctx.moveTo(Math.round(x(bearing)) + 0.5, y(far));
+    ctx.lineTo(Math.round(x(bearing)) + 0.5, y(0));
+    ctx.stroke();
+    ctx.fillText(`${k * degrees}°`.replace('-', '−'), x(bearing), y(0) + 12);
+  }
+}

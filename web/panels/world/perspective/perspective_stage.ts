@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+import {AmbientLight, Color, ColorManagement, DirectionalLight, Fog, LinearSRGBColorSpace, PCFSoftShadowMap, Scene, WebGLRenderer} from 'three';
+import {RobotFlag} from '../../../protocol/frames';
+import type {Bounds} from '../camera';
+import {radiusOf} from '../outlines';
+import {bytesOf, rampBytes} from '../ramp';
+import {shownReadings} from '../reading_layer';
+import type {Stage, StageContext} from '../stage';
+import {Surface} from '../surface';
+import type {Tone} from '../swarm';
+import {Tint} from '../tint';
+import {FlatLayer} from './flat_layer';
+import {Floor} from './floor';
+import {writeRings, writeScans, writeTrails} from './floor_marks';
+import {GlassRobots} from './glass_robots';
+import {Orbit} from './orbit';
+import {OrbitGestures} from './orbit_gestures';
+import {Overlay} from './overlay';
+import {topOf} from './prism';
+import {SolidRobots} from './solid_robots';
+import {StandingBodies} from './standing_bodies';
+
+const kShadow_px = 1024;
+const kFinger_px = 22;
+const kMouse_px = 10;
+
+// Colours are those of the tokens, mixed as a 2-D canvas mixes them.
+ColorManagement.enabled = false;
+
+/** The world in perspective: one scene of the same data that the top view draws. */
+export class PerspectiveStage implements Stage {
+  readonly element = document.createElement('div');
+  private readonly renderer = new WebGLRenderer({antialias: true, preserveDrawingBuffer: false});
+  private readonly over = document.createElement('canvas');
+  private readonly scene = new Scene();
+  private readonly orbit = new Orbit();
+  private readonly sun = new DirectionalLight('#ffffff', 2.2);
+  private readonly floor = new Floor();
+  private readonly bodies = new StandingBodies();
+  private readonly solid = new SolidRobots();
+  private readonly glass = new GlassRobots();
+  private readonly scans = new FlatLayer(0.006, 1);
+  private readonly trails = new FlatLayer(0.009, 1);
+  private readonly rings = new FlatLayer(0.012, 2);
+  private readonly overlay: Overlay;
+  private readonly tint = new Tint();
+  private surface: Surface | null = null;
+  private radii: number[] = [];
+  private tinted = '';
+  private floorKey = '';
+
+  constructor(private readonly context: StageContext) {
+    this.element.className = 'stage-3d';
+    this.element.append(this.renderer.domElement, this.over);
+    this.renderer.outputColorSpace = LinearSRGBColorSpace;
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = PCFSoftShadowMap;
+    this.sun.castShadow = true;
+    this.sun.shadow.mapSize.set(kShadow_px, kShadow_px);
+    this.sun.shadow.bias = -0.001;
+    this.scene.add(new AmbientLight('#ffffff', 1.5), this.sun, this.sun.target, this.floor.group, this.bodies.group, this.solid.group,
+      this.glass.group, this.scans.mesh, this.trails.mesh, this.rings.mesh);
+    this.overlay = new Overlay(context, this.orbit);
+    new OrbitGestures(this.element, context, this.orbit, (px, py) => this.slotAt(px, py));
+  }
+
+  refresh(): void {
+    const {model, palette} = this.context;
+    palette.assign(model.robots);
+    this.radii = model.robots.map((robot) => radiusOf(robot.shapes));
+    this.tint.refresh(model.robots);
+    this.surface = new Surface(model.bodies.values(), model.robots, palette);
+    this.bodies.refresh(model.bodies.values(), palette);
+    this.solid.refresh(model.robots, palette);
+    this.glass.refresh(model.robots);
+    this.tinted = this.floorKey = '';
+  }
+
+  resize(width: number, height: number): void {
+    this.renderer.setPixelRatio(devicePixelRatio);
+    this.renderer.setSize(width, height, false);
+    this.over.width = Math.round(width * devicePixelRatio);
+    this.over.height = Math.round(height * devicePixelRatio);
+    this.orbit.resize(width, height);
+    this.bodies.resize(width, height);
+  }
+
+  paint(now_ms: number): boolean {
+    const {context, orbit} = this;
+    const {placed, selection, model} = context;
+    const layers = context.layers();
+    const primary = selection.primary;
+    if (selection.following && primary !== null && primary < placed.count) [orbit.eye.x, orbit.eye.y] = [placed.x[primary], placed.y[primary]];
+    const going = orbit.advance(now_ms);
+    const shown = (slot: number) => !layers.hidden.includes(model.robots[slot].kind);
+    this.setFloor();
+    this.floor.show(layers.grid);
+    this.bodies.show(layers);
+    this.solid.update(placed, shown);
+    this.glass.update(placed, shown);
+    this.setTint();
+    if (this.surface !== null) this.surface.placed = placed;
+    const readings = shownReadings(model, selection, placed, layers);
+    writeScans(this.scans, context, readings);
+    writeTrails(this.trails, context, model.poses, (slot) => layers.trails && shown(slot));
+    writeRings(this.rings, context, (slot) => this.radii[slot] ?? 0.2);
+    this.renderer.render(this.scene, orbit.camera);
+    const ctx = this.over.getContext('2d');
+    if (ctx !== null) {
+      ctx.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
+      ctx.clearRect(0, 0, orbit.width, orbit.height);
+      this.overlay.draw(ctx, readings, this.surface, shown);
+    }
+    return going;
+  }
+
+  /** Floor, fog and sun fit the world; made anew when that grows or the theme changes. */
+  private setFloor(): void {
+    const bounds = this.bounds();
+    if (bounds === null) return;
+    const {palette} = this.context;
+    const round = (value: number) => Math.round(value / 10);
+    const key = [round(bounds.x0), round(bounds.y0), round(bounds.x1), round(bounds.y1), palette.theme].join();
+    const size = Math.max(bounds.x1 - bounds.x0, bounds.y1 - bounds.y0, 4);
+    const fog = this.scene.fog as Fog | null;
+    if (fog !== null) {
+      fog.near = this.orbit.eye.distance + 0.6 * size;
+      fog.far = this.orbit.eye.distance + 3 * size;
+    }
+    if (key === this.floorKey) return;
+    this.floorKey = key;
+    this.floor.refresh(bounds, palette);
+    this.scene.background = new Color(palette.token('floor-far'));
+    this.scene.fog = new Fog(palette.token('floor-far'), this.orbit.eye.distance + 0.6 * size, this.orbit.eye.distance + 3 * size);
+    const [x, y] = [(bounds.x0 + bounds.x1) / 2, (bounds.y0 + bounds.y1) / 2];
+    this.sun.target.position.set(x, y, 0);
+    this.sun.position.set(x - 0.55 * size, y - 0.1 * size, 0.9 * size);
+    const reach = 0.75 * size;
+    Object.assign(this.sun.shadow.camera, {left: -reach, right: reach, top: reach, bottom: -reach, near: 0.05 * size, far: 3 * size});
+    this.sun.shadow.camera.updateProjectionMatrix();
+  }
+
+  /** Colours of glass robots change only by the layer menu, and with what they are coloured by. */
+  private setTint(): void {
+    const {palette, model, placed} = this.context;
+    const by = this.context.layers().colourBy;
+    const key = by === 'kind' || by === 'team' ? `${by} ${palette.theme}` : `${by} ${palette.theme} ${Math.floor(placed.time_s * 4)}`;
+    if (key === this.tinted) return;
+    this.tinted = key;
+    const speeds = model.poses.newest?.speed;
+    this.glass.tint((slot): Tone => {
+      const share = by === 'kind' ? null : this.tint.share(by, slot, placed, speeds);
+      return share === null ? bytesOf(palette.hue(slot).ink) : rampBytes(share, palette.theme);
+    });
+  }
+
+  fit(animate: boolean): boolean {
+    const bounds = this.bounds();
+    if (bounds === null) return false;
+    this.orbit.fit(bounds, performance.now(), animate);
+    return true;
+  }
+
+  private bounds(): Bounds | null {
+    const {placed, model} = this.context;
+    const bounds: Bounds = {x0: Infinity, y0: Infinity, x1: -Infinity, y1: -Infinity};
+    const add = (x: number, y: number) => {
+      bounds.x0 = Math.min(bounds.x0, x - 0.3);
+      bounds.y0 = Math.min(bounds.y0, y - 0.3);
+      bounds.x1 = Math.max(bounds.x1, x + 0.3);
+      bounds.y1 = Math.max(bounds.y1, y + 0.3);
+    };
+    for (let slot = 0; slot < placed.count; ++slot) {
+      if ((placed.flags[slot] & RobotFlag.known) !== 0) add(placed.x[slot], placed.y[slot]);
+    }
+    for (const body of model.bodies.values()) if (body.kind !== 'wall' || placed.count === 0) add(body.pose[0], body.pose[1]);
+    return bounds.x0 <= bounds.x1 ? bounds : null;
+  }
+
+  private slotAt(px: number, py: number): number | null {
+    const {placed, model} = this.context;
+    const touch = matchMedia('(pointer: coarse)').matches ? kFinger_px : kMouse_px;
+    let best: number | null = null;
+    let least = Infinity;
+    for (let slot = 0; slot < placed.count; ++slot) {
+      if ((placed.flags[slot] & RobotFlag.known) === 0) continue;
+      const at = this.orbit.project(placed.x[slot], placed.y[slot], 0.4 * topOf(model.robots[slot].shapes));
+      if (at === null) continue;
+      const reach = Math.max(this.radii[slot] * this.orbit.pixelsPerMetre(at.distance), touch);
+      if (Math.hypot(at.x - px, at.y - py) > reach || at.distance > least) continue;
+      least = at.distance;
+      best = slot;
+    }
+    return best;
+  }
+
+  screenOf(slot: number): [number, number] {
+    const {placed} = this.context;
+    const at = this.orbit.project(placed.x[slot], placed.y[slot], 0);
+    return at === null ? [-1, -1] : [at.x, at.y];
+  }
+
+  viewpoint(): string {
+    const {x, y, distance, yaw, pitch} = this.orbit.eye;
+    return ['3d', ...[x, y, distance, yaw, pitch].map((value) => value.toFixed(3))].join(',');
+  }
+
+  lookFrom(text: string): void {
+    const [x, y, distance, yaw, pitch] = text.split(',').slice(1).map(Number);
+    if ([x, y, distance, yaw, pitch].every(Number.isFinite) && distance > 0) this.orbit.go({x, y, distance, yaw, pitch}, performance.now(), false);
+  }
+
+  drop(): boolean {
+    return false;
+  }
+
+  snapshot(): HTMLCanvasElement {
+    const picture = document.createElement('canvas');
+    [picture.width, picture.height] = [this.over.width, this.over.height];
+    this.paint(performance.now());
+    const ctx = picture.getContext('2d');
+    ctx?.drawImage(this.renderer.domElement, 0, 0, picture.width, picture.height);
+    ctx?.drawImage(this.over, 0, 0);
+    return picture;
+  }
+
+  dispose(): void {
+    this.element.remove();
+    this.renderer.dispose();
+  }
+}

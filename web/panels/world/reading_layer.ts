@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+import type {Placed} from '../../model/pose_history';
+import type {RunModel} from '../../model/run_model';
+import type {Palette, Selection} from '../../panel_api';
+import {RobotFlag, type Reading} from '../../protocol/frames';
+import type {Sensor} from '../../protocol/messages';
+import type {Camera} from './camera';
+import type {Layers} from './layers';
+import {drawHits, drawScan, drawSightings, drawnSensors, mountOf} from './scan_layer';
+import type {Surface} from './surface';
+
+const kOldest_s = 5;
+
+/** A reading that is to be drawn. */
+export interface Shown {
+  slot: number;
+  sensor: Sensor;
+  reading: Reading;
+  /** Of the selected robot. */
+  strong: boolean;
+  fresh: boolean;
+}
+
+/** The readings that the layers ask for. What is old is faint where it is looked at, and gone elsewhere. */
+export function shownReadings(model: RunModel, selection: Selection, placed: Placed, layers: Layers): Shown[] {
+  if (layers.scans === 'off') return [];
+  const found: Shown[] = [];
+  model.readings.each((slot, index, reading) => {
+    const robot = model.robots[slot];
+    if (robot === undefined || layers.hidden.includes(robot.kind) || slot >= placed.count) return;
+    if ((placed.flags[slot] & (RobotFlag.known | RobotFlag.stale)) !== RobotFlag.known) return;
+    const strong = slot === selection.primary;
+    if (!strong && (layers.scans === 'selected' || robot.kind !== 'real')) return;
+    if (!drawnSensors(robot).includes(index)) return;
+    const sensor = robot.sensors[index];
+    const age_s = placed.time_s - reading.stamp_s;
+    const fresh = age_s <= Math.max(1, 3 * sensor.period_s);
+    if (!fresh && (!strong || age_s > kOldest_s)) return;
+    found.push({slot, sensor, reading, strong, fresh});
+  });
+  return found.sort((a, b) => Number(a.strong) - Number(b.strong) || a.slot - b.slot);
+}
+
+/** Scans, what they hit, and sightings. */
+export function drawReadings(
+  ctx: CanvasRenderingContext2D, camera: Camera, model: RunModel, selection: Selection, palette: Palette, placed: Placed,
+  layers: Layers, surface: Surface | null, hits: boolean,
+): void {
+  for (const {slot, sensor, reading, strong, fresh} of shownReadings(model, selection, placed, layers)) {
+    const mount = mountOf(placed, slot, sensor);
+    const hue = palette.hue(slot);
+    if (sensor.kind === 'sightings') {
+      if (layers.sightings) drawSightings(ctx, camera, mount, reading, hue.ink);
+      continue;
+    }
+    drawScan(ctx, camera, mount, sensor, reading, strong ? hue.fill : hue.ink, strong && fresh);
+    if (fresh && hits && layers.hits && surface !== null) drawHits(ctx, camera, mount, sensor, reading, slot, surface, palette);
+  }
+}

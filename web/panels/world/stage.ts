@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+import type {Placed} from '../../model/pose_history';
+import type {PanelContext} from '../../panel_api';
+import type {Layers} from './layers';
+
+/** What a stage is given by the World View. */
+export interface StageContext extends PanelContext {
+  /** Where everybody is in the picture that is drawn. */
+  readonly placed: Placed;
+  layers(): Layers;
+  /** Asks for another picture. */
+  redraw(): void;
+  /** The person moved the camera: it is not fitted again by itself. */
+  moved(): void;
+}
+
+/** One way to look at the world: from above, or in perspective. */
+export interface Stage {
+  /** Fills the place of the World View. */
+  readonly element: HTMLElement;
+  /** The roster, the bodies or the theme changed. */
+  refresh(): void;
+  /** Draws; true as long as something moves by itself. */
+  paint(now_ms: number): boolean;
+  resize(width: number, height: number): void;
+  /** Shows everything, or the selection where everything is shown already. False if there is nothing yet. */
+  fit(animate: boolean): boolean;
+  /** Where it looks from, as the address of the page says it. */
+  viewpoint(): string;
+  lookFrom(text: string): void;
+  /** Drops what the person has begun; false if there was nothing. */
+  drop(): boolean;
+  /** The picture with everything on it. */
+  snapshot(): HTMLCanvasElement;
+  /** Where a robot is on the screen, relative to the element. */
+  screenOf(slot: number): [number, number];
+  dispose(): void;
+}

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+import {RobotFlag} from '../../protocol/frames';
+import {Camera, type Bounds} from './camera';
+import {Lens} from './lens';
+import {Measure} from './measure';
+import {Minimap, mostAreOutside} from './minimap';
+import {radiusOf} from './outlines';
+import type {Stage, StageContext} from './stage';
+import {makeSwarm} from './make_swarm';
+import {TopGestures} from './top_gestures';
+import {TopView} from './top_view';
+import {withAlpha} from './scan_layer';
+
+const kDensity_ms = 500;
+const kMinimapBelow_px = 30;
+const kMinimapFrom = 40;
+const kFinger_px = 22;
+const kMouse_px = 8;
+
+/** The world from above: three canvases, of which only those are drawn whose content has changed. */
+export class TopStage implements Stage {
+  readonly element = document.createElement('div');
+  readonly camera = new Camera();
+  readonly measure = new Measure();
+  readonly lens = new Lens();
+  private readonly view: TopView;
+  private readonly base = document.createElement('canvas');
+  private readonly over = document.createElement('canvas');
+  private readonly swarm = makeSwarm();
+  private readonly minimap = new Minimap();
+  private readonly gestures: TopGestures;
+  private baseKey = '';
+  private revision = 0;
+
+  constructor(private readonly context: StageContext) {
+    this.view = new TopView(context.model, context.palette, context.selection);
+    this.element.className = 'stage-top';
+    this.element.append(this.base, this.swarm.canvas, this.over);
+    this.gestures = new TopGestures(this.element, context, this);
+    this.refresh();
+  }
+
+  get tint(): TopView['tint'] {
+    return this.view.tint;
+  }
+
+  refresh(): void {
+    this.view.refresh();
+    ++this.revision;
+  }
+
+  resize(width: number, height: number): void {
+    this.camera.width = width;
+    this.camera.height = height;
+    for (const canvas of [this.base, this.over]) {
+      canvas.width = Math.round(width * devicePixelRatio);
+      canvas.height = Math.round(height * devicePixelRatio);
+    }
+    this.baseKey = '';
+  }
+
+  paint(now_ms: number): boolean {
+    const {camera, context} = this;
+    const {placed, selection} = context;
+    const primary = selection.primary;
+    if (selection.following && primary !== null && primary < placed.count) {
+      camera.x = placed.x[primary];
+      camera.y = placed.y[primary];
+    }
+    const going = camera.advance(now_ms);
+    this.paintBase(now_ms);
+    const ctx = this.over.getContext('2d');
+    if (ctx === null) return going;
+    ctx.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
+    ctx.clearRect(0, 0, camera.width, camera.height);
+    this.swarm.begin(0, camera);
+    this.view.drawLife(ctx, camera, placed, context.layers(), this.swarm);
+    this.showSwarm();
+    this.paintMinimap(ctx);
+    this.lens.draw(ctx, camera, context.palette, (other) => {
+      this.view.drawBase(ctx, other, placed, context.layers());
+      this.view.drawLife(ctx, other, placed, context.layers(), null);
+    });
+    this.paintBox(ctx);
+    this.measure.draw(ctx, camera, context.palette);
+    return going;
+  }
+
+  private showSwarm(): void {
+    const hidden = this.swarm.empty;
+    if (this.swarm.canvas.hidden !== hidden) this.swarm.canvas.hidden = hidden;
+    if (!hidden) this.swarm.draw();
+  }
+
+  /** Floor and bodies are drawn anew only when they or the camera changed; a crowd twice a second. */
+  private paintBase(now_ms: number): void {
+    const {camera, context} = this;
+    const layers = context.layers();
+    const crowd = this.view.crowded(camera, context.placed, layers) ? Math.floor(now_ms / kDensity_ms) : 0;
+    const key = [camera.x, camera.y, camera.scale, camera.width, camera.height, this.revision, crowd, layers.grid, layers.hidden.join()].join(' ');
+    if (key === this.baseKey) return;
+    this.baseKey = key;
+    const ctx = this.base.getContext('2d', {alpha: false});
+    if (ctx === null) return;
+    ctx.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
+    this.view.drawBase(ctx, camera, context.placed, layers);
+  }
+
+  private paintMinimap(ctx: CanvasRenderingContext2D): void {
+    const {camera, context} = this;
+    const {placed} = context;
+    const bounds = this.bounds();
+    const wanted = context.layers().minimap && placed.count >= kMinimapFrom && camera.width > 520 && bounds !== null &&
+      (camera.scale < kMinimapBelow_px || mostAreOutside(camera, placed));
+    if (wanted && bounds !== null) this.minimap.draw(ctx, camera, placed, context.model.robots, bounds, context.palette);
+    else this.minimap.hide();
+  }
+
+  private paintBox(ctx: CanvasRenderingContext2D): void {
+    if (this.gestures.box === null) return;
+    const [x0, y0, x1, y1] = this.gestures.box;
+    const intent = this.context.palette.token('intent');
+    ctx.strokeStyle = intent;
+    ctx.lineWidth = 1;
+    ctx.fillStyle = withAlpha(intent, 0.12);
+    ctx.setLineDash([4, 3]);
+    ctx.fillRect(x0, y0, x1 - x0, y1 - y0);
+    ctx.strokeRect(x0, y0, x1 - x0, y1 - y0);
+    ctx.setLineDash([]);
+  }
+
+  fit(animate: boolean): boolean {
+    const selected = this.bounds(this.context.selection.slots);
+    const all = this.bounds();
+    if (all === null) return false;
+    const goal = this.camera.fitted(all);
+    const there = Math.abs(goal.x - this.camera.x) + Math.abs(goal.y - this.camera.y) < 1e-6 && Math.abs(goal.scale / this.camera.scale - 1) < 1e-6;
+    this.camera.go(there && selected !== null ? this.camera.fitted(selected, 120) : goal, performance.now(), animate);
+    return true;
+  }
+
+  /** What holds these robots, or all robots and bodies. */
+  private bounds(slots?: readonly number[]): Bounds | null {
+    const {placed, model} = this.context;
+    const bounds: Bounds = {x0: Infinity, y0: Infinity, x1: -Infinity, y1: -Infinity};
+    const add = (x: number, y: number, r: number) => {
+      bounds.x0 = Math.min(bounds.x0, x - r);
+      bounds.y0 = Math.min(bounds.y0, y - r);
+      bounds.x1 = Math.max(bounds.x1, x + r);
+      bounds.y1 = Math.max(bounds.y1, y + r);
+    };
+    const robot = (slot: number) => {
+      if ((placed.flags[slot] & RobotFlag.known) !== 0) add(placed.x[slot], placed.y[slot], this.view.robots.radius(slot));
+    };
+    if (slots !== undefined) slots.forEach(robot);
+    else {
+      for (let slot = 0; slot < placed.count; ++slot) robot(slot);
+      for (const body of model.bodies.values()) {
+        // A building is larger than what goes on in it.
+        if (body.kind !== 'wall' || placed.count === 0) add(body.pose[0], body.pose[1], radiusOf(body.shapes));
+      }
+    }
+    return bounds.x0 <= bounds.x1 ? bounds : null;
+  }
+
+  slotAt(px: number, py: number): number | null {
+    const {placed} = this.context;
+    const touch = matchMedia('(pointer: coarse)').matches ? kFinger_px : kMouse_px;
+    let best: number | null = null;
+    let least = Infinity;
+    for (let slot = 0; slot < placed.count; ++slot) {
+      if ((placed.flags[slot] & RobotFlag.known) === 0) continue;
+      const [x, y] = this.screenOf(slot);
+      const d = Math.hypot(x - px, y - py);
+      if (d <= Math.max(this.view.robots.radius(slot) * this.camera.scale, touch) && d < least) {
+        least = d;
+        best = slot;
+      }
+    }
+    return best;
+  }
+
+  slotsIn([ax, ay, bx, by]: readonly [number, number, number, number]): number[] {
+    const slots: number[] = [];
+    for (let slot = 0; slot < this.context.placed.count; ++slot) {
+      const [x, y] = this.screenOf(slot);
+      const inside = x >= Math.min(ax, bx) && x <= Math.max(ax, bx) && y >= Math.min(ay, by) && y <= Math.max(ay, by);
+      if (inside && (this.context.placed.flags[slot] & RobotFlag.known) !== 0) slots.push(slot);
+    }
+    return slots;
+  }
+
+  jump(px: number, py: number): boolean {
+    const place = this.minimap.at(this.camera, px, py);
+    if (place === null) return false;
+    this.camera.go({x: place[0], y: place[1], scale: this.camera.scale}, performance.now(), false);
+    this.context.selection.follow(false);
+    this.context.moved();
+    this.context.redraw();
+    return true;
+  }
+
+  pointed(px: number, py: number): void {
+    this.lens.x = px;
+    this.lens.y = py;
+    if (this.lens.on) this.context.redraw();
+  }
+
+  screenOf(slot: number): [number, number] {
+    const {placed} = this.context;
+    return [this.camera.toScreenX(placed.x[slot]), this.camera.toScreenY(placed.y[slot])];
+  }
+
+  viewpoint(): string {
+    return ['top', this.camera.x.toFixed(3), this.camera.y.toFixed(3), this.camera.scale.toFixed(2)].join(',');
+  }
+
+  lookFrom(text: string): void {
+    const [x, y, scale] = text.split(',').slice(1).map(Number);
+    if (Number.isFinite(x) && Number.isFinite(y) && scale > 0) this.camera.go({x, y, scale}, performance.now(), false);
+  }
+
+  drop(): boolean {
+    if (this.measure.on) {
+      this.measure.toggle();
+      return true;
+    }
+    return this.gestures.drop();
+  }
+
+  snapshot(): HTMLCanvasElement {
+    const picture = document.createElement('canvas');
+    [picture.width, picture.height] = [this.over.width, this.over.height];
+    const ctx = picture.getContext('2d');
+    this.paint(performance.now());
+    ctx?.drawImage(this.base, 0, 0);
+    if (!this.swarm.empty) ctx?.drawImage(this.swarm.canvas, 0, 0);
+    ctx?.drawImage(this.over, 0, 0);
+    return picture;
+  }
+
+  dispose(): void {
+    this.element.remove();
+    this.swarm.dispose();
+  }
+}

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+import {css, html, nothing, type TemplateResult} from 'lit';
+import {icon} from '../../app/icons';
+import type {PanelContext} from '../../panel_api';
+import {kColourBy, type ColourBy, type Flag, type Kind, type Layers} from './layers';
+import {rampColour} from './ramp';
+
+const kKinds: readonly [Kind, string][] = [
+  ['real', 'real'],
+  ['simulated', 'simulated'],
+  ['virtual', 'virtual'],
+  ['landmark', 'tubes'],
+  ['wall', 'walls'],
+];
+const kRampSteps = 8;
+
+/** The layers after a click on a kind: hidden or shown, or with Alt shown alone. */
+export function withKind(layers: Layers, kind: Kind, alone: boolean): Layers {
+  const {hidden} = layers;
+  const others = kKinds.map(([other]) => other).filter((other) => other !== kind);
+  if (alone) return {...layers, hidden: hidden.length === others.length && !hidden.includes(kind) ? [] : others};
+  return {...layers, hidden: hidden.includes(kind) ? hidden.filter((other) => other !== kind) : [...hidden, kind]};
+}
+
+function countKinds(context: PanelContext): Map<Kind, number> {
+  const counts = new Map<Kind, number>();
+  const add = (kind: Kind) => counts.set(kind, (counts.get(kind) ?? 0) + 1);
+  for (const robot of context.model.robots) add(robot.kind);
+  for (const body of context.model.bodies.values()) add(body.kind);
+  return counts;
+}
+
+/** Kinds with their numbers; a click hides one. */
+export function renderLegend(context: PanelContext, layers: Layers, set: (layers: Layers) => void): TemplateResult {
+  const {model} = context;
+  const counts = countKinds(context);
+  return html`<div class="legend" role="group" aria-label="Kinds; press to hide, with Alt to show alone">
+    ${kKinds.map(([kind, word]) => {
+      const count = counts.get(kind);
+      if (count === undefined) {
+        if (kind !== 'virtual' || !model.hidden.includes('virtual')) return nothing;
+        return html`<span class="kind withheld" title=${model.whyNot('obstacles')}>${icon('lock', 13)} <i>virtual obstacles</i></span>`;
+      }
+      return html`<button class="kind" aria-pressed=${!layers.hidden.includes(kind)} title="Hide or show ${word}" aria-label="${count} ${word}"
+        @click=${(event: MouseEvent) => set(withKind(layers, kind, event.altKey))}>
+        <span class="glyph ${kind}"></span><b>${count}</b> <i>${word}</i></button>`;
+    })}</div>`;
+}
+
+/** What is shown over the floor. */
+export function renderMenu(layers: Layers, scale: [string, string], theme: 'dark' | 'light', set: (layers: Layers) => void): TemplateResult {
+  const flag = (name: Flag, text: string, note = '') => html`
+    <label><span>${text}</span><em>${note}</em>
+      <input type="checkbox" role="switch" .checked=${layers[name]} @change=${() => set({...layers, [name]: !layers[name]})}></label>`;
+  const choice = <T extends string>(text: string, value: T, values: readonly (readonly [T, string])[], take: (value: T) => Layers) => html`
+    <label><span>${text}</span><select aria-label=${text} @change=${(event: Event) => set(take((event.target as HTMLSelectElement).value as T))}>
+      ${values.map(([other, word]) => html`<option value=${other} ?selected=${other === value}>${word}</option>`)}</select></label>`;
+  return html`<div class="menu" role="group" aria-label="Layers">
+    <header>Layers <em>saved with the layout</em></header>
+    ${flag('trails', 'Trails', '10 s')}
+    ${choice('Scans', layers.scans, [['off', 'off'], ['selected', 'selected'], ['real', 'selected and real']], (scans) => ({...layers, scans}))}
+    ${flag('sightings', 'Camera sightings')}
+    ${flag('hits', 'Where readings hit')}
+    <hr>
+    ${choice('Colour by', layers.colourBy, kColourBy.map((by) => [by, by] as const), (colourBy: ColourBy) => ({...layers, colourBy}))}
+    ${layers.colourBy === 'kind' ? nothing : renderScale(scale, theme)}
+    ${flag('density', 'Density of crowds', 'far')}
+    ${flag('minimap', 'Small map', 'far')}
+    <hr>
+    ${flag('names', 'Names')}
+    ${flag('grid', 'Grid')}
+  </div>`;
+}
+
+function renderScale([low, high]: [string, string], theme: 'dark' | 'light'): TemplateResult {
+  return html`<div class="ramp"><em>${low}</em>${Array.from({length: kRampSteps}, (_, i) => html`<i style="background:${rampColour(i / (kRampSteps - 1), theme)}"></i>`)}<em>${high}</em></div>`;
+}
+
+export const worldMenuStyles = css`
+  .legend { display: flex; gap: 4px; overflow: hidden; }
+  .kind { display: inline-flex; align-items: center; gap: 6px; height: 26px; padding: 0 8px; border-radius: var(--r-2); color: var(--text-2); font-size: var(--fs-12); white-space: nowrap; }
+  .kind b { color: var(--text-1); font-weight: var(--fw-strong); }
+  .kind i { font-style: normal; }
+  .kind:hover { background: var(--bg-3); }
+  .kind[aria-pressed='false'] { text-decoration: line-through; color: var(--text-3); }
+  .kind[aria-pressed='false'] b { color: var(--text-3); }
+  .kind[aria-pressed='false'] .glyph { opacity: .4; }
+  .withheld { color: var(--text-3); }
+  .menu { position: absolute; right: 10px; top: 10px; z-index: 4; width: 260px; padding: 8px 14px; background: var(--bg-2); border: 1px solid var(--line-2); border-radius: var(--r-4); box-shadow: var(--shadow-pop); font-size: var(--fs-12); }
+  .menu header { display: flex; justify-content: space-between; padding: 4px 0 6px; font-weight: var(--fw-medium); color: var(--text-2); }
+  .menu label { display: flex; align-items: center; gap: 8px; min-height: 28px; cursor: pointer; }
+  .menu label span { flex: 1; }
+  .menu hr { border: 0; border-top: 1px solid var(--line-1); margin: 5px -14px; }
+  .menu em, .ramp em { font-style: normal; font-weight: 400; color: var(--text-3); font-size: var(--fs-11); }
+  .menu input { appearance: none; width: 26px; height: 15px; border-radius: 99px; border: 1px solid var(--line-3); position: relative; margin: 0; cursor: pointer; }
+  .menu input::after { content: ''; position: absolute; left: 2px; top: 2px; width: 9px; height: 9px; border-radius: 50%; background: var(--line-3); }
+  .menu input:checked { background: var(--intent-fill); border-color: var(--intent-fill); }
+  .menu input:checked::after { left: 13px; background: #fff; }
+  .menu select { font: inherit; color: var(--text-1); background: var(--bg-3); border: 1px solid var(--line-2); border-radius: var(--r-2); height: 22px; }
+  .ramp { display: flex; align-items: center; justify-content: flex-end; gap: 1px; padding: 2px 0 6px; }
+  .ramp i { width: 16px; height: 8px; }
+  .ramp em { padding: 0 6px; }
+`;

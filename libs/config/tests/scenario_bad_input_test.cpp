@@ -220,7 +220,8 @@ const FileCase kScenarios[] = {
      "name: a\ngui: {rights: [{role: observer, classes: [poses], reach: none}]}\nrobots: [{name: "
      "r, "
      "file: r.yaml}]\n",
-     "s.yaml:2:43: `classes`: found the text \"poses\", expected one of pose, true_pose, readings, "
+     "s.yaml:2:43: item 1 of `classes`: found the text \"poses\", expected one of pose, true_pose, "
+     "readings, "
      "hybrid_parts, obstacles, goals, maps, chat, log, video, recording, stop, release and "
      "run_control; did you mean `pose`?"},
     {"Instant",

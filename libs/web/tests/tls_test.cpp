@@ -10,6 +10,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <memory>
@@ -46,6 +47,8 @@ std::int64_t now_s() {
 class WebTls : public testing::Test {
  protected:
   void SetUp() override {
+    // libssl writes without MSG_NOSIGNAL.
+    std::signal(SIGPIPE, SIG_IGN);
     std::string name = fs::temp_directory_path() / "rave-tls-XXXXXX";
     ASSERT_NE(::mkdtemp(name.data()), nullptr);
     folder_ = name;

@@ -9,6 +9,7 @@
 #include "live_source.hpp"
 #include "rave/robot_host/describe_run.hpp"
 #include "rave/watch/observer.hpp"
+#include "scenario_rights.hpp"
 #include "scene_json.hpp"
 
 namespace rave::gui_server {
@@ -179,6 +180,7 @@ LiveSource::Start start_of(const config::ExpandedScenario& scenario,
   start.about.seed = run.info.seed;
   start.about.lock_step = built.live_reason.empty();
   start.about.duration_s = scenario.scenario.duration_s;
+  start.about.rights = rights_of(scenario.scenario.gui);
   start.robots_json = robots_of(scenario, run.info, run.hybrids);
   for (const record::RecordedRobot& robot : run.info.robots) start.robots.push_back(robot.name);
   const world::WorldModel& world = built.spec.world;

@@ -49,7 +49,7 @@ class Members {
     }
     return value;
   }
-  Result<const Json*> any(const char* name) { return find(name); }
+  Result<const PageJson*> any(const char* name) { return find(name); }
   [[nodiscard]] bool has(const char* name) const { return object_.contains(name); }
   [[nodiscard]] Status finish() const {
     if (object_.size() != taken_) return fail(ErrorCode::kParse, "the message has unknown members");
@@ -158,12 +158,12 @@ Status whose(Members& members, std::optional<Role>& role, std::string& user) {
   return {};
 }
 
-Result<std::optional<Reach>> reach_in(const Json& value) {
+Result<std::optional<Reach>> reach_in(const PageJson& value) {
   if (value.is_null()) return std::optional<Reach>();
   Reach reach;
   if (value.is_array() && value.size() <= kMostTeams) {
     reach.kind = Reach::Kind::kTeams;
-    for (const Json& team : value) {
+    for (const PageJson& team : value) {
       if (!team.is_string() || team.get_ref<const std::string&>().size() > kLongestName) {
         return fail(ErrorCode::kParse, "`reach`: expected names of teams");
       }
@@ -188,7 +188,7 @@ Result<PageMessage> right_of(Members& members) {
   const auto what = class_named(word);
   if (!what) return fail(ErrorCode::kParse, "`class`: expected one of the message `rights`");
   set.change.what = *what;
-  RAVE_TRY_ASSIGN(const Json* const reach, members.any("reach"));
+  RAVE_TRY_ASSIGN(const PageJson* const reach, members.any("reach"));
   RAVE_TRY_ASSIGN(set.change.reach, reach_in(*reach));
   return PageMessage(std::move(set));
 }

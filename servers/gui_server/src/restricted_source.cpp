@@ -192,6 +192,14 @@ std::unique_ptr<Playhead> RestrictedSource::open_playhead() {
   return std::make_unique<WatchedPlayhead>(std::move(playhead));
 }
 
+std::uint64_t RestrictedSource::hosts_revision() const noexcept {
+  return view_->may_all(InfoClass::kPose) ? all_->hosts_revision() : 0;
+}
+
+const std::string& RestrictedSource::hosts_json() const noexcept {
+  return view_->may_all(InfoClass::kPose) ? all_->hosts_json() : Source::hosts_json();
+}
+
 void RestrictedSource::halt(const HaltMessage& halt, Reply reply) {
   const InfoClass what = halt.stop ? InfoClass::kStop : InfoClass::kRelease;
   HaltMessage mine;

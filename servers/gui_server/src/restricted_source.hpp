@@ -33,6 +33,9 @@ class RestrictedSource final : public Source {
   [[nodiscard]] std::size_t events_changed_since(std::uint64_t revision) const noexcept override;
   [[nodiscard]] std::uint64_t bodies_revision() const noexcept override;
   [[nodiscard]] std::string bodies_changed_since(std::uint64_t revision) const override;
+  /// Hosts say how many robots they have, so they are shown to who sees all robots.
+  [[nodiscard]] std::uint64_t hosts_revision() const noexcept override;
+  [[nodiscard]] const std::string& hosts_json() const noexcept override;
   void halt(const HaltMessage& halt, Reply reply) override;
 
   /// A picture that several pages share is cut down once.

@@ -32,7 +32,7 @@ struct Greeting {
 struct SessionCalls {
   std::function<Result<std::string>(const RightChange&)> set_right;
   std::function<Result<std::string>(const SeeAsMessage&)> see_as;
-  /// After an answer to stop or release.
+  /// Before an answer to stop or release is told.
   std::function<void(const HaltMessage&, bool good)> halted;
 };
 

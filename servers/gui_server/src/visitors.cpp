@@ -164,7 +164,7 @@ SessionCalls Visitors::calls_of(std::uint64_t id) {
     const auto found = visitors_.find(id);
     if (found == visitors_.end()) return;
     audit_->note(halt.stop ? "stop" : "release",
-                 {{"user", found->second.person.name}, {"what", halt_text(halt, good)}});
+                 {{"user", found->second.person.name}, {"detail", halt_text(halt, good)}});
   };
   return calls;
 }
@@ -178,7 +178,7 @@ Result<std::string> Visitors::set_right(std::uint64_t id, const RightChange& cha
   if (!source_) return fail(ErrorCode::kState, "No run is in progress.");
   const Status changed = desk_.change(change);
   if (!changed && changed.error().code != ErrorCode::kIo) return tl::unexpected(changed.error());
-  audit_->note("right", {{"user", visitor.person.name}, {"what", right_text(change)}});
+  audit_->note("right", {{"user", visitor.person.name}, {"detail", right_text(change)}});
   show_again_if_other();
   tell_rights();
   if (!changed) return tl::unexpected(changed.error());
@@ -198,7 +198,7 @@ Result<std::string> Visitors::see_as(std::uint64_t id, const SeeAsMessage& see) 
     }
     if (!eyes) return fail(ErrorCode::kNotFound, "Nobody is called `{}`.", see.user);
   }
-  audit_->note("see_as", {{"user", visitor.person.name}, {"what", eyes ? eyes->name : "self"}});
+  audit_->note("see_as", {{"user", visitor.person.name}, {"detail", eyes ? eyes->name : "self"}});
   visitor.eyes = std::move(eyes);
   if (!source_) return std::string();
   visitor.view = desk_.view_of(visitor.eyes.value_or(visitor.person));

@@ -139,12 +139,14 @@ constexpr const char* kLookAtAll =
 /// Looks at everything until so many readings came; acknowledges frames as a page does.
 void look_until(RawSocket& socket, int readings) {
   socket.send(kLookAtAll);
-  while (readings > 0) {
+  int frames = 2;
+  while (readings > 0 || frames > 0) {
     const auto frame = socket.next();
     ASSERT_TRUE(frame) << "the connection ended";
     if (frame->opcode != 2 || frame->payload.empty()) continue;
     if (frame->payload[0] == 2) --readings;
     if (frame->payload[0] != 1 || frame->payload.size() < 8) continue;
+    --frames;
     std::uint32_t sequence = 0;
     std::memcpy(&sequence, frame->payload.data() + 4, sizeof sequence);
     socket.send(fmt::format(R"({{"type":"ack","sequence":{}}})", sequence));

@@ -8,6 +8,8 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <csignal>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -21,9 +23,11 @@ namespace rave::gui_server::testing {
 class RawClient {
  public:
   RawClient(std::uint16_t port, const std::filesystem::path& authority) : context_(nullptr) {
+    // libssl writes without MSG_NOSIGNAL.
+    std::signal(SIGPIPE, SIG_IGN);
     fd_ = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     // So that a test that waits in vain fails.
-    const timeval limit{20, 0};
+    const timeval limit{10, 0};
     ::setsockopt(fd_, SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
     sockaddr_in address{};
     address.sin_family = AF_INET;

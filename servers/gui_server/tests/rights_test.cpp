@@ -182,7 +182,9 @@ TEST(ViewOfARun, WithholdsEventsThatNameTheUnseen) {
   EXPECT_FALSE(shown("walker-1: guard stopped, spy-20 came near", {0}));
   EXPECT_TRUE(shown("walker-1: spy-2000 is somebody else", {0}));
   EXPECT_FALSE(shown("obstacle `pond` added", {}));
-  EXPECT_TRUE(shown("obstacle `hall` added", {}));
+  // One that came later has a name that is not known here.
+  EXPECT_FALSE(shown("obstacle `pond-2` added", {}));
+  EXPECT_TRUE(shown("the run is late", {}));
   LogEvent event;
   event.slots = {2};
   EXPECT_EQ(view.event(event)->slots, (std::vector<std::uint32_t>{1}));

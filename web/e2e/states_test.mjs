@@ -167,6 +167,26 @@ try {
     await page.locator('rave-robots .row').first().waitFor();
   });
 
+  await check('a super-user changes a right, takes it back, and sees as somebody else', async () => {
+    server.run.role = 'super_user';
+    server.run.seeAs(null);
+    server.turnInto({});
+    await page.getByRole('radio', {name: 'Conduct'}).click();
+    const cell = page.getByRole('button', {name: /^Obstacles of carla/});
+    await cell.click();
+    await untilHere(page, () => heard('set_right').length === 1, 'set_right');
+    assert.deepEqual(heard('set_right')[0], {type: 'set_right', user: 'carla', class: 'obstacles', reach: 'all'});
+    await page.getByText(/in force after/).waitFor();
+    await page.getByRole('button', {name: 'Undo'}).click();
+    await untilHere(page, () => heard('set_right').length === 2, 'undo');
+    assert.equal(heard('set_right')[1].reach, null);
+    await page.getByRole('button', {name: 'See as carla'}).click();
+    await page.getByText('This is what').waitFor();
+    assert.equal(await page.evaluate(`${app}.model.rights`), null);
+    await page.getByRole('button', {name: 'Back'}).click();
+    await until(page, `${app}.model.rights !== null`);
+  });
+
   await check('every message is as the schema describes it', async () => {
     const file = join(folder, 'messages.json');
     writeFileSync(file, JSON.stringify(said));

@@ -26,6 +26,8 @@ export class WorldPanel extends LitElement {
   /** Pictures so far, and the time they took: for measuring. */
   painted = 0;
   paint_ms = 0;
+  /** When robots were on the screen for the first time, milliseconds since the page was asked for. */
+  first_ms = 0;
   private mode: Mode = 'top';
   private stage!: Stage;
   private top!: TopStage;
@@ -233,6 +235,7 @@ export class WorldPanel extends LitElement {
     }
     const going = this.stage.paint(now_ms);
     ++this.painted;
+    if (this.first_ms === 0 && this.placed.count > 0) this.first_ms = performance.now();
     this.paint_ms += performance.now() - now_ms;
     if (going || model.poses.moving(now_ms)) this.draw();
   }

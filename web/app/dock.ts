@@ -81,7 +81,7 @@ export class Dock {
     this.add('world');
     if (this.width >= 1280) this.layOutWide(layout);
     else if (this.width >= 900) {
-      this.add('robots', {referencePanel: 'world', direction: 'right'});
+      this.add('robots', {referencePanel: 'world', direction: 'right'}, {initialWidth: Math.round(0.38 * this.width)});
       this.add('hosts', {referencePanel: 'robots', direction: 'within'});
       this.add('sensors', {referencePanel: 'robots', direction: 'below'});
       this.add('log', {referencePanel: 'sensors', direction: 'within'});

@@ -19,7 +19,7 @@ namespace rave::robot_host {
 /// of several hosts shows its own robots, and the time if the first of all robots that are shown is
 /// among them: a clock must have one writer, and so all hosts agree on it without a word.
 /// docs/reference/ros2.md has the table of topics.
-class Ros2Face final : public Observer {
+class Ros2Face final : public RunObserver {
  public:
   /// Null if no robot of this process wants it. `host`: its name, empty if it is alone. Errors:
   /// those of ros2::Participant::open().

@@ -68,13 +68,14 @@ def main():
     changes = tomllib.loads(LIST.read_text(encoding="utf-8"))["change"]
     if arguments.names:
         changes = [c for c in changes if any(name in c["name"] for name in arguments.names)]
-    survived, stale = 0, 0
+    survived, stale, equivalent = 0, 0, 0
     for change in changes:
         file = ROOT / change["file"]
         before = file.read_text(encoding="utf-8")
         try:
             after = changed(before, change)
-            if arguments.list:
+            equivalent += "equivalent" in change
+            if arguments.list or "equivalent" in change:
                 continue
             try:
                 file.write_text(after, encoding="utf-8")
@@ -88,7 +89,8 @@ def main():
         survived += noticed is None
         print(f"{'survived ' if noticed is None else 'caught   '} {change['name']}"
               f"{'' if noticed is None else ': ' + noticed}", flush=True)
-    print(f"{len(changes)} changes: {survived} survived, {stale} could not be made")
+    print(f"{len(changes)} changes: {survived} survived, {equivalent} change nothing that could be "
+          f"noticed, {stale} could not be made")
     sys.exit(2 if stale else 1 if survived else 0)
 
 

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 import {DockviewComponent, type IContentRenderer, type GroupPanelPartInitParameters, type SerializedDockview} from 'dockview-core';
+import {HeaderActions} from './header_actions';
 import type {PanelContext, PanelElement, PanelKind} from '../panel_api';
 
 /** Each class of widths has a layout of its own. */
 const kKept = 'rave.layout';
 /** Another number makes layouts that were kept void. */
 const kVersion = 2;
+
+export type LayoutName = 'Watch' | 'Analyse';
+export const kLayouts: readonly LayoutName[] = ['Watch', 'Analyse'];
 
 /** A panel in the dock: makes the element and gives it its context. */
 class DockedPanel implements IContentRenderer {
@@ -25,6 +29,7 @@ class DockedPanel implements IContentRenderer {
 /** The docked panels and their layout, which is kept in the browser. */
 export class Dock {
   private readonly view: DockviewComponent;
+  name: LayoutName = 'Watch';
   private restoring = false;
   private readonly kept: string;
   private readonly width = document.documentElement.clientWidth;
@@ -33,6 +38,7 @@ export class Dock {
     this.view = new DockviewComponent(host, {
       theme: {name: 'rave', className: 'dockview-theme-rave', gap: 6},
       disableFloatingGroups: false,
+      createRightHeaderActionComponent: () => new HeaderActions(),
       createComponent: (options) => {
         const kind = kinds.find((known) => known.id === options.name);
         if (kind === undefined) throw new Error(`unknown panel ${options.name}`);
@@ -42,7 +48,7 @@ export class Dock {
     this.kept = `${kKept}.${this.width >= 1280 ? 'wide' : this.width >= 900 ? 'middle' : 'narrow'}`;
     if (!this.restore()) this.resetWhenSized(host);
     this.view.onDidLayoutChange(() => {
-      if (!this.restoring) localStorage.setItem(this.kept, JSON.stringify({version: kVersion, layout: this.view.toJSON()}));
+      if (!this.restoring) this.keep();
     });
   }
 
@@ -67,33 +73,48 @@ export class Dock {
     this.restoring = false;
   }
 
-  /** The layout Watch: robots left, world in the middle, sensors over log right. */
-  reset(): void {
+  /** Lays the panels out anew. */
+  reset(layout: LayoutName = this.name): void {
+    this.name = layout;
     this.restoring = true;
     this.view.clear();
-    const add = (id: string, position?: object, size?: object) =>
-      this.view.addPanel({id, component: id, title: this.kinds.find((kind) => kind.id === id)?.title ?? id, ...(position ? {position} : {}), ...size} as never);
-    add('world');
-    if (this.width >= 1280) {
-      add('robots', {referencePanel: 'world', direction: 'left'}, {initialWidth: 292});
-      add('hosts', {referencePanel: 'robots', direction: 'within'});
-      add('sensors', {referencePanel: 'world', direction: 'right'}, {initialWidth: 392});
-      add('log', {referencePanel: 'sensors', direction: 'below'}, {initialHeight: 340});
-    } else if (this.width >= 900) {
-      add('robots', {referencePanel: 'world', direction: 'right'});
-      add('hosts', {referencePanel: 'robots', direction: 'within'});
-      add('sensors', {referencePanel: 'robots', direction: 'below'});
-      add('log', {referencePanel: 'sensors', direction: 'within'});
+    this.add('world');
+    if (this.width >= 1280) this.layOutWide(layout);
+    else if (this.width >= 900) {
+      this.add('robots', {referencePanel: 'world', direction: 'right'});
+      this.add('hosts', {referencePanel: 'robots', direction: 'within'});
+      this.add('sensors', {referencePanel: 'robots', direction: 'below'});
+      this.add('log', {referencePanel: 'sensors', direction: 'within'});
     } else {
-      add('robots', {referencePanel: 'world', direction: 'below'});
-      add('sensors', {referencePanel: 'robots', direction: 'within'});
-      add('log', {referencePanel: 'robots', direction: 'within'});
-      add('hosts', {referencePanel: 'robots', direction: 'within'});
+      this.add('robots', {referencePanel: 'world', direction: 'below'});
+      for (const id of ['sensors', 'log', 'hosts']) this.add(id, {referencePanel: 'robots', direction: 'within'});
     }
-    if (this.width >= 900) this.show('sensors');
-    this.show('robots');
-    this.show('world');
+    for (const id of this.width >= 900 ? ['sensors', 'robots', 'world'] : ['robots', 'world']) this.show(id);
     this.restoring = false;
+    this.keep();
+  }
+
+  /** Watch: the world in the middle. Analyse: sensors and log have the room. */
+  private layOutWide(layout: LayoutName): void {
+    if (layout === 'Watch') {
+      this.add('robots', {referencePanel: 'world', direction: 'left'}, {initialWidth: 292});
+      this.add('sensors', {referencePanel: 'world', direction: 'right'}, {initialWidth: 392});
+      this.add('log', {referencePanel: 'sensors', direction: 'below'}, {initialHeight: 340});
+    } else {
+      this.add('sensors', {referencePanel: 'world', direction: 'right'}, {initialWidth: Math.round(0.45 * this.width)});
+      this.add('log', {referencePanel: 'sensors', direction: 'below'}, {initialHeight: 280});
+      this.add('robots', {referencePanel: 'world', direction: 'below'});
+    }
+    this.add('hosts', {referencePanel: 'robots', direction: 'within'});
+  }
+
+  private add(id: string, position?: object, size?: object): void {
+    const title = this.kinds.find((kind) => kind.id === id)?.title ?? id;
+    this.view.addPanel({id, component: id, title, ...(position ? {position} : {}), ...size} as never);
+  }
+
+  private keep(): void {
+    localStorage.setItem(this.kept, JSON.stringify({version: kVersion, name: this.name, layout: this.view.toJSON()}));
   }
 
   /** Columns can be given a width only once the dock has its own. */
@@ -109,8 +130,9 @@ export class Dock {
 
   private restore(): boolean {
     try {
-      const kept = JSON.parse(localStorage.getItem(this.kept) ?? 'null') as {version: number; layout: SerializedDockview} | null;
+      const kept = JSON.parse(localStorage.getItem(this.kept) ?? 'null') as {version: number; name?: LayoutName; layout: SerializedDockview} | null;
       if (kept?.version === kVersion) {
+        this.name = kept.name ?? 'Watch';
         this.view.fromJSON(kept.layout);
         return true;
       }

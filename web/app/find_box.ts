@@ -43,6 +43,7 @@ export class FindBox extends LitElement {
     for (const panel of this.panels) {
       if (fits(panel.title)) all.push({icon: panel.icon as IconName, text: panel.title, note: 'panel', act: () => this.context.show(panel.id)});
     }
+    if (fits('light or dark theme')) all.push({icon: 'sun', text: 'Light or dark', note: 'theme', act: () => this.dispatchEvent(new CustomEvent('theme'))});
     const seconds = /^(?:(\d+):)?(\d+(?:\.\d+)?)\s*s?$/.exec(this.text.trim());
     if (seconds && model.may('seek')) {
       const t = 60 * Number(seconds[1] ?? 0) + Number(seconds[2]);
@@ -84,7 +85,7 @@ export class FindBox extends LitElement {
         <label>${icon('search', 17)}<input aria-label="Find" placeholder="A robot, a panel, a moment such as 1:07" .value=${this.text}
           @input=${(event: InputEvent) => { this.text = (event.target as HTMLInputElement).value; this.at = 0; this.requestUpdate(); }}
           @keydown=${(event: KeyboardEvent) => this.key(event, found)}><kbd>Esc</kbd></label>
-        <ul role="listbox">${found.map((item, i) => html`<li role="option" aria-selected=${i === this.at} @click=${() => this.take(item)}>
+        <ul role="listbox" aria-label="Found">${found.map((item, i) => html`<li role="option" aria-selected=${i === this.at} @click=${() => this.take(item)}>
           <i class=${item.icon}>${icon(item.icon, 16)}</i><span>${item.text}</span><em>${item.note}</em></li>`)}</ul>
         ${found.length === 0 ? html`<p>Nothing is called that.</p>` : nothing}
       </div></div>`;
@@ -122,7 +123,7 @@ export class FindBox extends LitElement {
       li { display: flex; align-items: center; gap: 10px; height: 36px; padding: 0 10px; border-radius: var(--r-3); cursor: pointer; color: var(--text-2); }
       .octagonX { color: var(--danger); }
       li span { color: var(--text-1); overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
-      li em { font-style: normal; color: var(--text-3); font-size: var(--fs-12); white-space: nowrap; }
+      li em { font-style: normal; color: var(--text-2); font-size: var(--fs-12); white-space: nowrap; }
       li[aria-selected='true'], li:hover { background: var(--intent-soft); }
       p { margin: 0; padding: 4px 16px 14px; color: var(--text-3); font-size: var(--fs-12); }
     `,

@@ -21,6 +21,8 @@ import link from 'lucide-static/icons/link.svg?raw';
 import list from 'lucide-static/icons/list.svg?raw';
 import lock from 'lucide-static/icons/lock.svg?raw';
 import maximize from 'lucide-static/icons/maximize.svg?raw';
+import maximize2 from 'lucide-static/icons/maximize-2.svg?raw';
+import minimize2 from 'lucide-static/icons/minimize-2.svg?raw';
 import moon from 'lucide-static/icons/moon.svg?raw';
 import octagonX from 'lucide-static/icons/octagon-x.svg?raw';
 import pause from 'lucide-static/icons/pause.svg?raw';
@@ -43,7 +45,7 @@ import zap from 'lucide-static/icons/zap.svg?raw';
 
 const kIcons = {
   activity, bell, bot, camera, chevronDown, circleX, compass, crosshair, download, eye, fileText, filter, hourglass, info,
-  layers, link, list, lock, maximize, moon, octagonX, pause, play, radar, rotateCcw, ruler, search, server, skipBack, skipForward,
+  layers, link, list, lock, maximize, maximize2, minimize2, moon, octagonX, pause, play, radar, rotateCcw, ruler, search, server, skipBack, skipForward,
   stepBack, stepForward, sun, target, triangleAlert, wifiOff, x, zap,
 };
 

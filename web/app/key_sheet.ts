@@ -4,7 +4,7 @@ import type {KeyAction} from './keys';
 
 /** All keys and what they do. */
 export function renderKeys(actions: readonly KeyAction[], close: () => void): TemplateResult {
-  return html`<div class="scrim" @click=${close}><div class="keys" role="dialog" aria-modal="true" aria-label="Keyboard">
+  return html`<div class="scrim" @click=${close}><div class="keys" role="dialog" aria-modal="true" tabindex="0" aria-label="Keyboard">
     <h2>Keyboard</h2>
     <dl>${actions.map((action) => html`<div><dt>${action.what}</dt><dd>${action.keys.map((key) => html`<kbd>${key}</kbd>`)}</dd></div>`)}</dl></div></div>`;
 }

@@ -6,15 +6,17 @@ import type {PanelContext, PanelElement, PanelKind} from '../panel_api';
 import {Palette} from '../panel_api/palette';
 import {Selection} from '../panel_api/selection';
 import type {WorldPanel} from '../panels/world/world_panel';
-import {Dock} from './dock';
+import {Dock, type LayoutName} from './dock';
 import './find_box';
 import {icon, type IconName} from './icons';
 import {keySheetStyles, renderKeys} from './key_sheet';
 import {bindKeys, type KeyAction} from './keys';
+import {nowOf} from './moment';
 import {readMoment, writeMoment} from './moment_link';
 import {kPanels} from './panels';
 import {renderLost, renderNoRun, renderOpening, renderRefused, renderWaits, stateStyles} from './page_states';
 import type {RunBar} from './run_bar';
+import './sheet';
 import {controls} from './styles';
 import './top_bar';
 
@@ -54,6 +56,7 @@ export class RaveApp extends LitElement {
     const kept = localStorage.getItem(kTheme);
     const light = kept === null ? matchMedia('(prefers-color-scheme: light)').matches : kept === 'light';
     this.palette.set(light ? 'light' : 'dark');
+    if (matchMedia('(prefers-contrast: more)').matches) document.documentElement.dataset['contrast'] = 'more';
     this.listen();
     bindKeys(() => this.actions());
     this.link.open();
@@ -199,24 +202,25 @@ export class RaveApp extends LitElement {
     if (link.state === 'empty') return renderNoRun();
     const old = link.state === 'lost';
     return html`
-      <rave-top-bar .context=${this.context} @find=${() => this.open('finding')} @theme=${() => this.toggleTheme()}></rave-top-bar>
+      <rave-top-bar .context=${this.context} .layout=${this.phone.matches || innerWidth < 1280 ? '' : (this.dock?.name ?? 'Watch')}
+        @layout=${(event: CustomEvent<LayoutName>) => { this.dock?.reset(event.detail); this.requestUpdate(); }} @find=${() => this.open('finding')} @theme=${() => this.toggleTheme()}></rave-top-bar>
       ${old ? renderLost(model, link) : renderWaits(model)}
       ${this.refusal === '' ? nothing : html`<div class="strip refused" role="alert">${icon('circleX', 16)}<span>${this.refusal}</span>
         <button @click=${() => { this.refusal = ''; this.requestUpdate(); }}>Close</button></div>`}
       ${model.hello === null && !old ? renderOpening() : nothing}
       <main class=${old ? 'old' : ''}>
-        ${this.phone.matches ? html`<div class="phone"></div>` : html`<div class="dock"><slot name="dock"></slot></div>`}
+        ${this.phone.matches ? html`<div class="phone"></div>${this.phonePanel === 'world' ? html`<rave-sheet .context=${this.context}></rave-sheet>` : nothing}` : html`<div class="dock"><slot name="dock"></slot></div>`}
       </main>
       <rave-run-bar .context=${this.context}></rave-run-bar>
       ${this.phone.matches ? this.renderTabs() : nothing}
-      ${this.finding ? html`<rave-find .context=${this.context} .panels=${kPanels} @done=${() => this.open('finding')}></rave-find>` : nothing}
+      ${this.finding ? html`<rave-find .context=${this.context} .panels=${kPanels} @theme=${() => this.toggleTheme()} @done=${() => this.open('finding')}></rave-find>` : nothing}
       ${this.showingKeys ? renderKeys(this.actions(), () => this.escape()) : nothing}`;
   }
 
   private renderTabs(): TemplateResult {
-    const shown = kPanels.filter((kind) => kind.phone);
-    return html`<nav aria-label="Panels">${shown.map((kind) => html`<button aria-pressed=${this.phonePanel === kind.id} @click=${() => this.showPanel(kind.id)}>
-      ${icon(kind.icon as IconName, 20)}<span>${kind.title.split(' ')[0]}</span></button>`)}</nav>`;
+    const alerts = this.model.events.filter((event) => event.level !== 'info' && (this.model.live || event.t <= nowOf(this.model))).length;
+    return html`<nav aria-label="Panels">${kPanels.map((kind) => html`<button aria-pressed=${this.phonePanel === kind.id} @click=${() => this.showPanel(kind.id)}>
+      ${icon(kind.icon as IconName, 20)}<span>${kind.short}</span>${kind.id === 'log' && alerts > 0 ? html`<i>${alerts}</i>` : nothing}</button>`)}</nav>`;
   }
 
   static override styles = [
@@ -225,13 +229,14 @@ export class RaveApp extends LitElement {
     keySheetStyles,
     css`
       :host { display: flex !important; flex-direction: column; height: 100%; background: var(--bg-0); }
-      main { flex: 1; min-height: 0; padding: 0 6px 6px; }
+      main { position: relative; flex: 1; min-height: 0; padding: 0 6px 6px; }
       main.old { filter: grayscale(1) opacity(.55); }
       .dock, .phone { height: 100%; }
       rave-run-bar { flex: none; margin: 0 6px 6px; }
       nav { display: flex; flex: none; background: var(--bg-1); border-top: 1px solid var(--line-1); padding-bottom: env(safe-area-inset-bottom); }
-      nav button { flex: 1; display: flex; flex-direction: column; align-items: center; gap: 3px; padding: 8px 0; color: var(--text-3); font-size: var(--fs-12); }
+      nav button { position: relative; flex: 1; min-height: 56px; display: flex; flex-direction: column; align-items: center; gap: 3px; padding: 8px 0; color: var(--text-3); font-size: var(--fs-12); }
       nav button[aria-pressed='true'] { color: var(--text-1); }
+      nav i { position: absolute; left: calc(50% + 6px); top: 5px; min-width: 16px; padding: 0 4px; border-radius: 8px; background: var(--warn); color: var(--bg-1); font: 600 10px/16px var(--font-ui); }
       @media (max-width: 599px) { main { padding: 0; } rave-run-bar { margin: 0; } }
     `,
   ];

@@ -150,7 +150,8 @@ export class RunBar extends LitElement {
       @media (max-width: 599px) {
         :host { gap: 8px; padding: 0 8px; border-radius: 0; }
         .transport .icon-button { display: none; }
-        .clock { min-width: 84px; } .clock span { display: none; }
+        .clock { position: absolute; left: 72px; top: 14px; min-width: 84px; } .clock span { display: none; }
+        :host { position: relative; } .play { width: 44px; height: 44px; } rave-timeline { margin-top: 34px; }
       }
     `,
   ];

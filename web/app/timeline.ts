@@ -9,6 +9,8 @@ import {controls} from './styles';
 
 /** Events so near to each other become one mark, pixels. */
 const kMark_px = 9;
+/** With so much room a mark says what it is. */
+const kLabel_px = 150;
 const kRefresh_ms = 50;
 /** A recording may end a step before the planned end; its last tick is shown all the same. */
 const kEndSlack = 0.002;
@@ -91,13 +93,22 @@ export class Timeline extends LitElement {
       if (others === undefined) bins.set(bin, [event]);
       else others.push(event);
     }
+    const taken = [...bins.keys()].sort((a, b) => a - b);
     return [...bins].map(([bin, events]) => {
       const left = `left:${bin * kMark_px}px`;
       const worst = events.some((event) => event.level === 'alert') ? 'alert' : events.some((event) => event.level === 'warn') ? 'warn' : 'info';
       const title = events.length === 1 ? events[0].text : `${events.length} events: ${events[0].text}`;
       if (events.length > 3) return html`<i class="density ${worst}" style="${left};height:${Math.min(4 + 3 * events.length, 18)}px" title=${title}></i>`;
-      return html`<i class="mark ${worst}" style=${left} title=${title}></i>`;
+      const next = taken.find((other) => other > bin) ?? Infinity;
+      const room = Math.min((next - bin) * kMark_px, this.width - bin * kMark_px) > kLabel_px;
+      return html`<i class="mark ${worst}" style=${left} title=${title}></i>
+        ${worst === 'info' || !room ? nothing : html`<span class="label" style=${left}>${this.shortText(events[0])}</span>`}`;
     });
+  }
+
+  /** Who, and what kind of event: `real-4 stale`. */
+  private shortText(event: Event): string {
+    return `${this.context.model.robots[event.slots[0]]?.name ?? ''} ${event.kind}`.trim();
   }
 
   private timeAt(event: PointerEvent): number {
@@ -142,6 +153,7 @@ export class Timeline extends LitElement {
       .mark.info { width: 6px; height: 6px; border-radius: 50%; background: var(--text-3); }
       .mark.warn { border: 5px solid transparent; border-bottom: 8px solid var(--warn); border-top: 0; }
       .mark.alert { width: 8px; height: 8px; background: var(--danger); transform: translateX(-50%) rotate(45deg) !important; }
+      .label { position: absolute; bottom: -1px; margin-left: 9px; color: var(--warn); font-size: var(--fs-11); white-space: nowrap; }
       .density { width: 5px; background: var(--text-3); opacity: .8; }
       .density.warn { background: var(--warn); }
       .density.alert { background: var(--danger); }

@@ -3,6 +3,7 @@ import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
 import type {PanelContext} from '../panel_api';
 import type {Person} from '../protocol/messages';
 import './bell';
+import {kLayouts, type LayoutName} from './dock';
 import {icon} from './icons';
 import {logo} from './logo';
 import {controls} from './styles';
@@ -14,6 +15,9 @@ const kSlow_hz = 10;
 /** The run and its state, find, the line, people, alerts, role. */
 export class TopBar extends LitElement {
   declare context: PanelContext;
+  /** The layout that was chosen last; empty where there is no dock. */
+  declare layout: LayoutName | '';
+  static override properties = {layout: {}};
   private readonly ends: (() => void)[] = [];
 
   override connectedCallback(): void {
@@ -58,6 +62,8 @@ export class TopBar extends LitElement {
       <h1>${run?.name ?? ''}</h1>
       <span class="state ${look}" role="status">${look === 'replay' ? icon('rotateCcw', 13) : html`<i></i>`}${word}</span>
       <span class="about">${this.about()}</span>
+      ${this.layout ? html`<div class="segments" role="radiogroup" aria-label="Layout">${kLayouts.map((name) => html`
+        <button role="radio" aria-checked=${this.layout === name} title="Lay the panels out anew" @click=${() => this.dispatchEvent(new CustomEvent('layout', {detail: name}))}>${name}</button>`)}</div>` : nothing}
       <span class="space"></span>
       <button class="find" aria-label="Find a robot, panel or moment" @click=${() => ask('find')}>${icon('search', 15)}<span>Find a robot, panel or moment</span><kbd>Ctrl K</kbd></button>
       <span class="space"></span>
@@ -91,20 +97,21 @@ export class TopBar extends LitElement {
       :host { display: flex; align-items: center; gap: 10px; height: var(--h-topbar); flex: none; padding: 0 14px; }
       .brand { display: flex; align-items: center; gap: 8px; letter-spacing: .04em; }
       .rule { width: 1px; height: 20px; background: var(--line-2); }
-      h1 { margin: 0; font-size: var(--fs-15); font-weight: var(--fw-strong); white-space: nowrap; overflow: hidden; text-overflow: ellipsis; }
-      .state { display: inline-flex; align-items: center; gap: 6px; height: 22px; padding: 0 10px; border-radius: var(--r-full); font-size: var(--fs-12); background: var(--ok-soft); color: var(--ok); white-space: nowrap; }
+      h1 { margin: 0; font-size: var(--fs-15); font-weight: var(--fw-strong); flex: 0 1 auto; min-width: 60px; max-width: 34vw; white-space: nowrap; overflow: hidden; text-overflow: ellipsis; }
+      .state { display: inline-flex; align-items: center; gap: 6px; height: 22px; padding: 0 10px; border-radius: var(--r-full); font-size: var(--fs-12); background: linear-gradient(var(--soft, var(--ok-soft)) 0 0), var(--bg-1); color: var(--ok); white-space: nowrap; }
       .state i { width: 7px; height: 7px; border-radius: 50%; background: currentColor; }
-      .state.replay { background: var(--intent-soft); color: var(--intent); }
-      .state.waits { background: var(--warn-soft); color: var(--warn); }
-      .state.lost { background: var(--danger-soft); color: var(--danger); }
-      .state.opening { background: var(--bg-2); color: var(--text-2); }
+      .state.replay { --soft: var(--intent-soft); color: var(--intent); }
+      .state.waits { --soft: var(--warn-soft); color: var(--warn); }
+      .state.lost { --soft: var(--danger-soft); color: var(--danger); }
+      .state.opening { --soft: var(--bg-2); color: var(--text-2); }
       .about { color: var(--text-2); font-size: var(--fs-12); white-space: nowrap; }
       .space { flex: 1; }
       .find { display: flex; align-items: center; gap: 8px; flex: 0 1 300px; min-width: 40px; height: 30px; padding: 0 8px; border: 1px solid var(--line-2); border-radius: var(--r-3); background: var(--bg-1); color: var(--text-3); font-size: var(--fs-12); overflow: hidden; }
       .find span { flex: 1; text-align: left; white-space: nowrap; overflow: hidden; text-overflow: ellipsis; }
       kbd { padding: 0 6px; border: 1px solid var(--line-2); border-radius: var(--r-2); background: var(--bg-2); color: var(--text-2); font: 500 var(--fs-11) var(--font-ui); white-space: nowrap; }
       .rate em { font-style: normal; color: var(--text-3); }
-      .rate.slow { background: var(--warn-soft); color: var(--warn); }
+      .rate.slow { background: linear-gradient(var(--warn-soft) 0 0), var(--bg-1); color: var(--warn); }
+      .rate.slow em { color: inherit; }
       .person { display: flex; align-items: center; gap: 8px; font-size: var(--fs-12); white-space: nowrap; }
       .people { display: flex; }
       .face { display: grid; place-items: center; width: 24px; height: 24px; border-radius: 50%; background: var(--bg-4); color: var(--text-1); font-style: normal; font-size: 10px; font-weight: 600; }
@@ -112,10 +119,11 @@ export class TopBar extends LitElement {
       .people .face { margin-left: -4px; box-shadow: 0 0 0 2px var(--bg-0); }
       @media (max-width: 1100px) { .about, .rate em, .wide { display: none; } }
       @media (max-width: 800px) { .people, .rule { display: none; } .person span { display: none; } }
+      @media (max-width: 900px) { .find { flex-basis: 190px; } .find kbd { display: none; } h1 { flex-shrink: 0; } }
       @media (max-width: 599px) {
         :host { padding: 0 10px; height: 52px; } .brand b, .find span, .find kbd, .rate { display: none; }
         .find { flex: none; width: 40px; height: 40px; justify-content: center; background: none; border-color: transparent; }
-        .space:first-of-type { display: none; } h1 { flex: 0 1 auto; }
+        .theme, rave-bell { display: none; } .space ~ .space { display: none; } h1 { max-width: 46vw; } .state { order: 1; } .find { order: 2; } .person { order: 3; }
       }
     `,
   ];

@@ -13,6 +13,8 @@ const kPolicy = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe
   "font-src 'self'; connect-src 'self'; manifest-src 'self'; worker-src 'self'; base-uri 'none'; form-action 'self'; frame-ancestors 'none'";
 const kFrame_ms = 1000 / 30;
 const kInFlight = 2;
+/** Code of the close frame of a server without a run. */
+const kNoRun = 4404;
 
 /** One page that looks. */
 class Viewer {
@@ -57,6 +59,10 @@ class FakeServer {
     this.http = createServer((request, response) => this.answer(request, response));
     this.sockets = new WebSocketServer({server: this.http, path: '/ws', handleProtocols: () => 'rave.gui.1', perMessageDeflate: false});
     this.sockets.on('connection', (socket) => {
+      if (this.run === null) {
+        socket.close(kNoRun, 'no run');
+        return;
+      }
       const viewer = new Viewer(socket, this);
       this.viewers.add(viewer);
       socket.on('close', () => this.viewers.delete(viewer));
@@ -66,11 +72,11 @@ class FakeServer {
     let last = performance.now();
     this.timer = setInterval(() => {
       const now = performance.now();
-      this.run.advance((now - last) / 1000);
+      this.run?.advance((now - last) / 1000);
       last = now;
       for (const viewer of this.viewers) viewer.show(this.run);
     }, kFrame_ms);
-    this.clock = setInterval(() => this.say(this.run.time()), 1000);
+    this.clock = setInterval(() => this.run && this.say(this.run.time()), 1000);
   }
 
   answer(request, response) {

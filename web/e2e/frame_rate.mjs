@@ -41,14 +41,30 @@ async function measure(page) {
   }, kMeasured_ms);
 }
 
+/** Seconds of processor time that each kind of the browser's processes has used. Unlike frames, it does not
+ * depend on what else the machine does. */
+async function processorTime(session) {
+  const {processInfo} = await session.send('SystemInfo.getProcessInfo');
+  const spent = {};
+  for (const {type, cpuTime} of processInfo) spent[type] = (spent[type] ?? 0) + cpuTime;
+  return spent;
+}
+
 const browser = await launch();
+const session = await browser.newBrowserCDPSession();
 for (const count of counts.length > 0 ? counts.map(Number) : [16, 1000, 10000]) {
   const server = await serveFake(built, new FakeRun(count, {now_s: 20}));
   const page = await (await browser.newContext({viewport: kViewport})).newPage();
   if (process.env.RAVE_VIEW) await page.addInitScript((mode) => localStorage.setItem('rave.world.mode', mode), process.env.RAVE_VIEW);
   await page.goto(server.origin);
   await page.waitForTimeout(kWarm_ms);
+  const before = await processorTime(session);
   const result = await measure(page);
+  const after = await processorTime(session);
+  const pictures = Math.max(1, (result.pictures_per_s * kMeasured_ms) / 1000);
+  for (const [name, type] of [['page_cpu_ms', 'renderer'], ['gpu_cpu_ms', 'GPU'], ['browser_cpu_ms', 'browser']]) {
+    result[name] = (1000 * ((after[type] ?? 0) - (before[type] ?? 0))) / pictures;
+  }
   for (const key of Object.keys(result)) if (typeof result[key] === 'number') result[key] = Number(result[key].toFixed(1));
   console.log(JSON.stringify({...result, load: Number(loadavg()[0].toFixed(1))}));
   await page.close();

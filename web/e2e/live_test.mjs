@@ -132,7 +132,7 @@ try {
     assert.match(await page.evaluate(`${app}.model.hello.run.hash`), /^[0-9a-f]{16}$/);
     await say(page, {type: 'transport', do: 'pause'});
     await say(page, {type: 'transport', do: 'seek', value: 12.5});
-    await until(page, `Math.abs(${newest}.time_s - 12.5) < 0.011`);
+    await until(page, `Math.abs(${newest}?.time_s - 12.5) < 0.011`);
     await live.end();
   });
 

@@ -118,6 +118,28 @@ try {
     await until(page, `${app}.selection.primary === ${at.slot}`);
   });
 
+  await check('the link to this moment brings time, robot and camera', async () => {
+    await page.mouse.move(700, 450);
+    await page.mouse.wheel(0, -400);
+    await page.waitForTimeout(200);
+    await page.getByText('Link to this moment').click();
+    const view = await page.evaluate(`document.querySelector('rave-world').viewpoint()`);
+    const other = await context.newPage();
+    await other.goto(page.url());
+    await until(other, `${app}?.selection.primary === ${app}?.model.robots.findIndex((robot) => robot.name === 'hunter')`);
+    await until(other, `document.querySelector('rave-world').viewpoint() === '${view}'`);
+    await other.close();
+  });
+
+  await check('a click in the log goes to the moment of the event', async () => {
+    await page.locator('rave-log .row').last().click();
+    const t = await page.evaluate(`${app}.model.events[0].t`);
+    await until(page, `Math.abs(${app}.model.poses.newest?.time_s - ${t}) < 0.02`);
+    await page.getByPlaceholder('source, text').fill('no such thing');
+    await until(page, `document.querySelector('rave-log').renderRoot.querySelectorAll('.row').length === 0`);
+    await page.getByPlaceholder('source, text').fill('');
+  });
+
   await check('a recording cannot be stopped, and the page says so', async () => {
     await page.getByText('View only').waitFor();
   });

@@ -155,6 +155,18 @@ try {
     await page.getByText('virtual obstacles').waitFor();
   });
 
+  await check('a server without a run says so, and the next run is shown by itself', async () => {
+    await server.end();
+    await page.getByText(/Link lost/).first().waitFor();
+    server = await serveFake(built, null, port);
+    await page.getByText('No run in progress').waitFor();
+    server.run = new FakeRun(8, {name: 'next'});
+    await page.getByText('next', {exact: true}).waitFor();
+    await until(page, `${app}.model.robots.length === 8`);
+    await page.keyboard.press('2');
+    await page.locator('rave-robots .row').first().waitFor();
+  });
+
   await check('every message is as the schema describes it', async () => {
     const file = join(folder, 'messages.json');
     writeFileSync(file, JSON.stringify(said));

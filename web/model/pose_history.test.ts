@@ -49,6 +49,9 @@ describe('the past', () => {
     history.add(frame(1, 5, 0, true), 5000);
     expect(history.past.length).toBe(1);
     expect(history.newest).toBeNull();
+    const placed = new Placed();
+    history.interpolate(5001, placed);
+    expect(placed.x[0]).toBe(5);
   });
 
   it('is thinned and ends after 20 s', () => {

@@ -46,7 +46,8 @@ export class PoseHistory {
 
   /** Writes where everybody is at `now_ms` to `out`: between the newest two frames, never beyond. */
   interpolate(now_ms: number, out: Placed): void {
-    const to = this.newest;
+    // After a jump the past comes first: its end is shown until the moment itself is there.
+    const to = this.newest ?? this.past[this.past.length - 1] ?? null;
     if (to === null) {
       out.resize(0);
       return;

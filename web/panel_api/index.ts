@@ -34,8 +34,8 @@ export interface PanelKind {
   icon: string;
   /** Name of its custom element. */
   tag: string;
-  /** Has a tab on a phone. */
-  phone: boolean;
+  /** What its tab on a phone is called. */
+  short: string;
   /** Number beside the title; none if undefined. */
   count?(context: PanelContext): number;
 }

@@ -252,6 +252,21 @@ TEST_F(BecomesReal, NotWhenItIsElsewhere) {
   EXPECT_EQ(engine_->spec().world.robots[0].layer, Layer::kSimulatedRobots);
 }
 
+TEST_F(BecomesReal, WhereItsOtherDriversSawItIsNoPartOfHowItMoves) {
+  begin([](RobotType& simulated, RobotType&) {
+    simulated.sensors[0] = virtual_sensor<Beacon>("mocap", {{"offset_m", 0.2}});
+    simulated.pose_from = 0;
+  });
+  run(*engine_, 4000);
+  ASSERT_NEAR(engine_->reported(robot_).pose.x_m, 0.2, 1e-9);
+  ask();
+  while (under_way() && !is_late()) say(0.1);
+  ASSERT_EQ(engine_->hand_over_state(robot_)->made, 1U);
+  for (int step = 0; step < 5; ++step) say(0.1);
+  EXPECT_NEAR(engine_->reported(robot_).pose.x_m, 0.1, 1e-9);
+  EXPECT_EQ(engine_->reported(robot_).velocity.vx, 0) << "the two see it at two places";
+}
+
 TEST_F(BecomesReal, NotWithABodyOfAnotherSize) {
   begin();
   const ParameterChange larger[] = {{ParameterChange::Part::kBody, 0, "scale", 1.2}};

@@ -264,6 +264,11 @@ TEST_F(EngineLiveGuard, NamesTheDevicesThatNobodyStopsWhenTheProcessIsGone) {
   make_engine(live_spec(cart_type(0.3))).reset();
   EXPECT_NE(ears_.heard.find(text), std::string::npos) << ears_.heard;
   ears_.heard.clear();
+  RobotType without = cart_type(0.3);
+  without.actuators[0].params = numbers({{"device_watchdog_s", 0}, {"baud", 9600}});
+  make_engine(live_spec(std::move(without))).reset();
+  EXPECT_NE(ears_.heard.find(text), std::string::npos) << ears_.heard;
+  ears_.heard.clear();
   RobotType type = cart_type(0.3);
   type.actuators[0].params = numbers({{"device_watchdog_s", 0.2}});
   make_engine(live_spec(std::move(type))).reset();

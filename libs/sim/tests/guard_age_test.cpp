@@ -74,6 +74,20 @@ TEST(GuardAge, WhoWasToldToGoFasterHasGoneFartherSince) {
   EXPECT_NEAR(guard_reach_m({}, in), 1.5 * 0.51 + 1.5 * 1.5, 1e-9);
 }
 
+TEST(GuardAge, WhatWasToldBeforeThePoseWasTakenIsNoPartOfTheWaySince) {
+  RobotGuard robot;
+  GuardInput in = input(1.5, 0, {-1.7, 0, 0});
+  EXPECT_EQ(robot.limit(in_square(), in).acted, 0U);
+  in.command = velocity_command(0.2, 0);
+  EXPECT_EQ(robot.limit(in_square(), in).acted, 0U);
+  in.X_WR.x = 1.3;
+  in.pose_age_s = 0.4;
+  EXPECT_NE(robot.limit(in_square(), in).acted, 0U) << "it may have gone 0.6 m since";
+  in.pose_stamp = SimTime{1};
+  in.command = velocity_command(0.1, 0);
+  EXPECT_EQ(robot.limit(in_square(), in).acted, 0U) << "0.2 m/s at most since this one";
+}
+
 TEST(GuardAge, TheFenceHoldsHoweverSeldomThePoseComes) {
   for (const int steps_per_pose : {1, 10, 45}) {
     RobotGuard robot;

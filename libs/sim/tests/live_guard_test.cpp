@@ -124,6 +124,16 @@ TEST_F(LiveGuardTest, TheWatchdogBitesByTheWallUntilTheNextCommand) {
   EXPECT_GT(x_m_, stood_m);
 }
 
+TEST_F(LiveGuardTest, BeforeItsProgramHasCommandedItStands) {
+  begin(fence_alone());
+  order(0.2);
+  order_.wishes[0].given.reset();
+  EXPECT_EQ(ask(), 0) << "whatever its controller makes of it";
+  EXPECT_TRUE(begun(GuardLimit::kWatchdog));
+  order(0.2);
+  EXPECT_EQ(ask(), 0.2);
+}
+
 TEST_F(LiveGuardTest, AStepThatDoesNotComeIsAWorldThatIsLost) {
   for (const WorldLostPolicy policy : {WorldLostPolicy::kStop, WorldLostPolicy::kSlow}) {
     GuardSpec limits = fence_alone();

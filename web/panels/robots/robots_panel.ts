@@ -5,8 +5,8 @@ import {controls, glyphs} from '../../app/styles';
 import {kHistory_s} from '../../model/pose_history';
 import type {PanelContext} from '../../panel_api';
 import {RobotFlag} from '../../protocol/frames';
-import type {Robot} from '../../protocol/messages';
 import {parseFilter, type Filter} from './filter';
+import {stateOf} from './robot_state';
 
 /** Beyond so many robots a team is a histogram, and its rows come on demand. */
 const kMany = 200;
@@ -244,15 +244,6 @@ export class RobotsPanel extends LitElement {
 /** Without the sign of a zero. */
 function speedText(speed: number): string {
   return `${(Math.abs(speed) < 0.005 ? 0 : speed).toFixed(2).replace('-', '−')} m/s`;
-}
-
-/** What is not normal about a robot, in words; empty if all is. */
-export function stateOf(robot: Robot, flags: number): string {
-  if ((flags & RobotFlag.known) === 0) return 'no pose yet';
-  if ((flags & RobotFlag.stopped) !== 0) return 'stopped';
-  if ((flags & RobotFlag.stale) !== 0) return 'pose stale';
-  if ((flags & RobotFlag.unarmed) !== 0 && robot.kind === 'real') return 'arm';
-  return '';
 }
 
 customElements.define('rave-robots', RobotsPanel);

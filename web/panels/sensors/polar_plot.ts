@@ -31,8 +31,6 @@ export function drawPolar(
     ox - r * Math.sin(bearing),
     oy - r * Math.cos(bearing),
   ];
-  ctx.font = `400 10px ${kFont}`;
-  ctx.textBaseline = 'middle';
   drawRings(ctx, ox, oy, radius, half, max, palette);
   if (reading !== null && reading.rows > 0) {
     ctx.beginPath();
@@ -104,6 +102,8 @@ function drawRings(
 ): void {
   const step = max > 12 ? 5 : max > 5 ? 2 : max > 1.5 ? 1 : 0.25;
   const full = half > Math.PI - 0.01;
+  ctx.font = `400 10px ${kFont}`;
+  ctx.textBaseline = 'middle';
   const begin = full ? 0 : -Math.PI / 2 - half;
   const end = full ? 2 * Math.PI : -Math.PI / 2 + half;
   ctx.strokeStyle = palette.token('line-2');

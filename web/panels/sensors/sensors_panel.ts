@@ -223,7 +223,7 @@ export class SensorsPanel extends LitElement {
     const side = degrees === 0 ? 'ahead' : `${Math.abs(degrees)}° ${degrees > 0 ? 'left' : 'right'}`;
     const met = this.met(slot, sensor, reading, ray);
     const colour = met === null ? '' : this.context.palette.token(met.token);
-    return html`<b>${reading.values[ray].toFixed(2)} m</b>${met === null ? nothing : html` to <span style="color:${colour}">${met.name}</span>`}, ${side}`;
+    return html`<b>${reading.values[ray].toFixed(2)} m</b><span>${met === null ? nothing : html`to <span style="color:${colour}">${met.name}</span>, `}${side}</span>`;
   }
 
   private draw(): void {
@@ -281,6 +281,7 @@ export class SensorsPanel extends LitElement {
       .head, .about { display: flex; align-items: center; gap: 8px; padding: 8px 12px 0; flex-wrap: wrap; }
       .about { color: var(--text-2); font-size: var(--fs-12); padding-top: 4px; flex-wrap: nowrap; white-space: nowrap; overflow: hidden; }
       .space { flex: 1; }
+      :host([embedded]) .head > :is(.glyph, b, .icon-button, .space), :host([compact]) .course { display: none; }
       .tag { display: inline-flex; align-items: center; gap: 6px; padding: 1px 8px; border-radius: var(--r-2); background: var(--virtual-fill); color: var(--virtual-ink); }
       .polar { flex: 1 1 160px; min-height: 100px; width: 100%; }
       .course { flex: 0 1 96px; min-height: 56px; width: 100%; margin-top: 4px; }

@@ -23,8 +23,8 @@ export interface Stage {
   /** Draws; true as long as something moves by itself. */
   paint(now_ms: number): boolean;
   resize(width: number, height: number): void;
-  /** Shows everything, or the selection where everything is shown already. False if there is nothing yet. */
-  fit(animate: boolean): boolean;
+  /** Shows everything; with `closer` the selection, where everything is shown already. False if there is nothing yet. */
+  fit(animate: boolean, closer?: boolean): boolean;
   /** Where it looks from, as the address of the page says it. */
   viewpoint(): string;
   lookFrom(text: string): void;

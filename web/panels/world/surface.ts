@@ -8,6 +8,7 @@ import type {Mark} from './scan_layer';
 /** A point of a reading may lie so far beside the body that it met: noise and pictures between steps. */
 const kNear_m = 0.12;
 const kCell_m = 1;
+const kReachStep_m = 4;
 
 /** What a point in the world belongs to. */
 export interface Met {
@@ -48,6 +49,24 @@ export class Surface {
   }
 
   placed: Placed | null = null;
+  private readonly near = new Map<number, {time_s: number; reach: number; slots: number[]}>();
+
+  /** Robots within `reach` of another one; found once for a picture, since a scan asks for each of its rays. */
+  robotsNear(owner: number, reach: number): readonly number[] {
+    const {placed} = this;
+    if (placed === null || placed.count !== this.robots.length || owner >= placed.count) return [];
+    const known = this.near.get(owner);
+    if (known !== undefined && known.time_s === placed.time_s && known.reach >= reach) return known.slots;
+    const slots: number[] = [];
+    const [x, y] = [placed.x[owner], placed.y[owner]];
+    for (let slot = 0; slot < placed.count; ++slot) {
+      const limit = reach + this.robots[slot].radius + kNear_m;
+      const [dx, dy] = [placed.x[slot] - x, placed.y[slot] - y];
+      if (dx * dx + dy * dy < limit * limit && slot !== owner && (placed.flags[slot] & 1) !== 0) slots.push(slot);
+    }
+    this.near.set(owner, {time_s: placed.time_s, reach, slots});
+    return slots;
+  }
 }
 
 function metOf(body: Body): Met {
@@ -82,11 +101,10 @@ export function pointSurface(surface: Surface, x: number, y: number, owner: numb
   for (const {body, thing} of surface.cells.get(`${Math.floor(x / kCell_m)},${Math.floor(y / kCell_m)}`) ?? []) {
     look(thing, body.pose[0], body.pose[1], body.pose[2]);
   }
-  const placed = surface.placed;
-  if (placed !== null && placed.count === surface.robots.length) {
-    surface.robots.forEach((thing, slot) => {
-      if (slot !== owner && (placed.flags[slot] & 1) !== 0) look(thing, placed.x[slot], placed.y[slot], placed.yaw[slot]);
-    });
+  const {placed} = surface;
+  if (placed !== null && owner < placed.count) {
+    const reach = Math.ceil(Math.hypot(x - placed.x[owner], y - placed.y[owner]) / kReachStep_m) * kReachStep_m;
+    for (const slot of surface.robotsNear(owner, reach)) look(surface.robots[slot], placed.x[slot], placed.y[slot], placed.yaw[slot]);
   }
   return met;
 }

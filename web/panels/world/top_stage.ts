@@ -129,13 +129,13 @@ export class TopStage implements Stage {
     ctx.setLineDash([]);
   }
 
-  fit(animate: boolean): boolean {
+  fit(animate: boolean, closer = false): boolean {
     const selected = this.bounds(this.context.selection.slots);
     const all = this.bounds();
     if (all === null) return false;
     const goal = this.camera.fitted(all);
     const there = Math.abs(goal.x - this.camera.x) + Math.abs(goal.y - this.camera.y) < 1e-6 && Math.abs(goal.scale / this.camera.scale - 1) < 1e-6;
-    this.camera.go(there && selected !== null ? this.camera.fitted(selected, 120) : goal, performance.now(), animate);
+    this.camera.go(closer && there && selected !== null ? this.camera.fitted(selected, 120) : goal, performance.now(), animate);
     return true;
   }
 

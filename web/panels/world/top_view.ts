@@ -6,6 +6,7 @@ import {RobotFlag, type PoseFrame} from '../../protocol/frames';
 import type {Robot} from '../../protocol/messages';
 import {BodyLayer} from './body_layer';
 import type {Camera} from './camera';
+import {drawContactTags} from './contact_tags';
 import {Density} from './density';
 import {drawGrid, drawScale, drawTicks} from './grid_layer';
 import {LabelPlacer} from './labels';
@@ -170,8 +171,8 @@ export class TopView {
         }
         points[at++] = x;
         points[at++] = y;
-        // What the arrowhead hides is not drawn.
-        if ((points[0] - x) ** 2 + (points[1] - y) ** 2 > r * r) swarm.addTail(points, at / 2, edge);
+        // What the arrowhead nearly hides is not drawn.
+        if ((points[0] - x) ** 2 + (points[1] - y) ** 2 > 4 * r * r) swarm.addTail(points, at / 2, edge);
       }
       swarm.add(x, y, -placed.yaw[slot], r, edge, stopped ? stopInside : share === null ? inside : mix(edge, 0.5));
     }
@@ -201,6 +202,7 @@ export class TopView {
     const named = cast.whole.filter((slot) => near || this.outstanding(model.robots[slot], slot, placed));
     const labels = robotLabels(model.robots, named, camera, placed, (slot) => this.robots.radius(slot), selection, palette, placer);
     if (cast.far && cast.swarm.length > 0) drawPlates(ctx, camera, this.teams(placed), palette, placer);
+    if (!cast.far) drawContactTags(ctx, camera, model.events, placed, palette, placer);
     labels.push(...bodyLabels(this.bodies.groups, camera, layers, near && !cast.far, palette, placer));
     placer.draw(ctx, labels, palette.token('floor'));
   }

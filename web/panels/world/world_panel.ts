@@ -132,7 +132,7 @@ export class WorldPanel extends LitElement {
   /** Shows everything; where everything is shown already, the selection. */
   fit(animate = true): void {
     this.context.selection.follow(false);
-    this.stage.fit(animate && motion());
+    this.stage.fit(animate && motion(), true);
     this.draw();
   }
 
@@ -261,6 +261,7 @@ export class WorldPanel extends LitElement {
         <span class="space"></span>
         ${model.robots.length >= kCrowd ? this.renderColourBy() : nothing}
         <div class="tools">
+          <button class="icon-button mode" aria-label="Top or 3-D" @click=${() => this.toggleMode()}>${this.mode === 'top' ? '3-D' : 'Top'}</button>
           ${tool('maximize', 'Show everything', 'F', null, () => this.fit())}
           ${tool('crosshair', 'Follow the selected robot', 'C', selection.following, () => selection.follow(!selection.following), primary === null)}
           ${tool('ruler', 'Measure', 'M', this.top.measure.on, () => this.toggleMeasure())}
@@ -301,6 +302,7 @@ export class WorldPanel extends LitElement {
       .colour-by { display: flex; align-items: center; gap: 8px; margin-right: 6px; color: var(--text-3); font-size: var(--fs-12); white-space: nowrap; }
       :host { container-type: inline-size; }
       @container (max-width: 960px) { .colour-by { display: none; } }
+      .mode { display: none; font-weight: var(--fw-medium); font-size: var(--fs-12); }
       @container (max-width: 640px) { .kind i { display: none; } .kind { padding: 0 5px; } }
       .stage { position: relative; flex: 1; min-height: 0; }
       .canvas { position: absolute; inset: 0; background: var(--floor); }
@@ -310,7 +312,16 @@ export class WorldPanel extends LitElement {
       canvas[hidden] { display: none; }
       .note { position: absolute; left: 14px; top: 26px; display: flex; gap: 7px; align-items: center; height: 30px; padding: 0 12px; background: var(--bg-2); border: 1px solid var(--line-1); border-radius: var(--r-3); font-size: var(--fs-12); color: var(--text-2); }
       .note svg { color: var(--intent); }
-      @media (max-width: 900px) { .kind { padding: 0 5px; } .kind i { display: none; } }
+      @container (max-width: 520px) {
+        .bar { display: contents; }
+        .segments, .rule, .space, .tools .ruler, .tools .maximize, .tools .camera { display: none; }
+        .legend { position: absolute; left: 10px; top: 10px; z-index: 3; padding: 0 6px; background: var(--bg-2); border: 1px solid var(--line-1); border-radius: var(--r-full); gap: 0; }
+        .tools { position: absolute; right: 10px; top: 10px; z-index: 3; flex-direction: column; padding: 2px; gap: 2px; background: var(--bg-2); border: 1px solid var(--line-1); border-radius: var(--r-4); }
+        .tools .icon-button { width: 44px; height: 44px; }
+        .mode { display: inline-grid; }
+        .menu { right: 64px; max-width: calc(100% - 76px); }
+        .note { top: 48px; left: 10px; }
+      }
     `,
   ];
 }

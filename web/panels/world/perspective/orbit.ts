@@ -60,12 +60,12 @@ export class Orbit {
     this.eye.distance = Math.min(Math.max(this.eye.distance / factor, kNearest_m), kFarthest_m);
   }
 
-  /** Looks at all of `bounds`. */
-  fit(bounds: Bounds, now_ms: number, animate: boolean): void {
+  /** The eye that sees all of `bounds`. */
+  fitted(bounds: Bounds): Eye {
     const half = Math.max(bounds.x1 - bounds.x0, (bounds.y1 - bounds.y0) * 0.9, 1) / 2;
     const wide = Math.min(this.width / this.height, 1.5);
     const distance = (1.08 * half) / Math.tan((kFov_deg * Math.PI) / 360) / Math.max(wide, 0.5);
-    this.go({...this.eye, x: (bounds.x0 + bounds.x1) / 2, y: (bounds.y0 + bounds.y1) / 2, distance}, now_ms, animate);
+    return {...this.eye, x: (bounds.x0 + bounds.x1) / 2, y: (bounds.y0 + bounds.y1) / 2, distance};
   }
 
   go(to: Eye, now_ms: number, animate: boolean): void {

@@ -22,6 +22,8 @@ import {StandingBodies} from './standing_bodies';
 
 const kShadow_px = 1024;
 const kFinger_px = 22;
+/** From so far away a single robot is looked at. */
+const kClose_m = 4;
 const kMouse_px = 10;
 
 // Colours are those of the tokens, mixed as a 2-D canvas mixes them.
@@ -154,10 +156,16 @@ export class PerspectiveStage implements Stage {
     });
   }
 
-  fit(animate: boolean): boolean {
+  fit(animate: boolean, closer = false): boolean {
     const bounds = this.bounds();
     if (bounds === null) return false;
-    this.orbit.fit(bounds, performance.now(), animate);
+    const {placed, selection} = this.context;
+    const primary = selection.primary;
+    const {x, y, distance} = this.orbit.eye;
+    const goal = this.orbit.fitted(bounds);
+    const there = Math.hypot(goal.x - x, goal.y - y) < 1e-6 && Math.abs(goal.distance / distance - 1) < 1e-6;
+    const close = closer && there && primary !== null && primary < placed.count;
+    this.orbit.go(close ? {...goal, x: placed.x[primary], y: placed.y[primary], distance: kClose_m} : goal, performance.now(), animate);
     return true;
   }
 

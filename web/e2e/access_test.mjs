@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page for everybody: no serious finding of axe in any state, in both themes and all widths, and
+// the whole page by keyboard alone: node access_test.mjs PAGE FOLDER
+import assert from 'node:assert/strict';
+import {mkdirSync, readFileSync} from 'node:fs';
+import {createRequire} from 'node:module';
+import {join} from 'node:path';
+import {launch} from './browser.mjs';
+import {app, check, report, showFailures, until, untilHere, watch} from './checks.mjs';
+import {FakeRun} from './fake_run.mjs';
+import {serveFake} from './fake_server.mjs';
+
+const [built, folder] = process.argv.slice(2);
+mkdirSync(folder, {recursive: true});
+const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+const kWidths = [['desktop', 1400, 900], ['tablet', 820, 1100], ['phone', 390, 844], ['pen', 480, 640]];
+
+const run = new FakeRun(16, {now_s: 20});
+run.hosts = [1, 2].map((i) => ({name: `host-${i}`, machine: `lab-${i}`, state: i === 2 ? 'late' : 'here', ...(i === 2 ? {late_s: 2.9} : {}), real: 2, simulated: 6, step: 1700, steps_per_s: 99.8, delay_s: 0.0003, cpu: 0.4, lost: i - 1}));
+run.events.push({t: 9, until: 12, count: 131, kind: 'contact', level: 'warn', text: 'real-4 and real-5 touch', slots: [3, 4]});
+const server = await serveFake(built, run);
+const browser = await launch();
+
+async function open(width, height, theme) {
+  const context = await browser.newContext({viewport: {width, height}, hasTouch: width < 600, reducedMotion: 'reduce'});
+  const page = await context.newPage();
+  await page.addInitScript((value) => localStorage.setItem('rave.theme', value), theme);
+  await page.goto(server.origin);
+  await until(page, `${app}?.model?.poses?.newest`);
+  await page.evaluate(`${app}.selection.set([2])`);
+  await page.waitForTimeout(500);
+  return page;
+}
+
+/** Names of the serious findings, with the elements. */
+async function findings(page) {
+  await page.evaluate(axe);
+  const {violations} = await page.evaluate(() => window.axe.run(document, {resultTypes: ['violations']}));
+  return violations.filter(({impact}) => impact === 'serious' || impact === 'critical')
+    .map(({id, nodes}) => `${id}: ${nodes.slice(0, 4).map(({target, any}) => `${target.flat().join(' > ')} ${any[0]?.message ?? ''}`).join(' | ')}`);
+}
+
+const found = [];
+
+async function look(page, what) {
+  for (const finding of await findings(page)) found.push(`${what}: ${finding}`);
+}
+
+try {
+  for (const theme of ['dark', 'light']) {
+    for (const [name, width, height] of kWidths) {
+      await check(`${name}, ${theme}: nothing serious`, async () => {
+        const page = await open(width, height, theme);
+        showFailures(page, join(folder, 'failed.png'));
+        await look(page, 'as it opens');
+        await page.getByRole('button', {name: 'Layers'}).click();
+        await look(page, 'layers');
+        await page.keyboard.press('Escape');
+        await page.keyboard.press('?');
+        await page.waitForTimeout(100);
+        await look(page, 'keys');
+        await page.keyboard.press('Escape');
+        await page.keyboard.press('Control+k');
+        await page.keyboard.type('stop wal');
+        await page.waitForTimeout(100);
+        await look(page, 'find');
+        await page.keyboard.press('Escape');
+        run.stopped = new Set(run.robots.keys());
+        await page.getByText('Hold to release').waitFor();
+        await look(page, 'stopped');
+        run.stopped.clear();
+        await page.keyboard.press('5');
+        await page.waitForTimeout(300);
+        await look(page, 'hosts');
+        await page.keyboard.press('4');
+        await page.waitForTimeout(300);
+        await look(page, 'log');
+        await page.context().close();
+        assert.deepEqual(found.splice(0), []);
+      });
+    }
+  }
+
+  await check('everything is reached by the keyboard alone', async () => {
+    const page = await open(1400, 900, 'dark');
+    const seen = watch(page, server.origin);
+    const reached = new Set();
+    for (let i = 0; i < 120; ++i) {
+      await page.keyboard.press('Tab');
+      reached.add(await page.evaluate(() => {
+        let at = document.activeElement;
+        while (at?.shadowRoot?.activeElement) at = at.shadowRoot.activeElement;
+        return at?.getAttribute('aria-label') || at?.textContent?.trim().slice(0, 24) || at?.localName;
+      }));
+    }
+    for (const name of ['Find a robot, panel or moment', 'Light or dark', 'Filter robots', 'Layers', 'Follow the selected robot', 'Pause', 'One step on']) {
+      assert.ok([...reached].some((known) => known?.startsWith(name)), `${name} is not reached: ${[...reached].join(', ')}`);
+    }
+    assert.ok([...reached].some((known) => known?.includes('STOP')), 'STOP');
+    assert.ok([...reached].some((known) => known?.includes('walker-1')), 'rows of robots');
+    assert.deepEqual(seen.foreign, []);
+    assert.deepEqual(seen.errors, []);
+  });
+
+  await check('stop and release by keyboard', async () => {
+    const page = await open(1400, 900, 'light');
+    await page.locator('rave-stop .stop').focus();
+    await page.keyboard.press('Enter');
+    await untilHere(page, () => run.stopped.size === 16, 'stopped');
+    await page.locator('rave-stop .release').focus();
+    await page.keyboard.down(' ');
+    await untilHere(page, () => run.stopped.size === 0, 'released');
+    await page.keyboard.up(' ');
+  });
+} finally {
+  await browser.close();
+}
+report();
+process.exit(0);

@@ -208,7 +208,9 @@ Status Accounts::remove(std::string_view name) {
     if (found == file.accounts.end()) {
       std::vector<std::string_view> names;
       for (const Account& account : file.accounts) names.emplace_back(account.person.name);
-      return fail(ErrorCode::kNotFound, "nobody is called `{}`{}", name, suggestion(name, names));
+      const std::string_view near = nearest_name(name, names);
+      return fail(ErrorCode::kNotFound, "nobody is called `{}`{}", name,
+                  near.empty() ? "" : fmt::format("; did you mean `{}`?", near));
     }
     file.accounts.erase(found);
     std::erase_if(file.sessions, [&](const auto& session) { return session.user == name; });

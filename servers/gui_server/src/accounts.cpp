@@ -180,6 +180,9 @@ Status Accounts::change(const std::function<Status(AccountsFile&)>& how) {
 
 Status Accounts::write(const AccountsFile& changed) {
   RAVE_TRY(write_file_atomically(folder_ / "accounts", write_accounts(changed)));
+  // The folder is private already; this is for who copies the file.
+  std::error_code ignored;
+  fs::permissions(folder_ / "accounts", fs::perms::owner_read | fs::perms::owner_write, ignored);
   stamp_.clear();
   return read_if_changed();
 }

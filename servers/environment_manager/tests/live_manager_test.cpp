@@ -122,6 +122,10 @@ TEST_F(LiveManagerTest, NamesRobotsThatAreNotHeardOfAndHostsThatWereLost) {
     one.say(0, {0}, 0);
     go_until({&one, &*two}, [this] { return lines_.has("robot `anna` is stale"); });
     EXPECT_TRUE(lines_.has("robot `anna` is stale")) << lines_.said();
+    // As of a moment that is not there yet: it is surely not too old.
+    one.say(0, {0}, 30);
+    go_until({&one, &*two}, [this] { return lines_.has("robot `anna` is back"); });
+    EXPECT_TRUE(lines_.has("robot `anna` is back")) << lines_.said();
     two.reset();
     go_until({&one}, [this] { return lines_.has("host `two` is gone"); });
     go_until({&one}, [] { return false; });

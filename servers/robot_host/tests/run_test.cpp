@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "../src/goal_checks.hpp"
 #include "host_fixture.hpp"
 #include "rave/base/file.hpp"
 
@@ -152,6 +153,31 @@ TEST(Run, ContactsOfARobotWhosePlaceWasNeverKnownAreNotCounted) {
     EXPECT_EQ(result.at("checks").at(0).at("text"),
               late ? "not made: the place of `real-1` was never known" : "0, expected at most 0");
   }
+}
+
+TEST(Run, ContactsOfBeforeAManagerTookOverAreNotTakenForNone) {
+  Host host;
+  const std::string text = fmt::format(
+      "name: late\nduration_s: 1\nchecks: {{touches: [{{robots: [anna]}}]}}\nrobots:\n"
+      "  - {{name: anna, pose: {{x_m: 0, y_m: 0}}, robot: {{{}, {}}}}}\n",
+      kBody, kWheels);
+  const auto scenario = host.expand(text);
+  ASSERT_TRUE(scenario) << scenario.error().text();
+  const auto built = host.build_text(text);
+  ASSERT_TRUE(built) << built.error().text();
+  RunFacts facts;
+  facts.steps = 100;
+  facts.has_world = true;
+  auto results = goal_results(*scenario, built->spec, facts, {});
+  ASSERT_EQ(results.size(), 1U);
+  EXPECT_TRUE(results[0].holds && results[0].made);
+  facts.world_from = 5;
+  results = goal_results(*scenario, built->spec, facts, {});
+  EXPECT_FALSE(results[0].holds);
+  EXPECT_FALSE(results[0].made);
+  EXPECT_EQ(
+      results[0].text,
+      "not made: contacts before step 5 are known to the manager alone that was there before");
 }
 
 TEST(Run, IsNotWholeWhenARecordingHasNoPoseOfItsRobot) {

@@ -108,10 +108,12 @@ int web_keys(const KeysWebCommand& options) {
       fmt::format("{} {} for {}; valid until {}\n", made->new_authority ? "made" : "renewed in",
                   folder, list_of(options.names), keys::date_text(made->until_s)));
   if (made->new_authority) {
-    put(stdout, fmt::format("next: tell browsers once to trust {0}/authority.pem\n"
-                            "  SHA-256 {1}\n"
-                            "Whoever has {0}/authority_key.pem can pretend to be this server.\n",
-                            folder, made->fingerprint));
+    put(stdout,
+        fmt::format(
+            "next: tell browsers once to trust {0}/authority.pem\n"
+            "  SHA-256 {1}\n"
+            "Who has {0}/authority_key.pem can pretend to be this server: keep it to yourself.\n",
+            folder, made->fingerprint));
   }
   put(stdout,
       fmt::format("serve with  --certificate {0}/server.pem --key {0}/server_key.pem\n", folder));

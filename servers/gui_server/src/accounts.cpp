@@ -180,6 +180,9 @@ Status Accounts::change(const std::function<Status(AccountsFile&)>& how) {
 
 Status Accounts::write(const AccountsFile& changed) {
   RAVE_TRY(write_file_atomically(folder_ / "accounts", write_accounts(changed)));
+  // The folder is private already; this is for who copies the file.
+  std::error_code ignored;
+  fs::permissions(folder_ / "accounts", fs::perms::owner_read | fs::perms::owner_write, ignored);
   stamp_.clear();
   return read_if_changed();
 }
@@ -208,7 +211,9 @@ Status Accounts::remove(std::string_view name) {
     if (found == file.accounts.end()) {
       std::vector<std::string_view> names;
       for (const Account& account : file.accounts) names.emplace_back(account.person.name);
-      return fail(ErrorCode::kNotFound, "nobody is called `{}`{}", name, suggestion(name, names));
+      const std::string_view near = nearest_name(name, names);
+      return fail(ErrorCode::kNotFound, "nobody is called `{}`{}", name,
+                  near.empty() ? "" : fmt::format("; did you mean `{}`?", near));
     }
     file.accounts.erase(found);
     std::erase_if(file.sessions, [&](const auto& session) { return session.user == name; });

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "audit_log.hpp"
+#include "metrics.hpp"
 #include "rave/base/file.hpp"
 #include "secrets.hpp"
 
@@ -232,6 +233,22 @@ TEST_F(AccountsTest, TheAuditLogIsBoundedAndOneLineEach) {
   }
   EXPECT_EQ(files, 5U);
   EXPECT_EQ(log.lost(), 0U);
+}
+
+TEST(Metrics, AreForThisMachineOrWhoHasTheToken) {
+  web::Request request;
+  request.peer = "127.0.0.1";
+  EXPECT_TRUE(may_read_metrics(request, ""));
+  request.peer = "192.168.1.20";
+  EXPECT_FALSE(may_read_metrics(request, ""));
+  EXPECT_FALSE(may_read_metrics(request, "token"));
+  for (const auto& [header, good] :
+       {std::pair("Bearer token", true), std::pair("Bearer tokem", false),
+        std::pair("token", false), std::pair("Bearer ", false)}) {
+    request.headers["authorization"] = header;
+    EXPECT_EQ(may_read_metrics(request, "token"), good) << header;
+    EXPECT_FALSE(may_read_metrics(request, ""));
+  }
 }
 
 TEST(Secrets, AreLongAndNeverTheSame) {

@@ -410,7 +410,7 @@ TEST_F(Hostile, ListeningElsewhereNeedsTlsAndAccounts) {
   open.accounts.clear();
   EXPECT_NE(error(open).find("needs accounts: add --accounts"), std::string::npos);
   open.certificate.clear();
-  EXPECT_NE(error(open).find("`rave keys web web-keys 0.0.0.0` makes a certificate"),
+  EXPECT_NE(error(open).find("to listen on 0.0.0.0 needs TLS: `rave keys web web-keys NAME`"),
             std::string::npos);
 }
 

@@ -62,7 +62,8 @@ class Side {
     kinds_ = std::make_unique<BodyKinds>(built.spec, built.robot_kinds);
     engine_ = sim::Engine::create(std::move(built.spec)).value();
     if (record.empty()) return;
-    keeper_ = RecordKeeper::begin(record, *engine_, *kinds_, {"crowd", "", {}, {}, true}, nullptr)
+    keeper_ = RecordKeeper::open(record, *engine_, *kinds_, robot_host::info_of(*engine_, *kinds_),
+                                 {}, nullptr)
                   .value();
   }
   /// Per step.

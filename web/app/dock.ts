@@ -8,8 +8,8 @@ const kKept = 'rave.layout';
 /** Another number makes layouts that were kept void. */
 const kVersion = 2;
 
-export type LayoutName = 'Watch' | 'Analyse';
-export const kLayouts: readonly LayoutName[] = ['Watch', 'Analyse'];
+export type LayoutName = 'Watch' | 'Analyse' | 'Conduct';
+export const kLayouts: readonly LayoutName[] = ['Watch', 'Analyse', 'Conduct'];
 
 /** A panel in the dock: makes the element and gives it its context. */
 class DockedPanel implements IContentRenderer {
@@ -81,7 +81,7 @@ export class Dock {
     this.add('world');
     if (this.width >= 1280) this.layOutWide(layout);
     else if (this.width >= 900) {
-      this.add('robots', {referencePanel: 'world', direction: 'right'});
+      this.add('robots', {referencePanel: 'world', direction: 'right'}, {initialWidth: Math.round(0.38 * this.width)});
       this.add('hosts', {referencePanel: 'robots', direction: 'within'});
       this.add('sensors', {referencePanel: 'robots', direction: 'below'});
       this.add('log', {referencePanel: 'sensors', direction: 'within'});
@@ -94,12 +94,17 @@ export class Dock {
     this.keep();
   }
 
-  /** Watch: the world in the middle. Analyse: sensors and log have the room. */
+  /** Watch: the world in the middle. Analyse: sensors and log have the room. Conduct: rights are at hand. */
   private layOutWide(layout: LayoutName): void {
     if (layout === 'Watch') {
       this.add('robots', {referencePanel: 'world', direction: 'left'}, {initialWidth: 292});
       this.add('sensors', {referencePanel: 'world', direction: 'right'}, {initialWidth: 392});
       this.add('log', {referencePanel: 'sensors', direction: 'below'}, {initialHeight: 340});
+    } else if (layout === 'Conduct') {
+      this.add('robots', {referencePanel: 'world', direction: 'right'}, {initialWidth: 392});
+      this.add('log', {referencePanel: 'robots', direction: 'below'}, {initialHeight: 340});
+      this.add('sensors', {referencePanel: 'log', direction: 'within'});
+      this.add('rights', {referencePanel: 'world', direction: 'above'}, {initialHeight: 380});
     } else {
       this.add('sensors', {referencePanel: 'world', direction: 'right'}, {initialWidth: Math.round(0.45 * this.width)});
       this.add('log', {referencePanel: 'sensors', direction: 'below'}, {initialHeight: 280});

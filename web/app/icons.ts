@@ -6,6 +6,7 @@ import activity from 'lucide-static/icons/activity.svg?raw';
 import bell from 'lucide-static/icons/bell.svg?raw';
 import bot from 'lucide-static/icons/bot.svg?raw';
 import camera from 'lucide-static/icons/camera.svg?raw';
+import check from 'lucide-static/icons/check.svg?raw';
 import chevronDown from 'lucide-static/icons/chevron-down.svg?raw';
 import circleX from 'lucide-static/icons/circle-x.svg?raw';
 import compass from 'lucide-static/icons/compass.svg?raw';
@@ -32,6 +33,7 @@ import rotateCcw from 'lucide-static/icons/rotate-ccw.svg?raw';
 import ruler from 'lucide-static/icons/ruler.svg?raw';
 import search from 'lucide-static/icons/search.svg?raw';
 import server from 'lucide-static/icons/server.svg?raw';
+import shield from 'lucide-static/icons/shield.svg?raw';
 import skipBack from 'lucide-static/icons/skip-back.svg?raw';
 import skipForward from 'lucide-static/icons/skip-forward.svg?raw';
 import stepBack from 'lucide-static/icons/step-back.svg?raw';
@@ -44,8 +46,8 @@ import x from 'lucide-static/icons/x.svg?raw';
 import zap from 'lucide-static/icons/zap.svg?raw';
 
 const kIcons = {
-  activity, bell, bot, camera, chevronDown, circleX, compass, crosshair, download, eye, fileText, filter, hourglass, info,
-  layers, link, list, lock, maximize, maximize2, minimize2, moon, octagonX, pause, play, radar, rotateCcw, ruler, search, server, skipBack, skipForward,
+  activity, bell, bot, camera, check, chevronDown, circleX, compass, crosshair, download, eye, fileText, filter, hourglass, info,
+  layers, link, list, lock, maximize, maximize2, minimize2, moon, octagonX, pause, play, radar, rotateCcw, ruler, search, server, shield, skipBack, skipForward,
   stepBack, stepForward, sun, target, triangleAlert, wifiOff, x, zap,
 };
 

@@ -5,5 +5,6 @@ import '../panels/robots/robots_panel';
 import '../panels/sensors/sensors_panel';
 import '../panels/log/log_panel';
 import '../panels/hosts/hosts_panel';
+import '../panels/rights/rights_panel';
 import './run_bar';
 import './rave_app';

@@ -6,6 +6,7 @@ import type {RunModel} from '../model/run_model';
 import {clockText} from './clock';
 import {icon} from './icons';
 import {logo} from './logo';
+import {roleText} from './words';
 
 /** The picture stays, without colour, with its time. */
 export function renderLost(model: RunModel, link: Link): TemplateResult {
@@ -26,6 +27,14 @@ export function renderWaits(model: RunModel): TemplateResult | typeof nothing {
   return html`<div class="strip waits" role="status">${icon('hourglass', 16)}<span>${time.reason}</span></div>`;
 }
 
+/** A super-user looks through the eyes of somebody else. */
+export function renderSeenBy(model: RunModel, back: () => void): TemplateResult | typeof nothing {
+  const hello = model.hello;
+  if (hello?.seen_by === undefined) return nothing;
+  return html`<div class="strip seen" role="status">${icon('eye', 16)}
+    <span>This is what <b>${hello.user.name}</b>, ${roleText(hello.user.role).toLowerCase()}, gets.</span><button @click=${back}>Back</button></div>`;
+}
+
 /** The frame stands at once; the world fills in as it comes. */
 export function renderOpening(): TemplateResult {
   return html`<div class="opening" role="status"><b>Opening the run</b></div>`;
@@ -39,7 +48,8 @@ export function renderNoRun(): TemplateResult {
 
 export function renderRefused(reason: string): TemplateResult {
   return html`<div class="whole">${logo()}<h1>${reason === '' || reason === 'not signed in' ? 'You are not signed in' : reason}</h1>
-    <p>Open the link that the terminal printed when the run began. It works once.</p></div>`;
+    <p>Open the link that the terminal printed when the run began. It works once.</p>
+    <p>Whom the server has an account for, <a href="./">signs in</a>.</p></div>`;
 }
 
 export const stateStyles = css`
@@ -47,11 +57,13 @@ export const stateStyles = css`
   .strip span { flex: 1; color: var(--text-1); }
   .strip.lost, .strip.refused { border-color: var(--danger); background: var(--danger-soft); color: var(--danger); }
   .strip.waits { border-color: var(--warn); background: var(--warn-soft); color: var(--warn); }
+  .strip.seen { border-color: var(--intent); background: var(--intent-soft); color: var(--intent); }
   .strip button { padding: 3px 12px; border: 1px solid var(--line-2); border-radius: var(--r-3); color: var(--text-1); background: var(--bg-2); }
   .opening { position: absolute; inset: 44px 0 90px; display: grid; place-items: center; color: var(--text-2); pointer-events: none; z-index: 2; }
   .whole { height: 100%; display: grid; place-content: center; justify-items: center; text-align: center; gap: 6px; padding: 24px; }
   .whole > svg { width: 52px; height: 36px; }
   .whole h1 { font-size: var(--fs-20); font-weight: 600; margin: 14px 0 0; }
   .whole p { color: var(--text-2); margin: 4px 0; }
+  .whole a { color: var(--intent); }
   .whole code { padding: 6px 14px; border-radius: var(--r-3); background: var(--bg-2); font: 400 var(--fs-13) var(--font-code); color: var(--text-1); }
 `;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import type {RunModel} from '../model/run_model';
 import type {PanelKind} from '../panel_api';
 
 /** The panels that come with the page, in the order of their keys. */
@@ -8,4 +9,10 @@ export const kPanels: readonly PanelKind[] = [
   {id: 'sensors', title: 'Sensor Display', icon: 'radar', tag: 'rave-sensors', short: 'Sensors'},
   {id: 'log', title: 'Log & alerts', icon: 'list', tag: 'rave-log', short: 'Log'},
   {id: 'hosts', title: 'Hosts', icon: 'server', tag: 'rave-hosts', short: 'Hosts', count: ({model}) => model.hosts.length},
+  {id: 'rights', title: 'Rights', icon: 'shield', tag: 'rave-rights', needs: 'rights'},
 ];
+
+/** Those that this person may see. */
+export function panelsFor(model: RunModel): PanelKind[] {
+  return kPanels.filter((kind) => kind.needs === undefined || model.may(kind.needs));
+}

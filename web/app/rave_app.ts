@@ -13,8 +13,8 @@ import {keySheetStyles, renderKeys} from './key_sheet';
 import {bindKeys, type KeyAction} from './keys';
 import {nowOf} from './moment';
 import {readMoment, writeMoment} from './moment_link';
-import {kPanels} from './panels';
-import {renderLost, renderNoRun, renderOpening, renderRefused, renderWaits, stateStyles} from './page_states';
+import {kPanels, panelsFor} from './panels';
+import {renderLost, renderNoRun, renderOpening, renderRefused, renderSeenBy, renderWaits, stateStyles} from './page_states';
 import type {RunBar} from './run_bar';
 import './sheet';
 import {controls} from './styles';
@@ -168,7 +168,7 @@ export class RaveApp extends LitElement {
       {keys: ['Z'], what: 'lens, while held', act: () => this.world?.lens(true), end: () => this.world?.lens(false)},
       {keys: ['M'], what: 'measure', act: () => this.world?.toggleMeasure()},
       {keys: ['P'], what: 'save a picture', act: () => this.world?.picture()},
-      ...kPanels.map((kind, i) => ({keys: [String(i + 1)], what: kind.title, act: () => this.showPanel(kind.id)})),
+      ...panelsFor(this.model).map((kind, i) => ({keys: [String(i + 1)], what: kind.title, act: () => this.showPanel(kind.id)})),
       {keys: ['?'], what: 'this list', act: () => this.open('showingKeys')},
       {keys: ['Escape'], what: 'drop what is begun', act: () => this.escape()},
     ];
@@ -205,6 +205,7 @@ export class RaveApp extends LitElement {
       <rave-top-bar .context=${this.context} .layout=${this.phone.matches || innerWidth < 1280 ? '' : (this.dock?.name ?? 'Watch')}
         @layout=${(event: CustomEvent<LayoutName>) => { this.dock?.reset(event.detail); this.requestUpdate(); }} @find=${() => this.open('finding')} @theme=${() => this.toggleTheme()}></rave-top-bar>
       ${old ? renderLost(model, link) : renderWaits(model)}
+      ${renderSeenBy(model, () => link.send({type: 'see_as'}))}
       ${this.refusal === '' ? nothing : html`<div class="strip refused" role="alert">${icon('circleX', 16)}<span>${this.refusal}</span>
         <button @click=${() => { this.refusal = ''; this.requestUpdate(); }}>Close</button></div>`}
       ${model.hello === null && !old ? renderOpening() : nothing}
@@ -213,13 +214,13 @@ export class RaveApp extends LitElement {
       </main>
       <rave-run-bar .context=${this.context}></rave-run-bar>
       ${this.phone.matches ? this.renderTabs() : nothing}
-      ${this.finding ? html`<rave-find .context=${this.context} .panels=${kPanels} @theme=${() => this.toggleTheme()} @done=${() => this.open('finding')}></rave-find>` : nothing}
+      ${this.finding ? html`<rave-find .context=${this.context} .panels=${panelsFor(model)} @theme=${() => this.toggleTheme()} @done=${() => this.open('finding')}></rave-find>` : nothing}
       ${this.showingKeys ? renderKeys(this.actions(), () => this.escape()) : nothing}`;
   }
 
   private renderTabs(): TemplateResult {
     const alerts = this.model.events.filter((event) => event.level !== 'info' && (this.model.live || event.t <= nowOf(this.model))).length;
-    return html`<nav aria-label="Panels">${kPanels.map((kind) => html`<button aria-pressed=${this.phonePanel === kind.id} @click=${() => this.showPanel(kind.id)}>
+    return html`<nav aria-label="Panels">${kPanels.filter((kind) => kind.short).map((kind) => html`<button aria-pressed=${this.phonePanel === kind.id} @click=${() => this.showPanel(kind.id)}>
       ${icon(kind.icon as IconName, 20)}<span>${kind.short}</span>${kind.id === 'log' && alerts > 0 ? html`<i>${alerts}</i>` : nothing}</button>`)}</nav>`;
   }
 

@@ -62,7 +62,7 @@ export class TopBar extends LitElement {
       <h1>${run?.name ?? ''}</h1>
       <span class="state ${look}" role="status">${look === 'replay' ? icon('rotateCcw', 13) : html`<i></i>`}${word}</span>
       <span class="about">${this.about()}</span>
-      ${this.layout ? html`<div class="segments" role="radiogroup" aria-label="Layout">${kLayouts.map((name) => html`
+      ${this.layout ? html`<div class="segments" role="radiogroup" aria-label="Layout">${kLayouts.filter((name) => name !== 'Conduct' || model.may('rights')).map((name) => html`
         <button role="radio" aria-checked=${this.layout === name} title="Lay the panels out anew" @click=${() => this.dispatchEvent(new CustomEvent('layout', {detail: name}))}>${name}</button>`)}</div>` : nothing}
       <span class="space"></span>
       <button class="find" aria-label="Find a robot, panel or moment" @click=${() => ask('find')}>${icon('search', 15)}<span>Find a robot, panel or moment</span><kbd>Ctrl K</kbd></button>
@@ -72,7 +72,7 @@ export class TopBar extends LitElement {
       ${this.renderPeople()}
       <rave-bell .context=${this.context}></rave-bell>
       <button class="icon-button theme" title="Light or dark" aria-label="Light or dark" @click=${() => ask('theme')}>${icon(palette.theme === 'dark' ? 'sun' : 'moon')}</button>
-      ${model.hello ? html`<i class="rule"></i><span class="person">${face(model.hello.user, true)}<span>${roleText(model.hello.user.role)}</span></span>` : nothing}`;
+      ${model.hello ? html`<i class="rule"></i><span class="person">${face(model.hello.seen_by ?? model.hello.user, true)}<span>${roleText((model.hello.seen_by ?? model.hello.user).role)}</span></span>` : nothing}`;
   }
 
   private renderRate(): TemplateResult {

@@ -15,7 +15,8 @@ mkdirSync(folder, {recursive: true});
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 const kWidths = [['desktop', 1400, 900], ['tablet', 820, 1100], ['phone', 390, 844], ['pen', 480, 640]];
 
-const run = new FakeRun(16, {now_s: 20});
+const run = new FakeRun(16, {now_s: 20, role: 'super_user', may: ['play', 'pace', 'step', 'stop', 'release', 'readings', 'obstacles', 'log', 'rights']});
+run.setRight({user: 'carla', class: 'stop', reach: 'own'});
 run.hosts = [1, 2].map((i) => ({name: `host-${i}`, machine: `lab-${i}`, state: i === 2 ? 'late' : 'here', ...(i === 2 ? {late_s: 2.9} : {}), real: 2, simulated: 6, step: 1700, steps_per_s: 99.8, delay_s: 0.0003, cpu: 0.4, lost: i - 1}));
 run.events.push({t: 9, until: 12, count: 131, kind: 'contact', level: 'warn', text: 'real-4 and real-5 touch', slots: [3, 4]});
 const server = await serveFake(built, run);
@@ -75,6 +76,11 @@ try {
         await page.keyboard.press('4');
         await page.waitForTimeout(300);
         await look(page, 'log');
+        if (name !== 'phone' && name !== 'pen') {
+          await page.keyboard.press('6');
+          await page.waitForTimeout(300);
+          await look(page, 'rights');
+        }
         await page.context().close();
         assert.deepEqual(found.splice(0), []);
       });

@@ -54,15 +54,20 @@ export class FakeRun {
     this.pace = 1;
     this.stopped = new Set();
     this.hosts = null;
+    this.seenBy = null;
+    this.rights = {type: 'rights', classes: ['pose', 'true_pose', 'readings', 'hybrid_parts', 'obstacles', 'log', 'recording', 'stop'], teams: kTeams,
+      rows: ['observer', 'commander', 'super_user'].map((role, i) => ({role, cells: Object.fromEntries(
+        ['pose', 'true_pose', 'readings', 'hybrid_parts', 'obstacles', 'log', 'recording', 'stop'].map((what, k) => [what, i === 2 || k % 3 === 0 ? 'all' : i === 1 ? 'own' : 'none']))})),
+      people: [{name: 'carla', role: 'observer', teams: 'north'}, {name: 'ben', role: 'commander', teams: '*'}]};
     this.events = [{t: 0, until: 0, count: 1, kind: 'begin', level: 'info', text: `Run begins: ${count} robots`, slots: []}];
     this.travelled = this.robots.map(() => 0);
   }
 
   hello() {
     const why = {seek: 'A live run cannot be moved in time.', play: 'Only a super-user holds the run.', stop: 'Observers do not stop robots.'};
-    const every = ['play', 'seek', 'pace', 'step', 'stop', 'release', 'true_pose', 'readings', 'hybrid_parts', 'obstacles', 'log', 'recording'];
+    const every = ['play', 'seek', 'pace', 'step', 'stop', 'release', 'true_pose', 'readings', 'hybrid_parts', 'obstacles', 'log', 'recording', 'rights'];
     const why_not = Object.fromEntries(every.filter((power) => !this.may.includes(power)).map((power) => [power, why[power] ?? 'Not given to this role.']));
-    return {type: 'hello', protocol: 1, server: 'fake 0', user: {name: 'Ada N', role: this.role}, may: this.may, why_not,
+    return {type: 'hello', protocol: 1, server: 'fake 0', user: {name: 'Ada N', role: this.role}, ...(this.seenBy ? {user: this.seenBy.as, seen_by: this.seenBy.by} : {}), may: this.may, why_not,
       run: {name: this.name, source: this.source, clock: 'lock_step', started: '', step_s: 0.01, seed: 1, hash: null, recording: null}};
   }
 
@@ -78,8 +83,22 @@ export class FakeRun {
     return [this.hello(), {type: 'scene', bodies, hidden: all ? [] : ['virtual']},
       {type: 'roster', revision: 1, robots: this.robots},
       {type: 'events', reset: true, first: 0, events: this.events}, this.time(),
-      ...(this.hosts ? [{type: 'hosts', hosts: this.hosts}] : []),
+      ...(this.hosts ? [{type: 'hosts', hosts: this.hosts}] : []), ...(this.may.includes('rights') ? [this.rights] : []),
       {type: 'people', people: [{name: 'Ada N', role: this.role}, {name: 'Ben K', role: 'observer'}]}];
+  }
+
+  setRight({role, user, class: what, reach}) {
+    let row = this.rights.rows.find((known) => (user ? known.user === user : known.role === role && !known.user));
+    if (!row) this.rights.rows.push((row = {user, cells: {}}));
+    if (reach === null) delete row.cells[what];
+    else row.cells[what] = reach;
+  }
+
+  /** What a super-user is shown as another one; without `as` everything again. */
+  seeAs(as) {
+    const all = ['play', 'pace', 'step', 'stop', 'release', 'readings', 'obstacles', 'log', 'rights'];
+    this.seenBy = as ? {as, by: {name: 'Ada N', role: 'super_user'}} : null;
+    this.may = as ? ['readings', 'log'] : all;
   }
 
   advance(seconds) {

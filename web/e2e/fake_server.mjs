@@ -38,6 +38,14 @@ class Viewer {
     if (message.type === 'ack') this.acknowledged = Math.max(this.acknowledged, message.sequence);
     if (message.type === 'transport') this.server.transport(message);
     if (message.type === 'halt') this.server.halt(this, message);
+    if (message.type === 'set_right') {
+      this.server.run.setRight(message);
+      this.say(this.server.run.rights);
+    }
+    if (message.type === 'see_as') {
+      this.server.run.seeAs(message.role || message.user ? {name: message.user ?? message.role, role: message.role ?? 'observer'} : null);
+      this.server.turnInto({});
+    }
   }
 
   show(run) {

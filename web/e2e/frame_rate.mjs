@@ -36,7 +36,7 @@ async function measure(page) {
     return {
       robots: app.model.robots.length, pictures_per_s: pictures / seconds, browser_frames_per_s: ticks / seconds,
       main_thread_ms: (world.paint_ms - paint_ms) / Math.max(pictures, 1), longest_ms, received_hz: app.link.rate_hz,
-      view: world.viewpoint().split(',')[0],
+      first_picture_ms: world.first_ms, view: world.viewpoint().split(',')[0],
     };
   }, kMeasured_ms);
 }

@@ -2,7 +2,8 @@
 // All states of a page, of a made-up run: node states_test.mjs PAGE FOLDER
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
-import {mkdirSync, writeFileSync} from 'node:fs';
+import {mkdirSync, readFileSync, writeFileSync} from 'node:fs';
+import {gzipSync} from 'node:zlib';
 import {join} from 'node:path';
 import {launch} from './browser.mjs';
 import {app, check, report, showFailures, until, untilHere, watch} from './checks.mjs';
@@ -24,8 +25,20 @@ try {
   page.on('websocket', (socket) => {
     for (const way of ['framereceived', 'framesent']) socket.on(way, ({payload}) => typeof payload === 'string' && said.push(JSON.parse(payload)));
   });
+  const loaded = new Set();
+  page.on('request', (request) => loaded.add(new URL(request.url()).pathname));
   await page.goto(server.origin);
   await until(page, `${app}?.model?.poses?.newest !== null`);
+
+  await check('the first load is small: the renderer of the perspective comes when it is asked for', async () => {
+    const size = (path) => {
+      const bytes = readFileSync(join(built, path === '/' ? 'index.html' : path));
+      return /\.woff2$/.test(path) ? bytes.length : gzipSync(bytes).length;
+    };
+    const all = [...loaded].filter((path) => path !== '/ws').reduce((sum, path) => sum + size(path), 0);
+    assert.ok(all < 400e3, `${all} bytes`);
+    assert.ok(![...loaded].some((path) => path.includes('perspective')));
+  });
 
   await check('a live run goes on by itself, without a knob', async () => {
     await page.getByText('Live', {exact: true}).waitFor();
@@ -165,6 +178,26 @@ try {
     await until(page, `${app}.model.robots.length === 8`);
     await page.keyboard.press('2');
     await page.locator('rave-robots .row').first().waitFor();
+  });
+
+  await check('a super-user changes a right, takes it back, and sees as somebody else', async () => {
+    server.run.role = 'super_user';
+    server.run.seeAs(null);
+    server.turnInto({});
+    await page.getByRole('radio', {name: 'Conduct'}).click();
+    const cell = page.getByRole('button', {name: /^Obstacles of carla/});
+    await cell.click();
+    await untilHere(page, () => heard('set_right').length === 1, 'set_right');
+    assert.deepEqual(heard('set_right')[0], {type: 'set_right', user: 'carla', class: 'obstacles', reach: 'all'});
+    await page.getByText(/in force after/).waitFor();
+    await page.getByRole('button', {name: 'Undo'}).click();
+    await untilHere(page, () => heard('set_right').length === 2, 'undo');
+    assert.equal(heard('set_right')[1].reach, null);
+    await page.getByRole('button', {name: 'See as carla'}).click();
+    await page.getByText('This is what').waitFor();
+    assert.equal(await page.evaluate(`${app}.model.rights`), null);
+    await page.getByRole('button', {name: 'Back'}).click();
+    await until(page, `${app}.model.rights !== null`);
   });
 
   await check('every message is as the schema describes it', async () => {

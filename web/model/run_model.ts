@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import {decodeFrame, isPoseFrame} from '../protocol/frames';
-import type {Answer, Body, Event, Hello, Host, Person, Robot, ServerMessage, Time} from '../protocol/messages';
+import type {Answer, Body, Event, Hello, Host, Person, Rights, Robot, ServerMessage, Time} from '../protocol/messages';
 import {PoseHistory} from './pose_history';
 import {Readings} from './readings';
 import {Signal} from './signal';
@@ -15,6 +15,8 @@ export class RunModel {
   events: Event[] = [];
   hosts: Host[] = [];
   people: Person[] = [];
+  /** Who gets what; of super-users alone. */
+  rights: Rights | null = null;
   readonly poses = new PoseHistory();
   readonly readings = new Readings();
 
@@ -25,6 +27,7 @@ export class RunModel {
   readonly eventsChanged = new Signal();
   readonly hostsChanged = new Signal();
   readonly peopleChanged = new Signal();
+  readonly rightsChanged = new Signal();
   /** A frame or reading came: there is something new to draw. */
   readonly pictureChanged = new Signal();
   readonly answered = new Signal<Answer>();
@@ -82,6 +85,10 @@ export class RunModel {
         this.people = message.people;
         this.peopleChanged.emit();
         break;
+      case 'rights':
+        this.rights = message;
+        this.rightsChanged.emit();
+        break;
       case 'answer':
         this.answered.emit(message);
         break;
@@ -109,6 +116,7 @@ export class RunModel {
     this.time = null;
     this.events = [];
     this.hosts = [];
+    this.rights = null;
     this.poses.clear();
     this.readings.clear();
     this.runChanged.emit();

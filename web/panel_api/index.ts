@@ -2,6 +2,7 @@
 // What a panel is given. The panels that come with RAVE use nothing else.
 import type {Link} from '../model/link';
 import type {RunModel} from '../model/run_model';
+import type {Power} from '../protocol/messages';
 import type {Palette} from './palette';
 import type {Selection} from './selection';
 
@@ -34,8 +35,10 @@ export interface PanelKind {
   icon: string;
   /** Name of its custom element. */
   tag: string;
-  /** What its tab on a phone is called. */
-  short: string;
+  /** What its tab on a phone is called; without one it has none. */
+  short?: string;
+  /** Only who has this power sees the panel. */
+  needs?: Power;
   /** Number beside the title; none if undefined. */
   count?(context: PanelContext): number;
 }

@@ -60,7 +60,7 @@ TEST(LongRun, KeepsNothingOfItsSteps) {
   const BodyKinds kinds(engine->spec(), std::vector<std::string>(engine->spec().robots.size()));
   const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) /
                                      fmt::format("rave_long_run_{}.mcap", ::getpid());
-  auto keeper = RecordKeeper::begin(file, *engine, kinds, {"long", "", {}, {}}, nullptr);
+  auto keeper = RecordKeeper::open(file, *engine, kinds, info_of(*engine, kinds), {}, nullptr);
   ASSERT_TRUE(keeper) << keeper.error().text();
   constexpr int kSteps = 4000;
   std::size_t events = 0;

@@ -60,7 +60,7 @@ TEST(RecordKeeper, KeepsWhereEachRobotWasAndWasToldToBe) {
   const BodyKinds kinds(engine->spec(), std::vector<std::string>(engine->spec().robots.size()));
   const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) /
                                      fmt::format("rave_record_keeper_{}.mcap", ::getpid());
-  auto keeper = RecordKeeper::begin(file, *engine, kinds, {"crowd", "", {}, {}}, nullptr);
+  auto keeper = RecordKeeper::open(file, *engine, kinds, info_of(*engine, kinds), {}, nullptr);
   ASSERT_TRUE(keeper) << keeper.error().text();
   constexpr int kSteps = 600;
   std::vector<std::vector<Place>> expected;

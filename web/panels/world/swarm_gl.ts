@@ -5,6 +5,7 @@ import {kTailParts, type Swarm, type Tone} from './swarm';
 /** Two arrowheads, one within the other, are cheaper than an outline of lines. */
 const kVertices = 8;
 const kTriangles = 4;
+const kEdge_px = 1.1;
 const kTail = 6 * kTailParts;
 
 const kVertex = `#version 300 es
@@ -28,7 +29,7 @@ export class SwarmGl implements Swarm {
   private buffers: {places: WebGLBuffer; tones: WebGLBuffer; heads: WebGLBuffer} | null = null;
 
   constructor() {
-    this.gl = this.canvas.getContext('webgl2', {antialias: false, alpha: true, preserveDrawingBuffer: false});
+    this.gl = this.canvas.getContext('webgl2', {antialias: true, alpha: true, preserveDrawingBuffer: false});
     const gl = this.gl;
     if (gl === null) return;
     const program = linked(gl);
@@ -80,9 +81,8 @@ export class SwarmGl implements Swarm {
     const c = Math.cos(heading);
     const s = Math.sin(heading);
     const v = kVertices * this.count++;
-    this.arrowhead(v, x, y, c, s, r, edge);
-    // The inner one is shifted to the back, so that its edge is as wide at the tip as at the sides.
-    this.arrowhead(v + 4, x - 0.1 * r * c, y - 0.1 * r * s, c, s, Math.max(r - 2.4, 0.45 * r), inside);
+    this.arrowhead(v, x, y, c, s, r, 0, edge);
+    this.arrowhead(v + 4, x, y, c, s, r, Math.min(kEdge_px, r / 6), inside);
   }
 
   draw(): void {
@@ -103,11 +103,16 @@ export class SwarmGl implements Swarm {
     gl.drawElements(gl.TRIANGLES, this.count * kTriangles * 3, gl.UNSIGNED_INT, 0);
   }
 
-  private arrowhead(v: number, x: number, y: number, c: number, s: number, r: number, tone: Tone): void {
-    this.put(v, x + r * c, y + r * s, tone, 255);
-    this.put(v + 1, x - 0.8 * r * c - 0.65 * r * s, y - 0.8 * r * s + 0.65 * r * c, tone, 255);
-    this.put(v + 2, x - 0.45 * r * c, y - 0.45 * r * s, tone, 255);
-    this.put(v + 3, x - 0.8 * r * c + 0.65 * r * s, y - 0.8 * r * s - 0.65 * r * c, tone, 255);
+  /** Its corners lie `inset` pixels within the edges of the whole one: the factors follow from its angles. */
+  private arrowhead(v: number, x: number, y: number, c: number, s: number, r: number, inset: number, tone: Tone): void {
+    const tip = r - 2.94 * inset;
+    const back = -0.8 * r + 2.12 * inset;
+    const side = 0.65 * r - 1.83 * inset;
+    const notch = -0.45 * r + 1.14 * inset;
+    this.put(v, x + tip * c, y + tip * s, tone, 255);
+    this.put(v + 1, x + back * c - side * s, y + back * s + side * c, tone, 255);
+    this.put(v + 2, x + notch * c, y + notch * s, tone, 255);
+    this.put(v + 3, x + back * c + side * s, y + back * s - side * c, tone, 255);
   }
 
   private put(v: number, x: number, y: number, tone: Tone, alpha: number): void {

@@ -8,6 +8,7 @@ import {kColourBy, kLayers, readLayers, type Layers} from './layers';
 import {drawnSensors} from './scan_layer';
 import type {Stage, StageContext} from './stage';
 import {TopStage} from './top_stage';
+import {renderCard, worldCardStyles} from './world_card';
 import {renderLegend, renderMenu, worldMenuStyles} from './world_menu';
 
 const kKept = 'rave.world';
@@ -16,6 +17,9 @@ const kKeptMode = 'rave.world.mode';
 const kScanned = 12;
 /** From so many robots on the colours are at hand without the menu. */
 const kCrowd = 100;
+/** From this share of the page on it is the only panel. */
+const kAlone = 0.9;
+const kCard_ms = 250;
 
 type Mode = 'top' | '3d';
 
@@ -26,6 +30,8 @@ export class WorldPanel extends LitElement {
   /** Pictures so far, and the time they took: for measuring. */
   painted = 0;
   paint_ms = 0;
+  /** When robots were on the screen for the first time, milliseconds since the page was asked for. */
+  first_ms = 0;
   private mode: Mode = 'top';
   private stage!: Stage;
   private top!: TopStage;
@@ -37,6 +43,7 @@ export class WorldPanel extends LitElement {
   private moved = false;
   private shownRun = '';
   private drawQueued = false;
+  private cardAt_ms = 0;
   private readonly ends: (() => void)[] = [];
   private readonly resized = new ResizeObserver(() => this.resize());
 
@@ -210,8 +217,14 @@ export class WorldPanel extends LitElement {
     const {clientWidth, clientHeight} = this.place();
     if (clientWidth === 0 || clientHeight === 0) return;
     this.stage.resize(clientWidth, clientHeight);
+    this.requestUpdate();
     if (!this.moved) this.fitted = false;
     this.paint();
+  }
+
+  /** No other panel is beside it. */
+  private get alone(): boolean {
+    return innerWidth >= 600 && this.clientWidth > kAlone * innerWidth && this.clientHeight > 0.6 * innerHeight;
   }
 
   private draw(): void {
@@ -232,7 +245,12 @@ export class WorldPanel extends LitElement {
       this.fitted = this.stage.fit(false);
     }
     const going = this.stage.paint(now_ms);
+    if (this.alone && this.context.selection.primary !== null && now_ms - this.cardAt_ms > kCard_ms) {
+      this.cardAt_ms = now_ms;
+      this.requestUpdate();
+    }
     ++this.painted;
+    if (this.first_ms === 0 && this.placed.count > 0) this.first_ms = performance.now();
     this.paint_ms += performance.now() - now_ms;
     if (going || model.poses.moving(now_ms)) this.draw();
   }
@@ -274,6 +292,7 @@ export class WorldPanel extends LitElement {
         ${selection.following && primary !== null
           ? html`<div class="note">${icon('crosshair', 14)} following <b style="color:${palette.hue(primary).ink}">${model.robots[primary]?.name}</b> <span>Esc ends</span></div>`
           : nothing}
+        ${this.alone ? renderCard(this.context, this.placed) : nothing}
         ${this.menuOpen ? renderMenu(this.layers, this.top.tint.scale(this.layers.colourBy), palette.theme, set) : nothing}
       </div>`;
   }
@@ -292,6 +311,7 @@ export class WorldPanel extends LitElement {
     controls,
     glyphs,
     worldMenuStyles,
+    worldCardStyles,
     css`
       :host { display: flex; flex-direction: column; height: 100%; background: var(--bg-1); position: relative; }
       .bar { display: flex; align-items: center; gap: 2px; height: 40px; flex: none; padding: 0 10px; border-bottom: 1px solid var(--line-1); overflow: hidden; }

@@ -7,6 +7,8 @@ import {clear} from './solid_robots';
 
 const kMargin_m = 30;
 const kLines = 120;
+/** Cells that a piece of a line is long. */
+const kPiece = 4;
 
 /** The floor, which takes shadows, and its grid. */
 export class Floor {
@@ -38,8 +40,14 @@ function makeGrid(bounds: Bounds, extent: number, palette: Palette): LineSegment
   const step = Math.max(roundStep(extent / kLines), 1);
   const ends: number[] = [];
   const [x0, x1, y0, y1] = [bounds.x0 - kMargin_m, bounds.x1 + kMargin_m, bounds.y0 - kMargin_m, bounds.y1 + kMargin_m];
-  for (let x = Math.ceil(x0 / step) * step; x <= x1; x += step) ends.push(x, y0, 0, x, y1, 0);
-  for (let y = Math.ceil(y0 / step) * step; y <= y1; y += step) ends.push(x0, y, 0, x1, y, 0);
+  // In pieces: some renderers lose a whole line if one of its ends is behind the eye.
+  const piece = kPiece * step;
+  for (let x = Math.ceil(x0 / step) * step; x <= x1; x += step) {
+    for (let y = y0; y < y1; y += piece) ends.push(x, y, 0, x, Math.min(y + piece, y1), 0);
+  }
+  for (let y = Math.ceil(y0 / step) * step; y <= y1; y += step) {
+    for (let x = x0; x < x1; x += piece) ends.push(x, y, 0, Math.min(x + piece, x1), y, 0);
+  }
   const geometry = new BufferGeometry();
   geometry.setAttribute('position', new BufferAttribute(Float32Array.from(ends), 3));
   return new LineSegments(geometry, new LineBasicMaterial({color: palette.token('grid-2')}));

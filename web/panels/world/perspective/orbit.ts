@@ -64,7 +64,7 @@ export class Orbit {
   fitted(bounds: Bounds): Eye {
     const half = Math.max(bounds.x1 - bounds.x0, (bounds.y1 - bounds.y0) * 0.9, 1) / 2;
     const wide = Math.min(this.width / this.height, 1.5);
-    const distance = (1.08 * half) / Math.tan((kFov_deg * Math.PI) / 360) / Math.max(wide, 0.5);
+    const distance = (1.15 * half) / Math.tan((kFov_deg * Math.PI) / 360) / Math.max(wide, 0.5);
     return {...this.eye, x: (bounds.x0 + bounds.x1) / 2, y: (bounds.y0 + bounds.y1) / 2, distance};
   }
 

@@ -194,12 +194,12 @@ void Connection::answer(const Response& response) {
   reply->set("Cross-Origin-Opener-Policy", "same-origin");
   // Thirty days: who goes back to plain HTTP on that machine can wait that out.
   if (core_.tls) reply->set("Strict-Transport-Security", "max-age=2592000");
-  // A header of the handler takes the place of the usual one, but may come several times itself.
+  // A header of the handler takes the place of the usual one; cookies may be several.
   for (const auto& [name, value] : response.headers) {
-    if (name == "Content-Security-Policy") {
-      reply->set(name, value);
-    } else {
+    if (name == "Set-Cookie") {
       reply->insert(name, value);
+    } else {
+      reply->set(name, value);
     }
   }
   const std::size_t size = response.body ? response.body->size() : 0;

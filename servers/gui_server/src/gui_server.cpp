@@ -28,8 +28,9 @@ Status check_listen(const GuiOptions& options, const Accounts* accounts) {
   if (options.certificate.empty() || options.key.empty()) {
     return fail(
         ErrorCode::kInvalidArgument,
-        "to listen on {0} needs TLS: `rave keys web web-keys {0}` makes a certificate; then "
-        "add --certificate web-keys/server.pem --key web-keys/server_key.pem",
+        "to listen on {} needs TLS: `rave keys web web-keys NAME`, with the name or address that "
+        "people type, makes a certificate; then add --certificate web-keys/server.pem --key "
+        "web-keys/server_key.pem",
         options.listen);
   }
   if (accounts == nullptr) {

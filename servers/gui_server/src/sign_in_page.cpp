@@ -51,7 +51,8 @@ web::Response page_of(int status, std::string_view title, std::string_view below
   std::string html = fmt::format(
       "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width,initial-scale=1\"><title>{0} · RAVE</title>"
-      "<link rel=\"stylesheet\" href=\"/login.css\"></head><body><main><header>{1}<div><h1>{0}</h1>"
+      "<link rel=\"icon\" href=\"/icon.svg\"><link rel=\"stylesheet\" "
+      "href=\"/login.css\"></head><body><main><header>{1}<div><h1>{0}</h1>"
       "<p>{2}</p></div></header>",
       escaped_html(title), kMark, escaped_html(below));
   if (!note.empty())
@@ -63,6 +64,9 @@ web::Response page_of(int status, std::string_view title, std::string_view below
   response.body = std::make_shared<const std::string>(std::move(html));
   response.headers.emplace_back("Cache-Control", "no-store");
   response.headers.emplace_back("Content-Security-Policy", kPolicy);
+  // With the usual `no-referrer` browsers say of a form that its origin is `null`, which is
+  // refused.
+  response.headers.emplace_back("Referrer-Policy", "same-origin");
   return response;
 }
 

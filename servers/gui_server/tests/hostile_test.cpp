@@ -279,6 +279,8 @@ TEST_F(Hostile, StrangersGetTheDoorAndNothingElse) {
   EXPECT_EQ(status_of(login), "200");
   EXPECT_NE(login.find("Content-Security-Policy: default-src 'none'; style-src 'self';"),
             std::string::npos);
+  EXPECT_NE(login.find("Referrer-Policy: same-origin\r\n"), std::string::npos);
+  EXPECT_EQ(login.find("no-referrer"), std::string::npos);
   EXPECT_EQ(login.find("fake"), std::string::npos);
   EXPECT_EQ(login.find("<script"), std::string::npos);
   for (const char* const path : {"/recording", "/recording?x=1"}) {

@@ -69,6 +69,7 @@ try {
     await until(other, `${app}.model.time.state === 'running' && ${newest} != null && ${newest}.time_s > 1`, 60000);
     assert.equal(await other.evaluate(`${app}.model.may('play')`), false);
     await say(other, {type: 'halt', do: 'stop', slots: []});
+    await until(other, `${stopped} === ${app}.model.robots.length`);
     // What it does is seen: nobody moves any more.
     await until(other, `[...${newest}.speed].every((speed) => Math.abs(speed) < 0.002)`);
     await gui.end();

@@ -3,14 +3,56 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+#include <iterator>
+
 namespace rave::gui_server {
 
-BusPort::BusPort(std::unique_ptr<run_control::BusRun> bus)
-    : bus_(std::move(bus)), thread_([this](const std::stop_token& stop) { work(stop); }) {}
+namespace {
+
+constexpr auto kStatusEvery = std::chrono::seconds(1);
+constexpr Duration kStatusPatience = from_seconds(1);
+
+/// In lock-step the manager has the say, in real time each host of its robots.
+bool has_the_say(const run_control::BusPeer& peer, const std::string& /*scenario*/) {
+  return !peer.manager || !peer.live;
+}
+
+}  // namespace
+
+BusPort::BusPort(std::unique_ptr<run_control::BusRun> bus,
+                 std::unique_ptr<run_control::BusRun> status)
+    : bus_(std::move(bus)),
+      status_(std::move(status)),
+      thread_([this](const std::stop_token& stop) { work(stop); }),
+      watcher_([this](const std::stop_token& stop) { watch(stop); }) {}
 
 BusPort::~BusPort() {
-  thread_.request_stop();
-  thread_.join();
+  for (std::jthread* const thread : {&watcher_, &thread_}) {
+    thread->request_stop();
+    thread->join();
+  }
+}
+
+std::vector<robot_host::RunStatus::Robot> BusPort::robots() const {
+  const std::lock_guard lock(mutex_);
+  return robots_;
+}
+
+void BusPort::watch(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    std::vector<robot_host::RunStatus::Robot> robots;
+    for (run_control::BusReply& reply :
+         status_->ask_each(run_control::Request{}, has_the_say, kStatusPatience)) {
+      if (!reply.answer || !reply.answer->good) continue;
+      auto& told = reply.answer->status.robots;
+      robots.insert(robots.end(), std::make_move_iterator(told.begin()),
+                    std::make_move_iterator(told.end()));
+    }
+    std::unique_lock lock(mutex_);
+    robots_ = std::move(robots);
+    changed_.wait_for(lock, stop, kStatusEvery, [] { return false; });
+  }
 }
 
 Result<std::future<Result<std::string>>> BusPort::post(robot_host::RunRequest request) {
@@ -40,13 +82,9 @@ BusPort::Answer BusPort::ask(const robot_host::RunRequest& request) {
   const bool stop = request.kind == robot_host::RunRequest::Kind::kStop;
   asked.what = stop ? run_control::Request::What::kStop : run_control::Request::What::kRelease;
   asked.robot = request.robot;
-  // In lock-step the manager has the say, in real time each host of its robots.
-  const auto meant = [](const run_control::BusPeer& peer, const std::string& /*scenario*/) {
-    return !peer.manager || !peer.live;
-  };
   std::string done;
   std::string refused;
-  for (const run_control::BusReply& reply : bus_->ask_each(asked, meant)) {
+  for (const run_control::BusReply& reply : bus_->ask_each(asked, has_the_say)) {
     const bool good = reply.answer && reply.answer->good;
     std::string& text = good ? done : refused;
     if (!text.empty()) text += "; ";

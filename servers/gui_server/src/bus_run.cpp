@@ -204,7 +204,8 @@ Result<std::shared_ptr<Source>> watch_run(const config::ExpandedScenario& scenar
     port = std::make_unique<LocalPort>(*control, "");
   } else {
     RAVE_TRY_ASSIGN(auto asker, run_control::BusRun::open(bus, "GUI Server"));
-    port = std::make_unique<BusPort>(std::move(asker));
+    RAVE_TRY_ASSIGN(auto status, run_control::BusRun::open(bus, "GUI Server"));
+    port = std::make_unique<BusPort>(std::move(asker), std::move(status));
   }
   return std::make_shared<BusSource>(start_of(scenario, built), std::make_shared<LiveBox>(),
                                      std::move(port), std::move(observer), scenario.robots.size());

@@ -97,7 +97,7 @@ export class TopBar extends LitElement {
       :host { display: flex; align-items: center; gap: 10px; height: var(--h-topbar); flex: none; padding: 0 14px; }
       .brand { display: flex; align-items: center; gap: 8px; letter-spacing: .04em; }
       .rule { width: 1px; height: 20px; background: var(--line-2); }
-      h1 { margin: 0; font-size: var(--fs-15); font-weight: var(--fw-strong); flex: 0 1 auto; min-width: 60px; max-width: 34vw; white-space: nowrap; overflow: hidden; text-overflow: ellipsis; }
+      h1 { margin: 0; font-size: var(--fs-15); font-weight: var(--fw-strong); flex: none; max-width: 34vw; white-space: nowrap; overflow: hidden; text-overflow: ellipsis; }
       .state { display: inline-flex; align-items: center; gap: 6px; height: 22px; padding: 0 10px; border-radius: var(--r-full); font-size: var(--fs-12); background: linear-gradient(var(--soft, var(--ok-soft)) 0 0), var(--bg-1); color: var(--ok); white-space: nowrap; }
       .state i { width: 7px; height: 7px; border-radius: 50%; background: currentColor; }
       .state.replay { --soft: var(--intent-soft); color: var(--intent); }
@@ -119,7 +119,8 @@ export class TopBar extends LitElement {
       .people .face { margin-left: -4px; box-shadow: 0 0 0 2px var(--bg-0); }
       @media (max-width: 1100px) { .about, .rate em, .wide { display: none; } }
       @media (max-width: 800px) { .people, .rule { display: none; } .person span { display: none; } }
-      @media (max-width: 900px) { .find { flex-basis: 190px; } .find kbd { display: none; } h1 { flex-shrink: 0; } }
+      @media (max-width: 900px) { .find { flex-basis: 190px; } .find kbd { display: none; } }
+      @media (max-width: 900px) { h1 { flex: 0 1 auto; } }
       @media (max-width: 599px) {
         :host { padding: 0 10px; height: 52px; } .brand b, .find span, .find kbd, .rate { display: none; }
         .find { flex: none; width: 40px; height: 40px; justify-content: center; background: none; border-color: transparent; }

@@ -316,6 +316,9 @@ class LiveRunModelTest : public RunModelTest {
     bus::borrow(robots.x_m, x);
     bus::borrow(robots.y_m, y);
     bus::borrow(robots.yaw_rad, x);
+    bus::borrow(robots.vx_mps, x);
+    bus::borrow(robots.vy_mps, y);
+    bus::borrow(robots.wz_radps, y);
     bus::borrow(robots.stamp_ns, stamps);
   }
 };

@@ -12,8 +12,8 @@ export function hatchMaterial(colour: string, light: boolean): ShaderMaterial {
     side: DoubleSide,
     uniforms: {
       colour: {value: new Color(colour)},
-      step_px: {value: kStep_px * 1.4142 * devicePixelRatio},
-      width_px: {value: kWidth_px * 1.4142 * devicePixelRatio},
+      step_px: {value: 1},
+      width_px: {value: 1},
       fill: {value: light ? 0.12 : 0.09},
       line: {value: 0.55},
     },
@@ -25,4 +25,10 @@ export function hatchMaterial(colour: string, light: boolean): ShaderMaterial {
         gl_FragColor = vec4(colour, mix(fill, line, ink));
       }`,
   });
+}
+
+/** Gives the hatch its width for so many pixels of the picture to one of the screen. */
+export function scaleHatch(material: ShaderMaterial, ratio: number): void {
+  material.uniforms['step_px'].value = kStep_px * Math.SQRT2 * ratio;
+  material.uniforms['width_px'].value = kWidth_px * Math.SQRT2 * ratio;
 }

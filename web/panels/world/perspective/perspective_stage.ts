@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-import {AmbientLight, Color, ColorManagement, DirectionalLight, Fog, LinearSRGBColorSpace, PCFSoftShadowMap, Scene, WebGLRenderer} from 'three';
+import {AmbientLight, BasicShadowMap, Color, ColorManagement, DirectionalLight, Fog, LinearSRGBColorSpace, PCFSoftShadowMap, Scene, WebGLRenderer} from 'three';
 import {RobotFlag} from '../../../protocol/frames';
 import type {Bounds} from '../camera';
+import {hasCard} from '../graphics_card';
 import {radiusOf} from '../outlines';
 import {bytesOf, rampBytes} from '../ramp';
 import {shownReadings} from '../reading_layer';
@@ -21,6 +22,10 @@ import {SolidRobots} from './solid_robots';
 import {StandingBodies} from './standing_bodies';
 
 const kShadow_px = 1024;
+/** Pixels of the picture to a pixel of the screen where the processor draws them. */
+const kRough = 0.7;
+const kFine = 1.6;
+const kStill_ms = 300;
 const kFinger_px = 22;
 /** From so far away a single robot is looked at. */
 const kClose_m = 4;
@@ -32,7 +37,7 @@ ColorManagement.enabled = false;
 /** The world in perspective: one scene of the same data that the top view draws. */
 export class PerspectiveStage implements Stage {
   readonly element = document.createElement('div');
-  private readonly renderer = new WebGLRenderer({antialias: true, preserveDrawingBuffer: false});
+  private readonly renderer = new WebGLRenderer({antialias: hasCard(), preserveDrawingBuffer: false});
   private readonly over = document.createElement('canvas');
   private readonly scene = new Scene();
   private readonly orbit = new Orbit();
@@ -48,6 +53,8 @@ export class PerspectiveStage implements Stage {
   private readonly tint = new Tint();
   private surface: Surface | null = null;
   private radii: number[] = [];
+  private ratio = 0;
+  private sharpen = 0;
   private tinted = '';
   private floorKey = '';
 
@@ -56,7 +63,7 @@ export class PerspectiveStage implements Stage {
     this.element.append(this.renderer.domElement, this.over);
     this.renderer.outputColorSpace = LinearSRGBColorSpace;
     this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = PCFSoftShadowMap;
+    this.renderer.shadowMap.type = hasCard() ? PCFSoftShadowMap : BasicShadowMap;
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.set(kShadow_px, kShadow_px);
     this.sun.shadow.bias = -0.001;
@@ -79,12 +86,30 @@ export class PerspectiveStage implements Stage {
   }
 
   resize(width: number, height: number): void {
-    this.renderer.setPixelRatio(devicePixelRatio);
+    this.setRatio(hasCard() ? devicePixelRatio : kRough);
     this.renderer.setSize(width, height, false);
     this.over.width = Math.round(width * devicePixelRatio);
     this.over.height = Math.round(height * devicePixelRatio);
     this.orbit.resize(width, height);
     this.bodies.resize(width, height);
+  }
+
+  private setRatio(ratio: number): void {
+    if (ratio === this.ratio) return;
+    this.ratio = ratio;
+    this.renderer.setPixelRatio(ratio);
+    this.bodies.setRatio(ratio);
+  }
+
+  /** Without a graphics card what moves is drawn roughly, and what stands is drawn once more, finely. */
+  private chooseRatio(moves: boolean): void {
+    if (hasCard() || (!moves && this.ratio === kFine)) return;
+    if (moves) this.setRatio(kRough);
+    clearTimeout(this.sharpen);
+    this.sharpen = window.setTimeout(() => {
+      this.setRatio(kFine);
+      this.context.redraw();
+    }, kStill_ms);
   }
 
   paint(now_ms: number): boolean {
@@ -94,6 +119,7 @@ export class PerspectiveStage implements Stage {
     const primary = selection.primary;
     if (selection.following && primary !== null && primary < placed.count) [orbit.eye.x, orbit.eye.y] = [placed.x[primary], placed.y[primary]];
     const going = orbit.advance(now_ms);
+    this.chooseRatio(going || model.poses.moving(now_ms));
     const shown = (slot: number) => !layers.hidden.includes(model.robots[slot].kind);
     this.setFloor();
     this.floor.show(layers.grid);
@@ -233,6 +259,7 @@ export class PerspectiveStage implements Stage {
   }
 
   dispose(): void {
+    clearTimeout(this.sharpen);
     this.element.remove();
     this.renderer.dispose();
   }

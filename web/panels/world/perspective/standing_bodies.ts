@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-import {Group, Mesh, MeshLambertMaterial, Vector2} from 'three';
+import {Group, Mesh, MeshLambertMaterial, Vector2, type ShaderMaterial} from 'three';
 import {LineMaterial} from 'three/addons/lines/LineMaterial.js';
 import {LineSegments2} from 'three/addons/lines/LineSegments2.js';
 import {LineSegmentsGeometry} from 'three/addons/lines/LineSegmentsGeometry.js';
 import type {Palette} from '../../../panel_api';
 import type {Body} from '../../../protocol/messages';
 import type {Kind, Layers} from '../layers';
-import {hatchMaterial} from './hatch_material';
+import {hatchMaterial, scaleHatch} from './hatch_material';
 import {addPrism, type Solid} from './prism';
 import {clear, lit, makeTube, shadowed} from './solid_robots';
 
@@ -17,6 +17,8 @@ const kEdge_px = 2;
 export class StandingBodies {
   readonly group = new Group();
   private readonly kinds = new Map<Kind, Group>();
+  private hatch: ShaderMaterial | null = null;
+  private ratio = 1;
   private readonly edge = new LineMaterial({linewidth: kEdge_px});
 
   refresh(bodies: Iterable<Body>, palette: Palette): void {
@@ -37,6 +39,12 @@ export class StandingBodies {
     this.edge.resolution = new Vector2(width, height);
   }
 
+  /** Pixels of the picture to a pixel of the screen: the hatch keeps its width there. */
+  setRatio(ratio: number): void {
+    this.ratio = ratio;
+    if (this.hatch !== null) scaleHatch(this.hatch, ratio);
+  }
+
   show(layers: Layers): void {
     for (const [kind, part] of this.kinds) part.visible = !layers.hidden.includes(kind);
   }
@@ -44,7 +52,9 @@ export class StandingBodies {
   private hatched(bodies: readonly Body[], palette: Palette): Group {
     const part = new Group();
     const solid = merged(bodies);
-    const faces = new Mesh(lit(solid.faces), hatchMaterial(palette.token('virtual'), palette.theme === 'light'));
+    this.hatch = hatchMaterial(palette.token('virtual'), palette.theme === 'light');
+    scaleHatch(this.hatch, this.ratio);
+    const faces = new Mesh(lit(solid.faces), this.hatch);
     faces.renderOrder = 2;
     this.edge.color.set(palette.token('virtual-line'));
     const edges = new LineSegments2(new LineSegmentsGeometry().setPositions(solid.edges), this.edge.clone());

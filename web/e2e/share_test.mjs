@@ -2,7 +2,7 @@
 // People share a page over TLS, each with their rights: node share_test.mjs RAVE SCENARIO FOLDER
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
-import {mkdirSync, rmSync} from 'node:fs';
+import {mkdirSync, rmSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {launch, startServer} from './browser.mjs';
 import {app, check, report, showFailures, until, untilHere, watch} from './checks.mjs';
@@ -24,6 +24,7 @@ const gui = await startServer(rave, [
 ]);
 const origin = new URL(gui.link).origin;
 const browser = await launch();
+const said = [];
 
 /** A page with all messages that it got. The browser was not told of the authority. */
 async function somebody() {
@@ -32,6 +33,9 @@ async function somebody() {
   const messages = [];
   page.on('websocket', (socket) => {
     socket.on('framereceived', ({payload}) => typeof payload === 'string' && messages.push(JSON.parse(payload)));
+    for (const event of ['framereceived', 'framesent']) {
+      socket.on(event, ({payload}) => typeof payload === 'string' && said.push(JSON.parse(payload)));
+    }
   });
   const last = (type) => messages.filter((message) => message.type === type).at(-1);
   return {page, messages, last, ...watch(page, origin)};
@@ -109,6 +113,14 @@ try {
   await check('who is removed is out', async () => {
     call(['people', 'remove', 'eve', '--accounts', accounts]);
     await until(guest.page, `${app}.shadowRoot.textContent.includes("signed out")`);
+  });
+
+  await check('every message is as the schema describes it', async () => {
+    const types = new Set(said.map(({type}) => type));
+    for (const type of ['hello', 'rights', 'set_right', 'answer']) assert.ok(types.has(type), type);
+    const file = join(folder, 'messages.json');
+    writeFileSync(file, JSON.stringify(said));
+    execFileSync('python3', [new URL('check_messages.py', import.meta.url).pathname, file], {stdio: 'inherit'});
   });
 
   await check('nobody went elsewhere', async () => {

@@ -27,7 +27,7 @@ export async function startServer(rave, words) {
   const link = await new Promise((resolve, reject) => {
     child.stdout.on('data', (data) => {
       text += data;
-      const found = /http:\S+/.exec(text);
+      const found = /https?:\S+/.exec(text);
       if (found) resolve(found[0]);
     });
     exited.then((code) => reject(new Error(`rave ended with ${code}: ${text}`)));

@@ -31,6 +31,7 @@ void AuditLog::note(std::string_view what, Fields fields) {
   const std::string text =
       line.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace) + "\n";
   const std::lock_guard lock(mutex_);
+  if (is_too_many(what, fields)) return;
   turn_over();
   const int file =
       ::open((folder_ / kFile).c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
@@ -43,6 +44,15 @@ void AuditLog::note(std::string_view what, Fields fields) {
 std::uint64_t AuditLog::lost() const {
   const std::lock_guard lock(mutex_);
   return lost_;
+}
+
+bool AuditLog::is_too_many(std::string_view what, Fields fields) {
+  if (what != "refused") return false;
+  for (const auto& [name, value] : fields) {
+    if (name != "from") continue;
+    return !refusals_.take(web::network_of(std::string(value)), web::RateLimit::Clock::now());
+  }
+  return false;
 }
 
 void AuditLog::turn_over() {

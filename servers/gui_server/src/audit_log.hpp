@@ -9,6 +9,8 @@
 #include <string_view>
 #include <utility>
 
+#include "rave/web/rate_limit.hpp"
+
 namespace rave::gui_server {
 
 /// Who did what, as lines of JSON in `audit.jsonl` of a folder, which is turned over at 4 MiB, four
@@ -30,11 +32,13 @@ class AuditLog {
 
  private:
   void turn_over();
+  [[nodiscard]] bool is_too_many(std::string_view what, Fields fields);
 
   std::filesystem::path folder_;
   std::uintmax_t most_bytes_;
   mutable std::mutex mutex_;
   std::uint64_t lost_ = 0;
+  web::RateLimit refusals_{0.1, 50};
 };
 
 }  // namespace rave::gui_server

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 
@@ -215,7 +216,7 @@ TEST(AccountsFileTest, IsReadAsItWasWritten) {
 TEST_F(AccountsTest, TheAuditLogIsBoundedAndOneLineEach) {
   AuditLog log(folder_, 2000);
   for (int i = 0; i < 200; ++i) {
-    log.note("refused", {{"why", "two\nlines \"\xff"}, {"user", ""}, {"from", "::1"}});
+    log.note("login", {{"why", "two\nlines \"\xff"}, {"user", ""}, {"from", "::1"}});
   }
   std::size_t files = 0;
   for (const auto& entry : fs::directory_iterator(folder_)) {
@@ -233,6 +234,17 @@ TEST_F(AccountsTest, TheAuditLogIsBoundedAndOneLineEach) {
   }
   EXPECT_EQ(files, 5U);
   EXPECT_EQ(log.lost(), 0U);
+}
+
+TEST_F(AccountsTest, StrangersCannotPushOthersOutOfTheAuditLog) {
+  AuditLog log(folder_);
+  log.note("stop", {{"user", "ada"}, {"from", "192.168.1.20"}});
+  for (int i = 0; i < 500; ++i) log.note("refused", {{"why", "link"}, {"from", "10.0.0.1"}});
+  log.note("refused", {{"why", "link"}, {"from", "10.0.0.2"}});
+  const std::string text = read_file(folder_ / "audit.jsonl").value_or("");
+  EXPECT_LT(std::count(text.begin(), text.end(), '\n'), 60);
+  EXPECT_NE(text.find("ada"), std::string::npos);
+  EXPECT_NE(text.find("10.0.0.2"), std::string::npos);
 }
 
 TEST(Metrics, AreForThisMachineOrWhoHasTheToken) {

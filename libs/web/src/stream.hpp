@@ -51,7 +51,8 @@ class Buffers {
 /// One thread, that of its io_context.
 class Stream {
  public:
-  using executor_type = Tcp::socket::executor_type;
+  // Asio looks for this name.
+  using executor_type = Tcp::socket::executor_type;  // NOLINT(readability-identifier-naming)
   using Done = std::function<void(Error, std::size_t)>;
 
   /// `tls`: null for a connection without it; otherwise it outlives the stream.

@@ -31,7 +31,8 @@ double quantum_for(const PosesAt& poses, double origin_x, double origin_y) {
     farthest = std::max({farthest, std::abs(robot.x_m - origin_x), std::abs(robot.y_m - origin_y)});
   }
   double quantum = kFinest_m;
-  while (farthest / quantum > std::numeric_limits<std::int32_t>::max() / 2) quantum *= 2;
+  constexpr double kMost = std::numeric_limits<std::int32_t>::max() / 2.0;
+  while (farthest / quantum > kMost) quantum *= 2;
   return quantum;
 }
 

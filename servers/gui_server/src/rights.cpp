@@ -43,8 +43,8 @@ constexpr std::array<Line, kInfoClasses> kLines = {{
 const Line& line_of(InfoClass what) { return kLines[static_cast<std::size_t>(what)]; }
 
 const Reach& everything() {
-  static const Reach all{Kind::kAll, {}};
-  return all;
+  static const Reach kEverything{Kind::kAll, {}};
+  return kEverything;
 }
 
 }  // namespace

@@ -140,8 +140,8 @@ web::Response sign_in_style() {
   web::Response response;
   response.type = "text/css; charset=utf-8";
   response.headers.emplace_back("Cache-Control", "max-age=3600");
-  static const auto style = std::make_shared<const std::string>(kStyle);
-  response.body = style;
+  static const auto kShared = std::make_shared<const std::string>(kStyle);
+  response.body = kShared;
   return response;
 }
 

@@ -23,13 +23,13 @@ bool is_name_letter(char c) {
 
 /// A key of this process, so that nobody can reckon back from the number of a body to its place.
 const std::array<unsigned char, crypto_shorthash_KEYBYTES>& body_key() {
-  static const auto key = [] {
+  static const auto kKey = [] {
     RAVE_CHECK(sodium_init() >= 0);
     std::array<unsigned char, crypto_shorthash_KEYBYTES> fresh{};
     crypto_shorthash_keygen(fresh.data());
     return fresh;
   }();
-  return key;
+  return kKey;
 }
 
 }  // namespace

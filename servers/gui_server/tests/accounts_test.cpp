@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 class AccountsTest : public testing::Test {
- protected:
+ public:
   AccountsTest() {
     std::string name = fs::temp_directory_path() / "rave-accounts-XXXXXX";
     if (::mkdtemp(name.data()) != nullptr) folder_ = name;
@@ -28,6 +28,8 @@ class AccountsTest : public testing::Test {
     std::error_code ignored;
     fs::remove_all(folder_, ignored);
   }
+
+ protected:
   [[nodiscard]] std::unique_ptr<Accounts> opened() {
     auto accounts = Accounts::open(folder_ / "gui", [this] { return now_s_; });
     EXPECT_TRUE(accounts) << accounts.error().text();

@@ -22,10 +22,10 @@ namespace rave::gui_server::testing {
 /// A connection that sends whatever it is told, over TLS if it is given an authority.
 class RawClient {
  public:
-  RawClient(std::uint16_t port, const std::filesystem::path& authority) : context_(nullptr) {
+  RawClient(std::uint16_t port, const std::filesystem::path& authority)
+      : context_(nullptr), fd_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
     // libssl writes without MSG_NOSIGNAL.
     std::signal(SIGPIPE, SIG_IGN);
-    fd_ = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     // So that a test that waits in vain fails.
     const timeval limit{10, 0};
     ::setsockopt(fd_, SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
@@ -84,7 +84,7 @@ class RawClient {
 
   SSL_CTX* context_;
   SSL* tls_ = nullptr;
-  int fd_ = -1;
+  int fd_;
   bool good_ = false;
 };
 

@@ -209,7 +209,7 @@ TEST(ViewOfARun, OfASuperUserIsWhole) {
 }
 
 class DeskTest : public testing::Test {
- protected:
+ public:
   DeskTest() {
     std::string name = fs::temp_directory_path() / "rave-rights-XXXXXX";
     if (::mkdtemp(name.data()) != nullptr) folder_ = name;
@@ -218,6 +218,8 @@ class DeskTest : public testing::Test {
     std::error_code ignored;
     fs::remove_all(folder_, ignored);
   }
+
+ protected:
   RightsDesk opened(const std::string& run = "run") {
     auto desk = RightsDesk::open(folder_);
     EXPECT_TRUE(desk) << desk.error().text();

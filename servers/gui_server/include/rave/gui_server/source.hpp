@@ -200,8 +200,8 @@ class Source {
   /// run has no hosts.
   [[nodiscard]] virtual std::uint64_t hosts_revision() const noexcept { return 0; }
   [[nodiscard]] virtual const std::string& hosts_json() const noexcept {
-    static const std::string none = "[]";
-    return none;
+    static const std::string kNone = "[]";
+    return kNone;
   }
   virtual void halt(const HaltMessage& halt, Reply reply) = 0;
 };

@@ -128,11 +128,12 @@ TEST(Check, RealRobotWithoutPoseSource) {
 }
 
 TEST(Check, FileOfNoKind) {
-  EXPECT_EQ(complaint("no_kind.yaml", ""),
-            "no_kind.yaml:2:1: found the key colour, which is none of RAVE's files: a robot file "
-            "has `body`, a world file `obstacles` or `maps`, a scenario file `robots`\n"
-            "    2 | colour: blue\n"
-            "      | ^\n");
+  EXPECT_EQ(
+      complaint("no_kind.yaml", ""),
+      "no_kind.yaml:2:1: found the key colour; expected a robot file (with `body`), a world file "
+      "(`obstacles` or `maps`) or a scenario file (`robots`)\n"
+      "    2 | colour: blue\n"
+      "      | ^\n");
 }
 
 TEST(Check, OneBadFileAmongGoodOnes) {
@@ -169,7 +170,7 @@ TEST(Check, DrawsEachKindBothWays) {
   }
   EXPECT_NE(content_of(folder.path() / "robot.svg").find("rear_sonar"), std::string::npos);
   EXPECT_EQ(run_rave({"check", "good_robot.yaml", "--draw", "x.gif"}).err,
-            "rave: `x.gif`: pictures are written as `.svg` or `.png`, as the ending says\n");
+            "rave: `x.gif`: expected a file name that ends in `.svg` or `.png`\n");
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ TEST_F(Keys, BadInput) {
   EXPECT_EQ(typo.exit_code, 2);
   EXPECT_EQ(typo.err,
             "rave: there is no subcommand `keys shwo`; did you mean `show`?\n"
-            "`rave keys --help` says how it is used\n");
+            "for usage: `rave keys --help`\n");
   const Ended nobody = run_rave({"keys", "new", path("other")});
   EXPECT_EQ(nobody.exit_code, 2);
   EXPECT_FALSE(fs::exists(path("other")));

@@ -217,8 +217,8 @@ TEST_F(Verify, ADamagedRecordIsRefusedAndTheDamageIsNamed) {
 
   const Ended quick = run_rave({"info", changed_});
   EXPECT_EQ(quick.exit_code, 0) << quick.err;
-  EXPECT_EQ(quick.out.find("whole"), std::string::npos) << quick.out;
-  EXPECT_NE(quick.out.find("--check compares the checksums"), std::string::npos) << quick.out;
+  EXPECT_EQ(quick.out.find("checksums are correct"), std::string::npos) << quick.out;
+  EXPECT_NE(quick.out.find("--check verifies the checksums"), std::string::npos) << quick.out;
   const Ended quick_json = run_rave({"info", changed_, "--json"});
   EXPECT_NE(quick_json.out.find("\"whole\": null"), std::string::npos) << quick_json.out;
 

@@ -122,6 +122,7 @@ Command chosen_command(const CLI::App& root, const Everything& all) {
   if (name == "info") return all.records.info;
   if (name == "verify") return all.records.verify;
   if (name == "play") return all.records.play;
+  if (name == "export") return all.records.csv;
   if (name == "report") return all.records.gap;
   if (name == "gui") return all.records.gui;
   if (name == "ps") return all.control.ps;

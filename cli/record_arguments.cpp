@@ -57,6 +57,22 @@ void add_play(CLI::App& root, PlayCommand& c) {
       "  rave play run.mcap --robot hunter --program wander --write my/scenario");
 }
 
+void add_export(CLI::App& root, ExportCommand& c) {
+  CLI::App& app = *root.add_subcommand("export", "Write a part of a recording as CSV");
+  add_record(app, c.file);
+  add_word(app, "what", c.what, "poses, readings or events", "WHAT")
+      ->check(CLI::IsMember({"poses", "readings", "events"}).description(""));
+  add_value(app, "--robot", c.robot, "Only this robot [all]; required for readings", "NAME");
+  add_value(app, "--sensor", c.sensor, "Sensor, for readings", "NAME");
+  add_value(app, "--output", c.output, "File to write [standard output]", "FILE");
+  app.footer(
+      "Times are seconds of the run, all other values SI units. A range without return is `inf`.\n"
+      "Columns: docs/how-to/read-a-recording.md. Exit code: 0, or 2 for bad input.\n\n"
+      "Examples:\n"
+      "  rave export runs/20260101-120000-mixed-reality poses > poses.csv\n"
+      "  rave export run.mcap readings --robot hunter --sensor laser --output laser.csv");
+}
+
 void add_report(CLI::App& root, GapCommand& c) {
   CLI::App& parent = *root.add_subcommand("report", "Analyse a recording");
   parent.require_subcommand(1);
@@ -106,6 +122,7 @@ void add_record_commands(CLI::App& root, RecordCommands& commands) {
   add_info(root, commands.info);
   add_verify(root, commands.verify);
   add_play(root, commands.play);
+  add_export(root, commands.csv);
   add_report(root, commands.gap);
   add_gui(root, commands.gui);
 }

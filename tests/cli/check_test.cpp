@@ -20,9 +20,9 @@ std::string complaint(const std::string& file, const std::string& taken_for) {
   return ended.err;
 }
 
-constexpr const char* kRobot = " (taken for a robot file)";
-constexpr const char* kWorld = " (taken for a world file)";
-constexpr const char* kScenario = " (taken for a scenario file)";
+constexpr const char* kRobot = " (read as a robot file)";
+constexpr const char* kWorld = " (read as a world file)";
+constexpr const char* kScenario = " (read as a scenario file)";
 
 /// Nobody writes to it, so whoever reads it waits for ever.
 TEST(Check, ANamedPipeInThePlaceOfAFileIsRefused) {

@@ -20,7 +20,8 @@ class Keys : public ::testing::Test {
 TEST_F(Keys, MadeAddedToAndShown) {
   const Ended made = run_rave({"keys", "new", path("lab-keys/"), "env", "left", "--name", "lab"});
   EXPECT_EQ(made.exit_code, 0) << made.err;
-  EXPECT_TRUE(made.out.starts_with("made " + path("lab-keys") + " for env, left; valid for 3650 "))
+  EXPECT_TRUE(
+      made.out.starts_with("created " + path("lab-keys") + " for env, left; valid for 3650 "))
       << made.out;
   const Ended added = run_rave({"keys", "add", path("lab-keys"), "gui", "--days", "12"});
   EXPECT_EQ(added.exit_code, 0) << added.err;

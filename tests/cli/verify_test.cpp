@@ -43,7 +43,7 @@ class Verify : public testing::Test {
 TEST_F(Verify, TheSameRunIsTheSame) {
   const Ended ended = run_rave({"verify", folder_.path() / "run"});
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
-  EXPECT_NE(ended.out.find("the same: 200 steps, "), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("equal: 200 steps, "), std::string::npos) << ended.out;
   EXPECT_NE(ended.out.find("run hash " + hash_of(record_)), std::string::npos) << ended.out;
   EXPECT_EQ(run_rave({"verify", record_, "--threads", "2", "--quiet"}).exit_code, 0);
 }

@@ -34,7 +34,9 @@ TEST(Letter, IsAsLongAsItIsWanted) {
 
 std::string reason(std::string_view bytes) {
   const auto letter = parse_letter(bytes);
-  return letter ? "read" : letter.error().message.substr(31);
+  if (letter) return "read";
+  const std::string& message = letter.error().message;
+  return message.substr(message.find(": ") + 2);
 }
 
 TEST(Letter, WhatIsNoneIsRefused) {

@@ -14,7 +14,7 @@
 #include "managed_run.hpp"
 #include "places.hpp"
 #include "rave/base/file.hpp"
-#include "rave/robot_host/host_run.hpp"
+#include "rave/host/host_run.hpp"
 #include "run_folder.hpp"
 #include "run_report.hpp"
 
@@ -155,11 +155,11 @@ class Crew {
 };
 
 /// Puts together what all have left.
-Result<robot_host::RunOutcome> put_together(ManagedEnd& managed, const Crew& crew,
-                                            const std::vector<std::string>& problems) {
-  robot_host::SharedEnd& end = managed.end;
+Result<runtime::RunOutcome> put_together(ManagedEnd& managed, const Crew& crew,
+                                         const std::vector<std::string>& problems) {
+  runtime::SharedEnd& end = managed.end;
   end.problems.insert(end.problems.end(), problems.begin(), problems.end());
-  for (robot_host::SharedHost& host : end.hosts) host.folders = crew.folders_of(host.name);
+  for (runtime::SharedHost& host : end.hosts) host.folders = crew.folders_of(host.name);
   return managed.results->write(end);
 }
 
@@ -170,7 +170,7 @@ int run_shared(const RunCommand& options, const config::ExpandedScenario& scenar
   BusOptions bus_options = options.bus;
   // A run that this process starts is one of its own, whoever runs the same scenario beside it.
   if (bus_options.run.empty()) bus_options.run = bus::RunId::random().text();
-  auto bus = bus_config(bus_options, "environment manager", robot_host::shared_number(scenario));
+  auto bus = bus_config(bus_options, "environment manager", runtime::shared_number(scenario));
   if (!bus) return complain(bus.error());
   make_room(*bus, hosts.size(), bus::Reach::kHub);
   const auto folder =
@@ -194,7 +194,7 @@ int run_shared(const RunCommand& options, const config::ExpandedScenario& scenar
     }
     if (auto started = crew.start(host); !started) return complain(started.error());
   }
-  robot_host::RunControl& control = ended_by_signals();
+  runtime::RunControl& control = ended_by_signals();
   const auto server = serve_control(scenario.scenario.name.value, control, console);
   const auto stopping = [&] {
     crew.look_after();

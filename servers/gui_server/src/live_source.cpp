@@ -181,7 +181,7 @@ void LiveSource::learn_flags(Playhead::Clock::time_point now) {
   if (!picture().standing || now - flags_at_ < kStatusInterval) return;
   flags_at_ = now;
   flags_.assign(start_.robots.size(), 0);
-  for (const robot_host::RunStatus::Robot& robot : port_->robots()) {
+  for (const runtime::RunStatus::Robot& robot : port_->robots()) {
     const auto slot = slots_.find(robot.name);
     if (slot == slots_.end()) continue;
     std::uint16_t& flags = flags_[slot->second];
@@ -261,7 +261,7 @@ std::string LiveSource::take(const TransportMessage& transport) {
 }
 
 void LiveSource::halt(const HaltMessage& halt, Reply reply) {
-  using Kind = robot_host::RunRequest::Kind;
+  using Kind = runtime::RunRequest::Kind;
   std::vector<std::string> robots;
   for (const std::uint32_t slot : halt.slots) {
     if (slot < start_.robots.size()) robots.push_back(start_.robots[slot]);
@@ -269,7 +269,7 @@ void LiveSource::halt(const HaltMessage& halt, Reply reply) {
   if (halt.slots.empty()) robots.emplace_back();
   if (robots.empty()) return reply(false, "There is no such robot.");
   for (std::string& robot : robots) {
-    robot_host::RunRequest request;
+    runtime::RunRequest request;
     request.kind = halt.stop ? Kind::kStop : Kind::kRelease;
     request.robot = std::move(robot);
     auto answer = port_->post(std::move(request));

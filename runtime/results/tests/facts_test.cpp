@@ -45,7 +45,7 @@ TEST(Facts, ThoseOfAnotherRunOrHostOrWorldAreRefused) {
 }
 
 TEST(Facts, OfThisVersionHaveTheBytesOfTheSample) {
-  std::ifstream file(RAVE_SOURCE_DIR "/servers/robot_host/tests/corpus_facts/sample.cdr",
+  std::ifstream file(RAVE_SOURCE_DIR "/runtime/results/tests/corpus_facts/sample.cdr",
                      std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   const auto bytes = encode_facts(sample_whose(), sample_facts(1));

@@ -47,11 +47,11 @@ class Crew {
       member.process.reset();
       member.code = code;
       if (*code == kGood) continue;
-      console_.warn("run", "the process of host `{}` ended with {}", member.name,
+      console_.warn("run", "the process of host `{}` exited with {}", member.name,
                     *code < 0 ? fmt::format("signal {}", -*code) : fmt::format("code {}", *code));
       if (!restarts_ || member.starts >= kMostStarts) continue;
       if (auto started = start(member); !started) {
-        console_.error("run", "host `{}` could not be started again: {}", member.name,
+        console_.error("run", "host `{}` could not be restarted: {}", member.name,
                        started.error().message);
       }
     }
@@ -188,7 +188,7 @@ int run_shared(const RunCommand& options, const config::ExpandedScenario& scenar
   Crew crew(options, *bus, folder->path(), scenario.scenario, console);
   for (const config::PlannedHost& host : hosts) {
     if (host.elsewhere) {
-      console.warn("run", "waits for host `{}`: {}", host.name,
+      console.warn("run", "waiting for host `{}`; start it with: {}", host.name,
                    host_command(options, host.name, bus->run));
       continue;
     }

@@ -55,7 +55,8 @@ int run(const RunCommand& options) {
   // A run that nobody can reach goes on, but whoever relies on `rave stop` should know.
   auto server = control::Server::start(run_options.run_name, control);
   if (!server) {
-    console.warn("run", "no other terminal can control this run: {}", server.error().message);
+    console.warn("run", "this run cannot be controlled from other terminals: {}",
+                 server.error().message);
   }
   std::unique_ptr<gui_server::GuiServer> page;
   gui_server::LiveRun live(*scenario, control,

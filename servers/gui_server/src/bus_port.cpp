@@ -78,8 +78,13 @@ void BusPort::work(const std::stop_token& stop) {
 }
 
 BusPort::Answer BusPort::ask(const robot_host::RunRequest& request) {
+  using Kind = robot_host::RunRequest::Kind;
+  if (request.kind != Kind::kStop && request.kind != Kind::kRelease) {
+    return fail(ErrorCode::kState, "a run on the bus takes no `{}` from a page yet",
+                robot_host::to_string(request.kind));
+  }
   run_control::Request asked;
-  const bool stop = request.kind == robot_host::RunRequest::Kind::kStop;
+  const bool stop = request.kind == Kind::kStop;
   asked.what = stop ? run_control::Request::What::kStop : run_control::Request::What::kRelease;
   asked.robot = request.robot;
   std::string done;

@@ -164,7 +164,7 @@ std::optional<Response> Connection::refusal(Request& request) {
   }
   const std::string_view origin = request.header("origin");
   const bool writes = request.method == "POST" || beast::websocket::is_upgrade(message_);
-  if (writes && !origin.empty() &&
+  if (core_.options().own_origin_only && writes && !origin.empty() &&
       origin != fmt::format("{}{}", core_.scheme(), request.header("host"))) {
     return text_response(403, "requests of other origins are refused\n");
   }

@@ -84,6 +84,11 @@ int robot(const RobotCommand& options) {
   if (!server) {
     console.warn("host", "no other terminal can control this host: {}", server.error().message);
   }
+  const auto line = open_host_line(run.line, options.host, *bus, control, console);
+  if (!line) {
+    folder->discard();
+    return complain(line.error());
+  }
   const auto outcome = robot_host::run_host(*scenario, catalogue, std::move(how));
   // What a run left that broke off tells why.
   std::error_code error;

@@ -8,11 +8,13 @@
 #include <thread>
 
 #include "host_command.hpp"
+#include "host_line.hpp"
 #include "places.hpp"
 #include "rave/assemble/build.hpp"
 #include "rave/base/file.hpp"
 #include "rave/control/folder.hpp"
 #include "rave/control/wishes.hpp"
+#include "rave/direct_line/key_files.hpp"
 #include "rave/gui_server/bus_run.hpp"
 #include "rave/host/host_run.hpp"
 #include "rave/manager/live_manager.hpp"
@@ -240,7 +242,12 @@ Result<std::unique_ptr<gui_server::GuiServer>> show_run(const RunCommand& option
                                                         LogSink& log) {
   RAVE_TRY_ASSIGN(const auto built, build_world(scenario, options.plugins, log));
   RAVE_TRY_ASSIGN(auto source, gui_server::watch_run(scenario, built, bus, control));
-  return serve_page(options.page, std::move(source));
+  RAVE_TRY_ASSIGN(auto page, serve_page(options.page, std::move(source)));
+  if (!options.page.line_key.empty()) {
+    RAVE_TRY_ASSIGN(const auto key, direct_line::read_signing_key(options.page.line_key));
+    RAVE_TRY(offer_bus_lines(scenario, bus, key, *page));
+  }
+  return page;
 }
 
 std::unique_ptr<control::Server> serve_control(const std::string& scenario,

@@ -85,6 +85,11 @@ int robot(const RobotCommand& options) {
     console.warn("host", "this host cannot be controlled from other terminals: {}",
                  server.error().message);
   }
+  const auto line = open_host_line(run.line, options.host, *bus, control, console);
+  if (!line) {
+    folder->discard();
+    return complain(line.error());
+  }
   const auto outcome = runtime::run_host(*scenario, catalogue, std::move(how));
   // What a run left that broke off tells why.
   std::error_code error;

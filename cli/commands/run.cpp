@@ -67,6 +67,14 @@ int run(const RunCommand& options) {
     page = *std::move(served);
     run_options.observers.push_back(&live.observer());
   }
+  HostLineEnds line;
+  if (options.line.web) {
+    auto opened = page ? open_line_here(options.line, *scenario, control, *page, console)
+                       : fail(ErrorCode::kInvalidArgument,
+                              "--web of a run of one process counts with --gui alone");
+    if (!opened) return complain(opened.error());
+    line = *std::move(opened);
+  }
   const auto outcome = runtime::run(*scenario, catalogue, run_options);
   console.clear();
   if (outcome) {

@@ -60,6 +60,9 @@ void describe(V& v, GuiFile& c) {
   v.field("rights", c.rights,
           {.doc = "Changes of the default rights; a later change overrides an earlier one.",
            .max_items = 1000});
+  v.field("relay", c.relay,
+          {.doc = "Orders may go through the GUI Server where a page has no direct line to a host; "
+                  "robots that are driven so stop when the server ends. STOP always may."});
 }
 
 }  // namespace rave::config

@@ -180,6 +180,7 @@ LiveSource::Start start_of(const config::ExpandedScenario& scenario,
   start.about.seed = run.info.seed;
   start.about.lock_step = built.live_reason.empty();
   start.about.duration_s = scenario.scenario.duration_s;
+  start.about.relay = scenario.scenario.gui.relay;
   start.about.rights = rights_of(scenario.scenario.gui);
   start.robots_json = robots_of(scenario, run.info, run.hybrids);
   for (const record::RecordedRobot& robot : run.info.robots) start.robots.push_back(robot.name);

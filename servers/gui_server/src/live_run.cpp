@@ -35,6 +35,8 @@ struct LiveRun::Impl {
     start.about.seed = run.info.seed;
     start.about.lock_step = !run.live;
     start.about.duration_s = scenario.scenario.duration_s;
+    // The server is in the process of the host: there is no shorter way.
+    start.about.relay = true;
     start.about.rights = rights_of(scenario.scenario.gui);
     start.robots_json = robots_of(scenario, run.info, run.hybrids);
     for (const record::RecordedRobot& robot : run.info.robots) start.robots.push_back(robot.name);

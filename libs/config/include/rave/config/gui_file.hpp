@@ -52,6 +52,7 @@ struct GuiRightFile {
 /// What the page shows to whom. It is no part of the run: processes of one run need not agree.
 struct GuiFile {
   std::vector<GuiRightFile> rights;
+  bool relay = false;  ///< Orders may go through the GUI Server where there is no direct line.
   bool operator==(const GuiFile&) const = default;
 };
 

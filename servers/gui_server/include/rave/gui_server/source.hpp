@@ -40,6 +40,8 @@ struct RunAbout {
   double begin_s = 0;
   double end_s = 0;
   double duration_s = 0;
+  /// Orders may go through the server where a page has no direct line to a host.
+  bool relay = false;
   Rights rights;  ///< The usual ones, with what the scenario changes.
 };
 

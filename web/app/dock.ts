@@ -8,8 +8,8 @@ const kKept = 'rave.layout';
 /** Another number makes layouts that were kept void. */
 const kVersion = 2;
 
-export type LayoutName = 'Watch' | 'Analyse' | 'Conduct';
-export const kLayouts: readonly LayoutName[] = ['Watch', 'Analyse', 'Conduct'];
+export type LayoutName = 'Watch' | 'Drive' | 'Analyse' | 'Conduct';
+export const kLayouts: readonly LayoutName[] = ['Watch', 'Drive', 'Analyse', 'Conduct'];
 
 /** A panel in the dock: makes the element and gives it its context. */
 class DockedPanel implements IContentRenderer {
@@ -89,17 +89,26 @@ export class Dock {
       this.add('robots', {referencePanel: 'world', direction: 'below'});
       for (const id of ['sensors', 'log', 'hosts']) this.add(id, {referencePanel: 'robots', direction: 'within'});
     }
-    for (const id of this.width >= 900 ? ['sensors', 'robots', 'world'] : ['robots', 'world']) this.show(id);
+    for (const id of layout === 'Drive' ? ['robots', 'joystick', 'world'] : this.width >= 900 ? ['sensors', 'robots', 'world'] : ['robots', 'world']) this.show(id);
     this.restoring = false;
     this.keep();
   }
 
-  /** Watch: the world in the middle. Analyse: sensors and log have the room. Conduct: rights are at hand. */
+  /** Watch: the world in the middle. Drive: the robot at the left, stick and chat at the right. Analyse: sensors and log have the room. Conduct: rights are at hand. */
   private layOutWide(layout: LayoutName): void {
     if (layout === 'Watch') {
       this.add('robots', {referencePanel: 'world', direction: 'left'}, {initialWidth: 292});
       this.add('sensors', {referencePanel: 'world', direction: 'right'}, {initialWidth: 392});
       this.add('log', {referencePanel: 'sensors', direction: 'below'}, {initialHeight: 340});
+    } else if (layout === 'Drive') {
+      this.add('robots', {referencePanel: 'world', direction: 'left'}, {initialWidth: 304});
+      this.add('robot', {referencePanel: 'robots', direction: 'below'}, {initialHeight: 480});
+      this.add('joystick', {referencePanel: 'world', direction: 'right'}, {initialWidth: 376});
+      this.add('chat', {referencePanel: 'joystick', direction: 'below'}, {initialHeight: 360});
+      this.add('log', {referencePanel: 'chat', direction: 'within'});
+      this.add('sensors', {referencePanel: 'robot', direction: 'within'});
+      this.show('robot');
+      this.show('chat');
     } else if (layout === 'Conduct') {
       this.add('robots', {referencePanel: 'world', direction: 'right'}, {initialWidth: 392});
       this.add('log', {referencePanel: 'robots', direction: 'below'}, {initialHeight: 340});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a panel is given. The panels that come with RAVE use nothing else.
+import type {Commands} from '../model/commands';
 import type {Link} from '../model/link';
 import type {RunModel} from '../model/run_model';
 import type {Power} from '../protocol/messages';
@@ -9,12 +10,17 @@ import type {Selection} from './selection';
 export type {Palette} from './palette';
 export type {Selection} from './selection';
 
+/** Number of this interface. A component says for which one it was made; another one is not loaded. */
+export const kPanelApi = 1;
+
 /** What all panels share. Owned by the page; lives as long as it. */
 export interface PanelContext {
   readonly model: RunModel;
   readonly link: Link;
   readonly selection: Selection;
   readonly palette: Palette;
+  /** Orders, leases, parameters, obstacles and words, each with the answer of the run. */
+  readonly commands: Commands;
   /** Moves the replay; does nothing where the time cannot be moved. */
   seek(time_s: number): void;
   /** Brings a panel to the front. */
@@ -39,6 +45,8 @@ export interface PanelKind {
   short?: string;
   /** Only who has this power sees the panel. */
   needs?: Power;
+  /** Of a run that goes on; a replay does not show it. */
+  live?: boolean;
   /** Number beside the title; none if undefined. */
   count?(context: PanelContext): number;
 }

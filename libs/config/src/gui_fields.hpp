@@ -29,7 +29,9 @@ constexpr auto enum_names(EnumTag<GuiClass> /*tag*/) {
                     EnumName{GuiClass::kRecording, "recording"},
                     EnumName{GuiClass::kStop, "stop"},
                     EnumName{GuiClass::kRelease, "release"},
-                    EnumName{GuiClass::kRunControl, "run_control"}};
+                    EnumName{GuiClass::kRunControl, "run_control"},
+                    EnumName{GuiClass::kCommand, "command"},
+                    EnumName{GuiClass::kEdit, "edit"}};
 }
 
 constexpr auto enum_names(EnumTag<GuiReach> /*tag*/) {
@@ -42,7 +44,7 @@ void describe(V& v, GuiRightFile& c) {
   v.field("role", c.role, {.doc = "Of all users with this role; null: `user` says of whom."});
   v.field("user", c.user, {.doc = "Of one user, whatever the role; null: `role` says of whom."});
   v.required("classes", c.classes,
-             {.doc = "What is given or withheld.", .min_items = 1, .max_items = 14});
+             {.doc = "What is given or withheld.", .min_items = 1, .max_items = 16});
   v.required("reach", c.reach,
              {.doc = "Of which robots: none, those of the user's own teams, all, or those of "
                      "`teams`."});

@@ -3,6 +3,7 @@
 
 #include "live_feed.hpp"
 #include "live_source.hpp"
+#include "parameters_json.hpp"
 #include "scenario_rights.hpp"
 #include "scene_json.hpp"
 
@@ -36,7 +37,8 @@ struct LiveRun::Impl {
     start.about.lock_step = !run.live;
     start.about.duration_s = scenario.scenario.duration_s;
     start.about.rights = rights_of(scenario.scenario.gui);
-    start.robots_json = robots_of(scenario, run.info, run.hybrids);
+    start.robots_json =
+        with_parameters(robots_of(scenario, run.info, run.hybrids), run.engine.spec());
     for (const record::RecordedRobot& robot : run.info.robots) start.robots.push_back(robot.name);
     start.bodies = std::move(bodies);
     source = std::make_shared<LiveSource>(

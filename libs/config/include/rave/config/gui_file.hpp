@@ -29,6 +29,8 @@ enum class GuiClass : std::uint8_t {
   kStop,
   kRelease,
   kRunControl,
+  kCommand,
+  kEdit,
 };
 
 /// Of which robots.

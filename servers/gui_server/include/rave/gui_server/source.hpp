@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "rave/base/result.hpp"
+#include "rave/gui_server/command.hpp"
 #include "rave/gui_server/rights.hpp"
 
 // What the GUI Server shows comes from a source: a recording, or a run. Plain values; SI units,
@@ -203,7 +204,22 @@ class Source {
     static const std::string kNone = "[]";
     return kNone;
   }
-  virtual void halt(const HaltMessage& halt, Reply reply) = 0;
+  /// Stops and releases robots, at once and without a lease to stop.
+  virtual void halt(const HaltMessage& halt, const Author& author, Reply reply) = 0;
+
+  /// What came of a command for one of its robots; of an obstacle with kNoSlot.
+  static constexpr std::uint32_t kNoSlot = 0xffffffff;
+  using SlotReply = std::function<void(std::uint32_t slot, bool good, std::string text)>;
+  /// Calls `reply` once for each robot of the command, now or later.
+  virtual void command(const CommandMessage& command, const Author& /*author*/,
+                       const SlotReply& reply);
+  /// Another number whenever it changed who drives which robot; since a number of before (0: ever),
+  /// these did.
+  [[nodiscard]] virtual std::uint64_t leases_revision() const noexcept { return 0; }
+  [[nodiscard]] virtual std::vector<DriveState> leases_changed_since(
+      std::uint64_t /*revision*/) const {
+    return {};
+  }
 };
 
 /// Plays the record of a run. Errors: those of record::open_run() and McapReader::open(), kParse

@@ -15,7 +15,7 @@ import {keySheetStyles, renderKeys} from './key_sheet';
 import {bindKeys, type KeyAction} from './keys';
 import {nowOf} from './moment';
 import {readMoment, writeMoment} from './moment_link';
-import {allPanels, panelsFor} from './panels';
+import {addPanelKind, allPanels, panelsFor} from './panels';
 import {penStyles, renderPenBar} from './pen_bar';
 import {renderLost, renderNoRun, renderOpening, renderRefused, renderSeenBy, renderWaits, stateStyles} from './page_states';
 import type {RunBar} from './run_bar';
@@ -36,6 +36,8 @@ export class RaveApp extends LitElement {
   private readonly commands = new Commands(this.model, this.link);
   private phonePanel = 'world';
   private phone = matchMedia(`(max-width: ${kPhone_px - 1}px)`);
+  /** Addresses of components that were loaded. */
+  private readonly brought = new Set<string>();
   /** In the hand and low: tools and STOP at the bottom, nothing else. */
   private pen = matchMedia(`(max-width: ${kPhone_px - 1}px) and (max-height: 700px)`);
   private finding = false;
@@ -51,6 +53,7 @@ export class RaveApp extends LitElement {
     selection: this.selection,
     palette: this.palette,
     commands: this.commands,
+    worldLayers: new Set(),
     seek: (time_s) => {
       if (this.model.may('seek')) this.link.send({type: 'transport', do: 'seek', value: time_s});
     },
@@ -83,6 +86,7 @@ export class RaveApp extends LitElement {
       this.arrive();
       this.retitle();
     });
+    model.runChanged.on(() => void this.bringComponents());
     model.answered.on((answer) => {
       // What has a number is answered where it was asked.
       if (answer.request !== undefined) return;
@@ -99,6 +103,21 @@ export class RaveApp extends LitElement {
     });
   }
 
+  /** Loads the panels that the run brings along; once, since a module stays. */
+  private async bringComponents(): Promise<void> {
+    const named = (this.model.hello?.components ?? []).filter(({url}) => !this.brought.has(url));
+    if (named.length === 0) return;
+    for (const {url} of named) this.brought.add(url);
+    const {loadComponents} = await import('./component_loader');
+    for (const component of await loadComponents(named, this.context)) {
+      for (const kind of component.kinds()) {
+        addPanelKind(kind);
+        this.dock?.offer(kind.id);
+      }
+    }
+    this.requestUpdate();
+  }
+
   /** Goes to the moment, the robot and the camera that the address names; once. */
   private arrive(): void {
     if (this.arrived) return;
@@ -108,7 +127,7 @@ export class RaveApp extends LitElement {
 
   override updated(): void {
     const host = this.renderRoot.querySelector<HTMLElement>('.dock');
-    if (host && this.dock === null) this.dock = new Dock(this.dockHost(host), allPanels(), this.context);
+    if (host && this.dock === null) this.dock = new Dock(this.dockHost(host), allPanels, this.context);
     this.retitle();
     const phone = this.renderRoot.querySelector<HTMLElement>('.phone');
     if (phone) this.fillPhone(phone);
@@ -127,8 +146,10 @@ export class RaveApp extends LitElement {
   }
 
   private fillPhone(place: HTMLElement): void {
-    if (place.firstElementChild?.localName === this.kind(this.phonePanel).tag) return;
-    const panel = document.createElement(this.kind(this.phonePanel).tag) as PanelElement;
+    if (place.dataset['panel'] === this.phonePanel && place.firstElementChild !== null) return;
+    place.dataset['panel'] = this.phonePanel;
+    const kind = this.kind(this.phonePanel);
+    const panel = kind.make?.() ?? (document.createElement(kind.tag) as PanelElement);
     panel.context = this.context;
     place.replaceChildren(panel);
   }

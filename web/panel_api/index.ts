@@ -4,9 +4,11 @@ import type {Commands} from '../model/commands';
 import type {Link} from '../model/link';
 import type {RunModel} from '../model/run_model';
 import type {Power} from '../protocol/messages';
+import type {WorldLayer} from './component';
 import type {Palette} from './palette';
 import type {Selection} from './selection';
 
+export type {Component, ComponentPanel, WorldLayer} from './component';
 export type {Palette} from './palette';
 export type {Selection} from './selection';
 
@@ -21,6 +23,8 @@ export interface PanelContext {
   readonly palette: Palette;
   /** Orders, leases, parameters, obstacles and words, each with the answer of the run. */
   readonly commands: Commands;
+  /** What components draw over the World View. A layer that throws is taken out. */
+  readonly worldLayers: Set<WorldLayer>;
   /** Moves the replay; does nothing where the time cannot be moved. */
   seek(time_s: number): void;
   /** Brings a panel to the front. */
@@ -41,6 +45,8 @@ export interface PanelKind {
   icon: string;
   /** Name of its custom element. */
   tag: string;
+  /** Makes the element of a kind whose tag several share. */
+  make?(): PanelElement;
   /** What its tab on a phone is called; without one it has none. */
   short?: string;
   /** Only who has this power sees the panel. */

@@ -19,8 +19,16 @@ export interface Hello {
   seen_by?: Person;
   /** What this connection may do. */
   may: Power[];
+  /** Panels that the run brings along and that this user may have. */
+  components?: Component[];
   /** For each power that is missing, the reason in words. */
   why_not: Record<string, string>;
+}
+
+export interface Component {
+  name: string;
+  /** Of an ES module, relative to the page. */
+  url: string;
 }
 
 export type Power = "play" | "seek" | "pace" | "step" | "stop" | "release" | "true_pose" | "readings" | "hybrid_parts" | "obstacles" | "log" | "recording" | "rights" | "command" | "edit" | "chat";

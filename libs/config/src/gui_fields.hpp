@@ -54,10 +54,21 @@ void describe(V& v, GuiRightFile& c) {
 void validate(const GuiRightFile& c, CheckContext& check);
 
 template <class V>
+void describe(V& v, GuiComponentFile& c) {
+  v.required("module", c.module, {.doc = "An ES module (`.js` or `.mjs`), beside this file."});
+  v.field("roles", c.roles,
+          {.doc = "Who gets it beside super-users; empty: super-users alone.", .max_items = 2});
+}
+
+void validate(const GuiComponentFile& c, CheckContext& check);
+
+template <class V>
 void describe(V& v, GuiFile& c) {
   v.field("rights", c.rights,
           {.doc = "Changes of the usual rights; later ones go before earlier ones.",
            .max_items = 1000});
+  v.field("components", c.components,
+          {.doc = "Panels that the page loads while it runs.", .max_items = 50});
 }
 
 }  // namespace rave::config

@@ -224,6 +224,9 @@ const FileCase kScenarios[] = {
      "readings, "
      "hybrid_parts, obstacles, goals, maps, chat, log, video, recording, stop, release, "
      "run_control, command and edit; did you mean `pose`?"},
+    {"GuiComponent",
+     "name: a\ngui: {components: [{module: panel.ts}]}\nrobots: [{name: r, file: r.yaml}]\n",
+     "s.yaml:2:29: `module`: found `panel.ts`, expected a file that ends in .js or .mjs"},
     {"Instant",
      "name: a\nduration_s: 10\nrobots: [{name: r, file: r.yaml}]\n"
      "picture: {instant_s: 11}\n",

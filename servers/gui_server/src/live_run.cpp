@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/gui_server/live_run.hpp"
 
+#include "components.hpp"
 #include "live_feed.hpp"
 #include "live_source.hpp"
 #include "parameters_json.hpp"
@@ -37,6 +38,7 @@ struct LiveRun::Impl {
     start.about.lock_step = !run.live;
     start.about.duration_s = scenario.scenario.duration_s;
     start.about.rights = rights_of(scenario.scenario.gui);
+    RAVE_TRY_ASSIGN(start.about.components, components_of(scenario.scenario.gui));
     start.robots_json =
         with_parameters(robots_of(scenario, run.info, run.hybrids), run.engine.spec());
     for (const record::RecordedRobot& robot : run.info.robots) start.robots.push_back(robot.name);

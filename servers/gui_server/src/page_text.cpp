@@ -4,6 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "components.hpp"
+
 namespace rave::gui_server {
 namespace {
 
@@ -71,6 +73,12 @@ std::string hello_text(const Source& source, const Greeting& greeting) {
                 {"user", person_json(greeting.user)},
                 {"may", powers.may},
                 {"why_not", powers.why_not}};
+  for (std::size_t i = 0; i < about.components.size(); ++i) {
+    const PageComponent& component = about.components[i];
+    if (!component.is_for(greeting.user.role)) continue;
+    hello["components"].push_back(
+        {{"name", component.name}, {"url", component_path(i, component)}});
+  }
   if (greeting.seen_by) hello["seen_by"] = person_json(*greeting.seen_by);
   return text_of(hello);
 }

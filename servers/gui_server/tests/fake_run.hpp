@@ -90,6 +90,7 @@ class FakeRun : public Source {
     return commands_;
   }
 
+  RunAbout about_;
   std::atomic<int> halted_robots = 0;
   std::atomic<int> moved = 0;  ///< How often somebody moved the time of the run.
 
@@ -134,7 +135,6 @@ class FakeRun : public Source {
 
   std::mutex mutex_;
   std::vector<std::pair<CommandMessage, Author>> commands_;
-  RunAbout about_;
   std::string robots_;
   std::string bodies_ =
       R"([{"id":0,"name":"secret-pond","kind":"virtual","pose":[0,0,0],"shapes":[]},)"

@@ -361,6 +361,28 @@ TEST_F(Hostile, WhatIsSaidReachesWhoMayHearItAlone) {
   EXPECT_NE(eve.text_with("\"request\":2").find("is not here"), std::string::npos);
 }
 
+TEST_F(Hostile, ComponentsAreServedToTheirRolesAlone) {
+  const std::string eve = guest(Role::kObserver, "eve");
+  const std::string ben = guest(Role::kCommander, "ben");
+  std::ofstream(folder_ / "heat map.js") << "export const component = 1;\n";
+  auto run = std::make_shared<FakeRun>();
+  run->about_.components.push_back({"heat_map", folder_ / "heat map.js", {Role::kCommander}});
+  server_->show(run);
+  RawSocket commander = socket(ben);
+  EXPECT_NE(commander.text_with("\"hello\"").find("components/0/heat_map.js"), std::string::npos);
+  RawSocket observer = socket(eve);
+  EXPECT_EQ(observer.text_with("\"hello\"").find("heat_map"), std::string::npos);
+  const std::string path = "/components/0/heat_map.js";
+  const std::string served = ask("GET", path, ben);
+  EXPECT_EQ(status_of(served), "200");
+  EXPECT_NE(served.find("text/javascript"), std::string::npos);
+  EXPECT_NE(served.find("export const component"), std::string::npos);
+  EXPECT_EQ(status_of(ask("GET", path, eve)), "404");
+  EXPECT_EQ(status_of(ask("GET", path)), "401");
+  EXPECT_EQ(status_of(ask("GET", "/components/1/heat_map.js", ben)), "404");
+  EXPECT_EQ(status_of(ask("GET", "/components/0/../accounts/accounts", ben)), "400");
+}
+
 TEST_F(Hostile, WhoIsRemovedIsOut) {
   RawSocket eve = socket(guest(Role::kObserver, "eve"));
   ASSERT_TRUE(accounts_->remove("eve"));

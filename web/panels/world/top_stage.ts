@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import type {WorldLayer} from '../../panel_api';
 import {RobotFlag} from '../../protocol/frames';
 import {Camera, type Bounds} from './camera';
 import {Lens} from './lens';
@@ -83,6 +84,7 @@ export class TopStage implements Stage {
     this.view.drawLife(ctx, camera, placed, context.layers(), this.swarm);
     this.showSwarm();
     this.orderLayer.draw(ctx, camera, placed);
+    for (const layer of context.worldLayers) this.drawForeign(ctx, layer);
     this.paintMinimap(ctx);
     this.lens.draw(ctx, camera, context.palette, (other) => {
       this.view.drawBase(ctx, other, placed, context.layers());
@@ -91,6 +93,18 @@ export class TopStage implements Stage {
     this.paintBox(ctx);
     this.measure.draw(ctx, camera, context.palette);
     return going;
+  }
+
+  /** What a component draws. Its error is shown where its panel is, and the picture goes on. */
+  private drawForeign(ctx: CanvasRenderingContext2D, layer: WorldLayer): void {
+    ctx.save();
+    try {
+      layer(ctx, (x, y) => this.screenAt(x, y));
+    } catch (error) {
+      this.context.worldLayers.delete(layer);
+      reportError(error);
+    }
+    ctx.restore();
   }
 
   private showSwarm(): void {

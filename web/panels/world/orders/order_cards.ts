@@ -97,7 +97,7 @@ export const orderStyles = css`
   .tool { display: inline-flex; align-items: center; gap: 6px; height: 28px; padding: 0 9px; border-radius: var(--r-3); color: var(--text-2); font-size: var(--fs-12); white-space: nowrap; }
   .tool:hover { background: var(--bg-3); color: var(--text-1); }
   .tool[aria-checked='true'] { background: var(--intent-fill); color: #fff; font-weight: var(--fw-medium); }
-  .hint { position: absolute; left: 50%; bottom: 14px; transform: translateX(-50%); z-index: 3; display: flex; align-items: center; flex-wrap: wrap; gap: 8px; max-width: calc(100% - 28px); padding: 7px 8px 7px 14px; border-radius: var(--r-6); background: var(--intent-fill); color: #fff; font-size: var(--fs-12); box-shadow: var(--shadow-pop); }
+  .hint { position: absolute; left: 50%; bottom: 14px; transform: translateX(-50%); z-index: 3; display: flex; align-items: center; flex-wrap: wrap; gap: 8px; width: max-content; max-width: calc(100% - 28px); padding: 7px 8px 7px 14px; border-radius: var(--r-6); background: var(--intent-fill); color: #fff; font-size: var(--fs-12); box-shadow: var(--shadow-pop); }
   .hint.why { background: var(--bg-2); color: var(--text-1); border: 1px solid var(--line-2); }
   .hint button { display: grid; place-items: center; min-width: 26px; height: 24px; padding: 0 6px; border-radius: var(--r-3); color: inherit; font-size: var(--fs-12); }
   .shapes { display: inline-flex; gap: 2px; }

@@ -51,9 +51,17 @@ struct GuiRightFile {
   bool operator==(const GuiRightFile&) const = default;
 };
 
+/// One entry of `gui: components:`: a panel of the page that the scenario brings along.
+struct GuiComponentFile {
+  Located<std::string> module;  ///< An ES module; absolute in an expanded scenario.
+  std::vector<GuiRole> roles;   ///< Who gets it, beside super-users.
+  bool operator==(const GuiComponentFile&) const = default;
+};
+
 /// What the page shows to whom. It is no part of the run: processes of one run need not agree.
 struct GuiFile {
   std::vector<GuiRightFile> rights;
+  std::vector<GuiComponentFile> components;
   bool operator==(const GuiFile&) const = default;
 };
 

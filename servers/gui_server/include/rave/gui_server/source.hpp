@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,6 +27,17 @@ inline constexpr double kPastSpacing_s = 0.2;
 /// A contact is told when it begins; so long it counts as going on.
 inline constexpr double kTouch_s = 0.5;
 
+/// A panel that the scenario brings along, as a file that the page loads.
+struct PageComponent {
+  std::string name;  ///< Of the file, without folder and ending.
+  std::filesystem::path file;
+  std::set<Role> roles;  ///< Who gets it, beside super-users.
+
+  [[nodiscard]] bool is_for(Role role) const {
+    return role == Role::kSuperUser || roles.contains(role);
+  }
+};
+
 /// What the run is called and where it comes from.
 struct RunAbout {
   bool live = false;  ///< It goes on; otherwise this is its recording.
@@ -41,6 +53,7 @@ struct RunAbout {
   double begin_s = 0;
   double end_s = 0;
   double duration_s = 0;
+  std::vector<PageComponent> components;
   Rights rights;  ///< The usual ones, with what the scenario changes.
 };
 

@@ -142,6 +142,7 @@ Command chosen_command(const CLI::App& root, const Everything& all) {
     if (what == "new") return all.keys.make;
     if (what == "add") return all.keys.add;
     if (what == "web") return all.keys.web;
+    if (what == "line") return all.keys.line;
     return all.keys.show;
   }
   if (name == "people") return chosen_people(chosen_app(root).get_name(), all.people);

@@ -41,8 +41,8 @@ using Command =
                  PlayCommand, ExportCommand, GapCommand, GuiCommand, PsCommand, StopCommand,
                  ArmCommand, SetCommand, HandOverCommand, ShadowCommand, EditCommand, HoldCommand,
                  EndCommand, BenchSwarmCommand, BenchCompareCommand, KeysNewCommand, KeysAddCommand,
-                 KeysShowCommand, KeysWebCommand, PeopleCommand, TopCommand, DoctorCommand,
-                 VersionCommand>;
+                 KeysShowCommand, KeysWebCommand, KeysLineCommand, PeopleCommand, TopCommand,
+                 DoctorCommand, VersionCommand>;
 
 /// Reads the command line. Prints help and complaints itself.
 [[nodiscard]] Command parse_arguments(int argc, const char* const* argv);

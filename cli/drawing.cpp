@@ -18,7 +18,7 @@ using report::Kind;
 using report::Picture;
 
 /// Leaves what stands and senses and needs no device, program or wait.
-void keep_what_can_be_drawn(const InputFile& input, robot_host::BuiltScenario& built,
+void keep_what_can_be_drawn(const InputFile& input, runtime::BuiltScenario& built,
                             std::vector<std::string>& unplaced) {
   sim::EngineSpec& spec = built.spec;
   std::vector<sim::RobotSpec> robots;
@@ -108,7 +108,7 @@ std::string quote_names(const std::vector<std::string>& names) {
   return text;
 }
 
-Result<Picture> draw_world(const InputFile& input, robot_host::BuiltScenario built) {
+Result<Picture> draw_world(const InputFile& input, runtime::BuiltScenario built) {
   Picture picture;
   std::vector<std::string> unplaced;
   keep_what_can_be_drawn(input, built, unplaced);
@@ -146,7 +146,7 @@ Result<Picture> draw_world(const InputFile& input, robot_host::BuiltScenario bui
 
 }  // namespace
 
-Result<Picture> draw(const InputFile& input, robot_host::BuiltScenario built) {
+Result<Picture> draw(const InputFile& input, runtime::BuiltScenario built) {
   if (input.kind == FileKind::kRobot) return draw_one_robot(input, std::move(built));
   return draw_world(input, std::move(built));
 }

@@ -48,8 +48,9 @@ void add_describe(CLI::App& root, DescribeCommand& c) {
 }
 
 void add_new(CLI::App& root, NewCommand& c) {
-  CLI::App& app = *root.add_subcommand("new", "Create a project for a robot program or driver");
-  add_word(app, "kind", c.kind, "program or driver", "KIND");
+  CLI::App& app =
+      *root.add_subcommand("new", "Create a project for a robot program, driver or panel");
+  add_word(app, "kind", c.kind, "program, driver or panel", "KIND");
   add_word(app, "name", c.name, "Name, in lower_snake_case", "NAME");
   add_value(app, "--directory", c.directory, "Folder to create [NAME, in this folder]", "DIR");
   app.footer("Example:\n  rave new program follow_wall");

@@ -59,6 +59,17 @@ void add_web(CLI::App& parent, KeysWebCommand& c) {
       "    --key web-keys/server_key.pem");
 }
 
+void add_line(CLI::App& parent, KeysLineCommand& c) {
+  CLI::App& app =
+      *parent.add_subcommand("line", "Make the key with which a GUI Server signs tickets");
+  add_word(app, "file", c.file, "For the GUI Server; FILE.pub is for hosts", "FILE");
+  app.footer(
+      "Example:\n"
+      "  rave keys line lab-line\n"
+      "  rave gui lab --line-key lab-line\n"
+      "  rave robot lab --host left --web --web-key lab-line.pub");
+}
+
 }  // namespace
 
 void add_keys_commands(CLI::App& root, KeysCommands& commands) {
@@ -70,6 +81,7 @@ void add_keys_commands(CLI::App& root, KeysCommands& commands) {
   add_add(parent, commands.add);
   add_show(parent, commands.show);
   add_web(parent, commands.web);
+  add_line(parent, commands.line);
 }
 
 }  // namespace rave::cli

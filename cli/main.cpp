@@ -40,6 +40,7 @@ struct Dispatch {
   int operator()(const KeysNewCommand& options) const { return new_keys(options); }
   int operator()(const KeysAddCommand& options) const { return add_keys(options); }
   int operator()(const KeysShowCommand& options) const { return show_keys(options); }
+  int operator()(const KeysLineCommand& options) const { return line_keys(options); }
   int operator()(const KeysWebCommand& options) const { return web_keys(options); }
   int operator()(const PeopleCommand& options) const { return people(options); }
   int operator()(const TopCommand& options) const { return top(options); }

@@ -59,7 +59,7 @@ Result<std::unique_ptr<gui_server::GuiServer>> serve_page(
 }
 
 void replay_on_page(gui_server::GuiServer& page, bool quiet, const std::filesystem::path& folder,
-                    const robot_host::RunControl& control) {
+                    const runtime::RunControl& control) {
   if (control.stopping()) return;
   auto source = record_file(folder.string()).and_then(gui_server::open_recording);
   if (source) page.show(*std::move(source));

@@ -135,7 +135,7 @@ void add_sensor(const Look& look, const Pose2& X_WR, double body_m, double scale
 
 }  // namespace
 
-Result<Picture> draw_one_robot(const InputFile& input, robot_host::BuiltScenario built) {
+Result<Picture> draw_one_robot(const InputFile& input, runtime::BuiltScenario built) {
   const world::Body body = built.spec.world.robots[0];
   std::vector<Look> looks = looks_of(built.spec);
   double farthest_m = 0;

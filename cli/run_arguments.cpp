@@ -17,6 +17,7 @@ void add_run(CLI::App& root, RunCommand& c) {
       "Show the run in the browser (at --pace realtime unless set), then its recording, until "
       "Ctrl-C");
   add_page_options(app, c.page);
+  add_line_options(app, c.line);
   add_bus_options(app, c.bus);
   app.footer(
       "Exit code: 0 if the run completed and all checks hold, 1 if not, 2 for bad input.\n"
@@ -37,6 +38,7 @@ void add_robot(CLI::App& root, RobotCommand& c) {
       ->check(CLI::Range(0.1, 1e9));
   add_run_options(app, c.run);
   add_processes(app, c.run.processes, "As for `rave env`", 2);
+  add_line_options(app, c.run.line);
   add_bus_options(app, c.run.bus);
   app.footer(
       "The host waits for the environment manager of the run (`rave env`, or `rave run` of the "

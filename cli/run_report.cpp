@@ -28,7 +28,7 @@ std::string files_of(const std::filesystem::path& folder) {
 
 }  // namespace
 
-int report_outcome(const RunCommand& options, const robot_host::RunOutcome& outcome,
+int report_outcome(const RunCommand& options, const runtime::RunOutcome& outcome,
                    const std::filesystem::path& folder) {
   const bool good = outcome.whole && outcome.checks_hold;
   if (!options.quiet) {

@@ -42,7 +42,22 @@ void add_page_options(CLI::App& app, PageOptions& page) {
   add_value(app, "--certificate", page.certificate, "Certificate for TLS, made by `rave keys web`",
             "FILE");
   add_value(app, "--key", page.key, "Private key of the certificate", "FILE");
+  add_value(app, "--line-key", page.line_key,
+            "Signing key of direct lines, made by `rave keys line FILE`", "FILE");
   add_value(app, "--accounts", page.accounts, "Folder of accounts, made by `rave people`", "DIR");
+}
+
+void add_line_options(CLI::App& app, LineWish& line) {
+  add_value(app, "--web", line.web,
+            "Let pages reach the host without the GUI Server, at this place [127.0.0.1, any port]",
+            "ADDRESS:PORT")
+      ->expected(0, 1)
+      ->default_str("");
+  add_value(app, "--web-key", line.web_key,
+            "The public key of the GUI Server, FILE.pub of `rave keys line FILE`", "FILE");
+  add_value(app, "--web-certificate", line.certificate, "For TLS, as `rave keys web` makes it",
+            "FILE");
+  add_value(app, "--web-certificate-key", line.key, "The private key of that certificate", "FILE");
 }
 
 void add_record(CLI::App& app, std::string& file) {

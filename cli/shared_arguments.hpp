@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "host_line.hpp"
 #include "page.hpp"
 
 /// What the arguments of several subcommands have in common. All write to what they are given.
@@ -51,6 +52,9 @@ void add_scenario(CLI::App& app, std::string& scenario);
 
 /// Where the page is served.
 void add_page_options(CLI::App& app, PageOptions& page);
+
+/// The direct line of a host.
+void add_line_options(CLI::App& app, LineWish& line);
 
 /// The record that a subcommand is about.
 void add_record(CLI::App& app, std::string& file);

@@ -11,14 +11,14 @@
 
 #include "asked_run.hpp"
 #include "error_text.hpp"
+#include "rave/control/folder.hpp"
 #include "rave/math/scalar.hpp"
 #include "rave/report/table.hpp"
-#include "rave/run_control/folder.hpp"
 
 namespace rave::cli {
 namespace {
 
-using run_control::Request;
+using control::Request;
 
 /// Asks one run and prints its answer.
 int ask_run(const AskedRun& run, const Request& request) {
@@ -34,7 +34,7 @@ int ask_run(const AskedRun& run, const Request& request) {
 
 /// Asks all; those here at once, so that one that stands keeps no stop from the others.
 std::vector<Reply> ask_all(const std::vector<AskedRun>& runs, const Request& request) {
-  std::vector<std::future<Result<run_control::Answer>>> answers;
+  std::vector<std::future<Result<control::Answer>>> answers;
   for (const AskedRun& run : runs) {
     // What is on the bus is asked by its one owner.
     const auto how = run.on_bus() ? std::launch::deferred : std::launch::async;
@@ -101,12 +101,12 @@ Request request_of(Request::What what, const std::string& robot) {
   return request;
 }
 
-std::string pace_text(const robot_host::RunStatus& status) {
+std::string pace_text(const runtime::RunStatus& status) {
   if (status.live) return "live";
   return status.pace == 0 ? "max" : fmt::format("{}x", status.pace);
 }
 
-std::string state_text(const robot_host::RunStatus::Robot& robot) {
+std::string state_text(const runtime::RunStatus::Robot& robot) {
   std::string text = robot.stopped ? "stopped" : robot.armed ? "free" : "not armed";
   if (robot.hand_over) {
     const auto& hand_over = *robot.hand_over;
@@ -120,7 +120,7 @@ std::string state_text(const robot_host::RunStatus::Robot& robot) {
   return text;
 }
 
-std::string state_text(const robot_host::RunStatus& status) {
+std::string state_text(const runtime::RunStatus& status) {
   std::size_t stopped = 0;
   std::size_t unarmed = 0;
   for (const auto& robot : status.robots) {
@@ -151,10 +151,10 @@ void add_row(report::Table& table, std::vector<std::string> row, const std::stri
 }
 
 /// What `rave ps` says of one run.
-void add_run(report::Table& table, const std::string& run,
-             const Result<robot_host::RunStatus>& answer, const std::string& machine, bool robots) {
+void add_run(report::Table& table, const std::string& run, const Result<runtime::RunStatus>& answer,
+             const std::string& machine, bool robots) {
   if (!answer) return add_row(table, {run, "", "", "", "", answer.error().message}, machine);
-  const robot_host::RunStatus& status = *answer;
+  const runtime::RunStatus& status = *answer;
   if (status.scenario.empty()) {
     return add_row(table, {run, "", "", "", "", "starting or ending"}, machine);
   }
@@ -185,7 +185,7 @@ int stop_run(const StopCommand& options, const Request& request) {
 }  // namespace
 
 int list_runs(const PsCommand& options) {
-  const auto runs = run_control::running_runs();
+  const auto runs = control::running_runs();
   if (!runs) return complain(runs.error());
   const bool network = options.network || options.bus.says_where();
   report::Table table = runs_table(network);
@@ -217,7 +217,7 @@ int stop_robots(const StopCommand& options) {
                      "its name (`rave ps --network` lists them)",
                      {}});
   }
-  const auto runs = run_control::running_runs();
+  const auto runs = control::running_runs();
   if (!runs) return complain(runs.error());
   if (runs->empty()) {
     return complain({ErrorCode::kNotFound,

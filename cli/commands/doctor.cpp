@@ -9,7 +9,7 @@
 #include "rave/doctor/checks.hpp"
 #include "rave/doctor/examine.hpp"
 #include "rave/doctor/listener.hpp"
-#include "rave/robot_host/host_run.hpp"
+#include "rave/host/host_run.hpp"
 
 namespace rave::cli {
 namespace {
@@ -82,7 +82,7 @@ int doctor(const DoctorCommand& options) {
   auto config = read_bus_options(options.bus, name, 0);
   if (!config) return complain(config.error());
   make_room(*config, kMostHosts);
-  const doctor::About here = doctor::about_here(*config, robot_host::interface_stamp());
+  const doctor::About here = doctor::about_here(*config, runtime::interface_stamp());
   if (options.listen) return listen(*config, here);
   const doctor::Findings findings = doctor::examine(doctor::this_machine(), *config, here);
   if (options.json) {

@@ -8,11 +8,11 @@
 #include "driver_json.hpp"
 #include "error_text.hpp"
 #include "places.hpp"
+#include "rave/assemble/build.hpp"
 #include "rave/base/names.hpp"
 #include "rave/config/yaml.hpp"
 #include "rave/plugin/params_text.hpp"
 #include "rave/report/table.hpp"
-#include "rave/robot_host/build.hpp"
 
 namespace rave::cli {
 namespace {
@@ -102,7 +102,7 @@ std::string json_of(const Drivers& drivers, const plugin::Catalogue& catalogue) 
 }  // namespace
 
 int drivers(const DriversCommand& options) {
-  plugin::Catalogue catalogue(robot_host::host_stamp());
+  plugin::Catalogue catalogue(runtime::host_stamp());
   std::optional<DriverKind> wanted;
   if (!options.kind.empty()) {
     const auto kind = kind_of(options.kind);

@@ -13,15 +13,15 @@
 
 #include "asked_run.hpp"
 #include "error_text.hpp"
+#include "rave/control/folder.hpp"
 #include "rave/math/scalar.hpp"
 #include "rave/report/table.hpp"
-#include "rave/run_control/folder.hpp"
 
 namespace rave::cli {
 namespace {
 
-using robot_host::RunStatus;
-using run_control::Request;
+using control::Request;
+using runtime::RunStatus;
 
 constexpr auto kLook = std::chrono::milliseconds(50);
 /// No more often than a process on the bus answers.
@@ -62,7 +62,7 @@ bool has_one(const RunStatus& status, const Has& has) {
 /// says how to choose, with the command's `option` for that).
 Result<std::string> find_process_here(const std::string& word, std::string_view option,
                                       const Has& has) {
-  auto run = run_control::find_run(word);
+  auto run = control::find_run(word);
   // Where a manager runs elsewhere, its hosts are known by the scenario.
   std::string scenario = word;
   if (run) {
@@ -71,7 +71,7 @@ Result<std::string> find_process_here(const std::string& word, std::string_view 
     if (is_it) return run;
     scenario = status->scenario;
   }
-  RAVE_TRY_ASSIGN(const auto all, run_control::running_runs());
+  RAVE_TRY_ASSIGN(const auto all, control::running_runs());
   std::vector<std::string_view> found;
   std::size_t runs = 0;
   for (const std::string& one : all) {
@@ -87,11 +87,11 @@ Result<std::string> find_process_here(const std::string& word, std::string_view 
   if (run && runs > 1) {
     return fail(ErrorCode::kState,
                 "{} runs of `{}` are on this machine, and their hosts cannot be told apart: {}",
-                runs, scenario, run_control::choose_one(found, option));
+                runs, scenario, control::choose_one(found, option));
   }
   if (found.size() == 1) return std::string(found.front());
   return fail(ErrorCode::kState, "several processes match: {}",
-              run_control::choose_one(found, option));
+              control::choose_one(found, option));
 }
 
 /// The same, or if there is none here on the bus.

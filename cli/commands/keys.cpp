@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include "error_text.hpp"
+#include "rave/direct_line/key_files.hpp"
 #include "rave/keys/key_set.hpp"
 #include "rave/keys/web_keys.hpp"
 
@@ -117,6 +118,17 @@ int web_keys(const KeysWebCommand& options) {
   }
   put(stdout,
       fmt::format("serve with  --certificate {0}/server.pem --key {0}/server_key.pem\n", folder));
+  return kGood;
+}
+
+int line_keys(const KeysLineCommand& options) {
+  const Status made = direct_line::make_key_files(options.file);
+  if (!made) return complain(made.error());
+  put(stdout, fmt::format("made {0} and {0}.pub\n"
+                          "next: rave gui SCENARIO --line-key {0}\n"
+                          "      rave robot SCENARIO --host NAME --web --web-key {0}.pub\n"
+                          "Who has {0} can order every robot about: keep it to yourself.\n",
+                          options.file));
   return kGood;
 }
 

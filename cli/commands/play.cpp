@@ -6,14 +6,14 @@
 #include "error_text.hpp"
 #include "places.hpp"
 #include "played_scenario.hpp"
-#include "rave/robot_host/build.hpp"
+#include "rave/assemble/build.hpp"
 #include "run_folder.hpp"
 
 namespace rave::cli {
 namespace {
 
 Result<PlayedScenario> make(const PlayCommand& options) {
-  plugin::Catalogue catalogue(robot_host::host_stamp());
+  plugin::Catalogue catalogue(runtime::host_stamp());
   RAVE_TRY(add_plugin_folders(options.run.plugins, catalogue));
   PlayWish wish;
   RAVE_TRY_ASSIGN(wish.record, record_file(options.file));

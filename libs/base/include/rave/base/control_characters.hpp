@@ -11,6 +11,7 @@ namespace rave {
 // U+009F; in UTF-8, in more bytes than it needs, or as a single byte that is no UTF-8, which is
 // what an old terminal sees. Pure; any thread.
 
+/// Whether a text contains such a character.
 [[nodiscard]] bool has_control_characters(std::string_view text) noexcept;
 
 /// The text with `instead` in the place of each of them; what else is there stays, bit by bit.
@@ -23,6 +24,7 @@ struct TextCharacter {
   std::size_t bytes = 1;
   bool control = false;
 };
+/// The character that begins at byte `at`, which must be less than the size of `text`.
 [[nodiscard]] TextCharacter character_at(std::string_view text, std::size_t at) noexcept;
 
 }  // namespace rave

@@ -9,8 +9,10 @@
 
 namespace rave {
 
+/// How important a line of the log is, in ascending order.
 enum class LogLevel : std::uint8_t { kDebug, kInfo, kWarning, kError };
 
+/// `debug`, `info`, `warning` or `error`.
 [[nodiscard]] std::string_view to_string(LogLevel level) noexcept;
 
 /// Where a library's messages go. Libraries never print: they are given a sink by their owner.

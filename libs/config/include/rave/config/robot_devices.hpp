@@ -37,11 +37,13 @@ struct NoiseFile {
   bool operator==(const NoiseFile&) const = default;
 };
 
+/// `median:` of a filter.
 struct MedianFilterFile {
   int window = 5;  ///< Readings, odd, 1 to 99.
   bool operator==(const MedianFilterFile&) const = default;
 };
 
+/// `exponential:` of a filter: a first-order low pass.
 struct ExponentialFilterFile {
   double time_constant_s = 0.1;  ///< Greater than 0.
   bool operator==(const ExponentialFilterFile&) const = default;
@@ -73,6 +75,7 @@ struct SensorHalfFile {
   bool operator==(const SensorHalfFile&) const = default;
 };
 
+/// An entry of `sensors:`.
 struct SensorFile {
   Located<std::string> name;
   Located<std::string> driver;
@@ -95,6 +98,7 @@ struct SensorFile {
   bool operator==(const SensorFile&) const = default;
 };
 
+/// An entry of `actuators:`.
 struct ActuatorFile {
   Located<std::string> name;
   Located<std::string> driver;
@@ -103,6 +107,7 @@ struct ActuatorFile {
   bool operator==(const ActuatorFile&) const = default;
 };
 
+/// An entry of `controllers:`.
 struct ControllerFile {
   Located<std::string> name;
   Located<std::string> driver;

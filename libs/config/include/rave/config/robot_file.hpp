@@ -15,6 +15,7 @@
 
 namespace rave::config {
 
+/// `body:` of a robot file.
 struct BodyFile {
   std::vector<ShapeFile> shapes;  ///< 1 to 64.
   double mass_kg = 1;

@@ -107,6 +107,7 @@ struct CaptureCheckFile {
   bool operator==(const CaptureCheckFile&) const = default;
 };
 
+/// `checks:` of a scenario: what must hold at the end of a run.
 struct ChecksFile {
   std::optional<SightingsCheckFile> sightings;
   std::vector<TouchesCheckFile> touches;
@@ -129,6 +130,7 @@ struct ChangeFile {
   bool operator==(const ChangeFile&) const = default;
 };
 
+/// `picture:` of a scenario.
 struct PictureFile {
   std::optional<double> instant_s;  ///< The frozen instant; unset: the middle of the run.
   std::string title;                ///< Empty: the scenario's name.
@@ -185,6 +187,7 @@ enum class RunClockMode : std::uint8_t {
   kRealTime,  ///< The clock on the wall.
 };
 
+/// A scenario file as it was written, with its defaults.
 struct ScenarioFile {
   Located<std::string> name;
   std::string description;

@@ -45,6 +45,7 @@ struct MapFile {
   bool operator==(const MapFile&) const = default;
 };
 
+/// A world file as it was written, with its defaults.
 struct WorldFile {
   std::string description;
   std::vector<ObstacleFile> obstacles;  ///< Names are unique.

@@ -12,7 +12,9 @@
 /// AVX2 and AVX-512 instructions and for any length. All are pure; any thread.
 namespace rave {
 
+/// The key of a block of random words: what tells streams apart.
 using RandomKey = std::array<std::uint32_t, 2>;
+/// The place of a block of random words in its stream.
 using RandomCounter = std::array<std::uint32_t, 4>;
 
 /// out[4 b + i] is word i of philox4x32(counters[b], key). Needs out.size() <= 4 counters.size();

@@ -37,9 +37,11 @@ namespace detail {
   return detail::wrap_outside(angle_rad);
 }
 
+/// An angle in radians.
 [[nodiscard]] constexpr double deg_to_rad(double angle_deg) noexcept {
   return angle_deg * (kPi / 180.0);
 }
+/// An angle in degrees.
 [[nodiscard]] constexpr double rad_to_deg(double angle_rad) noexcept {
   return angle_rad * (180.0 / kPi);
 }

@@ -8,9 +8,11 @@
 /// everywhere. Frames are named as docs/frames-and-units.md says.
 namespace rave {
 
+/// `v` turned counter-clockwise by an angle whose sine and cosine are known.
 [[nodiscard]] constexpr Vec2 rotate(SinCos angle, Vec2 v) noexcept {
   return {angle.cos * v.x - angle.sin * v.y, angle.sin * v.x + angle.cos * v.y};
 }
+/// `v` turned clockwise by that angle.
 [[nodiscard]] constexpr Vec2 rotate_back(SinCos angle, Vec2 v) noexcept {
   return {angle.cos * v.x + angle.sin * v.y, angle.cos * v.y - angle.sin * v.x};
 }

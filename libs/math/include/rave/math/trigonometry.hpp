@@ -14,6 +14,7 @@
 /// Angles in radians. All are pure; any thread. A NaN result is always the default quiet NaN.
 namespace rave {
 
+/// The double nearest to pi.
 inline constexpr double kPi = 0x1.921fb54442d18p+1;
 
 /// Sine and cosine of one angle.
@@ -109,7 +110,9 @@ inline constexpr double kRounder = 0x1.8p52;
   return result;
 }
 
+/// Sine and cosine with equal bits on every processor.
 [[nodiscard]] inline double sin(double angle_rad) noexcept { return sincos(angle_rad).sin; }
+/// As sin().
 [[nodiscard]] inline double cos(double angle_rad) noexcept { return sincos(angle_rad).cos; }
 
 /// The angle of the vector (x, y) in [-pi, pi], within 2 ulp; signs of zero and infinities as in

@@ -7,6 +7,7 @@
 
 namespace rave {
 
+/// What a parameter holds. The number is part of the plug-in interface.
 enum class ParamType : std::uint32_t { kBool, kInteger, kNumber, kText, kChoice, kNumbers };
 
 /// One parameter of a driver or program as its author declares it. All pointers are to constants
@@ -25,6 +26,7 @@ struct ParamSpec {
   const char* doc = "";  ///< One sentence.
 };
 
+/// A number in `unit` from `min` to `max`; `value` is the default.
 constexpr ParamSpec number_param(const char* name, const char* unit, double value, double min,
                                  double max, const char* doc) noexcept {
   ParamSpec spec;
@@ -37,6 +39,7 @@ constexpr ParamSpec number_param(const char* name, const char* unit, double valu
   return spec;
 }
 
+/// A whole number from `min` to `max`; `value` is the default.
 constexpr ParamSpec integer_param(const char* name, std::int64_t value, std::int64_t min,
                                   std::int64_t max, const char* doc) noexcept {
   ParamSpec spec = number_param(name, "", static_cast<double>(value), static_cast<double>(min),
@@ -45,12 +48,14 @@ constexpr ParamSpec integer_param(const char* name, std::int64_t value, std::int
   return spec;
 }
 
+/// True or false; `value` is the default.
 constexpr ParamSpec bool_param(const char* name, bool value, const char* doc) noexcept {
   ParamSpec spec = number_param(name, "", value ? 1 : 0, 0, 1, doc);
   spec.type = ParamType::kBool;
   return spec;
 }
 
+/// A text; `value` is the default.
 constexpr ParamSpec text_param(const char* name, const char* value, const char* doc) noexcept {
   ParamSpec spec;
   spec.name = name;
@@ -60,6 +65,7 @@ constexpr ParamSpec text_param(const char* name, const char* value, const char* 
   return spec;
 }
 
+/// One of `choices`, which must live as long as the plug-in; `value` is the default.
 constexpr ParamSpec choice_param(const char* name, const char* value,
                                  std::span<const char* const> choices, const char* doc) noexcept {
   ParamSpec spec = text_param(name, value, doc);

@@ -22,14 +22,17 @@ enum class DriverKind : std::uint32_t {
   kProgram,          ///< A decision process: rave/robot/program.hpp
   kDevice,           ///< Hardware that sensors and actuators share: rave/robot/device.hpp
 };
+/// How many kinds of drivers there are.
 inline constexpr std::uint32_t kDriverKindCount = 10;
 
+/// The name of a kind, as `rave drivers` prints it.
 [[nodiscard]] std::string_view to_string(DriverKind kind) noexcept;
 
 /// How a driver's time runs. Stepped: as a function of simulation time, so a run can be repeated.
 /// Live: by the clock on the wall. Either: a parameter `clock` chooses.
 enum class DriverClock : std::uint32_t { kStepped, kLive, kEither };
 
+/// `stepped`, `live` or `either`.
 [[nodiscard]] std::string_view to_string(DriverClock clock) noexcept;
 
 /// When the samples of a hardware sensor come, which decides how a dead one is noticed. Unknown: at
@@ -38,6 +41,7 @@ enum class DriverClock : std::uint32_t { kStepped, kLive, kEither };
 /// silence is no fault, and SampleSink::fail() alone says that the sensor is lost.
 enum class SampleTiming : std::uint32_t { kUnknown, kPeriodic, kEvents };
 
+/// The name of a timing, as `rave describe` prints it.
 [[nodiscard]] std::string_view to_string(SampleTiming timing) noexcept;
 
 /// A driver or program as it describes itself. Pointers are to constants of the plug-in.

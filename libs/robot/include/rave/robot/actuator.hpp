@@ -35,6 +35,7 @@ class VirtualActuator {
   }
 };
 
+/// The functions of a simulated actuator as the host calls them; made by add_virtual_actuator().
 struct VirtualActuatorOps {
   InstanceOps instance;
   int (*start)(void* instance, const DeviceSetup* setup, ErrorText* error) = nullptr;
@@ -57,6 +58,7 @@ class HardwareActuator {
   [[nodiscard]] virtual bool obeys() const { return true; }
 };
 
+/// The functions of a real actuator as the host calls them; made by add_actuator().
 struct HardwareActuatorOps {
   InstanceOps instance;
   int (*open)(void* instance, const DeviceSetup* setup, ErrorText* error) = nullptr;

@@ -15,6 +15,7 @@ enum class CommandKind : std::uint32_t {
   kValues = 4,    ///< Meaning said by the driver.
 };
 
+/// The name of a kind, as messages and `rave describe` print it.
 [[nodiscard]] std::string_view to_string(CommandKind kind) noexcept;
 
 /// One command. Plain data without padding: its bits are part of the run hash.
@@ -27,10 +28,12 @@ struct Command {
 };
 static_assert(sizeof(Command) == 40);
 
+/// A body velocity: forward in m/s, turning counter-clockwise in rad/s.
 [[nodiscard]] constexpr Command velocity_command(double v_mps, double w_radps) noexcept {
   return {CommandKind::kVelocity, 2, {v_mps, w_radps, 0, 0}};
 }
 
+/// A goal in the world frame; `speed_mps` 0: as fast as the controller likes.
 [[nodiscard]] constexpr Command goal_command(double x_m, double y_m,
                                              double speed_mps = 0) noexcept {
   return {CommandKind::kGoal, 3, {x_m, y_m, speed_mps, 0}};

@@ -48,6 +48,7 @@ struct LinkQuery {
   }
 };
 
+/// What becomes of one message on its way to one robot.
 struct LinkAnswer {
   std::uint32_t arrives = 1;
   std::uint32_t reserved = 0;
@@ -63,6 +64,7 @@ class Communicator {
   [[nodiscard]] virtual LinkAnswer link(const LinkQuery& query) const = 0;
 };
 
+/// The functions of a message model as the host calls them; made by add_communicator().
 struct CommunicatorOps {
   InstanceOps instance;
   int (*start)(void* instance, const DeviceSetup* setup, RadioDeclaration* declaration,

@@ -49,6 +49,7 @@ class Controller {
   }
 };
 
+/// The functions of a controller as the host calls them; made by add_controller().
 struct ControllerOps {
   InstanceOps instance;
   int (*start)(void* instance, const DeviceSetup* setup, ErrorText* error) = nullptr;

@@ -44,6 +44,7 @@ class HardwareDevice {
   [[nodiscard]] virtual std::string report() const { return "{}"; }
 };
 
+/// The functions of a device as the host calls them; made by add_device().
 struct HardwareDeviceOps {
   InstanceOps instance;
   /// The object as the base class that is handed to sensors and actuators.

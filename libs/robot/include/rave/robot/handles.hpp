@@ -26,6 +26,7 @@ class SensorHandle {
   const SensorInfo* info_ = nullptr;
 };
 
+/// A range sensor: one float in metres per ray; +infinity is no return.
 using RangesHandle = SensorHandle<float>;
 
 /// Names one controller.

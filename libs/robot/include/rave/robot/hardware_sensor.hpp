@@ -83,6 +83,7 @@ class HardwareSensor {
   [[nodiscard]] virtual std::string report() const { return "{}"; }
 };
 
+/// The functions of a real sensor as the host calls them; made by add_sensor().
 struct HardwareSensorOps {
   InstanceOps instance;
   int (*configure)(void* instance, const HardwareSetup* setup, HardwareDeclaration* declaration,

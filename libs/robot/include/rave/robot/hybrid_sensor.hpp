@@ -42,6 +42,7 @@ class HybridSensor {
   virtual void fuse(const FuseItem& item) const = 0;
 };
 
+/// The functions of a rule of fusion as the host calls them; made by add_hybrid_sensor().
 struct HybridSensorOps {
   InstanceOps instance;
   int (*start)(void* instance, const HybridSetup* setup, ErrorText* error) = nullptr;

@@ -23,6 +23,7 @@ enum class ReadingKind : std::uint32_t {
   kValues = 8,      ///< double, meaning said by the driver (battery, temperature, ...).
 };
 
+/// The name of a kind, as messages and `rave describe` print it.
 [[nodiscard]] std::string_view to_string(ReadingKind kind) noexcept;
 
 /// Bytes of one record of a kind; 0 for kNone.

@@ -55,6 +55,7 @@ class Transmitter {
   [[nodiscard]] virtual std::string report() const { return "{}"; }
 };
 
+/// The functions of a transmitter as the host calls them; made by add_transmitter().
 struct TransmitterOps {
   InstanceOps instance;
   int (*configure)(void* instance, const HardwareSetup* setup, TransmitterDeclaration* declaration,

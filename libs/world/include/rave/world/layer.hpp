@@ -14,13 +14,17 @@ enum class Layer : std::uint32_t {
   kRealRobots = 8,
 };
 
+/// The name of a layer, as in robot and world files.
 [[nodiscard]] std::string_view to_string(Layer layer) noexcept;
 
+/// A set of layers, one bit each.
 using LayerMask = std::uint32_t;
+/// The set of all layers.
 inline constexpr LayerMask kAllLayers = 15;
 /// What the real half of a hybrid sensor cannot see.
 inline constexpr LayerMask kUnrealLayers = 1 | 4;
 
+/// Whether a layer is in a set.
 [[nodiscard]] constexpr bool contains(LayerMask mask, Layer layer) noexcept {
   return (mask & static_cast<std::uint32_t>(layer)) != 0;
 }

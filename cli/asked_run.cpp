@@ -58,7 +58,7 @@ std::string own_name() {
 std::string none_here(const std::string& word) {
   const auto runs = control::running_runs();
   const auto here = control::find_run(word);
-  if (!runs || runs->empty() || here) return "no run is under way on this machine";
+  if (!runs || runs->empty() || here) return "no run is in progress on this machine";
   return here.error().message;
 }
 
@@ -68,12 +68,11 @@ tl::unexpected<Error> none_at_all(const std::string& word, const bus::BusConfig&
   const std::string where =
       fmt::format("on the bus in domain {} at {}", config.domain, config.interface);
   if (error.code != ErrorCode::kNotFound) {
-    return fail(error.code, "{}; none can be looked for {}: {}", none_here(word), where,
-                error.message);
+    return fail(error.code, "{}; cannot search {}: {}", none_here(word), where, error.message);
   }
   const std::string_view remedy =
-      "to ask one of other machines give --interface and --peer (or --multicast), --domain and "
-      "--security as its processes have them";
+      "for a run on other machines, give --interface and --peer (or --multicast), --domain and "
+      "--security as for its processes";
   return fail(ErrorCode::kNotFound, "{}; {}: {}\n{}", none_here(word), where, error.message,
               remedy);
 }
@@ -256,7 +255,8 @@ Result<AskedRun> AskedRun::find_on_bus(const std::string& word, const BusOptions
   }
   std::vector<std::string_view> names;
   for (const AskedRun& run : having) names.emplace_back(run.name());
-  return fail(ErrorCode::kNotFound, "several processes have it: {}; say which", join_names(names));
+  return fail(ErrorCode::kNotFound, "several processes match: {}; name one of them",
+              join_names(names));
 }
 
 Result<std::vector<Reply>> AskedRun::ask_each_on_bus(const std::string& word,
@@ -302,11 +302,11 @@ Result<std::vector<AskedRun>> AskedRun::controllers(bool sure) const {
   const auto said = status();
   if (!said || !said->live) return itself;
   if (const auto runs = here_of(scenario, false); sure && runs.size() > 1) {
-    return fail(ErrorCode::kNotFound,
-                "{} runs of `{}` are here, and whose hosts are whose cannot be told; name one of "
-                "these: {}",
-                runs.size(), scenario,
-                join_names(std::vector<std::string_view>(here.begin(), here.end())));
+    return fail(
+        ErrorCode::kNotFound,
+        "{} runs of `{}` are on this machine, and their hosts cannot be told apart; name one of "
+        "these: {}",
+        runs.size(), scenario, join_names(std::vector<std::string_view>(here.begin(), here.end())));
   }
   for (const std::string& name : here) hosts.emplace_back(name);
   return hosts;

@@ -134,12 +134,12 @@ Result<Picture> draw_world(const InputFile& input, runtime::BuiltScenario built)
   }
   picture.instant.emplace();
   if (has_robots) RAVE_TRY(add_robots(std::move(built.spec), picture));
-  picture.instant->heading =
-      has_robots ? "The robots where they start, and what their range sensors read there"
-                 : "The bodies that stand still";
+  picture.instant->heading = has_robots
+                                 ? "Robots at their start, with the readings of their range sensors"
+                                 : "Static bodies";
   if (!unplaced.empty()) {
-    picture.caption.push_back(fmt::format(
-        "Not shown, because only a device says where they are: {}.", quote_names(unplaced)));
+    picture.caption.push_back(fmt::format("Not shown, because their poses come from devices: {}.",
+                                          quote_names(unplaced)));
   }
   return picture;
 }
@@ -156,7 +156,7 @@ Status write_picture(const Picture& picture, const std::filesystem::path& path) 
   if (ending == ".svg") return report::write_svg(picture, path);
   if (ending == ".png") return report::write_png(picture, path);
   return fail(ErrorCode::kInvalidArgument,
-              "`{}`: pictures are written as `.svg` or `.png`, as the ending says", path.string());
+              "`{}`: expected a file name that ends in `.svg` or `.png`", path.string());
 }
 
 }  // namespace rave::cli

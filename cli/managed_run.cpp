@@ -8,11 +8,13 @@
 #include <thread>
 
 #include "host_command.hpp"
+#include "host_line.hpp"
 #include "places.hpp"
 #include "rave/assemble/build.hpp"
 #include "rave/base/file.hpp"
 #include "rave/control/folder.hpp"
 #include "rave/control/wishes.hpp"
+#include "rave/direct_line/key_files.hpp"
 #include "rave/gui_server/bus_run.hpp"
 #include "rave/host/host_run.hpp"
 #include "rave/manager/live_manager.hpp"
@@ -91,9 +93,10 @@ Result<ManagedEnd> manage_steps(const ManagedRun& run, runtime::BuiltScenario bu
   how.begin_wish = control::wishes_of(run.control);
   how.on_progress = [&run, &file](const manager::ManagerOptions::Progress& progress) {
     const double sim_s = static_cast<double>(progress.step) * file.step_s.value;
-    run.console.show({sim_s / file.duration_s, sim_s, file.duration_s, progress.speed,
-                      run.scenario.robots.size(),
-                      progress.waiting.empty() ? std::string() : "waits for " + progress.waiting});
+    run.console.show(
+        {sim_s / file.duration_s, sim_s, file.duration_s, progress.speed,
+         run.scenario.robots.size(),
+         progress.waiting.empty() ? std::string() : "waiting for " + progress.waiting});
   };
   how.on_world = [&end](const sim::WorldAuthority& authority) {
     return end.results->after_step(authority);
@@ -151,11 +154,11 @@ Result<ManagedEnd> wait_for_hosts(const ManagedRun& run, const runtime::BuiltSce
   const std::string& name = run.scenario.scenario.name.value;
   if (!run.hosts_ended) {
     return fail(ErrorCode::kInvalidArgument,
-                "the run of `{}` is in real time and no robot in it has virtual sensors or keeps a "
-                "distance, so it needs no environment manager: start its hosts with `rave robot`",
+                "`{}` needs no environment manager: it runs in real time, and no robot has virtual "
+                "sensors or keeps a distance; start its hosts with `rave robot`",
                 name);
   }
-  run.console.info("run", "no robot looks at others, so the hosts go by themselves");
+  run.console.info("run", "no robot senses others, so the hosts run independently");
   LiveManagerOutcome outcome;
   const auto began = std::chrono::steady_clock::now();
   // A look now and then: ends of processes, their restarts and a person's signal come by no one
@@ -163,7 +166,7 @@ Result<ManagedEnd> wait_for_hosts(const ManagedRun& run, const runtime::BuiltSce
   while (!run.stopping() && !run.hosts_ended()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
-  if (!run.hosts_ended()) outcome.problems.emplace_back("stopped before its hosts had ended");
+  if (!run.hosts_ended()) outcome.problems.emplace_back("stopped before the hosts had ended");
   outcome.end = SimTime{
       std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - began)
           .count()};
@@ -176,15 +179,15 @@ Result<ManagedEnd> manage_time(const ManagedRun& run, runtime::BuiltScenario bui
                                std::vector<config::PlannedHost> hosts) {
   if (!runtime::needs_manager(built)) return wait_for_hosts(run, built);
   const config::ScenarioFile& file = run.scenario.scenario;
-  run.console.warn("run", "the run goes at real time, because {}", built.live_reason);
+  run.console.warn("run", "the run is in real time: {}", built.live_reason);
   manager::LiveManagerOptions how;
   how.bus = run.bus;
   how.bus.reach = bus::Reach::kAll;
   if (hosts.size() > kMostLiveHosts) {
     return fail(
         ErrorCode::kInvalidArgument,
-        "the run has {} hosts and is in real time, in which each looks for all others: more "
-        "than {} do not find one another; give fewer hosts more robots each",
+        "the run has {} hosts; in real time at most {} hosts can find each other; use fewer hosts "
+        "with more robots each",
         hosts.size(), kMostLiveHosts);
   }
   how.identity = manager_of(run.scenario, true);
@@ -239,14 +242,19 @@ Result<std::unique_ptr<gui_server::GuiServer>> show_run(const RunCommand& option
                                                         LogSink& log) {
   RAVE_TRY_ASSIGN(const auto built, build_world(scenario, options.plugins, log));
   RAVE_TRY_ASSIGN(auto source, gui_server::watch_run(scenario, built, bus, control));
-  return serve_page(options.page, std::move(source));
+  RAVE_TRY_ASSIGN(auto page, serve_page(options.page, std::move(source)));
+  if (!options.page.line_key.empty()) {
+    RAVE_TRY_ASSIGN(const auto key, direct_line::read_signing_key(options.page.line_key));
+    RAVE_TRY(offer_bus_lines(scenario, bus, key, *page));
+  }
+  return page;
 }
 
 std::unique_ptr<control::Server> serve_control(const std::string& scenario,
                                                runtime::RunControl& control, LogSink& log) {
   auto server = control::Server::start(control::own_run_name(scenario), control);
   if (server) return *std::move(server);
-  log.warn("run", "no other terminal can control this run: {}", server.error().message);
+  log.warn("run", "this run cannot be controlled from other terminals: {}", server.error().message);
   return nullptr;
 }
 
@@ -257,8 +265,8 @@ Result<ManagedEnd> manage_run(const ManagedRun& run) {
   RAVE_TRY_ASSIGN(auto hosts, config::plan_hosts(run.scenario));
   if (hosts.empty()) {
     return fail(ErrorCode::kInvalidArgument,
-                "the scenario `{}` has no hosts: expected `hosts:` with names and robots, or "
-                "`processes:` with a number; `rave run` needs neither",
+                "scenario `{}` has no hosts: expected `hosts:` with names and robots, or "
+                "`processes:` with a number; to run it in one process, use `rave run`",
                 run.scenario.scenario.name.value);
   }
   if (!built.live_reason.empty()) return manage_time(run, std::move(built), std::move(hosts));

@@ -19,6 +19,7 @@ struct PageOptions {
   std::string listen = "127.0.0.1";
   std::string certificate;  ///< With `key`: TLS.
   std::string key;
+  std::string line_key;  ///< The file of the key that hosts believe; empty: none.
   std::string accounts;  ///< Folder; empty: the user's, if it listens elsewhere than on loopback.
 };
 

@@ -104,8 +104,8 @@ class Checker {
       put(stream, fmt::format("{}: {} {}\n", terminal.bold(file), terminal.yellow("note:"), note));
     }
     if (!built.live_reason.empty()) {
-      put(stream, fmt::format("{}: {} a run is live, not repeatable: {}\n", terminal.bold(file),
-                              terminal.yellow("note:"), built.live_reason));
+      put(stream, fmt::format("{}: {} runs are live and cannot be repeated: {}\n",
+                              terminal.bold(file), terminal.yellow("note:"), built.live_reason));
     }
   }
 
@@ -131,7 +131,7 @@ class Checker {
   }
   static bool verdict(const std::string& file, std::string_view kind) {
     const Terminal terminal = terminal_of(stderr);
-    const std::string taken = kind.empty() ? "" : fmt::format(" (taken for a {} file)", kind);
+    const std::string taken = kind.empty() ? "" : fmt::format(" (read as a {} file)", kind);
     put(stderr, fmt::format("{}: {}{}\n", terminal.bold(file), terminal.red("not usable"), taken));
     return false;
   }
@@ -148,7 +148,7 @@ int check(const CheckCommand& options) {
     return complain(added.error());
   }
   if (!options.draw.empty() && options.files.size() > 1) {
-    return complain({ErrorCode::kInvalidArgument, "--draw takes one file at a time", {}});
+    return complain({ErrorCode::kInvalidArgument, "--draw: expected exactly one file", {}});
   }
   return Checker(options, catalogue).run();
 }

@@ -130,7 +130,7 @@ std::string state_text(const runtime::RunStatus& status) {
   std::string text = status.paused ? "paused" : "running";
   if (stopped > 0) text += fmt::format(", {} stopped", stopped);
   if (unarmed > 0) text += fmt::format(", {} not armed", unarmed);
-  if (!status.waits_for.empty()) text += ", waits for " + status.waits_for;
+  if (!status.waits_for.empty()) text += ", waiting for " + status.waits_for;
   return text;
 }
 
@@ -204,7 +204,7 @@ int list_runs(const PsCommand& options) {
       add_run(table, run.name, run.status, run.machines, options.robots);
     }
   }
-  put(stdout, table.rows.empty() ? "no run is under way\n" : report::render_table(table));
+  put(stdout, table.rows.empty() ? "no run is in progress\n" : report::render_table(table));
   return code;
 }
 
@@ -213,16 +213,16 @@ int stop_robots(const StopCommand& options) {
   if (!options.all) return stop_run(options, request);
   if (!options.run.empty() || !options.robot.empty() || options.bus.says_where()) {
     return complain({ErrorCode::kInvalidArgument,
-                     "`--all` is every robot of every run on this machine; a run of others is "
-                     "stopped by its name, which `rave ps --network` says",
+                     "--all stops the runs of this machine only; stop a run of other machines by "
+                     "its name (`rave ps --network` lists them)",
                      {}});
   }
   const auto runs = control::running_runs();
   if (!runs) return complain(runs.error());
   if (runs->empty()) {
     return complain({ErrorCode::kNotFound,
-                     "no run is under way on this machine; those of others are stopped by their "
-                     "names, which `rave ps --network` says",
+                     "no run is in progress on this machine; stop a run of other machines by its "
+                     "name (`rave ps --network` lists them)",
                      {}});
   }
   std::vector<AskedRun> all;

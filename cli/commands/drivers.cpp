@@ -70,8 +70,9 @@ std::string rejected_text(const plugin::Catalogue& catalogue, const Terminal& te
 /// The generated reference: the same on every machine.
 std::string reference_of(const Drivers& drivers) {
   std::string text =
-      "# Drivers and programs\n\nWhat `rave describe` says of the drivers and programs that come "
-      "with RAVE.\nGenerated from the code by `tools/reference.sh`; edit the drivers instead.\n";
+      "# Drivers and programs\n\nThe output of `rave describe` for the drivers and programs that "
+      "come with RAVE.\nGenerated from the code by `tools/reference.sh`; edit the drivers "
+      "instead.\n";
   std::string_view last;
   for (const plugin::Driver* driver : drivers) {
     const std::string_view kind = to_string(driver->info.kind);

@@ -27,7 +27,7 @@ Result<std::unique_ptr<gui_server::GuiServer>> serve(const GuiCommand& options) 
   const auto scenario = read_scenario(run);
   // There is no scenario of this name either.
   if (!scenario && scenario.error().code == ErrorCode::kNotFound) {
-    return fail(ErrorCode::kNotFound, "`{}` is no recording, no folder of a run, and no scenario",
+    return fail(ErrorCode::kNotFound, "`{}` is not a recording, the folder of a run, or a scenario",
                 options.file);
   }
   if (!scenario) return tl::unexpected(scenario.error());

@@ -82,7 +82,13 @@ int robot(const RobotCommand& options) {
   how.begin_wish = control::wishes_of(control);
   auto server = control::Server::start(how.run.run_name, control);
   if (!server) {
-    console.warn("host", "no other terminal can control this host: {}", server.error().message);
+    console.warn("host", "this host cannot be controlled from other terminals: {}",
+                 server.error().message);
+  }
+  const auto line = open_host_line(run.line, options.host, *bus, control, console);
+  if (!line) {
+    folder->discard();
+    return complain(line.error());
   }
   const auto outcome = runtime::run_host(*scenario, catalogue, std::move(how));
   // What a run left that broke off tells why.

@@ -55,7 +55,8 @@ int run(const RunCommand& options) {
   // A run that nobody can reach goes on, but whoever relies on `rave stop` should know.
   auto server = control::Server::start(run_options.run_name, control);
   if (!server) {
-    console.warn("run", "no other terminal can control this run: {}", server.error().message);
+    console.warn("run", "this run cannot be controlled from other terminals: {}",
+                 server.error().message);
   }
   std::unique_ptr<gui_server::GuiServer> page;
   gui_server::LiveRun live(*scenario, control,
@@ -65,6 +66,14 @@ int run(const RunCommand& options) {
     if (!served) return complain(served.error());
     page = *std::move(served);
     run_options.observers.push_back(&live.observer());
+  }
+  HostLineEnds line;
+  if (options.line.web) {
+    auto opened = page ? open_line_here(options.line, *scenario, control, *page, console)
+                       : fail(ErrorCode::kInvalidArgument,
+                              "--web of a run of one process counts with --gui alone");
+    if (!opened) return complain(opened.error());
+    line = *std::move(opened);
   }
   const auto outcome = runtime::run(*scenario, catalogue, run_options);
   console.clear();

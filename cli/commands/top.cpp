@@ -82,9 +82,9 @@ Result<Look> find_run(const TopCommand& options, const bus::BusConfig& config,
   if (!options.run.empty()) return shared;
   return fail(
       ErrorCode::kNotFound,
-      "no run is under way: none on the bus in domain {} at {}, and none of one process\n"
-      "start one, for example `rave run flock --processes 3`; to see one of other machines, "
-      "give --interface and --peer (or --multicast) as its processes have them",
+      "no run is in progress: none on the bus in domain {} at {}, and none in one process\n"
+      "start one, such as `rave run flock --processes 3`; for a run on other machines, give "
+      "--interface and --peer (or --multicast) as for its processes",
       config.domain, config.interface);
 }
 

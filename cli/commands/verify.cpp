@@ -25,7 +25,7 @@ int tell(const VerifyCommand& options, const runtime::VerifyOutcome& outcome) {
   const Terminal errors = terminal_of(stderr);
   if (!outcome.live_reason.empty()) {
     return complain({ErrorCode::kInvalidArgument,
-                     fmt::format("`{}` cannot be verified: {}, so no second run would be the same",
+                     fmt::format("`{}` cannot be verified: {}, so no two runs are equal",
                                  options.file, outcome.live_reason),
                      {}});
   }
@@ -33,9 +33,10 @@ int tell(const VerifyCommand& options, const runtime::VerifyOutcome& outcome) {
     put(stderr, fmt::format("{} {}\n", errors.red("missing:"), missing));
   }
   if (!outcome.missing.empty()) {
-    return complain({ErrorCode::kNotFound,
-                     fmt::format("`{}` cannot be verified without its input files", options.file),
-                     {}});
+    return complain(
+        {ErrorCode::kNotFound,
+         fmt::format("`{}` cannot be verified without the input files above", options.file),
+         {}});
   }
   for (const std::string& note : outcome.notes) {
     put(stderr, fmt::format("{} {}\n", errors.yellow("note:"), note));
@@ -52,7 +53,7 @@ int tell(const VerifyCommand& options, const runtime::VerifyOutcome& outcome) {
   if (options.quiet) return kGood;
   const std::string hash =
       outcome.recorded_hash ? fmt::format(", run hash {:016x}", *outcome.recorded_hash) : "";
-  put(stdout, fmt::format("{} {} steps, {} messages{}\n", terminal_of(stdout).green("the same:"),
+  put(stdout, fmt::format("{} {} steps, {} messages{}\n", terminal_of(stdout).green("equal:"),
                           outcome.steps, outcome.messages, hash));
   return kGood;
 }

@@ -60,20 +60,31 @@ TEST_F(NewProject, ADriverIsNoProgram) {
   EXPECT_NE(text->find("RAVE_VIRTUAL_PLUGIN(\"beacon\")"), std::string::npos);
 }
 
+TEST_F(NewProject, APanelHasItsTest) {
+  ASSERT_TRUE(create_project(ProjectKind::kPanel, "speeds", kTemplates, folder_ / "speeds"));
+  const Result<std::string> test = read_file(folder_ / "speeds" / "speeds.test.mjs");
+  ASSERT_TRUE(test) << test.error().text();
+  EXPECT_NE(test->find("from './speeds.mjs'"), std::string::npos);
+  const Result<std::string> panel = read_file(folder_ / "speeds" / "speeds.mjs");
+  ASSERT_TRUE(panel);
+  EXPECT_NE(panel->find("class Speeds extends"), std::string::npos);
+  EXPECT_EQ(panel->find("@NAME@"), std::string::npos);
+}
+
 TEST_F(NewProject, RefusesNames) {
   for (const char* name :
        {"", "Walls", "avoid-walls", "2walls", "_walls", "walls_", "a__b", "ä", "../walls", "a b"}) {
     EXPECT_NE(error_of(name, kTemplates).find("expected lower_snake_case"), std::string::npos)
         << name;
   }
-  EXPECT_NE(error_of("test", kTemplates).find("keeps it for itself"), std::string::npos);
+  EXPECT_NE(error_of("test", kTemplates).find("reserved by the build"), std::string::npos);
   EXPECT_NE(error_of(std::string(49, 'a'), kTemplates).find("at most 48"), std::string::npos);
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 
 TEST_F(NewProject, LeavesWhatExistsAlone) {
   fs::create_directories(folder_ / "made");
-  EXPECT_NE(error_of("walls", kTemplates).find("exists already"), std::string::npos);
+  EXPECT_NE(error_of("walls", kTemplates).find("already exists"), std::string::npos);
   EXPECT_TRUE(fs::is_empty(folder_ / "made"));
 }
 
@@ -86,7 +97,7 @@ TEST(ProjectKindText, NamesTheNearest) {
   EXPECT_EQ(parse_project_kind("driver").value(), ProjectKind::kDriver);
   const auto wrong = parse_project_kind("drivr");
   ASSERT_FALSE(wrong);
-  EXPECT_EQ(wrong.error().text(), "cannot make a new `drivr`; did you mean `driver`?");
+  EXPECT_EQ(wrong.error().text(), "cannot create a new `drivr`; did you mean `driver`?");
 }
 
 TEST(ClassName, JoinsTheWords) {

@@ -120,6 +120,15 @@ Result<std::string> serve_request(sim::Engine& engine, const RunRequest& request
       return fail(ErrorCode::kNotFound, "no robot of the run has a shadow");
     case RunRequest::Kind::kList:
       return list_obstacles(engine.spec().world);
+    case RunRequest::Kind::kDrive:
+    case RunRequest::Kind::kGoal:
+    case RunRequest::Kind::kPath:
+    case RunRequest::Kind::kCancel:
+    case RunRequest::Kind::kText:
+    case RunRequest::Kind::kPlace:
+    case RunRequest::Kind::kTake:
+    case RunRequest::Kind::kGive:
+      return fail(ErrorCode::kState, "this run takes no `{}` yet", to_string(request.kind));
   }
   return fail(ErrorCode::kInvalidArgument, "unknown request");
 }

@@ -17,7 +17,15 @@ constexpr std::pair<Kind, std::string_view> kWords[] = {{Kind::kStop, "stop"},
                                                         {Kind::kRemove, "remove"},
                                                         {Kind::kList, "list"},
                                                         {Kind::kHandOver, "hand_over"},
-                                                        {Kind::kResetShadow, "reset_shadow"}};
+                                                        {Kind::kResetShadow, "reset_shadow"},
+                                                        {Kind::kDrive, "drive"},
+                                                        {Kind::kGoal, "goal"},
+                                                        {Kind::kPath, "path"},
+                                                        {Kind::kCancel, "cancel"},
+                                                        {Kind::kText, "text"},
+                                                        {Kind::kPlace, "place"},
+                                                        {Kind::kTake, "take"},
+                                                        {Kind::kGive, "give"}};
 
 }  // namespace
 

@@ -95,6 +95,16 @@ Result<sim::WorldInput> input_of(const sim::EngineSpec& spec, const RunRequest& 
       return fail(ErrorCode::kInvalidArgument,
                   "hosts in lock-step cannot hand a robot over; run it in one process or in real "
                   "time");
+    case RunRequest::Kind::kDrive:
+    case RunRequest::Kind::kGoal:
+    case RunRequest::Kind::kPath:
+    case RunRequest::Kind::kCancel:
+    case RunRequest::Kind::kText:
+    case RunRequest::Kind::kPlace:
+    case RunRequest::Kind::kTake:
+    case RunRequest::Kind::kGive:
+      return fail(ErrorCode::kState, "hosts in lock-step take no `{}` yet",
+                  to_string(request.kind));
     case RunRequest::Kind::kList:
       break;
   }

@@ -328,7 +328,7 @@ Result<HostOutcome> go(const LiveHost& host, sim::Engine& engine, HostLink& link
 }  // namespace
 
 Result<HostOutcome> run_live_host(const LiveHost& host, BuiltScenario built) {
-  host.console.warn("run", "the run goes at real time, because {}", built.live_reason);
+  host.console.warn("run", "the run is in real time: {}", built.live_reason);
   for (const std::string& note : built.notes) host.console.warn("scenario", "{}", note);
   built.spec.own_authority = true;
   built.spec.phase_clock = steady_ns;

@@ -225,7 +225,7 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
                   build(adjusted, catalogue, {options.program_runner, &console, &pace}));
   const bool live = !built.live_reason.empty();
   if (live && (file.pace.is_max() || file.pace.factor > 1)) {
-    console.warn("run", "the run goes at real time, because {}", built.live_reason);
+    console.warn("run", "the run is in real time: {}", built.live_reason);
     pace.set_factor(1);
   }
   if (!live) built.spec.live_clock = nullptr;

@@ -77,8 +77,13 @@ void BusPort::work(const std::stop_token& stop) {
 }
 
 BusPort::Answer BusPort::ask(const runtime::RunRequest& request) {
+  using Kind = runtime::RunRequest::Kind;
+  if (request.kind != Kind::kStop && request.kind != Kind::kRelease) {
+    return fail(ErrorCode::kState, "a run on the bus takes no `{}` from a page yet",
+                runtime::to_string(request.kind));
+  }
   control::Request asked;
-  const bool stop = request.kind == runtime::RunRequest::Kind::kStop;
+  const bool stop = request.kind == Kind::kStop;
   asked.what = stop ? control::Request::What::kStop : control::Request::What::kRelease;
   asked.robot = request.robot;
   std::string done;

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "rave/base/result.hpp"
+#include "rave/math/pose.hpp"
 
 namespace rave::runtime {
 
@@ -32,18 +33,39 @@ struct RunRequest {
     kList,    ///< Which obstacles there are; changes nothing.
     kHandOver,
     kResetShadow,  ///< Of one robot, or of all.
+    // Orders; each needs a robot, and a person needs its lease.
+    kDrive,   ///< A velocity, in the place of what the program gives to velocity controllers.
+    kGoal,    ///< A place to go to.
+    kPath,    ///< A line to follow.
+    kCancel,  ///< Ends the order under way. Without a robot: of all robots.
+    kText,    ///< Words for the program.
+    kPlace,   ///< Puts a simulated robot elsewhere.
+    // Leases; each needs a robot.
+    kTake,
+    kGive,
   };
   Kind kind = Kind::kStop;
-  std::string robot;  ///< Empty: all of them.
+  std::string robot;  ///< Empty: all of them, except of orders and leases.
   /// kSet: such as `program.max_speed_mps`. kRemove: the name of the obstacle.
-  std::string key;
+  std::string key = {};
   /// kHandOver: `real`, `simulated`, `first` or `twin`. kSet: as in a file. kAdd, kMove: YAML, an
-  /// entry of `obstacles:`, or of `move_obstacle:`.
-  std::string value;
+  /// entry of `obstacles:`, or of `move_obstacle:`. kText: the text, at most 1000 bytes of UTF-8.
+  /// kGive: the new holder; empty: nobody. kTake: empty (refused with the name of the holder if
+  /// somebody else has the lease) or `force` (takes it, and the former holder is told).
+  std::string value = {};
+  /// Who asks: the name of a person. Empty: the terminal of this machine, a super-user.
+  std::string by = {};
+  /// Asked by a super-user, who needs no lease for a release and may take one without asking.
+  bool overrides = false;
+  std::vector<Vec2> points = {};  ///< kGoal, kPlace: one. kPath: 2 to 1000. World frame, m.
+  std::optional<double> yaw_rad = std::nullopt;  ///< kGoal, kPlace: none: as it comes.
+  double v_mps = 0;                              ///< kDrive: forward.
+  double w_radps = 0;                            ///< kDrive: to the left.
+  double speed_mps = 0;                          ///< kGoal, kPath: 0: as the robot likes.
 };
 
-/// `stop`, `release`, `arm`, `set`, `add`, `move`, `remove`, `list`, `hand_over` or `reset_shadow`;
-/// and back, nothing for any
+/// `stop`, `release`, `arm`, `set`, `add`, `move`, `remove`, `list`, `hand_over`, `reset_shadow`,
+/// `drive`, `goal`, `path`, `cancel`, `text`, `place`, `take` or `give`; and back, nothing for any
 /// other word.
 [[nodiscard]] std::string_view to_string(RunRequest::Kind kind) noexcept;
 [[nodiscard]] std::optional<RunRequest::Kind> request_kind(std::string_view word) noexcept;
@@ -86,6 +108,10 @@ struct RunStatus {
     bool stopped = false;
     std::optional<HandOver> hand_over = std::nullopt;
     std::optional<Shadow> shadow = std::nullopt;
+    std::string lease = {};               ///< Who drives it; empty: nobody.
+    std::vector<std::string> takes = {};  ///< Of `drive`, `goal`, `path`, `text`, `place`.
+    /// The order under way, for people, such as `goal 1.20, 3.40`; empty: none.
+    std::string order = {};
   };
   std::string scenario;
   double sim_s = 0;

@@ -15,6 +15,7 @@
 #include "rave/gui_server/bus_run.hpp"
 #include "rave/robot_host/build.hpp"
 #include "rave/robot_host/host_run.hpp"
+#include "rave/run_control/commands.hpp"
 #include "rave/run_control/folder.hpp"
 #include "rave/run_control/wishes.hpp"
 
@@ -89,6 +90,7 @@ Result<ManagedEnd> manage_steps(const ManagedRun& run, robot_host::BuiltScenario
   how.stopping = run.stopping;
   how.control = &run.control;
   how.begin_wish = run_control::wishes_of(run.control);
+  how.on_command = run_control::commands_of(run.control, run.scenario);
   how.on_progress = [&run, &file](const environment_manager::ManagerOptions::Progress& progress) {
     const double sim_s = static_cast<double>(progress.step) * file.step_s.value;
     run.console.show({sim_s / file.duration_s, sim_s, file.duration_s, progress.speed,

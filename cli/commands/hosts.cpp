@@ -13,6 +13,7 @@
 #include "rave/base/control_characters.hpp"
 #include "rave/robot_host/build.hpp"
 #include "rave/robot_host/host_run.hpp"
+#include "rave/run_control/commands.hpp"
 #include "rave/run_control/folder.hpp"
 #include "rave/run_control/server.hpp"
 #include "rave/run_control/wishes.hpp"
@@ -80,6 +81,7 @@ int robot(const RobotCommand& options) {
   how.run.arm = run.arm;
   how.run.run_name = run_control::own_run_name(scenario->scenario.name.value, options.host);
   how.begin_wish = run_control::wishes_of(control);
+  how.on_command = run_control::commands_of(control, *scenario);
   auto server = run_control::Server::start(how.run.run_name, control);
   if (!server) {
     console.warn("host", "no other terminal can control this host: {}", server.error().message);

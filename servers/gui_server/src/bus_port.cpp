@@ -12,6 +12,8 @@ namespace {
 
 constexpr auto kStatusEvery = std::chrono::seconds(1);
 constexpr Duration kStatusPatience = from_seconds(1);
+/// How often the driver of a robot is asked about, who is heard without an answer meanwhile.
+constexpr auto kAskDriver = std::chrono::seconds(1);
 
 /// In lock-step the manager has the say, in real time each host of its robots.
 bool has_the_say(const run_control::BusPeer& peer, const std::string& /*scenario*/) {
@@ -21,9 +23,10 @@ bool has_the_say(const run_control::BusPeer& peer, const std::string& /*scenario
 }  // namespace
 
 BusPort::BusPort(std::unique_ptr<run_control::BusRun> bus,
-                 std::unique_ptr<run_control::BusRun> status)
+                 std::unique_ptr<run_control::BusRun> status, std::unique_ptr<CommandLine> commands)
     : bus_(std::move(bus)),
       status_(std::move(status)),
+      commands_(std::move(commands)),
       thread_([this](const std::stop_token& stop) { work(stop); }),
       watcher_([this](const std::stop_token& stop) { watch(stop); }) {}
 
@@ -56,6 +59,28 @@ void BusPort::watch(const std::stop_token& stop) {
 }
 
 Result<std::future<Result<std::string>>> BusPort::post(robot_host::RunRequest request) {
+  const bool drives = request.kind == robot_host::RunRequest::Kind::kDrive;
+  return drives && commands_ ? drive(request) : queue(std::move(request));
+}
+
+Result<std::future<Result<std::string>>> BusPort::drive(const robot_host::RunRequest& request) {
+  RAVE_TRY(commands_->send(request));
+  const auto now = std::chrono::steady_clock::now();
+  auto& asked = asked_[request.robot];
+  if (now - asked < kAskDriver) {
+    std::promise<Answer> said;
+    said.set_value(fmt::format("{} is told", request.robot));
+    return said.get_future();
+  }
+  asked = now;
+  robot_host::RunRequest take;
+  take.kind = robot_host::RunRequest::Kind::kTake;
+  take.robot = request.robot;
+  take.by = request.by;
+  return queue(std::move(take));
+}
+
+Result<std::future<Result<std::string>>> BusPort::queue(robot_host::RunRequest request) {
   const std::lock_guard lock(mutex_);
   auto& [asked, promise] = waiting_.emplace_back(std::move(request), std::promise<Answer>());
   auto answer = promise.get_future();
@@ -78,15 +103,7 @@ void BusPort::work(const std::stop_token& stop) {
 }
 
 BusPort::Answer BusPort::ask(const robot_host::RunRequest& request) {
-  using Kind = robot_host::RunRequest::Kind;
-  if (request.kind != Kind::kStop && request.kind != Kind::kRelease) {
-    return fail(ErrorCode::kState, "a run on the bus takes no `{}` from a page yet",
-                robot_host::to_string(request.kind));
-  }
-  run_control::Request asked;
-  const bool stop = request.kind == Kind::kStop;
-  asked.what = stop ? run_control::Request::What::kStop : run_control::Request::What::kRelease;
-  asked.robot = request.robot;
+  const run_control::Request asked = run_control::request_of(request);
   std::string done;
   std::string refused;
   for (const run_control::BusReply& reply : bus_->ask_each(asked, has_the_say)) {

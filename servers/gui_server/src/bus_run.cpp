@@ -205,7 +205,10 @@ Result<std::shared_ptr<Source>> watch_run(const config::ExpandedScenario& scenar
   } else {
     RAVE_TRY_ASSIGN(auto asker, run_control::BusRun::open(bus, "GUI Server"));
     RAVE_TRY_ASSIGN(auto status, run_control::BusRun::open(bus, "GUI Server"));
-    port = std::make_unique<BusPort>(std::move(asker), std::move(status));
+    std::vector<std::string> names;
+    for (const sim::RobotSpec& robot : built.spec.robots) names.push_back(robot.name);
+    RAVE_TRY_ASSIGN(auto commands, CommandLine::open(bus, names));
+    port = std::make_unique<BusPort>(std::move(asker), std::move(status), std::move(commands));
   }
   return std::make_shared<BusSource>(start_of(scenario, built), std::make_shared<LiveBox>(),
                                      std::move(port), std::move(observer), scenario.robots.size());

@@ -8,6 +8,7 @@
 
 #include "event_words.hpp"
 #include "radio_report.hpp"
+#include "rave/robot_host/order_words.hpp"
 
 namespace rave::robot_host {
 namespace {
@@ -149,8 +150,9 @@ void RecordKeeper::keep_pose(const sim::Engine& engine, RobotId robot) {
 }
 
 void RecordKeeper::keep(const RunRequest& request, std::uint64_t step) {
-  static_cast<void>(recorder_.input(
-      {step, std::string(to_string(request.kind)), request.robot, request.key, request.value}));
+  static_cast<void>(
+      recorder_.input({step, std::string(to_string(request.kind)), request.robot, request.key,
+                       is_order(request.kind) ? order_words(request) : request.value, request.by}));
 }
 
 void RecordKeeper::keep(std::span<const sim::Event> events) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "rave/base/time.hpp"
+#include "rave/bus/command_box.hpp"
 #include "rave/bus/config.hpp"
 #include "rave/bus/wish_book.hpp"
 #include "rave/config/expanded_scenario.hpp"
@@ -31,6 +32,7 @@ struct HostOptions {
   /// What is done with what others ask of this host on the bus, in the calling thread; may be
   /// empty: they cannot.
   bus::BeginWish begin_wish;
+  bus::OnCommand on_command;  ///< The same of commands, in real time; in lock-step the manager's.
 };
 
 /// How it ended for this host. It leaves result.json, events.log, scenario.yaml, findings.cdr (of

@@ -18,6 +18,7 @@ struct Switchboard::Parts {
   bus::Reader<bus::HostInfo> infos;
   bus::Reader<bus::RosterEntry> roster;
   std::unique_ptr<bus::WishBox> wishes;
+  std::unique_ptr<bus::CommandBox> commands;
   bus::WaitSet waits;
   bus::HostInfo introduced;
   lock_step::Pulse pulse;
@@ -36,6 +37,7 @@ Switchboard::Switchboard(Parts parts)
       infos_(std::move(parts.infos)),
       roster_(std::move(parts.roster)),
       wishes_(std::move(parts.wishes)),
+      commands_(std::move(parts.commands)),
       waits_(std::move(parts.waits)),
       introduced_(parts.introduced),
       epoch_(bus::random_writer_id()),
@@ -44,7 +46,8 @@ Switchboard::Switchboard(Parts parts)
 
 Result<std::unique_ptr<Switchboard>> Switchboard::open(const bus::BusConfig& config,
                                                        lock_step::Identity identity, LogSink* log,
-                                                       bus::BeginWish begin_wish) {
+                                                       bus::BeginWish begin_wish,
+                                                       bus::OnCommand on_command) {
   RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
   RAVE_TRY_ASSIGN(auto worlds, bus::Writer<bus::WorldStep>::create(*bus));
   RAVE_TRY_ASSIGN(auto states, bus::Writer<bus::RunState>::create(*bus));
@@ -54,11 +57,13 @@ Result<std::unique_ptr<Switchboard>> Switchboard::open(const bus::BusConfig& con
   RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
   RAVE_TRY_ASSIGN(auto roster, bus::Reader<bus::RosterEntry>::create(*bus));
   RAVE_TRY_ASSIGN(auto wishes, bus::WishBox::create(*bus, std::move(begin_wish), log));
+  RAVE_TRY_ASSIGN(auto commands, bus::CommandBox::create(*bus, std::move(on_command)));
   RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(*bus));
   RAVE_TRY(waits.add(reports));
   RAVE_TRY(waits.add(last_worlds));
   RAVE_TRY(waits.add(infos));
   if (wishes) RAVE_TRY(wishes->wake(waits));
+  if (commands) RAVE_TRY(commands->wake(waits));
   RAVE_TRY_ASSIGN(auto findings, lock_step::FindingsCollector::create(*bus));
   RAVE_TRY(findings.wake(waits));
   RAVE_TRY(waits.add_events());
@@ -68,8 +73,8 @@ Result<std::unique_ptr<Switchboard>> Switchboard::open(const bus::BusConfig& con
   return std::unique_ptr<Switchboard>(new Switchboard(
       {std::move(identity), log, std::move(bus), std::move(worlds), std::move(states),
        std::move(own_info), std::move(reports), std::move(last_worlds), std::move(infos),
-       std::move(roster), std::move(wishes), std::move(waits), info, std::move(pulse),
-       std::move(findings)}));
+       std::move(roster), std::move(wishes), std::move(commands), std::move(waits), info,
+       std::move(pulse), std::move(findings)}));
 }
 
 Result<std::vector<std::uint64_t>> Switchboard::look_at_processes(bool begun) {

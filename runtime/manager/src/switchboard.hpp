@@ -8,6 +8,7 @@
 
 #include "rave/base/log.hpp"
 #include "rave/base/result.hpp"
+#include "rave/bus/command_box.hpp"
 #include "rave/bus/event_log.hpp"
 #include "rave/bus/standstill.hpp"
 #include "rave/bus/wait_set.hpp"
@@ -25,12 +26,13 @@ namespace rave::manager {
 /// What the manager does with the bus. Belongs to one thread.
 class Switchboard {
  public:
-  /// `begin_wish` may be empty: nobody on the bus can ask anything. Errors: those of
-  /// bus::Bus::open().
+  /// `begin_wish` and `on_command` may be empty: nobody on the bus can ask anything. Errors: those
+  /// of bus::Bus::open().
   [[nodiscard]] static Result<std::unique_ptr<Switchboard>> open(const bus::BusConfig& config,
                                                                  lock_step::Identity identity,
                                                                  LogSink* log,
-                                                                 bus::BeginWish begin_wish);
+                                                                 bus::BeginWish begin_wish,
+                                                                 bus::OnCommand on_command);
 
   /// Sleeps until something has come, the time is over or `stop` is set.
   void wait(Duration timeout, const std::stop_token& stop = {}) {
@@ -40,6 +42,7 @@ class Switchboard {
   /// Begins what others ask on the bus, and answers what is done.
   void serve_wishes() {
     if (wishes_) wishes_->serve();
+    if (commands_) commands_->serve();
   }
   /// Learns who is there; returns the processes that are gone. Errors: kState (there is a manager
   /// that started earlier, and this one has not `begun`).
@@ -90,7 +93,8 @@ class Switchboard {
   bus::Reader<bus::LastWorld> last_worlds_;
   bus::Reader<bus::HostInfo> infos_;
   bus::Reader<bus::RosterEntry> roster_;
-  std::unique_ptr<bus::WishBox> wishes_;  ///< May be null.
+  std::unique_ptr<bus::WishBox> wishes_;       ///< May be null.
+  std::unique_ptr<bus::CommandBox> commands_;  ///< May be null.
   bus::WaitSet waits_;
   bus::HostInfo introduced_;  ///< What the others were told of this process.
   lock_step::WorldMessage message_;

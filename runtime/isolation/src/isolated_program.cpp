@@ -23,7 +23,7 @@ namespace rave::isolation {
 
 struct IsolatedProgram::Impl {
   Impl(const IsolationOptions& options, std::string who, const HostServices& host,
-       SharedMemory shared, Layout where, ChildProcess child, FileDescriptor socket)
+       SharedMemory shared, Layout where, ChildProcess child, process::Descriptor socket)
       : timeout_s(options.decide_timeout_s),
         memory(std::move(shared)),
         layout(std::move(where)),
@@ -122,8 +122,8 @@ void IsolatedProgram::Impl::copy_messages_out(const DecideItem& item) const {
 namespace {
 
 struct Sockets {
-  FileDescriptor host;
-  FileDescriptor child;
+  process::Descriptor host;
+  process::Descriptor child;
 };
 
 Result<Sockets> make_sockets() {
@@ -131,7 +131,7 @@ Result<Sockets> make_sockets() {
   if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, files) != 0) {
     return fail(ErrorCode::kIo, "cannot make a socket pair: {}", std::strerror(errno));
   }
-  return Sockets{FileDescriptor(files[0]), FileDescriptor(files[1])};
+  return Sockets{process::Descriptor(files[0]), process::Descriptor(files[1])};
 }
 
 struct Shared {

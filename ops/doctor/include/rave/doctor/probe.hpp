@@ -11,7 +11,7 @@
 /// What one doctor says to another, in datagrams beside the bus.
 namespace rave::doctor {
 
-inline constexpr std::size_t kLargestLetter = 65'000;
+inline constexpr std::size_t kLargestProbe = 65'000;
 
 /// What a doctor tells of its machine and of how it takes part.
 struct About {
@@ -28,7 +28,7 @@ struct About {
   friend bool operator==(const About&, const About&) = default;
 };
 
-struct Letter {
+struct Probe {
   enum class Kind : std::uint8_t {
     kAsk,     ///< An answer is wanted, of `want` bytes at most.
     kAnswer,  ///< To a kAsk; or, with `by_multicast`, also to one that came so.
@@ -44,13 +44,13 @@ struct Letter {
   std::int64_t asked_ns = 0;     ///< kAnswer: `sent_ns` of the question.
   std::int64_t received_ns = 0;  ///< kAnswer: when it came, clock of day of the one who answers.
   About about;                   ///< kAnswer.
-  friend bool operator==(const Letter&, const Letter&) = default;
+  friend bool operator==(const Probe&, const Probe&) = default;
 };
 
-/// A letter as bytes: JSON, with spaces behind it up to `least` bytes (at most kLargestLetter).
-[[nodiscard]] std::string write_letter(const Letter& letter, std::size_t least = 0);
+/// A probe as bytes: JSON, with spaces behind it up to `least` bytes (at most kLargestProbe).
+[[nodiscard]] std::string write_probe(const Probe& probe, std::size_t least = 0);
 
-/// Reads back what write_letter() wrote; anything else is refused: error kParse.
-[[nodiscard]] Result<Letter> parse_letter(std::string_view bytes);
+/// Reads back what write_probe() wrote; anything else is refused: error kParse.
+[[nodiscard]] Result<Probe> parse_probe(std::string_view bytes);
 
 }  // namespace rave::doctor

@@ -5,14 +5,14 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "rave/doctor/letter.hpp"
+#include "rave/doctor/probe.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace rave::doctor;
-  const auto letter = parse_letter({reinterpret_cast<const char*>(data), size});
-  if (!letter) return 0;
+  const auto probe = parse_probe({reinterpret_cast<const char*>(data), size});
+  if (!probe) return 0;
   // What was read is written so that it is read the same.
-  const auto again = parse_letter(write_letter(*letter));
-  if (!again || *again != *letter) std::abort();
+  const auto again = parse_probe(write_probe(*probe));
+  if (!again || *again != *probe) std::abort();
   return 0;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rave/doctor/letter.hpp"
+#include "rave/doctor/probe.hpp"
 
 #include <algorithm>
 #include <array>
@@ -95,25 +95,25 @@ bool read_about(const Json& json, About& about) {
 
 }  // namespace
 
-std::string write_letter(const Letter& letter, std::size_t least) {
+std::string write_probe(const Probe& probe, std::size_t least) {
   Json json = {{"rave_doctor", 1},
-               {"kind", kKinds[static_cast<std::size_t>(letter.kind)]},
-               {"number", letter.number},
-               {"want", letter.want},
-               {"size", letter.size},
-               {"by_multicast", letter.by_multicast},
-               {"sent_ns", letter.sent_ns},
-               {"asked_ns", letter.asked_ns},
-               {"received_ns", letter.received_ns}};
-  if (letter.kind == Letter::Kind::kAnswer) json["about"] = json_of(letter.about);
+               {"kind", kKinds[static_cast<std::size_t>(probe.kind)]},
+               {"number", probe.number},
+               {"want", probe.want},
+               {"size", probe.size},
+               {"by_multicast", probe.by_multicast},
+               {"sent_ns", probe.sent_ns},
+               {"asked_ns", probe.asked_ns},
+               {"received_ns", probe.received_ns}};
+  if (probe.kind == Probe::Kind::kAnswer) json["about"] = json_of(probe.about);
   std::string bytes = json.dump(-1, ' ', true, Json::error_handler_t::replace);
-  bytes.resize(std::max(bytes.size(), std::min(least, kLargestLetter)), ' ');
+  bytes.resize(std::max(bytes.size(), std::min(least, kLargestProbe)), ' ');
   return bytes;
 }
 
-Result<Letter> parse_letter(std::string_view bytes) {
+Result<Probe> parse_probe(std::string_view bytes) {
   const auto refused = [](std::string_view why) {
-    return fail(ErrorCode::kParse, "this is no letter of a doctor: {}", why);
+    return fail(ErrorCode::kParse, "this is no message of a doctor: {}", why);
   };
   // Nothing of ours is nested deeper, and a parser that recurses must not be led down.
   if (std::ranges::count(bytes, '{') > 2 || bytes.find('[') != std::string_view::npos) {
@@ -124,25 +124,25 @@ Result<Letter> parse_letter(std::string_view bytes) {
   Fields fields(json);
   std::uint32_t layout = 0;
   std::string kind;
-  Letter letter;
+  Probe probe;
   fields.read("rave_doctor", layout);
   fields.read("kind", kind);
-  fields.read("number", letter.number);
-  fields.read("want", letter.want);
-  fields.read("size", letter.size);
-  fields.read("by_multicast", letter.by_multicast);
-  fields.read("sent_ns", letter.sent_ns);
-  fields.read("asked_ns", letter.asked_ns);
-  fields.read("received_ns", letter.received_ns);
+  fields.read("number", probe.number);
+  fields.read("want", probe.want);
+  fields.read("size", probe.size);
+  fields.read("by_multicast", probe.by_multicast);
+  fields.read("sent_ns", probe.sent_ns);
+  fields.read("asked_ns", probe.asked_ns);
+  fields.read("received_ns", probe.received_ns);
   if (!fields.good()) return refused("a field is missing or of another type");
   if (layout != 1) return refused("it is of another version");
   const auto found = std::ranges::find(kKinds, kind);
   if (found == kKinds.end()) return refused("its kind is not known");
-  letter.kind = static_cast<Letter::Kind>(found - kKinds.begin());
-  if (letter.kind != Letter::Kind::kAnswer) return letter;
+  probe.kind = static_cast<Probe::Kind>(found - kKinds.begin());
+  if (probe.kind != Probe::Kind::kAnswer) return probe;
   const Json* const about = fields.find("about");
-  if (about == nullptr || !read_about(*about, letter.about)) return refused("it says too little");
-  return letter;
+  if (about == nullptr || !read_about(*about, probe.about)) return refused("it says too little");
+  return probe;
 }
 
 }  // namespace rave::doctor

@@ -1,49 +1,52 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rave/doctor/letter.hpp"
+#include "rave/doctor/probe.hpp"
 
 #include <gtest/gtest.h>
 
 namespace rave::doctor {
 namespace {
 
-Letter answer() {
-  Letter letter;
-  letter.kind = Letter::Kind::kAnswer;
-  letter.number = UINT64_MAX;
-  letter.size = 1200;
-  letter.sent_ns = -5;
-  letter.received_ns = 1'800'000'000'000'000'000;
-  letter.about = {"lab-1", "0.1.0",         UINT64_MAX, 7,    "off",
-                  "3F:09", "rave doctor 1", 7410,       7411, true};
-  return letter;
+Probe answer() {
+  Probe probe;
+  probe.kind = Probe::Kind::kAnswer;
+  probe.number = UINT64_MAX;
+  probe.size = 1200;
+  probe.sent_ns = -5;
+  probe.received_ns = 1'800'000'000'000'000'000;
+  probe.about = {"lab-1", "0.1.0",         UINT64_MAX, 7,    "off",
+                 "3F:09", "rave doctor 1", 7410,       7411, true};
+  return probe;
 }
 
-TEST(Letter, ComesBackAsItWasWritten) {
-  for (const Letter& letter : {Letter{}, answer()}) {
-    const auto read = parse_letter(write_letter(letter));
+TEST(Probe, ComesBackAsItWasWritten) {
+  for (const Probe& probe : {Probe{}, answer()}) {
+    const auto read = parse_probe(write_probe(probe));
     ASSERT_TRUE(read) << read.error().message;
-    EXPECT_EQ(*read, letter);
+    EXPECT_EQ(*read, probe);
   }
 }
 
-TEST(Letter, IsAsLongAsItIsWanted) {
-  EXPECT_EQ(write_letter({}, 32'000).size(), 32'000U);
-  EXPECT_EQ(write_letter({}, 1'000'000).size(), kLargestLetter);
-  EXPECT_TRUE(parse_letter(write_letter(answer(), 64'000)));
+TEST(Probe, IsAsLongAsItIsWanted) {
+  EXPECT_EQ(write_probe({}, 32'000).size(), 32'000U);
+  EXPECT_EQ(write_probe({}, 1'000'000).size(), kLargestProbe);
+  EXPECT_TRUE(parse_probe(write_probe(answer(), 64'000)));
 }
 
 std::string reason(std::string_view bytes) {
-  const auto letter = parse_letter(bytes);
-  return letter ? "read" : letter.error().message.substr(31);
+  const auto probe = parse_probe(bytes);
+  if (probe) return "read";
+  constexpr std::string_view kBegin = "this is no message of a doctor: ";
+  EXPECT_TRUE(probe.error().message.starts_with(kBegin)) << probe.error().message;
+  return probe.error().message.substr(kBegin.size());
 }
 
-TEST(Letter, WhatIsNoneIsRefused) {
+TEST(Probe, WhatIsNoneIsRefused) {
   EXPECT_EQ(reason(""), "it is not JSON");
   EXPECT_EQ(reason("RTPS"), "it is not JSON");
   EXPECT_EQ(reason("[[[[[["), "it is nested");
   EXPECT_EQ(reason("{}"), "a field is missing or of another type");
   EXPECT_EQ(reason("7"), "a field is missing or of another type");
-  const std::string good = write_letter(answer());
+  const std::string good = write_probe(answer());
   const auto with = [&](std::string_view from, std::string_view to) {
     std::string text = good;
     return text.replace(text.find(from), from.size(), to);

@@ -9,21 +9,21 @@
 
 #include "rave/bus/clock_offset.hpp"
 #include "rave/doctor/finding.hpp"
-#include "rave/doctor/letter.hpp"
 #include "rave/doctor/listener.hpp"
+#include "rave/doctor/probe.hpp"
 
 namespace rave::doctor {
 
 /// What became of the questions to the doctor of another machine.
-struct Visit {
-  enum class Door : std::uint8_t {
+struct ProbeResult {
+  enum class PortState : std::uint8_t {
     kSilent,   ///< Nothing came back.
     kRefused,  ///< The machine is there, and nobody listens.
     kNoWay,    ///< The system knows no way there, or nobody has the address.
     kOpen,
   };
   std::string peer;  ///< Its address.
-  Door door = Door::kSilent;
+  PortState port = PortState::kSilent;
   std::string why;                            ///< kNoWay: what the system says.
   std::optional<std::uint32_t> other_domain;  ///< Where it answers instead.
   About about;                                ///< kOpen.
@@ -40,7 +40,7 @@ struct Visit {
   std::vector<Size> sizes;
 };
 
-struct VisitOptions {
+struct ProbeOptions {
   std::string address;  ///< Of the interface here, IPv4.
   std::uint32_t domain = 0;
   bool multicast = false;
@@ -48,12 +48,12 @@ struct VisitOptions {
   std::function<std::int64_t()> clock = clock_of_day;
 };
 
-/// Goes to another machine, whatever it finds there. Sends real packets, at most 1 MB in all, and
+/// Probes another machine, whatever it finds there. Sends real packets, at most 1 MB in all, and
 /// takes some seconds where nobody answers.
-[[nodiscard]] Visit visit(const std::string& peer, const VisitOptions& options);
+[[nodiscard]] ProbeResult probe_peer(const std::string& peer, const ProbeOptions& options);
 
-/// What a visit means. `here`: what this machine says of itself. Pure.
-[[nodiscard]] Findings judge(const Visit& visit, const About& here);
+/// What it means. `here`: what this machine says of itself. Pure.
+[[nodiscard]] Findings judge(const ProbeResult& result, const About& here);
 
 /// Whether a process called `participant` can be seen on the bus from here, where it should be, as
 /// `config` says. Joins the bus for a few seconds.

@@ -195,7 +195,7 @@ export class JoystickPanel extends LitElement {
       .notes small { display: block; font-size: var(--fs-11); font-weight: 400; color: var(--text-3); }
       .notes .held { color: var(--intent); }
       .guarded { color: var(--warn); text-align: right; max-width: 130px; }
-      .stick { width: min(100%, 240px); max-height: 100%; aspect-ratio: 1; touch-action: none; user-select: none; cursor: grab; border-radius: 50%; }
+      .stick { position: absolute; inset: 4px 12px; margin: auto; height: min(100% - 8px, 240px); max-width: calc(100% - 24px); aspect-ratio: 1; touch-action: none; user-select: none; cursor: grab; border-radius: 50%; }
       .stick[aria-disabled='true'] { cursor: not-allowed; }
       .values { display: grid; grid-template-columns: 1fr 1fr; gap: 18px; padding: 6px 14px 10px; font-size: var(--fs-12); color: var(--text-2); }
       .values label { display: block; white-space: nowrap; }

@@ -11,6 +11,7 @@
 #include "commands/drivers.hpp"
 #include "commands/edit.hpp"
 #include "commands/end.hpp"
+#include "commands/export.hpp"
 #include "commands/gui.hpp"
 #include "commands/hand_over.hpp"
 #include "commands/hosts.hpp"
@@ -34,12 +35,14 @@ struct Finished {
   int exit_code = 0;
 };
 
-using Command = std::variant<
-    Finished, RunCommand, RobotCommand, EnvCommand, CheckCommand, DriversCommand, DescribeCommand,
-    NewCommand, SchemaCommand, InfoCommand, VerifyCommand, PlayCommand, GapCommand, GuiCommand,
-    PsCommand, StopCommand, ArmCommand, SetCommand, HandOverCommand, ShadowCommand, EditCommand,
-    HoldCommand, EndCommand, BenchSwarmCommand, BenchCompareCommand, KeysNewCommand, KeysAddCommand,
-    KeysShowCommand, KeysWebCommand, PeopleCommand, TopCommand, DoctorCommand, VersionCommand>;
+using Command =
+    std::variant<Finished, RunCommand, RobotCommand, EnvCommand, CheckCommand, DriversCommand,
+                 DescribeCommand, NewCommand, SchemaCommand, InfoCommand, VerifyCommand,
+                 PlayCommand, ExportCommand, GapCommand, GuiCommand, PsCommand, StopCommand,
+                 ArmCommand, SetCommand, HandOverCommand, ShadowCommand, EditCommand, HoldCommand,
+                 EndCommand, BenchSwarmCommand, BenchCompareCommand, KeysNewCommand, KeysAddCommand,
+                 KeysShowCommand, KeysWebCommand, KeysLineCommand, PeopleCommand, TopCommand,
+                 DoctorCommand, VersionCommand>;
 
 /// Reads the command line. Prints help and complaints itself.
 [[nodiscard]] Command parse_arguments(int argc, const char* const* argv);

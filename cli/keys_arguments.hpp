@@ -15,10 +15,11 @@ struct KeysCommands {
   KeysAddCommand add;
   KeysShowCommand show;
   KeysWebCommand web;
+  KeysLineCommand line;
 };
 
-/// Adds `keys new`, `keys add`, `keys show` and `keys web`, which write what they are given to
-/// `commands`.
+/// Adds `keys new`, `keys add`, `keys show`, `keys web` and `keys line`, which write what they are
+/// given to `commands`.
 void add_keys_commands(CLI::App& root, KeysCommands& commands);
 
 }  // namespace rave::cli

@@ -23,6 +23,7 @@ struct Dispatch {
   int operator()(const InfoCommand& options) const { return info(options); }
   int operator()(const VerifyCommand& options) const { return verify(options); }
   int operator()(const PlayCommand& options) const { return play(options); }
+  int operator()(const ExportCommand& options) const { return export_recording(options); }
   int operator()(const GapCommand& options) const { return report_gap(options); }
   int operator()(const GuiCommand& options) const { return gui(options); }
   int operator()(const PsCommand& options) const { return list_runs(options); }
@@ -39,6 +40,7 @@ struct Dispatch {
   int operator()(const KeysNewCommand& options) const { return new_keys(options); }
   int operator()(const KeysAddCommand& options) const { return add_keys(options); }
   int operator()(const KeysShowCommand& options) const { return show_keys(options); }
+  int operator()(const KeysLineCommand& options) const { return line_keys(options); }
   int operator()(const KeysWebCommand& options) const { return web_keys(options); }
   int operator()(const PeopleCommand& options) const { return people(options); }
   int operator()(const TopCommand& options) const { return top(options); }

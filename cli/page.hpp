@@ -5,9 +5,9 @@
 #include <memory>
 #include <string>
 
+#include "rave/control/run_control.hpp"
 #include "rave/gui_server/gui_server.hpp"
 #include "rave/gui_server/source.hpp"
-#include "rave/robot_host/run_control.hpp"
 
 namespace rave::cli {
 
@@ -19,6 +19,7 @@ struct PageOptions {
   std::string listen = "127.0.0.1";
   std::string certificate;  ///< With `key`: TLS.
   std::string key;
+  std::string line_key;  ///< The file of the key that hosts believe; empty: none.
   std::string accounts;  ///< Folder; empty: the user's, if it listens elsewhere than on loopback.
 };
 
@@ -29,6 +30,6 @@ struct PageOptions {
 
 /// When a run is over, its page shows the recording in `folder` until somebody ends this process.
 void replay_on_page(gui_server::GuiServer& page, bool quiet, const std::filesystem::path& folder,
-                    const robot_host::RunControl& control);
+                    const runtime::RunControl& control);
 
 }  // namespace rave::cli

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "host_line.hpp"
 #include "page.hpp"
 
 /// What the arguments of several subcommands have in common. All write to what they are given.
@@ -36,7 +37,7 @@ inline CLI::Option* add_values(CLI::App& app, const char* name, std::vector<std:
 /// Of a number or an optional one.
 template <class T>
 void add_threads(CLI::App& app, T& threads,
-                 const char* what = "Threads; they do not change the result") {
+                 const char* what = "Number of threads; the result does not depend on it") {
   add_value(app, "--threads", threads, what, "N")->check(CLI::Range(1, 1024));
 }
 
@@ -51,6 +52,9 @@ void add_scenario(CLI::App& app, std::string& scenario);
 
 /// Where the page is served.
 void add_page_options(CLI::App& app, PageOptions& page);
+
+/// The direct line of a host.
+void add_line_options(CLI::App& app, LineWish& line);
 
 /// The record that a subcommand is about.
 void add_record(CLI::App& app, std::string& file);

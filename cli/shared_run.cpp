@@ -14,7 +14,8 @@
 #include "managed_run.hpp"
 #include "places.hpp"
 #include "rave/base/file.hpp"
-#include "rave/robot_host/host_run.hpp"
+#include "rave/direct_line/key_files.hpp"
+#include "rave/host/host_run.hpp"
 #include "run_folder.hpp"
 #include "run_report.hpp"
 
@@ -47,11 +48,11 @@ class Crew {
       member.process.reset();
       member.code = code;
       if (*code == kGood) continue;
-      console_.warn("run", "the process of host `{}` ended with {}", member.name,
+      console_.warn("run", "the process of host `{}` exited with {}", member.name,
                     *code < 0 ? fmt::format("signal {}", -*code) : fmt::format("code {}", *code));
       if (!restarts_ || member.starts >= kMostStarts) continue;
       if (auto started = start(member); !started) {
-        console_.error("run", "host `{}` could not be started again: {}", member.name,
+        console_.error("run", "host `{}` could not be restarted: {}", member.name,
                        started.error().message);
       }
     }
@@ -140,9 +141,24 @@ class Crew {
     if (options_.no_picture) words.emplace_back("--no-picture");
     if (options_.no_record) words.emplace_back("--no-record");
     if (options_.arm) words.emplace_back("--arm");
+    add_line(words);
     RAVE_TRY_ASSIGN(auto process, HostProcess::start(std::move(words)));
     member.process.emplace(std::move(process));
     return {};
+  }
+
+  void add_line(std::vector<std::string>& words) const {
+    const LineWish& line = options_.line;
+    if (!line.web) return;
+    words.emplace_back("--web");
+    words.push_back(*line.web);
+    for (const auto& [option, value] :
+         {std::pair("--web-key", line.web_key), std::pair("--web-certificate", line.certificate),
+          std::pair("--web-certificate-key", line.key)}) {
+      if (value.empty()) continue;
+      words.emplace_back(option);
+      words.push_back(value);
+    }
   }
 
   const RunCommand& options_;
@@ -154,25 +170,53 @@ class Crew {
   std::vector<Member> members_;
 };
 
+/// So many hosts with a line find one another.
+constexpr std::size_t kMostLines = 50;
+
+/// Whether the hosts have direct lines: with a page, unless they are too many.
+bool wants_lines(const RunCommand& options, std::size_t hosts) {
+  return options.line.web.has_value() || (options.gui && hosts <= kMostLines);
+}
+
+/// Gives the hosts what they need for a line, and the page the key, unless they were told of.
+Status make_lines(RunCommand& options, const std::filesystem::path& folder) {
+  LineWish& line = options.line;
+  if (!line.web) {
+    line.web = options.page.listen + ":0";
+    line.certificate = options.page.certificate;
+    line.key = options.page.key;
+  }
+  if (!line.web_key.empty() || !options.gui) return {};
+  if (options.page.line_key.empty()) {
+    options.page.line_key = folder / "line_key";
+    RAVE_TRY(direct_line::make_key_files(options.page.line_key));
+  }
+  line.web_key = options.page.line_key + ".pub";
+  return {};
+}
+
 /// Puts together what all have left.
-Result<robot_host::RunOutcome> put_together(ManagedEnd& managed, const Crew& crew,
-                                            const std::vector<std::string>& problems) {
-  robot_host::SharedEnd& end = managed.end;
+Result<runtime::RunOutcome> put_together(ManagedEnd& managed, const Crew& crew,
+                                         const std::vector<std::string>& problems) {
+  runtime::SharedEnd& end = managed.end;
   end.problems.insert(end.problems.end(), problems.begin(), problems.end());
-  for (robot_host::SharedHost& host : end.hosts) host.folders = crew.folders_of(host.name);
+  for (runtime::SharedHost& host : end.hosts) host.folders = crew.folders_of(host.name);
   return managed.results->write(end);
 }
 
 }  // namespace
 
-int run_shared(const RunCommand& options, const config::ExpandedScenario& scenario,
+int run_shared(const RunCommand& asked, const config::ExpandedScenario& scenario,
                const std::vector<config::PlannedHost>& hosts) {
+  RunCommand options = asked;
   BusOptions bus_options = options.bus;
   // A run that this process starts is one of its own, whoever runs the same scenario beside it.
   if (bus_options.run.empty()) bus_options.run = bus::RunId::random().text();
-  auto bus = bus_config(bus_options, "environment manager", robot_host::shared_number(scenario));
+  auto bus = bus_config(bus_options, "environment manager", runtime::shared_number(scenario));
   if (!bus) return complain(bus.error());
-  make_room(*bus, hosts.size(), bus::Reach::kHub);
+  const bool lines = wants_lines(options, hosts.size());
+  // A line has an end of its own on the bus.
+  make_room(*bus, lines ? 2 * hosts.size() : hosts.size(), bus::Reach::kHub);
   const auto folder =
       RunFolder::create({options.output, options.replace}, scenario.scenario.name.value);
   if (!folder) return complain(folder.error());
@@ -185,16 +229,19 @@ int run_shared(const RunCommand& options, const config::ExpandedScenario& scenar
       !written) {
     return complain(written.error());
   }
+  if (auto made = lines ? make_lines(options, folder->path()) : Status(); !made) {
+    return complain(made.error());
+  }
   Crew crew(options, *bus, folder->path(), scenario.scenario, console);
   for (const config::PlannedHost& host : hosts) {
     if (host.elsewhere) {
-      console.warn("run", "waits for host `{}`: {}", host.name,
+      console.warn("run", "waiting for host `{}`; start it with: {}", host.name,
                    host_command(options, host.name, bus->run));
       continue;
     }
     if (auto started = crew.start(host); !started) return complain(started.error());
   }
-  robot_host::RunControl& control = ended_by_signals();
+  runtime::RunControl& control = ended_by_signals();
   const auto server = serve_control(scenario.scenario.name.value, control, console);
   const auto stopping = [&] {
     crew.look_after();

@@ -33,11 +33,17 @@ struct KeysWebCommand {
   std::vector<std::string> names;
 };
 
+/// `rave keys line`.
+struct KeysLineCommand {
+  std::string file;
+};
+
 // Each prints what was done, and never a private key. Returns 0; 2 for bad input; `keys show` 1 if
 // something cannot be used.
 [[nodiscard]] int new_keys(const KeysNewCommand& options);
 [[nodiscard]] int add_keys(const KeysAddCommand& options);
 [[nodiscard]] int show_keys(const KeysShowCommand& options);
 [[nodiscard]] int web_keys(const KeysWebCommand& options);
+[[nodiscard]] int line_keys(const KeysLineCommand& options);
 
 }  // namespace rave::cli

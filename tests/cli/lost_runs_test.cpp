@@ -16,15 +16,22 @@ class LostRuns : public SharedWorld {
  protected:
   void begin(const std::string& scenario = "crowd.yaml") {
     scenario_ = scenario;
-    start("env", "env", scenario_, of_run());
+    start("env", "env", scenario_, of_run({"--pace", pace_}));
     start_host("one", scenario_, of_run());
     start_host("two", scenario_, of_run());
-    wait_for_steps(200);
+    wait_for_steps(50);
   }
   [[nodiscard]] Words of_run(Words more = {}) const {
     more.insert(more.end(),
                 {"--run", run_.text(), "--duration", duration_s_, "--no-record", "--no-picture"});
     return more;
+  }
+  /// A run that a second manager brings to its end; under the first one it goes so slowly that it
+  /// does not end before that one is killed.
+  void begin_to_be_ended(const std::string& scenario = "crowd.yaml") {
+    duration_s_ = "100";
+    pace_ = "realtime";
+    begin(scenario);
   }
   /// So many more.
   void wait_for_steps(std::uint64_t count) {
@@ -58,12 +65,12 @@ class LostRuns : public SharedWorld {
 
   std::string scenario_;
   std::string duration_s_ = "100000";
+  std::string pace_ = "max";
   bus::RunId run_ = bus::RunId::random();
 };
 
 TEST_F(LostRuns, AManagerAndAHostKilledTogetherLeaveARunWithoutAHash) {
-  duration_s_ = "100";
-  begin();
+  begin_to_be_ended();
   kill_process("env");
   kill_process("one");
   wait_for_line("two", "the environment manager is gone");
@@ -81,8 +88,7 @@ TEST_F(LostRuns, AManagerAndAHostKilledTogetherLeaveARunWithoutAHash) {
 }
 
 TEST_F(LostRuns, AManagerThatTakesOverHearsOfALossBeforeIt) {
-  duration_s_ = "100";
-  begin(crowd_with_policy("restart", 5));
+  begin_to_be_ended(crowd_with_policy("restart", 5));
   kill_process("one");
   wait_for_line("env", "its robots stand until it is back");
   start("again", "robot", scenario_, of_run({"--host", "one"}));

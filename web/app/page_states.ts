@@ -13,7 +13,9 @@ export function renderLost(model: RunModel, link: Link): TemplateResult {
   const now_ms = performance.now();
   const shown = model.poses.newest;
   const again_s = Math.max(0, Math.ceil((link.retryAt_ms - now_ms) / 1000));
-  const reach = model.live && model.may('stop') ? ` ${model.robots.length} robots are out of reach: stop them at their machines.` : '';
+  const direct = link.direct?.open.length ?? 0;
+  const without = direct > 0 ? ` Orders and STOP still go straight to ${direct === 1 ? 'the host' : `${direct} hosts`}.` : ` ${model.robots.length} robots are out of reach: stop them at their machines.`;
+  const reach = model.live && model.may('stop') ? without : '';
   return html`<div class="strip lost" role="alert">${icon('wifiOff', 16)}
     <span><b>Link lost ${((now_ms - link.lostAt_ms) / 1000).toFixed(1)} s ago.</b>
       ${shown === null ? '' : `This is ${clockText(shown.time_s)} s. `}Trying again in ${again_s} s.${reach}</span>

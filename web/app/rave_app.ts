@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
+import {DirectLines} from '../model/direct_lines';
 import {Commands} from '../model/commands';
 import {Link} from '../model/link';
 import {RunModel} from '../model/run_model';
@@ -29,7 +30,7 @@ const kTheme = 'rave.theme';
 /** The whole page. */
 export class RaveApp extends LitElement {
   private readonly model = new RunModel();
-  private readonly link = new Link(this.model, socketUrl());
+  private readonly link = new Link(this.model, socketUrl(), new DirectLines(new URL('ticket', document.baseURI).href));
   private readonly selection = new Selection();
   private readonly palette = new Palette(document.documentElement);
   private dock: Dock | null = null;
@@ -86,6 +87,7 @@ export class RaveApp extends LitElement {
       this.arrive();
       this.retitle();
     });
+    model.runChanged.on(() => this.link.direct?.want(model.live && model.may('stop') && model.hello?.seen_by === undefined));
     model.runChanged.on(() => void this.bringComponents());
     model.answered.on((answer) => {
       // What has a number is answered where it was asked.

@@ -21,7 +21,7 @@ export class StopButton extends LitElement {
     super.connectedCallback();
     const {model, link} = this.context;
     const update = () => this.requestUpdate();
-    for (const signal of [model.rosterChanged, model.runChanged, model.timeChanged, link.changed]) this.ends.push(signal.on(update));
+    for (const signal of [model.rosterChanged, model.runChanged, model.timeChanged, link.changed, ...(link.direct ? [link.direct.changed] : [])]) this.ends.push(signal.on(update));
     this.ends.push(model.pictureChanged.on(() => {
       const count = countStopped(model);
       const now = `${count.stopped} ${count.latched}`;
@@ -85,7 +85,7 @@ export class StopButton extends LitElement {
     const {model, link} = this.context;
     const count = countStopped(model);
     if (model.hello !== null && !model.may('stop')) return this.renderViewOnly();
-    const out = link.state !== 'open';
+    const out = !link.reaches;
     return html`<div aria-live="polite" class="spoken">${count.stopped > 0 ? `${count.stopped} robots are stopped.` : nothing}</div>
       ${count.latched && model.may('release') ? this.renderRelease(count, true) : html`
         ${count.stopped > 0 && model.may('release') ? this.renderRelease(count, false) : nothing}

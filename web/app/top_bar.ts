@@ -3,6 +3,7 @@ import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
 import type {PanelContext} from '../panel_api';
 import type {Person} from '../protocol/messages';
 import './bell';
+import './way_chip';
 import {kLayouts, type LayoutName} from './dock';
 import {icon} from './icons';
 import {logo} from './logo';
@@ -68,6 +69,7 @@ export class TopBar extends LitElement {
       <button class="find" aria-label="Find a robot, panel or moment" @click=${() => ask('find')}>${icon('search', 15)}<span>Find a robot, panel or moment</span><kbd>Ctrl K</kbd></button>
       <span class="space"></span>
       ${run?.recording && !model.live ? html`<span class="chip wide">${icon('fileText', 14)} ${run.recording.name} ${sizeText(run.recording.bytes)}${run.recording.whole ? '' : ', cut off'}</span>` : nothing}
+      <rave-way .context=${this.context}></rave-way>
       ${this.renderRate()}
       ${this.renderPeople()}
       ${model.live ? html`<span class="pen">${([['chat', 'Chat', 'message'], ['robots', 'Robots', 'list'], ['world', 'World View', 'compass']] as const).map(([id, label, glyph]) => html`

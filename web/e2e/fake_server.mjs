@@ -108,6 +108,11 @@ class FakeServer {
       response.writeHead(200, {'Content-Type': 'text/javascript', 'Content-Security-Policy': kPolicy}).end(component);
       return;
     }
+    if (path === '/ticket') {
+      response.writeHead(200, {'Content-Type': 'application/json'});
+      response.end('{"relay":true,"lines":[]}');
+      return;
+    }
     const file = join(this.page, path === '/' ? 'index.html' : path);
     if (!existsSync(file)) {
       response.writeHead(404).end();

@@ -35,7 +35,7 @@ try {
       const bytes = readFileSync(join(built, path === '/' ? 'index.html' : path));
       return /\.woff2$/.test(path) ? bytes.length : gzipSync(bytes).length;
     };
-    const all = [...loaded].filter((path) => path !== '/ws').reduce((sum, path) => sum + size(path), 0);
+    const all = [...loaded].filter((path) => path !== '/ws' && path !== '/ticket').reduce((sum, path) => sum + size(path), 0);
     assert.ok(all < 400e3, `${all} bytes`);
     assert.ok(![...loaded].some((path) => path.includes('perspective')));
   });

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type {Look, PageMessage, ServerMessage} from '../protocol/messages';
+import type {DirectLines} from './direct_lines';
+import {OrderRouter} from './order_router';
 import type {RunModel} from './run_model';
 import {Signal} from './signal';
 
@@ -29,6 +31,7 @@ export class Link {
   bytesPerSecond = 0;
   readonly changed = new Signal();
 
+  private readonly router: OrderRouter | null;
   private socket: WebSocket | null = null;
   private retry_ms = kFirstRetry_ms;
   private timer = 0;
@@ -43,7 +46,11 @@ export class Link {
   constructor(
     private readonly model: RunModel,
     private readonly url: string,
+    /** The direct lines; null: all goes through the server. */
+    readonly direct: DirectLines | null = null,
   ) {
+    this.router = direct === null ? null : new OrderRouter(model, direct);
+    if (this.router) this.router.serverIsThere = () => this.state === 'open';
     setInterval(() => this.measure(), 1000);
   }
 
@@ -69,7 +76,17 @@ export class Link {
     };
   }
 
+  /** Whether something that is asked of robots gets through, over whatever way. */
+  get reaches(): boolean {
+    return this.state === 'open' || (this.direct?.open.length ?? 0) > 0;
+  }
+
   send(message: PageMessage): void {
+    const rest = this.router === null ? message : this.router.route(message);
+    if (rest !== null) this.sendToServer(rest);
+  }
+
+  private sendToServer(message: PageMessage): void {
     if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
   }
 
@@ -121,7 +138,7 @@ export class Link {
     // Once it can be drawn: a page that cannot keep up is sent less.
     if (sequence !== null) {
       ++this.frames;
-      const acknowledge = () => this.send({type: 'ack', sequence});
+      const acknowledge = () => this.sendToServer({type: 'ack', sequence});
       if (document.visibilityState === 'hidden') acknowledge();
       else requestAnimationFrame(acknowledge);
     }

@@ -232,6 +232,27 @@ Status validate(const HostInfo& sample) {
   return {};
 }
 
+Status validate(const LineInfo& sample) {
+  RAVE_TRY(check_writer(sample));
+  RAVE_TRY(check_label("host", sample.host, true));
+  const std::string_view url = sample.url;
+  RAVE_TRY(check_label("url", url, true));
+  if (!url.starts_with("ws://") && !url.starts_with("wss://")) {
+    return invalid("url begins with neither ws:// nor wss://");
+  }
+  // It goes into a header of the page, where these would begin something else.
+  if (url.find_first_of(" ;,'\"<>") != std::string_view::npos) {
+    return invalid("url has a character that no address has");
+  }
+  return {};
+}
+
+Status validate(const LineWithdrawal& sample) {
+  RAVE_TRY(check_writer(sample));
+  RAVE_TRY(check_label("user", sample.user, true));
+  return check_label("text", sample.text, true);
+}
+
 Status validate(const ProcessState& sample) {
   RAVE_TRY(check_writer(sample));
   if (sample.number == 0) return invalid("number is 0");

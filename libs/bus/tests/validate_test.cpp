@@ -262,6 +262,25 @@ TEST(Validate, Commands) {
   EXPECT_EQ(reason(command), "name is empty");
 }
 
+TEST(Validate, Lines) {
+  auto line = written<LineInfo>();
+  EXPECT_EQ(reason(line), "host is empty");
+  put_text(line.host, "left");
+  EXPECT_EQ(reason(line), "url is empty");
+  put_text(line.url, "http://left:8090/ws");
+  EXPECT_EQ(reason(line), "url begins with neither ws:// nor wss://");
+  put_text(line.url, "ws://left; script-src *");
+  EXPECT_EQ(reason(line), "url has a character that no address has");
+  put_text(line.url, "wss://left:8090/ws");
+  EXPECT_EQ(reason(line), "accepted");
+  auto withdrawal = written<LineWithdrawal>();
+  EXPECT_EQ(reason(withdrawal), "user is empty");
+  put_text(withdrawal.user, "anna");
+  EXPECT_EQ(reason(withdrawal), "text is empty");
+  put_text(withdrawal.text, "e30.e30");
+  EXPECT_EQ(reason(withdrawal), "accepted");
+}
+
 TEST(Validate, HostsAndClocks) {
   auto host = written<HostInfo>();
   EXPECT_EQ(reason(host), "name is empty");

@@ -18,12 +18,10 @@ namespace http = beast::http;
 using Message = http::request<http::string_body>;
 using Answer = http::response<http::span_body<const char>>;
 
-// `connect-src 'self'` keeps the page from telling anybody else; images of the page itself may be
-// data. Styles are set by the docking library on elements, which needs 'unsafe-inline' for styles.
-constexpr const char* kPolicy =
-    "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: "
-    "blob:; font-src 'self'; connect-src 'self'; manifest-src 'self'; worker-src 'self'; base-uri "
-    "'none'; form-action 'self'; frame-ancestors 'none'";
+const std::string& policy() {
+  static const std::string kPolicy = content_policy();
+  return kPolicy;
+}
 
 /// One connection before it becomes a WebSocket: one request after the other.
 class Connection final : public Link, public std::enable_shared_from_this<Connection> {
@@ -164,7 +162,7 @@ std::optional<Response> Connection::refusal(Request& request) {
   }
   const std::string_view origin = request.header("origin");
   const bool writes = request.method == "POST" || beast::websocket::is_upgrade(message_);
-  if (writes && !origin.empty() &&
+  if (core_.options().own_origin_only && writes && !origin.empty() &&
       origin != fmt::format("{}{}", core_.scheme(), request.header("host"))) {
     return text_response(403, "requests of other origins are refused\n");
   }
@@ -188,7 +186,7 @@ void Connection::answer(const Response& response) {
   reply->version(message_.version());
   reply->result(static_cast<unsigned>(response.status));
   reply->set(http::field::content_type, response.type);
-  reply->set("Content-Security-Policy", kPolicy);
+  reply->set("Content-Security-Policy", policy());
   reply->set("X-Content-Type-Options", "nosniff");
   reply->set("Referrer-Policy", "no-referrer");
   reply->set("Cross-Origin-Opener-Policy", "same-origin");

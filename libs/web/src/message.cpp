@@ -55,6 +55,18 @@ std::string Request::cookie(std::string_view name) const {
   return {};
 }
 
+// `connect-src 'self'` keeps the page from telling anybody else; images of the page itself may be
+// data. Styles are set by the docking library on elements, which needs 'unsafe-inline' for styles.
+std::string content_policy(std::span<const std::string> others) {
+  std::string connect = "'self'";
+  for (const std::string& other : others) connect += " " + other;
+  return "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' "
+         "data: blob:; font-src 'self'; connect-src " +
+         connect +
+         "; manifest-src 'self'; worker-src 'self'; base-uri 'none'; form-action 'self'; "
+         "frame-ancestors 'none'";
+}
+
 Response text_response(int status, std::string text) {
   Response response;
   response.status = status;

@@ -13,6 +13,7 @@
 #include "rave/web/rate_limit.hpp"
 #include "rave/web/server.hpp"
 #include "rave/web/static_files.hpp"
+#include "ticket_desk.hpp"
 #include "visitors.hpp"
 
 namespace rave::gui_server {
@@ -65,7 +66,8 @@ class GuiServer::Impl final : public web::Handler {
         audit_(parts.audit),
         metrics_token_(std::move(parts.metrics_token)),
         door_({parts.accounts, parts.audit, !options.certificate.empty()}),
-        visitors_(door_, std::move(parts.desk), parts.accounts, parts.audit) {}
+        visitors_(door_, std::move(parts.desk), parts.accounts, parts.audit),
+        tickets_(parts.audit) {}
   ~Impl() override {
     if (server_) server_->stop();
     // What it still works at answers through the server, which is there until then.
@@ -86,12 +88,19 @@ class GuiServer::Impl final : public web::Handler {
     server_->post([this, port = server_->port()] { door_.set_port(port); });
     if (source) show(std::move(source));
     server_->every(kTick, [this] { visitors_.tick(); });
-    server_->every(kCheck, [this] { visitors_.check(); });
+    server_->every(kCheck, [this] {
+      visitors_.check();
+      tickets_.check([this](const std::string& session) { return rights_of(session); });
+    });
     return {};
   }
 
   void show(std::shared_ptr<Source> source) {
     server_->post([this, source = std::move(source)] { visitors_.show(source); });
+  }
+
+  void offer_lines(std::shared_ptr<direct_line::Lines> lines, const direct_line::SigningKey& key) {
+    server_->post([this, lines = std::move(lines), key] { tickets_.offer(lines, key); });
   }
 
   [[nodiscard]] std::uint16_t port() const noexcept { return server_->port(); }
@@ -108,10 +117,15 @@ class GuiServer::Impl final : public web::Handler {
     if (request.path == "/healthz") return web::text_response(200, "ok\n");
     if (request.path == "/metrics") return metrics(request);
     if (auto answer = door_.serve(request)) return *std::move(answer);
+    if (request.path == "/ticket") return ticket(request);
     if (request.method == "POST") return web::text_response(405, "method not allowed\n");
     if (request.path == "/recording") return recording(request);
     if (request.path.starts_with("/components/")) return component(request);
-    return files_.serve(request);
+    web::Response file = files_.serve(request);
+    if (request.path == "/" || request.path == "/index.html") {
+      file.headers.emplace_back("Content-Security-Policy", web::content_policy(tickets_.ends()));
+    }
+    return file;
   }
 
   Admission admit(const web::Request& request) override {
@@ -135,6 +149,29 @@ class GuiServer::Impl final : public web::Handler {
         web::text_response(200, metrics_text(server_->counts(), visitors_.count(), audit_->lost()));
     response.type = "text/plain; version=0.0.4; charset=utf-8";
     return response;
+  }
+
+  /// What a session may now, for its tickets.
+  std::optional<std::string> rights_of(const std::string& session) {
+    const auto person = door_.whose(session);
+    const auto view = person ? visitors_.view_of(*person) : nullptr;
+    if (!view || visitors_.sees_as_other(session)) return std::nullopt;
+    return TicketDesk::rights_of(*person, *view);
+  }
+
+  web::Response ticket(const web::Request& request) {
+    if (request.method != "POST") return web::text_response(405, "only POST gives tickets\n");
+    const auto person = door_.who(request);
+    if (!person) return web::text_response(401, "not signed in\n");
+    const auto view = visitors_.view_of(*person);
+    if (!view || !visitors_.source()->about().live) {
+      return web::text_response(404, "no run is in progress\n");
+    }
+    const std::string session = door_.session_of(request);
+    if (visitors_.sees_as_other(session)) {
+      return web::text_response(403, "you look with the eyes of somebody else\n");
+    }
+    return tickets_.serve(request, {*person, session, view, visitors_.source()->about().relay});
   }
 
   /// What somebody may not have is, for them, not there.
@@ -190,6 +227,7 @@ class GuiServer::Impl final : public web::Handler {
   std::string metrics_token_;
   Door door_;
   Visitors visitors_;
+  TicketDesk tickets_;
   std::unique_ptr<web::Server> server_;
 };
 
@@ -226,6 +264,10 @@ Result<std::unique_ptr<GuiServer>> GuiServer::start(const GuiOptions& options,
 }
 
 void GuiServer::show(std::shared_ptr<Source> source) { impl_->show(std::move(source)); }
+void GuiServer::offer_lines(std::shared_ptr<direct_line::Lines> lines,
+                            const direct_line::SigningKey& key) {
+  impl_->offer_lines(std::move(lines), key);
+}
 std::uint16_t GuiServer::port() const noexcept { return impl_->port(); }
 std::string GuiServer::entry() { return impl_->entry(); }
 

@@ -17,17 +17,17 @@ const char* const kHeldByNobody =
 }  // namespace
 
 struct LiveRun::Impl {
-  Impl(const config::ExpandedScenario& of, robot_host::RunControl& with,
+  Impl(const config::ExpandedScenario& of, runtime::RunControl& with,
        std::function<void(std::shared_ptr<Source>)> call)
       : scenario(of),
         control(with),
         ready(std::move(call)),
         box(std::make_shared<LiveBox>()),
-        feed(box, [this](const robot_host::RunView& run, auto bodies) {
+        feed(box, [this](const runtime::RunView& run, auto bodies) {
           return begin(run, std::move(bodies));
         }) {}
 
-  Status begin(const robot_host::RunView& run,
+  Status begin(const runtime::RunView& run,
                std::vector<std::pair<std::uint32_t, std::string>> bodies) {
     LiveSource::Start start;
     start.about.live = true;
@@ -37,6 +37,8 @@ struct LiveRun::Impl {
     start.about.seed = run.info.seed;
     start.about.lock_step = !run.live;
     start.about.duration_s = scenario.scenario.duration_s;
+    // The server is in the process of the host: there is no shorter way.
+    start.about.relay = true;
     start.about.rights = rights_of(scenario.scenario.gui);
     RAVE_TRY_ASSIGN(start.about.components, components_of(scenario.scenario.gui));
     start.robots_json =
@@ -50,20 +52,20 @@ struct LiveRun::Impl {
   }
 
   const config::ExpandedScenario& scenario;
-  robot_host::RunControl& control;
+  runtime::RunControl& control;
   std::function<void(std::shared_ptr<Source>)> ready;
   std::shared_ptr<LiveBox> box;
   std::shared_ptr<LiveSource> source;
   LiveFeed feed;
 };
 
-LiveRun::LiveRun(const config::ExpandedScenario& scenario, robot_host::RunControl& control,
+LiveRun::LiveRun(const config::ExpandedScenario& scenario, runtime::RunControl& control,
                  std::function<void(std::shared_ptr<Source>)> ready)
     : impl_(std::make_unique<Impl>(scenario, control, std::move(ready))) {}
 
 LiveRun::~LiveRun() = default;
 
-robot_host::RunObserver& LiveRun::observer() noexcept { return impl_->feed; }
+runtime::RunObserver& LiveRun::observer() noexcept { return impl_->feed; }
 
 void LiveRun::end(std::string reason) {
   if (impl_->source) impl_->source->end(std::move(reason));

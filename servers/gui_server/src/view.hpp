@@ -41,6 +41,9 @@ class View {
   /// Nothing is withheld.
   [[nodiscard]] bool whole() const noexcept { return whole_; }
 
+  /// All robots of the run, also those that are not shown: nothing of it may be sent.
+  [[nodiscard]] const Cast& cast() const noexcept { return *cast_; }
+
   [[nodiscard]] std::uint32_t robots() const noexcept {
     return static_cast<std::uint32_t>(shown_.size());
   }

@@ -214,6 +214,12 @@ std::shared_ptr<const View> Visitors::view_of(const Person& person) {
   return source_ ? desk_.view_of(person) : nullptr;
 }
 
+bool Visitors::sees_as_other(std::string_view session) const {
+  return std::ranges::any_of(visitors_, [session](const auto& entry) {
+    return entry.second.session == session && entry.second.eyes.has_value();
+  });
+}
+
 SessionCalls Visitors::calls_of(std::uint64_t id) {
   SessionCalls calls;
   calls.set_right = [this, id](const RightChange& change) { return set_right(id, change); };

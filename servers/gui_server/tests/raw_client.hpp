@@ -16,6 +16,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace rave::gui_server::testing {
 
@@ -36,12 +37,16 @@ class RawClient {
     good_ = ::connect(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
     if (!authority.empty()) begin_tls(authority);
   }
-  RawClient(const RawClient&) = delete;
-  RawClient& operator=(const RawClient&) = delete;
+  RawClient(RawClient&& other) noexcept
+      : context_(std::exchange(other.context_, nullptr)),
+        tls_(std::exchange(other.tls_, nullptr)),
+        fd_(std::exchange(other.fd_, -1)),
+        good_(other.good_) {}
+  RawClient& operator=(RawClient&&) = delete;
   ~RawClient() {
     if (tls_ != nullptr) SSL_free(tls_);
     if (context_ != nullptr) SSL_CTX_free(context_);
-    ::close(fd_);
+    if (fd_ >= 0) ::close(fd_);
   }
 
   [[nodiscard]] bool good() const noexcept { return good_; }
@@ -125,8 +130,10 @@ class RawSocket {
       frame += static_cast<char>(payload.size() >> 8U);
       frame += static_cast<char>(payload.size());
     } else {
-      frame += static_cast<char>(0x80 | 127);
-      for (int shift = 56; shift >= 0; shift -= 8) {
+      // The shortest way to write a size is the only one.
+      const bool large = payload.size() > 0xffff;
+      frame += static_cast<char>(0x80 | (large ? 127 : 126));
+      for (int shift = large ? 56 : 8; shift >= 0; shift -= 8) {
         frame += static_cast<char>(payload.size() >> static_cast<unsigned>(shift));
       }
     }

@@ -4,6 +4,7 @@
 #include "idl/rave/command.h"
 #include "idl/rave/findings.h"
 #include "idl/rave/host.h"
+#include "idl/rave/line.h"
 #include "idl/rave/lock_step.h"
 #include "idl/rave/obstacle.h"
 #include "idl/rave/roster.h"
@@ -31,6 +32,8 @@ using HostInfo = rave_wire_HostInfo;
 using ProcessState = rave_wire_ProcessState;
 using ClockPing = rave_wire_ClockPing;
 using ClockPong = rave_wire_ClockPong;
+using LineInfo = rave_wire_LineInfo;
+using LineWithdrawal = rave_wire_LineWithdrawal;
 using FindingsPart = rave_wire_FindingsPart;
 using Wish = rave_wire_Wish;
 using WishAnswer = rave_wire_WishAnswer;
@@ -113,6 +116,14 @@ inline TopicSpec topic_of<ClockPing>() {
 template <>
 inline TopicSpec topic_of<ClockPong>() {
   return {"rave/clock_pong", &rave_wire_ClockPong_desc, kOnce};
+}
+template <>
+inline TopicSpec topic_of<LineInfo>() {
+  return {"rave/line", &rave_wire_LineInfo_desc, kDurable};
+}
+template <>
+inline TopicSpec topic_of<LineWithdrawal>() {
+  return {"rave/withdrawal", &rave_wire_LineWithdrawal_desc, kDurable};
 }
 template <>
 inline TopicSpec topic_of<FindingsPart>() {

@@ -29,6 +29,8 @@ inline constexpr double kMaxTurn_radps = 1e4;
 [[nodiscard]] Status validate(const Command& sample);
 [[nodiscard]] Status validate(const Packet& sample);
 [[nodiscard]] Status validate(const HostInfo& sample);
+[[nodiscard]] Status validate(const LineInfo& sample);
+[[nodiscard]] Status validate(const LineWithdrawal& sample);
 [[nodiscard]] Status validate(const ProcessState& sample);
 [[nodiscard]] Status validate(const ClockPing& sample);
 [[nodiscard]] Status validate(const ClockPong& sample);

@@ -61,6 +61,7 @@ struct GuiComponentFile {
 /// What the page shows to whom. It is no part of the run: processes of one run need not agree.
 struct GuiFile {
   std::vector<GuiRightFile> rights;
+  bool relay = false;  ///< Orders may go through the GUI Server where there is no direct line.
   std::vector<GuiComponentFile> components;
   bool operator==(const GuiFile&) const = default;
 };

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +32,10 @@ struct Response {
   std::shared_ptr<const std::string> body;  ///< Null: empty.
   std::vector<std::pair<std::string, std::string>> headers;
 };
+
+/// The Content-Security-Policy of all responses: nothing but the server itself, and as ends of
+/// connections `others` (`wss://left.example:8090`).
+[[nodiscard]] std::string content_policy(std::span<const std::string> others = {});
 
 /// A response with a line of text.
 [[nodiscard]] Response text_response(int status, std::string text);

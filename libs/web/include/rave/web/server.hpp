@@ -76,6 +76,9 @@ struct ServerOptions {
   int send_buffer_bytes = 64 << 10;  ///< Small, so that a slow line shows at once.
   std::chrono::seconds idle{15};     ///< Without an answer to a ping: gone. And for a request.
   std::string subprotocol;           ///< Asked for by the page; empty: none.
+  /// Pages of other origins may neither write nor open a WebSocket. False: the handler looks at
+  /// `origin` itself.
+  bool own_origin_only = true;
 };
 
 /// What a server has done so far.
@@ -91,8 +94,8 @@ struct ServerCounts {
 };
 
 /// HTTP/1.1 and WebSockets on one thread of its own, with TLS if there is a certificate. Requests
-/// with a foreign `Host` or `Origin` are refused; every response has a strict
-/// Content-Security-Policy.
+/// with a foreign `Host` or `Origin` are refused (see ServerOptions::own_origin_only); every
+/// response has a strict Content-Security-Policy.
 class Server {
  public:
   /// Binds and starts. `handler` must outlive the server. Errors: kInvalidArgument (no address, or

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "rave/base/result.hpp"
+#include "rave/direct_line/lines.hpp"
 
 namespace rave::gui_server {
 
@@ -37,6 +38,9 @@ class GuiServer {
 
   /// All pages see this source from now on, without a reload. Any thread.
   void show(std::shared_ptr<Source> source);
+
+  /// From now on pages get tickets for these direct lines, whose hosts know `key`. Any thread.
+  void offer_lines(std::shared_ptr<direct_line::Lines> lines, const direct_line::SigningKey& key);
 
   [[nodiscard]] std::uint16_t port() const noexcept;
   /// A link that signs a browser in, once. Each call makes another one. Any thread.

@@ -53,6 +53,8 @@ struct RunAbout {
   double begin_s = 0;
   double end_s = 0;
   double duration_s = 0;
+  /// Orders may go through the server where a page has no direct line to a host.
+  bool relay = false;
   std::vector<PageComponent> components;
   Rights rights;  ///< The usual ones, with what the scenario changes.
 };

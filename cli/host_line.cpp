@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host_line.hpp"
+
+#include <charconv>
+
+#include "rave/bus/run_id.hpp"
+#include "rave/direct_line/key_files.hpp"
+
+namespace rave::cli {
+namespace {
+
+constexpr const char* kHere = "this process";
+
+Result<std::uint16_t> port_of(std::string_view text, const std::string& whole) {
+  std::uint16_t port = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
+  if (error == std::errc() && end == text.data() + text.size()) return port;
+  return fail(ErrorCode::kInvalidArgument,
+              "--web {}: expected ADDRESS:PORT, such as 192.168.1.20:8090", whole);
+}
+
+Result<direct_line::LineOptions> options_of(const LineWish& wish, LogSink& log) {
+  RAVE_TRY_ASSIGN(const LinePlace place, parse_line_place(*wish.web));
+  direct_line::LineOptions options;
+  options.address = place.address;
+  options.port = place.port;
+  options.certificate = wish.certificate;
+  options.key = wish.key;
+  options.log = &log;
+  return options;
+}
+
+std::vector<std::string> names_of(const config::ExpandedScenario& scenario,
+                                  const config::PlannedHost& host) {
+  std::vector<std::string> names;
+  for (const std::size_t robot : host.robots) names.push_back(scenario.robots[robot].name);
+  return names;
+}
+
+}  // namespace
+
+Result<LinePlace> parse_line_place(const std::string& text) {
+  LinePlace place;
+  if (text.empty()) return place;
+  const bool digits = text.find_first_not_of("0123456789") == std::string::npos;
+  const std::size_t bracket = text.rfind(']');
+  const std::size_t colon = text.rfind(':');
+  const bool has_port =
+      colon != std::string::npos && (bracket == std::string::npos || colon > bracket);
+  std::string address = digits ? "" : text.substr(0, has_port ? colon : std::string::npos);
+  if (address.starts_with('[') && address.ends_with(']')) {
+    address = address.substr(1, address.size() - 2);
+  }
+  if (!address.empty()) place.address = address;
+  if (digits) {
+    RAVE_TRY_ASSIGN(place.port, port_of(text, text));
+  } else if (has_port) {
+    RAVE_TRY_ASSIGN(place.port, port_of(std::string_view(text).substr(colon + 1), text));
+  }
+  return place;
+}
+
+Result<HostLineEnds> open_host_line(const LineWish& wish, const std::string& host,
+                                    const bus::BusConfig& bus, runtime::RunControl& control,
+                                    LogSink& log) {
+  HostLineEnds ends;
+  if (!wish.web) {
+    if (wish.web_key.empty()) return ends;
+    return fail(ErrorCode::kInvalidArgument, "--web-key counts with --web alone");
+  }
+  if (wish.web_key.empty()) {
+    return fail(ErrorCode::kInvalidArgument,
+                "--web needs --web-key FILE, the public key of the GUI Server: `rave keys line "
+                "FILE` makes FILE for `rave gui --line-key` and FILE.pub for hosts");
+  }
+  RAVE_TRY_ASSIGN(auto options, options_of(wish, log));
+  RAVE_TRY_ASSIGN(options.signer, direct_line::read_public_key(wish.web_key));
+  options.run = bus.run.text();
+  options.host = host;
+  RAVE_TRY_ASSIGN(ends.server, direct_line::LineServer::start(options, control));
+  RAVE_TRY_ASSIGN(ends.beacon, direct_line::LineBeacon::start(bus, host, *ends.server));
+  log.info("line", "pages reach this host at {}", ends.server->url());
+  return ends;
+}
+
+Result<HostLineEnds> open_line_here(const LineWish& wish, const config::ExpandedScenario& scenario,
+                                    runtime::RunControl& control, gui_server::GuiServer& page,
+                                    LogSink& log) {
+  RAVE_TRY_ASSIGN(auto options, options_of(wish, log));
+  const direct_line::SigningKey key = direct_line::new_signing_key();
+  options.signer = key.open;
+  options.run = bus::RunId::random().text();
+  options.host = kHere;
+  HostLineEnds ends;
+  RAVE_TRY_ASSIGN(ends.server, direct_line::LineServer::start(options, control));
+  direct_line::HostLine line{kHere, ends.server->url(), {}};
+  for (const config::ExpandedRobot& robot : scenario.robots) line.robots.push_back(robot.name);
+  page.offer_lines(direct_line::lines_here(*ends.server, options.run, std::move(line)), key);
+  return ends;
+}
+
+Status offer_bus_lines(const config::ExpandedScenario& scenario, const bus::BusConfig& bus,
+                       const direct_line::SigningKey& key, gui_server::GuiServer& page) {
+  RAVE_TRY_ASSIGN(const auto hosts, config::plan_hosts(scenario));
+  std::map<std::string, std::vector<std::string>> robots;
+  for (const config::PlannedHost& host : hosts) robots[host.name] = names_of(scenario, host);
+  RAVE_TRY_ASSIGN(
+      auto lines,
+      direct_line::lines_on_bus(bus, [robots = std::move(robots)](const std::string& host) {
+        const auto found = robots.find(host);
+        return found == robots.end() ? std::vector<std::string>() : found->second;
+      }));
+  page.offer_lines(std::move(lines), key);
+  return {};
+}
+
+}  // namespace rave::cli

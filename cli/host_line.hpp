@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "rave/base/log.hpp"
+#include "rave/bus/config.hpp"
+#include "rave/config/expanded_scenario.hpp"
+#include "rave/control/run_control.hpp"
+#include "rave/direct_line/lines.hpp"
+#include "rave/gui_server/gui_server.hpp"
+
+namespace rave::cli {
+
+/// The direct line of a host, as the command line says.
+struct LineWish {
+  std::optional<std::string> web;  ///< `ADDRESS:PORT` or a part of it; unset: no line.
+  std::string web_key;             ///< The file with the public key of the GUI Server.
+  std::string certificate;         ///< With `key`: TLS.
+  std::string key;
+};
+
+/// `127.0.0.1:8090`, `:8090`, `8090`, `[::1]:8090` or an address alone; what is missing is loopback
+/// or any port. Error kInvalidArgument.
+struct LinePlace {
+  std::string address = "127.0.0.1";
+  std::uint16_t port = 0;
+};
+[[nodiscard]] Result<LinePlace> parse_line_place(const std::string& text);
+
+/// A line and what tells others of it. Ends before the control that it was given.
+struct HostLineEnds {
+  std::unique_ptr<direct_line::LineServer> server;
+  std::unique_ptr<direct_line::LineBeacon> beacon;  ///< Null: the GUI Server is here.
+};
+
+/// The line of a host on a bus; both ends are null if none is wished. Errors: kInvalidArgument (an
+/// address, or no key), those of the key file, LineServer::start() and LineBeacon::start().
+[[nodiscard]] Result<HostLineEnds> open_host_line(const LineWish& wish, const std::string& host,
+                                                  const bus::BusConfig& bus,
+                                                  runtime::RunControl& control, LogSink& log);
+
+/// The line of a run of this process, which `page` gives tickets for. The same errors.
+[[nodiscard]] Result<HostLineEnds> open_line_here(const LineWish& wish,
+                                                  const config::ExpandedScenario& scenario,
+                                                  runtime::RunControl& control,
+                                                  gui_server::GuiServer& page, LogSink& log);
+
+/// Lets a page of a run on a bus give tickets for the lines of its hosts. Errors: those of
+/// direct_line::lines_on_bus().
+[[nodiscard]] Status offer_bus_lines(const config::ExpandedScenario& scenario,
+                                     const bus::BusConfig& bus, const direct_line::SigningKey& key,
+                                     gui_server::GuiServer& page);
+
+}  // namespace rave::cli

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include "rave/bus/reader.hpp"
+#include "rave/bus/wait_set.hpp"
+#include "rave/bus/writer.hpp"
+#include "rave/direct_line/lines.hpp"
+
+namespace rave::direct_line {
+namespace {
+
+using LineInfoReader = bus::Reader<bus::LineInfo>;
+using WithdrawalWriter = bus::Writer<bus::LineWithdrawal>;
+using RobotsOf = std::function<std::vector<std::string>(const std::string&)>;
+
+/// The ends are used by the thread alone once it goes.
+struct BusEnds {
+  std::unique_ptr<bus::Bus> bus;
+  LineInfoReader infos;
+  WithdrawalWriter withdrawals;
+  bus::WaitSet waits;
+};
+
+class BusLines final : public Lines {
+ public:
+  BusLines(BusEnds ends, std::string run, RobotsOf robots_of)
+      : ends_(std::move(ends)),
+        run_(std::move(run)),
+        robots_of_(std::move(robots_of)),
+        thread_([this](const std::stop_token& stop) { work(stop); }) {}
+  BusLines(const BusLines&) = delete;
+  BusLines& operator=(const BusLines&) = delete;
+  ~BusLines() override {
+    thread_.request_stop();
+    thread_.join();
+  }
+
+  [[nodiscard]] std::string run() const override { return run_; }
+  [[nodiscard]] std::vector<HostLine> hosts() const override {
+    const std::lock_guard lock(mutex_);
+    std::vector<HostLine> hosts;
+    for (const auto& [name, line] : hosts_) hosts.push_back(line);
+    return hosts;
+  }
+  void withdraw(const std::string& user, const std::string& signed_text) override {
+    {
+      const std::lock_guard lock(mutex_);
+      untold_[user] = signed_text;
+    }
+    ends_.waits.ring();
+  }
+
+ private:
+  void work(const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      hear();
+      tell();
+      static_cast<void>(ends_.waits.wait(Duration{-1}, stop));
+    }
+  }
+  void hear() {
+    ends_.infos.take(
+        [this](const bus::LineInfo& info) {
+          HostLine line{info.host, info.url, robots_of_(info.host)};
+          if (line.robots.empty()) return ends_.infos.refuse(info, "the run has no such host");
+          const std::lock_guard lock(mutex_);
+          writers_[info.writer] = line.host;
+          hosts_[line.host] = std::move(line);
+        },
+        [this](const bus::LineInfo& info) {
+          const std::lock_guard lock(mutex_);
+          const auto writer = writers_.find(info.writer);
+          if (writer == writers_.end()) return;
+          // Started again, it may have told its new place before the old one was taken back.
+          const std::string host = writer->second;
+          writers_.erase(writer);
+          for (const auto& [other, name] : writers_) {
+            if (name == host) return;
+          }
+          hosts_.erase(host);
+        });
+  }
+  void tell() {
+    std::map<std::string, std::string> untold;
+    {
+      const std::lock_guard lock(mutex_);
+      untold.swap(untold_);
+    }
+    for (const auto& [user, text] : untold) {
+      bus::LineWithdrawal withdrawal{};
+      user.copy(withdrawal.user, sizeof withdrawal.user - 1);
+      text.copy(withdrawal.text, sizeof withdrawal.text - 1);
+      if (ends_.withdrawals.write(withdrawal)) continue;
+      // A reader does not keep up; the next round says it again.
+      const std::lock_guard lock(mutex_);
+      untold_.emplace(user, text);
+    }
+  }
+
+  BusEnds ends_;
+  std::string run_;
+  RobotsOf robots_of_;
+  mutable std::mutex mutex_;
+  std::map<std::string, HostLine> hosts_;         ///< Guarded by the mutex.
+  std::map<std::uint64_t, std::string> writers_;  ///< The same.
+  std::map<std::string, std::string> untold_;     ///< By person; the same.
+  std::jthread thread_;                           ///< The last.
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Lines>> lines_on_bus(bus::BusConfig config, RobotsOf robots_of) {
+  config.anonymous = true;
+  config.beside = true;
+  const std::string run = config.run.text();
+  RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
+  RAVE_TRY_ASSIGN(auto infos, LineInfoReader::create(*bus));
+  RAVE_TRY_ASSIGN(auto withdrawals, WithdrawalWriter::create(*bus));
+  RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(*bus));
+  RAVE_TRY(waits.add(infos));
+  return std::unique_ptr<Lines>(std::make_unique<BusLines>(
+      BusEnds{std::move(bus), std::move(infos), std::move(withdrawals), std::move(waits)}, run,
+      std::move(robots_of)));
+}
+
+}  // namespace rave::direct_line

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/direct_line/ticket.hpp"
+
+#include "json_members.hpp"
+#include "signed_text.hpp"
+
+namespace rave::direct_line {
+namespace {
+
+constexpr std::size_t kLongestWord = 256;
+constexpr std::size_t kPageKeyBytes = 65;
+constexpr const char* kTicketWord = "ticket";
+constexpr const char* kWithdrawalWord = "withdrawal";
+
+nlohmann::json json_of(const RobotSet& robots) {
+  if (robots.all) return "*";
+  return robots.names;
+}
+
+Result<RobotSet> robots_of(JsonMembers& members, const char* name) {
+  RAVE_TRY_ASSIGN(const nlohmann::json* const value, members.any(name));
+  RobotSet robots;
+  if (value->is_string() && value->get<std::string>() == "*") {
+    robots.all = true;
+    return robots;
+  }
+  if (!value->is_array()) return fail(ErrorCode::kParse, "`{}`: expected names or \"*\"", name);
+  for (const nlohmann::json& robot : *value) {
+    if (!robot.is_string()) return fail(ErrorCode::kParse, "`{}`: expected names", name);
+    robots.names.insert(robot.get<std::string>());
+  }
+  return robots;
+}
+
+Status check_version(JsonMembers& members) {
+  RAVE_TRY_ASSIGN(const std::uint64_t version, members.whole("v"));
+  if (version == 1) return {};
+  return fail(ErrorCode::kParse, "version {} is not known here: expected 1", version);
+}
+
+Result<Ticket> ticket_of(const nlohmann::json& object) {
+  JsonMembers members(object);
+  RAVE_TRY(check_version(members));
+  Ticket ticket;
+  RAVE_TRY_ASSIGN(ticket.run, members.text("run", kLongestWord));
+  RAVE_TRY_ASSIGN(ticket.host, members.text("host", kLongestWord));
+  RAVE_TRY_ASSIGN(ticket.user, members.text("user", kLongestWord));
+  RAVE_TRY_ASSIGN(ticket.role, members.text("role", kLongestWord));
+  RAVE_TRY_ASSIGN(ticket.origin, members.text("origin", kLongestWord));
+  RAVE_TRY_ASSIGN(ticket.orders, robots_of(members, "orders"));
+  RAVE_TRY_ASSIGN(ticket.stops, robots_of(members, "stops"));
+  RAVE_TRY_ASSIGN(ticket.releases, robots_of(members, "releases"));
+  RAVE_TRY_ASSIGN(const std::string key, members.text("key", kLongestWord));
+  auto key_bytes = from_base64(key);
+  if (!key_bytes || key_bytes->size() != kPageKeyBytes) {
+    return fail(ErrorCode::kParse, "`key`: expected a point of P-256");
+  }
+  ticket.page_key = *std::move(key_bytes);
+  RAVE_TRY_ASSIGN(ticket.epoch, members.whole("epoch"));
+  RAVE_TRY_ASSIGN(const std::uint64_t expires_s, members.whole("expires"));
+  ticket.expires_s = static_cast<std::int64_t>(expires_s);
+  RAVE_TRY_ASSIGN(ticket.nonce, members.text("nonce", kLongestWord));
+  RAVE_TRY(members.finish());
+  // A name is what leases and logs know a person by; without one it would be the terminal's.
+  if (ticket.user.empty()) return fail(ErrorCode::kParse, "`user`: expected a name");
+  if (ticket.role != "commander" && ticket.role != "super_user") {
+    return fail(ErrorCode::kParse, "`role`: expected commander or super_user");
+  }
+  return ticket;
+}
+
+}  // namespace
+
+std::string sign_ticket(const Ticket& ticket, const SigningKey& key) {
+  const nlohmann::json object = {{"v", 1},
+                                 {"run", ticket.run},
+                                 {"host", ticket.host},
+                                 {"user", ticket.user},
+                                 {"role", ticket.role},
+                                 {"origin", ticket.origin},
+                                 {"orders", json_of(ticket.orders)},
+                                 {"stops", json_of(ticket.stops)},
+                                 {"releases", json_of(ticket.releases)},
+                                 {"key", base64_of(ticket.page_key)},
+                                 {"epoch", ticket.epoch},
+                                 {"expires", ticket.expires_s},
+                                 {"nonce", ticket.nonce}};
+  return sign_text(kTicketWord,
+                   object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), key);
+}
+
+Result<Ticket> verify_ticket(std::string_view text, const PublicKey& key, std::int64_t now_s) {
+  RAVE_TRY_ASSIGN(const std::string content, verify_text(kTicketWord, text, key));
+  RAVE_TRY_ASSIGN(const nlohmann::json object, JsonMembers::parse_object(content, kTicketWord));
+  RAVE_TRY_ASSIGN(Ticket ticket, ticket_of(object));
+  if (ticket.expires_s + kClockSlack_s < now_s) {
+    return fail(ErrorCode::kState, "the ticket has expired {} s ago", now_s - ticket.expires_s);
+  }
+  if (ticket.expires_s > now_s + kTicketLife_s + kClockSlack_s) {
+    return fail(ErrorCode::kState,
+                "the ticket is good for {} s, longer than any: the clocks of this host and the GUI "
+                "Server differ",
+                ticket.expires_s - now_s);
+  }
+  return ticket;
+}
+
+std::string sign_withdrawal(const Withdrawal& withdrawal, const SigningKey& key) {
+  const nlohmann::json object = {
+      {"v", 1}, {"run", withdrawal.run}, {"user", withdrawal.user}, {"epoch", withdrawal.epoch}};
+  return sign_text(kWithdrawalWord,
+                   object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), key);
+}
+
+Result<Withdrawal> verify_withdrawal(std::string_view text, const PublicKey& key) {
+  RAVE_TRY_ASSIGN(const std::string content, verify_text(kWithdrawalWord, text, key));
+  RAVE_TRY_ASSIGN(const nlohmann::json object, JsonMembers::parse_object(content, kWithdrawalWord));
+  JsonMembers members(object);
+  RAVE_TRY(check_version(members));
+  Withdrawal withdrawal;
+  RAVE_TRY_ASSIGN(withdrawal.run, members.text("run", kLongestWord));
+  RAVE_TRY_ASSIGN(withdrawal.user, members.text("user", kLongestWord));
+  RAVE_TRY_ASSIGN(withdrawal.epoch, members.whole("epoch"));
+  RAVE_TRY(members.finish());
+  return withdrawal;
+}
+
+}  // namespace rave::direct_line

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
+import type {PanelContext} from '../panel_api';
+import {icon} from './icons';
+import {controls} from './styles';
+
+/** Which way the orders of this page go, and how long it takes. */
+export class WayChip extends LitElement {
+  declare context: PanelContext;
+  private readonly ends: (() => void)[] = [];
+
+  override connectedCallback(): void {
+    super.connectedCallback();
+    const {link, model} = this.context;
+    const update = () => this.requestUpdate();
+    for (const signal of [link.changed, model.runChanged, ...(link.direct ? [link.direct.changed] : [])]) this.ends.push(signal.on(update));
+  }
+
+  override disconnectedCallback(): void {
+    super.disconnectedCallback();
+    for (const end of this.ends.splice(0)) end();
+  }
+
+  override render(): TemplateResult | typeof nothing {
+    const {link, model} = this.context;
+    const lines = link.direct;
+    if (lines === null || !model.live || !model.may('stop') || model.hello?.seen_by !== undefined) return nothing;
+    const bad = [...lines.lines.values()].filter((line) => line.state !== 'open');
+    const untrusted = bad.find((line) => line.state === 'untrusted');
+    if (untrusted) {
+      const address = `https://${new URL(untrusted.ticket.url).host}/`;
+      return html`<a class="chip warn" href=${address} target="_blank" rel="noopener"
+        title="Most often the browser does not trust the certificate of this host yet: open the address once, or install authority.pem of \`rave keys web\`.">${icon('wifiOff', 14)} Trust ${untrusted.ticket.host}</a>`;
+    }
+    const blocked = bad.find((line) => line.state === 'blocked');
+    if (blocked) {
+      return html`<button class="chip warn" title="The host came after this page, whose policy does not know it." @click=${() => location.reload()}>Reload to reach ${blocked.ticket.host}</button>`;
+    }
+    if (lines.open.length > 0) {
+      const ms = lines.latency_ms;
+      const part = bad.length > 0 ? ` ${lines.open.length} of ${lines.lines.size}` : '';
+      return html`<span class="chip" title="Orders go straight to the hosts of the robots, also without this server.">Direct${part}${ms === null ? '' : ` ${ms < 10 ? ms.toFixed(1) : Math.round(ms)} ms`}</span>`;
+    }
+    if (lines.relay) return html`<span class="chip" title="Orders go through this server.">Via server</span>`;
+    return html`<span class="chip warn" title=${lines.why || 'No host has a direct line (rave robot --web), and the scenario permits no relay (gui: {relay: true}). STOP goes through this server.'}>No orders</span>`;
+  }
+
+  static override styles = [
+    controls,
+    css`
+      :host { display: inline-flex; }
+      .chip { display: inline-flex; align-items: center; gap: 6px; padding: 0 8px; min-height: 24px; border: 1px solid var(--line-2); border-radius: var(--r-3); color: var(--text-2); font-size: var(--fs-12); white-space: nowrap; text-decoration: none; font-variant-numeric: tabular-nums; }
+      .warn { border-color: var(--warn); color: var(--warn); background: var(--warn-soft); }
+      @media (max-width: 599px) { .chip:not(.warn) { display: none; } }
+    `,
+  ];
+}
+
+customElements.define('rave-way', WayChip);

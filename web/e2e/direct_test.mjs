@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// The direct line: orders reach the hosts without the GUI Server.
+// node direct_test.mjs RAVE SCENARIO FOLDER
+import assert from 'node:assert/strict';
+import {execFileSync, spawn} from 'node:child_process';
+import {mkdirSync, readFileSync, rmSync} from 'node:fs';
+import {join} from 'node:path';
+import {launch, startServer} from './browser.mjs';
+import {app, check, report, showFailures, until, untilHere, watch} from './checks.mjs';
+
+const [rave, scenario, folder] = process.argv.slice(2);
+const newest = `${app}.model.poses.newest`;
+const lines = `${app}.link.direct`;
+const chip = 'document.querySelector("rave-app").renderRoot.querySelector("rave-top-bar").renderRoot.querySelector("rave-way").renderRoot.textContent.trim()';
+const bus = ['--run', `direct-${process.pid}`];
+const key = join(folder, 'line');
+
+const kStand_ms = 300;
+
+rmSync(folder, {recursive: true, force: true});
+mkdirSync(folder, {recursive: true});
+execFileSync(rave, ['keys', 'line', key]);
+const hosts = [];
+const servers = [];
+const log = (host) => readFileSync(join(folder, host, 'console.log'), 'utf8');
+const startHost = (host) => hosts.push(spawn(rave, ['robot', scenario, '--host', host, '--web', '127.0.0.1:0', '--web-key', `${key}.pub`, '--quiet', '--no-picture', '--output', join(folder, host), '--replace', ...bus], {stdio: ['ignore', 'ignore', 'inherit']}));
+const startGui = async (port) => {
+  const gui = await startServer(rave, ['gui', scenario, '--line-key', key, ...(port ? ['--port', String(port)] : []), ...bus]);
+  servers.push(gui);
+  return gui;
+};
+
+hosts.push(spawn(rave, ['env', scenario, '--quiet', '--no-picture', '--no-record', '--output', join(folder, 'env'), ...bus], {stdio: ['ignore', 'ignore', 'inherit']}));
+for (const host of ['left', 'right']) startHost(host);
+const browser = await launch();
+try {
+  const context = await browser.newContext({viewport: {width: 1400, height: 900}});
+  const page = await context.newPage();
+  showFailures(page, join(folder, 'failed.png'));
+  let gui = await startGui();
+  const {port} = new URL(gui.link);
+
+  await check('hosts say where their lines are', async () => {
+    for (const host of ['left', 'right']) await untilHere(page, () => /pages reach this host at ws:/.test(log(host)), host, 60000);
+  });
+
+  let seen = null;
+  await check('the page has a line to each host, and says so with its latency', async () => {
+    // The policy of the page lists the hosts that the server knows, which takes a moment.
+    const policy = async () => (await (await fetch(new URL('/', gui.link), {redirect: 'manual'})).headers.get('content-security-policy')) ?? '';
+    const end = Date.now() + 30000;
+    while (((await policy()).match(/ws:\/\/127/g) ?? []).length < 2) assert.ok(Date.now() < end, await policy());
+    seen = watch(page, new URL(gui.link).origin);
+    await page.goto(gui.link);
+    await until(page, `${newest} != null && ${newest}.time_s > 1`, 60000);
+    await until(page, `${lines}.open.length === 2`);
+    await until(page, `/^Direct .* ms$/.test(${chip})`);
+    assert.ok((await page.evaluate(`${lines}.latency_ms`)) < 1000);
+    await page.screenshot({path: join(folder, 'direct.png')});
+  });
+
+  const drive = (robot, v) => page.evaluate(([name, speed]) => document.querySelector('rave-app').link.direct.order({kind: 'drive', robot: name, v: speed, w: 0, echo: true}), [robot, v]);
+  const speed = (slot) => `${newest}.speed[${slot}]`;
+
+  await check('a drive by the line moves the robot', async () => {
+    const first = await drive('anna', 0.3);
+    assert.equal(first.good, true, first.text);
+    await page.evaluate(() => {
+      const {direct} = document.querySelector('rave-app').link;
+      window.stick = setInterval(() => direct.order({kind: 'drive', robot: 'anna', v: 0.3, w: 0}), 33);
+    });
+    await until(page, `${speed(0)} > 0.26`);
+  });
+
+  await check('the server is killed while the stick drives: the robot goes on to obey', async () => {
+    gui.child.kill('SIGKILL');
+    await until(page, `${app}.link.state === 'lost'`);
+    assert.equal(await page.evaluate(`${lines}.open.length`), 2);
+    const answer = await drive('anna', 0.3);
+    assert.equal(answer.good, true, answer.text);
+    await page.screenshot({path: join(folder, 'server-gone.png')});
+  });
+
+  await check('STOP reaches both hosts without the server, and release as well', async () => {
+    await page.evaluate(() => document.querySelector('rave-app').link.send({type: 'halt', do: 'stop', slots: []}));
+    await until(page, `[...${lines}.lines.values()].every((line) => line.stopped.length === 1)`);
+    await page.evaluate(() => document.querySelector('rave-app').link.send({type: 'halt', do: 'release', slots: []}));
+    await until(page, `[...${lines}.lines.values()].every((line) => line.stopped.length === 0)`);
+  });
+
+  await check('the server comes back and so does the page, with its lines', async () => {
+    gui = await startGui(port);
+    // The link is of the server that is gone, whose sessions are gone with it.
+    await page.goto(gui.link);
+    await until(page, `${newest} != null && ${lines}.open.length === 2`, 60000);
+  });
+
+  await check('the robot stands when the page is gone', async () => {
+    const other = await context.newPage();
+    await other.goto(new URL('/', gui.link).href);
+    await until(other, `${newest} != null && ${lines}.open.length === 2`, 60000);
+    await other.evaluate(() => {
+      const {direct} = document.querySelector('rave-app').link;
+      setInterval(() => direct.order({kind: 'drive', robot: 'ben', v: 0.3, w: 0}), 33);
+    });
+    await until(page, `${speed(1)} > 0.26`);
+    await page.evaluate(() => {
+      window.moved = [];
+      window.at = () => performance.now();
+      const app = document.querySelector('rave-app');
+      app.model.pictureChanged.on(() => window.moved.push([performance.now(), app.model.poses.newest.speed[1]]));
+    });
+    const closed_ms = await page.evaluate(() => performance.now());
+    await other.close({runBeforeUnload: false});
+    await until(page, `window.moved.length > 0 && Math.abs(window.moved.at(-1)[1]) < 0.01`);
+    const stood_ms = await page.evaluate(() => window.moved.find(([, speed]) => Math.abs(speed) < 0.01)[0]);
+    console.log(`# stood ${Math.round(stood_ms - closed_ms)} ms after the page was told to close`);
+    assert.ok(stood_ms - closed_ms < kStand_ms + 400, `${stood_ms - closed_ms} ms`);
+  });
+
+  await check('nothing of the page was refused by its policy, and nobody else was asked', async () => {
+    assert.deepEqual(seen.foreign.filter((url) => !url.startsWith('ws://127.0.0.1')), []);
+    assert.deepEqual(seen.errors.filter((error) => !/ERR_CONNECTION|WebSocket/.test(error)), []);
+  });
+} finally {
+  await browser.close();
+  for (const server of servers) server.child.kill('SIGKILL');
+  for (const host of hosts) host.kill('SIGKILL');
+}
+report();
+process.exit(0);

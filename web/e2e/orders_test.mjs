@@ -323,6 +323,7 @@ try {
   for (const [name, width, height] of [['phone', 390, 844], ['pen', 480, 640]]) {
     await check(`${name}: long press opens the menu, a drag draws a path, a finger drives`, async () => {
       server.run.components = [];
+      server.run.state = 'paused';
       const small = await browser.newContext({viewport: {width, height}, hasTouch: true, isMobile: true});
       const hand = await opened(small);
       showFailures(hand, join(folder, `failure-${name}.png`));

@@ -215,7 +215,7 @@ int stop_robots(const StopCommand& options) {
   if (!options.all) return stop_run(options, request);
   if (!options.run.empty() || !options.robot.empty() || options.bus.says_where()) {
     return complain({ErrorCode::kInvalidArgument,
-                     "--all stops the runs of this machine only; stop a run of other machines by "
+                     "--all stops only runs on this machine; stop a run of other machines by "
                      "its name (`rave ps --network` lists them)",
                      {}});
   }

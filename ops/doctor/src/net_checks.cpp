@@ -61,7 +61,7 @@ Finding check_peers(const Machine& machine, const bus::BusConfig& config,
   const bool local = config.loopback() && addresses.empty();
   if (local) return {"peers", Verdict::kGood, "this machine only", {}};
   if (addresses.empty() && !multicast) {
-    return {"peers", Verdict::kProblem, "without peers and without multicast nobody is found",
+    return {"peers", Verdict::kProblem, "without peers and without multicast, no process is found",
             "--peer ADDRESS    # of each machine that takes part, this one included"};
   }
   if (!self && !multicast) {

@@ -113,7 +113,7 @@ std::string write_probe(const Probe& probe, std::size_t least) {
 
 Result<Probe> parse_probe(std::string_view bytes) {
   const auto refused = [](std::string_view why) {
-    return fail(ErrorCode::kParse, "this is no message of a doctor: {}", why);
+    return fail(ErrorCode::kParse, "this is not a message of a doctor: {}", why);
   };
   // Nothing of ours is nested deeper, and a parser that recurses must not be led down.
   if (std::ranges::count(bytes, '{') > 2 || bytes.find('[') != std::string_view::npos) {

@@ -15,6 +15,7 @@
 #include "describe.hpp"
 #include "layout.hpp"
 #include "link.hpp"
+#include "order_bytes.hpp"
 #include "setup_copy.hpp"
 #include "shared_memory.hpp"
 
@@ -36,6 +37,10 @@ struct IsolatedProgram::Impl {
                   layout.command_count * sizeof(Command));
     }
     copy_messages_out(item);
+    const SharedAnswers said = *memory.at<SharedAnswers>(layout.answers);
+    if (said.count > 0) {
+      take_answers(said, memory.at<std::byte>(layout.answers + sizeof said), item);
+    }
   }
   void copy_messages_out(const DecideItem& item) const;
 
@@ -66,6 +71,9 @@ Status IsolatedProgram::Impl::copy_in(const DecideItem& item) const {
   RAVE_TRY(copy_messages_in(item));
   *memory.at<SharedDecide>(layout.decide) = {item.now_ns, item.pose, item.decision, item.robot,
                                              item.seed};
+  *memory.at<SharedOrders>(layout.orders) =
+      write_orders(item, memory.at<std::byte>(layout.orders + sizeof(SharedOrders)));
+  *memory.at<SharedAnswers>(layout.answers) = {};
   if (layout.command_count > 0) {
     std::memcpy(memory.at<Command>(layout.commands), item.commands,
                 layout.command_count * sizeof(Command));

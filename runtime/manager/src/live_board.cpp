@@ -67,7 +67,7 @@ LiveBoard::LiveBoard(const LiveManagerOptions& options, Parts parts)
 
 Result<std::unique_ptr<LiveBoard>> LiveBoard::open(const LiveManagerOptions& options) {
   RAVE_TRY_ASSIGN(auto endpoint, ManagerEndpoint::open(options.bus, options.identity, options.log,
-                                                       options.begin_wish));
+                                                       options.begin_wish, {}));
   bus::Bus& bus = endpoint->bus();
   RAVE_TRY_ASSIGN(auto worlds, bus::Writer<bus::World>::create(bus));
   RAVE_TRY_ASSIGN(auto pongs, bus::Writer<bus::ClockPong>::create(bus));

@@ -12,6 +12,7 @@ struct ManagerEndpoint::Parts {
   bus::Reader<bus::HostInfo> infos;
   bus::Reader<bus::RosterEntry> roster;
   std::unique_ptr<bus::WishBox> wishes;
+  std::unique_ptr<bus::CommandBox> commands;
   lock_step::Pulse pulse;
   lock_step::FindingsCollector findings;
 };
@@ -25,6 +26,7 @@ ManagerEndpoint::ManagerEndpoint(Parts parts)
       infos_(std::move(parts.infos)),
       roster_(std::move(parts.roster)),
       wishes_(std::move(parts.wishes)),
+      commands_(std::move(parts.commands)),
       pulse_(std::move(parts.pulse)),
       findings_(std::move(parts.findings)),
       introduced_(lock_step::introduction(identity_)) {}
@@ -32,23 +34,26 @@ ManagerEndpoint::ManagerEndpoint(Parts parts)
 Result<std::unique_ptr<ManagerEndpoint>> ManagerEndpoint::open(const bus::BusConfig& config,
                                                                lock_step::Identity identity,
                                                                LogSink* log,
-                                                               bus::BeginWish begin_wish) {
+                                                               bus::BeginWish begin_wish,
+                                                               bus::OnCommand on_command) {
   RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
   RAVE_TRY_ASSIGN(auto states, bus::Writer<bus::RunState>::create(*bus));
   RAVE_TRY_ASSIGN(auto own_info, bus::Writer<bus::HostInfo>::create(*bus));
   RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
   RAVE_TRY_ASSIGN(auto roster, bus::Reader<bus::RosterEntry>::create(*bus));
   RAVE_TRY_ASSIGN(auto wishes, bus::WishBox::create(*bus, std::move(begin_wish), log));
+  RAVE_TRY_ASSIGN(auto commands, bus::CommandBox::create(*bus, std::move(on_command)));
   RAVE_TRY_ASSIGN(auto pulse, lock_step::Pulse::create(*bus, identity));
   RAVE_TRY_ASSIGN(auto findings, lock_step::FindingsCollector::create(*bus));
-  return std::unique_ptr<ManagerEndpoint>(
-      new ManagerEndpoint({std::move(identity), log, std::move(bus), std::move(states),
-                           std::move(own_info), std::move(infos), std::move(roster),
-                           std::move(wishes), std::move(pulse), std::move(findings)}));
+  return std::unique_ptr<ManagerEndpoint>(new ManagerEndpoint(
+      {std::move(identity), log, std::move(bus), std::move(states), std::move(own_info),
+       std::move(infos), std::move(roster), std::move(wishes), std::move(commands),
+       std::move(pulse), std::move(findings)}));
 }
 
 Status ManagerEndpoint::wake(bus::WaitSet& waits) {
   RAVE_TRY(findings_.wake(waits));
+  if (commands_) RAVE_TRY(commands_->wake(waits));
   return wishes_ ? wishes_->wake(waits) : Status();
 }
 

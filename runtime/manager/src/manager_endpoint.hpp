@@ -11,6 +11,7 @@
 #include "manager_habits.hpp"
 #include "rave/base/log.hpp"
 #include "rave/base/result.hpp"
+#include "rave/bus/command_box.hpp"
 #include "rave/bus/event_log.hpp"
 #include "rave/bus/standstill.hpp"
 #include "rave/bus/wait_set.hpp"
@@ -28,12 +29,13 @@ namespace rave::manager {
 /// Belongs to one thread.
 class ManagerEndpoint {
  public:
-  /// `begin_wish` may be empty: nobody on the bus can ask anything. `log` is not owned and may be
-  /// null. Errors: those of bus::Bus::open().
+  /// `begin_wish` and `on_command` may be empty: nobody on the bus can ask anything, or drive.
+  /// `log` is not owned and may be null. Errors: those of bus::Bus::open().
   [[nodiscard]] static Result<std::unique_ptr<ManagerEndpoint>> open(const bus::BusConfig& config,
                                                                      lock_step::Identity identity,
                                                                      LogSink* log,
-                                                                     bus::BeginWish begin_wish);
+                                                                     bus::BeginWish begin_wish,
+                                                                     bus::OnCommand on_command);
 
   /// For the topics that only one kind of run has.
   [[nodiscard]] bus::Bus& bus() noexcept { return *bus_; }
@@ -53,6 +55,7 @@ class ManagerEndpoint {
   /// Begins what others ask on the bus, and answers what is done.
   void serve_requests() {
     if (wishes_) wishes_->serve();
+    if (commands_) commands_->serve();
   }
 
   /// Learns who is there; returns the processes that are gone. Before the run has `begun`, this
@@ -94,7 +97,8 @@ class ManagerEndpoint {
   bus::Writer<bus::HostInfo> own_info_;
   bus::Reader<bus::HostInfo> infos_;
   bus::Reader<bus::RosterEntry> roster_;
-  std::unique_ptr<bus::WishBox> wishes_;  ///< May be null.
+  std::unique_ptr<bus::WishBox> wishes_;       ///< May be null.
+  std::unique_ptr<bus::CommandBox> commands_;  ///< May be null.
   lock_step::Pulse pulse_;
   lock_step::FindingsCollector findings_;
   bus::HostInfo introduced_;                        ///< What the others are told of this process.

@@ -25,9 +25,11 @@ SteppedEndpoint::SteppedEndpoint(Parts parts)
 Result<std::unique_ptr<SteppedEndpoint>> SteppedEndpoint::open(const bus::BusConfig& config,
                                                                lock_step::Identity identity,
                                                                LogSink* log,
-                                                               bus::BeginWish begin_wish) {
+                                                               bus::BeginWish begin_wish,
+                                                               bus::OnCommand on_command) {
   RAVE_TRY_ASSIGN(auto endpoint,
-                  ManagerEndpoint::open(config, std::move(identity), log, std::move(begin_wish)));
+                  ManagerEndpoint::open(config, std::move(identity), log, std::move(begin_wish),
+                                        std::move(on_command)));
   bus::Bus& bus = endpoint->bus();
   RAVE_TRY_ASSIGN(auto worlds, bus::Writer<bus::WorldStep>::create(bus));
   RAVE_TRY_ASSIGN(auto reports, bus::Reader<bus::HostReport>::create(bus));

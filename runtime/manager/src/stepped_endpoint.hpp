@@ -16,12 +16,13 @@ namespace rave::manager {
 /// What the manager of a run in lock-step does with the bus. Belongs to one thread.
 class SteppedEndpoint {
  public:
-  /// `begin_wish` may be empty: nobody on the bus can ask anything. Errors: those of
-  /// bus::Bus::open().
+  /// `begin_wish` and `on_command` may be empty: nobody on the bus can ask anything. Errors: those
+  /// of bus::Bus::open().
   [[nodiscard]] static Result<std::unique_ptr<SteppedEndpoint>> open(const bus::BusConfig& config,
                                                                      lock_step::Identity identity,
                                                                      LogSink* log,
-                                                                     bus::BeginWish begin_wish);
+                                                                     bus::BeginWish begin_wish,
+                                                                     bus::OnCommand on_command);
 
   /// Sleeps until something has come, the time is over or `stop` is set.
   void wait(Duration timeout, const std::stop_token& stop = {}) {

@@ -3,7 +3,7 @@
 #include <future>
 #include <map>
 
-#include "host_fixture.hpp"
+#include "rave/assemble_testing/host_fixture.hpp"
 #include "rave/base/file.hpp"
 #include "rave/host/run.hpp"
 #include "rave/observe/run_observer.hpp"

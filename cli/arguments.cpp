@@ -133,6 +133,10 @@ Command chosen_command(const CLI::App& root, const Everything& all) {
   if (name == "set") return all.control.set;
   if (name == "hand-over") return all.control.hand_over;
   if (name == "shadow") return all.control.shadow;
+  if (name == "drive") return all.control.drive;
+  if (name == "goal") return all.control.goal;
+  if (name == "say") return all.control.say;
+  if (name == "place") return all.control.place;
   if (name == "bench") {
     if (chosen_app(root).get_name() == "swarm") return all.bench_swarm;
     return all.bench_compare;

@@ -114,6 +114,8 @@ std::string state_text(const runtime::RunStatus::Robot& robot) {
                         rad_to_deg(hand_over.yaw_rad));
     if (hand_over.under_way) text += ", being handed over";
   }
+  if (!robot.order.empty()) text += ", " + robot.order;
+  if (!robot.lease.empty()) text += fmt::format(", `{}` drives it", robot.lease);
   if (robot.shadow && robot.shadow->running) {
     text += fmt::format(", shadow {:.3f} m away", robot.shadow->m);
   }

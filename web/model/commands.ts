@@ -46,7 +46,7 @@ export class Commands {
       this.changed.emit();
     });
     link.changed.on(() => {
-      if (link.state === 'open') return;
+      if (link.reaches) return;
       for (const [request, done] of [...this.open]) done({type: 'answer', to: 'link', good: false, text: 'The link was lost.', request});
       this.open.clear();
     });
@@ -55,7 +55,7 @@ export class Commands {
   /** Sends a request; the answer of the run. Never rejects. */
   ask(request: Request): Promise<Answer> {
     const number = ++this.number;
-    if (this.link.state !== 'open') return Promise.resolve({type: 'answer', to: request.type, good: false, text: 'There is no link to the server.', request: number});
+    if (!this.link.reaches) return Promise.resolve({type: 'answer', to: request.type, good: false, text: 'There is no link to the server.', request: number});
     return new Promise((done) => {
       this.open.set(number, done);
       this.link.send({...request, request: number} as PageMessage);

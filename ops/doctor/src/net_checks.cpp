@@ -135,7 +135,7 @@ Finding check_own_way(const Machine& machine, const bus::BusConfig& config) {
             fmt::format("what {} sends to its own UDP port {} does not arrive: a packet filter "
                         "drops it",
                         address, port),
-            fmt::format("sudo nft insert rule inet filter input udp dport {}-{} accept",
+            fmt::format("sudo nft list ruleset    # shows its rules; let UDP {} to {} in",
                         first_port(domain), last_port(domain))};
   }
   return {"self", Verdict::kUnknown, "no port is free to try it on", {}};

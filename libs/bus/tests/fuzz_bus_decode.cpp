@@ -40,14 +40,28 @@ void receive_short(std::span<const std::byte> bytes, bool /*swapped*/) {
 }
 
 using Receive = void (*)(std::span<const std::byte>, bool);
-constexpr Receive kTopics[] = {
-    receive<HostState>,      receive<World>,        receive<RosterEntry>,
-    receive<Obstacle>,       receive<Edit>,         receive<Command>,
-    receive<Packet>,         receive<HostInfo>,     receive<ClockPing>,
-    receive<ClockPong>,      receive<HostReport>,   receive<WorldStep>,
-    receive<RunState>,       receive<ProcessState>, receive<FindingsPart>,
-    receive<Wish>,           receive<WishAnswer>,   receive_short<HostReport>,
-    receive_short<WorldStep>};
+constexpr Receive kTopics[] = {receive<HostState>,
+                               receive<World>,
+                               receive<RosterEntry>,
+                               receive<Obstacle>,
+                               receive<Edit>,
+                               receive<Command>,
+                               receive<Packet>,
+                               receive<HostInfo>,
+                               receive<ClockPing>,
+                               receive<ClockPong>,
+                               receive<HostReport>,
+                               receive<WorldStep>,
+                               receive<RunState>,
+                               receive<ProcessState>,
+                               receive<FindingsPart>,
+                               receive<Wish>,
+                               receive<WishAnswer>,
+                               receive_short<HostReport>,
+                               receive_short<WorldStep>,
+                               receive<Look>,
+                               receive<Readings>,
+                               receive<RunEvents>};
 
 }  // namespace
 

@@ -79,7 +79,9 @@ LiveBoard::LiveBoard(const LiveManagerOptions& options, Parts parts)
 }
 
 Result<std::unique_ptr<LiveBoard>> LiveBoard::open(const LiveManagerOptions& options) {
-  RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(options.bus));
+  bus::BusConfig config = options.bus;
+  config.side = bus::Side::kManager;
+  RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
   RAVE_TRY_ASSIGN(auto own_info, bus::Writer<bus::HostInfo>::create(*bus));
   RAVE_TRY_ASSIGN(auto worlds, bus::Writer<bus::World>::create(*bus));
   RAVE_TRY_ASSIGN(auto runs, bus::Writer<bus::RunState>::create(*bus));

@@ -45,7 +45,9 @@ Switchboard::Switchboard(Parts parts)
 Result<std::unique_ptr<Switchboard>> Switchboard::open(const bus::BusConfig& config,
                                                        lock_step::Identity identity, LogSink* log,
                                                        bus::BeginWish begin_wish) {
-  RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
+  bus::BusConfig own = config;
+  own.side = bus::Side::kManager;
+  RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(own));
   RAVE_TRY_ASSIGN(auto worlds, bus::Writer<bus::WorldStep>::create(*bus));
   RAVE_TRY_ASSIGN(auto states, bus::Writer<bus::RunState>::create(*bus));
   RAVE_TRY_ASSIGN(auto own_info, bus::Writer<bus::HostInfo>::create(*bus));

@@ -3,56 +3,25 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-#include <iterator>
+#include <utility>
 
 namespace rave::gui_server {
 
 namespace {
 
-constexpr auto kStatusEvery = std::chrono::seconds(1);
-constexpr Duration kStatusPatience = from_seconds(1);
-
-/// In lock-step the manager has the say, in real time each host of its robots.
+/// Hosts have the say of their robots with both clocks, and no manager is needed for a stop.
 bool has_the_say(const run_control::BusPeer& peer, const std::string& /*scenario*/) {
-  return !peer.manager || !peer.live;
+  return !peer.manager;
 }
 
 }  // namespace
 
-BusPort::BusPort(std::unique_ptr<run_control::BusRun> bus,
-                 std::unique_ptr<run_control::BusRun> status)
-    : bus_(std::move(bus)),
-      status_(std::move(status)),
-      thread_([this](const std::stop_token& stop) { work(stop); }),
-      watcher_([this](const std::stop_token& stop) { watch(stop); }) {}
+BusPort::BusPort(std::unique_ptr<run_control::BusRun> bus)
+    : bus_(std::move(bus)), thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
 BusPort::~BusPort() {
-  for (std::jthread* const thread : {&watcher_, &thread_}) {
-    thread->request_stop();
-    thread->join();
-  }
-}
-
-std::vector<robot_host::RunStatus::Robot> BusPort::robots() const {
-  const std::lock_guard lock(mutex_);
-  return robots_;
-}
-
-void BusPort::watch(const std::stop_token& stop) {
-  while (!stop.stop_requested()) {
-    std::vector<robot_host::RunStatus::Robot> robots;
-    for (run_control::BusReply& reply :
-         status_->ask_each(run_control::Request{}, has_the_say, kStatusPatience)) {
-      if (!reply.answer || !reply.answer->good) continue;
-      auto& told = reply.answer->status.robots;
-      robots.insert(robots.end(), std::make_move_iterator(told.begin()),
-                    std::make_move_iterator(told.end()));
-    }
-    std::unique_lock lock(mutex_);
-    robots_ = std::move(robots);
-    changed_.wait_for(lock, stop, kStatusEvery, [] { return false; });
-  }
+  thread_.request_stop();
+  thread_.join();
 }
 
 Result<std::future<Result<std::string>>> BusPort::post(robot_host::RunRequest request) {

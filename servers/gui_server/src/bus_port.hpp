@@ -12,13 +12,11 @@
 
 namespace rave::gui_server {
 
-/// Stops and releases robots of a run over its bus, in a thread of its own: in lock-step through
-/// the manager, in real time through each host. Another thread asks who is stopped, so that a stop
-/// never waits for that.
+/// Stops and releases robots of a run over its bus, in a thread of its own: through each
+/// host.
 class BusPort final : public RunPort {
  public:
-  /// Two ends of the bus of the run.
-  BusPort(std::unique_ptr<run_control::BusRun> bus, std::unique_ptr<run_control::BusRun> status);
+  explicit BusPort(std::unique_ptr<run_control::BusRun> bus);
   BusPort(const BusPort&) = delete;
   BusPort& operator=(const BusPort&) = delete;
   ~BusPort() override;
@@ -32,7 +30,6 @@ class BusPort final : public RunPort {
   void resume() override {}
   void step(std::uint64_t /*count*/) override {}
   void set_pace(double /*factor*/) override {}
-  [[nodiscard]] std::vector<robot_host::RunStatus::Robot> robots() const override;
   [[nodiscard]] Result<std::future<Result<std::string>>> post(
       robot_host::RunRequest request) override;
 
@@ -40,17 +37,13 @@ class BusPort final : public RunPort {
   using Answer = Result<std::string>;
 
   void work(const std::stop_token& stop);
-  void watch(const std::stop_token& stop);
   [[nodiscard]] Answer ask(const robot_host::RunRequest& request);
 
   std::unique_ptr<run_control::BusRun> bus_;
-  std::unique_ptr<run_control::BusRun> status_;
-  mutable std::mutex mutex_;
+  std::mutex mutex_;
   std::condition_variable_any changed_;
   std::deque<std::pair<robot_host::RunRequest, std::promise<Answer>>> waiting_;
-  std::vector<robot_host::RunStatus::Robot> robots_;
   std::jthread thread_;
-  std::jthread watcher_;
 };
 
 }  // namespace rave::gui_server

@@ -13,7 +13,6 @@ namespace {
 constexpr std::size_t kMostPast = 2'000'000;
 /// Over so long the speed of a run is measured.
 constexpr auto kMeasure = std::chrono::milliseconds(500);
-constexpr auto kStatusInterval = std::chrono::milliseconds(250);
 constexpr double kFastestRun = 1000;
 constexpr double kSlowestRun = 1.0 / 64;
 
@@ -81,9 +80,6 @@ LiveSource::LiveSource(Start start, std::shared_ptr<LiveBox> box, std::unique_pt
     : start_(std::move(start)), box_(std::move(box)), port_(std::move(port)), fold_(start_.robots) {
   write_bodies();
   state_.duration_s = start_.about.duration_s;
-  for (std::uint32_t slot = 0; slot < start_.robots.size(); ++slot) {
-    slots_.emplace(start_.robots[slot], slot);
-  }
 }
 
 Powers LiveSource::powers() const {
@@ -115,7 +111,6 @@ void LiveSource::tick(Playhead::Clock::time_point now, const Audience& audience)
     box_->wants.publish();
   }
   take_news();
-  learn_flags(now);
   take_picture(now);
   answer_asked();
   const std::lock_guard lock(mutex_);
@@ -152,9 +147,6 @@ void LiveSource::take_picture(Playhead::Clock::time_point now) {
   if (box_->pictures.take()) {
     poses_ = picture().poses;
     const PosesAt& poses = poses_;
-    for (std::size_t r = 0; r < std::min(flags_.size(), poses_.robots.size()); ++r) {
-      poses_.robots[r].flags = static_cast<std::uint16_t>(poses_.robots[r].flags | flags_[r]);
-    }
     state_.now_s = state_.end_s = poses.time_s;
     state_.begin_s = poses.time_s;
     state_.picture = poses.serial;
@@ -174,20 +166,6 @@ void LiveSource::take_picture(Playhead::Clock::time_point now) {
   measured_at_ = now;
   measured_s_ = state_.now_s;
   state_.pace = port_->pace();
-}
-
-/// A picture that comes over a bus does not say who is stopped.
-void LiveSource::learn_flags(Playhead::Clock::time_point now) {
-  if (!picture().standing || now - flags_at_ < kStatusInterval) return;
-  flags_at_ = now;
-  flags_.assign(start_.robots.size(), 0);
-  for (const robot_host::RunStatus::Robot& robot : port_->robots()) {
-    const auto slot = slots_.find(robot.name);
-    if (slot == slots_.end()) continue;
-    std::uint16_t& flags = flags_[slot->second];
-    if (robot.stopped) flags |= kStopped;
-    if (!robot.armed) flags |= kUnarmed;
-  }
 }
 
 void LiveSource::write_bodies() {

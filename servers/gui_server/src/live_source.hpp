@@ -59,7 +59,7 @@ class LiveSource : public Source {
 
   // For its cursors and playheads.
   [[nodiscard]] const LivePicture& picture() const noexcept { return box_->pictures.value(); }
-  /// The newest poses, with what is known of stops.
+  /// The newest poses.
   [[nodiscard]] const PosesAt& poses() const noexcept { return poses_; }
   /// Poses of the last 20 s, for trails; older ones first.
   [[nodiscard]] const std::deque<PosesAt>& past() const noexcept { return past_; }
@@ -80,7 +80,6 @@ class LiveSource : public Source {
   void take_picture(Playhead::Clock::time_point now);
   void write_bodies();
   void answer_asked();
-  void learn_flags(Playhead::Clock::time_point now);
 
   Start start_;
   std::shared_ptr<LiveBox> box_;
@@ -90,9 +89,6 @@ class LiveSource : public Source {
   std::uint64_t bodies_revision_ = 0;
   EventFold fold_;
   PosesAt poses_;
-  std::map<std::string, std::uint32_t, std::less<>> slots_;
-  std::vector<std::uint16_t> flags_;  ///< By robot: what the port knows beside the picture.
-  Playhead::Clock::time_point flags_at_{};
   std::deque<PosesAt> past_;
   PlayState state_;
   LiveWants wants_;

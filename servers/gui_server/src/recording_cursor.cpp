@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "rave/base/time.hpp"
+#include "rave/onlook/reading_rows.hpp"
 #include "rave/record/run_messages.hpp"
-#include "reading_rows.hpp"
 
 namespace rave::gui_server {
 namespace {
@@ -133,8 +133,10 @@ std::vector<ReadingAt> RecordingCursor::readings(std::span<const LookedAt> senso
       reading.sensor = key.sensor;
       reading.part = part;
       reading.stamp_s = static_cast<double>(percept.header.stamp_ns) * 1e-9;
-      fill_rows(static_cast<ReadingKind>(percept.kind), percept.header.count, percept.records,
-                reading);
+      const auto kind = static_cast<ReadingKind>(percept.kind);
+      reading.values.clear();
+      reading.fields = onlook::field_count(kind);
+      reading.rows = onlook::add_rows(kind, percept.header.count, percept.records, reading.values);
     }
   }
   std::vector<ReadingAt> readings;

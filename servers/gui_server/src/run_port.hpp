@@ -3,7 +3,6 @@
 
 #include <future>
 #include <string>
-#include <vector>
 
 #include "rave/base/result.hpp"
 #include "rave/robot_host/run_control.hpp"
@@ -22,8 +21,6 @@ class RunPort {
   virtual void resume() = 0;
   virtual void step(std::uint64_t count) = 0;
   virtual void set_pace(double factor) = 0;
-  /// Which robots are stopped or wait to be armed, by name; nothing if that is not known here.
-  [[nodiscard]] virtual std::vector<robot_host::RunStatus::Robot> robots() const = 0;
   /// kStop and kRelease. The answer comes later. Error: kState (no run is under way).
   [[nodiscard]] virtual Result<std::future<Result<std::string>>> post(
       robot_host::RunRequest request) = 0;
@@ -43,9 +40,6 @@ class LocalPort final : public RunPort {
   void resume() override { control_.resume(); }
   void step(std::uint64_t count) override { control_.step(count); }
   void set_pace(double factor) override { control_.set_pace(factor); }
-  [[nodiscard]] std::vector<robot_host::RunStatus::Robot> robots() const override {
-    return control_.status().robots;
-  }
   [[nodiscard]] Result<std::future<Result<std::string>>> post(
       robot_host::RunRequest request) override {
     return control_.post(std::move(request));

@@ -8,8 +8,8 @@
 #include "rave/config/map_image.hpp"
 #include "rave/math/scalar.hpp"
 #include "rave/math/transform.hpp"
+#include "rave/onlook/reading_rows.hpp"
 #include "rave/robot/reading.hpp"
-#include "reading_rows.hpp"
 
 namespace rave::gui_server {
 namespace {
@@ -86,7 +86,7 @@ Json sensor_json(const record::RecordedSensor& sensor, const config::SensorFile*
                {"mount", pose_json(sensor.X_RS)},
                {"z", sensor.z_m},
                {"period_s", sensor.period_s},
-               {"fields", fields_of(kind)}};
+               {"fields", onlook::fields_of(kind)}};
   if (kind == ReadingKind::kRanges) {
     json["range"] = Json::array({sensor.range_min_m, sensor.range_max_m});
     json["bearings"] = sensor.bearings_rad;

@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 
+#include "frames.hpp"
 #include "page_message.hpp"
 #include "rave/gui_server/person.hpp"
 #include "rave/gui_server/source.hpp"
@@ -67,6 +68,7 @@ class Session {
   void send_past(double now_s);
   void send_frame(SharedFrames& frames);
   void send_readings();
+  void send_variances();
   void send_time(const PlayState& state);
   void send_news();
   void answer(std::string_view to, bool good, std::string_view text);
@@ -84,6 +86,7 @@ class Session {
   std::uint32_t sequence_ = 0;
   std::deque<std::uint32_t> on_their_way_;
   std::map<std::pair<LookedAt, std::uint8_t>, double> told_;  ///< Stamp of what was sent last.
+  std::vector<VarianceAt> told_variances_;
   std::uint64_t told_events_ = 0;
   std::uint64_t told_bodies_ = 0;
   std::uint64_t told_hosts_ = 0;

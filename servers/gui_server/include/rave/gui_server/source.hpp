@@ -60,6 +60,9 @@ struct RobotState {
   double yaw_rad = 0;
   double speed_mps = 0;  ///< Over ground, forward positive.
   std::uint16_t flags = 0;
+  /// Of the reported pose: of each of x and y, and of the heading. 0: not known. Live runs alone.
+  float variance_xy_m2 = 0;
+  float variance_yaw_rad2 = 0;
 };
 
 /// Where all robots are at one moment; by index of the roster.

@@ -23,11 +23,12 @@ std::uint64_t ns_of(double time_s) {
 }  // namespace
 
 RecordingCursor::RecordingCursor(const record::McapReader& reader, const FlagHistory& flags,
-                                 const std::vector<std::uint8_t>& real, double step_s,
-                                 double longest_period_s)
+                                 const std::vector<std::uint8_t>& real, const BodyHistory& bodies,
+                                 double step_s, double longest_period_s)
     : reader_(reader),
       flags_(flags),
       real_(real),
+      bodies_(bodies),
       step_s_(step_s),
       look_back_s_(std::min(longest_period_s, kMostBack_s) + 2 * step_s) {
   if (const auto* const poses = reader.channel(record::topic::kPoses)) poses_channel_ = poses->id;

@@ -234,6 +234,9 @@ void Session::tick(Clock::time_point now, SharedFrames& frames) {
     broken_ = true;
     return;
   }
+  if (auto bodies = cursor_->take_bodies(); !bodies.empty()) {
+    socket_.send_text(payload(std::move(bodies)));
+  }
   send_readings();
   send_variances();
   send_frame(frames);

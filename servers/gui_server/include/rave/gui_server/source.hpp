@@ -113,6 +113,9 @@ class Cursor {
   /// The newest readings of `sensors` at this moment.
   [[nodiscard]] virtual std::vector<ReadingAt> readings(std::span<const LookedAt> sensors,
                                                         bool parts) = 0;
+  /// The message `scene_change` that leads from the bodies of the start, or of the last call, to
+  /// those of this moment; empty: nothing changed, or they are those of the source for everybody.
+  [[nodiscard]] virtual std::string take_bodies() { return {}; }
 };
 
 /// Where a page is in the time of a run, and what that time does.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs of several processes on the page: node hosts_test.mjs RAVE SCENARIO FOLDER
 import assert from 'node:assert/strict';
-import {spawn} from 'node:child_process';
+import {execFileSync, spawn} from 'node:child_process';
 import {mkdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {launch, startServer} from './browser.mjs';
@@ -36,9 +36,21 @@ try {
     await until(page, `${app}.model.hosts.filter((host) => host.state === 'here').length === 4`);
   });
 
+  await check('the scan of a robot that is looked at, of each process', async () => {
+    for (const slot of [0, 5, 9]) {
+      const name = await page.evaluate(`${app}.model.robots[${slot}].name`);
+      await page.locator('rave-robots .row', {hasText: name}).first().click();
+      await until(page, `(() => { const a = ${app}; if (a.selection.primary !== ${slot}) return false;
+        const laser = a.model.robots[${slot}].sensors.findIndex((sensor) => sensor.kind === 'ranges');
+        const reading = a.model.readings.of(${slot}, laser);
+        return reading?.rows > 1 && ${newest}.time_s - reading.stamp_s < 1; })()`);
+    }
+  });
+
   await check('they are stopped and released, held and go on', async () => {
     await say(page, {type: 'halt', do: 'stop', slots: []});
     await until(page, `${stopped} === ${app}.model.robots.length`);
+    await until(page, `${app}.model.events.filter((event) => event.kind === 'stopped').length === ${app}.model.robots.length`);
     await say(page, {type: 'halt', do: 'release', slots: []});
     await until(page, `${stopped} === 0`);
     await say(page, {type: 'transport', do: 'pause'});
@@ -47,21 +59,47 @@ try {
     await until(page, `${app}.model.time.state === 'running'`);
   });
 
+  await check('an obstacle that somebody adds stands on the page, moves and goes', async () => {
+    const edit = (...words) => execFileSync(rave, ['edit', String(servers[0].child.pid), ...words], {stdio: ['ignore', 'ignore', 'inherit']});
+    const parcel = `[...${app}.model.bodies.values()].find((body) => body.name === 'parcel')`;
+    edit('add', 'box', '--name', 'parcel', '--at', '4,4', '--size', '0.3x0.3');
+    await until(page, `${parcel}?.kind === 'virtual' && ${parcel}.pose[0] === 4`);
+    edit('move', 'parcel', '--at', '4.5,4');
+    await until(page, `${parcel}?.pose[0] === 4.5`);
+    const told = (kind) => `${app}.model.events.filter((event) => event.kind === '${kind}' && event.count === 1).length`;
+    await until(page, `${told('obstacle added')} === 1 && ${told('obstacle moved')} === 1`);
+    edit('remove', 'parcel');
+    await until(page, `${parcel} === undefined`);
+  });
+
   await check('the run that is over turns into its replay, merged from all recordings', async () => {
     await until(page, `${app}.model.hello.run.source === 'replay'`, 90000);
     assert.match(await page.evaluate(`${app}.model.hello.run.hash`), /^[0-9a-f]{16}$/);
     await until(page, `${newest} !== null && [...${newest}.flags].every((flags) => flags & 1)`);
+    // Obstacles come, move and go again as they did.
+    const at = (kind) => page.evaluate(`${app}.model.events.find((event) => event.kind === 'obstacle ${kind}').t`);
+    const [added, moved, removed] = [await at('added'), await at('moved'), await at('removed')];
+    const parcel = `[...${app}.model.bodies.values()].find((body) => body.name === 'parcel')`;
+    await say(page, {type: 'transport', do: 'pause'});
+    await say(page, {type: 'transport', do: 'seek', value: (added + moved) / 2});
+    await until(page, `${parcel}?.pose[0] === 4 && ${parcel}.shapes.length === 1`);
+    await say(page, {type: 'transport', do: 'seek', value: (moved + removed) / 2});
+    await until(page, `${parcel}?.pose[0] === 4.5`);
+    await say(page, {type: 'transport', do: 'seek', value: removed + 0.1});
+    await until(page, `${parcel} === undefined`);
+    await say(page, {type: 'transport', do: 'seek', value: (added + moved) / 2});
+    await until(page, `${parcel}?.pose[0] === 4`);
     await servers[0].end();
     assert.equal(JSON.parse(readFileSync(join(folder, 'run', 'result.json'))).whole, true);
   });
 
+  const shared = ['--processes', '2', '--quiet', '--no-picture', '--no-record', '--duration', '120', '--pace', 'realtime', ...tag];
   await check('a server beside the run: it waits, sees it come, and stops robots', async () => {
     const gui = await startServer(rave, ['gui', scenario, '--processes', '2', ...tag]);
     servers.push(gui);
     const other = await context.newPage();
     await other.goto(gui.link);
     await until(other, `${app}?.model?.time?.state === 'waiting'`);
-    const shared = ['--processes', '2', '--quiet', '--no-picture', '--no-record', '--duration', '60', '--pace', 'realtime', ...tag];
     for (const words of [['env'], ['robot', '--host', 'host-1'], ['robot', '--host', 'host-2']]) {
       const [command, ...more] = words;
       children.push(spawn(rave, [command, scenario, ...more, ...shared, '--output', join(folder, words.join('-'))], {stdio: 'ignore'}));
@@ -72,14 +110,71 @@ try {
     await until(other, `${stopped} === ${app}.model.robots.length`);
     // What it does is seen: nobody moves any more.
     await until(other, `[...${newest}.speed].every((speed) => Math.abs(speed) < 0.002)`);
-    await gui.end();
-    assert.equal(children[0].exitCode, null);
+    await say(other, {type: 'halt', do: 'release', slots: []});
+    await until(other, `${stopped} === 0`);
+  });
+
+  await check('the manager is lost and comes back, and the page sees both', async () => {
+    const other = context.pages().at(-1);
+    const scan = `(() => { const a = ${app}; const slot = a.selection.primary;
+      return a.model.readings.of(slot, a.model.robots[slot].sensors.findIndex((sensor) => sensor.kind === 'ranges'))?.stamp_s ?? -1; })()`;
+    await other.locator('rave-robots .row', {hasText: await other.evaluate(`${app}.model.robots[7].name`)}).first().click();
+    await until(other, `${scan} > 0`);
+    children[0].kill('SIGKILL');
+    await until(other, `${app}.model.time.state === 'waiting' && ${app}.model.time.reason.includes('environment manager')`);
+    await until(other, `${app}.model.events.some((event) => event.kind === 'process lost' && event.level === 'alert')`);
+    const at = await other.evaluate(`${newest}.time_s`);
+    children.push(spawn(rave, ['env', scenario, '--resume', ...shared, '--output', join(folder, 'env-again')], {stdio: 'ignore'}));
+    await until(other, `${app}.model.time.state === 'running' && ${newest}.time_s > ${at} + 1 && ${scan} > ${at} + 1`, 60000);
+    await until(other, `${app}.model.events.some((event) => event.kind === 'process back')`);
+  });
+
+  await check('the server is killed and comes back, and the run takes no notice', async () => {
+    servers[1].child.kill('SIGKILL');
+    const again = await startServer(rave, ['gui', scenario, '--processes', '2', ...tag]);
+    servers.push(again);
+    const third = await context.newPage();
+    await third.goto(again.link);
+    await until(third, `${app}?.model?.time?.state === 'running' && ${newest} != null && [...${newest}.flags].every((flags) => flags & 1)`, 60000);
+    assert.deepEqual(children.slice(1).map((child) => child.exitCode), [null, null, null]);
+    await again.end();
+  });
+
+  await check('two processes in real time: readings, stops and obstacles of each', async () => {
+    const room = join(scenario, '..', `.live-${process.pid}`);
+    mkdirSync(room);
+    try {
+      const text = readFileSync(join(scenario, 'scenario.yaml'), 'utf8').replace(/^duration_s:.*$/m, 'duration_s: 60\nclock: real_time\nmax_missed_pct: 100\nhosts:\n  - {name: left, robots: [bird]}\n  - {name: right, robots: [tenth]}');
+      writeFileSync(join(room, 'scenario.yaml'), text);
+      const live = await startServer(rave, ['run', room, '--gui', '--processes', '2', '--quiet', '--no-picture', '--no-record', '--output', join(folder, 'live'), '--run', `live-${process.pid}`]);
+      servers.push(live);
+      const real = await context.newPage();
+      await real.goto(live.link);
+      await until(real, `${app}?.model?.hello?.run.clock === 'real_time' && ${newest} != null && [...${newest}.flags].every((flags) => flags & 1)`, 60000);
+      for (const slot of [0, 9]) {
+        const name = await real.evaluate(`${app}.model.robots[${slot}].name`);
+        await real.locator('rave-robots .row', {hasText: name}).first().click();
+        await until(real, `(() => { const a = ${app}; if (a.selection.primary !== ${slot}) return false;
+          const laser = a.model.robots[${slot}].sensors.findIndex((sensor) => sensor.kind === 'ranges');
+          return a.model.readings.of(${slot}, laser)?.rows > 1; })()`);
+      }
+      await say(real, {type: 'halt', do: 'stop', slots: []});
+      await until(real, `${stopped} === ${app}.model.robots.length`);
+      await say(real, {type: 'halt', do: 'release', slots: [9]});
+      await until(real, `${stopped} === ${app}.model.robots.length - 1`);
+      execFileSync(rave, ['edit', String(live.child.pid), 'add', 'box', '--name', 'parcel', '--at', '9,9', '--size', '0.3x0.3'], {stdio: ['ignore', 'ignore', 'inherit']});
+      await until(real, `[...${app}.model.bodies.values()].some((body) => body.name === 'parcel')`);
+      await until(real, `${app}.model.events.filter((event) => event.kind === 'obstacle added').length === 1`);
+      await until(real, `${app}.model.time.state === 'running' && Math.abs(${app}.model.time.speed - 1) < 0.5`);
+      await live.end();
+    } finally {
+      rmSync(room, {recursive: true, force: true});
+    }
   });
 
   await check('every message is as the schema describes it', async () => {
     const file = join(folder, 'messages.json');
     writeFileSync(file, JSON.stringify(said));
-    const {execFileSync} = await import('node:child_process');
     execFileSync('python3', [new URL('check_messages.py', import.meta.url).pathname, file], {stdio: 'inherit'});
     assert.ok(said.some((message) => message.type === 'hosts'));
   });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import {decodeFrame, isPoseFrame} from '../protocol/frames';
+import {decodeFrame, isPoseFrame, isVariances, type Variance} from '../protocol/frames';
 import type {Answer, Body, DriveState, Event, Hello, Host, Line, Person, Rights, Robot, ServerMessage, Time} from '../protocol/messages';
 import {PoseHistory} from './pose_history';
 import {Readings} from './readings';
@@ -23,6 +23,8 @@ export class RunModel {
   rights: Rights | null = null;
   readonly poses = new PoseHistory();
   readonly readings = new Readings();
+  /** By slot, of robots that are looked at and say it. */
+  variances: ReadonlyMap<number, Variance> = new Map();
 
   readonly runChanged = new Signal();
   readonly timeChanged = new Signal();
@@ -132,6 +134,11 @@ export class RunModel {
   /** Returns the sequence number to acknowledge, or null. Throws RangeError for a broken frame. */
   takeFrame(buffer: ArrayBuffer, now_ms: number): number | null {
     const frame = decodeFrame(buffer);
+    if (isVariances(frame)) {
+      this.variances = frame.bySlot;
+      this.pictureChanged.emit();
+      return null;
+    }
     if (!isPoseFrame(frame)) {
       this.readings.add(frame);
       this.pictureChanged.emit();
@@ -154,6 +161,7 @@ export class RunModel {
     this.drives.clear();
     this.poses.clear();
     this.readings.clear();
+    this.variances = new Map();
     this.runChanged.emit();
   }
 }

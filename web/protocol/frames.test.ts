@@ -2,12 +2,13 @@
 import {readFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {describe, expect, it} from 'vitest';
-import {decodeFrame, isPoseFrame, type PoseFrame, type Reading} from './frames';
+import {decodeFrame, isPoseFrame, isVariances, type PoseFrame, type Reading, type Variances} from './frames';
 
 /** Frames that the server made, with what they mean: tests/data of the server writes them. */
 interface Conformance {
   poses: {hex: string; sequence: number; time_s: number; step: number; past: boolean; x: number[]; y: number[]; yaw: number[]; speed: number[]; flags: number[]}[];
   readings: {hex: string; slot: number; sensor: number; part: number; stamp_s: number; rows: number; fields: number; values: (number | null)[]}[];
+  variances: {hex: string; time_s: number; robots: [number, number, number][]}[];
 }
 
 const kData = JSON.parse(readFileSync(join(process.cwd(), '../schemas/gui/frames.json'), 'utf8')) as Conformance;
@@ -52,6 +53,25 @@ describe('readings', () => {
         if (value === null) expect(reading.values[i]).toBe(Infinity);
         else expect(reading.values[i]).toBeCloseTo(value, 5);
       });
+    }
+  });
+});
+
+describe('variances', () => {
+  it('read what the server wrote', () => {
+    expect(kData.variances.length).toBeGreaterThan(1);
+    for (const known of kData.variances) {
+      const frame = decodeFrame(bytesOf(known.hex)) as Variances;
+      expect(isVariances(frame)).toBe(true);
+      expect(frame.time_s).toBe(known.time_s);
+      expect([...frame.bySlot].map(([slot, variance]) => [slot, variance.xy_m2, variance.yaw_rad2])).toEqual(known.robots);
+    }
+  });
+
+  it('are refused if they are cut, at any byte', () => {
+    const whole = bytesOf(kData.variances[0].hex);
+    for (let size = 0; size < whole.byteLength; ++size) {
+      expect(() => decodeFrame(whole.slice(0, size))).toThrow(RangeError);
     }
   });
 });

@@ -39,12 +39,26 @@ export interface Reading {
   values: Float32Array;
 }
 
+/** How sure robots are of their reported poses; robots that are not in it have not said. */
+export interface Variances {
+  time_s: number;
+  bySlot: Map<number, Variance>;
+}
+
+/** Of each of x and y in m², of the heading in rad². */
+export interface Variance {
+  xy_m2: number;
+  yaw_rad2: number;
+}
+
 const kPoseHeader = 48;
 const kPoseBytes = 14;
 const kReadingHeader = 32;
+const kVarianceHeader = 16;
+const kVarianceBytes = 12;
 
 /** Decodes a binary frame. Throws RangeError with the reason if the frame is not as described. */
-export function decodeFrame(buffer: ArrayBuffer): PoseFrame | Reading {
+export function decodeFrame(buffer: ArrayBuffer): PoseFrame | Reading | Variances {
   if (buffer.byteLength < 1) throw new RangeError('empty frame');
   const view = new DataView(buffer);
   switch (view.getUint8(0)) {
@@ -52,13 +66,19 @@ export function decodeFrame(buffer: ArrayBuffer): PoseFrame | Reading {
       return decodePoses(buffer, view);
     case 2:
       return decodeReading(buffer, view);
+    case 3:
+      return decodeVariances(buffer, view);
     default:
       throw new RangeError(`frame of unknown kind ${view.getUint8(0)}`);
   }
 }
 
-export function isPoseFrame(frame: PoseFrame | Reading): frame is PoseFrame {
+export function isPoseFrame(frame: PoseFrame | Reading | Variances): frame is PoseFrame {
   return 'flags' in frame;
+}
+
+export function isVariances(frame: PoseFrame | Reading | Variances): frame is Variances {
+  return 'bySlot' in frame;
 }
 
 function decodePoses(buffer: ArrayBuffer, view: DataView): PoseFrame {
@@ -114,4 +134,17 @@ function decodeReading(buffer: ArrayBuffer, view: DataView): Reading {
     fields,
     values: new Float32Array(buffer, kReadingHeader, rows * fields),
   };
+}
+
+function decodeVariances(buffer: ArrayBuffer, view: DataView): Variances {
+  if (buffer.byteLength < kVarianceHeader) throw new RangeError('variances without a whole header');
+  const n = view.getUint32(4, true);
+  if (buffer.byteLength !== kVarianceHeader + kVarianceBytes * n) {
+    throw new RangeError(`variances of ${n} robots have ${buffer.byteLength} bytes`);
+  }
+  const bySlot = new Map<number, Variance>();
+  for (let at = kVarianceHeader; at < buffer.byteLength; at += kVarianceBytes) {
+    bySlot.set(view.getUint32(at, true), {xy_m2: view.getFloat32(at + 4, true), yaw_rad2: view.getFloat32(at + 8, true)});
+  }
+  return {time_s: view.getFloat64(8, true), bySlot};
 }

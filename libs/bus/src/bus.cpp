@@ -30,10 +30,14 @@ constexpr std::uint32_t kReaderStatus =
 constexpr std::uint32_t kWriterStatus =
     DDS_PUBLICATION_MATCHED_STATUS | DDS_OFFERED_INCOMPATIBLE_QOS_STATUS;
 
-Qos partition_of(const RunId& run) {
+Qos partitions_of(const RunId& run, Side side) {
   Qos qos(dds_create_qos());
-  const std::string name = "rave/" + run.text();
-  dds_qset_partition1(qos.get(), name.c_str());
+  const std::string run_itself = "rave/" + run.text();
+  const std::string hosts = run_itself + "/hosts";
+  std::vector<const char*> names;
+  if (side != Side::kMonitor) names.push_back(run_itself.c_str());
+  if (side != Side::kManager) names.push_back(hosts.c_str());
+  dds_qset_partition(qos.get(), static_cast<std::uint32_t>(names.size()), names.data());
   return qos;
 }
 
@@ -133,7 +137,7 @@ Status Bus::open_participant() {
   }
   participant_ = dds_create_participant(number_, qos.get(), nullptr);
   if (participant_ < 0) return refused(participant_);
-  const Qos partition = partition_of(config_.run);
+  const Qos partition = partitions_of(config_.run, config_.side);
   publisher_ = dds_create_publisher(participant_, partition.get(), nullptr);
   subscriber_ = dds_create_subscriber(participant_, partition.get(), nullptr);
   participants_ = std::make_unique<Participants>(participant_, config_.run, config_.lease, secured);

@@ -79,6 +79,16 @@ inline Status check_twists(std::string_view list, const rave_wire_PlanarTwists& 
   return check_numbers(list, "wz_radps", twists.wz_radps, size, kMaxTurn_radps);
 }
 
+/// Sums and differences of times of a run must not overflow.
+inline bool usable(std::int64_t time_ns) {
+  return time_ns >= -kMaxTime_ns && time_ns <= kMaxTime_ns;
+}
+
+inline Status check_time(std::string_view field, std::int64_t time_ns) {
+  if (usable(time_ns)) return {};
+  return invalid(fmt::format("{} is {}, not within +-{}", field, time_ns, kMaxTime_ns));
+}
+
 /// Names end up in logs and on terminals.
 inline Status check_label(std::string_view field, std::string_view text, bool needed) {
   if (needed && text.empty()) return invalid(fmt::format("{} is empty", field));

@@ -9,14 +9,6 @@
 namespace rave::bus {
 namespace {
 
-/// Sums and differences of times of a run must not overflow.
-bool usable(std::int64_t time_ns) { return time_ns >= -kMaxTime_ns && time_ns <= kMaxTime_ns; }
-
-Status check_time(std::string_view field, std::int64_t time_ns) {
-  if (usable(time_ns)) return {};
-  return invalid(fmt::format("{} is {}, not within +-{}", field, time_ns, kMaxTime_ns));
-}
-
 Status check_robots(std::string_view list, const rave_wire_PlanarRobots& robots) {
   RAVE_TRY(check_ids(list, robots.id));
   const std::size_t size = robots.id._length;
@@ -34,6 +26,20 @@ Status check_robots(std::string_view list, const rave_wire_PlanarRobots& robots)
   const auto wrong = std::find_if_not(stamps.begin(), stamps.end(), usable);
   if (wrong == stamps.end()) return {};
   return check_time(fmt::format("{}.stamp_ns[{}]", list, wrong - stamps.begin()), *wrong);
+}
+
+Status check_reports(std::string_view list, const rave_wire_RobotReports& reports) {
+  RAVE_TRY(check_ids(list, reports.id));
+  const std::size_t size = reports.id._length;
+  constexpr double kMaxVariance = kMaxPosition_m * kMaxPosition_m;
+  RAVE_TRY(check_numbers(list, "x_m", reports.x_m, size, kMaxPosition_m));
+  RAVE_TRY(check_numbers(list, "y_m", reports.y_m, size, kMaxPosition_m));
+  RAVE_TRY(check_numbers(list, "yaw_rad", reports.yaw_rad, size, kMaxAngle_rad));
+  RAVE_TRY(check_numbers(list, "variance_xy_m2", reports.variance_xy_m2, size, kMaxVariance));
+  RAVE_TRY(check_numbers(list, "variance_yaw_rad2", reports.variance_yaw_rad2, size, kMaxVariance));
+  if (reports.flags._length == size) return {};
+  return invalid(
+      fmt::format("{}.flags has {} entries for {} robots", list, reports.flags._length, size));
 }
 
 /// Inputs are in the order in which everybody applies them, and none is there twice.
@@ -145,7 +151,8 @@ Status validate(const HostState& sample) {
   RAVE_TRY(check_robots("resolved", sample.resolved));
   RAVE_TRY(check_twists("proposal", sample.proposal));
   RAVE_TRY(check_inputs("commands", sample.commands));
-  return check_inputs("packets", sample.packets);
+  RAVE_TRY(check_inputs("packets", sample.packets));
+  return check_reports("reports", sample.reports);
 }
 
 Status validate(const World& sample) {

@@ -60,7 +60,10 @@ constexpr Receive kTopics[] = {receive<HostState>,
                                receive_short<HostReport>,
                                receive_short<WorldStep>,
                                receive<LineInfo>,
-                               receive<LineWithdrawal>};
+                               receive<LineWithdrawal>,
+                               receive<Look>,
+                               receive<Readings>,
+                               receive<RunEvents>};
 
 }  // namespace
 

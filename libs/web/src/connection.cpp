@@ -4,10 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/asio/write.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <optional>
+#include <vector>
 
 #include "websocket.hpp"
 
@@ -21,6 +26,27 @@ using Answer = http::response<http::span_body<const char>>;
 const std::string& policy() {
   static const std::string kPolicy = content_policy();
   return kPolicy;
+}
+
+/// Of a file that is sent at a time.
+constexpr std::size_t kPiece = std::size_t{256} << 10U;
+
+/// A file on its way to a browser.
+struct Outgoing {
+  std::ifstream file;
+  std::uint64_t left = 0;  ///< Bytes that are not read yet.
+  std::vector<char> piece;
+};
+
+/// Null: it is no file that can be read.
+std::shared_ptr<Outgoing> open_outgoing(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error) return nullptr;
+  auto outgoing = std::make_shared<Outgoing>();
+  outgoing->file.open(path, std::ios::binary);
+  outgoing->left = size;
+  return outgoing->file ? outgoing : nullptr;
 }
 
 /// One connection before it becomes a WebSocket: one request after the other.
@@ -50,6 +76,9 @@ class Connection final : public Link, public std::enable_shared_from_this<Connec
   void dispatch(const Request& request);
   void refuse(const Response& response);
   void send(const std::shared_ptr<Answer>& reply, Payload body, bool without_body);
+  void send_file(const std::shared_ptr<Answer>& reply, const std::shared_ptr<Outgoing>& outgoing);
+  void send_piece(const std::shared_ptr<Answer>& reply, const std::shared_ptr<Outgoing>& outgoing);
+  void sent(const Answer& reply);
   /// Why a request is refused before anybody looks at it.
   [[nodiscard]] std::optional<Response> refusal(Request& request);
   void upgrade(Request request);
@@ -182,6 +211,11 @@ void Connection::refuse(const Response& response) {
 }
 
 void Connection::answer(const Response& response) {
+  std::shared_ptr<Outgoing> outgoing;
+  if (!response.file.empty()) {
+    outgoing = open_outgoing(response.file);
+    if (!outgoing) return answer(text_response(404, "the file cannot be read\n"));
+  }
   auto reply = std::make_shared<Answer>();
   reply->version(message_.version());
   reply->result(static_cast<unsigned>(response.status));
@@ -204,16 +238,50 @@ void Connection::answer(const Response& response) {
   const bool without = message_.method() == http::verb::head || response.status == 304;
   if (response.body && !without) reply->body() = {response.body->data(), size};
   reply->keep_alive(message_.keep_alive());
-  reply->content_length(size);
+  reply->content_length(outgoing ? outgoing->left : size);
+  if (outgoing && !without) return send_file(reply, outgoing);
   send(reply, response.body, without);
+}
+
+void Connection::send_file(const std::shared_ptr<Answer>& reply,
+                           const std::shared_ptr<Outgoing>& outgoing) {
+  auto serializer =
+      std::make_shared<http::response_serializer<http::span_body<const char>>>(*reply);
+  stream_.expires_after(core_.options().idle);
+  http::async_write_header(
+      stream_, *serializer,
+      [self = shared_from_this(), serializer, reply, outgoing](Error error, std::size_t) {
+        if (error) return self->stream_.close();
+        self->send_piece(reply, outgoing);
+      });
+}
+
+/// Each piece has its own time: a slow line takes as long as it takes, one that stands is cut.
+void Connection::send_piece(const std::shared_ptr<Answer>& reply,
+                            const std::shared_ptr<Outgoing>& outgoing) {
+  if (outgoing->left == 0) return sent(*reply);
+  outgoing->piece.resize(static_cast<std::size_t>(std::min<std::uint64_t>(kPiece, outgoing->left)));
+  outgoing->file.read(outgoing->piece.data(), static_cast<std::streamsize>(outgoing->piece.size()));
+  if (!outgoing->file) return stream_.close();
+  outgoing->left -= outgoing->piece.size();
+  stream_.expires_after(core_.options().idle);
+  asio::async_write(stream_, asio::buffer(outgoing->piece),
+                    [self = shared_from_this(), reply, outgoing](Error error, std::size_t) {
+                      if (error || self->core_.stopping) return self->stream_.close();
+                      self->send_piece(reply, outgoing);
+                    });
+}
+
+void Connection::sent(const Answer& reply) {
+  if (reply.keep_alive() && !core_.stopping) return read();
+  stream_.finish([self = shared_from_this()] {});
 }
 
 void Connection::send(const std::shared_ptr<Answer>& reply, Payload body, bool without_body) {
   const auto done = [self = shared_from_this(), reply, body = std::move(body)](Error error,
                                                                                std::size_t) {
     if (error) return self->stream_.close();
-    if (reply->keep_alive() && !self->core_.stopping) return self->read();
-    self->stream_.finish([self] {});
+    self->sent(*reply);
   };
   stream_.expires_after(core_.options().idle);
   if (!without_body) return http::async_write(stream_, *reply, done);

@@ -9,6 +9,9 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <filesystem>
+
+#include "rave/base/file.hpp"
 
 namespace rave::web {
 namespace {
@@ -17,6 +20,12 @@ class Echo final : public Handler {
  public:
   Response serve(const Request& request) override {
     ++served;
+    if (request.path == "/file") {
+      Response response;
+      response.type = "application/octet-stream";
+      response.file = file;
+      return response;
+    }
     return text_response(200, fmt::format("path {}\n", request.path));
   }
   Admission admit(const Request& request) override {
@@ -30,6 +39,7 @@ class Echo final : public Handler {
   void received(std::uint64_t, std::string_view) override { ++messages; }
   void closed(std::uint64_t) override { --open; }
 
+  std::filesystem::path file;  ///< Set before it is asked for.
   std::atomic<int> served = 0;
   std::atomic<int> open = 0;
   std::atomic<int> messages = 0;
@@ -92,6 +102,25 @@ TEST_F(WebServer, AnswersWithAStrictPolicy) {
   EXPECT_NE(answer.find("path /a/b\n"), std::string::npos);
   EXPECT_NE(answer.find("Content-Security-Policy: default-src 'none'"), std::string::npos);
   EXPECT_NE(answer.find("X-Content-Type-Options: nosniff"), std::string::npos);
+}
+
+TEST_F(WebServer, SendsAFileOfManyPieces) {
+  std::string content;
+  for (int i = 0; content.size() < 3'000'000; ++i) content += fmt::format("{:08d}", i);
+  handler_.file = std::filesystem::temp_directory_path() / fmt::format("rave-web-{}", ::getpid());
+  ASSERT_TRUE(write_file_atomically(handler_.file, content));
+  const std::string answer = get("/file");
+  const std::size_t body = answer.find("\r\n\r\n");
+  ASSERT_NE(body, std::string::npos);
+  EXPECT_NE(answer.find(fmt::format("Content-Length: {}\r\n", content.size())), std::string::npos);
+  EXPECT_TRUE(answer.substr(body + 4) == content);
+  // Only the head is asked for.
+  const std::string head = ask(fmt::format(
+      "HEAD /file HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nConnection: close\r\n\r\n", server_->port()));
+  EXPECT_TRUE(head.ends_with("\r\n\r\n"));
+  EXPECT_NE(head.find(fmt::format("Content-Length: {}\r\n", content.size())), std::string::npos);
+  std::filesystem::remove(handler_.file);
+  EXPECT_TRUE(get("/file").starts_with("HTTP/1.1 404"));
 }
 
 TEST_F(WebServer, RefusesPathsThatLeadOut) {

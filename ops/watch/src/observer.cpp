@@ -32,6 +32,7 @@ struct Observer::Impl {
   std::unique_ptr<bus::Bus> bus;
   bus::Reader<bus::HostInfo> infos;
   bus::Reader<bus::RunState> runs;
+  bus::Reader<bus::HostRun> words;
   bus::Reader<bus::RosterEntry> roster;
   bus::Reader<bus::ProcessState> processes;
   bus::Reader<bus::HostState> states;
@@ -46,6 +47,7 @@ void Observer::Impl::take() {
   const std::int64_t now_ns = ns_of(Clock::now());
   infos.take([&](const bus::HostInfo& info) { model.hear(info); });
   runs.take([&](const bus::RunState& state) { model.hear(state, now_ns); });
+  words.take([&](const bus::HostRun& word) { model.hear_word(word, now_ns); });
   roster.take([&](const bus::RosterEntry& entry) { model.hear(entry); });
   worlds.take([&](const bus::World& world) { model.hear(world, now_ns); });
   states.take([&](const bus::HostState& state, const dds_sample_info_t& info) {
@@ -68,6 +70,7 @@ Result<std::unique_ptr<Observer>> Observer::open(bus::BusConfig config) {
   RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
   RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
   RAVE_TRY_ASSIGN(auto runs, bus::Reader<bus::RunState>::create(*bus));
+  RAVE_TRY_ASSIGN(auto words, bus::Reader<bus::HostRun>::create(*bus));
   RAVE_TRY_ASSIGN(auto roster, bus::Reader<bus::RosterEntry>::create(*bus));
   RAVE_TRY_ASSIGN(auto processes, bus::Reader<bus::ProcessState>::create(*bus, kWatched));
   RAVE_TRY_ASSIGN(auto states, bus::Reader<bus::HostState>::create(*bus, kWatched));
@@ -75,6 +78,7 @@ Result<std::unique_ptr<Observer>> Observer::open(bus::BusConfig config) {
   RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(*bus));
   RAVE_TRY(waits.add(infos));
   RAVE_TRY(waits.add(runs));
+  RAVE_TRY(waits.add(words));
   RAVE_TRY(waits.add(roster));
   RAVE_TRY(waits.add(processes));
   RAVE_TRY(waits.add(states));
@@ -82,8 +86,9 @@ Result<std::unique_ptr<Observer>> Observer::open(bus::BusConfig config) {
   RAVE_TRY(waits.add_events());
   RunModel model(config.run.text());
   std::unique_ptr<Impl> impl(new Impl{std::move(bus), std::move(infos), std::move(runs),
-                                      std::move(roster), std::move(processes), std::move(states),
-                                      std::move(worlds), std::move(waits), std::move(model)});
+                                      std::move(words), std::move(roster), std::move(processes),
+                                      std::move(states), std::move(worlds), std::move(waits),
+                                      std::move(model)});
   return std::unique_ptr<Observer>(new Observer(std::move(impl)));
 }
 
@@ -101,6 +106,7 @@ RunView Observer::view(bool with_robots) const {
   return impl_->model.view(ns_of(Clock::now()), with_robots);
 }
 
+bus::Bus& Observer::bus() noexcept { return *impl_->bus; }
 bool Observer::knows_any() const { return impl_->model.knows_any(); }
 
 }  // namespace rave::watch

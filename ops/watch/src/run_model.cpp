@@ -73,6 +73,18 @@ void RunModel::hear(const bus::RunState& state, std::int64_t now_ns) {
   const bool fresh = state_ && state_->writer == state.writer;
   const bool of_the_dead = writer != processes_.end() && writer->second.gone;
   if (state_ && state_->writer != state.writer && of_the_dead) return;
+  state_ = read(state);
+  if (fresh) run_steps_.add(now_ns, static_cast<double>(state.step));
+}
+
+void RunModel::hear_word(const bus::RunState& state, std::int64_t now_ns) {
+  Process& process = process_of(state.writer);
+  process.gone = false;
+  process.word = read(state);
+  process.heard_ns = std::max(process.heard_ns.value_or(now_ns), now_ns);
+}
+
+RunModel::State RunModel::read(const bus::RunState& state) {
   State now;
   now.writer = state.writer;
   now.scenario = state.scenario;
@@ -86,8 +98,7 @@ void RunModel::hear(const bus::RunState& state, std::int64_t now_ns) {
     now.hosts[host.host] = {host.name, host.phase,    host.robots,
                             host.step, host.offset_s, host.bound_s};
   }
-  state_ = std::move(now);
-  if (fresh) run_steps_.add(now_ns, static_cast<double>(state.step));
+  return now;
 }
 
 /// Two messages that follow one another closely, as after a hand-over, were not the same time on
@@ -136,6 +147,26 @@ void RunModel::place(const rave_wire_PlanarRobots& robots, std::size_t i, std::i
                                                                   vy_mps * std::sin(robot.yaw_rad));
 }
 
+void RunModel::note_reports(const rave_wire_RobotReports& reports) {
+  const auto ids = bus::elements(reports.id);
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (robots_.size() >= kMostRobots && !robots_.contains(ids[i])) return;
+    const std::uint8_t flags = reports.flags._buffer[i];
+    const auto has = [flags](unsigned bit) { return (flags & bit) != 0; };
+    robots_[ids[i]].report = {reports.x_m._buffer[i],
+                              reports.y_m._buffer[i],
+                              reports.yaw_rad._buffer[i],
+                              reports.variance_xy_m2._buffer[i],
+                              reports.variance_yaw_rad2._buffer[i],
+                              has(1),
+                              has(2),
+                              has(4),
+                              !has(8),
+                              has(16),
+                              has(32)};
+  }
+}
+
 void RunModel::hear(const bus::HostState& state, std::int64_t now_ns, std::int64_t delay_ns) {
   Process& process = process_of(state.writer);
   process.gone = false;
@@ -156,6 +187,7 @@ void RunModel::hear(const bus::HostState& state, std::int64_t now_ns, std::int64
     const std::int64_t stamp_ns = state.resolved.stamp_ns._buffer[i];
     process.newest_stamp_ns = std::max(process.newest_stamp_ns.value_or(stamp_ns), stamp_ns);
   }
+  note_reports(state.reports);
   process.reported += static_cast<double>(ids.size());
   process.reports.add(now_ns, process.reported);
   process.reported_ns = now_ns;

@@ -126,6 +126,24 @@ void RunModel::tell_reports(std::uint32_t host, const Process& process, HostView
   }
 }
 
+/// Somebody who does not hear the manager knows of it what its hosts say.
+std::optional<HostView> RunModel::manager_by_words() const {
+  std::optional<HostView> view;
+  for (const auto& [writer, process] : processes_) {
+    if (!process.word) continue;
+    const auto manager = process.word->hosts.find(rave_wire_kNone);
+    if (manager == process.word->hosts.end()) continue;
+    const bool here = !process.gone && manager->second.phase == rave_wire_HOST_RUNS;
+    if (view && !here) continue;
+    view.emplace();
+    view->name = manager->second.name;
+    view->manager = true;
+    view->standing = here ? Standing::kHere : Standing::kGone;
+    view->step = process.word->step;
+  }
+  return view;
+}
+
 HostView RunModel::manager_view(const Process& process, std::int64_t now_ns) const {
   HostView view;
   view.name = "environment manager";
@@ -196,6 +214,7 @@ RobotView RunModel::robot_view(const Robot& robot, std::int64_t now_ns) const {
   view.stale = robot.stale;
   view.rate_hz = robot.reports.at(now_ns);
   view.asked_rate_hz = asked_of(robot);
+  view.report = robot.report;
   if (!robot.stamp_ns) return view;
   const auto now = run_ns(now_ns);
   view.age_s = seconds_of(now ? *now - *robot.stamp_ns : now_ns - *robot.heard_ns);
@@ -257,7 +276,7 @@ void RunModel::tell_run(RunView& view, std::int64_t now_ns) const {
   if (!knows_any()) {
     view.text = "its processes are there and nothing is heard: do they have --security?";
   }
-  if (!state_) return;
+  if (!state_) return tell_words(view);
   view.scenario = state_->scenario;
   constexpr Phase kPhases[] = {Phase::kGathers, Phase::kGoes, Phase::kWaits, Phase::kEnded,
                                Phase::kFailed};
@@ -281,6 +300,65 @@ void RunModel::tell_run(RunView& view, std::int64_t now_ns) const {
   }
 }
 
+/// What the hosts say together: one that waits counts for all, and the farthest says where the run
+/// is.
+RunModel::Words RunModel::words() const {
+  Words words;
+  for (const auto& [writer, process] : processes_) {
+    if (!process.word) continue;
+    const State& word = *process.word;
+    const bool ended = word.phase == rave_wire_RUN_ENDED || word.phase == rave_wire_RUN_FAILED;
+    const bool failed = word.phase == rave_wire_RUN_FAILED;
+    if (ended && (words.over == nullptr || failed)) words.over = &word;
+    const bool here = !process.gone && !ended;
+    // Somebody who goes on counts more than those of an earlier run of this name.
+    if (words.here && !here) continue;
+    if (here && !words.here) words.farthest = nullptr;
+    if (here && !words.here) words.newest_ns.reset();
+    if (words.farthest == nullptr || word.step > words.farthest->step) words.farthest = &word;
+    if (process.newest_stamp_ns) {
+      words.newest_ns = std::max(words.newest_ns.value_or(0), *process.newest_stamp_ns);
+    }
+    if (!here) continue;
+    words.here = true;
+    if (word.phase != rave_wire_RUN_GOES) words.waiting = &word;
+    const auto manager = word.hosts.find(rave_wire_kNone);
+    words.manager_lost |=
+        manager != word.hosts.end() && manager->second.phase != rave_wire_HOST_RUNS;
+  }
+  return words;
+}
+
+void RunModel::tell_words(RunView& view) const {
+  const Words words = this->words();
+  if (words.farthest == nullptr) return;
+  const State& farthest = *words.farthest;
+  view.scenario = farthest.scenario;
+  view.step = farthest.step;
+  view.steps = farthest.steps;
+  view.duration_s = static_cast<double>(farthest.steps) * farthest.step_s;
+  view.time_s = words.newest_ns ? seconds_of(*words.newest_ns)
+                                : static_cast<double>(farthest.step) * farthest.step_s;
+  view.speed = words.here ? farthest.speed : 0;
+  if (!words.here) {
+    // Who was killed has had no last word.
+    const bool done = words.over != nullptr || farthest.step + 1 >= farthest.steps;
+    const bool failed = words.over != nullptr && words.over->phase == rave_wire_RUN_FAILED;
+    view.phase = failed ? Phase::kFailed : (done ? Phase::kEnded : Phase::kWaits);
+    view.text = failed ? words.over->text : (done ? "" : "no process of the run is there");
+    return;
+  }
+  view.phase = Phase::kGoes;
+  if (words.waiting != nullptr) {
+    const bool gathers = words.waiting->phase == rave_wire_RUN_GATHERS;
+    view.phase = gathers ? Phase::kGathers : Phase::kWaits;
+    view.text = words.waiting->text;
+  }
+  if (!words.manager_lost || view.timing != Timing::kLockStep) return;
+  view.phase = Phase::kWaits;
+  if (view.text.empty()) view.text = "the environment manager is gone";
+}
+
 RunView RunModel::view(std::int64_t now_ns, bool with_robots) const {
   RunView view;
   tell_run(view, now_ns);
@@ -295,6 +373,8 @@ RunView RunModel::view(std::int64_t now_ns, bool with_robots) const {
   }
   if (const Process* const manager = speaker_of(rave_wire_kNone)) {
     view.hosts.push_back(manager_view(*manager, now_ns));
+  } else if (const auto seen = manager_by_words()) {
+    view.hosts.push_back(*seen);
   }
   for (const std::uint32_t host : hosts) view.hosts.push_back(host_view(host, now_ns));
   if (!with_robots) return view;

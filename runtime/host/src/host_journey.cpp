@@ -2,6 +2,7 @@
 #include "rave/host/host_journey.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "rave/assemble/parameter_key.hpp"
 #include "rave/base/file.hpp"
@@ -73,6 +74,10 @@ std::uint32_t real_robots(const sim::EngineSpec& spec, std::span<const RobotId> 
   return static_cast<std::uint32_t>(std::ranges::count_if(robots, [&](RobotId robot) {
     return !spec.types[spec.robots[robot.value()].type].simulated;
   }));
+}
+
+std::uint64_t steps_of(const config::ScenarioFile& scenario) {
+  return static_cast<std::uint64_t>(std::llround(scenario.duration_s / scenario.step_s.value));
 }
 
 void introduce_robots(lock_step::Roster& roster, const sim::EngineSpec& spec,

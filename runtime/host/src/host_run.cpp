@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "bus_face.hpp"
 #include "rave/assemble/build.hpp"
 #include "rave/base/file.hpp"
 #include "rave/control/world_request.hpp"
@@ -61,6 +62,8 @@ Result<bool> take_step(Journey& journey) {
       const HostPort::Answer answer,
       journey.port.exchange(journey.report, journey.engine.hash().value(), journey.world, [&] {
         serve_requests(journey);
+        // Somebody may look elsewhere while the run is held.
+        journey.observers.held(journey.engine);
         return journey.stopping();
       }));
   journey.stopped = answer == HostPort::Answer::kStopped;
@@ -176,7 +179,11 @@ Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::C
   }
   RAVE_TRY_ASSIGN(const auto port, HostPort::open(options.bus, std::move(self), &console, patience,
                                                   options.begin_wish));
+  port->word().describe(scenario.scenario.name.value, steps_of(scenario.scenario),
+                        scenario.scenario.step_s.value);
   introduce_robots(port->roster(), engine->spec(), seat.robots, console);
+  RAVE_TRY_ASSIGN(const auto face, BusFace::open(port->bus(), seat.number, true));
+  options.run.observers.push_back(face.get());
   RAVE_TRY_ASSIGN(const auto observers,
                   ObserverList::open({scenario, expanded, built.robot_kinds, *engine, catalogue,
                                       run, console, options.host}));

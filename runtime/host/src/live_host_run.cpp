@@ -5,6 +5,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "bus_face.hpp"
 #include "live_twins.hpp"
 #include "rave/assemble/build.hpp"
 #include "rave/base/file.hpp"
@@ -54,10 +55,11 @@ std::vector<ReportGroup> report_groups(const config::ExpandedScenario& scenario,
 }
 
 struct LiveJourney : HostJourney {
-  LiveJourney(HostJourney host, HostLink& to, LiveWorld& around, WallPace& clock,
-              std::vector<ReportGroup> groups, std::span<const RobotId> own)
+  LiveJourney(HostJourney host, HostLink& to, const BusFace& shown, LiveWorld& around,
+              WallPace& clock, std::vector<ReportGroup> groups, std::span<const RobotId> own)
       : HostJourney(std::move(host)),
         link(to),
+        face(shown),
         live(around),
         pace(clock),
         reports(std::move(groups)),
@@ -66,6 +68,7 @@ struct LiveJourney : HostJourney {
         late(clock.period_of(engine.spec().step), console, options.run.control) {}
 
   HostLink& link;
+  const BusFace& face;
   LiveWorld& live;
   WallPace& pace;
   std::vector<ReportGroup> reports;
@@ -88,7 +91,7 @@ void tell_places(LiveJourney& journey) {
     journey.due.insert(journey.due.end(), group.robots.begin(), group.robots.end());
   }
   std::sort(journey.due.begin(), journey.due.end());
-  journey.link.tell(journey.engine, journey.due);
+  journey.link.tell(journey.engine, journey.due, journey.face.robots_asked());
 }
 
 /// Until the next step is due; false: there is none for this host.
@@ -284,7 +287,11 @@ Result<HostLink::Options> link_options(const LiveHost& host, const BuiltScenario
 /// What is left to do when all is there.
 Result<HostOutcome> go(const LiveHost& host, sim::Engine& engine, HostLink& link, LiveWorld& live,
                        const BuiltScenario& built, bool begun, std::function<void()>& look) {
-  const RunOptions& run = host.options.run;
+  RunOptions run = host.options.run;
+  // With a manager the link hands on what that says of obstacles.
+  RAVE_TRY_ASSIGN(const auto face,
+                  BusFace::open(link.bus(), host.seat.number, !needs_manager(built)));
+  run.observers.push_back(face.get());
   RAVE_TRY_ASSIGN(
       const auto observers,
       ObserverList::open({host.scenario, host.expanded, built.robot_kinds, engine, host.catalogue,
@@ -292,9 +299,9 @@ Result<HostOutcome> go(const LiveHost& host, sim::Engine& engine, HostLink& link
   const config::ScenarioFile& file = host.scenario.scenario;
   LiveJourney journey(
       {engine, *observers, link.roster(), host.options, host.console, shared_number(host.scenario)},
-      link, live, host.pace, report_groups(host.scenario, host.seat), host.seat.robots);
+      link, *face, live, host.pace, report_groups(host.scenario, host.seat), host.seat.robots);
   look = [&journey] { look_back(journey); };
-  journey.steps = static_cast<std::uint64_t>(std::llround(file.duration_s / file.step_s.value));
+  journey.steps = steps_of(file);
   observers->on_place([&live](const sim::WorldInput& input) { return live.place(input); });
   const ControlledHost controlled(engine, file, run.control, true);
   tell_who_waits(engine, run, host.console);
@@ -338,6 +345,8 @@ Result<HostOutcome> run_live_host(const LiveHost& host, BuiltScenario built) {
   RAVE_TRY_ASSIGN(const auto live, LiveWorld::create(built.spec, !needs_manager(built)));
   RAVE_TRY_ASSIGN(auto options, link_options(host, built));
   RAVE_TRY_ASSIGN(const auto link, HostLink::open(std::move(options), *live));
+  const config::ScenarioFile& file = host.scenario.scenario;
+  link->word().describe(file.name.value, steps_of(file), file.step_s.value);
   introduce_robots(link->roster(), built.spec, host.seat.robots, host.console);
   // The run starts when all devices are open here, and everywhere.
   RunControl* const control = host.options.run.control;

@@ -36,7 +36,9 @@ Result<std::unique_ptr<ManagerEndpoint>> ManagerEndpoint::open(const bus::BusCon
                                                                LogSink* log,
                                                                bus::BeginWish begin_wish,
                                                                bus::OnCommand on_command) {
-  RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
+  bus::BusConfig own = config;
+  own.side = bus::Side::kManager;
+  RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(own));
   RAVE_TRY_ASSIGN(auto states, bus::Writer<bus::RunState>::create(*bus));
   RAVE_TRY_ASSIGN(auto own_info, bus::Writer<bus::HostInfo>::create(*bus));
   RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));

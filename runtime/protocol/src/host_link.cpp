@@ -71,6 +71,7 @@ Status HostLink::Impl::open_endpoints() {
   RAVE_TRY(set.add_events());
   waits.emplace(std::move(set));
   RAVE_TRY(make(pulse, *bus, options.self));
+  RAVE_TRY(make(host_word, *bus, options.self.host, options.self.name));
   introduced = lock_step::introduction(options.self);
   return own_info.write(introduced);
 }
@@ -180,6 +181,8 @@ std::chrono::steady_clock::time_point HostLink::zero() const noexcept {
   return Clock::time_point(std::chrono::nanoseconds(impl_->zero_ns));
 }
 void HostLink::count_real(std::uint32_t robots) noexcept { impl_->pulse->count_real(robots); }
+lock_step::HostWord& HostLink::word() noexcept { return *impl_->host_word; }
+bus::Bus& HostLink::bus() noexcept { return *impl_->bus; }
 lock_step::Roster& HostLink::roster() noexcept { return impl_->roster; }
 std::span<const RobotSight> HostLink::starts() const noexcept { return impl_->starts; }
 
@@ -198,17 +201,23 @@ void HostLink::listen_until(std::chrono::steady_clock::time_point due) {
   link.watch_worlds();
 }
 
-void HostLink::tell(const sim::Engine& engine, std::span<const RobotId> robots) {
+void HostLink::tell(const sim::Engine& engine, std::span<const RobotId> robots, bool reports) {
   Impl& link = *impl_;
+  link.reports.note_contacts(engine);
   const Duration shift = link.shift();
   link.columns.clear();
   for (const RobotId robot : robots) link.columns.add(engine, robot, shift);
-  if (link.columns.size() == 0) return;
+  link.reports.clear();
+  if (reports) {
+    for (const RobotId robot : robots) link.reports.add(engine, robot);
+  }
+  if (link.columns.size() == 0 && (robots.empty() || !reports)) return;
   bus::HostState message{};
   message.host = link.options.self.host;
   message.step = engine.steps_done();
   link.facts.step = message.step;
   link.columns.lend(message.resolved);
+  link.reports.lend(message.reports);
   static_cast<void>(link.states.write(message));
 }
 
@@ -249,6 +258,10 @@ void HostLink::obstacles_shown() {
 
 Status HostLink::deliver(std::span<const std::byte> findings) {
   Impl& link = *impl_;
+  if (link.started) {
+    const bool good = !link.ending || link.ending->good;
+    link.host_word->tell_end(good, link.facts.step, link.ending ? link.ending->text : "");
+  }
   if (!link.findings || !link.started) return {};
   return link.findings->send(link.options.self.host, findings, lock_step::kFindingsPatience);
 }

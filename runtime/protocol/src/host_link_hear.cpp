@@ -215,8 +215,21 @@ void HostLink::Impl::look() {
   }
 }
 
+/// For those who look on.
+void HostLink::Impl::tell_word() {
+  lock_step::HostWord::Facts said{rave_wire_RUN_GOES, facts.step, ""};
+  said.managed = options.managed;
+  said.manager_here = manager != 0;
+  if (!started) {
+    said.phase = rave_wire_RUN_GATHERS;
+    said.text = told;
+  }
+  host_word->tell(said);
+}
+
 void HostLink::Impl::take() {
   pulse->beat(facts);
+  tell_word();
   if (pongs) take_pongs();
   if (worlds) take_worlds();
   if (packets_in) take_packets();

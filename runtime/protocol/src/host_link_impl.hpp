@@ -65,7 +65,9 @@ struct HostLink::Impl {
   std::unique_ptr<bus::CommandBox> commands{};
   std::optional<bus::WaitSet> waits{};  // behind all that it waits for
   std::optional<lock_step::Pulse> pulse{};
-  lock_step::Pulse::Facts facts{};      ///< For those who look on.
+  // For those who look on.
+  lock_step::Pulse::Facts facts{};
+  std::optional<lock_step::HostWord> host_word{};
   std::uint64_t last_world_number = 0;  ///< Of this manager; 0: none yet.
 
   SharedTime time{};
@@ -91,6 +93,7 @@ struct HostLink::Impl {
   bool world_lost = false;
   Clock::time_point last_world{};
   RobotColumns columns{};
+  lock_step::ReportColumns reports{};
   std::uint64_t packets_sent = 0;
   std::map<RobotId, TalkLimit> talk{};  ///< Of robots here that have said something.
   std::vector<RobotId> flooders{};
@@ -116,6 +119,7 @@ struct HostLink::Impl {
   void note_number(const bus::Packet& packet);
   void hear(const lock_step::RunWord& word);
   void look_at_patience();
+  void tell_word();
   void look();
   void listen_to_first();
   void lose(std::uint64_t writer);

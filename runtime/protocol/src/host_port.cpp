@@ -65,7 +65,8 @@ struct HostPort::Impl {
   sim::ObstacleHistory obstacles{};                   ///< Before the last world.
   std::vector<sim::ObstacleChange> last_obstacles{};  ///< Of that world.
   bool has_world = false;
-  std::uint64_t epoch = 0;  ///< Of the authority that answered last; 0: it is gone.
+  std::uint64_t last_step = 0;  ///< Of the last world.
+  std::uint64_t epoch = 0;      ///< Of the authority that answered last; 0: it is gone.
   std::uint64_t first_epoch = 0;
   bool changed_hands = false;      ///< Another authority than the first has answered.
   std::uint64_t manager = 0;       ///< Its process; 0: nobody has been heard of.
@@ -76,8 +77,10 @@ struct HostPort::Impl {
   std::string told{};                            ///< What the log was told last.
   Ending ending{};
   std::optional<Error> unfit{};
-  std::optional<bus::Writer<bus::HostState>> states_out{};  ///< For those who look on.
+  std::optional<bus::Writer<bus::HostState>> states_out{};  ///< For those who look on,
+  std::optional<HostWord> host_word{};                      ///< as this.
   RobotColumns columns{};
+  ReportColumns reports_out{};
   Clock::time_point next_show{};
 
   void tell(LogLevel level, const std::string& text);
@@ -87,10 +90,10 @@ struct HostPort::Impl {
   void meet(const bus::HostInfo& info);
   void hear(const RunWord& word);
   void look_at_patience();
+  void tell_word(std::uint64_t step);
   Status send(const sim::HostReport& report, std::uint64_t hash, const sim::WorldStep& last);
   Status follow_obstacles(const sim::WorldStep& world, sim::AuthorityState& state);
   [[nodiscard]] bool take_world(const sim::HostReport& report, sim::WorldStep& world);
-  [[nodiscard]] bool ended() const noexcept { return over; }
 
   bool over = false;
 };
@@ -209,6 +212,13 @@ void HostPort::Impl::look_at_patience() {
   tell(LogLevel::kError, fmt::format("gives up: {}", ending.text));
 }
 
+/// For those who look on.
+void HostPort::Impl::tell_word(std::uint64_t step) {
+  const bool stands = manager == 0 || !told.empty();
+  const auto phase = stands ? rave_wire_RUN_WAITS : rave_wire_RUN_GOES;
+  host_word->tell({has_world ? phase : rave_wire_RUN_GATHERS, step, told, true, manager != 0});
+}
+
 Status HostPort::Impl::send(const sim::HostReport& report, std::uint64_t hash,
                             const sim::WorldStep& last) {
   if (has_world && epoch == 0) {
@@ -260,6 +270,7 @@ bool HostPort::Impl::take_world(const sim::HostReport& report, sim::WorldStep& w
       return;
     }
     std::swap(world, coming);
+    last_step = world.step;
     has_world = true;
     authority = std::move(state);
     epoch = sample.epoch;
@@ -303,6 +314,8 @@ Result<std::unique_ptr<HostPort>> HostPort::open(const bus::BusConfig& config, I
                std::move(roster), std::move(findings), info, patience});
   RAVE_TRY_ASSIGN(auto states_out, bus::Writer<bus::HostState>::create(*impl->bus));
   impl->states_out.emplace(std::move(states_out));
+  RAVE_TRY_ASSIGN(auto word, HostWord::create(*impl->bus, impl->self.host, impl->self.name));
+  impl->host_word.emplace(std::move(word));
   return std::unique_ptr<HostPort>(new HostPort(std::move(impl)));
 }
 
@@ -316,6 +329,7 @@ Result<HostPort::Answer> HostPort::exchange(const sim::HostReport& report, std::
   auto next_stop = Clock::now() + kLook;
   for (;;) {
     port.pulse.beat({report.step});
+    port.tell_word(report.step);
     if (Clock::now() >= send_at) {
       RAVE_TRY(port.send(report, hash, world));
       send_at = Clock::now() + patience;
@@ -330,7 +344,7 @@ Result<HostPort::Answer> HostPort::exchange(const sim::HostReport& report, std::
     port.look_at_processes();
     port.look_at_patience();
     if (port.unfit) return tl::unexpected(*port.unfit);
-    if (port.ended()) return Answer::kEnded;
+    if (port.over) return Answer::kEnded;
     // Asked seldom: a step is answered long before.
     if (Clock::now() < next_stop) continue;
     if (stopping()) return Answer::kStopped;
@@ -340,21 +354,29 @@ Result<HostPort::Answer> HostPort::exchange(const sim::HostReport& report, std::
 
 void HostPort::show(const sim::Engine& engine, std::span<const RobotId> robots) {
   Impl& port = *impl_;
+  port.reports_out.note_contacts(engine);
   const auto now = Clock::now();
   if (now < port.next_show) return;
   port.next_show = now + kShowInterval;
   if (port.states_out->readers() == 0) return;
   port.columns.clear();
-  for (const RobotId robot : robots) port.columns.add(engine, robot, Duration{});
-  if (port.columns.size() == 0) return;
+  port.reports_out.clear();
+  for (const RobotId robot : robots) {
+    port.columns.add(engine, robot, Duration{});
+    port.reports_out.add(engine, robot);
+  }
+  if (robots.empty()) return;
   bus::HostState message{};
   message.host = port.self.host;
   message.step = engine.steps_done();
   port.columns.lend(message.resolved);
+  port.reports_out.lend(message.reports);
   // Who looks on and does not keep up misses some.
   static_cast<void>(port.states_out->write(message));
 }
 
+HostWord& HostPort::word() noexcept { return *impl_->host_word; }
+bus::Bus& HostPort::bus() noexcept { return *impl_->bus; }
 Roster& HostPort::roster() noexcept { return impl_->roster; }
 const sim::AuthorityState& HostPort::authority() const noexcept { return impl_->authority; }
 bool HostPort::changed_hands() const noexcept { return impl_->changed_hands; }
@@ -363,6 +385,7 @@ const HostPort::Ending& HostPort::ending() const noexcept { return impl_->ending
 Status HostPort::deliver(std::span<const std::byte> findings) {
   Impl& port = *impl_;
   if (!port.has_world) return {};
+  port.host_word->tell_end(!port.over || port.ending.good, port.last_step, port.ending.text);
   return port.findings.send(port.self.host, findings, kFindingsPatience);
 }
 

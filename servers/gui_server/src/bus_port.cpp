@@ -3,8 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-#include <iterator>
+#include <utility>
 
 namespace rave::gui_server {
 

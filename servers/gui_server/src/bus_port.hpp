@@ -16,9 +16,8 @@
 
 namespace rave::gui_server {
 
-/// Stops and releases robots of a run over its bus, in a thread of its own: in lock-step through
-/// the manager, in real time through each host. Another thread asks who is stopped, so that a stop
-/// never waits for that.
+/// Stops and releases robots of a run over its bus, in a thread of its own: through each
+/// host.
 class BusPort final : public RunPort {
  public:
   /// Two ends of the bus of the run; `commands`: the way of drives, which may be null.
@@ -60,7 +59,6 @@ class BusPort final : public RunPort {
   std::deque<std::pair<runtime::RunRequest, std::promise<Answer>>> waiting_;
   std::vector<runtime::RunStatus::Robot> robots_;
   std::jthread thread_;
-  std::jthread watcher_;
 };
 
 }  // namespace rave::gui_server

@@ -12,7 +12,7 @@ namespace {
 constexpr double kFold_s = 5;
 
 LogEvent::Level level_of(std::string_view kind) {
-  for (const std::string_view bad : {"program failed", "driver failed", "pinned"}) {
+  for (const std::string_view bad : {"program failed", "driver failed", "pinned", "process lost"}) {
     if (kind == bad) return LogEvent::Level::kAlert;
   }
   for (const std::string_view odd : {"pose stale", "guard stopped", "guard slowed",
@@ -68,9 +68,28 @@ void EventFold::add(double t_s, int slot, std::string_view kind, std::string_vie
     changed_[last->second] = ++revision_;
     return;
   }
+  if (events_.size() >= (event.level == LogEvent::Level::kInfo ? kMostEvents : kMostInAll)) {
+    return leave_out(t_s);
+  }
   last_[event.text] = events_.size();
   events_.push_back(std::move(event));
   changed_.push_back(++revision_);
+}
+
+void EventFold::leave_out(double t_s) {
+  if (left_out_++ == 0) {
+    full_ = events_.size();
+    LogEvent& row = events_.emplace_back();
+    row.t_s = t_s;
+    row.kind = "log full";
+    row.level = LogEvent::Level::kWarn;
+    changed_.push_back(0);
+  }
+  LogEvent& row = events_[full_];
+  row.until_s = t_s;
+  row.text = fmt::format("the log is full: {} more events are left out; the recording has them",
+                         left_out_);
+  changed_[full_] = ++revision_;
 }
 
 std::size_t EventFold::changed_since(std::uint64_t revision) const noexcept {

@@ -16,6 +16,8 @@ static_assert(std::endian::native == std::endian::little,
 
 constexpr std::size_t kPoseHeader = 48;
 constexpr std::size_t kReadingHeader = 32;
+constexpr std::size_t kVarianceHeader = 16;
+constexpr std::size_t kVarianceBytes = 12;
 constexpr double kFinest_m = 1e-4;
 
 template <class T>
@@ -102,6 +104,23 @@ std::string encode_reading(const ReadingAt& reading, double time_s) {
   put(frame, 28, reading.fields);
   if (!reading.values.empty()) {
     std::memcpy(frame.data() + kReadingHeader, reading.values.data(), 4 * reading.values.size());
+  }
+  return frame;
+}
+
+std::string encode_variances(std::span<const VarianceAt> variances, double time_s,
+                             std::uint16_t roster_revision) {
+  std::string frame(kVarianceHeader + kVarianceBytes * variances.size(), '\0');
+  put(frame, 0, std::uint8_t{3});
+  put(frame, 2, roster_revision);
+  put(frame, 4, static_cast<std::uint32_t>(variances.size()));
+  put(frame, 8, time_s);
+  std::size_t offset = kVarianceHeader;
+  for (const VarianceAt& variance : variances) {
+    put(frame, offset, variance.slot);
+    put(frame, offset + 4, variance.xy_m2);
+    put(frame, offset + 8, variance.yaw_rad2);
+    offset += kVarianceBytes;
   }
   return frame;
 }

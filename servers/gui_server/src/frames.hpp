@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include "rave/gui_server/source.hpp"
@@ -20,5 +21,15 @@ struct PoseFrameHead {
 
 /// `time_s`: of the picture that the reading belongs to.
 [[nodiscard]] std::string encode_reading(const ReadingAt& reading, double time_s);
+
+/// How sure a robot is of its reported pose.
+struct VarianceAt {
+  std::uint32_t slot = 0;
+  float xy_m2 = 0;  ///< Of each of x and y.
+  float yaw_rad2 = 0;
+  friend bool operator==(const VarianceAt&, const VarianceAt&) = default;
+};
+[[nodiscard]] std::string encode_variances(std::span<const VarianceAt> variances, double time_s,
+                                           std::uint16_t roster_revision);
 
 }  // namespace rave::gui_server

@@ -206,19 +206,12 @@ class GuiServer::Impl final : public web::Handler {
     }
     const RunAbout& about = visitors_.source()->about();
     if (about.recording.empty()) return web::text_response(404, "there is no recording\n");
-    constexpr std::uint64_t kMostInMemory = std::uint64_t{256} << 20U;
-    if (about.recording_bytes > kMostInMemory) {
-      return web::text_response(413, fmt::format("Too large to download here; it lies at {}\n",
-                                                 about.recording.string()));
-    }
-    auto content = read_file(about.recording);
-    if (!content) return web::text_response(500, content.error().text() + "\n");
     audit_->note("recording", {{"user", person->name}, {"from", request.peer}});
     web::Response response;
     response.type = "application/octet-stream";
     response.headers.emplace_back("Content-Disposition",
                                   fmt::format("attachment; filename=\"{}.mcap\"", about.name));
-    response.body = std::make_shared<const std::string>(*std::move(content));
+    response.file = about.recording;
     return response;
   }
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "reading_rows.hpp"
+#include "rave/onlook/reading_rows.hpp"
 #include "scene_json.hpp"
 
 namespace rave::gui_server {
@@ -104,6 +104,8 @@ void LiveFeed::draw_poses(const sim::Engine& engine, PosesAt& poses) const {
     const sim::ReportedPose& reported = engine.reported(RobotId(r));
     RobotState& robot = poses.robots[r];
     robot = {reported.pose.x_m, reported.pose.y_m, reported.pose.yaw_rad, 0, 0};
+    robot.variance_xy_m2 = static_cast<float>(reported.pose.variance_xy_m2);
+    robot.variance_yaw_rad2 = static_cast<float>(reported.pose.variance_yaw_rad2);
     const Twist2 v_W = engine.snapshot().velocity_W(RobotId(r));
     const double ahead = v_W.vx * std::cos(robot.yaw_rad) + v_W.vy * std::sin(robot.yaw_rad);
     robot.speed_mps = std::copysign(std::hypot(v_W.vx, v_W.vy), ahead);
@@ -132,8 +134,12 @@ void LiveFeed::draw_readings(const sim::Engine& engine, const LiveWants& wants,
     reading.sensor = looked.sensor;
     reading.part = part;
     reading.stamp_s = SimTime{header->stamp_ns}.seconds();
-    fill_rows(kind, header->count,
-              {static_cast<const std::byte*>(records), header->count * record_size(kind)}, reading);
+    reading.values.clear();
+    reading.fields = onlook::field_count(kind);
+    reading.rows = onlook::add_rows(
+        kind, header->count,
+        {static_cast<const std::byte*>(records), header->count * record_size(kind)},
+        reading.values);
   };
   for (const LookedAt& looked : wants.sensors) {
     const RobotId robot(looked.slot);

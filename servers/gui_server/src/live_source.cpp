@@ -154,9 +154,6 @@ void LiveSource::take_picture(Playhead::Clock::time_point now) {
   if (box_->pictures.take()) {
     poses_ = picture().poses;
     const PosesAt& poses = poses_;
-    for (std::size_t r = 0; r < std::min(flags_.size(), poses_.robots.size()); ++r) {
-      poses_.robots[r].flags = static_cast<std::uint16_t>(poses_.robots[r].flags | flags_[r]);
-    }
     state_.now_s = state_.end_s = poses.time_s;
     state_.begin_s = poses.time_s;
     state_.picture = poses.serial;

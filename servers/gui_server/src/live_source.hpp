@@ -63,7 +63,7 @@ class LiveSource : public Source {
 
   // For its cursors and playheads.
   [[nodiscard]] const LivePicture& picture() const noexcept { return box_->pictures.value(); }
-  /// The newest poses, with what is known of stops.
+  /// The newest poses.
   [[nodiscard]] const PosesAt& poses() const noexcept { return poses_; }
   /// Poses of the last 20 s, for trails; older ones first.
   [[nodiscard]] const std::deque<PosesAt>& past() const noexcept { return past_; }

@@ -32,7 +32,7 @@ class Recording final : public Source {
   }
   [[nodiscard]] std::span<const LogEvent> events() const noexcept override { return events_; }
   [[nodiscard]] std::unique_ptr<Cursor> open_cursor() override {
-    return std::make_unique<RecordingCursor>(reader_, flags_, real_, about_.step_s,
+    return std::make_unique<RecordingCursor>(reader_, flags_, real_, history_, about_.step_s,
                                              longest_period_s_);
   }
   [[nodiscard]] std::unique_ptr<Playhead> open_playhead() override {
@@ -63,6 +63,7 @@ class Recording final : public Source {
   std::vector<LogEvent> events_;
   std::vector<std::uint8_t> real_;
   FlagHistory flags_;
+  BodyHistory history_;
   double longest_period_s_ = 0;
 };
 
@@ -104,6 +105,7 @@ Status Recording::read(const std::filesystem::path& file) {
     longest_period_s_ = std::max(longest_period_s_, sensor.period_s);
   }
   RAVE_TRY_ASSIGN(bodies_, bodies_of(scenario));
+  RAVE_TRY(history_.read(reader_, scenario, bodies_));
   robots_ = robots_of(scenario, run, hybrids());
   return read_events(run);
 }

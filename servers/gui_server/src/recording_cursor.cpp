@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "rave/base/time.hpp"
+#include "rave/onlook/reading_rows.hpp"
 #include "rave/record/run_messages.hpp"
-#include "reading_rows.hpp"
 
 namespace rave::gui_server {
 namespace {
@@ -23,11 +23,12 @@ std::uint64_t ns_of(double time_s) {
 }  // namespace
 
 RecordingCursor::RecordingCursor(const record::McapReader& reader, const FlagHistory& flags,
-                                 const std::vector<std::uint8_t>& real, double step_s,
-                                 double longest_period_s)
+                                 const std::vector<std::uint8_t>& real, const BodyHistory& bodies,
+                                 double step_s, double longest_period_s)
     : reader_(reader),
       flags_(flags),
       real_(real),
+      bodies_(bodies),
       step_s_(step_s),
       look_back_s_(std::min(longest_period_s, kMostBack_s) + 2 * step_s) {
   if (const auto* const poses = reader.channel(record::topic::kPoses)) poses_channel_ = poses->id;
@@ -133,8 +134,10 @@ std::vector<ReadingAt> RecordingCursor::readings(std::span<const LookedAt> senso
       reading.sensor = key.sensor;
       reading.part = part;
       reading.stamp_s = static_cast<double>(percept.header.stamp_ns) * 1e-9;
-      fill_rows(static_cast<ReadingKind>(percept.kind), percept.header.count, percept.records,
-                reading);
+      const auto kind = static_cast<ReadingKind>(percept.kind);
+      reading.values.clear();
+      reading.fields = onlook::field_count(kind);
+      reading.rows = onlook::add_rows(kind, percept.header.count, percept.records, reading.values);
     }
   }
   std::vector<ReadingAt> readings;

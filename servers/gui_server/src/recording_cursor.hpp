@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "body_history.hpp"
 #include "rave/gui_server/source.hpp"
 #include "rave/record/mcap_reader.hpp"
 
@@ -26,12 +27,14 @@ class RecordingCursor final : public Cursor {
   /// What it reads belongs to a source that outlives it. `kinds`: whether each robot is real.
   /// `longest_period_s`: of any sensor; so far before a moment its readings may lie.
   RecordingCursor(const record::McapReader& reader, const FlagHistory& flags,
-                  const std::vector<std::uint8_t>& real, double step_s, double longest_period_s);
+                  const std::vector<std::uint8_t>& real, const BodyHistory& bodies, double step_s,
+                  double longest_period_s);
 
   [[nodiscard]] Status go_to(double time_s) override;
   [[nodiscard]] const PosesAt& poses() const noexcept override { return poses_; }
   [[nodiscard]] std::vector<ReadingAt> readings(std::span<const LookedAt> sensors,
                                                 bool parts) override;
+  [[nodiscard]] std::string take_bodies() override { return bodies_.change_to(time_s_); }
 
  private:
   using Bytes = std::vector<std::byte>;
@@ -43,6 +46,7 @@ class RecordingCursor final : public Cursor {
   const record::McapReader& reader_;
   const FlagHistory& flags_;
   const std::vector<std::uint8_t>& real_;
+  ToldBodies bodies_;
   double step_s_;
   double look_back_s_;
   std::uint16_t poses_channel_ = 0;

@@ -40,6 +40,9 @@ class RestrictedCursor final : public Cursor {
     }
     return mine;
   }
+  [[nodiscard]] std::string take_bodies() override {
+    return source_.cut_bodies(all_->take_bodies());
+  }
 
  private:
   RestrictedSource& source_;
@@ -126,7 +129,12 @@ std::string RestrictedSource::hidden_kinds_json() const {
 std::uint64_t RestrictedSource::bodies_revision() const noexcept { return all_->bodies_revision(); }
 
 std::string RestrictedSource::bodies_changed_since(std::uint64_t revision) const {
-  const BodyJson all = BodyJson::parse(all_->bodies_changed_since(revision), nullptr, false);
+  return cut_bodies(all_->bodies_changed_since(revision));
+}
+
+std::string RestrictedSource::cut_bodies(const std::string& change) const {
+  if (change.empty()) return {};
+  const BodyJson all = BodyJson::parse(change, nullptr, false);
   if (!all.is_object()) return {};
   BodyJson mine = {
       {"type", "scene_change"}, {"set", BodyJson::array()}, {"gone", BodyJson::array()}};

@@ -47,6 +47,8 @@ class RestrictedSource final : public Source {
 
   /// A picture that several pages share is cut down once.
   [[nodiscard]] PosesAt cut(const PosesAt& all);
+  /// The same of a message that says which bodies changed; empty: none that is seen.
+  [[nodiscard]] std::string cut_bodies(const std::string& change) const;
 
  private:
   void take_events() const;

@@ -3,7 +3,6 @@
 
 #include <future>
 #include <string>
-#include <vector>
 
 #include "rave/base/result.hpp"
 #include "rave/control/run_control.hpp"

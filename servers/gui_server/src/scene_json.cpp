@@ -8,8 +8,8 @@
 #include "rave/config/map_image.hpp"
 #include "rave/math/scalar.hpp"
 #include "rave/math/transform.hpp"
+#include "rave/onlook/reading_rows.hpp"
 #include "rave/robot/reading.hpp"
-#include "reading_rows.hpp"
 
 namespace rave::gui_server {
 namespace {
@@ -43,6 +43,17 @@ Json shape_json(const config::Outline& outline, const Pose2& X_BO, const config:
 const char* kind_of(config::ObstacleLayer layer, bool barcode) {
   if (layer == config::ObstacleLayer::kVirtualObstacles) return "virtual";
   return barcode ? "landmark" : "wall";
+}
+
+Json file_json(std::size_t id, const config::ObstacleFile& obstacle) {
+  Json body = {{"id", id},
+               {"name", obstacle.name.value},
+               {"kind", kind_of(obstacle.layer, obstacle.barcode.has_value())},
+               {"pose", Json::array({obstacle.x_m, obstacle.y_m, deg_to_rad(obstacle.yaw_deg)})},
+               {"shapes", Json::array({shape_json(obstacle.outline, Pose2{}, obstacle.z_m)})}};
+  if (obstacle.barcode) body["barcode"] = *obstacle.barcode;
+  if (obstacle.colour) body["colour"] = *obstacle.colour;
+  return body;
 }
 
 Status add_map(const config::MapFile& file, Json& bodies) {
@@ -86,7 +97,7 @@ Json sensor_json(const record::RecordedSensor& sensor, const config::SensorFile*
                {"mount", pose_json(sensor.X_RS)},
                {"z", sensor.z_m},
                {"period_s", sensor.period_s},
-               {"fields", fields_of(kind)}};
+               {"fields", onlook::fields_of(kind)}};
   if (kind == ReadingKind::kRanges) {
     json["range"] = Json::array({sensor.range_min_m, sensor.range_max_m});
     json["bearings"] = sensor.bearings_rad;
@@ -127,14 +138,7 @@ Json robot_json(const config::ExpandedScenario& scenario, const record::Recorded
 Result<std::string> bodies_of(const config::ExpandedScenario& scenario) {
   Json bodies = Json::array();
   for (const config::ObstacleFile& obstacle : scenario.world.obstacles) {
-    Json body = {{"id", bodies.size()},
-                 {"name", obstacle.name.value},
-                 {"kind", kind_of(obstacle.layer, obstacle.barcode.has_value())},
-                 {"pose", Json::array({obstacle.x_m, obstacle.y_m, deg_to_rad(obstacle.yaw_deg)})},
-                 {"shapes", Json::array({shape_json(obstacle.outline, Pose2{}, obstacle.z_m)})}};
-    if (obstacle.barcode) body["barcode"] = *obstacle.barcode;
-    if (obstacle.colour) body["colour"] = *obstacle.colour;
-    bodies.push_back(std::move(body));
+    bodies.push_back(file_json(bodies.size(), obstacle));
   }
   for (const config::MapFile& map : scenario.world.maps) RAVE_TRY(add_map(map, bodies));
   return bodies.dump();
@@ -164,6 +168,10 @@ std::string body_json(std::uint32_t id, const world::Obstacle& obstacle) {
   if (body.code) json["barcode"] = *body.code;
   if (!body.colour.empty()) json["colour"] = body.colour;
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string body_json(std::uint32_t id, const config::ObstacleFile& obstacle) {
+  return file_json(id, obstacle).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string robots_of(const config::ExpandedScenario& scenario, const record::RunInfo& run,

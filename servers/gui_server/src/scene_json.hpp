@@ -17,6 +17,9 @@ namespace rave::gui_server {
 /// An obstacle of a run, as an entry of `bodies`.
 [[nodiscard]] std::string body_json(std::uint32_t id, const world::Obstacle& obstacle);
 
+/// An obstacle of a file, as an entry of `bodies`.
+[[nodiscard]] std::string body_json(std::uint32_t id, const config::ObstacleFile& obstacle);
+
 /// Robots with shapes and sensors. `hybrids`: names `robot/sensor` of hybrid sensors.
 [[nodiscard]] std::string robots_of(const config::ExpandedScenario& scenario,
                                     const record::RunInfo& run, const record::StringMap& hybrids);

@@ -48,6 +48,7 @@ void Session::show(std::shared_ptr<Source> source, const Greeting& greeting, boo
   told_hosts_ = 0;
   send_leases(true);
   told_.clear();
+  told_variances_.clear();
   // The slots are others now; the page says again what it looks at.
   look_.readings.clear();
   changed_ = true;
@@ -85,6 +86,7 @@ void Session::take(const LookMessage& look) {
   look_ = look;
   forget_foreign_sensors();
   told_.clear();
+  told_variances_.clear();
   changed_ = true;
 }
 
@@ -164,7 +166,11 @@ void Session::tick(Clock::time_point now, SharedFrames& frames) {
     broken_ = true;
     return;
   }
+  if (auto bodies = cursor_->take_bodies(); !bodies.empty()) {
+    socket_.send_text(payload(std::move(bodies)));
+  }
   send_readings();
+  send_variances();
   send_frame(frames);
   picture_ = state.picture;
   changed_ = false;
@@ -210,6 +216,22 @@ void Session::send_readings() {
     told->second = reading.stamp_s;
     socket_.send_binary(payload(encode_reading(reading, cursor_->poses().time_s)));
   }
+}
+
+/// Of the robots whose readings are looked at, when they change.
+void Session::send_variances() {
+  const PosesAt& poses = cursor_->poses();
+  std::vector<VarianceAt> variances;
+  for (const LookedAt& looked : look_.readings) {
+    if (looked.slot >= poses.robots.size()) continue;
+    if (!variances.empty() && variances.back().slot == looked.slot) continue;
+    const RobotState& robot = poses.robots[looked.slot];
+    if (robot.variance_xy_m2 <= 0 && robot.variance_yaw_rad2 <= 0) continue;
+    variances.push_back({looked.slot, robot.variance_xy_m2, robot.variance_yaw_rad2});
+  }
+  if (variances == told_variances_) return;
+  socket_.send_binary(payload(encode_variances(variances, poses.time_s, 1)));
+  told_variances_ = std::move(variances);
 }
 
 void Session::send_news() {

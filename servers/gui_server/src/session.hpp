@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 
+#include "frames.hpp"
 #include "page_commands.hpp"
 #include "page_message.hpp"
 #include "page_text.hpp"
@@ -75,6 +76,7 @@ class Session {
   void send_past(double now_s);
   void send_frame(SharedFrames& frames);
   void send_readings();
+  void send_variances();
   void send_time(const PlayState& state);
   void send_news();
   void send_leases(bool all);
@@ -94,6 +96,7 @@ class Session {
   std::uint32_t sequence_ = 0;
   std::deque<std::uint32_t> on_their_way_;
   std::map<std::pair<LookedAt, std::uint8_t>, double> told_;  ///< Stamp of what was sent last.
+  std::vector<VarianceAt> told_variances_;
   std::uint64_t told_events_ = 0;
   std::uint64_t told_bodies_ = 0;
   std::uint64_t told_hosts_ = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "event_fold.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace rave::gui_server {
@@ -34,6 +35,25 @@ TEST(EventFold, EventsOfTheWorldHaveNoRobot) {
   fold.add(1, -1, "obstacle added", "`box` at 1, 2");
   EXPECT_TRUE(fold.events()[0].slots.empty());
   EXPECT_EQ(fold.events()[0].text, "obstacle added: `box` at 1, 2");
+}
+
+TEST(EventFold, ALogThatIsFullSaysWhatIsLeftOut) {
+  EventFold fold({"a"});
+  for (std::size_t i = 0; i < EventFold::kMostEvents + 10; ++i) {
+    fold.add(static_cast<double>(i), 0, "changed", fmt::format("number {}", i));
+  }
+  ASSERT_EQ(fold.events().size(), EventFold::kMostEvents + 1);
+  EXPECT_EQ(fold.events().back().text,
+            "the log is full: 10 more events are left out; the recording has them");
+  const std::uint64_t revision = fold.revision();
+  // What matters is still told.
+  fold.add(1e6, 0, "driver failed", "it does not answer");
+  EXPECT_EQ(fold.events().size(), EventFold::kMostEvents + 2);
+  EXPECT_EQ(fold.events().back().level, LogEvent::Level::kAlert);
+  EXPECT_EQ(fold.changed_since(revision), EventFold::kMostEvents + 1);
+  fold.add(2e6, 0, "changed", "one more");
+  EXPECT_EQ(fold.events().size(), EventFold::kMostEvents + 2);
+  EXPECT_TRUE(fold.events()[EventFold::kMostEvents].text.starts_with("the log is full: 11 more"));
 }
 
 }  // namespace

@@ -86,6 +86,12 @@ TEST(Frames, AreThoseThatThePageIsTestedWith) {
   }
   for (const ReadingAt& reading : sample_readings())
     json["readings"].push_back(reading_json(reading));
+  const std::vector<VarianceAt> variances = {{0, 0.25F, 0.0625F}, {70000, 4, 0}};
+  json["variances"] = {
+      {{"hex", hex_of(encode_variances(variances, 17.5, 1))},
+       {"time_s", 17.5},
+       {"robots", Json::array({Json::array({0, 0.25, 0.0625}), Json::array({70000, 4, 0})})}},
+      {{"hex", hex_of(encode_variances({}, 0, 1))}, {"time_s", 0}, {"robots", Json::array()}}};
   const std::string text = json.dump(1) + "\n";
   if (std::getenv("RAVE_WRITE_FRAMES") != nullptr) {
     ASSERT_TRUE(write_file_atomically(RAVE_FRAMES, text));

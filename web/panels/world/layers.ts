@@ -11,6 +11,7 @@ export interface Layers {
   scans: 'off' | 'selected' | 'real';
   sightings: boolean;
   hits: boolean;
+  uncertainty: boolean;
   names: boolean;
   grid: boolean;
   density: boolean;
@@ -28,6 +29,7 @@ export const kLayers: Layers = {
   scans: 'real',
   sightings: true,
   hits: true,
+  uncertainty: true,
   names: true,
   grid: true,
   density: true,
@@ -39,7 +41,7 @@ export const kLayers: Layers = {
 export function readLayers(kept: unknown): Layers {
   const given = typeof kept === 'object' && kept !== null ? (kept as Partial<Layers>) : {};
   const layers: Layers = {...kLayers, hidden: Array.isArray(given.hidden) ? given.hidden : []};
-  for (const name of ['trails', 'sightings', 'hits', 'names', 'grid', 'density', 'minimap'] satisfies Flag[]) {
+  for (const name of ['trails', 'sightings', 'hits', 'uncertainty', 'names', 'grid', 'density', 'minimap'] satisfies Flag[]) {
     if (typeof given[name] === 'boolean') layers[name] = given[name];
   }
   if (given.scans === 'off' || given.scans === 'selected') layers.scans = given.scans;

@@ -20,6 +20,7 @@ import {Surface} from './surface';
 import {kTailParts, type Swarm, type Tone} from './swarm';
 import {Tint} from './tint';
 import {drawTrail, kTrail_s, trailFrames} from './trail_layer';
+import {drawVariances} from './variance_layer';
 
 /** Below this many pixels per metre, or beyond so many robots in the picture, simulated ones are arrowheads. */
 const kFar_px = 30;
@@ -95,6 +96,7 @@ export class TopView {
       for (const slot of cast.whole) drawTrail(ctx, camera, placed, frames, slot, model.robots[slot], palette);
     }
     drawReadings(ctx, camera, model, selection, palette, placed, layers, this.surface, camera.scale >= kFar_px);
+    if (layers.uncertainty) drawVariances(ctx, camera, model, selection, palette, placed);
     const speeds = model.poses.newest?.speed;
     for (const slot of cast.whole) {
       const robot = model.robots[slot];

@@ -61,6 +61,7 @@ export function renderMenu(layers: Layers, scale: [string, string], theme: 'dark
     ${choice('Scans', layers.scans, [['off', 'off'], ['selected', 'selected'], ['real', 'selected and real']], (scans) => ({...layers, scans}))}
     ${flag('sightings', 'Camera sightings')}
     ${flag('hits', 'Where readings hit')}
+    ${flag('uncertainty', 'Uncertainty of reported poses')}
     <hr>
     ${choice('Colour by', layers.colourBy, kColourBy.map((by) => [by, by] as const), (colourBy: ColourBy) => ({...layers, colourBy}))}
     ${layers.colourBy === 'kind' ? nothing : renderScale(scale, theme)}

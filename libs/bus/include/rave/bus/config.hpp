@@ -27,6 +27,14 @@ enum class Reach : std::uint8_t {
   kHubs,  ///< Hubs. Others find this process if they look for it.
 };
 
+/// Whom a process of a run exchanges messages with. Hosts are in both partitions of the run, so
+/// that its manager and those who look on neither hear nor hold up each other.
+enum class Side : std::uint8_t {
+  kAll,      ///< Everybody; as hosts do.
+  kManager,  ///< Hosts, in the partition `rave/RUN` alone.
+  kMonitor,  ///< Hosts, in the partition `rave/RUN/hosts` alone.
+};
+
 /// How a process takes part in a run. A plain value; the defaults stay on this machine.
 struct BusConfig {
   /// Shown to others, in events and tables: 1 to 64 bytes.
@@ -37,6 +45,7 @@ struct BusConfig {
   /// process takes this one for a part of a run, or of another run. Without a run it sees who is
   /// there and no samples.
   bool anonymous = false;
+  Side side = Side::kAll;
   /// 0 to 230: chooses the UDP ports, 7400 + 250 * domain and up.
   std::uint32_t domain = 0;
   /// The network interface, by address (`192.168.1.7`) or by name (`eth0`).

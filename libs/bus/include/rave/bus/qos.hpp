@@ -29,6 +29,8 @@ inline constexpr QosProfile kNewest{};
 inline constexpr QosProfile kDurable{.durable = true, .waits = true};
 /// The same from those who have no time to wait, and say again what did not get through.
 inline constexpr QosProfile kDescription{.durable = true};
+/// The last of what happened at each, also for those who come later. Waits for nobody.
+inline constexpr QosProfile kPast{.durable = true, .depth = 256};
 /// The last few of each instance: what is left out of one is in another one.
 inline constexpr QosProfile kLately{.depth = 8};
 /// Everything, in order. A writer waits when 4096 samples are not confirmed, and then fails.

@@ -6,6 +6,7 @@
 #include "idl/rave/host.h"
 #include "idl/rave/line.h"
 #include "idl/rave/lock_step.h"
+#include "idl/rave/look.h"
 #include "idl/rave/obstacle.h"
 #include "idl/rave/roster.h"
 #include "idl/rave/wish.h"
@@ -19,6 +20,8 @@ using WorldStep = rave_wire_WorldStep;
 /// A world that a host hands back; the same type on another topic.
 struct LastWorld : rave_wire_WorldStep {};
 using RunState = rave_wire_RunState;
+/// How a run goes as one of its hosts knows it; the same type on another topic.
+struct HostRun : rave_wire_RunState {};
 using HostState = rave_wire_HostState;
 using World = rave_wire_World;
 using RosterEntry = rave_wire_RosterEntry;
@@ -35,6 +38,9 @@ using ClockPong = rave_wire_ClockPong;
 using LineInfo = rave_wire_LineInfo;
 using LineWithdrawal = rave_wire_LineWithdrawal;
 using FindingsPart = rave_wire_FindingsPart;
+using Look = rave_wire_Look;
+using Readings = rave_wire_Readings;
+using RunEvents = rave_wire_RunEvents;
 using Wish = rave_wire_Wish;
 using WishAnswer = rave_wire_WishAnswer;
 
@@ -68,6 +74,10 @@ inline TopicSpec topic_of<LastWorld>() {
 template <>
 inline TopicSpec topic_of<RunState>() {
   return {"rave/run", &rave_wire_RunState_desc, kDurable};
+}
+template <>
+inline TopicSpec topic_of<HostRun>() {
+  return {"rave/host_run", &rave_wire_RunState_desc, kNewest};
 }
 template <>
 inline TopicSpec topic_of<HostState>() {
@@ -128,6 +138,18 @@ inline TopicSpec topic_of<LineWithdrawal>() {
 template <>
 inline TopicSpec topic_of<FindingsPart>() {
   return {"rave/findings", &rave_wire_FindingsPart_desc, kDurable};
+}
+template <>
+inline TopicSpec topic_of<Look>() {
+  return {"rave/look", &rave_wire_Look_desc, kNewest};
+}
+template <>
+inline TopicSpec topic_of<Readings>() {
+  return {"rave/readings", &rave_wire_Readings_desc, kNewest};
+}
+template <>
+inline TopicSpec topic_of<RunEvents>() {
+  return {"rave/events", &rave_wire_RunEvents_desc, kPast};
 }
 template <>
 inline TopicSpec topic_of<Wish>() {

@@ -35,6 +35,9 @@ inline constexpr double kMaxTurn_radps = 1e4;
 [[nodiscard]] Status validate(const ClockPing& sample);
 [[nodiscard]] Status validate(const ClockPong& sample);
 [[nodiscard]] Status validate(const FindingsPart& sample);
+[[nodiscard]] Status validate(const Look& sample);
+[[nodiscard]] Status validate(const Readings& sample);
+[[nodiscard]] Status validate(const RunEvents& sample);
 [[nodiscard]] Status validate(const Wish& sample);
 [[nodiscard]] Status validate(const WishAnswer& sample);
 

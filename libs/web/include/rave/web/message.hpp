@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <span>
@@ -31,6 +32,10 @@ struct Response {
   std::string type = "text/plain; charset=utf-8";
   std::shared_ptr<const std::string> body;  ///< Null: empty.
   std::vector<std::pair<std::string, std::string>> headers;
+  /// Instead of a body: this file, of which a piece at a time is read and sent, so that it may be
+  /// larger than the memory. What it grows by meanwhile is left out; where it cannot be read to its
+  /// end the connection is cut. Empty: the body.
+  std::filesystem::path file{};
 };
 
 /// The Content-Security-Policy of all responses: nothing but the server itself, and as ends of

@@ -10,6 +10,7 @@
 
 #include "rave/base/result.hpp"
 #include "rave/base/time.hpp"
+#include "rave/bus/bus.hpp"
 #include "rave/bus/config.hpp"
 #include "rave/watch/run_view.hpp"
 
@@ -64,6 +65,8 @@ class Observer {
   [[nodiscard]] RunView view(bool with_robots) const;
   /// Whether any process of the run has been heard of.
   [[nodiscard]] bool knows_any() const;
+  /// Where it is on; for others of this thread that end before it.
+  [[nodiscard]] bus::Bus& bus() noexcept;
 
  private:
   struct Impl;

@@ -48,6 +48,8 @@ class RunModel {
   /// A sample that has come. `delay_ns`: how long it was on its way, as the clocks of day say.
   void hear(const bus::HostInfo& info);
   void hear(const bus::RunState& state, std::int64_t now_ns);
+  /// What a host says of the run; counts while no manager is heard.
+  void hear_word(const bus::RunState& state, std::int64_t now_ns);
   void hear(const bus::ProcessState& state, std::int64_t now_ns, std::int64_t delay_ns);
   void hear(const bus::HostState& state, std::int64_t now_ns, std::int64_t delay_ns);
   void hear(const bus::World& world, std::int64_t now_ns);
@@ -68,6 +70,27 @@ class RunModel {
     std::string team;
     bool simulated = true;
   };
+  /// What the manager says of a host.
+  struct Sight {
+    std::string name;
+    rave_wire_HostPhase phase{};
+    std::uint32_t robots = 0;
+    std::uint64_t step = 0;
+    double offset_s = 0;
+    double bound_s = -1;
+  };
+  struct State {
+    std::uint64_t writer = 0;
+    std::string scenario;
+    rave_wire_RunPhase phase{};
+    std::uint64_t step = 0;
+    std::uint64_t steps = 0;
+    double step_s = 0;
+    double speed = 0;
+    std::string text;
+    std::map<std::uint32_t, Sight> hosts;
+  };
+
   /// One start of one process.
   struct Process {
     bool introduced = false;
@@ -92,6 +115,7 @@ class RunModel {
     std::optional<std::int64_t> reported_ns;    ///< When its last report came.
     std::optional<std::int64_t> moved_ns;       ///< When it was in a new step.
     std::map<std::uint32_t, Described> roster;  ///< Its robots, by number.
+    std::optional<State> word;                  ///< What it says of the run, if it is a host.
   };
   /// A robot that was said to be somewhere.
   struct Robot {
@@ -104,28 +128,8 @@ class RunModel {
     std::optional<std::int64_t> stamp_ns;
     std::optional<std::int64_t> heard_ns;
     double x_m = 0, y_m = 0, yaw_rad = 0, speed_mps = 0;
+    std::optional<RobotReport> report;
   };
-  /// What the manager says of a host.
-  struct Sight {
-    std::string name;
-    rave_wire_HostPhase phase{};
-    std::uint32_t robots = 0;
-    std::uint64_t step = 0;
-    double offset_s = 0;
-    double bound_s = -1;
-  };
-  struct State {
-    std::uint64_t writer = 0;
-    std::string scenario;
-    rave_wire_RunPhase phase{};
-    std::uint64_t step = 0;
-    std::uint64_t steps = 0;
-    double step_s = 0;
-    double speed = 0;
-    std::string text;
-    std::map<std::uint32_t, Sight> hosts;
-  };
-
   /// Who describes a robot.
   struct Told {
     std::uint32_t host = 0;
@@ -138,6 +142,7 @@ class RunModel {
   void tell_robots(const std::set<std::uint32_t>& hosts, RunView& view, std::int64_t now_ns) const;
   static void count_cores(Process& process, const bus::ProcessState& state, std::int64_t now_ns);
   void place(const rave_wire_PlanarRobots& robots, std::size_t i, std::int64_t now_ns);
+  void note_reports(const rave_wire_RobotReports& reports);
   [[nodiscard]] const Process* speaker_of(std::uint32_t host) const;
   [[nodiscard]] bool manager_here() const;
   [[nodiscard]] Standing standing_of(const Process* process, const Sight* sight,
@@ -153,6 +158,19 @@ class RunModel {
   [[nodiscard]] std::string name_of(std::uint32_t host) const;
   [[nodiscard]] std::optional<double> asked_of(const Robot& robot) const;
   void tell_run(RunView& view, std::int64_t now_ns) const;
+  /// What those hosts say of the run that are heard.
+  struct Words {
+    const State* farthest = nullptr;  ///< Null: nobody has said anything.
+    const State* waiting = nullptr;
+    const State* over = nullptr;
+    bool here = false;  ///< Somebody goes on.
+    bool manager_lost = false;
+    std::optional<std::int64_t> newest_ns;  ///< Stamp of a robot.
+  };
+  [[nodiscard]] Words words() const;
+  void tell_words(RunView& view) const;
+  [[nodiscard]] std::optional<HostView> manager_by_words() const;
+  [[nodiscard]] static State read(const bus::RunState& state);
 
   std::string run_;
   std::map<std::uint64_t, Process> processes_;  ///< By writer.

@@ -62,6 +62,19 @@ struct HostView {
   std::optional<double> memory_mb;       ///< Resident, 10^6 bytes.
 };
 
+/// What a robot reports of itself, as its host says.
+struct RobotReport {
+  double x_m = 0, y_m = 0, yaw_rad = 0;  ///< World frame.
+  double variance_xy_m2 = 0;             ///< Of each of x and y.
+  double variance_yaw_rad2 = 0;
+  bool known = false;  ///< There was a pose.
+  bool stale = false;
+  bool stopped = false;
+  bool armed = true;
+  bool real = false;
+  bool touches = false;
+};
+
 struct RobotView {
   std::uint32_t number = 0;
   std::string name;  ///< Empty if nobody has said it.
@@ -74,6 +87,8 @@ struct RobotView {
   std::optional<double> asked_rate_hz;
   std::optional<double> x_m, y_m, yaw_rad;  ///< World frame.
   std::optional<double> speed_mps;          ///< Forward positive.
+  /// Only where hosts say it: in lock-step, and in real time while somebody asks for it.
+  std::optional<RobotReport> report;
 };
 
 /// A run as an onlooker knows it at one moment. A value.

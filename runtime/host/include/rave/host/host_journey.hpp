@@ -33,6 +33,9 @@ struct Seat {
 [[nodiscard]] std::uint32_t real_robots(const sim::EngineSpec& spec,
                                         std::span<const RobotId> robots);
 
+/// How many steps the run has.
+[[nodiscard]] std::uint64_t steps_of(const config::ScenarioFile& scenario);
+
 /// One host on its way through a run, whether the hosts wait for one another or not.
 struct HostJourney {
   sim::Engine& engine;

@@ -17,6 +17,7 @@
 #include "rave/bus/command_box.hpp"
 #include "rave/bus/config.hpp"
 #include "rave/bus/wish_book.hpp"
+#include "rave/protocol/host_word.hpp"
 #include "rave/protocol/introduction.hpp"
 #include "rave/protocol/live_world.hpp"
 #include "rave/protocol/pulse.hpp"
@@ -57,6 +58,10 @@ class HostLink {
   HostLink& operator=(const HostLink&) = delete;
   ~HostLink();
 
+  /// How the run goes, for those who look on; it says nothing before it was told of the scenario.
+  [[nodiscard]] lock_step::HostWord& word() noexcept;
+  /// Where it is on; for others of this thread that end before it.
+  [[nodiscard]] bus::Bus& bus() noexcept;
   /// What is told of the robots of this host, which nobody in the run waits for.
   [[nodiscard]] lock_step::Roster& roster() noexcept;
 
@@ -79,8 +84,8 @@ class HostLink {
   /// Tells those who look on how many robots of this host are real now, after a hand-over.
   void count_real(std::uint32_t robots) noexcept;
   /// Tells where robots of this engine are, as its last step sensed; those without a pose are left
-  /// out. Nothing for an empty list.
-  void tell(const sim::Engine& engine, std::span<const RobotId> robots);
+  /// out. Nothing for an empty list. `reports`: somebody looks on, and is told what they report.
+  void tell(const sim::Engine& engine, std::span<const RobotId> robots, bool reports = false);
   /// Sends what robots here said in a step, of each as much as its TalkLimit lets pass. Waits for
   /// nobody.
   void send(const sim::SentPackets& sent);

@@ -13,6 +13,7 @@
 #include "rave/base/time.hpp"
 #include "rave/bus/bus.hpp"
 #include "rave/bus/wish_book.hpp"
+#include "rave/protocol/host_word.hpp"
 #include "rave/protocol/introduction.hpp"
 #include "rave/protocol/roster.hpp"
 #include "rave/sim/authority_state.hpp"
@@ -59,9 +60,13 @@ class HostPort {
   [[nodiscard]] Result<Answer> exchange(const sim::HostReport& report, std::uint64_t hash,
                                         sim::WorldStep& world,
                                         const std::function<bool()>& stopping);
-  /// Says where robots of this host are, for those who look on: 30 times a second at most, and
-  /// while somebody reads it. Nobody in the run does.
+  /// Says where robots of this host are and what they report, for those who look on: 30 times a
+  /// second at most, and while somebody reads it. Nobody in the run does.
   void show(const sim::Engine& engine, std::span<const RobotId> robots);
+  /// How the run goes, for those who look on; it says nothing before it was told of the scenario.
+  [[nodiscard]] HostWord& word() noexcept;
+  /// Where it is on; for others of this thread that end before it.
+  [[nodiscard]] bus::Bus& bus() noexcept;
   /// What is told of the robots of this host, which nobody in the run waits for.
   [[nodiscard]] Roster& roster() noexcept;
   /// What the authority knew beside the last world, with the obstacles of before only if this host

@@ -39,4 +39,26 @@ class RobotColumns {
   std::vector<std::int64_t> stamp_ns_;
 };
 
+/// What robots report of themselves, for those who look on; in the columns that a message borrows.
+/// One owner thread.
+class ReportColumns {
+ public:
+  /// A contact is told when it begins; so long it counts as going on.
+  static constexpr double kTouch_s = 0.5;
+
+  /// After each step whose contacts may matter later.
+  void note_contacts(const sim::Engine& engine);
+  void clear() noexcept;
+  /// Behind those with lower numbers; a robot of this engine.
+  void add(const sim::Engine& engine, RobotId robot);
+  /// The message holds until this object changes.
+  void lend(rave_wire_RobotReports& reports) noexcept;
+
+ private:
+  std::vector<std::uint32_t> id_;
+  std::vector<double> x_m_, y_m_, yaw_rad_, variance_xy_m2_, variance_yaw_rad2_;
+  std::vector<std::uint8_t> flags_;
+  std::vector<double> touching_until_s_;  ///< By robot; empty before the first contact.
+};
+
 }  // namespace rave::lock_step

@@ -76,6 +76,9 @@ struct RobotState {
   double yaw_rad = 0;
   double speed_mps = 0;  ///< Over ground, forward positive.
   std::uint16_t flags = 0;
+  /// Of the reported pose: of each of x and y, and of the heading. 0: not known. Live runs alone.
+  float variance_xy_m2 = 0;
+  float variance_yaw_rad2 = 0;
 };
 
 /// Where all robots are at one moment; by index of the roster.
@@ -126,6 +129,9 @@ class Cursor {
   /// The newest readings of `sensors` at this moment.
   [[nodiscard]] virtual std::vector<ReadingAt> readings(std::span<const LookedAt> sensors,
                                                         bool parts) = 0;
+  /// The message `scene_change` that leads from the bodies of the start, or of the last call, to
+  /// those of this moment; empty: nothing changed, or they are those of the source for everybody.
+  [[nodiscard]] virtual std::string take_bodies() { return {}; }
 };
 
 /// Where a page is in the time of a run, and what that time does.

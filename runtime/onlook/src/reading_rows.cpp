@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reading_rows.hpp"
+#include "rave/onlook/reading_rows.hpp"
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 
-namespace rave::gui_server {
+namespace rave::onlook {
 namespace {
 
 template <class Record>
@@ -81,14 +82,18 @@ std::vector<std::string> fields_of(ReadingKind kind) {
   return {};
 }
 
-void fill_rows(ReadingKind kind, std::uint32_t count, std::span<const std::byte> records,
-               ReadingAt& reading) {
-  reading.values.clear();
-  const std::size_t size = record_size(kind);
-  const std::size_t whole = size == 0 ? 0 : std::min<std::size_t>(count, records.size() / size);
-  for (std::size_t i = 0; i < whole; ++i) add_record(kind, records, i, reading.values);
-  reading.rows = static_cast<std::uint32_t>(whole);
-  reading.fields = static_cast<std::uint32_t>(fields_of(kind).size());
+std::uint32_t field_count(ReadingKind kind) noexcept {
+  constexpr std::uint32_t kCounts[] = {0, 1, 3, 5, 5, 5, 2, 2, 1};
+  const auto index = static_cast<std::size_t>(kind);
+  return index < std::size(kCounts) ? kCounts[index] : 0;
 }
 
-}  // namespace rave::gui_server
+std::uint32_t add_rows(ReadingKind kind, std::uint32_t count, std::span<const std::byte> records,
+                       std::vector<float>& values) {
+  const std::size_t size = record_size(kind);
+  const std::size_t whole = size == 0 ? 0 : std::min<std::size_t>(count, records.size() / size);
+  for (std::size_t i = 0; i < whole; ++i) add_record(kind, records, i, values);
+  return static_cast<std::uint32_t>(whole);
+}
+
+}  // namespace rave::onlook

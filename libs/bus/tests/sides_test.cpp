@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// Who exchanges messages with whom: a manager and monitors with hosts, and not with each other.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+#include <string>
+
+#include "peer_process.hpp"
+#include "rave/bus/reader.hpp"
+#include "rave/bus/writer.hpp"
+
+namespace rave::bus::testing {
+namespace {
+
+/// Names of the processes whose ends match those of a bus, by topic: `host-1 reads rave/run`.
+std::set<std::string> matches_of(Bus& bus, std::map<std::string, std::set<std::string>>& known,
+                                 const std::string& name) {
+  for (const BusEvent& event : bus.take_events()) {
+    if (event.kind == EventKind::kReaderAppeared)
+      known[name].insert(event.participant + " reads " + event.topic);
+    if (event.kind == EventKind::kWriterAppeared)
+      known[name].insert(event.participant + " writes " + event.topic);
+  }
+  return known[name];
+}
+
+/// Both ends of topics that go each way.
+struct AllEnds {
+  Writer<RunState> runs;
+  Reader<RunState> runs_in;
+  Writer<HostState> states;
+  Reader<HostState> states_in;
+  Writer<LastObstacle> obstacles;
+  Reader<LastObstacle> obstacles_in;
+
+  static AllEnds on(Bus& bus) {
+    return {*Writer<RunState>::create(bus),     *Reader<RunState>::create(bus),
+            *Writer<HostState>::create(bus),    *Reader<HostState>::create(bus),
+            *Writer<LastObstacle>::create(bus), *Reader<LastObstacle>::create(bus)};
+  }
+};
+
+TEST(Sides, ManagerAndMonitorsMatchHostsAndNotEachOther) {
+  const TestDomain domain;
+  const auto open = [&](const char* name, Side side) {
+    BusConfig config = domain.config();
+    config.participant = name;
+    config.side = side;
+    config.beside = true;
+    auto bus = Bus::open(config);
+    EXPECT_TRUE(bus) << bus.error().text();
+    return *std::move(bus);
+  };
+  const auto manager = open("manager", Side::kManager);
+  const auto host = open("host", Side::kAll);
+  const auto other = open("other", Side::kAll);
+  const auto monitor = open("monitor", Side::kMonitor);
+  AllEnds ends[] = {AllEnds::on(*manager), AllEnds::on(*host), AllEnds::on(*other),
+                    AllEnds::on(*monitor)};
+  std::map<std::string, std::set<std::string>> known;
+  const auto all = [](std::initializer_list<const char*> names) {
+    std::set<std::string> matches;
+    for (const char* const name : names) {
+      for (const char* const topic : {"rave/run", "rave/host_state", "rave/last_obstacle"}) {
+        matches.insert(fmt::format("{} reads {}", name, topic));
+        matches.insert(fmt::format("{} writes {}", name, topic));
+      }
+    }
+    return matches;
+  };
+  EXPECT_TRUE(eventually([&] {
+    return matches_of(*manager, known, "manager") == all({"host", "other"}) &&
+           matches_of(*monitor, known, "monitor") == all({"host", "other"}) &&
+           matches_of(*host, known, "host") == all({"manager", "other", "monitor"}) &&
+           matches_of(*other, known, "other") == all({"manager", "host", "monitor"});
+  }));
+  // Nothing comes of it later, either: what is written reaches hosts alone.
+  RunState state{};
+  state.step_s = 0.01;
+  state.step = 7;
+  ASSERT_TRUE(ends[0].runs.write(state));
+  std::size_t heard = 0;
+  EXPECT_TRUE(eventually([&] {
+    heard += ends[1].runs_in.take([](const RunState&) {});
+    return heard == 1;
+  }));
+  EXPECT_EQ(ends[3].runs_in.take([](const RunState&) {}), 0U);
+  EXPECT_EQ(matches_of(*manager, known, "manager"), all({"host", "other"}));
+  EXPECT_EQ(matches_of(*monitor, known, "monitor"), all({"host", "other"}));
+}
+
+}  // namespace
+}  // namespace rave::bus::testing

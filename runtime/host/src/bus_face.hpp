@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "rave/observe/run_observer.hpp"
+#include "rave/onlook/teller.hpp"
+
+namespace rave::runtime {
+
+/// Shows one of several hosts to those who look on at the run over its bus. It changes nothing of
+/// the run, and waits for nobody.
+class BusFace final : public RunObserver {
+ public:
+  /// `obstacles`: nobody else tells of them on the bus for this host. Errors: those of
+  /// onlook::Teller::create().
+  [[nodiscard]] static Result<std::unique_ptr<BusFace>> open(bus::Bus& bus, std::uint32_t host,
+                                                             bool obstacles);
+
+  Status run_begins(const RunView& run) override;
+  void after_step(const StepView& step) override;
+  void held(const sim::Engine& engine) override;
+
+  /// Whether somebody wants to know what robots report.
+  [[nodiscard]] bool robots_asked() const noexcept { return teller_->robots_asked(); }
+
+ private:
+  BusFace() = default;
+
+  const BodyKinds* kinds_ = nullptr;
+  std::unique_ptr<onlook::Teller> teller_;
+};
+
+}  // namespace rave::runtime

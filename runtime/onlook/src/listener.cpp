@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/onlook/listener.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "rave/bus/sequence.hpp"
+#include "rave/protocol/obstacle_messages.hpp"
+
+namespace rave::onlook {
+namespace {
+
+/// Several times while a look holds, since one may get lost.
+constexpr std::chrono::milliseconds kSayAgain{500};
+/// Hosts in real time hear of a change of the world one after the other.
+constexpr double kSameEvent_s = 2;
+/// Somebody who makes things up gets no further.
+constexpr std::size_t kMostTold = 4096;
+constexpr std::size_t kMostEvents = 100'000;
+constexpr std::size_t kMostReadings = 3 * rave_wire_kMaxLookedAt;
+
+/// Asks no writer to send again what got lost; room for what several hosts say between two looks.
+constexpr bus::QosProfile kHeard{.reliable = false, .depth = 4};
+
+}  // namespace
+
+Result<Listener> Listener::create(bus::Bus& bus) {
+  RAVE_TRY_ASSIGN(auto looks, bus::Writer<bus::Look>::create(bus));
+  RAVE_TRY_ASSIGN(auto readings, bus::Reader<bus::Readings>::create(bus, kHeard));
+  RAVE_TRY_ASSIGN(auto events, bus::Reader<bus::RunEvents>::create(bus));
+  RAVE_TRY_ASSIGN(auto obstacles, bus::Reader<bus::LastObstacle>::create(bus));
+  return Listener(std::move(looks), std::move(readings), std::move(events), std::move(obstacles));
+}
+
+void Listener::look(const Asked& asked) {
+  const auto now = Clock::now();
+  const bool changed = asked != asked_;
+  if (!changed && now < next_look_) return;
+  if (changed || number_ == 0) {
+    asked_ = asked;
+    ++number_;
+    std::erase_if(readings_, [&](const auto& entry) {
+      return !std::ranges::binary_search(asked_.sensors, entry.second.sensor) ||
+             (entry.second.part != 0 && !asked_.parts);
+    });
+    sensors_.clear();
+    const std::size_t most = std::min<std::size_t>(asked_.sensors.size(), rave_wire_kMaxLookedAt);
+    for (std::size_t i = 0; i < most; ++i) {
+      sensors_.push_back({asked_.sensors[i].robot, asked_.sensors[i].sensor});
+    }
+  }
+  next_look_ = now + kSayAgain;
+  // Who looks at nothing says so once, and is forgotten then.
+  if (!changed && !asked_.robots && sensors_.empty()) return;
+  bus::Look message{};
+  message.number = number_;
+  message.robots = asked_.robots;
+  message.parts = asked_.parts;
+  bus::borrow(message.sensors, sensors_);
+  static_cast<void>(looks_.write(message));
+}
+
+void Listener::hear() {
+  readings_in_.take([this](const bus::Readings& sample) { hear(sample); });
+  events_in_.take([this](const bus::RunEvents& sample) { hear(sample); });
+  obstacles_in_.take([this](const bus::LastObstacle& sample) { hear(sample); });
+}
+
+void Listener::hear(const bus::Readings& sample) {
+  const float* values = sample.values._buffer;
+  for (const rave_wire_Reading& reading : bus::elements(sample.entries)) {
+    const float* const first = values;
+    const std::size_t count = std::size_t{reading.rows} * reading.fields;
+    values += count;
+    const LookedAt sensor{reading.robot, reading.sensor};
+    if (!std::ranges::binary_search(asked_.sensors, sensor)) continue;
+    if (readings_.size() >= kMostReadings) continue;
+    HeardReading& heard = readings_[{reading.robot, reading.sensor, reading.part}];
+    heard.sensor = sensor;
+    heard.part = reading.part;
+    heard.stamp_s = SimTime{reading.stamp_ns}.seconds();
+    heard.rows = reading.rows;
+    heard.fields = reading.fields;
+    heard.values.assign(first, first + count);
+  }
+}
+
+/// What concerns the world each host tells.
+bool Listener::is_told(const rave_wire_RunEvent& event, double t_s, std::uint64_t writer) {
+  const std::string said = event.detail != 0
+                               ? fmt::format("{} {} #{}", event.kind, event.other, event.detail)
+                               : fmt::format("{} {} {}", event.kind, event.other, event.text);
+  if (told_.size() >= kMostTold) told_.clear();
+  const auto [told, fresh] = told_.try_emplace(said, Told{t_s, writer});
+  if (fresh) return false;
+  const bool same =
+      told->second.writer != writer && std::abs(t_s - told->second.t_s) < kSameEvent_s;
+  if (!same) told->second = {t_s, writer};
+  return same;
+}
+
+void Listener::hear(const bus::RunEvents& sample) {
+  double t_s = 0;
+  for (const rave_wire_RunEvent& event : bus::elements(sample.events)) {
+    t_s = SimTime{event.time_ns}.seconds();
+    const bool of_world = event.robot == rave_wire_kNone;
+    if (of_world && is_told(event, t_s, sample.writer)) continue;
+    if (events_.size() >= kMostEvents) continue;
+    events_.push_back({t_s, of_world ? RobotId() : RobotId(event.robot),
+                       static_cast<sim::EventKind>(event.kind), event.text});
+  }
+  if (sample.left_out == 0 || events_.size() >= kMostEvents) return;
+  events_.push_back({t_s, RobotId(), sim::EventKind::kContact,
+                     fmt::format("{} more in this step", sample.left_out)});
+}
+
+void Listener::hear(const bus::LastObstacle& sample) {
+  if (revisions_.size() >= sim::ObstacleChange::kMostAdded && !revisions_.contains(sample.id))
+    return;
+  std::uint64_t& known = revisions_[sample.id];
+  if (known >= sample.revision) return;
+  auto stands = lock_step::read_obstacle(sample.stands);
+  if (!stands) {
+    obstacles_in_.refuse(sample, stands.error().message);
+    return;
+  }
+  known = sample.revision;
+  obstacles_.push_back({sample.id,
+                        sample.removed || stands->kind == sim::ObstacleChange::Kind::kRemove,
+                        *std::move(stands)});
+}
+
+std::vector<HeardEvent> Listener::take_events() {
+  std::vector<HeardEvent> events = std::exchange(events_, {});
+  std::ranges::stable_sort(events, {}, &HeardEvent::t_s);
+  return events;
+}
+
+std::vector<HeardObstacle> Listener::take_obstacles() { return std::exchange(obstacles_, {}); }
+
+void Listener::forget() {
+  revisions_.clear();
+  told_.clear();
+  obstacles_.clear();
+  readings_.clear();
+}
+
+}  // namespace rave::onlook

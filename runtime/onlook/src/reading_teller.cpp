@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/onlook/reading_teller.hpp"
+
+#include "rave/bus/sequence.hpp"
+#include "rave/onlook/reading_rows.hpp"
+
+namespace rave::onlook {
+
+void ReadingTeller::put_part(const LookedAt& looked, std::uint8_t part, ReadingKind kind,
+                             const SampleHeader* header, const void* records) {
+  if (header == nullptr || header->sequence == 0) return;
+  const auto [told, fresh] = told_.try_emplace({looked.robot, looked.sensor, part}, 0);
+  if (told->second == header->sequence) return;
+  const std::size_t numbers = std::size_t{header->count} * field_count(kind);
+  if (readings_.size() == rave_wire_kMaxReadings ||
+      values_.size() + numbers > rave_wire_kMaxReadingValues) {
+    ++left_out_;
+    return;
+  }
+  told->second = header->sequence;
+  rave_wire_Reading& reading = readings_.emplace_back();
+  reading.robot = looked.robot;
+  reading.sensor = looked.sensor;
+  reading.part = part;
+  reading.kind = static_cast<std::uint8_t>(kind);
+  reading.stamp_ns = header->stamp_ns;
+  reading.fields = field_count(kind);
+  reading.rows = add_rows(
+      kind, header->count,
+      {static_cast<const std::byte*>(records), header->count * record_size(kind)}, values_);
+}
+
+void ReadingTeller::put(const sim::Engine& engine, const LookedAt& looked, bool parts) {
+  const sim::EngineSpec& spec = engine.spec();
+  const RobotId robot(looked.robot);
+  if (looked.robot >= spec.robots.size() || !engine.is_local(robot)) return;
+  const auto& sensors = spec.types[spec.robots[looked.robot].type].sensors;
+  if (looked.sensor >= sensors.size()) return;
+  const ReadingKind kind = sensors[looked.sensor].kind;
+  const sim::SensorSample sample = engine.sensor(robot, looked.sensor);
+  put_part(looked, 0, kind, sample.header, sample.records);
+  if (!parts) return;
+  const sim::SensorParts halves = engine.sensor_parts(robot, looked.sensor);
+  put_part(looked, 1, kind, halves.real, halves.real_records);
+  put_part(looked, 2, kind, halves.imagined, halves.imagined_records);
+}
+
+void ReadingTeller::tell(const sim::Engine& engine, const Asked& asked, Clock::time_point now,
+                         int slower) {
+  if (now < next_) return;
+  next_ = now + kInterval * slower;
+  if (now >= again_at_) {
+    told_.clear();
+    again_at_ = now + kAgain;
+  }
+  readings_.clear();
+  values_.clear();
+  left_out_ = 0;
+  for (const LookedAt& looked : asked.sensors) put(engine, looked, asked.parts);
+  if (readings_.empty() && left_out_ == 0) return;
+  bus::Readings message{};
+  message.host = host_;
+  message.number = ++number_;
+  message.left_out = left_out_;
+  bus::borrow(message.entries, readings_);
+  bus::borrow(message.values, values_);
+  // Who looks on and does not keep up misses some.
+  static_cast<void>(writer_.write(message));
+}
+
+}  // namespace rave::onlook

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/onlook/teller.hpp"
+
+#include <algorithm>
+
+#include "rave/base/control_characters.hpp"
+#include "rave/bus/sequence.hpp"
+
+namespace rave::onlook {
+namespace {
+
+constexpr std::chrono::milliseconds kHearing{50};
+/// Nobody needs more, and somebody who makes up names gets no further.
+constexpr std::size_t kMostLooking = 64;
+/// So many times rarer while steps come late: pages get thinner before anything else does.
+constexpr int kLateFactor = 10;
+
+/// Too frequent to be kept for those who may come.
+bool is_frequent(sim::EventKind kind) noexcept {
+  return kind == sim::EventKind::kContact || kind == sim::EventKind::kGuardSlowed ||
+         kind == sim::EventKind::kGuardStopped;
+}
+
+}  // namespace
+
+Result<Teller> Teller::create(bus::Bus& bus, Options options) {
+  RAVE_TRY_ASSIGN(auto looks, bus::Reader<bus::Look>::create(bus));
+  RAVE_TRY_ASSIGN(auto events, bus::Writer<bus::RunEvents>::create(bus));
+  RAVE_TRY_ASSIGN(auto readings, bus::Writer<bus::Readings>::create(bus));
+  std::optional<ObstacleTeller> obstacles;
+  if (options.obstacles) {
+    RAVE_TRY_ASSIGN(auto writer, bus::Writer<bus::LastObstacle>::create(bus));
+    obstacles.emplace(std::move(writer));
+  }
+  ReadingTeller teller(std::move(readings), options.host);
+  return Teller(std::move(options), std::move(looks), std::move(events), std::move(teller),
+                std::move(obstacles));
+}
+
+void Teller::hear(Clock::time_point now) {
+  if (now < next_hearing_) return;
+  next_hearing_ = now + kHearing;
+  bool changed = false;
+  looks_.take([&](const bus::Look& look) {
+    const auto known = heard_.find(look.writer);
+    if (known == heard_.end() && heard_.size() >= kMostLooking) return;
+    Look& heard = heard_[look.writer];
+    heard.heard = now;
+    if (heard.number == look.number) return;
+    heard.number = look.number;
+    heard.asked = {look.robots, look.parts, {}};
+    for (const rave_wire_LookedAt& sensor : bus::elements(look.sensors)) {
+      heard.asked.sensors.push_back({sensor.robot, sensor.sensor});
+    }
+    changed = true;
+  });
+  changed |= std::erase_if(heard_, [now](const auto& entry) {
+               return now - entry.second.heard > kLookHolds;
+             }) > 0;
+  if (!changed) return;
+  asked_ = {};
+  for (const auto& [writer, look] : heard_) {
+    asked_.robots |= look.asked.robots;
+    asked_.parts |= look.asked.parts;
+    asked_.sensors.insert(asked_.sensors.end(), look.asked.sensors.begin(),
+                          look.asked.sensors.end());
+  }
+  std::ranges::sort(asked_.sensors);
+  const auto twice = std::ranges::unique(asked_.sensors);
+  asked_.sensors.erase(twice.begin(), twice.end());
+  readings_.begin_again();
+}
+
+void Teller::put(const sim::Event& event, SimTime time) {
+  if (is_frequent(event.kind) && !asked_.robots) return;
+  const bool full = told_.size() >= kMostContacts && event.kind == sim::EventKind::kContact;
+  if (full || told_.size() >= rave_wire_kMaxRunEvents) {
+    ++left_out_;
+    return;
+  }
+  rave_wire_RunEvent& told = told_.emplace_back();
+  told.time_ns = time.ns;
+  told.robot = event.robot.valid() ? event.robot.value() : rave_wire_kNone;
+  told.other = event.other.valid() ? event.other.value() : rave_wire_kNone;
+  told.kind = static_cast<std::uint32_t>(event.kind);
+  told.detail = is_of_obstacle(event.kind) ? event.detail : 0;
+  const std::string words = options_.words ? options_.words(event) : event.text;
+  bus::put_text(told.text, without_control_characters(words, " "));
+}
+
+void Teller::tell_events(const sim::Engine& engine, std::span<const sim::Event> beside) {
+  if (engine.events().empty() && beside.empty()) return;
+  told_.clear();
+  left_out_ = 0;
+  for (const sim::Event& event : engine.events()) put(event, engine.time());
+  for (const sim::Event& event : beside) put(event, engine.time());
+  if (told_.empty()) return;
+  bus::RunEvents message{};
+  message.host = options_.host;
+  message.number = ++number_;
+  message.left_out = left_out_;
+  bus::borrow(message.events, told_);
+  static_cast<void>(events_.write(message));
+}
+
+void Teller::after_step(const sim::Engine& engine, std::span<const sim::Event> beside, bool late) {
+  const auto now = Clock::now();
+  hear(now);
+  if (obstacles_) obstacles_->after_step(engine, beside);
+  tell_events(engine, beside);
+  if (!asked_.sensors.empty()) readings_.tell(engine, asked_, now, late ? kLateFactor : 1);
+}
+
+void Teller::held(const sim::Engine& engine) {
+  const auto now = Clock::now();
+  hear(now);
+  if (!asked_.sensors.empty()) readings_.tell(engine, asked_, now, 1);
+}
+
+}  // namespace rave::onlook

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "rave/base/result.hpp"
+#include "rave/bus/writer.hpp"
+
+namespace rave::lock_step {
+
+/// Tells those who look on how the run goes as this host knows it (topic rave/host_run), five times
+/// a second while somebody reads it. No process of the run does. Must be gone before its bus;
+/// thread: that of the bus.
+class HostWord {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// What a host knows of the run at one moment.
+  struct Facts {
+    rave_wire_RunPhase phase = rave_wire_RUN_GATHERS;
+    std::uint64_t step = 0;
+    std::string_view text{};  ///< What it waits for, or how the run ended.
+    bool managed = true;      ///< The run has an environment manager,
+    bool manager_here = false;
+  };
+
+  /// `host`: its number in the scenario. Errors: those of bus::Writer::create().
+  [[nodiscard]] static Result<HostWord> create(bus::Bus& bus, std::uint32_t host, std::string name);
+
+  /// What the scenario says of the run.
+  void describe(std::string scenario, std::uint64_t steps, double step_s);
+  /// To be called often: writes when it is time.
+  void tell(const Facts& facts);
+  /// The last word, at once.
+  void tell_end(bool good, std::uint64_t step, std::string_view text);
+
+ private:
+  static constexpr std::chrono::milliseconds kInterval{200};
+  static constexpr std::chrono::milliseconds kMeasure{1000};
+
+  HostWord(bus::Writer<bus::HostRun> writer, std::uint32_t host, std::string name)
+      : writer_(std::move(writer)), host_(host), name_(std::move(name)) {}
+  void write(const Facts& facts);
+  void measure(std::uint64_t step, Clock::time_point now);
+
+  bus::Writer<bus::HostRun> writer_;
+  std::uint32_t host_;
+  std::string name_;
+  std::string scenario_;
+  std::uint64_t steps_ = 0;
+  double step_s_ = 0;
+  Clock::time_point next_{};
+  Clock::time_point measured_at_{};
+  std::uint64_t measured_step_ = 0;
+  double speed_ = 0;
+};
+
+}  // namespace rave::lock_step

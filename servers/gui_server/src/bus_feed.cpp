@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bus_feed.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string_view>
+
+#include "scene_json.hpp"
+
+namespace rave::gui_server {
+namespace {
+
+constexpr Duration kWatched = from_seconds(0.033);
+constexpr Duration kUnwatched = from_seconds(0.25);
+constexpr auto kHostsInterval = std::chrono::seconds(1);
+
+PlayState standing_of(const watch::RunView& view) {
+  PlayState state;
+  state.reason = view.text;
+  state.speed = view.speed.value_or(0);
+  switch (view.phase) {
+    case watch::Phase::kGoes:
+      state.kind = PlayState::Kind::kRunning;
+      break;
+    case watch::Phase::kPaused:
+      state.kind = PlayState::Kind::kPaused;
+      break;
+    case watch::Phase::kEnded:
+    case watch::Phase::kFailed:
+      state.kind = PlayState::Kind::kEnded;
+      break;
+    case watch::Phase::kGathers:
+    case watch::Phase::kWaits:
+      state.kind = PlayState::Kind::kWaiting;
+      break;
+    case watch::Phase::kUnknown: {
+      // Hosts in real time may have no manager.
+      const bool here =
+          std::any_of(view.hosts.begin(), view.hosts.end(), [](const watch::HostView& host) {
+            return !host.manager && host.standing == watch::Standing::kHere;
+          });
+      state.kind = here ? PlayState::Kind::kRunning : PlayState::Kind::kWaiting;
+      if (!here && state.reason.empty()) state.reason = "No process of this run is there.";
+      break;
+    }
+  }
+  return state;
+}
+
+const char* word_of(watch::Standing standing) {
+  switch (standing) {
+    case watch::Standing::kHere:
+      return "here";
+    case watch::Standing::kWaiting:
+    case watch::Standing::kLate:
+      return "late";
+    case watch::Standing::kGone:
+    case watch::Standing::kDropped:
+      return "gone";
+  }
+  return "gone";
+}
+
+template <class T>
+nlohmann::json or_null(const std::optional<T>& value) {
+  return value ? nlohmann::json(*value) : nlohmann::json(nullptr);
+}
+
+std::string hosts_json(const watch::RunView& view) {
+  nlohmann::json hosts = nlohmann::json::array();
+  for (const watch::HostView& host : view.hosts) {
+    const std::uint32_t robots = host.robots.value_or(0);
+    const std::uint32_t real = std::min(robots, host.real_robots.value_or(0));
+    hosts.push_back({{"name", host.manager ? "manager" : host.name},
+                     {"machine", host.machine},
+                     {"state", word_of(host.standing)},
+                     {"late_s", host.behind_s.value_or(0)},
+                     {"real", real},
+                     {"simulated", robots - real},
+                     {"step", host.step.value_or(0)},
+                     {"steps_per_s", host.rate_hz.value_or(0)},
+                     {"delay_s", or_null(host.delay_s)},
+                     {"cpu", or_null(host.cores)},
+                     {"lost", host.lost.value_or(0)}});
+  }
+  return hosts.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+RobotState state_of(const watch::RobotView& robot) {
+  RobotState state;
+  const auto set = [&state](bool on, RobotFlag flag) {
+    if (on) state.flags = static_cast<std::uint16_t>(state.flags | flag);
+  };
+  state.speed_mps = robot.speed_mps.value_or(0);
+  if (robot.report) {
+    // What people see of a robot is what it reports, as in a run of one process.
+    const watch::RobotReport& report = *robot.report;
+    state.x_m = report.x_m;
+    state.y_m = report.y_m;
+    state.yaw_rad = report.yaw_rad;
+    state.variance_xy_m2 = static_cast<float>(report.variance_xy_m2);
+    state.variance_yaw_rad2 = static_cast<float>(report.variance_yaw_rad2);
+    set(report.known, kKnown);
+    set(report.stale || robot.stale, kStale);
+    set(report.stopped, kStopped);
+    set(!report.armed, kUnarmed);
+    set(report.real, kReal);
+    set(report.touches, kTouching);
+    return state;
+  }
+  set(robot.x_m.has_value(), kKnown);
+  state.x_m = robot.x_m.value_or(0);
+  state.y_m = robot.y_m.value_or(0);
+  state.yaw_rad = robot.yaw_rad.value_or(0);
+  set(robot.stale, kStale);
+  set(robot.simulated == false, kReal);
+  return state;
+}
+
+}  // namespace
+
+BusFeed::BusFeed(std::unique_ptr<watch::Observer> observer, onlook::Listener listener,
+                 std::shared_ptr<LiveBox> box, World world)
+    : observer_(std::move(observer)),
+      listener_(std::move(listener)),
+      box_(std::move(box)),
+      world_(std::move(world)),
+      thread_([this](const std::stop_token& stop) { work(stop); }) {}
+
+void BusFeed::work(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    ask();
+    observer_->watch(box_->watched.load(std::memory_order_relaxed) ? kWatched : kUnwatched, stop);
+    listener_.hear();
+    const watch::RunView view = observer_->view(true);
+    tell_news(view);
+    draw(view);
+  }
+}
+
+/// What pages look at, all together.
+void BusFeed::ask() {
+  static_cast<void>(box_->wants.take());
+  const LiveWants& wants = box_->wants.value();
+  onlook::Asked asked;
+  asked.robots = box_->watched.load(std::memory_order_relaxed);
+  asked.parts = wants.parts;
+  for (const LookedAt& looked : wants.sensors)
+    asked.sensors.push_back({looked.slot, looked.sensor});
+  listener_.look(asked);
+}
+
+void BusFeed::tell_news(const watch::RunView& view) {
+  auto news = std::make_unique<LiveNews>();
+  for (onlook::HeardEvent& event : listener_.take_events()) {
+    const int slot = event.robot.valid() ? static_cast<int>(event.robot.value()) : -1;
+    news->events.push_back(
+        {event.t_s, slot, std::string(to_string(event.kind)), std::move(event.text)});
+  }
+  for (const onlook::HeardObstacle& heard : listener_.take_obstacles()) {
+    tell_obstacle(heard, *news);
+  }
+  tell_processes(view, *news);
+  if (news->events.empty() && news->set.empty() && news->gone.empty()) return;
+  box_->news.push(std::move(news));
+}
+
+void BusFeed::tell_obstacle(const onlook::HeardObstacle& heard, LiveNews& news) {
+  if (heard.removed) {
+    news.gone.push_back(heard.id);
+    return;
+  }
+  using Kind = sim::ObstacleChange::Kind;
+  world::Obstacle obstacle;
+  if (heard.stands.kind == Kind::kMove) {
+    const auto start = world_.obstacles.find(heard.id);
+    if (start == world_.obstacles.end()) return;
+    obstacle = start->second;
+  } else {
+    obstacle.body = heard.stands.body;
+    obstacle.body.name = heard.stands.name;
+  }
+  obstacle.X_WB = heard.stands.X_WB;
+  news.set.emplace_back(heard.id, body_json(heard.id, obstacle));
+}
+
+/// A process that is lost, or back, is news.
+void BusFeed::tell_processes(const watch::RunView& view, LiveNews& news) {
+  if (view.phase == watch::Phase::kEnded || view.phase == watch::Phase::kFailed) return;
+  for (const watch::HostView& host : view.hosts) {
+    const std::string name =
+        host.manager ? "the environment manager" : fmt::format("host `{}`", host.name);
+    const bool here =
+        host.standing == watch::Standing::kHere || host.standing == watch::Standing::kLate;
+    const auto [known, fresh] = there_.try_emplace(name, here);
+    if (fresh || known->second == here || host.standing == watch::Standing::kWaiting) continue;
+    known->second = here;
+    news.events.push_back(
+        {view.time_s.value_or(0), -1, here ? "process back" : "process lost", name});
+  }
+}
+
+void BusFeed::draw(const watch::RunView& view) {
+  LivePicture& picture = box_->pictures.draft();
+  if (++serial_ == 0) ++serial_;
+  picture.poses.serial = serial_;
+  picture.poses.time_s = view.time_s.value_or(0);
+  picture.poses.step = view.step.value_or(0);
+  picture.poses.robots.assign(world_.robots, RobotState{});
+  std::set<std::string_view> gone;
+  for (const watch::HostView& host : view.hosts) {
+    if (!host.manager && host.standing == watch::Standing::kGone) gone.insert(host.name);
+  }
+  for (const watch::RobotView& robot : view.robots) {
+    if (robot.number >= world_.robots) continue;
+    RobotState& state = picture.poses.robots[robot.number];
+    state = state_of(robot);
+    // Of a process that is lost nobody hears any more.
+    if (gone.contains(robot.host)) state.flags = static_cast<std::uint16_t>(state.flags | kStale);
+  }
+  draw_readings(picture);
+  picture.standing = standing_of(view);
+  if (const auto now = Clock::now(); now >= next_hosts_) {
+    next_hosts_ = now + kHostsInterval;
+    hosts_ = hosts_json(view);
+    ++hosts_revision_;
+  }
+  picture.hosts = hosts_;
+  picture.hosts_revision = hosts_revision_;
+  box_->pictures.publish();
+}
+
+void BusFeed::draw_readings(LivePicture& picture) const {
+  picture.reading_count = 0;
+  for (const auto& [key, heard] : listener_.readings()) {
+    if (picture.reading_count == picture.readings.size()) picture.readings.emplace_back();
+    ReadingAt& reading = picture.readings[picture.reading_count++];
+    reading.slot = heard.sensor.robot;
+    reading.sensor = heard.sensor.sensor;
+    reading.part = heard.part;
+    reading.stamp_s = heard.stamp_s;
+    reading.rows = heard.rows;
+    reading.fields = heard.fields;
+    reading.values = heard.values;
+  }
+}
+
+}  // namespace rave::gui_server

@@ -50,14 +50,12 @@ class QuietHost {
   }
   QuietHost(const QuietHost&) = delete;
   QuietHost& operator=(const QuietHost&) = delete;
-  ~QuietHost() {
-    leave();
-    thread_.join();
-  }
-  /// It goes and speaks no more.
+  ~QuietHost() { leave(); }
+  /// It goes and speaks no more. It is gone then: who takes its place finds that free.
   void leave() {
     ends_ = true;
     speak();
+    if (thread_.joinable()) thread_.join();
   }
   /// From this step on it says that it is in one that cannot be.
   void lie_from(std::uint64_t step) { lies_from_ = step; }

@@ -45,9 +45,9 @@ class Viewer {
       this.server.say(this.server.run.edit(message));
       this.say({type: 'answer', to: message.do, good: true, text: 'done', request: message.request});
     }
-    if (message.type === 'chat') {
+    if (message.type === 'say') {
       this.server.say(this.server.run.say(message));
-      this.say({type: 'answer', to: 'chat', good: true, text: 'Said.', request: message.request});
+      this.say({type: 'answer', to: 'say', good: true, text: 'Said.', request: message.request});
     }
     if (message.type === 'halt') this.server.halt(this, message);
     if (message.type === 'set_right') {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a commander does on the page, against a made-up run: node orders_test.mjs PAGE FOLDER
 import assert from 'node:assert/strict';
-import {mkdirSync, readdirSync, readFileSync, rmSync} from 'node:fs';
+import {execFileSync} from 'node:child_process';
+import {mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {gzipSync} from 'node:zlib';
 import {launch} from './browser.mjs';
@@ -246,7 +247,7 @@ try {
     await stick.click({force: true});
     assert.equal(server.run.driven.length, count);
     await lease.getByRole('button', {name: 'Ask'}).click();
-    await untilHere(page, () => last('chat')?.name === 'Ben K', 'a question in the chat');
+    await untilHere(page, () => last('say')?.name === 'Ben K', 'a question in the chat');
     await lease.getByRole('button', {name: 'Take …'}).click();
     assert.equal(heard('lease').length, 0);
     await lease.getByRole('button', {name: 'Take it from Ben K'}).click();
@@ -270,7 +271,7 @@ try {
     await chat.getByRole('radio', {name: 'walker-2'}).click();
     await chat.locator('textarea').fill('Where are you?');
     await chat.locator('textarea').press('Enter');
-    await untilHere(page, () => last('chat')?.to === 'robot' && last('chat').slot === 6, 'the robot is asked');
+    await untilHere(page, () => last('say')?.to === 'robot' && last('say').slot === 6, 'the robot is asked');
     server.run.events.push({t: server.run.now_s + 1, until: server.run.now_s + 1, count: 1, kind: 'said', level: 'info', text: 'walker-2: said, in the corner', slots: [6]});
     server.say({type: 'events', reset: false, first: server.run.events.length - 1, events: [server.run.events.at(-1)]});
     await chat.getByText('in the corner', {exact: true}).waitFor();
@@ -376,6 +377,13 @@ try {
     await eve.waitForTimeout(200);
     assert.equal(heard('order').length, orders);
     await other.close();
+  });
+
+  await check('every message of the page is as the schema describes it', async () => {
+    const file = join(folder, 'messages.json');
+    writeFileSync(file, JSON.stringify(server.heard));
+    execFileSync('python3', [new URL('check_messages.py', import.meta.url).pathname, file], {stdio: 'inherit'});
+    for (const type of ['order', 'lease', 'set', 'edit', 'say']) assert.ok(heard(type).length > 0, type);
   });
 } finally {
   await browser.close();

@@ -46,7 +46,7 @@ export class LeaseBar extends LitElement {
 
   private async ask(driver: string): Promise<void> {
     const name = this.context.model.robots[this.robot]?.name ?? '';
-    const answer = await this.context.commands.ask({type: 'chat', to: 'user', name: driver, text: `May I drive ${name}?`});
+    const answer = await this.context.commands.ask({type: 'say', to: 'user', name: driver, text: `May I drive ${name}?`});
     [this.note, this.bad] = answer.good ? [`Asked ${driver}; the answer comes in the chat.`, false] : [answer.text, true];
     this.requestUpdate();
   }

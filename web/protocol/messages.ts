@@ -339,7 +339,7 @@ export interface Edit {
 
 /** Says something to people; to a team or robot also to the robots that the user commands. */
 export interface Say {
-  type: "chat";
+  type: "say";
   request: number;
   to: "all" | "role" | "user" | "team" | "robot";
   /** Of the role, user or team. */

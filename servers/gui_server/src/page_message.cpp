@@ -188,7 +188,7 @@ Result<PageMessage> parse_page_message(std::string_view text) {
     message = right_of(members);
   } else if (type == "see_as") {
     message = eyes_of(members);
-  } else if (type == "chat") {
+  } else if (type == "say") {
     message = chat_of(members);
   } else if (auto command = command_of(type, members)) {
     if (!*command) return tl::unexpected(command->error());

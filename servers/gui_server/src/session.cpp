@@ -127,7 +127,7 @@ void Session::take(const HaltMessage& halt) {
 void Session::take(const ChatMessage& chat) {
   const auto done = calls_.chat(chat);
   socket_.send_text(payload(answer_text(
-      {"chat", done.has_value(), done ? *done : done.error().message, chat.request, {}})));
+      {"say", done.has_value(), done ? *done : done.error().message, chat.request, {}})));
 }
 
 void Session::take(const SetRightMessage& set) {

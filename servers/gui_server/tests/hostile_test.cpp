@@ -453,12 +453,12 @@ TEST_F(Hostile, WhatIsSaidReachesWhoMayHearItAlone) {
   RawSocket ben = socket(guest(Role::kCommander, "ben"));
   RawSocket eve = socket(guest(Role::kObserver, "eve"));
   RawSocket ada = socket(guest(Role::kCommander, "ada"));
-  ben.send(R"({"type":"chat","request":1,"to":"all","text":"good morning"})");
+  ben.send(R"({"type":"say","request":1,"to":"all","text":"good morning"})");
   EXPECT_NE(eve.text_with("good morning").find(R"("name":"ben","role":"commander")"),
             std::string::npos);
-  ben.send(R"({"type":"chat","request":2,"to":"user","name":"ada","text":"for ada alone"})");
-  ben.send(R"({"type":"chat","request":3,"to":"role","name":"commander","text":"for commanders"})");
-  ben.send(R"({"type":"chat","request":4,"to":"robot","slot":0,"text":"to walker-1"})");
+  ben.send(R"({"type":"say","request":2,"to":"user","name":"ada","text":"for ada alone"})");
+  ben.send(R"({"type":"say","request":3,"to":"role","name":"commander","text":"for commanders"})");
+  ben.send(R"({"type":"say","request":4,"to":"robot","slot":0,"text":"to walker-1"})");
   EXPECT_NE(ada.text_with("for commanders"), "");
   EXPECT_NE(ada.heard().find("for ada alone"), std::string::npos);
   EXPECT_NE(eve.text_with("to walker-1"), "");
@@ -469,10 +469,10 @@ TEST_F(Hostile, WhatIsSaidReachesWhoMayHearItAlone) {
   EXPECT_EQ(asked[0].first.value, "to walker-1");
   EXPECT_EQ(asked[0].second.name, "ben");
   // Who does not command it speaks to people alone; who is not there is told so.
-  eve.send(R"({"type":"chat","request":1,"to":"robot","slot":0,"text":"and me"})");
+  eve.send(R"({"type":"say","request":1,"to":"robot","slot":0,"text":"and me"})");
   EXPECT_NE(ben.text_with("and me"), "");
   EXPECT_EQ(run_->commands().size(), 1U);
-  eve.send(R"({"type":"chat","request":2,"to":"user","name":"nobody","text":"psst"})");
+  eve.send(R"({"type":"say","request":2,"to":"user","name":"nobody","text":"psst"})");
   EXPECT_NE(eve.text_with("\"request\":2").find("is not here"), std::string::npos);
 }
 

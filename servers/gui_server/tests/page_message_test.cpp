@@ -74,7 +74,7 @@ TEST(PageMessage, LeasesParametersAndObstaclesAreRead) {
 
 TEST(PageMessage, WhatIsSaidIsRead) {
   const auto message = parse_page_message(
-      R"({"type":"chat","request":3,"to":"robot","slot":2,"text":"Where are you?"})");
+      R"({"type":"say","request":3,"to":"robot","slot":2,"text":"Where are you?"})");
   ASSERT_TRUE(message) << message.error().text();
   EXPECT_EQ(std::get<ChatMessage>(*message).to, ChatMessage::To::kRobot);
   EXPECT_EQ(std::get<ChatMessage>(*message).slot, 2U);
@@ -157,9 +157,9 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{
             R"({"type":"edit","request":1,"do":"add","name":"a","pose":[0,0,0],"polygon":[[0,0],[1,1]]})",
             "3 to 64 corners"},
-        Refused{R"({"type":"chat","request":1,"to":"everybody","text":"a"})", "expected all"},
-        Refused{R"({"type":"chat","request":1,"to":"all","text":" "})", "something to say"},
-        Refused{R"({"type":"chat","request":1,"to":"role","name":"king","text":"a"})", "observer"},
+        Refused{R"({"type":"say","request":1,"to":"everybody","text":"a"})", "expected all"},
+        Refused{R"({"type":"say","request":1,"to":"all","text":" "})", "something to say"},
+        Refused{R"({"type":"say","request":1,"to":"role","name":"king","text":"a"})", "observer"},
         Refused{R"({"type":"halt","do":"go","slots":[]})", "stop or release"},
         Refused{R"({"type":"halt","do":"stop","slots":[-1]})", "whole number"},
         Refused{

@@ -78,7 +78,7 @@ export class ChatPanel extends LitElement {
     if (text === '') return;
     area.value = '';
     this.atEnd = true;
-    const answer = await this.context.commands.ask({type: 'chat', ...target.to, text});
+    const answer = await this.context.commands.ask({type: 'say', ...target.to, text});
     this.note = answer.good ? '' : answer.text;
     // What was not said is not lost.
     if (!answer.good && area.value === '') area.value = text;

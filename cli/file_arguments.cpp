@@ -46,8 +46,8 @@ void add_describe(CLI::App& root, DescribeCommand& c) {
 }
 
 void add_new(CLI::App& root, NewCommand& c) {
-  CLI::App& app = *root.add_subcommand("new", "Begin a robot program or driver of your own");
-  add_word(app, "kind", c.kind, "program or driver", "KIND");
+  CLI::App& app = *root.add_subcommand("new", "Begin a robot program, driver or panel of your own");
+  add_word(app, "kind", c.kind, "program, driver or panel", "KIND");
   add_word(app, "name", c.name, "In lower_snake_case", "NAME");
   add_value(app, "--directory", c.directory, "Where [NAME in this folder]", "DIR");
   app.footer("Example:\n  rave new program follow_wall");

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLongestName = 48;
-constexpr std::array<std::string_view, 2> kKinds = {"program", "driver"};
+constexpr std::array<std::string_view, 3> kKinds = {"program", "driver", "panel"};
 // Targets that CMake or CTest make by themselves.
 constexpr std::array<std::string_view, 10> kReserved = {
     "all",     "clean",         "edit_cache", "help", "install", "list_install_components",
@@ -84,6 +84,7 @@ Status copy_filled_in(const fs::path& from, const fs::path& to, const std::strin
 Result<ProjectKind> parse_project_kind(std::string_view text) {
   if (text == kKinds[0]) return ProjectKind::kProgram;
   if (text == kKinds[1]) return ProjectKind::kDriver;
+  if (text == kKinds[2]) return ProjectKind::kPanel;
   return fail(ErrorCode::kInvalidArgument, "cannot make a new `{}`{}", text,
               suggestion(text, kKinds));
 }
@@ -127,7 +128,7 @@ Status create_project(ProjectKind kind, const std::string& name, const fs::path&
     return fail(ErrorCode::kInvalidArgument, "`{}` exists already; nothing was changed",
                 target_dir.string());
   }
-  const fs::path from = template_dir / kKinds[kind == ProjectKind::kProgram ? 0 : 1];
+  const fs::path from = template_dir / kKinds[static_cast<std::size_t>(kind)];
   fs::path partial = target_dir;
   partial += ".partial";
   Status copied = copy_filled_in(from, partial, name);

@@ -9,10 +9,10 @@
 
 namespace rave::cli {
 
-/// What `rave new` makes: a robot program, or a driver (a virtual sensor).
-enum class ProjectKind { kProgram, kDriver };
+/// What `rave new` makes: a robot program, a driver (a virtual sensor), or a panel of the page.
+enum class ProjectKind { kProgram, kDriver, kPanel };
 
-/// `program` or `driver`; kInvalidArgument for anything else, naming the nearest of the two.
+/// `program`, `driver` or `panel`; kInvalidArgument for anything else, naming the nearest one.
 [[nodiscard]] Result<ProjectKind> parse_project_kind(std::string_view text);
 
 /// The name of the class in a project: `avoid_walls` gives `AvoidWalls`.
@@ -23,10 +23,10 @@ enum class ProjectKind { kProgram, kDriver };
 [[nodiscard]] Status check_project_name(std::string_view name);
 
 /// Makes the folder `target_dir` with a project that builds outside the tree against the installed
-/// package. `template_dir` holds the folders `program` and `driver`; in the names and the text of
-/// their files `@NAME@` becomes `name` and `@CLASS@` the class name. Either the whole folder comes
-/// into being or nothing does.
-/// Errors: kInvalidArgument (name, or `target_dir` exists), kNotFound (no templates), kIo.
+/// package. `template_dir` holds the folders `program`, `driver` and `panel`; in the names and the
+/// text of their files `@NAME@` becomes `name` and `@CLASS@` the class name. Either the whole
+/// folder comes into being or nothing does. Errors: kInvalidArgument (name, or `target_dir`
+/// exists), kNotFound (no templates), kIo.
 [[nodiscard]] Status create_project(ProjectKind kind, const std::string& name,
                                     const std::filesystem::path& template_dir,
                                     const std::filesystem::path& target_dir);

@@ -34,6 +34,15 @@ int new_project(const NewCommand& options) {
   const std::string folder = options.directory.empty() ? options.name : options.directory;
   const auto created = create_project(*kind, options.name, share_folder() / "templates", folder);
   if (!created) return complain(created.error());
+  if (*kind == ProjectKind::kPanel) {
+    put(stdout, fmt::format("made {0}; the code to fill in is {0}/{1}.mjs\n\nnext:\n"
+                            "  node --test {2}\n\n"
+                            "then name it in a scenario, and run that with --gui:\n"
+                            "  gui:\n    components:\n"
+                            "      - {{module: {0}/{1}.mjs, roles: [observer, commander]}}\n",
+                            folder, options.name, quoted(folder)));
+    return kGood;
+  }
   const std::string prefix = executable_folder().parent_path().string();
   const std::string shell_folder = quoted(folder);
   const std::string build = quoted(folder + "/build");

@@ -60,6 +60,17 @@ TEST_F(NewProject, ADriverIsNoProgram) {
   EXPECT_NE(text->find("RAVE_VIRTUAL_PLUGIN(\"beacon\")"), std::string::npos);
 }
 
+TEST_F(NewProject, APanelHasItsTest) {
+  ASSERT_TRUE(create_project(ProjectKind::kPanel, "speeds", kTemplates, folder_ / "speeds"));
+  const Result<std::string> test = read_file(folder_ / "speeds" / "speeds.test.mjs");
+  ASSERT_TRUE(test) << test.error().text();
+  EXPECT_NE(test->find("from './speeds.mjs'"), std::string::npos);
+  const Result<std::string> panel = read_file(folder_ / "speeds" / "speeds.mjs");
+  ASSERT_TRUE(panel);
+  EXPECT_NE(panel->find("class Speeds extends"), std::string::npos);
+  EXPECT_EQ(panel->find("@NAME@"), std::string::npos);
+}
+
 TEST_F(NewProject, RefusesNames) {
   for (const char* name :
        {"", "Walls", "avoid-walls", "2walls", "_walls", "walls_", "a__b", "ä", "../walls", "a b"}) {

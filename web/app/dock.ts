@@ -8,8 +8,8 @@ const kKept = 'rave.layout';
 /** Another number makes layouts that were kept void. */
 const kVersion = 2;
 
-export type LayoutName = 'Watch' | 'Analyse' | 'Conduct';
-export const kLayouts: readonly LayoutName[] = ['Watch', 'Analyse', 'Conduct'];
+export type LayoutName = 'Watch' | 'Drive' | 'Analyse' | 'Conduct';
+export const kLayouts: readonly LayoutName[] = ['Watch', 'Drive', 'Analyse', 'Conduct'];
 
 /** A panel in the dock: makes the element and gives it its context. */
 class DockedPanel implements IContentRenderer {
@@ -20,7 +20,7 @@ class DockedPanel implements IContentRenderer {
   }
 
   init(_parameters: GroupPanelPartInitParameters): void {
-    const panel = document.createElement(this.kind.tag) as PanelElement;
+    const panel = this.kind.make?.() ?? (document.createElement(this.kind.tag) as PanelElement);
     panel.context = this.context;
     this.element.append(panel);
   }
@@ -34,14 +34,14 @@ export class Dock {
   private readonly kept: string;
   private readonly width = document.documentElement.clientWidth;
 
-  constructor(host: HTMLElement, private readonly kinds: readonly PanelKind[], context: PanelContext) {
+  constructor(host: HTMLElement, private readonly kinds: () => readonly PanelKind[], context: PanelContext) {
     this.view = new DockviewComponent(host, {
       theme: {name: 'rave', className: 'dockview-theme-rave', gap: 6},
       disableFloatingGroups: false,
       createRightHeaderActionComponent: () => new HeaderActions(),
       createComponent: (options) => {
-        const kind = kinds.find((known) => known.id === options.name);
-        if (kind === undefined) throw new Error(`unknown panel ${options.name}`);
+        const kind = kinds().find((known) => known.id === options.name);
+        if (kind === undefined) throw new Error(`unknown panel ${options.name}`); // Caught by restore().
         return new DockedPanel(kind, context);
       },
     });
@@ -59,8 +59,15 @@ export class Dock {
       panel.api.setActive();
       return;
     }
-    const kind = this.kinds.find((known) => known.id === id);
+    const kind = this.kinds().find((known) => known.id === id);
     if (kind) this.view.addPanel({id, component: id, title: kind.title});
+  }
+
+  /** A panel that came while the page was open, beside the Sensor Display; not where it was closed or kept. */
+  offer(id: string): void {
+    if (this.view.panels.some((panel) => panel.id === id)) return;
+    const beside = this.view.panels.find((panel) => panel.id === 'sensors' || panel.id === 'robot')?.id;
+    this.add(id, beside === undefined ? undefined : {referencePanel: beside, direction: 'within'});
   }
 
   /** Titles with their numbers, such as `Robots 16`. */
@@ -89,17 +96,26 @@ export class Dock {
       this.add('robots', {referencePanel: 'world', direction: 'below'});
       for (const id of ['sensors', 'log', 'hosts']) this.add(id, {referencePanel: 'robots', direction: 'within'});
     }
-    for (const id of this.width >= 900 ? ['sensors', 'robots', 'world'] : ['robots', 'world']) this.show(id);
+    for (const id of layout === 'Drive' ? ['robots', 'joystick', 'world'] : this.width >= 900 ? ['sensors', 'robots', 'world'] : ['robots', 'world']) this.show(id);
     this.restoring = false;
     this.keep();
   }
 
-  /** Watch: the world in the middle. Analyse: sensors and log have the room. Conduct: rights are at hand. */
+  /** Watch: the world in the middle. Drive: the robot at the left, stick and chat at the right. Analyse: sensors and log have the room. Conduct: rights are at hand. */
   private layOutWide(layout: LayoutName): void {
     if (layout === 'Watch') {
       this.add('robots', {referencePanel: 'world', direction: 'left'}, {initialWidth: 292});
       this.add('sensors', {referencePanel: 'world', direction: 'right'}, {initialWidth: 392});
       this.add('log', {referencePanel: 'sensors', direction: 'below'}, {initialHeight: 340});
+    } else if (layout === 'Drive') {
+      this.add('robots', {referencePanel: 'world', direction: 'left'}, {initialWidth: 304});
+      this.add('robot', {referencePanel: 'robots', direction: 'below'}, {initialHeight: 420});
+      this.add('joystick', {referencePanel: 'world', direction: 'right'}, {initialWidth: 376});
+      this.add('chat', {referencePanel: 'joystick', direction: 'below'}, {initialHeight: 360});
+      this.add('log', {referencePanel: 'chat', direction: 'within'});
+      this.add('sensors', {referencePanel: 'robot', direction: 'within'});
+      this.show('robot');
+      this.show('chat');
     } else if (layout === 'Conduct') {
       this.add('robots', {referencePanel: 'world', direction: 'right'}, {initialWidth: 392});
       this.add('log', {referencePanel: 'robots', direction: 'below'}, {initialHeight: 340});
@@ -114,7 +130,7 @@ export class Dock {
   }
 
   private add(id: string, position?: object, size?: object): void {
-    const title = this.kinds.find((kind) => kind.id === id)?.title ?? id;
+    const title = this.kinds().find((kind) => kind.id === id)?.title ?? id;
     this.view.addPanel({id, component: id, title, ...(position ? {position} : {}), ...size} as never);
   }
 

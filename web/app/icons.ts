@@ -42,6 +42,18 @@ import sun from 'lucide-static/icons/sun.svg?raw';
 import target from 'lucide-static/icons/target.svg?raw';
 import triangleAlert from 'lucide-static/icons/triangle-alert.svg?raw';
 import wifiOff from 'lucide-static/icons/wifi-off.svg?raw';
+import boxSelect from 'lucide-static/icons/pentagon.svg?raw';
+import cornerDownLeft from 'lucide-static/icons/corner-down-left.svg?raw';
+import gamepad from 'lucide-static/icons/gamepad-2.svg?raw';
+import hand from 'lucide-static/icons/hand.svg?raw';
+import joystick from 'lucide-static/icons/joystick.svg?raw';
+import keyboard from 'lucide-static/icons/keyboard.svg?raw';
+import message from 'lucide-static/icons/message-square.svg?raw';
+import packageX from 'lucide-static/icons/package-x.svg?raw';
+import pointer from 'lucide-static/icons/mouse-pointer-2.svg?raw';
+import move from 'lucide-static/icons/move.svg?raw';
+import route from 'lucide-static/icons/route.svg?raw';
+import trash from 'lucide-static/icons/trash-2.svg?raw';
 import x from 'lucide-static/icons/x.svg?raw';
 import zap from 'lucide-static/icons/zap.svg?raw';
 
@@ -49,6 +61,7 @@ const kIcons = {
   activity, bell, bot, camera, check, chevronDown, circleX, compass, crosshair, download, eye, fileText, filter, hourglass, info,
   layers, link, list, lock, maximize, maximize2, minimize2, moon, octagonX, pause, play, radar, rotateCcw, ruler, search, server, shield, skipBack, skipForward,
   stepBack, stepForward, sun, target, triangleAlert, wifiOff, x, zap,
+  boxSelect, cornerDownLeft, gamepad, hand, joystick, keyboard, message, packageX, pointer, move, route, trash,
 };
 
 export type IconName = keyof typeof kIcons;

@@ -11,7 +11,7 @@ export interface KeyAction {
 
 function nameOf(event: KeyboardEvent): string {
   const key = event.key === ' ' ? 'Space' : event.key.length === 1 ? event.key.toUpperCase() : event.key;
-  return (event.ctrlKey ? 'Ctrl ' : '') + key;
+  return (event.ctrlKey ? 'Ctrl ' : '') + (event.shiftKey && key.startsWith('Arrow') ? 'Shift ' : '') + key;
 }
 
 /** Calls the action of a key, but never while text is typed; Space on a control presses that. */
@@ -28,6 +28,8 @@ export function bindKeys(actions: () => readonly KeyAction[]): void {
     action.act(event);
   });
   document.addEventListener('keyup', (event) => {
-    actions().find((known) => known.end && known.keys.includes(nameOf(event)))?.end?.();
+    // Shift may be lifted first: what is held ends all the same.
+    const name = nameOf(event).replace('Shift ', '');
+    actions().find((known) => known.end && known.keys.some((key) => key.replace('Shift ', '') === name))?.end?.();
   });
 }

@@ -6,5 +6,8 @@ import '../panels/sensors/sensors_panel';
 import '../panels/log/log_panel';
 import '../panels/hosts/hosts_panel';
 import '../panels/rights/rights_panel';
+import '../panels/robot/robot_panel';
+import '../panels/joystick/joystick_panel';
+import '../panels/chat/chat_panel';
 import './run_bar';
 import './rave_app';

@@ -7,12 +7,27 @@ export const kPanels: readonly PanelKind[] = [
   {id: 'world', title: 'World View', icon: 'compass', tag: 'rave-world', short: 'World'},
   {id: 'robots', title: 'Robots', icon: 'bot', tag: 'rave-robots', short: 'Robots', count: ({model}) => model.robots.length},
   {id: 'sensors', title: 'Sensor Display', icon: 'radar', tag: 'rave-sensors', short: 'Sensors'},
+  {id: 'robot', title: 'Robot', icon: 'activity', tag: 'rave-robot', live: true},
+  {id: 'joystick', title: 'Joystick', icon: 'joystick', tag: 'rave-joystick', needs: 'command', live: true},
+  {id: 'chat', title: 'Chat', icon: 'message', tag: 'rave-chat', short: 'Chat', live: true},
   {id: 'log', title: 'Log & alerts', icon: 'list', tag: 'rave-log', short: 'Log'},
-  {id: 'hosts', title: 'Hosts', icon: 'server', tag: 'rave-hosts', short: 'Hosts', count: ({model}) => model.hosts.length},
+  {id: 'hosts', title: 'Hosts', icon: 'server', tag: 'rave-hosts', count: ({model}) => model.hosts.length},
   {id: 'rights', title: 'Rights', icon: 'shield', tag: 'rave-rights', needs: 'rights'},
 ];
 
+/** Panels that the run brings along. */
+const components: PanelKind[] = [];
+
+export function addPanelKind(kind: PanelKind): void {
+  components.push(kind);
+}
+
+/** All kinds, whether this person may see them or not. */
+export function allPanels(): readonly PanelKind[] {
+  return [...kPanels, ...components];
+}
+
 /** Those that this person may see. */
 export function panelsFor(model: RunModel): PanelKind[] {
-  return kPanels.filter((kind) => kind.needs === undefined || model.may(kind.needs));
+  return [...kPanels, ...components].filter((kind) => (kind.needs === undefined || model.may(kind.needs)) && (kind.live !== true || model.live));
 }

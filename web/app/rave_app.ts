@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
+import {Commands} from '../model/commands';
 import {DirectLines} from '../model/direct_lines';
 import {Link} from '../model/link';
 import {RunModel} from '../model/run_model';
 import type {PanelContext, PanelElement, PanelKind} from '../panel_api';
 import {Palette} from '../panel_api/palette';
 import {Selection} from '../panel_api/selection';
+import type {JoystickPanel} from '../panels/joystick/joystick_panel';
 import type {WorldPanel} from '../panels/world/world_panel';
 import {Dock, type LayoutName} from './dock';
 import './find_box';
@@ -14,7 +16,8 @@ import {keySheetStyles, renderKeys} from './key_sheet';
 import {bindKeys, type KeyAction} from './keys';
 import {nowOf} from './moment';
 import {readMoment, writeMoment} from './moment_link';
-import {kPanels, panelsFor} from './panels';
+import {addPanelKind, allPanels, panelsFor} from './panels';
+import {penStyles, renderPenBar} from './pen_bar';
 import {renderLost, renderNoRun, renderOpening, renderRefused, renderSeenBy, renderWaits, stateStyles} from './page_states';
 import type {RunBar} from './run_bar';
 import './sheet';
@@ -31,8 +34,13 @@ export class RaveApp extends LitElement {
   private readonly selection = new Selection();
   private readonly palette = new Palette(document.documentElement);
   private dock: Dock | null = null;
+  private readonly commands = new Commands(this.model, this.link);
   private phonePanel = 'world';
   private phone = matchMedia(`(max-width: ${kPhone_px - 1}px)`);
+  /** Addresses of components that were loaded. */
+  private readonly brought = new Set<string>();
+  /** In the hand and low: tools and STOP at the bottom, nothing else. */
+  private pen = matchMedia(`(max-width: ${kPhone_px - 1}px) and (max-height: 700px)`);
   private finding = false;
   private showingKeys = false;
   /** The link that opened the page was followed. */
@@ -45,6 +53,8 @@ export class RaveApp extends LitElement {
     link: this.link,
     selection: this.selection,
     palette: this.palette,
+    commands: this.commands,
+    worldLayers: new Set(),
     seek: (time_s) => {
       if (this.model.may('seek')) this.link.send({type: 'transport', do: 'seek', value: time_s});
     },
@@ -78,15 +88,36 @@ export class RaveApp extends LitElement {
       this.retitle();
     });
     model.runChanged.on(() => this.link.direct?.want(model.live && model.may('stop') && model.hello?.seen_by === undefined));
+    model.runChanged.on(() => void this.bringComponents());
     model.answered.on((answer) => {
+      // What has a number is answered where it was asked.
+      if (answer.request !== undefined) return;
       this.refusal = answer.good ? '' : answer.text;
       update();
     });
     document.addEventListener('visibilitychange', () => this.link.queueLook());
+    this.addEventListener('tool', update);
+    model.linesChanged.on(update);
+    this.pen.addEventListener('change', update);
     this.phone.addEventListener('change', () => {
       this.dock = null;
       update();
     });
+  }
+
+  /** Loads the panels that the run brings along; once, since a module stays. */
+  private async bringComponents(): Promise<void> {
+    const named = (this.model.hello?.components ?? []).filter(({url}) => !this.brought.has(url));
+    if (named.length === 0) return;
+    for (const {url} of named) this.brought.add(url);
+    const {loadComponents} = await import('./component_loader');
+    for (const component of await loadComponents(named, this.context)) {
+      for (const kind of component.kinds()) {
+        addPanelKind(kind);
+        this.dock?.offer(kind.id);
+      }
+    }
+    this.requestUpdate();
   }
 
   /** Goes to the moment, the robot and the camera that the address names; once. */
@@ -98,7 +129,7 @@ export class RaveApp extends LitElement {
 
   override updated(): void {
     const host = this.renderRoot.querySelector<HTMLElement>('.dock');
-    if (host && this.dock === null) this.dock = new Dock(this.dockHost(host), kPanels, this.context);
+    if (host && this.dock === null) this.dock = new Dock(this.dockHost(host), allPanels, this.context);
     this.retitle();
     const phone = this.renderRoot.querySelector<HTMLElement>('.phone');
     if (phone) this.fillPhone(phone);
@@ -117,18 +148,20 @@ export class RaveApp extends LitElement {
   }
 
   private fillPhone(place: HTMLElement): void {
-    if (place.firstElementChild?.localName === this.kind(this.phonePanel).tag) return;
-    const panel = document.createElement(this.kind(this.phonePanel).tag) as PanelElement;
+    if (place.dataset['panel'] === this.phonePanel && place.firstElementChild !== null) return;
+    place.dataset['panel'] = this.phonePanel;
+    const kind = this.kind(this.phonePanel);
+    const panel = kind.make?.() ?? (document.createElement(kind.tag) as PanelElement);
     panel.context = this.context;
     place.replaceChildren(panel);
   }
 
   private kind(id: string): PanelKind {
-    return kPanels.find((kind) => kind.id === id) ?? kPanels[0];
+    return allPanels().find((kind) => kind.id === id) ?? allPanels()[0];
   }
 
   private retitle(): void {
-    const titles = new Map(kPanels.map((kind) => {
+    const titles = new Map(allPanels().map((kind) => {
       const count = kind.count?.(this.context);
       return [kind.id, count ? `${kind.title}  ${count}` : kind.title];
     }));
@@ -170,10 +203,32 @@ export class RaveApp extends LitElement {
       {keys: ['Z'], what: 'lens, while held', act: () => this.world?.lens(true), end: () => this.world?.lens(false)},
       {keys: ['M'], what: 'measure', act: () => this.world?.toggleMeasure()},
       {keys: ['P'], what: 'save a picture', act: () => this.world?.picture()},
+      ...this.orderKeys(),
       ...panelsFor(this.model).map((kind, i) => ({keys: [String(i + 1)], what: kind.title, act: () => this.showPanel(kind.id)})),
       {keys: ['?'], what: 'this list', act: () => this.open('showingKeys')},
       {keys: ['Escape'], what: 'drop what is begun', act: () => this.escape()},
     ];
+  }
+
+  /** Tools and the stick, for those who command. */
+  private orderKeys(): KeyAction[] {
+    const {model} = this;
+    if (!model.live || !model.may('command')) return [];
+    const tool = (key: string, what: string, name: WorldPanel['tool']) => ({keys: [key], what, act: () => this.world?.chooseTool(name)});
+    const stick = ['ArrowUp', 'ArrowDown', 'ArrowLeft', 'ArrowRight'].map((key, i) => ({
+      keys: [`Shift ${key}`], what: ['drive', 'drive backwards', 'turn left', 'turn right'][i],
+      act: () => this.joystick?.drive(key, true), end: () => this.joystick?.drive(key, false),
+    }));
+    return [
+      tool('V', 'select', 'select'), tool('G', 'goal', 'goal'), tool('W', 'path', 'path'),
+      ...(model.may('edit') ? [tool('O', 'obstacle', 'obstacle'), tool('B', 'place a robot', 'place'), {keys: ['Delete'], what: 'remove the obstacle with handles', act: () => this.world?.removeBody()}] : []),
+      {keys: ['Enter'], what: 'send what is drawn', act: () => this.world?.sendDraft()},
+      ...stick,
+    ];
+  }
+
+  private get joystick(): JoystickPanel | null {
+    return (this.querySelector('rave-joystick') ?? this.renderRoot.querySelector('rave-joystick')) as JoystickPanel | null;
   }
 
   private open(what: 'finding' | 'showingKeys'): void {
@@ -212,17 +267,18 @@ export class RaveApp extends LitElement {
         <button @click=${() => { this.refusal = ''; this.requestUpdate(); }}>Close</button></div>`}
       ${model.hello === null && !old ? renderOpening() : nothing}
       <main class=${old ? 'old' : ''}>
-        ${this.phone.matches ? html`<div class="phone"></div>${this.phonePanel === 'world' ? html`<rave-sheet .context=${this.context}></rave-sheet>` : nothing}` : html`<div class="dock"><slot name="dock"></slot></div>`}
+        ${this.phone.matches ? html`<div class="phone"></div>${this.phonePanel === 'world' && !this.pen.matches ? html`<rave-sheet .context=${this.context}></rave-sheet>` : nothing}` : html`<div class="dock"><slot name="dock"></slot></div>`}
       </main>
-      <rave-run-bar .context=${this.context}></rave-run-bar>
-      ${this.phone.matches ? this.renderTabs() : nothing}
+      ${this.pen.matches && model.live && model.may('command')
+        ? renderPenBar(this.context, this.phonePanel, this.world, (id) => this.showPanel(id))
+        : html`<rave-run-bar .context=${this.context}></rave-run-bar>${this.phone.matches ? this.renderTabs() : nothing}`}
       ${this.finding ? html`<rave-find .context=${this.context} .panels=${panelsFor(model)} @theme=${() => this.toggleTheme()} @done=${() => this.open('finding')}></rave-find>` : nothing}
       ${this.showingKeys ? renderKeys(this.actions(), () => this.escape()) : nothing}`;
   }
 
   private renderTabs(): TemplateResult {
     const alerts = this.model.events.filter((event) => event.level !== 'info' && (this.model.live || event.t <= nowOf(this.model))).length;
-    return html`<nav aria-label="Panels">${kPanels.filter((kind) => kind.short).map((kind) => html`<button aria-pressed=${this.phonePanel === kind.id} @click=${() => this.showPanel(kind.id)}>
+    return html`<nav aria-label="Panels">${panelsFor(this.model).filter((kind) => kind.short).map((kind) => html`<button aria-pressed=${this.phonePanel === kind.id} @click=${() => this.showPanel(kind.id)}>
       ${icon(kind.icon as IconName, 20)}<span>${kind.short}</span>${kind.id === 'log' && alerts > 0 ? html`<i>${alerts}</i>` : nothing}</button>`)}</nav>`;
   }
 
@@ -230,6 +286,7 @@ export class RaveApp extends LitElement {
     controls,
     stateStyles,
     keySheetStyles,
+    penStyles,
     css`
       :host { display: flex !important; flex-direction: column; height: 100%; background: var(--bg-0); }
       main { position: relative; flex: 1; min-height: 0; padding: 0 6px 6px; }

@@ -63,7 +63,7 @@ export class TopBar extends LitElement {
       <h1>${run?.name ?? ''}</h1>
       <span class="state ${look}" role="status">${look === 'replay' ? icon('rotateCcw', 13) : html`<i></i>`}${word}</span>
       <span class="about">${this.about()}</span>
-      ${this.layout ? html`<div class="segments" role="radiogroup" aria-label="Layout">${kLayouts.filter((name) => name !== 'Conduct' || model.may('rights')).map((name) => html`
+      ${this.layout ? html`<div class="segments" role="radiogroup" aria-label="Layout">${kLayouts.filter((name) => (name !== 'Conduct' || model.may('rights')) && (name !== 'Drive' || (model.live && model.may('command')))).map((name) => html`
         <button role="radio" aria-checked=${this.layout === name} title="Lay the panels out anew" @click=${() => this.dispatchEvent(new CustomEvent('layout', {detail: name}))}>${name}</button>`)}</div>` : nothing}
       <span class="space"></span>
       <button class="find" aria-label="Find a robot, panel or moment" @click=${() => ask('find')}>${icon('search', 15)}<span>Find a robot, panel or moment</span><kbd>Ctrl K</kbd></button>
@@ -72,6 +72,8 @@ export class TopBar extends LitElement {
       <rave-way .context=${this.context}></rave-way>
       ${this.renderRate()}
       ${this.renderPeople()}
+      ${model.live ? html`<span class="pen">${([['chat', 'Chat', 'message'], ['robots', 'Robots', 'list'], ['world', 'World View', 'compass']] as const).map(([id, label, glyph]) => html`
+        <button class="icon-button" aria-label=${label} title=${label} @click=${() => this.context.show(id)}>${icon(glyph, 20)}</button>`)}</span>` : nothing}
       <rave-bell .context=${this.context}></rave-bell>
       <button class="icon-button theme" title="Light or dark" aria-label="Light or dark" @click=${() => ask('theme')}>${icon(palette.theme === 'dark' ? 'sun' : 'moon')}</button>
       ${model.hello ? html`<i class="rule"></i><span class="person">${face(model.hello.seen_by ?? model.hello.user, true)}<span>${roleText((model.hello.seen_by ?? model.hello.user).role)}</span></span>` : nothing}`;
@@ -116,6 +118,8 @@ export class TopBar extends LitElement {
       .rate.slow em { color: inherit; }
       .person { display: flex; align-items: center; gap: 8px; font-size: var(--fs-12); white-space: nowrap; }
       .people { display: flex; }
+      .pen { display: none; }
+      @media (max-width: 599px) and (max-height: 700px) { .pen { display: flex; } .find, .person { display: none !important; } }
       .face { display: grid; place-items: center; width: 24px; height: 24px; border-radius: 50%; background: var(--bg-4); color: var(--text-1); font-style: normal; font-size: 10px; font-weight: 600; }
       .face.you { background: var(--intent-fill); color: #fff; }
       .people .face { margin-left: -4px; box-shadow: 0 0 0 2px var(--bg-0); }

@@ -14,6 +14,9 @@ export function makeRobots(count, real = 5) {
       name: isReal ? `real-${i + 1}` : `walker-${i + 1 - real}`,
       team: isReal ? 'utias' : kTeams[i % kTeams.length],
       kind: isReal ? 'real' : 'simulated', word: '', recorded: false, program: 'wander', drivers: ['create'],
+      parameters: [
+        {key: 'program.cruise_mps', kind: 'number', unit: 'm/s', doc: 'How fast it goes.', range: [0, 1], value: 0.2},
+        {key: 'program.avoid_m', kind: 'number', unit: 'm', doc: 'From where on it turns away.', range: [0, 2], value: 0.45}],
       host: `host-${(i % 3) + 1}`,
       shapes: [{disc: [0, 0, 0.17], z: [0, 0.12]}, ...(isReal ? [{disc: [0, 0, 0.04], z: [0.12, 0.5]}] : [])],
       sensors: isReal || count <= 64 ? [laser()] : [],
@@ -46,13 +49,17 @@ export class FakeRun {
     this.name = options.name ?? 'fake';
     this.duration_s = options.duration_s ?? 120;
     this.source = options.source ?? 'live';
-    this.may = options.may ?? ['play', 'pace', 'step', 'stop', 'release', 'readings', 'obstacles', 'log'];
+    this.may = options.may ?? ['play', 'pace', 'step', 'stop', 'release', 'readings', 'obstacles', 'log', 'command', 'edit', 'chat'];
     this.role = options.role ?? 'commander';
     this.now_s = options.now_s ?? 0;
     this.state = 'running';
     this.reason = '';
     this.pace = 1;
     this.stopped = new Set();
+    /** Velocities that came: slot, m/s, rad/s. */
+    this.driven = [];
+    this.drives = new Map(this.robots.map((_, slot) => [slot, {lease: '', takes: ['drive', 'goal', 'path', 'text', 'place'], order: ''}]));
+    this.lines = [];
     this.hosts = null;
     this.seenBy = null;
     this.rights = {type: 'rights', classes: ['pose', 'true_pose', 'readings', 'hybrid_parts', 'obstacles', 'log', 'recording', 'stop'], teams: kTeams,
@@ -64,8 +71,8 @@ export class FakeRun {
   }
 
   hello() {
-    const why = {seek: 'A live run cannot be moved in time.', play: 'Only a super-user holds the run.', stop: 'Observers do not stop robots.'};
-    const every = ['play', 'seek', 'pace', 'step', 'stop', 'release', 'true_pose', 'readings', 'hybrid_parts', 'obstacles', 'log', 'recording', 'rights'];
+    const why = {seek: 'A live run cannot be moved in time.', play: 'Only a super-user holds the run.', stop: 'Observers do not stop robots.', command: 'Observers do not command robots.', edit: 'Only a super-user edits the world.'};
+    const every = ['play', 'seek', 'pace', 'step', 'stop', 'release', 'true_pose', 'readings', 'hybrid_parts', 'obstacles', 'log', 'recording', 'rights', 'command', 'edit', 'chat'];
     const why_not = Object.fromEntries(every.filter((power) => !this.may.includes(power)).map((power) => [power, why[power] ?? 'Not given to this role.']));
     return {type: 'hello', protocol: 1, server: 'fake 0', user: {name: 'Ada N', role: this.role}, ...(this.seenBy ? {user: this.seenBy.as, seen_by: this.seenBy.by} : {}), may: this.may, why_not,
       run: {name: this.name, source: this.source, clock: 'lock_step', started: '', step_s: 0.01, seed: 1, hash: null, recording: null}};
@@ -84,7 +91,65 @@ export class FakeRun {
       {type: 'roster', revision: 1, robots: this.robots},
       {type: 'events', reset: true, first: 0, events: this.events}, this.time(),
       ...(this.hosts ? [{type: 'hosts', hosts: this.hosts}] : []), ...(this.may.includes('rights') ? [this.rights] : []),
+      ...(this.source === 'live' ? [this.leases([...this.drives.keys()], true), {type: 'chat', reset: true, lines: this.lines}] : []),
       {type: 'people', people: [{name: 'Ada N', role: this.role}, {name: 'Ben K', role: 'observer'}]}];
+  }
+
+  leases(slots, reset = false) {
+    return {type: 'leases', reset, robots: slots.map((slot) => ({slot, ...this.drives.get(slot), yours: this.drives.get(slot).lease === 'Ada N'}))};
+  }
+
+  /** Robots with an even slot take orders of anybody; others are of Ben as long as nobody forces them. */
+  command(message) {
+    const slots = message.slots ?? [];
+    const refused = [];
+    for (const slot of slots) {
+      const drive = this.drives.get(slot);
+      if (message.type === 'lease' && message.do === 'force') drive.lease = 'Ada N';
+      else if (message.type === 'lease' && message.do === 'give') drive.lease = message.to ?? '';
+      else if (drive.lease !== '' && drive.lease !== 'Ada N') {
+        refused.push({slot, text: `\`${drive.lease}\` drives ${this.robots[slot].name}`});
+        continue;
+      } else if (this.outside(message)) {
+        refused.push({slot, text: 'That place is outside the world.'});
+        continue;
+      } else drive.lease = 'Ada N';
+      if (message.kind === 'goal' || message.kind === 'path') {
+        const [x, y] = message.points[message.points.length === slots.length && message.kind === 'goal' ? slots.indexOf(slot) : message.points.length - 1];
+        drive.order = `${message.kind} ${x.toFixed(2)}, ${y.toFixed(2)}`;
+      }
+      if (message.kind === 'cancel') drive.order = '';
+      if (message.kind === 'drive') this.driven.push([slot, message.v, message.w]);
+    }
+    const to = message.kind ?? message.do ?? message.type;
+    return {type: 'answer', to, good: refused.length === 0, text: refused[0]?.text ?? `${to}: done`, request: message.request, ...(refused.length ? {refused} : {})};
+  }
+
+  outside(message) {
+    return message.points?.some(([x, y]) => Math.hypot(x, y) > 3 * this.half_m) ?? false;
+  }
+
+  edit({do: what, name, pose, disc, polygon}) {
+    const known = this.bodies.findIndex((body) => body.name === name);
+    if (what === 'add') {
+      const body = {id: 100 + this.bodies.length, name, kind: 'virtual', pose, shapes: [{...(disc ? {disc: [0, 0, disc]} : {polygon}), z: [0, 0.5]}]};
+      this.bodies.push(body);
+      return {type: 'scene_change', set: [body], gone: []};
+    }
+    const body = this.bodies[known];
+    if (what === 'remove') {
+      this.bodies.splice(known, 1);
+      return {type: 'scene_change', set: [], gone: [body.id]};
+    }
+    this.bodies[known] = {...body, pose};
+    return {type: 'scene_change', set: [this.bodies[known]], gone: []};
+  }
+
+  say(message, from = {name: 'Ada N', role: 'commander'}) {
+    const name = message.to === 'robot' ? this.robots[message.slot].name : (message.name ?? '');
+    const line = {number: this.lines.length + 1, t: this.now_s, from, yours: from.name === 'Ada N', to: message.to, name, text: message.text};
+    this.lines.push(line);
+    return {type: 'chat', reset: false, lines: [line]};
   }
 
   setRight({role, user, class: what, reach}) {

@@ -37,6 +37,18 @@ class Viewer {
     if (message.type === 'look') this.look = message;
     if (message.type === 'ack') this.acknowledged = Math.max(this.acknowledged, message.sequence);
     if (message.type === 'transport') this.server.transport(message);
+    if (message.type === 'order' || message.type === 'lease' || message.type === 'set') {
+      this.say(this.server.run.command(message));
+      if (message.kind !== 'drive') this.server.say(this.server.run.leases(message.slots));
+    }
+    if (message.type === 'edit') {
+      this.server.say(this.server.run.edit(message));
+      this.say({type: 'answer', to: message.do, good: true, text: 'done', request: message.request});
+    }
+    if (message.type === 'chat') {
+      this.server.say(this.server.run.say(message));
+      this.say({type: 'answer', to: 'chat', good: true, text: 'Said.', request: message.request});
+    }
     if (message.type === 'halt') this.server.halt(this, message);
     if (message.type === 'set_right') {
       this.server.run.setRight(message);

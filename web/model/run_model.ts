@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import {decodeFrame, isPoseFrame} from '../protocol/frames';
-import type {Answer, Body, Event, Hello, Host, Person, Rights, Robot, ServerMessage, Time} from '../protocol/messages';
+import type {Answer, Body, DriveState, Event, Hello, Host, Line, Person, Rights, Robot, ServerMessage, Time} from '../protocol/messages';
 import {PoseHistory} from './pose_history';
 import {Readings} from './readings';
 import {Signal} from './signal';
@@ -15,6 +15,10 @@ export class RunModel {
   events: Event[] = [];
   hosts: Host[] = [];
   people: Person[] = [];
+  /** Who drives what, and what is under way; by slot. */
+  drives = new Map<number, DriveState>();
+  /** What people said, oldest first. */
+  lines: Line[] = [];
   /** Who gets what; of super-users alone. */
   rights: Rights | null = null;
   readonly poses = new PoseHistory();
@@ -28,6 +32,8 @@ export class RunModel {
   readonly hostsChanged = new Signal();
   readonly peopleChanged = new Signal();
   readonly rightsChanged = new Signal();
+  readonly drivesChanged = new Signal();
+  readonly linesChanged = new Signal();
   /** A frame or reading came: there is something new to draw. */
   readonly pictureChanged = new Signal();
   readonly answered = new Signal<Answer>();
@@ -39,6 +45,25 @@ export class RunModel {
 
   may(power: string): boolean {
     return this.hello?.may.some((known) => known === power) ?? false;
+  }
+
+  /** This person may command a robot, if it takes orders at all. */
+  commands(slot: number): boolean {
+    const robot = this.robots[slot];
+    return robot !== undefined && this.live && this.may('command') && robot.yours !== false;
+  }
+
+  /** Why a robot does not take something from this person, in words; empty if it does. */
+  whyNotTaken(slot: number, what: string): string {
+    const robot = this.robots[slot];
+    if (robot === undefined) return 'No robot is selected.';
+    if (!this.live) return 'This is a recording: nobody takes orders.';
+    if (!this.may('command')) return this.whyNot('command');
+    if (robot.yours === false) return `${robot.name} is not yours to command.`;
+    if (robot.recorded) return `${robot.name} is recorded: it obeys nobody.`;
+    const takes = this.drives.get(slot)?.takes ?? [];
+    if (takes.includes(what)) return '';
+    return takes.length === 0 ? `${robot.name} takes no orders.` : `${robot.name} takes no ${what}; it takes ${takes.join(', ')}.`;
   }
 
   /** Why something is not allowed, in words; empty if it is. */
@@ -89,6 +114,15 @@ export class RunModel {
         this.rights = message;
         this.rightsChanged.emit();
         break;
+      case 'leases':
+        if (message.reset) this.drives.clear();
+        for (const state of message.robots) this.drives.set(state.slot, state);
+        this.drivesChanged.emit();
+        break;
+      case 'chat':
+        this.lines = message.reset ? message.lines : [...this.lines, ...message.lines];
+        this.linesChanged.emit();
+        break;
       case 'answer':
         this.answered.emit(message);
         break;
@@ -117,6 +151,7 @@ export class RunModel {
     this.events = [];
     this.hosts = [];
     this.rights = null;
+    this.drives.clear();
     this.poses.clear();
     this.readings.clear();
     this.runChanged.emit();

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a panel is given. The panels that come with RAVE use nothing else.
+import type {Commands} from '../model/commands';
 import type {Link} from '../model/link';
 import type {RunModel} from '../model/run_model';
 import type {Power} from '../protocol/messages';
+import type {WorldLayer} from './component';
 import type {Palette} from './palette';
 import type {Selection} from './selection';
 
+export type {Component, ComponentPanel, WorldLayer} from './component';
 export type {Palette} from './palette';
 export type {Selection} from './selection';
+
+/** Number of this interface. A component says for which one it was made; another one is not loaded. */
+export const kPanelApi = 1;
 
 /** What all panels share. Owned by the page; lives as long as it. */
 export interface PanelContext {
@@ -15,6 +21,10 @@ export interface PanelContext {
   readonly link: Link;
   readonly selection: Selection;
   readonly palette: Palette;
+  /** Orders, leases, parameters, obstacles and words, each with the answer of the run. */
+  readonly commands: Commands;
+  /** What components draw over the World View. A layer that throws is taken out. */
+  readonly worldLayers: Set<WorldLayer>;
   /** Moves the replay; does nothing where the time cannot be moved. */
   seek(time_s: number): void;
   /** Brings a panel to the front. */
@@ -35,10 +45,14 @@ export interface PanelKind {
   icon: string;
   /** Name of its custom element. */
   tag: string;
+  /** Makes the element of a kind whose tag several share. */
+  make?(): PanelElement;
   /** What its tab on a phone is called; without one it has none. */
   short?: string;
   /** Only who has this power sees the panel. */
   needs?: Power;
+  /** Of a run that goes on; a replay does not show it. */
+  live?: boolean;
   /** Number beside the title; none if undefined. */
   count?(context: PanelContext): number;
 }

@@ -66,6 +66,10 @@ class Expansion {
       resolve_maps(world.maps, path.parent_path());
     }
     resolve_maps(scenario.maps, folder_);
+    // Only a page needs them, and it says what is missing: a replay elsewhere goes without.
+    for (GuiComponentFile& component : scenario.gui.components) {
+      component.module.value = absolute(beside(folder_, *component.module));
+    }
     std::move(scenario.obstacles.begin(), scenario.obstacles.end(),
               std::back_inserter(world.obstacles));
     std::move(scenario.maps.begin(), scenario.maps.end(), std::back_inserter(world.maps));

@@ -29,7 +29,9 @@ constexpr auto enum_names(EnumTag<GuiClass> /*tag*/) {
                     EnumName{GuiClass::kRecording, "recording"},
                     EnumName{GuiClass::kStop, "stop"},
                     EnumName{GuiClass::kRelease, "release"},
-                    EnumName{GuiClass::kRunControl, "run_control"}};
+                    EnumName{GuiClass::kRunControl, "run_control"},
+                    EnumName{GuiClass::kCommand, "command"},
+                    EnumName{GuiClass::kEdit, "edit"}};
 }
 
 constexpr auto enum_names(EnumTag<GuiReach> /*tag*/) {
@@ -42,7 +44,7 @@ void describe(V& v, GuiRightFile& c) {
   v.field("role", c.role, {.doc = "Of all users with this role; null: `user` says of whom."});
   v.field("user", c.user, {.doc = "Of one user, whatever the role; null: `role` says of whom."});
   v.required("classes", c.classes,
-             {.doc = "What is given or withheld.", .min_items = 1, .max_items = 14});
+             {.doc = "What is given or withheld.", .min_items = 1, .max_items = 16});
   v.required("reach", c.reach,
              {.doc = "Of which robots: none, those of the user's own teams, all, or those of "
                      "`teams`."});
@@ -52,6 +54,15 @@ void describe(V& v, GuiRightFile& c) {
 void validate(const GuiRightFile& c, CheckContext& check);
 
 template <class V>
+void describe(V& v, GuiComponentFile& c) {
+  v.required("module", c.module, {.doc = "An ES module (`.js` or `.mjs`), beside this file."});
+  v.field("roles", c.roles,
+          {.doc = "Who gets it beside super-users; empty: super-users alone.", .max_items = 2});
+}
+
+void validate(const GuiComponentFile& c, CheckContext& check);
+
+template <class V>
 void describe(V& v, GuiFile& c) {
   v.field("rights", c.rights,
           {.doc = "Changes of the usual rights; later ones go before earlier ones.",
@@ -59,6 +70,8 @@ void describe(V& v, GuiFile& c) {
   v.field("relay", c.relay,
           {.doc = "Orders may go through the GUI Server where a page has no direct line to a host; "
                   "robots that are driven so stop when the server ends. STOP always may."});
+  v.field("components", c.components,
+          {.doc = "Panels that the page loads while it runs.", .max_items = 50});
 }
 
 }  // namespace rave::config

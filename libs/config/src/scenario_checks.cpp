@@ -62,6 +62,13 @@ void validate(const GuiRightFile& c, CheckContext& check) {
   }
 }
 
+void validate(const GuiComponentFile& c, CheckContext& check) {
+  const std::string& module = *c.module;
+  if (!module.ends_with(".js") && !module.ends_with(".mjs")) {
+    check.error("module", "`module`: found `{}`, expected a file that ends in .js or .mjs", module);
+  }
+}
+
 void validate(const ChangeFile& c, CheckContext& check) {
   const int kinds = int{c.robot || c.set || c.hand_over} + int{c.add_obstacle.has_value()} +
                     int{c.move_obstacle.has_value()} + int{c.remove_obstacle.has_value()};

@@ -222,8 +222,11 @@ const FileCase kScenarios[] = {
      "file: r.yaml}]\n",
      "s.yaml:2:43: item 1 of `classes`: found the text \"poses\", expected one of pose, true_pose, "
      "readings, "
-     "hybrid_parts, obstacles, goals, maps, chat, log, video, recording, stop, release and "
-     "run_control; did you mean `pose`?"},
+     "hybrid_parts, obstacles, goals, maps, chat, log, video, recording, stop, release, "
+     "run_control, command and edit; did you mean `pose`?"},
+    {"GuiComponent",
+     "name: a\ngui: {components: [{module: panel.ts}]}\nrobots: [{name: r, file: r.yaml}]\n",
+     "s.yaml:2:29: `module`: found `panel.ts`, expected a file that ends in .js or .mjs"},
     {"Instant",
      "name: a\nduration_s: 10\nrobots: [{name: r, file: r.yaml}]\n"
      "picture: {instant_s: 11}\n",

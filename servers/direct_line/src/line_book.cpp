@@ -174,6 +174,9 @@ Result<std::vector<robot_host::RunRequest>> LineBook::covered(const Ticket& tick
   if (!request.robot.empty() && !reach.has(request.robot)) {
     return fail(ErrorCode::kState, "`{}` of `{}` is not among your rights", word, request.robot);
   }
+  if (request.kind == Kind::kPlace && ticket.role != "super_user") {
+    return fail(ErrorCode::kState, "to place a robot is for super-users");
+  }
   if (reach.empty()) return fail(ErrorCode::kState, "`{}` is not among your rights", word);
   Request signed_one = request;
   signed_one.by = ticket.user;

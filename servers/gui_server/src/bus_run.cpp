@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "bus_port.hpp"
+#include "components.hpp"
 #include "live_source.hpp"
 #include "rave/robot_host/describe_run.hpp"
 #include "rave/watch/observer.hpp"
@@ -170,8 +171,8 @@ class BusSource final : public LiveSource {
   BusFeed feed_;
 };
 
-LiveSource::Start start_of(const config::ExpandedScenario& scenario,
-                           const robot_host::BuiltScenario& built) {
+Result<LiveSource::Start> start_of(const config::ExpandedScenario& scenario,
+                                   const robot_host::BuiltScenario& built) {
   const robot_host::DescribedRun run = robot_host::describe_run(built);
   LiveSource::Start start;
   start.about.live = true;
@@ -182,6 +183,7 @@ LiveSource::Start start_of(const config::ExpandedScenario& scenario,
   start.about.duration_s = scenario.scenario.duration_s;
   start.about.relay = scenario.scenario.gui.relay;
   start.about.rights = rights_of(scenario.scenario.gui);
+  RAVE_TRY_ASSIGN(start.about.components, components_of(scenario.scenario.gui));
   start.robots_json = robots_of(scenario, run.info, run.hybrids);
   for (const record::RecordedRobot& robot : run.info.robots) start.robots.push_back(robot.name);
   const world::WorldModel& world = built.spec.world;
@@ -208,8 +210,9 @@ Result<std::shared_ptr<Source>> watch_run(const config::ExpandedScenario& scenar
     RAVE_TRY_ASSIGN(auto status, run_control::BusRun::open(bus, "GUI Server"));
     port = std::make_unique<BusPort>(std::move(asker), std::move(status));
   }
-  return std::make_shared<BusSource>(start_of(scenario, built), std::make_shared<LiveBox>(),
-                                     std::move(port), std::move(observer), scenario.robots.size());
+  RAVE_TRY_ASSIGN(auto start, start_of(scenario, built));
+  return std::make_shared<BusSource>(std::move(start), std::make_shared<LiveBox>(), std::move(port),
+                                     std::move(observer), scenario.robots.size());
 }
 
 }  // namespace rave::gui_server

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "components.hpp"
 #include "door.hpp"
 #include "metrics.hpp"
 #include "rave/base/file.hpp"
@@ -119,6 +120,7 @@ class GuiServer::Impl final : public web::Handler {
     if (request.path == "/ticket") return ticket(request);
     if (request.method == "POST") return web::text_response(405, "method not allowed\n");
     if (request.path == "/recording") return recording(request);
+    if (request.path.starts_with("/components/")) return component(request);
     web::Response file = files_.serve(request);
     if (request.path == "/" || request.path == "/index.html") {
       file.headers.emplace_back("Content-Security-Policy", web::content_policy(tickets_.ends()));
@@ -169,7 +171,27 @@ class GuiServer::Impl final : public web::Handler {
     if (visitors_.sees_as_other(session)) {
       return web::text_response(403, "you look with the eyes of somebody else\n");
     }
-    return tickets_.serve(request, {*person, session, view, visitors_.source()->about().relay});
+    return tickets_.serve(
+        request, {Visitors::known(*person), session, view, visitors_.source()->about().relay});
+  }
+
+  /// What somebody may not have is, for them, not there.
+  web::Response component(const web::Request& request) {
+    const auto person = door_.who(request);
+    if (!person) return web::text_response(401, "not signed in\n");
+    const auto& source = visitors_.source();
+    const PageComponent* const known =
+        source ? component_at(source->about().components, request.path) : nullptr;
+    if (known == nullptr || !known->is_for(person->role)) {
+      return web::text_response(404, "not found\n");
+    }
+    auto content = read_component(*known);
+    if (!content) return web::text_response(500, content.error().text() + "\n");
+    web::Response response;
+    response.type = "text/javascript; charset=utf-8";
+    response.headers.emplace_back("Cache-Control", "no-store");
+    response.body = std::make_shared<const std::string>(*std::move(content));
+    return response;
   }
 
   web::Response recording(const web::Request& request) {

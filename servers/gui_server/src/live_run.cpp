@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/gui_server/live_run.hpp"
 
+#include "components.hpp"
 #include "live_feed.hpp"
 #include "live_source.hpp"
+#include "parameters_json.hpp"
 #include "scenario_rights.hpp"
 #include "scene_json.hpp"
 
@@ -38,7 +40,9 @@ struct LiveRun::Impl {
     // The server is in the process of the host: there is no shorter way.
     start.about.relay = true;
     start.about.rights = rights_of(scenario.scenario.gui);
-    start.robots_json = robots_of(scenario, run.info, run.hybrids);
+    RAVE_TRY_ASSIGN(start.about.components, components_of(scenario.scenario.gui));
+    start.robots_json =
+        with_parameters(robots_of(scenario, run.info, run.hybrids), run.engine.spec());
     for (const record::RecordedRobot& robot : run.info.robots) start.robots.push_back(robot.name);
     start.bodies = std::move(bodies);
     source = std::make_shared<LiveSource>(

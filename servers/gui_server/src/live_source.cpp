@@ -13,7 +13,6 @@ namespace {
 constexpr std::size_t kMostPast = 2'000'000;
 /// Over so long the speed of a run is measured.
 constexpr auto kMeasure = std::chrono::milliseconds(500);
-constexpr auto kStatusInterval = std::chrono::milliseconds(250);
 constexpr double kFastestRun = 1000;
 constexpr double kSlowestRun = 1.0 / 64;
 
@@ -83,11 +82,14 @@ LiveSource::LiveSource(Start start, std::shared_ptr<LiveBox> box, std::unique_pt
   state_.duration_s = start_.about.duration_s;
   for (std::uint32_t slot = 0; slot < start_.robots.size(); ++slot) {
     slots_.emplace(start_.robots[slot], slot);
+    leases_.push_back({slot, "", {}, ""});
   }
+  leases_changed_.assign(start_.robots.size(), leases_revision_);
 }
 
 Powers LiveSource::powers() const {
-  Powers powers{{"stop", "release", "readings", "hybrid_parts", "obstacles", "log"},
+  Powers powers{{"stop", "release", "readings", "hybrid_parts", "obstacles", "log", "command",
+                 "edit", "chat"},
                 {{"seek", kSeekLater},
                  {"recording", "The recording can be downloaded when the run is over."},
                  {"true_pose", "This view shows reported poses."}}};
@@ -115,7 +117,7 @@ void LiveSource::tick(Playhead::Clock::time_point now, const Audience& audience)
     box_->wants.publish();
   }
   take_news();
-  learn_flags(now);
+  learn_status(now);
   take_picture(now);
   answer_asked();
   const std::lock_guard lock(mutex_);
@@ -174,20 +176,6 @@ void LiveSource::take_picture(Playhead::Clock::time_point now) {
   measured_at_ = now;
   measured_s_ = state_.now_s;
   state_.pace = port_->pace();
-}
-
-/// A picture that comes over a bus does not say who is stopped.
-void LiveSource::learn_flags(Playhead::Clock::time_point now) {
-  if (!picture().standing || now - flags_at_ < kStatusInterval) return;
-  flags_at_ = now;
-  flags_.assign(start_.robots.size(), 0);
-  for (const robot_host::RunStatus::Robot& robot : port_->robots()) {
-    const auto slot = slots_.find(robot.name);
-    if (slot == slots_.end()) continue;
-    std::uint16_t& flags = flags_[slot->second];
-    if (robot.stopped) flags |= kStopped;
-    if (!robot.armed) flags |= kUnarmed;
-  }
 }
 
 void LiveSource::write_bodies() {
@@ -258,37 +246,6 @@ std::string LiveSource::take(const TransportMessage& transport) {
   }
   state_.kind = port_->paused() ? PlayState::Kind::kPaused : PlayState::Kind::kRunning;
   return {};
-}
-
-void LiveSource::halt(const HaltMessage& halt, Reply reply) {
-  using Kind = robot_host::RunRequest::Kind;
-  std::vector<std::string> robots;
-  for (const std::uint32_t slot : halt.slots) {
-    if (slot < start_.robots.size()) robots.push_back(start_.robots[slot]);
-  }
-  if (halt.slots.empty()) robots.emplace_back();
-  if (robots.empty()) return reply(false, "There is no such robot.");
-  for (std::string& robot : robots) {
-    robot_host::RunRequest request;
-    request.kind = halt.stop ? Kind::kStop : Kind::kRelease;
-    request.robot = std::move(robot);
-    auto answer = port_->post(std::move(request));
-    if (!answer) return reply(false, answer.error().message);
-    asked_.push_back({*std::move(answer), reply});
-  }
-}
-
-void LiveSource::answer_asked() {
-  std::vector<Asked> waiting;
-  for (Asked& asked : asked_) {
-    if (asked.answer.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
-      waiting.push_back(std::move(asked));
-      continue;
-    }
-    const auto answer = asked.answer.get();
-    asked.reply(answer.has_value(), answer ? *answer : answer.error().message);
-  }
-  asked_ = std::move(waiting);
 }
 
 void LiveSource::end(std::string reason) {

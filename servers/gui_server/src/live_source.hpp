@@ -52,7 +52,11 @@ class LiveSource : public Source {
     return picture().hosts_revision;
   }
   [[nodiscard]] const std::string& hosts_json() const noexcept override { return picture().hosts; }
-  void halt(const HaltMessage& halt, Reply reply) override;
+  void halt(const HaltMessage& halt, const Author& author, Reply reply) override;
+  void command(const CommandMessage& command, const Author& author,
+               const SlotReply& reply) override;
+  [[nodiscard]] std::uint64_t leases_revision() const noexcept override { return leases_revision_; }
+  [[nodiscard]] std::vector<DriveState> leases_changed_since(std::uint64_t revision) const override;
 
   /// Nothing more comes; `reason` for people. Any thread.
   void end(std::string reason);
@@ -80,7 +84,8 @@ class LiveSource : public Source {
   void take_picture(Playhead::Clock::time_point now);
   void write_bodies();
   void answer_asked();
-  void learn_flags(Playhead::Clock::time_point now);
+  void learn_status(Playhead::Clock::time_point now);
+  void learn_leases(const robot_host::RunStatus::Robot& robot, std::uint32_t slot);
 
   Start start_;
   std::shared_ptr<LiveBox> box_;
@@ -92,7 +97,10 @@ class LiveSource : public Source {
   PosesAt poses_;
   std::map<std::string, std::uint32_t, std::less<>> slots_;
   std::vector<std::uint16_t> flags_;  ///< By robot: what the port knows beside the picture.
-  Playhead::Clock::time_point flags_at_{};
+  Playhead::Clock::time_point status_at_{};
+  std::vector<DriveState> leases_;  ///< By robot.
+  std::vector<std::uint64_t> leases_changed_;
+  std::uint64_t leases_revision_ = 1;
   std::deque<PosesAt> past_;
   PlayState state_;
   LiveWants wants_;

@@ -4,78 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
+#include "command_message.hpp"
+#include "members.hpp"
 #include "rave/base/names.hpp"
 
 namespace rave::gui_server {
 namespace {
 
-using PageJson = nlohmann::json;
-
 constexpr std::size_t kMostSensors = 256;
 constexpr std::size_t kMostSlots = 100'000;
-
-/// Takes members out of an object, so that what nobody knows is left over and refused.
-class Members {
- public:
-  explicit Members(const PageJson& object) : object_(object) {}
-
-  Result<bool> flag(const char* name) {
-    RAVE_TRY_ASSIGN(const PageJson* const value, find(name));
-    if (!value->is_boolean()) return wrong(name, "true or false");
-    return value->get<bool>();
-  }
-  Result<double> number(const char* name) {
-    RAVE_TRY_ASSIGN(const PageJson* const value, find(name));
-    if (!value->is_number() || !std::isfinite(value->get<double>())) {
-      return wrong(name, "a finite number");
-    }
-    return value->get<double>();
-  }
-  Result<std::uint32_t> index(const char* name) {
-    RAVE_TRY_ASSIGN(const PageJson* const value, find(name));
-    return index_of(*value, name);
-  }
-  Result<std::string> word(const char* name) {
-    RAVE_TRY_ASSIGN(const PageJson* const value, find(name));
-    if (!value->is_string()) return wrong(name, "a string");
-    return value->get<std::string>();
-  }
-  Result<const PageJson*> array(const char* name, std::size_t most) {
-    RAVE_TRY_ASSIGN(const PageJson* const value, find(name));
-    if (!value->is_array() || value->size() > most) {
-      return fail(ErrorCode::kParse, "`{}`: expected an array of at most {}", name, most);
-    }
-    return value;
-  }
-  Result<const PageJson*> any(const char* name) { return find(name); }
-  [[nodiscard]] bool has(const char* name) const { return object_.contains(name); }
-  [[nodiscard]] Status finish() const {
-    if (object_.size() != taken_) return fail(ErrorCode::kParse, "the message has unknown members");
-    return {};
-  }
-  static Result<std::uint32_t> index_of(const PageJson& value, const char* name) {
-    if (!value.is_number_unsigned() || value.get<std::uint64_t>() > 0xffffffffU) {
-      return wrong(name, "a whole number from 0 to 4294967295");
-    }
-    return value.get<std::uint32_t>();
-  }
-
- private:
-  static tl::unexpected<Error> wrong(const char* name, const char* expected) {
-    return fail(ErrorCode::kParse, "`{}`: expected {}", name, expected);
-  }
-  Result<const PageJson*> find(const char* name) {
-    const auto found = object_.find(name);
-    if (found == object_.end()) return fail(ErrorCode::kParse, "`{}` is missing", name);
-    ++taken_;
-    return &*found;
-  }
-
-  const PageJson& object_;
-  std::size_t taken_ = 0;
-};
 
 Result<PageMessage> look_of(Members& members) {
   LookMessage look;
@@ -199,6 +137,35 @@ Result<PageMessage> eyes_of(Members& members) {
   return PageMessage(std::move(see));
 }
 
+Result<PageMessage> chat_of(Members& members) {
+  using To = ChatMessage::To;
+  ChatMessage chat;
+  RAVE_TRY_ASSIGN(chat.request, members.index("request"));
+  RAVE_TRY_ASSIGN(chat.text, members.text("text", kLongestText, true));
+  if (chat.text.find_first_not_of(" \n") == std::string::npos) {
+    return fail(ErrorCode::kParse, "`text`: expected something to say");
+  }
+  RAVE_TRY_ASSIGN(const std::string to, members.word("to"));
+  if (to == "all") {
+    chat.to = To::kAll;
+    return PageMessage(std::move(chat));
+  }
+  if (to == "robot") {
+    chat.to = To::kRobot;
+    RAVE_TRY_ASSIGN(chat.slot, members.index("slot"));
+    return PageMessage(std::move(chat));
+  }
+  if (to != "role" && to != "user" && to != "team") {
+    return fail(ErrorCode::kParse, "`to`: expected all, role, user, team or robot");
+  }
+  chat.to = to == "role" ? To::kRole : (to == "user" ? To::kUser : To::kTeam);
+  RAVE_TRY_ASSIGN(chat.name, members.text("name", kLongestName));
+  if (chat.to == To::kRole && !role_named(chat.name)) {
+    return fail(ErrorCode::kParse, "`name`: expected observer, commander or super_user");
+  }
+  return PageMessage(std::move(chat));
+}
+
 }  // namespace
 
 Result<PageMessage> parse_page_message(std::string_view text) {
@@ -221,6 +188,11 @@ Result<PageMessage> parse_page_message(std::string_view text) {
     message = right_of(members);
   } else if (type == "see_as") {
     message = eyes_of(members);
+  } else if (type == "chat") {
+    message = chat_of(members);
+  } else if (auto command = command_of(type, members)) {
+    if (!*command) return tl::unexpected(command->error());
+    message = PageMessage(**std::move(command));
   }
   if (!message) return message;
   RAVE_TRY(members.finish());

@@ -37,8 +37,17 @@ struct SeeAsMessage {
   std::string user{};  ///< Both empty: with their own eyes again.
 };
 
+/// Somebody says something to people, or to robots and the people who see them.
+struct ChatMessage {
+  enum class To : std::uint8_t { kAll, kRole, kUser, kTeam, kRobot } to = To::kAll;
+  std::string name;        ///< Of the role, the user or the team.
+  std::uint32_t slot = 0;  ///< Of the robot.
+  std::string text;        ///< 1 to kLongestText bytes.
+  std::uint32_t request = 0;
+};
+
 using PageMessage = std::variant<LookMessage, AckMessage, TransportMessage, HaltMessage,
-                                 SetRightMessage, SeeAsMessage>;
+                                 SetRightMessage, SeeAsMessage, CommandMessage, ChatMessage>;
 
 /// Errors: kParse with what was expected.
 [[nodiscard]] Result<PageMessage> parse_page_message(std::string_view text);

@@ -16,6 +16,7 @@ namespace rave::gui_server {
 namespace {
 
 constexpr const char* kNoStop = "A recording cannot be stopped.";
+constexpr const char* kNoOrders = "This is a recording: nobody takes orders.";
 
 class Recording final : public Source {
  public:
@@ -39,12 +40,16 @@ class Recording final : public Source {
   }
   [[nodiscard]] Powers powers() const override {
     return {{"play", "seek", "pace", "step", "readings", "hybrid_parts", "obstacles", "log",
-             "recording"},
+             "recording", "chat"},
             {{"stop", kNoStop},
              {"release", kNoStop},
+             {"command", kNoOrders},
+             {"edit", kNoOrders},
              {"true_pose", "This view shows reported poses."}}};
   }
-  void halt(const HaltMessage& /*halt*/, Reply reply) override { reply(false, kNoStop); }
+  void halt(const HaltMessage& /*halt*/, const Author& /*author*/, Reply reply) override {
+    reply(false, kNoStop);
+  }
 
  private:
   Status read_events(const record::RunInfo& run);

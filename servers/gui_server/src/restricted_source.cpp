@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace rave::gui_server {
 namespace {
@@ -70,6 +71,9 @@ bool allowed(const View& view, bool live, const std::string& power) {
       {"hybrid_parts", InfoClass::kHybridParts},
       {"obstacles", InfoClass::kObstacles},
       {"log", InfoClass::kLog},
+      {"command", InfoClass::kCommand},
+      {"edit", InfoClass::kEdit},
+      {"chat", InfoClass::kChat},
   };
   if (const auto found = kOfSome.find(power); found != kOfSome.end()) {
     return view.may_any(found->second);
@@ -200,7 +204,7 @@ const std::string& RestrictedSource::hosts_json() const noexcept {
   return view_->may_all(InfoClass::kPose) ? all_->hosts_json() : Source::hosts_json();
 }
 
-void RestrictedSource::halt(const HaltMessage& halt, Reply reply) {
+void RestrictedSource::halt(const HaltMessage& halt, const Author& author, Reply reply) {
   const InfoClass what = halt.stop ? InfoClass::kStop : InfoClass::kRelease;
   HaltMessage mine;
   mine.stop = halt.stop;
@@ -217,11 +221,72 @@ void RestrictedSource::halt(const HaltMessage& halt, Reply reply) {
     }
     if (mine.slots.empty()) return reply(false, kNotYours);
   }
-  all_->halt(mine, [reply = std::move(reply), view = view_](bool good, std::string text) {
+  all_->halt(mine, author, [reply = std::move(reply), view = view_](bool good, std::string text) {
     // The answer of a host may name robots that are not seen.
     if (!view->may_read(text)) text = good ? "Done." : "It could not be done.";
     reply(good, std::move(text));
   });
+}
+
+namespace {
+
+/// Who has no right to see an obstacle must not learn of it by moving it.
+bool may_edit(const View& view) {
+  return view.may_any(InfoClass::kEdit) && view.may_any(InfoClass::kObstacles);
+}
+
+/// The place of a command for one of its robots.
+CommandMessage part_of(const CommandMessage& command, std::size_t i, std::uint32_t robot) {
+  CommandMessage part = command;
+  part.slots = {robot};
+  if (command.kind != CommandMessage::Kind::kPath && command.points.size() > 1) {
+    part.points = {command.points[i]};
+  }
+  return part;
+}
+
+}  // namespace
+
+void RestrictedSource::command(const CommandMessage& command, const Author& author,
+                               const SlotReply& reply) {
+  const auto read = [view = view_](bool good, std::string text) {
+    if (view->may_read(text)) return text;
+    return std::string(good ? "Done." : "It could not be done.");
+  };
+  if (command.of_obstacle()) {
+    if (!may_edit(*view_)) return reply(kNoSlot, false, kNotYours);
+    return all_->command(command, author,
+                         [reply, read](std::uint32_t slot, bool good, const std::string& text) {
+                           reply(slot, good, read(good, text));
+                         });
+  }
+  const InfoClass what =
+      command.kind == CommandMessage::Kind::kPlace ? InfoClass::kEdit : InfoClass::kCommand;
+  for (std::size_t i = 0; i < command.slots.size(); ++i) {
+    const std::uint32_t slot = command.slots[i];
+    const auto robot = view_->robot_of(slot);
+    if (!robot || !view_->may(what, *robot)) {
+      reply(slot, false, kNotYours);
+      continue;
+    }
+    all_->command(part_of(command, i, *robot), author,
+                  [reply, read, slot](std::uint32_t, bool good, const std::string& text) {
+                    reply(slot, good, read(good, text));
+                  });
+  }
+}
+
+std::vector<DriveState> RestrictedSource::leases_changed_since(std::uint64_t revision) const {
+  std::vector<DriveState> mine;
+  for (DriveState& state : all_->leases_changed_since(revision)) {
+    const auto slot = view_->slot_of(state.slot);
+    if (!slot) continue;
+    const std::uint32_t robot = std::exchange(state.slot, *slot);
+    if (!view_->may(InfoClass::kCommand, robot)) state.takes.clear();
+    if (!view_->may(InfoClass::kGoals, robot)) state.order.clear();
+    mine.push_back(std::move(state));
+  }
+  return mine;
 }
 
 }  // namespace rave::gui_server

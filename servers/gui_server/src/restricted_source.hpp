@@ -36,7 +36,14 @@ class RestrictedSource final : public Source {
   /// Hosts say how many robots they have, so they are shown to who sees all robots.
   [[nodiscard]] std::uint64_t hosts_revision() const noexcept override;
   [[nodiscard]] const std::string& hosts_json() const noexcept override;
-  void halt(const HaltMessage& halt, Reply reply) override;
+  void halt(const HaltMessage& halt, const Author& author, Reply reply) override;
+  void command(const CommandMessage& command, const Author& author,
+               const SlotReply& reply) override;
+  [[nodiscard]] std::uint64_t leases_revision() const noexcept override {
+    return all_->leases_revision();
+  }
+  /// Whoever sees a robot sees who drives it; where it is sent and what it takes are rights.
+  [[nodiscard]] std::vector<DriveState> leases_changed_since(std::uint64_t revision) const override;
 
   /// A picture that several pages share is cut down once.
   [[nodiscard]] PosesAt cut(const PosesAt& all);

@@ -38,6 +38,10 @@ constexpr std::array<Line, kInfoClasses> kLines = {{
     {InfoClass::kRelease, "release", Kind::kNone, Kind::kOwn, "releasing it after a stop"},
     {InfoClass::kRunControl, "run_control", Kind::kNone, Kind::kNone,
      "pause, step, resume and pace of a run in progress"},
+    {InfoClass::kCommand, "command", Kind::kNone, Kind::kOwn,
+     "driving it, sending it somewhere, telling it something, changing its parameters"},
+    {InfoClass::kEdit, "edit", Kind::kNone, Kind::kNone,
+     "virtual obstacles come, move and go; placing it, if it is simulated"},
 }};
 
 const Line& line_of(InfoClass what) { return kLines[static_cast<std::size_t>(what)]; }

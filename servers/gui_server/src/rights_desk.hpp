@@ -45,6 +45,7 @@ class RightsDesk {
   [[nodiscard]] std::shared_ptr<const View> view_of(const Person& person);
   /// Another number whenever views may be others.
   [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
+  [[nodiscard]] const Cast& cast() const noexcept { return *cast_; }
   [[nodiscard]] const Rights& rights() const noexcept { return rights_; }
   /// The message `rights`.
   [[nodiscard]] std::string message(const std::vector<Person>& people) const;

@@ -3,14 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "frames.hpp"
+#include "page_text.hpp"
 
 namespace rave::gui_server {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostOnTheirWay = 2;
 /// How often a page is told what happened, and what came and went.
@@ -19,90 +17,15 @@ constexpr auto kNewsInterval = std::chrono::milliseconds(100);
 constexpr unsigned kMostRefusals = 20;
 constexpr std::uint16_t kBadMessages = 4400;
 
-web::Payload payload(std::string text) {
-  return std::make_shared<const std::string>(std::move(text));
-}
-
-const char* level_word(LogEvent::Level level) {
-  switch (level) {
-    case LogEvent::Level::kInfo:
-      return "info";
-    case LogEvent::Level::kWarn:
-      return "warn";
-    case LogEvent::Level::kAlert:
-      return "alert";
-  }
-  return "info";
-}
-
-const char* state_word(PlayState::Kind kind) {
-  switch (kind) {
-    case PlayState::Kind::kRunning:
-      return "running";
-    case PlayState::Kind::kPaused:
-      return "paused";
-    case PlayState::Kind::kWaiting:
-      return "waiting";
-    case PlayState::Kind::kEnded:
-      return "ended";
-  }
-  return "ended";
-}
-
-Json person_json(const Person& person) {
-  return {{"name", person.name}, {"role", to_string(person.role)}};
-}
-
-std::string hello_text(const Source& source, const Greeting& greeting) {
-  const RunAbout& about = source.about();
-  Json recording = nullptr;
-  if (!about.recording.empty()) {
-    recording = {{"name", about.recording.filename().string()},
-                 {"bytes", about.recording_bytes},
-                 {"whole", about.recording_whole}};
-  }
-  Powers powers = source.powers();
-  if (greeting.user.role == Role::kSuperUser && !greeting.seen_by)
-    powers.may.emplace_back("rights");
-  Json hello = {{"type", "hello"},
-                {"protocol", 1},
-                {"server", "rave"},
-                {"run",
-                 {{"name", about.name},
-                  {"source", about.live ? "live" : "replay"},
-                  {"clock", about.lock_step ? "lock_step" : "real_time"},
-                  {"started", about.started},
-                  {"step_s", about.step_s},
-                  {"seed", about.seed},
-                  {"hash", about.hash.empty() ? Json(nullptr) : Json(about.hash)},
-                  {"recording", std::move(recording)}}},
-                {"user", person_json(greeting.user)},
-                {"may", powers.may},
-                {"why_not", powers.why_not}};
-  if (greeting.seen_by) hello["seen_by"] = person_json(*greeting.seen_by);
-  return hello.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
-/// Events from `first` on; with 0 the page forgets those that it had.
-std::string events_text(std::span<const LogEvent> events, std::size_t first) {
-  Json message = {
-      {"type", "events"}, {"reset", first == 0}, {"first", first}, {"events", Json::array()}};
-  for (const LogEvent& event : events.subspan(first)) {
-    message["events"].push_back({{"t", event.t_s},
-                                 {"until", event.until_s},
-                                 {"count", event.count},
-                                 {"kind", event.kind},
-                                 {"level", level_word(event.level)},
-                                 {"text", event.text},
-                                 {"slots", event.slots}});
-  }
-  return message.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 }  // namespace
 
 Session::Session(web::Socket& socket, SessionCalls calls)
-    : socket_(socket), calls_(std::move(calls)) {}
+    : socket_(socket),
+      calls_(std::move(calls)),
+      commands_([this](const PageAnswer& said) { socket_.send_text(payload(answer_text(said))); },
+                [this](const CommandMessage& command, const PageAnswer& said) {
+                  calls_.commanded(command, said);
+                }) {}
 
 void Session::show(std::shared_ptr<Source> source, const Greeting& greeting, bool same_run) {
   const PlayState before = told_state_;
@@ -110,6 +33,7 @@ void Session::show(std::shared_ptr<Source> source, const Greeting& greeting, boo
   cursor_.reset();
   playhead_.reset();
   source_ = std::move(source);
+  commands_.begin(source_, greeting.author);
   playhead_ = source_->open_playhead();
   cursor_ = source_->open_cursor();
   if (same_run) keep_place(before);
@@ -122,6 +46,7 @@ void Session::show(std::shared_ptr<Source> source, const Greeting& greeting, boo
   told_events_ = source_->events_revision();
   told_bodies_ = source_->bodies_revision();
   told_hosts_ = 0;
+  send_leases(true);
   told_.clear();
   // The slots are others now; the page says again what it looks at.
   look_.readings.clear();
@@ -189,11 +114,18 @@ void Session::take(const HaltMessage& halt) {
   const char* const to = halt.stop ? "stop" : "release";
   if (!source_) return answer(to, false, "No run is in progress.");
   source_->halt(
-      halt, [this, to, halt, alive = std::weak_ptr(alive_)](bool good, const std::string& text) {
+      halt, commands_.author(),
+      [this, to, halt, alive = std::weak_ptr(alive_)](bool good, const std::string& text) {
         if (alive.expired()) return;
         answer(to, good, text);
         calls_.halted(halt, good);
       });
+}
+
+void Session::take(const ChatMessage& chat) {
+  const auto done = calls_.chat(chat);
+  socket_.send_text(payload(answer_text(
+      {"chat", done.has_value(), done ? *done : done.error().message, chat.request, {}})));
 }
 
 void Session::take(const SetRightMessage& set) {
@@ -298,28 +230,25 @@ void Session::send_news() {
     socket_.send_text(payload(R"({"type":"hosts","hosts":)" + source_->hosts_json() + "}"));
     told_hosts_ = revision;
   }
+  if (source_->leases_revision() != told_leases_) send_leases(false);
+}
+
+void Session::send_leases(bool all) {
+  const std::uint64_t since = all ? 0 : told_leases_;
+  told_leases_ = source_->leases_revision();
+  const std::vector<DriveState> changed = source_->leases_changed_since(since);
+  if (!all && changed.empty()) return;
+  socket_.send_text(payload(leases_text(changed, commands_.author().name, all)));
 }
 
 void Session::send_time(const PlayState& state) {
   last_time_ = Clock::now();
   told_state_ = state;
-  const Json time = {{"type", "time"},
-                     {"now_s", state.now_s},
-                     {"step", std::llround(state.now_s / source_->about().step_s)},
-                     {"begin_s", state.begin_s},
-                     {"end_s", state.end_s},
-                     {"duration_s", state.duration_s},
-                     {"state", state_word(state.kind)},
-                     {"reason", state.reason},
-                     {"pace", state.pace},
-                     {"speed", state.speed}};
-  socket_.send_text(payload(time.dump(-1, ' ', false, Json::error_handler_t::replace)));
+  socket_.send_text(payload(time_text(state, source_->about())));
 }
 
 void Session::answer(std::string_view to, bool good, std::string_view text) {
-  const Json message = {{"type", "answer"}, {"to", to}, {"good", good}, {"text", text}};
-  // What a page sent may stand in the text; what is no UTF-8 is replaced.
-  socket_.send_text(payload(message.dump(-1, ' ', false, Json::error_handler_t::replace)));
+  socket_.send_text(payload(answer_text({std::string(to), good, std::string(text), {}, {}})));
 }
 
 }  // namespace rave::gui_server

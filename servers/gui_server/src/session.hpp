@@ -12,7 +12,9 @@
 #include <string>
 #include <string_view>
 
+#include "page_commands.hpp"
 #include "page_message.hpp"
+#include "page_text.hpp"
 #include "rave/gui_server/person.hpp"
 #include "rave/gui_server/source.hpp"
 #include "rave/web/server.hpp"
@@ -22,18 +24,15 @@ namespace rave::gui_server {
 /// Frames of a tick that several pages are sent, by source and serial number of the picture.
 using SharedFrames = std::map<std::pair<const Source*, std::uint32_t>, web::Payload>;
 
-/// As whom a page is greeted.
-struct Greeting {
-  Person user;
-  std::optional<Person> seen_by{};  ///< The super-user who sees what `user` gets.
-};
-
 /// What a session asks of its server: each returns a sentence, or an error that the page is told.
 struct SessionCalls {
   std::function<Result<std::string>(const RightChange&)> set_right;
   std::function<Result<std::string>(const SeeAsMessage&)> see_as;
   /// Before an answer to stop or release is told.
   std::function<void(const HaltMessage&, bool good)> halted;
+  /// Once it is known what became of it.
+  PageCommands::Told commanded;
+  std::function<Result<std::string>(const ChatMessage&)> chat;
 };
 
 /// One page that is connected: what it looks at, its place in time, what is on its way to it. The
@@ -49,6 +48,13 @@ class Session {
   /// the same run with other rights, so the page stays where it is in time.
   void show(std::shared_ptr<Source> source, const Greeting& greeting, bool same_run);
   void send(web::Payload text) { socket_.send_text(std::move(text)); }
+  /// The same person has other rights.
+  void set_author(Author author) { commands_.set_author(std::move(author)); }
+  /// Asks of robots as if the page had, as what is said to a robot does.
+  void command(const CommandMessage& command) { commands_.take(command); }
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+  ~Session() { commands_.let_go(); }
   void received(std::string_view text);
   /// Sends what is due; called some 60 times a second. `frames`: those of this tick that other
   /// pages were sent.
@@ -62,6 +68,8 @@ class Session {
   void take(const HaltMessage& halt);
   void take(const SetRightMessage& set);
   void take(const SeeAsMessage& see);
+  void take(const CommandMessage& command) { commands_.take(command); }
+  void take(const ChatMessage& chat);
   void keep_place(const PlayState& before);
   void forget_foreign_sensors();
   void send_past(double now_s);
@@ -69,10 +77,12 @@ class Session {
   void send_readings();
   void send_time(const PlayState& state);
   void send_news();
+  void send_leases(bool all);
   void answer(std::string_view to, bool good, std::string_view text);
 
   web::Socket& socket_;
   SessionCalls calls_;
+  PageCommands commands_;
   std::shared_ptr<Source> source_;  ///< Null: there is none yet.
   std::unique_ptr<Playhead> playhead_;
   std::unique_ptr<Cursor> cursor_;
@@ -87,6 +97,7 @@ class Session {
   std::uint64_t told_events_ = 0;
   std::uint64_t told_bodies_ = 0;
   std::uint64_t told_hosts_ = 0;
+  std::uint64_t told_leases_ = 0;
   std::uint64_t picture_ = 0;  ///< Of the last frame.
   bool changed_ = true;        ///< Something is to be shown that has not been sent.
   bool past_due_ = true;       ///< The page has no past to draw trails with.

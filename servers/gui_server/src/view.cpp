@@ -180,6 +180,10 @@ std::string View::robots_json(const std::string& all) const {
   for (const std::uint32_t robot : shown_) {
     OrderedJson one = robots.at(robot);
     if (!may(InfoClass::kReadings, robot)) one["sensors"] = OrderedJson::array();
+    if (!may(InfoClass::kCommand, robot)) {
+      one["yours"] = false;
+      one.erase("parameters");
+    }
     mine.push_back(std::move(one));
   }
   return mine.dump();

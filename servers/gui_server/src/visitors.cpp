@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 namespace rave::gui_server {
 namespace {
@@ -20,6 +21,23 @@ std::string right_text(const RightChange& change) {
   }
   return fmt::format("{} of {}: {}", to_string(change.what),
                      change.role ? to_string(*change.role) : std::string_view(change.user), reach);
+}
+
+/// Who has the link of the server is "you" to themselves alone.
+constexpr const char* kOperator = "the operator";
+
+Person known_as(const Person& person) {
+  Person known = person;
+  if (known.name == "you" && known.role == Role::kSuperUser) known.name = kOperator;
+  return known;
+}
+
+std::string command_text(const CommandMessage& command, const PageAnswer& answer) {
+  std::string text =
+      command.of_obstacle()
+          ? fmt::format("{} {}", to_string(command.kind), command.key)
+          : fmt::format("{}, {} robots", to_string(command.kind), command.slots.size());
+  return answer.good ? text : fmt::format("{}: {}", text, answer.text);
 }
 
 std::string halt_text(const HaltMessage& halt, bool good) {
@@ -81,10 +99,19 @@ std::shared_ptr<Source> Visitors::source_for(const std::shared_ptr<const View>& 
   return restricted;
 }
 
+Author Visitors::author_of(const Visitor& visitor) {
+  return {known_as(visitor.person).name, visitor.person.role == Role::kSuperUser && !visitor.eyes};
+}
+
 void Visitors::show_to(Visitor& visitor, bool same_run) {
   Greeting greeting{visitor.eyes.value_or(visitor.person), {}};
   if (visitor.eyes) greeting.seen_by = visitor.person;
+  greeting.author = author_of(visitor);
   visitor.page->show(source_for(visitor.view), greeting, same_run);
+  visitor.page->send(payload(
+      room_.text_for({known_as(visitor.eyes.value_or(visitor.person)), *visitor.view}, 0, true)));
+  visitor.told_chat = room_.newest();
+  told_people_.clear();
 }
 
 void Visitors::show_again_if_other() {
@@ -130,6 +157,36 @@ void Visitors::tick() {
   source_->tick(now, audience);
   SharedFrames frames;
   for (auto& [id, visitor] : visitors_) visitor.page->tick(now, frames);
+  tell_chat();
+  tell_people();
+}
+
+void Visitors::tell_chat() {
+  for (auto& [id, visitor] : visitors_) {
+    if (visitor.told_chat == room_.newest()) continue;
+    std::string text = room_.text_for(
+        {known_as(visitor.eyes.value_or(visitor.person)), *visitor.view}, visitor.told_chat, false);
+    visitor.told_chat = room_.newest();
+    if (!text.empty()) visitor.page->send(payload(std::move(text)));
+  }
+}
+
+/// Who is there: to those who may talk.
+void Visitors::tell_people() {
+  if (!told_people_.empty()) return;
+  std::map<std::string, std::string_view> there;
+  for (const auto& [id, visitor] : visitors_) {
+    there[known_as(visitor.person).name] = to_string(visitor.person.role);
+  }
+  nlohmann::ordered_json message = {{"type", "people"},
+                                    {"people", nlohmann::ordered_json::array()}};
+  for (const auto& [name, role] : there)
+    message["people"].push_back({{"name", name}, {"role", role}});
+  told_people_ = message.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  const web::Payload text = payload(told_people_);
+  for (const auto& [id, visitor] : visitors_) {
+    if (visitor.view->may_any(InfoClass::kChat)) visitor.page->send(text);
+  }
 }
 
 void Visitors::check() {
@@ -147,6 +204,7 @@ void Visitors::check() {
     if (*person == visitor.person) continue;
     visitor.person = *person;
     if (person->role != Role::kSuperUser) visitor.eyes.reset();
+    visitor.page->set_author(author_of(visitor));
     changed = true;
   }
   if (changed) show_again_if_other();
@@ -155,6 +213,8 @@ void Visitors::check() {
 std::shared_ptr<const View> Visitors::view_of(const Person& person) {
   return source_ ? desk_.view_of(person) : nullptr;
 }
+
+Person Visitors::known(const Person& person) { return known_as(person); }
 
 bool Visitors::sees_as_other(std::string_view session) const {
   return std::ranges::any_of(visitors_, [session](const auto& entry) {
@@ -166,6 +226,10 @@ SessionCalls Visitors::calls_of(std::uint64_t id) {
   SessionCalls calls;
   calls.set_right = [this, id](const RightChange& change) { return set_right(id, change); };
   calls.see_as = [this, id](const SeeAsMessage& see) { return see_as(id, see); };
+  calls.commanded = [this, id](const CommandMessage& command, const PageAnswer& answer) {
+    note_command(id, command, answer);
+  };
+  calls.chat = [this, id](const ChatMessage& said) { return chat(id, said); };
   calls.halted = [this, id](const HaltMessage& halt, bool good) {
     const auto found = visitors_.find(id);
     if (found == visitors_.end()) return;
@@ -173,6 +237,68 @@ SessionCalls Visitors::calls_of(std::uint64_t id) {
                  {{"user", found->second.person.name}, {"detail", halt_text(halt, good)}});
   };
   return calls;
+}
+
+void Visitors::note_command(std::uint64_t id, const CommandMessage& command,
+                            const PageAnswer& answer) {
+  const auto found = visitors_.find(id);
+  if (found == visitors_.end()) return;
+  const std::string detail = command_text(command, answer);
+  if (answer.good) {
+    audit_->note("order", {{"user", found->second.person.name}, {"detail", detail}});
+  } else {
+    audit_->note("refused",
+                 {{"why", "order"}, {"user", found->second.person.name}, {"detail", detail}});
+  }
+}
+
+Result<std::string> Visitors::chat(std::uint64_t id, const ChatMessage& chat) {
+  using To = ChatMessage::To;
+  Visitor& visitor = visitors_.at(id);
+  if (visitor.eyes) return fail(ErrorCode::kState, "With the eyes of another one only looks.");
+  if (!source_) return fail(ErrorCode::kState, "No run is in progress.");
+  if (!visitor.view->may_any(InfoClass::kChat)) {
+    return fail(ErrorCode::kState, "Your rights do not include this.");
+  }
+  ChatRoom::Line line;
+  line.from = known_as(visitor.person);
+  line.to = chat.to;
+  line.name = chat.name;
+  line.text = chat.text;
+  line.t_s = source_->open_playhead()->look(Session::Clock::now()).now_s;
+  const Cast& cast = desk_.cast();
+  CommandMessage told;
+  told.kind = CommandMessage::Kind::kText;
+  told.value = chat.text;
+  for (std::uint32_t slot = 0; slot < visitor.view->robots(); ++slot) {
+    const std::uint32_t robot = *visitor.view->robot_of(slot);
+    const bool meant = (chat.to == To::kRobot && slot == chat.slot) ||
+                       (chat.to == To::kTeam && cast.teams[robot] == chat.name);
+    if (!meant || !visitor.view->may(InfoClass::kChat, robot)) continue;
+    line.robots.push_back(robot);
+    if (chat.to == To::kRobot) line.name = cast.names[robot];
+    if (source_->about().live && visitor.view->may(InfoClass::kCommand, robot)) {
+      told.slots.push_back(slot);
+    }
+  }
+  if ((chat.to == To::kRobot || chat.to == To::kTeam) && line.robots.empty()) {
+    return fail(ErrorCode::kNotFound, "There is no such robot or team.");
+  }
+  if (chat.to == To::kUser && !is_there(chat.name)) {
+    return fail(ErrorCode::kNotFound, "`{}` is not here.", chat.name);
+  }
+  const std::size_t robots = std::min(told.slots.size(), kMostCommanded);
+  told.slots.resize(robots);
+  told.request = chat.request;
+  RAVE_TRY(room_.say(std::move(line), Session::Clock::now()));
+  if (robots > 0) visitor.page->command(told);
+  return robots > 0 ? fmt::format("Said, and given to {} robots.", robots) : std::string("Said.");
+}
+
+bool Visitors::is_there(const std::string& name) const {
+  return std::any_of(visitors_.begin(), visitors_.end(), [&name](const auto& entry) {
+    return known_as(entry.second.person).name == name;
+  });
 }
 
 Result<std::string> Visitors::set_right(std::uint64_t id, const RightChange& change) {

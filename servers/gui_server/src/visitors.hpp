@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "audit_log.hpp"
+#include "chat_room.hpp"
 #include "door.hpp"
 #include "restricted_source.hpp"
 #include "rights_desk.hpp"
@@ -28,7 +29,10 @@ class Visitors {
   /// Somebody came whose session the door knows.
   void opened(std::uint64_t id, web::Socket& socket, const std::string& session);
   void received(std::uint64_t id, std::string_view text);
-  void closed(std::uint64_t id) { visitors_.erase(id); }
+  void closed(std::uint64_t id) {
+    visitors_.erase(id);
+    told_people_.clear();
+  }
   /// Some 60 times a second.
   void tick();
   /// Once a second: who was removed or signed out elsewhere is out, who got another role has its
@@ -38,6 +42,8 @@ class Visitors {
   /// What somebody gets, as for the recording; null: there is no run.
   [[nodiscard]] std::shared_ptr<const View> view_of(const Person& person);
   [[nodiscard]] const std::shared_ptr<Source>& source() const noexcept { return source_; }
+  /// As the run and other people call somebody.
+  [[nodiscard]] static Person known(const Person& person);
   /// Whether a page of this session looks with the eyes of somebody else.
   [[nodiscard]] bool sees_as_other(std::string_view session) const;
   [[nodiscard]] std::size_t count() const noexcept { return visitors_.size(); }
@@ -50,7 +56,9 @@ class Visitors {
     std::optional<Person> eyes;  ///< With whose eyes a super-user looks.
     std::shared_ptr<const View> view;
     std::unique_ptr<Session> page;
+    std::uint64_t told_chat = 0;
   };
+  [[nodiscard]] static Author author_of(const Visitor& visitor);
   void show_to(Visitor& visitor, bool same_run);
   void show_again_if_other();
   void tell_rights();
@@ -58,6 +66,11 @@ class Visitors {
   [[nodiscard]] SessionCalls calls_of(std::uint64_t id);
   [[nodiscard]] Result<std::string> set_right(std::uint64_t id, const RightChange& change);
   [[nodiscard]] Result<std::string> see_as(std::uint64_t id, const SeeAsMessage& see);
+  [[nodiscard]] Result<std::string> chat(std::uint64_t id, const ChatMessage& chat);
+  void note_command(std::uint64_t id, const CommandMessage& command, const PageAnswer& answer);
+  [[nodiscard]] bool is_there(const std::string& name) const;
+  void tell_chat();
+  void tell_people();
   [[nodiscard]] std::vector<Person> people() const;
 
   Door& door_;
@@ -67,6 +80,8 @@ class Visitors {
   std::shared_ptr<Source> source_;  ///< Null: none yet.
   std::map<const View*, std::weak_ptr<RestrictedSource>> restricted_;
   std::map<std::uint64_t, Visitor> visitors_;
+  ChatRoom room_;
+  std::string told_people_;
   std::string trouble_;  ///< With the accounts; told once.
 };
 

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,7 @@ namespace rave::gui_server::testing {
 
 /// A run that goes on for ever, with two robots of team green and two of team blue. What is blue,
 /// and the virtual obstacle, has names and numbers that can be searched for.
-class FakeRun final : public Source {
+class FakeRun : public Source {
  public:
   static constexpr double kSecretX_m = 7777.25;
   static constexpr float kSecretRange_m = 1234.5F;
@@ -46,7 +47,7 @@ class FakeRun final : public Source {
   [[nodiscard]] const RunAbout& about() const noexcept override { return about_; }
   [[nodiscard]] Powers powers() const override {
     return {{"play", "pace", "step", "stop", "release", "true_pose", "readings", "hybrid_parts",
-             "obstacles", "log", "recording"},
+             "obstacles", "log", "recording", "command", "edit", "chat"},
             {}};
   }
   [[nodiscard]] const std::string& bodies_json() const noexcept override { return bodies_; }
@@ -63,11 +64,33 @@ class FakeRun final : public Source {
     ++poses_.serial;
     poses_.time_s = 0.01 * poses_.serial;
   }
-  void halt(const HaltMessage& halt, Reply reply) override {
+  void halt(const HaltMessage& halt, const Author& /*author*/, Reply reply) override {
     halted_robots += halt.slots.empty() ? 4 : static_cast<int>(halt.slots.size());
     reply(true, "stopped walker-1 and spy-2");
   }
 
+  void command(const CommandMessage& command, const Author& author,
+               const SlotReply& reply) override {
+    const std::lock_guard lock(mutex_);
+    commands_.emplace_back(command, author);
+    if (command.of_obstacle()) return reply(kNoSlot, true, "added");
+    for (const std::uint32_t slot : command.slots) {
+      reply(slot, slot != 2, slot == 2 ? "`spy-2` drives walker-3" : "taken by spy-4");
+    }
+  }
+  [[nodiscard]] std::uint64_t leases_revision() const noexcept override { return 1; }
+  [[nodiscard]] std::vector<DriveState> leases_changed_since(
+      std::uint64_t revision) const override {
+    if (revision > 0) return {};
+    return {{0, "ben", {"drive", "goal"}, "goal 1.00, 2.00"}, {1, "spy-lord", {"drive"}, ""}};
+  }
+  /// What robots and obstacles were asked, with who asked.
+  [[nodiscard]] std::vector<std::pair<CommandMessage, Author>> commands() {
+    const std::lock_guard lock(mutex_);
+    return commands_;
+  }
+
+  RunAbout about_;
   std::atomic<int> halted_robots = 0;
   std::atomic<int> moved = 0;  ///< How often somebody moved the time of the run.
 
@@ -110,7 +133,8 @@ class FakeRun final : public Source {
     FakeRun& run_;
   };
 
-  RunAbout about_;
+  std::mutex mutex_;
+  std::vector<std::pair<CommandMessage, Author>> commands_;
   std::string robots_;
   std::string bodies_ =
       R"([{"id":0,"name":"secret-pond","kind":"virtual","pose":[0,0,0],"shapes":[]},)"

@@ -30,6 +30,56 @@ TEST(PageMessage, RightsAreSetOfARoleOrAUser) {
   EXPECT_EQ(std::get<SetRightMessage>(*user).change, (RightChange{{}, "ben", InfoClass::kLog, {}}));
 }
 
+CommandMessage command_in(const char* text) {
+  const auto message = parse_page_message(text);
+  EXPECT_TRUE(message) << message.error().text();
+  return message ? std::get<CommandMessage>(*message) : CommandMessage{};
+}
+
+TEST(PageMessage, OrdersAreRead) {
+  const CommandMessage drive =
+      command_in(R"({"type":"order","request":7,"kind":"drive","slots":[3],"v":0.2,"w":-1})");
+  EXPECT_EQ(drive.kind, CommandMessage::Kind::kDrive);
+  EXPECT_EQ(drive.request, 7U);
+  EXPECT_EQ(drive.slots, (std::vector<std::uint32_t>{3}));
+  EXPECT_EQ(drive.w_radps, -1);
+  EXPECT_FALSE(drive.stands());
+  const CommandMessage goals = command_in(
+      R"({"type":"order","request":1,"kind":"goal","slots":[1,2],"points":[[1,2],[3,4]],"yaw":1,"speed":0.5})");
+  EXPECT_EQ(goals.points[1], (Vec2{3, 4}));
+  EXPECT_EQ(goals.yaw_rad, 1);
+  EXPECT_EQ(goals.speed_mps, 0.5);
+  EXPECT_EQ(command_in(R"({"type":"order","request":1,"kind":"text","slots":[1],"text":"go\nnow"})")
+                .value,
+            "go\nnow");
+}
+
+TEST(PageMessage, LeasesParametersAndObstaclesAreRead) {
+  const CommandMessage take =
+      command_in(R"({"type":"lease","request":1,"do":"force","slots":[0]})");
+  EXPECT_EQ(take.kind, CommandMessage::Kind::kTake);
+  EXPECT_EQ(take.value, "force");
+  EXPECT_EQ(command_in(R"({"type":"lease","request":1,"do":"give","slots":[0],"to":"ben"})").value,
+            "ben");
+  const CommandMessage set = command_in(
+      R"({"type":"set","request":1,"slots":[0],"key":"program.cruise_mps","value":0.25})");
+  EXPECT_EQ(set.key, "program.cruise_mps");
+  EXPECT_EQ(set.value, "0.25");
+  EXPECT_EQ(command_in(
+                R"({"type":"edit","request":1,"do":"add","name":"pond","pose":[1,2,0],"disc":0.5})")
+                .value,
+            R"({name: "pond", disc_radius_m: 0.5, x_m: 1, y_m: 2, yaw_deg: 0})");
+  EXPECT_EQ(command_in(R"({"type":"edit","request":1,"do":"remove","name":"pond"})").key, "pond");
+}
+
+TEST(PageMessage, WhatIsSaidIsRead) {
+  const auto message = parse_page_message(
+      R"({"type":"chat","request":3,"to":"robot","slot":2,"text":"Where are you?"})");
+  ASSERT_TRUE(message) << message.error().text();
+  EXPECT_EQ(std::get<ChatMessage>(*message).to, ChatMessage::To::kRobot);
+  EXPECT_EQ(std::get<ChatMessage>(*message).slot, 2U);
+}
+
 struct Refused {
   const char* text;
   const char* reason;
@@ -68,6 +118,48 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{R"({"type":"set_right","role":"observer","class":"pose","reach":[1]})", "teams"},
         Refused{R"({"type":"see_as","role":"observer","user":"ben"})", "not both"},
         Refused{R"({"type":"see_as","user":""})", "expected a name"},
+        Refused{R"({"type":"order","request":1,"kind":"fly","slots":[0]})", "expected drive"},
+        Refused{R"({"type":"order","kind":"cancel","slots":[0]})", "`request` is missing"},
+        Refused{R"({"type":"order","request":1,"kind":"cancel","slots":[]})", "each once"},
+        Refused{R"({"type":"order","request":1,"kind":"cancel","slots":[1,1]})", "each once"},
+        Refused{R"({"type":"order","request":1,"kind":"drive","slots":[0],"v":null,"w":0})",
+                "finite number"},
+        Refused{R"({"type":"order","request":1,"kind":"drive","slots":[0],"v":1e9,"w":0})",
+                "from -100 to 100"},
+        Refused{R"({"type":"order","request":1,"kind":"drive","slots":[0],"v":NaN,"w":0})",
+                "JSON object"},
+        Refused{R"({"type":"order","request":1,"kind":"goal","slots":[0],"points":[[1]]})",
+                "pairs"},
+        Refused{R"({"type":"order","request":1,"kind":"goal","slots":[0],"points":[[1,2e7]]})",
+                "pairs"},
+        Refused{
+            R"({"type":"order","request":1,"kind":"goal","slots":[0,1,2],"points":[[1,2],[3,4]]})",
+            "one for each robot, 3"},
+        Refused{R"({"type":"order","request":1,"kind":"place","slots":[0,1],"points":[[1,2]]})",
+                "one for each robot, 2"},
+        Refused{
+            R"({"type":"order","request":1,"kind":"goal","slots":[0],"points":[[1,2]],"yaw":7})",
+            "`yaw`"},
+        Refused{
+            R"({"type":"order","request":1,"kind":"goal","slots":[0],"points":[[1,2]],"speed":-1})",
+            "`speed`"},
+        Refused{R"({"type":"order","request":1,"kind":"path","slots":[0],"points":[[1,2]]})",
+                "2 to 1000"},
+        Refused{R"({"type":"order","request":1,"kind":"text","slots":[0],"text":"a\u0007"})",
+                "1000 bytes"},
+        Refused{R"({"type":"lease","request":1,"do":"steal","slots":[0]})", "take, force or give"},
+        Refused{R"({"type":"set","request":1,"slots":[0],"key":"a","value":[1]})", "`value`"},
+        Refused{
+            R"({"type":"edit","request":1,"do":"add","name":"a\", x: 1","pose":[0,0,0],"disc":1})",
+            "letters, digits"},
+        Refused{R"({"type":"edit","request":1,"do":"add","name":"a","pose":[0,0],"disc":1})",
+                "`pose`"},
+        Refused{
+            R"({"type":"edit","request":1,"do":"add","name":"a","pose":[0,0,0],"polygon":[[0,0],[1,1]]})",
+            "3 to 64 corners"},
+        Refused{R"({"type":"chat","request":1,"to":"everybody","text":"a"})", "expected all"},
+        Refused{R"({"type":"chat","request":1,"to":"all","text":" "})", "something to say"},
+        Refused{R"({"type":"chat","request":1,"to":"role","name":"king","text":"a"})", "observer"},
         Refused{R"({"type":"halt","do":"go","slots":[]})", "stop or release"},
         Refused{R"({"type":"halt","do":"stop","slots":[-1]})", "whole number"},
         Refused{
@@ -79,6 +171,17 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{
             R"({"type":"look","poses":true,"true_poses":false,"parts":true,"max_hz":9,"readings":[[1]]})",
             "pairs"}));
+
+TEST(PageMessage, APathHasAThousandPointsAndNoMore) {
+  const auto path = [](int points) {
+    std::string text = R"({"type":"order","request":1,"kind":"path","slots":[0],"points":[)";
+    for (int i = 0; i < points; ++i) text += i == 0 ? "[0,1]" : ",[0,1]";
+    return parse_page_message(text + "]}");
+  };
+  EXPECT_TRUE(path(1000));
+  ASSERT_FALSE(path(10'000));
+  EXPECT_NE(path(10'000).error().message.find("at most 1000"), std::string::npos);
+}
 
 }  // namespace
 }  // namespace rave::gui_server

@@ -124,6 +124,11 @@ class RawSocket {
     // The mask is zero: it leaves the bytes as they are.
     if (payload.size() < 126) {
       frame += static_cast<char>(0x80 | payload.size());
+    } else if (payload.size() < 65'536) {
+      // A longer form of a length than it needs is no WebSocket.
+      frame += static_cast<char>(0x80 | 126);
+      frame += static_cast<char>(payload.size() >> 8U);
+      frame += static_cast<char>(payload.size());
     } else {
       // The shortest way to write a size is the only one.
       const bool large = payload.size() > 0xffff;

@@ -127,6 +127,12 @@ std::vector<std::string> parameter_keys(const sim::RobotType& type) {
   return keys;
 }
 
+std::vector<ChangeableParameter> changeable_parameters(const sim::RobotType& type) {
+  std::vector<ChangeableParameter> all;
+  for (const Known& known : known_parameters(type)) all.push_back({known.key, known.spec});
+  return all;
+}
+
 std::vector<std::pair<std::string, std::string>> first_values(const sim::RobotType& type) {
   std::vector<std::pair<std::string, std::string>> texts;
   for (const Known& known : known_parameters(type)) {

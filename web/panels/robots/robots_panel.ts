@@ -2,6 +2,7 @@
 import {LitElement, css, html, nothing, svg, type TemplateResult} from 'lit';
 import {icon} from '../../app/icons';
 import {controls, glyphs} from '../../app/styles';
+import {initials} from '../../app/words';
 import {kHistory_s} from '../../model/pose_history';
 import type {PanelContext} from '../../panel_api';
 import {RobotFlag} from '../../protocol/frames';
@@ -149,8 +150,18 @@ export class RobotsPanel extends LitElement {
       <span class="name" style=${marked ? `color:${hue.ink};font-weight:600` : ''}>${robot.name}</span>
       ${this.renderSparkline(slot, marked ? hue.ink : palette.token('text-3'))}
       ${state === '' ? html`<span class="value">${speedText(this.speed(slot))}</span>` : html`<span class="state">${state}</span>`}
+      ${this.renderDriver(slot)}
       <span class="mark" title=${robot.recorded ? 'Recorded: it obeys nobody' : ''}>${robot.recorded ? icon('lock', 13) : (this.flags(slot) & RobotFlag.touching) !== 0 ? icon('zap', 13) : nothing}</span>
     </div>`;
+  }
+
+  /** Initials of who drives it. */
+  private renderDriver(slot: number): TemplateResult | typeof nothing {
+    const {model} = this.context;
+    const drive = model.drives.get(slot);
+    if (drive === undefined || drive.lease === '') return nothing;
+    const name = drive.yours ? (model.hello?.user.name ?? '') : drive.lease;
+    return html`<span class="driver ${drive.yours ? 'you' : ''}" title=${drive.yours ? 'You drive it' : `${name} drives it`}>${initials(name)}</span>`;
   }
 
   private rowKey(event: KeyboardEvent, slot: number): void {
@@ -205,7 +216,8 @@ export class RobotsPanel extends LitElement {
     controls,
     glyphs,
     css`
-      :host { display: flex; flex-direction: column; height: 100%; background: var(--bg-1); }
+      :host { display: flex; flex-direction: column; height: 100%; background: var(--bg-1); container-type: size; }
+      @container (max-height: 460px) { .detail { display: none; } }
       .field { margin: 10px 12px 8px; }
       .kinds { display: flex; align-items: center; gap: 6px; padding: 0 12px 8px; border-bottom: 1px solid var(--line-1); }
       .kinds em { font-style: normal; color: var(--text-3); font-size: var(--fs-11); }
@@ -226,6 +238,8 @@ export class RobotsPanel extends LitElement {
       .name { flex: 1; min-width: 0; overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
       .value { color: var(--text-2); white-space: nowrap; }
       .state { color: var(--warn); white-space: nowrap; }
+      .driver { display: grid; place-items: center; width: 20px; height: 20px; border-radius: 50%; background: var(--bg-4); color: var(--text-1); font-size: 10px; font-weight: 600; flex: none; }
+      .driver.you { background: var(--intent-fill); color: #fff; }
       .mark { width: 14px; color: var(--text-3); }
       .mark svg { color: inherit; }
       polyline { fill: none; stroke-width: 1; }

@@ -2,6 +2,7 @@
 import type {Placed} from '../../model/pose_history';
 import type {PanelContext} from '../../panel_api';
 import type {Layers} from './layers';
+import type {OrderDesk} from './orders/order_desk';
 
 /** What a stage is given by the World View. */
 export interface StageContext extends PanelContext {
@@ -10,6 +11,10 @@ export interface StageContext extends PanelContext {
   layers(): Layers;
   /** Asks for another picture. */
   redraw(): void;
+  /** What the person draws for robots and of obstacles. */
+  readonly desk: OrderDesk;
+  /** Opens the menu of what is at this place of the stage, pixels. */
+  menu(px: number, py: number): void;
   /** The person moved the camera: it is not fitted again by itself. */
   moved(): void;
 }
@@ -34,5 +39,7 @@ export interface Stage {
   snapshot(): HTMLCanvasElement;
   /** Where a robot is on the screen, relative to the element. */
   screenOf(slot: number): [number, number];
+  /** Where a place of the world is on the screen, relative to the element; null: this stage cannot say. */
+  screenAt?(x: number, y: number): [number, number];
   dispose(): void;
 }

@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 import type {Camera} from './camera';
 import type {Measure} from './measure';
+import type {OrderHands} from './orders/order_hands';
 import type {StageContext} from './stage';
 
 /** What the hands need to know of the picture. */
 export interface Hands {
   readonly camera: Camera;
   readonly measure: Measure;
+  /** Presses that draw go there first. */
+  readonly orders: OrderHands;
+  /** A virtual obstacle that this person may move is chosen by a click. */
+  pickBody(px: number, py: number): boolean;
+  /** The menu of a robot, or of the selection. */
+  menu(px: number, py: number): void;
   slotAt(px: number, py: number): number | null;
   slotsIn(box: readonly [number, number, number, number]): number[];
   /** A press on the small map goes there; true if it was one. */
@@ -16,19 +23,26 @@ export interface Hands {
 }
 
 const kSlip_px = 4;
+const kLong_ms = 450;
 
 /** Mouse, fingers and wheel over the top view: pan, zoom, pick, box, measure. */
 export class TopGestures {
   /** Being drawn with Shift; pixels. */
   box: [number, number, number, number] | null = null;
   private readonly pointers = new Map<number, {x: number; y: number}>();
+  private long = 0;
   private pressed: {x: number; y: number; moved: boolean; box: boolean} | null = null;
 
   constructor(element: HTMLElement, private readonly context: StageContext, private readonly hands: Hands) {
     element.addEventListener('pointerdown', (event) => this.down(event));
     element.addEventListener('pointermove', (event) => this.move(event));
     element.addEventListener('pointerup', (event) => this.up(event));
-    element.addEventListener('pointercancel', (event) => this.up(event));
+    element.addEventListener('pointercancel', (event) => this.cancel(event));
+    element.addEventListener('contextmenu', (event) => {
+      event.preventDefault();
+      // A finger has its own long press.
+      if ((event as PointerEvent).pointerType !== 'touch') hands.menu(event.offsetX, event.offsetY);
+    });
     element.addEventListener('pointerleave', () => context.selection.hover(null));
     // A wheel that zooms must not scroll the page.
     element.addEventListener('wheel', (event) => this.wheel(event), {passive: false});
@@ -52,8 +66,16 @@ export class TopGestures {
   private down(event: PointerEvent): void {
     (event.currentTarget as HTMLElement).setPointerCapture(event.pointerId);
     const {offsetX: x, offsetY: y} = event;
-    if (this.hands.jump(x, y)) return;
+    if (event.button === 2 || this.hands.jump(x, y)) return;
     this.pointers.set(event.pointerId, {x, y});
+    clearTimeout(this.long);
+    if (this.pointers.size > 1) this.hands.orders.cancel();
+    else if (event.pointerType !== 'mouse') this.long = window.setTimeout(() => this.pressedLong(x, y), kLong_ms);
+    if (this.pointers.size === 1 && !this.hands.measure.on && this.hands.orders.down(event)) {
+      this.pressed = {x, y, moved: false, box: false};
+      this.context.redraw();
+      return;
+    }
     this.pressed = {x, y, moved: false, box: event.shiftKey};
     if (this.hands.measure.on) this.hands.measure.begin(...this.hands.camera.toWorld(x, y));
   }
@@ -70,7 +92,15 @@ export class TopGestures {
     this.pointers.set(event.pointerId, {x, y});
     const pressed = this.pressed;
     if (pressed === null || this.pointers.size !== 1) return;
-    if (Math.hypot(x - pressed.x, y - pressed.y) > kSlip_px) pressed.moved = true;
+    if (Math.hypot(x - pressed.x, y - pressed.y) > kSlip_px) {
+      pressed.moved = true;
+      clearTimeout(this.long);
+    }
+    if (this.hands.orders.drawing) {
+      this.hands.orders.move(event);
+      this.context.redraw();
+      return;
+    }
     if (!pressed.moved) return;
     if (this.hands.measure.on) this.hands.measure.extend(...this.hands.camera.toWorld(x, y));
     else if (pressed.box) this.box = [pressed.x, pressed.y, x, y];
@@ -96,8 +126,31 @@ export class TopGestures {
     if (this.pressed) this.pressed.moved = true;
   }
 
-  private up(event: PointerEvent): void {
+  /** The hand rests: whatever it began, it asks for the menu. */
+  private pressedLong(x: number, y: number): void {
+    this.hands.orders.cancel();
+    this.pressed = null;
+    this.pointers.clear();
+    this.hands.menu(x, y);
+  }
+
+  private cancel(event: PointerEvent): void {
+    clearTimeout(this.long);
+    this.hands.orders.cancel();
     this.pointers.delete(event.pointerId);
+    this.pressed = null;
+    this.box = null;
+  }
+
+  private up(event: PointerEvent): void {
+    clearTimeout(this.long);
+    this.pointers.delete(event.pointerId);
+    if (this.hands.orders.drawing) {
+      this.hands.orders.up(event);
+      this.pressed = null;
+      this.context.redraw();
+      return;
+    }
     const pressed = this.pressed;
     if (pressed === null || this.pointers.size > 0) return;
     this.pressed = null;
@@ -106,6 +159,7 @@ export class TopGestures {
       selection.set(this.hands.slotsIn(this.box));
       this.box = null;
     } else if (!pressed.moved && !this.hands.measure.on) {
+      if (this.hands.orders.click(event) || this.hands.pickBody(event.offsetX, event.offsetY)) return this.context.redraw();
       pick(selection, this.hands.slotAt(event.offsetX, event.offsetY), event.ctrlKey || event.metaKey);
     }
     this.context.redraw();

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+import type {WorldLayer} from '../../panel_api';
 import {RobotFlag} from '../../protocol/frames';
 import {Camera, type Bounds} from './camera';
 import {Lens} from './lens';
 import {Measure} from './measure';
 import {Minimap, mostAreOutside} from './minimap';
 import {radiusOf} from './outlines';
+import {bodyAt, OrderHands} from './orders/order_hands';
+import {OrderLayer} from './orders/order_layer';
 import type {Stage, StageContext} from './stage';
 import {makeSwarm} from './make_swarm';
 import {TopGestures} from './top_gestures';
@@ -29,6 +32,8 @@ export class TopStage implements Stage {
   private readonly swarm = makeSwarm();
   private readonly minimap = new Minimap();
   private readonly gestures: TopGestures;
+  private readonly orderLayer: OrderLayer;
+  readonly orders: OrderHands;
   private baseKey = '';
   private revision = 0;
 
@@ -36,6 +41,8 @@ export class TopStage implements Stage {
     this.view = new TopView(context.model, context.palette, context.selection);
     this.element.className = 'stage-top';
     this.element.append(this.base, this.swarm.canvas, this.over);
+    this.orders = new OrderHands(context, context.desk, this.camera, (x, y) => this.slotAt(x, y));
+    this.orderLayer = new OrderLayer(context, context.desk);
     this.gestures = new TopGestures(this.element, context, this);
     this.refresh();
   }
@@ -76,6 +83,8 @@ export class TopStage implements Stage {
     this.swarm.begin(0, camera);
     this.view.drawLife(ctx, camera, placed, context.layers(), this.swarm);
     this.showSwarm();
+    this.orderLayer.draw(ctx, camera, placed);
+    for (const layer of context.worldLayers) this.drawForeign(ctx, layer);
     this.paintMinimap(ctx);
     this.lens.draw(ctx, camera, context.palette, (other) => {
       this.view.drawBase(ctx, other, placed, context.layers());
@@ -84,6 +93,18 @@ export class TopStage implements Stage {
     this.paintBox(ctx);
     this.measure.draw(ctx, camera, context.palette);
     return going;
+  }
+
+  /** What a component draws. Its error is shown where its panel is, and the picture goes on. */
+  private drawForeign(ctx: CanvasRenderingContext2D, layer: WorldLayer): void {
+    ctx.save();
+    try {
+      layer(ctx, (x, y) => this.screenAt(x, y));
+    } catch (error) {
+      this.context.worldLayers.delete(layer);
+      reportError(error);
+    }
+    ctx.restore();
   }
 
   private showSwarm(): void {
@@ -178,6 +199,22 @@ export class TopStage implements Stage {
       }
     }
     return best;
+  }
+
+  pickBody(px: number, py: number): boolean {
+    const {model, desk} = this.context;
+    const id = model.live && model.may('edit') && this.slotAt(px, py) === null ? bodyAt(model.bodies.values(), ...this.camera.toWorld(px, py)) : null;
+    if (id === null && desk.body === null) return false;
+    desk.pickBody(id);
+    return id !== null;
+  }
+
+  menu(px: number, py: number): void {
+    this.context.menu(px, py);
+  }
+
+  screenAt(x: number, y: number): [number, number] {
+    return [this.camera.toScreenX(x), this.camera.toScreenY(y)];
   }
 
   slotsIn([ax, ay, bx, by]: readonly [number, number, number, number]): number[] {

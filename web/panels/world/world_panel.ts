@@ -6,6 +6,9 @@ import {Placed} from '../../model/pose_history';
 import type {PanelContext} from '../../panel_api';
 import {kColourBy, kLayers, readLayers, type Layers} from './layers';
 import {drawnSensors} from './scan_layer';
+import {orderStyles} from './orders/order_cards';
+import type {Tool} from './orders/order_desk';
+import {WorldOrders} from './orders/world_orders';
 import type {Stage, StageContext} from './stage';
 import {TopStage} from './top_stage';
 import {renderCard, worldCardStyles} from './world_card';
@@ -35,6 +38,7 @@ export class WorldPanel extends LitElement {
   private mode: Mode = 'top';
   private stage!: Stage;
   private top!: TopStage;
+  private orders!: WorldOrders;
   private perspective: Stage | null = null;
   private layers: Layers = kLayers;
   private menuOpen = false;
@@ -53,6 +57,8 @@ export class WorldPanel extends LitElement {
     this.requestUpdate();
     const {model, palette, selection} = this.context;
     this.layers = readLayers(JSON.parse(localStorage.getItem(kKept) ?? 'null'));
+    this.orders ??= new WorldOrders(this.context, () => this.refreshOrders(), () => void this.setMode('top'));
+    this.ends.push(...this.orders.listen());
     this.top ??= new TopStage(this.stageContext());
     this.stage ??= this.top;
     const refresh = () => {
@@ -104,7 +110,34 @@ export class WorldPanel extends LitElement {
       layers: () => this.layers,
       redraw: () => this.draw(),
       moved: () => (this.moved = true),
+      desk: this.orders.desk,
+      menu: (px, py) => this.orders.openMenu(px, py, this.top.slotAt(px, py), this.top.camera.toWorld(px, py), [this.clientWidth, this.place().clientHeight]),
     };
+  }
+
+  private refreshOrders(): void {
+    this.requestUpdate();
+    this.dispatchEvent(new CustomEvent('tool', {bubbles: true, composed: true}));
+    this.draw();
+  }
+
+  get tool(): Tool {
+    return this.orders.desk.tool;
+  }
+
+  /** V G W O B, and the buttons of small screens. */
+  chooseTool(tool: Tool): void {
+    this.orders.choose(tool);
+  }
+
+  /** Enter: sends what is drawn. */
+  sendDraft(): void {
+    void this.orders.desk.send();
+  }
+
+  /** Delete: the obstacle with handles. */
+  removeBody(): void {
+    if (this.context.model.may('edit')) void this.orders.desk.remove();
   }
 
   private place(): HTMLElement {
@@ -187,7 +220,7 @@ export class WorldPanel extends LitElement {
 
   /** Esc: ends a measurement, a box or the menu; false if there was nothing. */
   drop(): boolean {
-    const dropped = this.stage.drop() || this.menuOpen;
+    const dropped = this.orders.drop() || this.stage.drop() || this.menuOpen;
     this.menuOpen = false;
     if (dropped) this.requestUpdate();
     this.draw();
@@ -245,6 +278,11 @@ export class WorldPanel extends LitElement {
       this.fitted = this.stage.fit(false);
     }
     const going = this.stage.paint(now_ms);
+    // Cards stand beside things that move.
+    if ((this.orders.desk.draft !== null || this.context.commands.pending.length > 0) && now_ms - this.cardAt_ms > 60) {
+      this.cardAt_ms = now_ms;
+      this.requestUpdate();
+    }
     if (this.alone && this.context.selection.primary !== null && now_ms - this.cardAt_ms > kCard_ms) {
       this.cardAt_ms = now_ms;
       this.requestUpdate();
@@ -275,6 +313,7 @@ export class WorldPanel extends LitElement {
           ${(['top', '3d'] as const).map((mode) => html`<button role="radio" aria-checked=${this.mode === mode} title="Top or 3-D (T)"
             @click=${() => void this.setMode(mode)}>${mode === 'top' ? 'Top' : '3-D'}</button>`)}
         </div><i class="rule"></i>
+        ${this.orders.tools()}
         ${renderLegend(this.context, this.layers, set)}
         <span class="space"></span>
         ${model.robots.length >= kCrowd ? this.renderColourBy() : nothing}
@@ -292,6 +331,7 @@ export class WorldPanel extends LitElement {
         ${selection.following && primary !== null
           ? html`<div class="note">${icon('crosshair', 14)} following <b style="color:${palette.hue(primary).ink}">${model.robots[primary]?.name}</b> <span>Esc ends</span></div>`
           : nothing}
+        ${this.orders.render(this.stage.screenAt === undefined ? null : ([x, y]) => this.top.screenAt(x, y))}
         ${this.alone ? renderCard(this.context, this.placed) : nothing}
         ${this.menuOpen ? renderMenu(this.layers, this.top.tint.scale(this.layers.colourBy), palette.theme, set) : nothing}
       </div>`;
@@ -312,6 +352,7 @@ export class WorldPanel extends LitElement {
     glyphs,
     worldMenuStyles,
     worldCardStyles,
+    orderStyles,
     css`
       :host { display: flex; flex-direction: column; height: 100%; background: var(--bg-1); position: relative; }
       .bar { display: flex; align-items: center; gap: 2px; height: 40px; flex: none; padding: 0 10px; border-bottom: 1px solid var(--line-1); overflow: hidden; }
@@ -323,6 +364,8 @@ export class WorldPanel extends LitElement {
       :host { container-type: inline-size; }
       @container (max-width: 960px) { .colour-by { display: none; } }
       .mode { display: none; font-weight: var(--fw-medium); font-size: var(--fs-12); }
+      @container (max-width: 1150px) { .order-tools ~ .legend { display: none; } .order-tools + .rule { display: none; } }
+      @container (max-width: 700px) { .tool span { display: none; } }
       @container (max-width: 640px) { .kind i { display: none; } .kind { padding: 0 5px; } }
       .stage { position: relative; flex: 1; min-height: 0; }
       .canvas { position: absolute; inset: 0; background: var(--floor); }
@@ -334,7 +377,7 @@ export class WorldPanel extends LitElement {
       .note svg { color: var(--intent); }
       @container (max-width: 520px) {
         .bar { display: contents; }
-        .segments, .rule, .space, .tools .ruler, .tools .maximize, .tools .camera { display: none; }
+        .segments, .rule, .space, .order-tools, .tools .ruler, .tools .maximize, .tools .camera { display: none; }
         .legend { position: absolute; left: 10px; top: 10px; z-index: 3; padding: 0 6px; background: var(--bg-2); border: 1px solid var(--line-1); border-radius: var(--r-full); gap: 0; }
         .tools { position: absolute; right: 10px; top: 10px; z-index: 3; flex-direction: column; padding: 2px; gap: 2px; background: var(--bg-2); border: 1px solid var(--line-1); border-radius: var(--r-4); }
         .tools .icon-button { width: 44px; height: 44px; }

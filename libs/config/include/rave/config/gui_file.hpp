@@ -29,6 +29,8 @@ enum class GuiClass : std::uint8_t {
   kStop,
   kRelease,
   kRunControl,
+  kCommand,
+  kEdit,
 };
 
 /// Of which robots.
@@ -49,10 +51,18 @@ struct GuiRightFile {
   bool operator==(const GuiRightFile&) const = default;
 };
 
+/// One entry of `gui: components:`: a panel of the page that the scenario brings along.
+struct GuiComponentFile {
+  Located<std::string> module;  ///< An ES module; absolute in an expanded scenario.
+  std::vector<GuiRole> roles;   ///< Who gets it, beside super-users.
+  bool operator==(const GuiComponentFile&) const = default;
+};
+
 /// What the page shows to whom. It is no part of the run: processes of one run need not agree.
 struct GuiFile {
   std::vector<GuiRightFile> rights;
   bool relay = false;  ///< Orders may go through the GUI Server where there is no direct line.
+  std::vector<GuiComponentFile> components;
   bool operator==(const GuiFile&) const = default;
 };
 

@@ -31,8 +31,10 @@ enum class InfoClass : std::uint8_t {
   kStop,        ///< Stopping robots.
   kRelease,     ///< Releasing robots that were stopped.
   kRunControl,  ///< Pause, step, resume and pace of a run that goes on.
+  kCommand,     ///< Driving robots, sending them somewhere, telling and setting them something.
+  kEdit,        ///< Adding and moving virtual obstacles, and placing simulated robots.
 };
-inline constexpr std::size_t kInfoClasses = 14;
+inline constexpr std::size_t kInfoClasses = 16;
 
 [[nodiscard]] std::string_view to_string(InfoClass what) noexcept;
 [[nodiscard]] std::optional<InfoClass> class_named(std::string_view word) noexcept;

@@ -8,11 +8,13 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "rave/base/result.hpp"
+#include "rave/gui_server/command.hpp"
 #include "rave/gui_server/rights.hpp"
 
 // What the GUI Server shows comes from a source: a recording, or a run. Plain values; SI units,
@@ -24,6 +26,17 @@ inline constexpr double kPast_s = 20;
 inline constexpr double kPastSpacing_s = 0.2;
 /// A contact is told when it begins; so long it counts as going on.
 inline constexpr double kTouch_s = 0.5;
+
+/// A panel that the scenario brings along, as a file that the page loads.
+struct PageComponent {
+  std::string name;  ///< Of the file, without folder and ending.
+  std::filesystem::path file;
+  std::set<Role> roles;  ///< Who gets it, beside super-users.
+
+  [[nodiscard]] bool is_for(Role role) const {
+    return role == Role::kSuperUser || roles.contains(role);
+  }
+};
 
 /// What the run is called and where it comes from.
 struct RunAbout {
@@ -42,6 +55,7 @@ struct RunAbout {
   double duration_s = 0;
   /// Orders may go through the server where a page has no direct line to a host.
   bool relay = false;
+  std::vector<PageComponent> components;
   Rights rights;  ///< The usual ones, with what the scenario changes.
 };
 
@@ -205,7 +219,22 @@ class Source {
     static const std::string kNone = "[]";
     return kNone;
   }
-  virtual void halt(const HaltMessage& halt, Reply reply) = 0;
+  /// Stops and releases robots, at once and without a lease to stop.
+  virtual void halt(const HaltMessage& halt, const Author& author, Reply reply) = 0;
+
+  /// What came of a command for one of its robots; of an obstacle with kNoSlot.
+  static constexpr std::uint32_t kNoSlot = 0xffffffff;
+  using SlotReply = std::function<void(std::uint32_t slot, bool good, std::string text)>;
+  /// Calls `reply` once for each robot of the command, now or later.
+  virtual void command(const CommandMessage& command, const Author& /*author*/,
+                       const SlotReply& reply);
+  /// Another number whenever it changed who drives which robot; since a number of before (0: ever),
+  /// these did.
+  [[nodiscard]] virtual std::uint64_t leases_revision() const noexcept { return 0; }
+  [[nodiscard]] virtual std::vector<DriveState> leases_changed_since(
+      std::uint64_t /*revision*/) const {
+    return {};
+  }
 };
 
 /// Plays the record of a run. Errors: those of record::open_run() and McapReader::open(), kParse

@@ -26,6 +26,13 @@ namespace rave::robot_host {
 /// All keys that parse_change takes for a robot of this type.
 [[nodiscard]] std::vector<std::string> parameter_keys(const sim::RobotType& type);
 
+/// A parameter that parse_change takes, as its driver describes it.
+struct ChangeableParameter {
+  std::string key;
+  const ParamSpec* spec = nullptr;  ///< Of the plug-in, which stays loaded as long as the type.
+};
+[[nodiscard]] std::vector<ChangeableParameter> changeable_parameters(const sim::RobotType& type);
+
 /// The values of these parameters as text, by key: those that the files give to each robot of this
 /// type.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> first_values(

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "page_message.hpp"
+#include "rave/gui_server/person.hpp"
+#include "rave/web/rate_limit.hpp"
+#include "view.hpp"
+
+namespace rave::gui_server {
+
+/// What people have said to each other and to robots since the server began, the newest 500 lines.
+/// It is in nobody's recording; what is said to robots is an order, which is. The thread of the
+/// server.
+class ChatRoom {
+ public:
+  static constexpr std::size_t kMostLines = 500;
+
+  struct Line {
+    std::uint64_t number = 0;  ///< From 1 on.
+    double t_s = 0;            ///< Of the run.
+    Person from;
+    ChatMessage::To to = ChatMessage::To::kAll;
+    std::string name;                   ///< Of the role, user, team or robot that it is for.
+    std::vector<std::uint32_t> robots;  ///< That it is for, as the run counts them.
+    std::string text;
+  };
+  /// A person as the room sees them.
+  struct Listener {
+    const Person& person;
+    const View& view;
+  };
+
+  /// Error: kState (too much at once).
+  [[nodiscard]] Status say(Line line, std::chrono::steady_clock::time_point now);
+  /// The message `chat` with the lines after `number` that somebody may hear; empty: there are
+  /// none. `all`: the page forgets those that it had.
+  [[nodiscard]] std::string text_for(const Listener& listener, std::uint64_t number,
+                                     bool all) const;
+  [[nodiscard]] std::uint64_t newest() const noexcept { return numbered_; }
+  [[nodiscard]] static bool hears(const Listener& listener, const Line& line);
+
+ private:
+  std::deque<Line> lines_;
+  std::uint64_t numbered_ = 0;
+  web::RateLimit limit_{2, 20};
+};
+
+}  // namespace rave::gui_server

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "command_message.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <numbers>
+
+namespace rave::gui_server {
+namespace {
+
+using Command = CommandMessage::Kind;
+
+// No world is as large, and no robot as fast.
+constexpr double kFarthest_m = 1e6;
+constexpr double kFastestOrder = 100;
+constexpr std::size_t kLongestKey = 128;
+constexpr std::size_t kLongestValue = 256;
+constexpr std::size_t kLongestBodyName = 64;
+constexpr std::size_t kMostCorners = 64;
+
+Result<double> number_within(Members& members, const char* name, double most) {
+  RAVE_TRY_ASSIGN(const double value, members.number(name));
+  if (std::abs(value) > most) {
+    return fail(ErrorCode::kParse, "`{}`: expected a number from {} to {}", name, -most, most);
+  }
+  return value;
+}
+
+Result<Vec2> point_of(const PageJson& pair, const char* name) {
+  const bool good = pair.is_array() && pair.size() == 2 && pair[0].is_number() &&
+                    pair[1].is_number() && std::abs(pair[0].get<double>()) <= kFarthest_m &&
+                    std::abs(pair[1].get<double>()) <= kFarthest_m;
+  if (!good) {
+    return fail(ErrorCode::kParse, "`{}`: expected pairs of finite numbers, metres", name);
+  }
+  return Vec2{pair[0].get<double>(), pair[1].get<double>()};
+}
+
+Result<std::vector<Vec2>> points_of(Members& members, const char* name, std::size_t most) {
+  RAVE_TRY_ASSIGN(const PageJson* const pairs, members.array(name, most));
+  std::vector<Vec2> points;
+  points.reserve(pairs->size());
+  for (const PageJson& pair : *pairs) {
+    RAVE_TRY_ASSIGN(const Vec2 point, point_of(pair, name));
+    points.push_back(point);
+  }
+  return points;
+}
+
+Status take_slots(Members& members, CommandMessage& command) {
+  RAVE_TRY_ASSIGN(const PageJson* const slots, members.array("slots", kMostCommanded));
+  for (const PageJson& slot : *slots) {
+    RAVE_TRY_ASSIGN(const std::uint32_t index, Members::index_of(slot, "slots"));
+    command.slots.push_back(index);
+  }
+  auto sorted = command.slots;
+  std::sort(sorted.begin(), sorted.end());
+  if (sorted.empty() || std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) {
+    return fail(ErrorCode::kParse, "`slots`: expected 1 to {} robots, each once", kMostCommanded);
+  }
+  return {};
+}
+
+Status take_place(Members& members, CommandMessage& command) {
+  const std::size_t robots = command.slots.size();
+  RAVE_TRY_ASSIGN(command.points, points_of(members, "points", kMostCommanded));
+  const bool one = command.points.size() == 1 && command.kind == Command::kGoal;
+  if (!one && command.points.size() != robots) {
+    return fail(ErrorCode::kParse, "`points`: expected one for each robot, {}", robots);
+  }
+  if (members.has("yaw")) {
+    RAVE_TRY_ASSIGN(command.yaw_rad, number_within(members, "yaw", 2 * std::numbers::pi));
+  }
+  return {};
+}
+
+Status take_speed(Members& members, CommandMessage& command) {
+  if (!members.has("speed")) return {};
+  RAVE_TRY_ASSIGN(command.speed_mps, number_within(members, "speed", kFastestOrder));
+  if (command.speed_mps < 0) return fail(ErrorCode::kParse, "`speed`: expected 0 or more");
+  return {};
+}
+
+Status take_path(Members& members, CommandMessage& command) {
+  RAVE_TRY_ASSIGN(command.points, points_of(members, "points", kMostPathPoints));
+  if (command.points.size() < 2) {
+    return fail(ErrorCode::kParse, "`points`: expected 2 to {} points", kMostPathPoints);
+  }
+  return take_speed(members, command);
+}
+
+Status take_order(Members& members, CommandMessage& command) {
+  if (command.kind == Command::kDrive) {
+    RAVE_TRY_ASSIGN(command.v_mps, number_within(members, "v", kFastestOrder));
+    RAVE_TRY_ASSIGN(command.w_radps, number_within(members, "w", kFastestOrder));
+  } else if (command.kind == Command::kGoal) {
+    RAVE_TRY(take_place(members, command));
+    RAVE_TRY(take_speed(members, command));
+  } else if (command.kind == Command::kPlace) {
+    RAVE_TRY(take_place(members, command));
+  } else if (command.kind == Command::kPath) {
+    RAVE_TRY(take_path(members, command));
+  } else if (command.kind == Command::kText) {
+    RAVE_TRY_ASSIGN(command.value, members.text("text", kLongestText, true));
+  }
+  return {};
+}
+
+Result<CommandMessage> order_of(Members& members) {
+  static constexpr std::array kKinds = {Command::kDrive,  Command::kGoal, Command::kPath,
+                                        Command::kCancel, Command::kText, Command::kPlace};
+  CommandMessage command;
+  RAVE_TRY_ASSIGN(command.request, members.index("request"));
+  RAVE_TRY_ASSIGN(const std::string word, members.word("kind"));
+  const auto* const kind = std::find_if(kKinds.begin(), kKinds.end(),
+                                        [&](Command known) { return to_string(known) == word; });
+  if (kind == kKinds.end()) {
+    return fail(ErrorCode::kParse, "`kind`: expected drive, goal, path, cancel, text or place");
+  }
+  command.kind = *kind;
+  RAVE_TRY(take_slots(members, command));
+  RAVE_TRY(take_order(members, command));
+  return command;
+}
+
+Result<CommandMessage> lease_of(Members& members) {
+  CommandMessage command;
+  RAVE_TRY_ASSIGN(command.request, members.index("request"));
+  RAVE_TRY(take_slots(members, command));
+  RAVE_TRY_ASSIGN(const std::string word, members.word("do"));
+  if (word != "take" && word != "force" && word != "give") {
+    return fail(ErrorCode::kParse, "`do`: expected take, force or give");
+  }
+  command.kind = word == "give" ? Command::kGive : Command::kTake;
+  if (word == "force") command.value = "force";
+  if (word == "give" && members.has("to")) {
+    RAVE_TRY_ASSIGN(command.value, members.text("to", kLongestBodyName));
+  }
+  return command;
+}
+
+/// A number, a truth value or a word, as a file has it.
+Result<std::string> parameter_value_of(Members& members) {
+  RAVE_TRY_ASSIGN(const PageJson* const value, members.any("value"));
+  if (value->is_string()) {
+    auto text = value->get<std::string>();
+    if (text.size() <= kLongestValue) return text;
+  } else if (value->is_boolean() || (value->is_number() && std::isfinite(value->get<double>()))) {
+    return value->dump();
+  }
+  return fail(ErrorCode::kParse, "`value`: expected a number, true, false or a short text");
+}
+
+Result<CommandMessage> set_of(Members& members) {
+  CommandMessage command;
+  command.kind = Command::kSet;
+  RAVE_TRY_ASSIGN(command.request, members.index("request"));
+  RAVE_TRY(take_slots(members, command));
+  RAVE_TRY_ASSIGN(command.key, members.text("key", kLongestKey));
+  RAVE_TRY_ASSIGN(command.value, parameter_value_of(members));
+  return command;
+}
+
+/// A name that means the same in quotes of YAML and without.
+Result<std::string> body_name_of(Members& members) {
+  RAVE_TRY_ASSIGN(std::string name, members.text("name", kLongestBodyName));
+  const bool plain = std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+           c == '_' || c == '.';
+  });
+  if (name.empty() || !plain) {
+    return fail(ErrorCode::kParse, "`name`: expected letters, digits, - and _");
+  }
+  return name;
+}
+
+Result<std::string> place_yaml(Members& members) {
+  RAVE_TRY_ASSIGN(const PageJson* const pose, members.array("pose", 3));
+  if (pose->size() != 3 || !(*pose)[2].is_number() ||
+      std::abs((*pose)[2].get<double>()) > 2 * std::numbers::pi) {
+    return fail(ErrorCode::kParse, "`pose`: expected x, y in metres and yaw in radians");
+  }
+  const PageJson xy = PageJson::array({(*pose)[0], (*pose)[1]});
+  RAVE_TRY_ASSIGN(const Vec2 p, point_of(xy, "pose"));
+  return fmt::format("x_m: {}, y_m: {}, yaw_deg: {}", p.x, p.y,
+                     (*pose)[2].get<double>() * 180 / std::numbers::pi);
+}
+
+Result<std::string> outline_yaml(Members& members) {
+  if (members.has("disc")) {
+    RAVE_TRY_ASSIGN(const double radius_m, number_within(members, "disc", kFarthest_m));
+    return fmt::format("disc_radius_m: {}", radius_m);
+  }
+  RAVE_TRY_ASSIGN(const std::vector<Vec2> corners, points_of(members, "polygon", kMostCorners));
+  if (corners.size() < 3) {
+    return fail(ErrorCode::kParse, "`polygon`: expected 3 to {} corners", kMostCorners);
+  }
+  std::vector<std::string> words;
+  words.reserve(corners.size());
+  for (const Vec2& corner : corners) words.push_back(fmt::format("[{}, {}]", corner.x, corner.y));
+  return fmt::format("polygon_m: [{}]", fmt::join(words, ", "));
+}
+
+Result<CommandMessage> edit_of(Members& members) {
+  CommandMessage command;
+  RAVE_TRY_ASSIGN(command.request, members.index("request"));
+  RAVE_TRY_ASSIGN(const std::string word, members.word("do"));
+  RAVE_TRY_ASSIGN(command.key, body_name_of(members));
+  if (word == "remove") {
+    command.kind = Command::kRemove;
+    return command;
+  }
+  if (word != "add" && word != "move") {
+    return fail(ErrorCode::kParse, "`do`: expected add, move or remove");
+  }
+  command.kind = word == "add" ? Command::kAdd : Command::kMove;
+  RAVE_TRY_ASSIGN(const std::string place, place_yaml(members));
+  if (word == "move") {
+    command.value = fmt::format("{{name: \"{}\", {}}}", command.key, place);
+    return command;
+  }
+  RAVE_TRY_ASSIGN(const std::string outline, outline_yaml(members));
+  command.value = fmt::format("{{name: \"{}\", {}, {}}}", command.key, outline, place);
+  return command;
+}
+
+}  // namespace
+
+std::optional<Result<CommandMessage>> command_of(std::string_view type, Members& members) {
+  if (type == "order") return order_of(members);
+  if (type == "lease") return lease_of(members);
+  if (type == "set") return set_of(members);
+  if (type == "edit") return edit_of(members);
+  return std::nullopt;
+}
+
+}  // namespace rave::gui_server

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "components.hpp"
+
+#include <fmt/format.h>
+
+#include "rave/base/file.hpp"
+
+namespace rave::gui_server {
+namespace {
+
+constexpr std::size_t kMostComponentBytes = std::size_t{1} << 20U;
+
+/// As it stands in an address: letters that need no escape.
+std::string plain_name(const std::filesystem::path& file) {
+  std::string name = file.stem().string();
+  for (char& c : name) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       c == '-' || c == '_';
+    if (!plain) c = '_';
+  }
+  return name;
+}
+
+}  // namespace
+
+Result<std::vector<PageComponent>> components_of(const config::GuiFile& gui) {
+  std::vector<PageComponent> components;
+  for (const config::GuiComponentFile& file : gui.components) {
+    PageComponent component;
+    component.file = file.module.value;
+    component.name = plain_name(component.file);
+    for (const config::GuiRole role : file.roles) {
+      component.roles.insert(role == config::GuiRole::kCommander ? Role::kCommander
+                                                                 : Role::kObserver);
+    }
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(component.file, error)) {
+      return fail(ErrorCode::kNotFound, "the component `{}` of the page is no file",
+                  component.file.string());
+    }
+    components.push_back(std::move(component));
+  }
+  return components;
+}
+
+std::string component_path(std::size_t number, const PageComponent& component) {
+  return fmt::format("components/{}/{}.js", number, component.name);
+}
+
+const PageComponent* component_at(const std::vector<PageComponent>& components,
+                                  std::string_view path) {
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    if (path == "/" + component_path(i, components[i])) return &components[i];
+  }
+  return nullptr;
+}
+
+Result<std::string> read_component(const PageComponent& component) {
+  return read_file(component.file, kMostComponentBytes);
+}
+
+}  // namespace rave::gui_server

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// What pages ask of the robots of a run, and who drives them.
+#include <utility>
+
+#include "live_source.hpp"
+
+namespace rave::gui_server {
+namespace {
+
+using robot_host::RunRequest;
+constexpr auto kStatusInterval = std::chrono::milliseconds(200);
+
+RunRequest::Kind kind_of(CommandMessage::Kind kind) {
+  using From = CommandMessage::Kind;
+  using To = RunRequest::Kind;
+  switch (kind) {
+    case From::kDrive:
+      return To::kDrive;
+    case From::kGoal:
+      return To::kGoal;
+    case From::kPath:
+      return To::kPath;
+    case From::kCancel:
+      return To::kCancel;
+    case From::kText:
+      return To::kText;
+    case From::kPlace:
+      return To::kPlace;
+    case From::kTake:
+      return To::kTake;
+    case From::kGive:
+      return To::kGive;
+    case From::kSet:
+      return To::kSet;
+    case From::kAdd:
+      return To::kAdd;
+    case From::kMove:
+      return To::kMove;
+    case From::kRemove:
+      return To::kRemove;
+  }
+  return To::kCancel;
+}
+
+/// What the run is asked, but for the robot and its place.
+RunRequest request_of(const CommandMessage& command, const Author& author) {
+  RunRequest request;
+  request.kind = kind_of(command.kind);
+  request.key = command.kind == CommandMessage::Kind::kMove ? "" : command.key;
+  request.value = command.value;
+  request.by = author.name;
+  request.overrides = author.overrides;
+  request.yaw_rad = command.yaw_rad;
+  request.v_mps = command.v_mps;
+  request.w_radps = command.w_radps;
+  request.speed_mps = command.speed_mps;
+  if (command.kind == CommandMessage::Kind::kPath) request.points = command.points;
+  return request;
+}
+
+constexpr const char* kNoRelay =
+    "Orders go by the direct line to the host of the robot, and there is none; `gui: {relay: "
+    "true}` "
+    "in the scenario lets the server pass them on.";
+
+}  // namespace
+
+void LiveSource::halt(const HaltMessage& halt, const Author& author, Reply reply) {
+  std::vector<std::string> robots;
+  for (const std::uint32_t slot : halt.slots) {
+    if (slot < start_.robots.size()) robots.push_back(start_.robots[slot]);
+  }
+  if (halt.slots.empty()) robots.emplace_back();
+  if (robots.empty()) return reply(false, "There is no such robot.");
+  for (std::string& robot : robots) {
+    RunRequest request;
+    request.kind = halt.stop ? RunRequest::Kind::kStop : RunRequest::Kind::kRelease;
+    request.robot = std::move(robot);
+    request.by = author.name;
+    request.overrides = author.overrides;
+    auto answer = port_->post(std::move(request));
+    if (!answer) return reply(false, answer.error().message);
+    asked_.push_back({*std::move(answer), reply});
+  }
+}
+
+void LiveSource::command(const CommandMessage& command, const Author& author,
+                         const SlotReply& reply) {
+  const auto post = [&](RunRequest request, std::uint32_t slot) {
+    auto answer = port_->post(std::move(request));
+    if (!answer) return reply(slot, false, answer.error().message);
+    asked_.push_back({*std::move(answer), [reply, slot](bool good, std::string text) {
+                        reply(slot, good, std::move(text));
+                      }});
+  };
+  if (command.of_obstacle()) return post(request_of(command, author), kNoSlot);
+  // Robots that are driven by way of a server would stop with it.
+  const bool passes =
+      command.kind == CommandMessage::Kind::kSet || command.kind == CommandMessage::Kind::kPlace;
+  if (!start_.about.relay && !passes) {
+    for (const std::uint32_t slot : command.slots) reply(slot, false, kNoRelay);
+    return;
+  }
+  const bool shared = command.kind == CommandMessage::Kind::kPath || command.points.size() == 1;
+  for (std::size_t i = 0; i < command.slots.size(); ++i) {
+    const std::uint32_t slot = command.slots[i];
+    if (slot >= start_.robots.size()) {
+      reply(slot, false, "There is no such robot.");
+      continue;
+    }
+    RunRequest request = request_of(command, author);
+    request.robot = start_.robots[slot];
+    if (request.points.empty() && !command.points.empty()) {
+      request.points = {command.points[shared ? 0 : i]};
+    }
+    post(std::move(request), slot);
+  }
+}
+
+void LiveSource::answer_asked() {
+  std::vector<Asked> waiting;
+  for (Asked& asked : asked_) {
+    if (asked.answer.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+      waiting.push_back(std::move(asked));
+      continue;
+    }
+    const auto answer = asked.answer.get();
+    asked.reply(answer.has_value(), answer ? *answer : answer.error().message);
+  }
+  asked_ = std::move(waiting);
+}
+
+/// A picture that comes over a bus does not say who is stopped; none says who drives.
+void LiveSource::learn_status(Playhead::Clock::time_point now) {
+  if (now - status_at_ < kStatusInterval) return;
+  status_at_ = now;
+  flags_.assign(picture().standing ? start_.robots.size() : 0, 0);
+  for (const robot_host::RunStatus::Robot& robot : port_->robots()) {
+    const auto slot = slots_.find(robot.name);
+    if (slot == slots_.end()) continue;
+    learn_leases(robot, slot->second);
+    if (flags_.empty()) continue;
+    std::uint16_t& flags = flags_[slot->second];
+    if (robot.stopped) flags |= kStopped;
+    if (!robot.armed) flags |= kUnarmed;
+  }
+}
+
+void LiveSource::learn_leases(const robot_host::RunStatus::Robot& robot, std::uint32_t slot) {
+  DriveState& known = leases_[slot];
+  if (known.lease == robot.lease && known.order == robot.order && known.takes == robot.takes) {
+    return;
+  }
+  known = {slot, robot.lease, robot.takes, robot.order};
+  leases_changed_[slot] = ++leases_revision_;
+}
+
+std::vector<DriveState> LiveSource::leases_changed_since(std::uint64_t revision) const {
+  std::vector<DriveState> changed;
+  for (const DriveState& state : leases_) {
+    if (leases_changed_[state.slot] > revision) changed.push_back(state);
+  }
+  return changed;
+}
+
+}  // namespace rave::gui_server

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "page_commands.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace rave::gui_server {
+
+/// A message whose robots have not all answered.
+struct PageCommands::Open {
+  CommandMessage command;
+  std::size_t missing = 0;
+  PageAnswer answer;
+};
+
+PageCommands::PageCommands(Say say, Told told) : say_(std::move(say)), told_(std::move(told)) {}
+
+void PageCommands::begin(std::shared_ptr<Source> source, Author author) {
+  let_go();
+  source_ = std::move(source);
+  author_ = std::move(author);
+  waiting_ = 0;
+  newest_.reset();
+  // Answers of the run before are nobody's business any more.
+  alive_ = std::make_shared<bool>(true);
+}
+
+void PageCommands::let_go() {
+  if (driven_.empty() || !source_) return;
+  CommandMessage stand;
+  stand.slots.assign(driven_.begin(), driven_.end());
+  driven_.clear();
+  newest_.reset();
+  source_->command(stand, author_, [](std::uint32_t, bool, const std::string&) {});
+}
+
+bool PageCommands::too_many(const CommandMessage& command) {
+  const auto now = web::RateLimit::Clock::now();
+  const std::size_t count = std::max<std::size_t>(1, command.slots.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!limit_.take("", now)) return true;
+  }
+  return false;
+}
+
+void PageCommands::take(const CommandMessage& command) {
+  const std::string to(to_string(command.kind));
+  if (!source_) return say_({to, false, "No run is in progress.", command.request});
+  // To stand is never too much.
+  if (!command.stands() && too_many(command)) {
+    const PageAnswer answer{
+        to, false, fmt::format("Too many at once: {} robots in a second at most.", kPerSecond),
+        command.request};
+    say_(answer);
+    told_(command, answer);
+    return;
+  }
+  if (command.kind == CommandMessage::Kind::kDrive) {
+    for (const std::uint32_t slot : command.slots) {
+      if (command.stands()) {
+        driven_.erase(slot);
+      } else {
+        driven_.insert(slot);
+      }
+    }
+    if (waiting_ >= kMostWaiting && !command.stands()) {
+      newest_ = command;
+      return;
+    }
+    newest_.reset();
+  }
+  post(command);
+}
+
+void PageCommands::post(const CommandMessage& command) {
+  auto open = std::make_shared<Open>();
+  open->command = command;
+  open->missing = std::max<std::size_t>(1, command.slots.size());
+  open->answer = {std::string(to_string(command.kind)), true, "", command.request};
+  if (command.kind == CommandMessage::Kind::kDrive) ++waiting_;
+  source_->command(
+      command, author_,
+      [this, open, alive = std::weak_ptr(alive_)](std::uint32_t slot, bool good,
+                                                  const std::string& text) {
+        if (alive.expired() || open->missing == 0) return;
+        if (!good) {
+          open->answer.good = false;
+          if (slot != Source::kNoSlot) open->answer.refused.emplace_back(slot, text);
+        }
+        // The first reason is said, or what was done last.
+        if (open->answer.good || open->answer.text.empty() || open->answer.refused.size() == 1) {
+          open->answer.text = text;
+        }
+        if (--open->missing == 0) finish(*open);
+      });
+}
+
+void PageCommands::finish(const Open& open) {
+  const bool drive = open.command.kind == CommandMessage::Kind::kDrive;
+  if (drive) {
+    --waiting_;
+    for (const auto& [slot, text] : open.answer.refused) driven_.erase(slot);
+  }
+  say_(open.answer);
+  if (!drive || !open.answer.good) told_(open.command, open.answer);
+  if (drive && newest_) {
+    const CommandMessage next = *std::exchange(newest_, std::nullopt);
+    post(next);
+  }
+}
+
+}  // namespace rave::gui_server

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "page_text.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "components.hpp"
+
+namespace rave::gui_server {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string text_of(const Json& message) {
+  return message.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+const char* level_word(LogEvent::Level level) {
+  switch (level) {
+    case LogEvent::Level::kInfo:
+      return "info";
+    case LogEvent::Level::kWarn:
+      return "warn";
+    case LogEvent::Level::kAlert:
+      return "alert";
+  }
+  return "info";
+}
+
+const char* state_word(PlayState::Kind kind) {
+  switch (kind) {
+    case PlayState::Kind::kRunning:
+      return "running";
+    case PlayState::Kind::kPaused:
+      return "paused";
+    case PlayState::Kind::kWaiting:
+      return "waiting";
+    case PlayState::Kind::kEnded:
+      return "ended";
+  }
+  return "ended";
+}
+
+Json person_json(const Person& person) {
+  return {{"name", person.name}, {"role", to_string(person.role)}};
+}
+
+}  // namespace
+
+std::string hello_text(const Source& source, const Greeting& greeting) {
+  const RunAbout& about = source.about();
+  Json recording = nullptr;
+  if (!about.recording.empty()) {
+    recording = {{"name", about.recording.filename().string()},
+                 {"bytes", about.recording_bytes},
+                 {"whole", about.recording_whole}};
+  }
+  Powers powers = source.powers();
+  if (greeting.user.role == Role::kSuperUser && !greeting.seen_by)
+    powers.may.emplace_back("rights");
+  Json hello = {{"type", "hello"},
+                {"protocol", 1},
+                {"server", "rave"},
+                {"run",
+                 {{"name", about.name},
+                  {"source", about.live ? "live" : "replay"},
+                  {"clock", about.lock_step ? "lock_step" : "real_time"},
+                  {"started", about.started},
+                  {"step_s", about.step_s},
+                  {"seed", about.seed},
+                  {"hash", about.hash.empty() ? Json(nullptr) : Json(about.hash)},
+                  {"recording", std::move(recording)}}},
+                {"user", person_json(greeting.user)},
+                {"may", powers.may},
+                {"why_not", powers.why_not}};
+  for (std::size_t i = 0; i < about.components.size(); ++i) {
+    const PageComponent& component = about.components[i];
+    if (!component.is_for(greeting.user.role)) continue;
+    hello["components"].push_back(
+        {{"name", component.name}, {"url", component_path(i, component)}});
+  }
+  if (greeting.seen_by) hello["seen_by"] = person_json(*greeting.seen_by);
+  return text_of(hello);
+}
+
+std::string events_text(std::span<const LogEvent> events, std::size_t first) {
+  Json message = {
+      {"type", "events"}, {"reset", first == 0}, {"first", first}, {"events", Json::array()}};
+  for (const LogEvent& event : events.subspan(first)) {
+    message["events"].push_back({{"t", event.t_s},
+                                 {"until", event.until_s},
+                                 {"count", event.count},
+                                 {"kind", event.kind},
+                                 {"level", level_word(event.level)},
+                                 {"text", event.text},
+                                 {"slots", event.slots}});
+  }
+  return text_of(message);
+}
+
+std::string time_text(const PlayState& state, const RunAbout& about) {
+  const Json time = {{"type", "time"},
+                     {"now_s", state.now_s},
+                     {"step", std::llround(state.now_s / about.step_s)},
+                     {"begin_s", state.begin_s},
+                     {"end_s", state.end_s},
+                     {"duration_s", state.duration_s},
+                     {"state", state_word(state.kind)},
+                     {"reason", state.reason},
+                     {"pace", state.pace},
+                     {"speed", state.speed}};
+  return text_of(time);
+}
+
+std::string leases_text(std::span<const DriveState> states, const std::string& me, bool all) {
+  Json message = {{"type", "leases"}, {"reset", all}, {"robots", Json::array()}};
+  for (const DriveState& state : states) {
+    message["robots"].push_back({{"slot", state.slot},
+                                 {"lease", state.lease},
+                                 {"yours", !state.lease.empty() && state.lease == me},
+                                 {"takes", state.takes},
+                                 {"order", state.order}});
+  }
+  return text_of(message);
+}
+
+std::string answer_text(const PageAnswer& answer) {
+  Json message = {
+      {"type", "answer"}, {"to", answer.to}, {"good", answer.good}, {"text", answer.text}};
+  if (answer.request) message["request"] = *answer.request;
+  if (!answer.refused.empty()) {
+    message["refused"] = Json::array();
+    for (const auto& [slot, text] : answer.refused) {
+      message["refused"].push_back({{"slot", slot}, {"text", text}});
+    }
+  }
+  return text_of(message);
+}
+
+}  // namespace rave::gui_server

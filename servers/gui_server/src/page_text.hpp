@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rave/gui_server/person.hpp"
+#include "rave/gui_server/source.hpp"
+#include "rave/web/server.hpp"
+
+// What the server says to a page, as JSON; schemas/gui/messages.schema.json describes it.
+namespace rave::gui_server {
+
+/// As whom a page is greeted.
+struct Greeting {
+  Person user;
+  std::optional<Person> seen_by{};  ///< The super-user who sees what `user` gets.
+  Author author{};                  ///< As whom the run knows who looks.
+};
+
+/// What became of a request of a page.
+struct PageAnswer {
+  std::string to;  ///< The `type`, `do` or `kind` of the request.
+  bool good = false;
+  std::string text;
+  std::optional<std::uint32_t> request{};  ///< The number that the page gave it.
+  /// Of several robots: those that refused, and why.
+  std::vector<std::pair<std::uint32_t, std::string>> refused{};
+};
+
+[[nodiscard]] inline web::Payload payload(std::string text) {
+  return std::make_shared<const std::string>(std::move(text));
+}
+
+[[nodiscard]] std::string hello_text(const Source& source, const Greeting& greeting);
+/// Events from `first` on; with 0 the page forgets those that it had.
+[[nodiscard]] std::string events_text(std::span<const LogEvent> events, std::size_t first);
+[[nodiscard]] std::string time_text(const PlayState& state, const RunAbout& about);
+/// Who drives what; `me` marks those that the page's own person drives.
+[[nodiscard]] std::string leases_text(std::span<const DriveState> states, const std::string& me,
+                                      bool all);
+/// What a page sent may stand in the text; what is no UTF-8 is replaced.
+[[nodiscard]] std::string answer_text(const PageAnswer& answer);
+
+}  // namespace rave::gui_server

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "parameters_json.hpp"
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "rave/robot_host/parameter_key.hpp"
+
+namespace rave::gui_server {
+namespace {
+
+using ParameterJson = nlohmann::ordered_json;
+constexpr std::size_t kMostDescribed = 256;
+
+/// The value of a file as JSON has it; null: the file gives none.
+ParameterJson first_value(const ParamSpec& spec, const std::string& text) {
+  if (spec.type == ParamType::kText || spec.type == ParamType::kChoice) return text;
+  return ParameterJson::parse(text, nullptr, false);
+}
+
+/// Null: a list, which no control of the page shows.
+ParameterJson parameter_json(const robot_host::ChangeableParameter& parameter) {
+  const ParamSpec& spec = *parameter.spec;
+  ParameterJson json = {{"key", parameter.key}};
+  switch (spec.type) {
+    case ParamType::kBool:
+      json["kind"] = "flag";
+      break;
+    case ParamType::kInteger:
+      json["kind"] = "integer";
+      break;
+    case ParamType::kNumber:
+      json["kind"] = "number";
+      break;
+    case ParamType::kChoice:
+      json["kind"] = "choice";
+      json["choices"] = ParameterJson::array();
+      for (std::uint64_t i = 0; i < spec.choice_count; ++i) {
+        json["choices"].push_back(spec.choices[i]);
+      }
+      break;
+    case ParamType::kText:
+      json["kind"] = "text";
+      break;
+    default:
+      return nullptr;
+  }
+  json["unit"] = spec.unit;
+  json["doc"] = spec.doc;
+  const bool counts = spec.type == ParamType::kNumber || spec.type == ParamType::kInteger;
+  if (counts && spec.min < spec.max) json["range"] = ParameterJson::array({spec.min, spec.max});
+  return json;
+}
+
+ParameterJson parameters_of(const sim::RobotType& type) {
+  std::map<std::string, std::string> values;
+  for (auto& [key, text] : robot_host::first_values(type)) values[key] = std::move(text);
+  ParameterJson all = ParameterJson::array();
+  for (const auto& parameter : robot_host::changeable_parameters(type)) {
+    ParameterJson json = parameter_json(parameter);
+    if (json.is_null()) continue;
+    if (const auto value = values.find(parameter.key); value != values.end()) {
+      const ParameterJson first = first_value(*parameter.spec, value->second);
+      if (!first.is_discarded() && first.is_primitive() && !first.is_null()) json["value"] = first;
+    }
+    all.push_back(std::move(json));
+  }
+  return all;
+}
+
+}  // namespace
+
+std::string with_parameters(const std::string& robots_json, const sim::EngineSpec& spec) {
+  if (spec.robots.size() > kMostDescribed) return robots_json;
+  ParameterJson robots = ParameterJson::parse(robots_json);
+  std::map<std::size_t, ParameterJson> known;
+  for (std::size_t r = 0; r < std::min(robots.size(), spec.robots.size()); ++r) {
+    const std::size_t type = spec.robots[r].type;
+    const auto [found, is_new] = known.try_emplace(type);
+    if (is_new) found->second = parameters_of(spec.types[type]);
+    robots[r]["parameters"] = found->second;
+  }
+  return robots.dump(-1, ' ', false, ParameterJson::error_handler_t::replace);
+}
+
+}  // namespace rave::gui_server

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "rave/sim/engine_spec.hpp"
+
+namespace rave::gui_server {
+
+/// The array `robots` of a roster with the parameters of each robot that can be changed while it
+/// runs. Of more than 256 robots none are told: a page would get megabytes that nobody reads.
+[[nodiscard]] std::string with_parameters(const std::string& robots_json,
+                                          const sim::EngineSpec& spec);
+
+}  // namespace rave::gui_server

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "page_commands.hpp"
+
+#include <gtest/gtest.h>
+
+#include "fake_run.hpp"
+
+namespace rave::gui_server {
+namespace {
+
+class PageCommandsTest : public ::testing::Test {
+ protected:
+  static CommandMessage drive(std::vector<std::uint32_t> slots, double v) {
+    CommandMessage command;
+    command.slots = std::move(slots);
+    command.v_mps = v;
+    return command;
+  }
+  std::shared_ptr<testing::FakeRun> run_ = std::make_shared<testing::FakeRun>();
+  std::vector<PageAnswer> said_;
+  int told_ = 0;
+};
+
+TEST_F(PageCommandsTest, OneMessageHasOneAnswerThatNamesWhoRefused) {
+  PageCommands commands([this](const PageAnswer& answer) { said_.push_back(answer); },
+                        [this](const CommandMessage&, const PageAnswer&) { ++told_; });
+  commands.begin(run_, {"ada", false});
+  CommandMessage goal;
+  goal.kind = CommandMessage::Kind::kGoal;
+  goal.request = 9;
+  goal.slots = {0, 2};
+  commands.take(goal);
+  ASSERT_EQ(said_.size(), 1U);
+  EXPECT_FALSE(said_[0].good);
+  EXPECT_EQ(said_[0].request, 9U);
+  EXPECT_EQ(said_[0].text, "`spy-2` drives walker-3");
+  ASSERT_EQ(said_[0].refused.size(), 1U);
+  EXPECT_EQ(said_[0].refused[0].first, 2U);
+  EXPECT_EQ(run_->commands()[0].second.name, "ada");
+  EXPECT_EQ(told_, 1);
+}
+
+TEST_F(PageCommandsTest, WhoGoesLeavesNoRobotDriving) {
+  {
+    PageCommands commands([](const PageAnswer&) {}, [](const auto&, const auto&) {});
+    commands.begin(run_, {"ada", false});
+    commands.take(drive({0, 1}, 0.3));
+    commands.take(drive({1}, 0));
+    commands.let_go();
+    commands.let_go();
+  }
+  const auto asked = run_->commands();
+  ASSERT_EQ(asked.size(), 3U);
+  EXPECT_TRUE(asked[2].first.stands());
+  EXPECT_EQ(asked[2].first.slots, (std::vector<std::uint32_t>{0}));
+}
+
+TEST_F(PageCommandsTest, TooMuchIsRefusedButToStandNeverIs) {
+  PageCommands commands([this](const PageAnswer& answer) { said_.push_back(answer); },
+                        [](const auto&, const auto&) {});
+  commands.begin(run_, {"ada", false});
+  for (int i = 0; i < 10'000 && (said_.empty() || said_.back().good); ++i) {
+    commands.take(drive({0}, 0.3));
+  }
+  EXPECT_FALSE(said_.back().good);
+  EXPECT_NE(said_.back().text.find("Too many at once"), std::string::npos);
+  commands.take(drive({0}, 0));
+  EXPECT_TRUE(said_.back().good);
+}
+
+TEST_F(PageCommandsTest, ARunThatAnswersLateGetsTheNewestVelocityAlone) {
+  struct Slow final : testing::FakeRun {
+    void command(const CommandMessage& command, const Author& /*author*/,
+                 const SlotReply& reply) override {
+      asked.push_back(command);
+      replies.push_back(reply);
+    }
+    std::vector<CommandMessage> asked;
+    std::vector<SlotReply> replies;
+  };
+  auto slow = std::make_shared<Slow>();
+  PageCommands commands([](const PageAnswer&) {}, [](const auto&, const auto&) {});
+  commands.begin(slow, {"ada", false});
+  for (int i = 1; i <= 50; ++i) commands.take(drive({0}, 0.01 * i));
+  EXPECT_EQ(slow->asked.size(), std::size_t{PageCommands::kMostWaiting});
+  slow->replies[0](0, true, "");
+  ASSERT_EQ(slow->asked.size(), std::size_t{PageCommands::kMostWaiting} + 1);
+  EXPECT_DOUBLE_EQ(slow->asked.back().v_mps, 0.5);
+  // A stop does not wait, and nothing comes after it.
+  commands.take(drive({0}, 0.2));
+  commands.take(drive({0}, 0));
+  EXPECT_TRUE(slow->asked.back().stands());
+  const std::size_t asked = slow->asked.size();
+  for (std::size_t i = 1; i < asked; ++i) slow->replies[i](0, true, "");
+  EXPECT_EQ(slow->asked.size(), asked);
+}
+
+}  // namespace
+}  // namespace rave::gui_server

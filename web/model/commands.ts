@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+import type {Answer, Edit, Lease, Order, PageMessage, Point, Robot, Say, SetParameter} from '../protocol/messages';
+import type {Link} from './link';
+import type {RunModel} from './run_model';
+import {Signal} from './signal';
+
+/** An order of this page that is drawn until it is done, refused or dropped. */
+export interface Pending {
+  readonly number: number;
+  readonly kind: 'goal' | 'path' | 'place';
+  readonly slots: readonly number[];
+  readonly points: readonly Point[];
+  state: 'sent' | 'taken' | 'refused';
+  /** What the run said. */
+  text: string;
+  /** The robots that refused. */
+  refused: readonly number[];
+  /** performance.now() of the last change. */
+  at_ms: number;
+}
+
+type Unnumbered<T> = Omit<T, 'request'>;
+type Request = Unnumbered<Order> | Unnumbered<Lease> | Unnumbered<SetParameter> | Unnumbered<Edit> | Unnumbered<Say>;
+
+/** A taken order that no robot says it follows is over after so long. */
+const kTold_ms = 1200;
+/** An answer that a person did not drop goes by itself. */
+const kRefused_ms = 12000;
+
+/** What this page asks of robots and obstacles: numbered, each with its answer. */
+export class Commands {
+  /** Orders that are drawn. */
+  pending: Pending[] = [];
+  readonly changed = new Signal();
+  private number = 0;
+  private readonly open = new Map<number, (answer: Answer) => void>();
+  private roster: readonly Robot[] = [];
+
+  constructor(private readonly model: RunModel, private readonly link: Link) {
+    model.answered.on((answer) => this.take(answer));
+    model.drivesChanged.on(() => this.prune());
+    model.rosterChanged.on(() => {
+      // Slots are others now.
+      if (this.roster !== model.robots) this.pending = [];
+      this.roster = model.robots;
+      this.changed.emit();
+    });
+    link.changed.on(() => {
+      if (link.reaches) return;
+      for (const [request, done] of [...this.open]) done({type: 'answer', to: 'link', good: false, text: 'The link was lost.', request});
+      this.open.clear();
+    });
+  }
+
+  /** Sends a request; the answer of the run. Never rejects. */
+  ask(request: Request): Promise<Answer> {
+    const number = ++this.number;
+    if (!this.link.reaches) return Promise.resolve({type: 'answer', to: request.type, good: false, text: 'There is no link to the server.', request: number});
+    return new Promise((done) => {
+      this.open.set(number, done);
+      this.link.send({...request, request: number} as PageMessage);
+    });
+  }
+
+  /** Sends robots to a place: one point for all, or one for each. */
+  goal(slots: readonly number[], points: Point[], yaw?: number): Promise<Answer> {
+    return this.track('goal', slots, points, {type: 'order', kind: 'goal', slots: [...slots], points, ...(yaw === undefined ? {} : {yaw})});
+  }
+
+  path(slots: readonly number[], points: Point[]): Promise<Answer> {
+    return this.track('path', slots, points, {type: 'order', kind: 'path', slots: [...slots], points});
+  }
+
+  place(slot: number, point: Point, yaw?: number): Promise<Answer> {
+    return this.track('place', [slot], [point], {type: 'order', kind: 'place', slots: [slot], points: [point], ...(yaw === undefined ? {} : {yaw})});
+  }
+
+  cancel(slots: readonly number[]): Promise<Answer> {
+    this.pending = this.pending.filter((order) => !order.slots.every((slot) => slots.includes(slot)));
+    this.changed.emit();
+    return this.ask({type: 'order', kind: 'cancel', slots: [...slots]});
+  }
+
+  lease(what: 'take' | 'force' | 'give', slots: readonly number[], to?: string): Promise<Answer> {
+    return this.ask({type: 'lease', do: what, slots: [...slots], ...(to === undefined ? {} : {to})});
+  }
+
+  /** The person has read why it was refused. */
+  drop(order: Pending): void {
+    this.pending = this.pending.filter((other) => other !== order);
+    this.changed.emit();
+  }
+
+  private async track(kind: Pending['kind'], slots: readonly number[], points: readonly Point[], request: Request): Promise<Answer> {
+    const order: Pending = {number: this.number + 1, kind, slots, points, state: 'sent', text: '', refused: [], at_ms: performance.now()};
+    // The newest order of a robot goes before older ones.
+    this.pending = [...this.pending.filter((other) => !other.slots.every((slot) => slots.includes(slot))), order];
+    this.changed.emit();
+    const answer = await this.ask(request);
+    order.refused = answer.refused?.map(({slot}) => slot) ?? (answer.good ? [] : slots);
+    order.state = order.refused.length < slots.length ? 'taken' : 'refused';
+    order.text = answer.text;
+    order.at_ms = performance.now();
+    if (kind === 'place' && answer.good) this.pending = this.pending.filter((other) => other !== order);
+    this.changed.emit();
+    setTimeout(() => this.prune(), order.state === 'refused' ? kRefused_ms + 50 : kTold_ms + 50);
+    return answer;
+  }
+
+  /** Leaves out what is done: no robot says any more that it is under way. */
+  private prune(): void {
+    const now_ms = performance.now();
+    const kept = this.pending.filter((order) => {
+      if (order.state === 'sent') return true;
+      if (order.state === 'refused') return now_ms - order.at_ms < kRefused_ms;
+      return now_ms - order.at_ms < kTold_ms || order.slots.some((slot) => (this.model.drives.get(slot)?.order ?? '') !== '');
+    });
+    if (kept.length === this.pending.length) return;
+    this.pending = kept;
+    this.changed.emit();
+  }
+
+  private take(answer: Answer): void {
+    const done = this.open.get(answer.request ?? -1);
+    if (done === undefined) return;
+    this.open.delete(answer.request ?? -1);
+    done(answer);
+  }
+}
+
+/** Where the order goes that a robot says is under way; null if it names no place. */
+export function placeOf(order: string): Point | null {
+  const found = [...order.matchAll(/(-?\d+(?:\.\d+)?), (-?\d+(?:\.\d+)?)/g)].pop();
+  return found === undefined ? null : [Number(found[1]), Number(found[2])];
+}
+
+/** Places for a team about a goal, so that its robots do not fight for one: a grid, in the order of the slots. */
+export function spread(centre: Point, radii: readonly number[]): Point[] {
+  const step = 2.6 * Math.max(0.1, ...radii);
+  const across = Math.ceil(Math.sqrt(radii.length));
+  const down = Math.ceil(radii.length / across);
+  return radii.map((_, i) => [
+    centre[0] + step * ((i % across) - (across - 1) / 2),
+    centre[1] - step * (Math.floor(i / across) - (down - 1) / 2),
+  ]);
+}

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+import {afterEach, beforeEach, expect, it, vi} from 'vitest';
+import type {Commands} from '../../model/commands';
+import {DriveLoop} from './drive_loop';
+
+beforeEach(() => void vi.useFakeTimers());
+afterEach(() => void vi.useRealTimers());
+
+function made(good = true) {
+  const ask = vi.fn((_: {v: number; w: number; slots: number[]}) => Promise.resolve({type: 'answer', to: 'drive', good, text: good ? '' : '`ben` drives r1'}));
+  const loop = new DriveLoop({ask} as unknown as Commands, () => {});
+  loop.choose(3);
+  return {ask, loop, last: () => ask.mock.calls.at(-1)?.[0]};
+}
+
+it('sends at 30 Hz while it is held, and zero at once when it is let go', () => {
+  const {ask, loop, last} = made();
+  loop.hold('touch', 0, 1);
+  expect(last()).toMatchObject({v: 0.4, w: 0, slots: [3]});
+  vi.advanceTimersByTime(1000);
+  expect(ask.mock.calls.length).toBeGreaterThanOrEqual(30);
+  loop.release();
+  const sent = ask.mock.calls.length;
+  expect(last()).toMatchObject({v: 0, w: 0});
+  vi.advanceTimersByTime(1000);
+  expect(ask.mock.calls.length).toBe(sent);
+});
+
+it('turns left for a stick that is moved to the left, and is no faster in a corner', () => {
+  const {loop} = made();
+  loop.hold('pad', -1, 1);
+  const [v, w] = loop.velocity;
+  expect(v).toBeCloseTo(0.4 / Math.SQRT2);
+  expect(w).toBeCloseTo(1.2 / Math.SQRT2);
+});
+
+it('has one hand: a second source neither moves nor lets go', () => {
+  const {loop} = made();
+  loop.hold('touch', 0, 1);
+  loop.hold('keys', 1, 0);
+  loop.release('keys');
+  expect(loop.velocity[0]).toBeCloseTo(0.4);
+  expect(loop.held).toBe('touch');
+});
+
+it('lets a robot stand before it drives another one', () => {
+  const {loop, last} = made();
+  loop.hold('touch', 0, 1);
+  loop.choose(4);
+  expect(last()).toMatchObject({v: 0, slots: [3]});
+  expect(loop.held).toBeNull();
+});
+
+it('stops asking a robot that refuses, and says why', async () => {
+  const {ask, loop} = made(false);
+  loop.hold('touch', 0, 1);
+  await vi.advanceTimersByTimeAsync(500);
+  expect(ask.mock.calls.length).toBeLessThan(5);
+  expect(loop.refusal).toBe('`ben` drives r1');
+});

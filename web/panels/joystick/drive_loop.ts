@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+import type {Commands} from '../../model/commands';
+
+/** So often a velocity is sent while the stick is held. */
+export const kPeriod_ms = 1000 / 30;
+
+export type StickSource = 'pad' | 'keys' | 'touch';
+
+/** Sends velocities as long as something is held, and zero at once when it is let go. */
+export class DriveLoop {
+  /** Share of full speed: right and up positive, each from -1 to 1. */
+  x = 0;
+  y = 0;
+  /** What holds the stick; null: nobody. */
+  held: StickSource | null = null;
+  /** From sending to the answer, milliseconds; 0: not known. */
+  delay_ms = 0;
+  delays_ms: number[] = [];
+  /** Why the robot does not obey; empty if it does. */
+  refusal = '';
+  /** Full speed, m/s and rad/s. */
+  v_mps = 0.4;
+  w_radps = 1.2;
+  private slot: number | null = null;
+  private timer = 0;
+
+  constructor(private readonly commands: Commands, private readonly changed: () => void) {}
+
+  /** The velocity of the present position: forward, m/s, and to the left, rad/s. */
+  get velocity(): [number, number] {
+    return [this.y * this.v_mps || 0, -this.x * this.w_radps || 0];
+  }
+
+  /** Whoever is driven is let go first: a stick never moves from one robot to the next. */
+  choose(slot: number | null): void {
+    if (slot === this.slot) return;
+    this.release();
+    this.slot = slot;
+    this.refusal = '';
+  }
+
+  hold(source: StickSource, x: number, y: number): void {
+    if (this.slot === null || (this.held !== null && this.held !== source)) return;
+    const length = Math.hypot(x, y);
+    const scale = length > 1 ? 1 / length : 1;
+    [this.x, this.y] = [x * scale, y * scale];
+    if (this.held === null) {
+      this.held = source;
+      this.refusal = '';
+      this.send();
+      this.timer = window.setInterval(() => this.send(), kPeriod_ms);
+    }
+    this.changed();
+  }
+
+  /** The robot stands. Of another source than the one that holds it does nothing. */
+  release(source?: StickSource): void {
+    if (this.held === null || (source !== undefined && source !== this.held)) return;
+    clearInterval(this.timer);
+    this.held = null;
+    this.x = this.y = 0;
+    this.send();
+    this.changed();
+  }
+
+  private send(): void {
+    if (this.slot === null) return;
+    const slot = this.slot;
+    const [v, w] = this.velocity;
+    const sent_ms = performance.now();
+    void this.commands.ask({type: 'order', kind: 'drive', slots: [slot], v, w}).then((answer) => {
+      if (slot !== this.slot) return;
+      if (answer.good) {
+        this.delay_ms = performance.now() - sent_ms;
+        this.delays_ms = [...this.delays_ms.slice(-39), this.delay_ms];
+      } else {
+        // Asked again and again it would be refused again and again.
+        const held = this.held !== null;
+        clearInterval(this.timer);
+        this.held = null;
+        this.x = this.y = 0;
+        if (held) this.refusal = answer.text;
+      }
+      this.changed();
+    });
+  }
+}

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
+import {icon} from '../../app/icons';
+import {controls, glyphs} from '../../app/styles';
+import type {PanelContext} from '../../panel_api';
+import '../lease_bar';
+import {guardOf, type GuardAct} from '../robot/guard_act';
+import {dialStyles, kReach, renderDial} from './dial';
+import {DriveLoop} from './drive_loop';
+import {DriveKeys} from './keys';
+import {readPad} from './pad';
+
+const kRefresh_ms = 100;
+const kPad_ms = 1000 / 60;
+const kTop_mps = [0.1, 0.2, 0.4, 0.8, 1.6];
+
+/** A stick for the selected robot: pointer, finger, pen, keys or gamepad; it drives only while held. */
+export class JoystickPanel extends LitElement {
+  declare context: PanelContext;
+  private loop!: DriveLoop;
+  private readonly keys = new DriveKeys();
+  private pad = '';
+  private timers: number[] = [];
+  private readonly ends: (() => void)[] = [];
+
+  override connectedCallback(): void {
+    super.connectedCallback();
+    this.requestUpdate();
+    const {model, selection, commands, link} = this.context;
+    this.loop ??= new DriveLoop(commands, () => this.requestUpdate());
+    const choose = () => {
+      this.loop.choose(this.driven);
+      this.requestUpdate();
+    };
+    choose();
+    this.ends.push(selection.changed.on(choose), model.drivesChanged.on(choose), model.runChanged.on(choose));
+    this.ends.push(link.changed.on(() => !link.reaches && this.letGo()));
+    // The dead-man: whoever does not look at the page does not drive.
+    const hidden = () => document.visibilityState === 'hidden' && this.letGo();
+    const blur = () => this.letGo();
+    document.addEventListener('visibilitychange', hidden);
+    window.addEventListener('blur', blur);
+    window.addEventListener('pagehide', blur);
+    this.ends.push(
+      () => document.removeEventListener('visibilitychange', hidden),
+      () => window.removeEventListener('blur', blur),
+      () => window.removeEventListener('pagehide', blur),
+    );
+    this.timers = [window.setInterval(() => this.requestUpdate(), kRefresh_ms), window.setInterval(() => this.readPad(), kPad_ms)];
+  }
+
+  override disconnectedCallback(): void {
+    super.disconnectedCallback();
+    this.letGo();
+    for (const timer of this.timers) clearInterval(timer);
+    for (const end of this.ends.splice(0)) end();
+  }
+
+  /** The robot that is driven: the one that was selected last, if it lets itself be driven. */
+  private get driven(): number | null {
+    const slot = this.context.selection.primary;
+    return slot !== null && this.whyNot(slot) === '' ? slot : null;
+  }
+
+  private whyNot(slot: number): string {
+    const {model} = this.context;
+    const drive = model.drives.get(slot);
+    if (drive !== undefined && drive.lease !== '' && !drive.yours) return `${drive.lease} drives ${model.robots[slot]?.name ?? ''}.`;
+    return model.whyNotTaken(slot, 'drive');
+  }
+
+  private letGo(): void {
+    this.keys.clear();
+    this.loop.release();
+  }
+
+  private readPad(): void {
+    const pad = readPad();
+    this.pad = pad?.name ?? '';
+    if (pad?.held === true) this.loop.hold('pad', pad.x, pad.y);
+    else this.loop.release('pad');
+  }
+
+  private point(event: PointerEvent): void {
+    const box = (event.currentTarget as HTMLElement).getBoundingClientRect();
+    const unit = (kReach / 208) * box.width;
+    this.loop.hold('touch', (event.clientX - box.left - box.width / 2) / unit, -(event.clientY - box.top - box.height / 2) / unit);
+  }
+
+  private press(event: PointerEvent): void {
+    const stick = event.currentTarget as HTMLElement;
+    stick.setPointerCapture(event.pointerId);
+    stick.focus();
+    this.point(event);
+    event.preventDefault();
+  }
+
+  private key(event: KeyboardEvent, down: boolean): void {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (!(down ? this.keys.press(event.key) : this.keys.lift(event.key))) return;
+    event.preventDefault();
+    event.stopPropagation();
+    if (this.keys.held) this.loop.hold('keys', ...this.keys.place);
+    else this.loop.release('keys');
+  }
+
+  /** Shift and arrows from anywhere on the page. */
+  drive(key: string, down: boolean): void {
+    if (!(down ? this.keys.press(key) : this.keys.lift(key))) return;
+    if (this.keys.held) this.loop.hold('keys', ...this.keys.place);
+    else this.loop.release('keys');
+  }
+
+  override render(): TemplateResult {
+    const {model, selection, palette} = this.context;
+    const slot = selection.primary;
+    const robot = slot === null ? undefined : model.robots[slot];
+    if (slot === null || robot === undefined) {
+      return html`<div class="empty">${icon('joystick', 28)}<p>Select a robot to drive it.</p></div>`;
+    }
+    const why = this.whyNot(slot);
+    const hue = palette.hue(slot);
+    const guard = guardOf(model, slot, this.loop.velocity[0]);
+    return html`
+      <header><i class="glyph ${robot.kind}" style="--hue:${robot.kind === 'real' ? hue.fill : hue.ink}"></i><b>${robot.name}</b><span class="space"></span>${this.renderSources()}</header>
+      <rave-lease .context=${this.context} .robot=${slot}></rave-lease>
+      ${why !== '' ? html`<p class="why">${why}</p>` : nothing}
+      ${this.loop.refusal !== '' ? html`<p class="why bad" role="alert">${this.loop.refusal}</p>` : nothing}
+      <div class="middle">${this.renderNotes(guard)}
+        <div class="stick" tabindex="0" role="application" aria-label="Stick of ${robot.name}: hold and move, or hold W A S D or the arrows" aria-disabled=${why !== ''}
+          @pointerdown=${this.press} @pointermove=${(event: PointerEvent) => this.loop.held === 'touch' && this.point(event)}
+          @pointerup=${() => this.loop.release('touch')} @pointercancel=${() => this.loop.release('touch')} @lostpointercapture=${() => this.loop.release('touch')}
+          @keydown=${(event: KeyboardEvent) => this.key(event, true)} @keyup=${(event: KeyboardEvent) => this.key(event, false)}
+          @blur=${() => { this.keys.clear(); this.loop.release('keys'); }} @contextmenu=${(event: Event) => event.preventDefault()}>
+          ${renderDial({x: this.loop.x, y: this.loop.y, held: this.loop.held !== null, disabled: why !== '', guard: guard === null ? null : guard.limit_mps / this.loop.v_mps})}</div></div>
+      ${this.renderValues(slot, guard)}
+      <footer><span class="chip">${icon('server', 13)} through the server</span>${this.renderDelay()}</footer>`;
+  }
+
+  private renderSources(): TemplateResult {
+    const {held} = this.loop;
+    const source = (on: boolean, there: boolean, name: 'gamepad' | 'keyboard' | 'hand', text: string, title: string) =>
+      html`<span class="source ${on ? 'on' : ''} ${there ? '' : 'off'}" title=${title}>${icon(name, 14)} ${text}</span>`;
+    return html`<div class="segments sources">
+      ${source(held === 'pad', this.pad !== '', 'gamepad', 'Pad', this.pad === '' ? 'No gamepad: connect one and press a button' : this.pad)}
+      ${source(held === 'keys', true, 'keyboard', 'Keys', 'W A S D or arrows on the stick; Shift and arrows anywhere')}
+      ${source(held === 'touch', true, 'hand', 'Touch', 'Hold the stick')}</div>`;
+  }
+
+  private renderNotes(guard: GuardAct | null): TemplateResult {
+    return html`<div class="notes"><span class=${this.loop.held === null ? '' : 'held'}>${this.loop.held === null ? html`hold to drive<small>let go: it stands</small>` : html`dead-man held<small>let go: it stands</small>`}</span>
+      ${guard === null ? nothing : html`<span class="guarded">guard ${guard.limit_mps.toFixed(2)} m/s<small>${guard.why}</small></span>`}</div>`;
+  }
+
+  private renderValues(slot: number, guard: GuardAct | null): TemplateResult {
+    const [v, w] = this.loop.velocity;
+    const driven = this.context.model.poses.newest?.speed[slot] ?? 0;
+    const bar = (value: number, full: number, mark: number | null) => {
+      const share = Math.max(-1, Math.min(1, value / full));
+      return html`<span class="track"><i style="left:${share < 0 ? 50 + 50 * share : 50}%;width:${50 * Math.abs(share)}%"></i>${mark === null ? nothing : html`<u style="left:${50 + 50 * Math.max(-1, Math.min(1, mark / full))}%"></u>`}</span>`;
+    };
+    return html`<div class="values">
+      <div><label>asked <b>${signed(v)}</b> m/s</label>${bar(v, this.loop.v_mps, guard === null ? null : guard.limit_mps)}<small>driven ${signed(driven)} m/s</small></div>
+      <div><label>turn left <b>${signed(w)}</b> rad/s</label>${bar(w, this.loop.w_radps, null)}
+        <small>full stick <select aria-label="Full stick" @change=${(event: Event) => { this.loop.v_mps = Number((event.target as HTMLSelectElement).value); }}>
+          ${kTop_mps.map((top) => html`<option value=${top} ?selected=${top === this.loop.v_mps}>${top} m/s</option>`)}</select></small></div></div>`;
+  }
+
+  private renderDelay(): TemplateResult | typeof nothing {
+    if (this.loop.delay_ms === 0) return nothing;
+    const {delays_ms} = this.loop;
+    const top = Math.max(50, ...delays_ms);
+    const points = delays_ms.map((delay, i) => `${i * 1.6},${14 - (12 * delay) / top}`).join(' ');
+    return html`<span class="space"></span><svg width="64" height="16" aria-hidden="true"><polyline points=${points} /></svg><b>${Math.round(this.loop.delay_ms)} ms</b>`;
+  }
+
+  static override styles = [
+    controls,
+    glyphs,
+    dialStyles,
+    css`
+      :host { display: flex; flex-direction: column; height: 100%; background: var(--bg-1); overflow: auto; }
+      header { display: flex; align-items: center; gap: 8px; padding: 10px 12px 8px; }
+      header b { font-size: var(--fs-15); overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
+      .space { flex: 1; }
+      rave-lease { margin: 0 12px 4px; flex: none; }
+      .sources { flex: none; }
+      .source { display: inline-flex; align-items: center; gap: 5px; height: 24px; padding: 0 8px; border-radius: 5px; color: var(--text-2); font-size: var(--fs-12); }
+      .source.on { background: var(--intent-soft); color: var(--intent); }
+      .source.off { color: var(--text-3); }
+      .why { margin: 4px 14px; color: var(--text-2); font-size: var(--fs-12); }
+      .why.bad { color: var(--danger); }
+      .middle { position: relative; flex: 1; min-height: 150px; display: grid; place-items: center; padding: 4px 12px; }
+      .notes { position: absolute; inset: 6px 14px auto; display: flex; justify-content: space-between; gap: 120px; font-size: var(--fs-12); color: var(--text-3); pointer-events: none; font-weight: var(--fw-medium); }
+      .notes small { display: block; font-size: var(--fs-11); font-weight: 400; color: var(--text-3); }
+      .notes .held { color: var(--intent); }
+      .guarded { color: var(--warn); text-align: right; max-width: 130px; }
+      .stick { width: min(100%, 240px); max-height: 100%; aspect-ratio: 1; touch-action: none; user-select: none; cursor: grab; border-radius: 50%; }
+      .stick[aria-disabled='true'] { cursor: not-allowed; }
+      .values { display: grid; grid-template-columns: 1fr 1fr; gap: 18px; padding: 6px 14px 10px; font-size: var(--fs-12); color: var(--text-2); }
+      .values label { display: block; white-space: nowrap; }
+      .values b { color: var(--text-1); font-size: var(--fs-15); }
+      .values small { color: var(--text-2); font-size: var(--fs-11); }
+      .values select { font: inherit; color: var(--text-1); background: var(--bg-3); border: 1px solid var(--line-2); border-radius: var(--r-2); }
+      .track { position: relative; display: block; height: 6px; margin: 6px 0; border-radius: 3px; background: var(--bg-4); }
+      .track i { position: absolute; top: 0; height: 6px; border-radius: 3px; background: var(--intent); }
+      .track u { position: absolute; top: -3px; width: 2px; height: 12px; background: var(--warn); }
+      footer { display: flex; align-items: center; gap: 10px; padding: 8px 12px; border-top: 1px solid var(--line-1); font-size: var(--fs-12); flex: none; }
+      polyline { fill: none; stroke: var(--ok); stroke-width: 1.25; }
+      .empty { display: grid; place-content: center; justify-items: center; gap: 4px; height: 100%; color: var(--text-3); font-size: var(--fs-12); }
+    `,
+  ];
+}
+
+/** Two digits, without the sign of a zero. */
+function signed(value: number): string {
+  return (Math.abs(value) < 0.005 ? 0 : value).toFixed(2).replace('-', '−');
+}
+
+customElements.define('rave-joystick', JoystickPanel);

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+
+/** Sticks that are let go are not quite at zero. */
+const kDead = 0.12;
+
+/** The left stick of the first gamepad, or its cross; null: there is none, or nobody moves it. */
+export function readPad(): {name: string; x: number; y: number; held: boolean} | null {
+  for (const pad of navigator.getGamepads?.() ?? []) {
+    if (pad === null || !pad.connected) continue;
+    const pressed = (i: number) => (pad.buttons[i]?.pressed ? 1 : 0);
+    let x = pad.axes[0] ?? 0;
+    let y = -(pad.axes[1] ?? 0);
+    if (Math.hypot(x, y) < kDead) [x, y] = [pressed(15) - pressed(14), pressed(12) - pressed(13)];
+    return {name: pad.id, x, y, held: Math.hypot(x, y) >= kDead};
+  }
+  return null;
+}

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
+import {icon} from '../app/icons';
+import {controls} from '../app/styles';
+import {initials} from '../app/words';
+import type {PanelContext} from '../panel_api';
+
+/** Who drives a robot: take control, give it back, ask for it, take it. */
+export class LeaseBar extends LitElement {
+  declare context: PanelContext;
+  static override properties = {robot: {type: Number}};
+  declare robot: number;
+  private note = '';
+  private bad = false;
+  /** A lease of somebody else is taken with a second press. */
+  private sure = false;
+  private readonly ends: (() => void)[] = [];
+
+  override connectedCallback(): void {
+    super.connectedCallback();
+    const {model} = this.context;
+    const update = () => this.requestUpdate();
+    this.ends.push(model.peopleChanged.on(update), model.drivesChanged.on(() => {
+      this.sure = false;
+      update();
+    }));
+  }
+
+  override disconnectedCallback(): void {
+    super.disconnectedCallback();
+    for (const end of this.ends.splice(0)) end();
+  }
+
+  override willUpdate(changed: Map<string, unknown>): void {
+    if (changed.has('robot')) {
+      this.note = '';
+      this.sure = false;
+    }
+  }
+
+  private async lease(what: 'take' | 'force' | 'give', to?: string): Promise<void> {
+    const answer = await this.context.commands.lease(what, [this.robot], to);
+    [this.note, this.bad] = answer.good ? ['', false] : [answer.text, true];
+    this.requestUpdate();
+  }
+
+  private async ask(driver: string): Promise<void> {
+    const name = this.context.model.robots[this.robot]?.name ?? '';
+    const answer = await this.context.commands.ask({type: 'chat', to: 'user', name: driver, text: `May I drive ${name}?`});
+    [this.note, this.bad] = answer.good ? [`Asked ${driver}; the answer comes in the chat.`, false] : [answer.text, true];
+    this.requestUpdate();
+  }
+
+  override render(): TemplateResult | typeof nothing {
+    const {model} = this.context;
+    if (!model.live || model.robots[this.robot] === undefined) return nothing;
+    const drive = model.drives.get(this.robot);
+    const mine = drive?.yours === true;
+    const other = drive !== undefined && drive.lease !== '' && !mine;
+    return html`<div class="bar ${mine ? 'mine' : ''}">
+      ${drive === undefined || drive.lease === '' ? html`<i class="face none">${icon('hand', 14)}</i>` : html`<i class="face ${mine ? 'you' : ''}">${initials(mine ? (model.hello?.user.name ?? '') : drive.lease)}</i>`}
+      <span class="who"><b>${mine ? 'You hold the lease' : other ? `${drive.lease} drives` : 'Nobody drives'}</b>
+        <small>${this.note !== '' ? html`<span class=${this.bad ? 'bad' : ''}>${this.note}</span>` : this.about(mine, other)}</small></span>
+      ${model.commands(this.robot) ? this.renderButtons(mine, other, drive?.lease ?? '') : nothing}</div>`;
+  }
+
+  private about(mine: boolean, other: boolean): string {
+    const {model} = this.context;
+    if (mine) return 'ends 3 s after driving, 10 min after another order';
+    if (!model.commands(this.robot)) return model.may('command') ? 'not yours to command' : 'you look on';
+    return other ? 'others ask first' : 'your first order takes it';
+  }
+
+  private renderButtons(mine: boolean, other: boolean, driver: string): TemplateResult {
+    if (mine) {
+      const others = this.context.model.people.filter((person) => person.role !== 'observer' && person.name !== driver);
+      return html`${others.length === 0 ? nothing : html`<select aria-label="Give the lease to" @change=${(event: Event) => void this.lease('give', (event.target as HTMLSelectElement).value)}>
+        <option value="" selected disabled>Give to …</option>${others.map((person) => html`<option>${person.name}</option>`)}</select>`}
+        <button class="plain" @click=${() => void this.lease('give')}>Give back</button>`;
+    }
+    if (!other) return html`<button class="main" @click=${() => void this.lease('take')}>Take control</button>`;
+    if (this.sure) return html`<button class="danger" @click=${() => void this.lease('force')}>Take it from ${driver}</button><button class="plain" @click=${() => { this.sure = false; this.requestUpdate(); }}>Keep</button>`;
+    return html`<button class="main" @click=${() => void this.ask(driver)}>Ask</button><button class="plain" @click=${() => { this.sure = true; this.requestUpdate(); }}>Take …</button>`;
+  }
+
+  static override styles = [
+    controls,
+    css`
+      :host { display: block; }
+      .bar { display: flex; align-items: center; flex-wrap: wrap; gap: 8px; padding: 8px 10px; border: 1px solid var(--line-2); border-radius: var(--r-3); background: var(--bg-2); font-size: var(--fs-12); }
+      .bar.mine { background: var(--intent-soft); border-color: var(--intent-line); }
+      .face { display: grid; place-items: center; width: 26px; height: 26px; border-radius: 50%; background: var(--bg-4); color: var(--text-1); font: 600 10px var(--font-ui); flex: none; }
+      .face.you { background: var(--intent-fill); color: #fff; }
+      .face.none { color: var(--text-3); }
+      .who { flex: 1 1 96px; min-width: 90px; line-height: 1.3; }
+      .who b { display: block; font-weight: var(--fw-strong); }
+      .who small { color: var(--text-2); font-size: var(--fs-11); }
+      .bad { color: var(--danger); }
+      button, select { height: var(--h-control); padding: 0 10px; border-radius: var(--r-3); font-size: var(--fs-12); white-space: nowrap; }
+      .main { background: var(--intent-fill); color: #fff; }
+      .plain, select { background: var(--bg-3); color: var(--text-1); border: 1px solid var(--line-2); }
+      select { font: inherit; max-width: 92px; padding: 0 4px; }
+      .danger { border: 1px solid var(--danger); color: var(--danger); }
+    `,
+  ];
+}
+
+customElements.define('rave-lease', LeaseBar);

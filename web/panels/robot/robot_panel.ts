@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+import {LitElement, css, html, nothing, svg, type TemplateResult} from 'lit';
+import {icon} from '../../app/icons';
+import {controls, glyphs} from '../../app/styles';
+import {kHistory_s} from '../../model/pose_history';
+import type {PanelContext} from '../../panel_api';
+import {RobotFlag} from '../../protocol/frames';
+import type {Parameter} from '../../protocol/messages';
+import '../lease_bar';
+import {guardOf} from './guard_act';
+
+const kRefresh_ms = 250;
+const kTakes = ['goal', 'path', 'drive', 'text', 'place'];
+
+/** One robot: who drives it, what it takes, its parameters, its guard and how fast it goes. */
+export class RobotPanel extends LitElement {
+  declare context: PanelContext;
+  /** Values that were set here, by robot and key; a run does not tell them back. */
+  private readonly values = new Map<string, string | number | boolean>();
+  private readonly notes = new Map<string, string>();
+  private timer = 0;
+  private readonly ends: (() => void)[] = [];
+
+  override connectedCallback(): void {
+    super.connectedCallback();
+    this.requestUpdate();
+    const {model, selection, palette} = this.context;
+    const update = () => this.requestUpdate();
+    for (const signal of [model.rosterChanged, model.drivesChanged, selection.changed, palette.changed]) this.ends.push(signal.on(update));
+    this.timer = window.setInterval(update, kRefresh_ms);
+  }
+
+  override disconnectedCallback(): void {
+    super.disconnectedCallback();
+    clearInterval(this.timer);
+    for (const end of this.ends.splice(0)) end();
+  }
+
+  override render(): TemplateResult {
+    const {model, selection, palette, link} = this.context;
+    const slot = selection.primary;
+    const robot = slot === null ? undefined : model.robots[slot];
+    if (slot === null || robot === undefined) return html`<div class="empty">${icon('bot', 28)}<p>Select a robot to see it in detail.</p></div>`;
+    const hue = palette.hue(slot);
+    const drive = model.drives.get(slot);
+    const stopped = ((model.poses.newest?.flags[slot] ?? 0) & RobotFlag.stopped) !== 0;
+    const mayStop = model.live && model.may('stop') && !robot.recorded;
+    const halt = (what: 'stop' | 'release') => link.send({type: 'halt', do: what, slots: [slot]});
+    return html`
+      <header><i class="glyph ${robot.kind}" style="--hue:${robot.kind === 'real' ? hue.fill : hue.ink}"></i><b style=${robot.kind === 'real' ? `color:${hue.ink}` : ''}>${robot.name}</b>
+        <span class="chip">${robot.kind}${robot.recorded ? ', recorded' : ''}</span><span class="space"></span>${robot.team === '' ? nothing : html`<span class="chip">team ${robot.team}</span>`}</header>
+      <div class="scroll">
+        <rave-lease .context=${this.context} .robot=${slot}></rave-lease>
+        ${mayStop ? html`<div class="halt">${stopped && model.may('release')
+          ? html`<button class="release" @click=${() => halt('release')}>${icon('play', 14)} Release ${robot.name}</button>`
+          : html`<button class="stop" ?disabled=${stopped} @click=${() => halt('stop')}>${icon('octagonX', 16)} ${stopped ? 'Stopped' : `Stop ${robot.name}`}</button>`}
+          ${drive?.order ? html`<span class="order">${drive.order}</span><button class="plain" @click=${() => void this.context.commands.cancel([slot])}>Cancel</button>` : nothing}</div>` : nothing}
+        ${this.renderTakes(slot, drive?.takes ?? [])}
+        ${this.renderParameters(slot, robot.program, robot.parameters ?? [])}
+        ${this.renderGuard(slot)}
+        ${robot.sensors.length + robot.drivers.length === 0 ? nothing : html`<h4>Drivers</h4><dl>
+          ${robot.sensors.map((sensor) => html`<dt>${sensor.name}</dt><dd>${sensor.driver || 'unknown'} ${sensor.origin === 'real' ? nothing : html`<span class="tag ${sensor.origin}">${sensor.origin}</span>`}</dd>`)}
+          ${robot.drivers.map((driver) => html`<dt>actuator</dt><dd>${driver}</dd>`)}
+          ${robot.host ? html`<dt>host</dt><dd>${robot.host}</dd>` : nothing}</dl>`}
+        ${this.renderSpeed(slot)}
+      </div>`;
+  }
+
+  private renderTakes(slot: number, takes: readonly string[]): TemplateResult | typeof nothing {
+    const {model} = this.context;
+    if (!model.live) return nothing;
+    const why = model.whyNotTaken(slot, 'goal');
+    return html`<h4>Takes</h4><div class="takes">${takes.length === 0 ? html`<span class="faint">${why}</span>` : kTakes.map((what) => html`
+      <span class="chip ${takes.includes(what) ? 'yes' : ''}">${icon(takes.includes(what) ? 'check' : 'x', 12)} ${what}</span>`)}</div>`;
+  }
+
+  private renderParameters(slot: number, program: string, parameters: readonly Parameter[]): TemplateResult | typeof nothing {
+    if (parameters.length === 0) return program === '' ? nothing : html`<h4>Program <code>${program}</code></h4>`;
+    const may = this.context.model.commands(slot);
+    return html`<h4>Program <code>${program}</code><span class="space"></span><em>${may ? 'live' : 'not yours to change'}</em></h4>
+      <div class="parameters">${parameters.map((parameter) => this.renderParameter(slot, parameter, may))}</div>`;
+  }
+
+  private renderParameter(slot: number, parameter: Parameter, may: boolean): TemplateResult {
+    const name = `${this.context.model.robots[slot].name} ${parameter.key}`;
+    const value = this.values.get(name) ?? parameter.value ?? '';
+    const set = (to: string | number | boolean) => void this.set(slot, parameter.key, name, to);
+    const label = parameter.key.replace(/^program\./, '');
+    const read = (event: Event) => (event.target as HTMLInputElement | HTMLSelectElement).value;
+    let control: TemplateResult;
+    if (parameter.kind === 'flag') {
+      control = html`<input type="checkbox" aria-label=${parameter.key} .checked=${value === true} ?disabled=${!may} @change=${() => set(value !== true)}>`;
+    } else if (parameter.kind === 'choice') {
+      control = html`<select aria-label=${parameter.key} ?disabled=${!may} @change=${(event: Event) => set(read(event))}>${(parameter.choices ?? []).map((choice) => html`<option ?selected=${choice === value}>${choice}</option>`)}</select>`;
+    } else if (parameter.kind === 'text') {
+      control = html`<input type="text" aria-label=${parameter.key} .value=${String(value)} ?disabled=${!may} @change=${(event: Event) => set(read(event))}>`;
+    } else {
+      const [low, high] = usefulRange(parameter, Number(value));
+      const step = parameter.kind === 'integer' ? 1 : (high - low) / 200;
+      control = html`<input type="range" aria-label=${parameter.key} min=${low} max=${high} step=${step} .value=${String(value)} ?disabled=${!may} @change=${(event: Event) => set(Number(read(event)))}>
+        <input type="number" aria-label="${parameter.key}, value" step="any" min=${parameter.range?.[0] ?? nothing} max=${parameter.range?.[1] ?? nothing} .value=${String(value)} ?disabled=${!may} @change=${(event: Event) => set(Number(read(event)))}>`;
+    }
+    const note = this.notes.get(name);
+    return html`<label title="${parameter.doc}${parameter.range ? ` From ${parameter.range[0]} to ${parameter.range[1]}.` : ''}"><code>${label}</code>${control}<em>${parameter.unit}</em></label>
+      ${note === undefined ? nothing : html`<p class="bad" role="alert">${note}</p>`}`;
+  }
+
+  private async set(slot: number, key: string, name: string, value: string | number | boolean): Promise<void> {
+    const before = this.values.get(name);
+    this.values.set(name, value);
+    const answer = await this.context.commands.ask({type: 'set', slots: [slot], key, value});
+    if (answer.good) this.notes.delete(name);
+    else {
+      this.notes.set(name, answer.text);
+      if (before === undefined) this.values.delete(name);
+      else this.values.set(name, before);
+    }
+    this.requestUpdate();
+  }
+
+  private renderGuard(slot: number): TemplateResult | typeof nothing {
+    const act = guardOf(this.context.model, slot, null);
+    return act === null ? nothing : html`<h4>Guard</h4><p class="guard">${icon('shield', 14)} <b>${act.limit_mps.toFixed(2)} m/s</b> ${act.why}</p>`;
+  }
+
+  private renderSpeed(slot: number): TemplateResult | typeof nothing {
+    const {past, newest} = this.context.model.poses;
+    if (newest === null || past.length < 2) return nothing;
+    const frames = past.filter((frame) => frame.speed.length > slot);
+    const top = Math.max(0.25, ...frames.map((frame) => Math.abs(frame.speed[slot])));
+    const points = frames.map((frame) => `${(240 * (1 - (newest.time_s - frame.time_s) / kHistory_s)).toFixed(1)},${(52 - (48 * Math.abs(frame.speed[slot])) / top).toFixed(1)}`);
+    return html`<h4>Speed <em>${kHistory_s} s</em><span class="space"></span><em>driven</em></h4>
+      <svg class="plot" viewBox="0 0 240 56" preserveAspectRatio="none" role="img" aria-label="Speed of the last ${kHistory_s} seconds">
+        ${svg`<line x1="0" y1="52" x2="240" y2="52" /><polyline points=${points.join(' ')} />`}</svg>
+      <p class="now"><b>${Math.abs(newest.speed[slot]).toFixed(2)}</b> m/s now, at most ${top.toFixed(2)}</p>`;
+  }
+
+  static override styles = [
+    controls,
+    glyphs,
+    css`
+      :host { display: flex; flex-direction: column; height: 100%; background: var(--bg-1); font-size: var(--fs-12); }
+      header { display: flex; align-items: center; gap: 8px; padding: 10px 12px; flex: none; }
+      header b { font-size: var(--fs-15); overflow: hidden; text-overflow: ellipsis; }
+      .space { flex: 1; }
+      .scroll { flex: 1; overflow: auto; padding: 0 12px 12px; }
+      .halt { display: flex; align-items: center; gap: 8px; margin-top: 8px; }
+      .halt button { display: inline-flex; align-items: center; gap: 6px; height: var(--h-control); padding: 0 10px; border-radius: var(--r-3); font-size: var(--fs-12); }
+      .halt .stop { background: var(--stop-fill); color: #fff; font-weight: var(--fw-medium); }
+      .halt .stop:disabled { opacity: 1; background: var(--danger-soft); color: var(--danger); }
+      .halt .release { border: 1px solid var(--danger); color: var(--danger); }
+      .plain { background: var(--bg-3); border: 1px solid var(--line-2); }
+      .order { flex: 1; min-width: 0; color: var(--intent); overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
+      h4 { display: flex; align-items: center; gap: 6px; margin: 14px 0 6px; color: var(--text-2); font-size: var(--fs-12); font-weight: var(--fw-medium); }
+      h4 em, label em { font-style: normal; font-weight: 400; color: var(--text-3); font-size: var(--fs-11); }
+      code { font: 400 var(--fs-11) var(--font-code); color: var(--text-2); }
+      .takes { display: flex; flex-wrap: wrap; gap: 6px; }
+      .takes .chip { gap: 4px; color: var(--text-3); }
+      .takes .chip.yes { background: linear-gradient(var(--ok-soft) 0 0), var(--bg-1); color: var(--ok); }
+      .faint { color: var(--text-3); }
+      .parameters label { display: grid; grid-template-columns: minmax(84px, 1fr) minmax(50px, 84px) 62px 40px; gap: 8px; align-items: center; min-height: var(--h-row); }
+      .parameters code { overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
+      .parameters input[type='checkbox'], .parameters select, .parameters input[type='text'] { grid-column: 2 / 4; justify-self: start; max-width: 100%; }
+      input[type='range'] { width: 100%; accent-color: var(--intent); }
+      input[type='number'], input[type='text'], select { width: 100%; height: 22px; padding: 0 4px; font: inherit; color: var(--text-1); background: var(--bg-2); border: 1px solid var(--line-2); border-radius: var(--r-2); }
+      .bad { margin: 0 0 4px; color: var(--danger); }
+      .guard { display: flex; align-items: center; gap: 6px; margin: 0; }
+      .guard svg { color: var(--warn); }
+      dl { display: grid; grid-template-columns: 84px 1fr; gap: 4px 8px; margin: 0; }
+      dt { color: var(--text-3); overflow: hidden; text-overflow: ellipsis; }
+      dd { margin: 0; }
+      .tag { padding: 0 5px; border-radius: var(--r-2); background: var(--virtual-fill); color: var(--virtual-ink); font-size: var(--fs-11); }
+      .plot { display: block; width: 100%; height: 56px; }
+      .plot line { stroke: var(--line-2); }
+      .plot polyline { fill: none; stroke: var(--text-1); stroke-width: 1.5; vector-effect: non-scaling-stroke; }
+      .now { margin: 2px 0 0; color: var(--text-2); }
+      .now b { color: var(--text-1); }
+      .empty { display: grid; place-content: center; justify-items: center; gap: 4px; height: 100%; color: var(--text-3); }
+    `,
+  ];
+}
+
+/** A range may end at a billion, and then a slider is of no use: one about the value is. */
+function usefulRange(parameter: Parameter, value: number): [number, number] {
+  const [low, high] = parameter.range ?? [0, Infinity];
+  const about = Math.max(1, Math.abs(value));
+  return [Math.max(low, -4 * about), Math.min(high, 4 * about)];
+}
+
+customElements.define('rave-robot', RobotPanel);

@@ -7,7 +7,7 @@ import {Signal} from './signal';
 
 function made() {
   const model = new RunModel();
-  const link = {state: 'open', changed: new Signal(), send: vi.fn()};
+  const link = {state: 'open', changed: new Signal(), send: vi.fn(), get reaches() { return this.state === 'open'; }};
   return {model, link, commands: new Commands(model, link as unknown as Link)};
 }
 

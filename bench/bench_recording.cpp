@@ -11,11 +11,11 @@
 #include <filesystem>
 #include <vector>
 
+#include "rave/assemble/build.hpp"
 #include "rave/config/expanded_scenario.hpp"
-#include "rave/robot_host/build.hpp"
-#include "record_keeper.hpp"
+#include "rave/recording/record_keeper.hpp"
 
-namespace rave::robot_host {
+namespace rave::runtime {
 namespace {
 
 namespace fs = std::filesystem;
@@ -62,8 +62,8 @@ class Side {
     kinds_ = std::make_unique<BodyKinds>(built.spec, built.robot_kinds);
     engine_ = sim::Engine::create(std::move(built.spec)).value();
     if (record.empty()) return;
-    keeper_ = RecordKeeper::open(record, *engine_, *kinds_, robot_host::info_of(*engine_, *kinds_),
-                                 {}, nullptr)
+    keeper_ = RecordKeeper::open(record, *engine_, *kinds_, runtime::info_of(*engine_, *kinds_), {},
+                                 nullptr)
                   .value();
   }
   /// Per step.
@@ -140,17 +140,17 @@ std::string measure(plugin::Catalogue& catalogue, const std::string& period_s) {
 }
 
 }  // namespace
-}  // namespace rave::robot_host
+}  // namespace rave::runtime
 
 int main(int argc, char** argv) {
   using namespace rave;
-  plugin::Catalogue catalogue(robot_host::host_stamp());
+  plugin::Catalogue catalogue(runtime::host_stamp());
   const std::string folder = argc > 1 ? argv[1] : RAVE_BENCH_PLUGINS;
   if (auto added = catalogue.add_folder(folder); !added) {
     std::fprintf(stderr, "%s\n", added.error().text().c_str());
     return 2;
   }
-  std::printf("[%s,\n %s]\n", robot_host::measure(catalogue, "0.01").c_str(),
-              robot_host::measure(catalogue, "0.1").c_str());
+  std::printf("[%s,\n %s]\n", runtime::measure(catalogue, "0.01").c_str(),
+              runtime::measure(catalogue, "0.1").c_str());
   return 0;
 }

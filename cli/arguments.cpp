@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "bench_arguments.hpp"
+#include "command_tree.hpp"
 #include "control_arguments.hpp"
 #include "error_text.hpp"
 #include "file_arguments.hpp"
@@ -90,12 +91,12 @@ Finished usage_error(const CLI::App& root, const CLI::ParseError& e) {
     const std::string word = extras.front().substr(0, extras.front().find('='));
     message = word.starts_with("-")
                   ? fmt::format("there is no option `{}`{}", word, suggestion(word, views))
-                  : fmt::format("`{}` is one word too many", word);
+                  : fmt::format("unexpected argument `{}`", word);
   }
   while (!message.empty() && message.back() == '\n') message.pop_back();
   const std::string name = full_name(root);
   complain({ErrorCode::kInvalidArgument, message, {}});
-  put(stderr, fmt::format("`{} --help` says how it is used\n", name));
+  put(stderr, fmt::format("for usage: `{} --help`\n", name));
   return {kBadInput};
 }
 
@@ -121,6 +122,7 @@ Command chosen_command(const CLI::App& root, const Everything& all) {
   if (name == "info") return all.records.info;
   if (name == "verify") return all.records.verify;
   if (name == "play") return all.records.play;
+  if (name == "export") return all.records.csv;
   if (name == "report") return all.records.gap;
   if (name == "gui") return all.records.gui;
   if (name == "ps") return all.control.ps;
@@ -160,9 +162,12 @@ Command chosen_command(const CLI::App& root, const Everything& all) {
 Command parse_arguments(int argc, const char* const* argv) {
   Everything all;
   bool version = false;
+  bool tree = false;
   CLI::App root("Real and simulated mobile robots in one world", "rave");
   root.require_subcommand(0, 1);
-  root.add_flag("--version", version, "What this build is");
+  root.add_flag("--version", version, "Print the version and exit");
+  // Not for people: tools make man pages and shell completion from it.
+  root.add_flag("--command-tree", tree)->group("");
   add_run_commands(root, all.runs);
   add_file_commands(root, all.files);
   add_record_commands(root, all.records);
@@ -172,25 +177,29 @@ Command parse_arguments(int argc, const char* const* argv) {
   add_people(root, all.people);
   add_top(root, all.top);
   add_doctor(root, all.doctor);
-  root.add_subcommand("version", "What this build is, and which plug-ins fit it");
+  root.add_subcommand("version", "Print the version, and the interfaces that plug-ins must match");
   root.footer(
       "Examples:\n"
       "  rave run mixed-reality\n"
       "  rave check my/robot.yaml --draw robot.svg\n"
       "  rave describe virtual_laser\n\n"
-      "`rave SUBCOMMAND --help` says more.");
+      "Help on one command: `rave SUBCOMMAND --help`, or `man rave-SUBCOMMAND`.");
   if (argc > 1) {
     if (const auto finished = unknown_subcommand(root, argv[1])) return *finished;
   }
   try {
     root.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    put(stdout, chosen_app(root).help());
+    put(stdout, root.help());
     return Finished{kGood};
   } catch (const CLI::ParseError& e) {
     return usage_error(root, e);
   }
   if (version) return VersionCommand{};
+  if (tree) {
+    put(stdout, command_tree(root));
+    return Finished{kGood};
+  }
   if (root.get_subcommands().empty()) {
     put(stderr, root.help());
     return Finished{kBadInput};

@@ -11,6 +11,7 @@
 #include "commands/drivers.hpp"
 #include "commands/edit.hpp"
 #include "commands/end.hpp"
+#include "commands/export.hpp"
 #include "commands/gui.hpp"
 #include "commands/hand_over.hpp"
 #include "commands/hosts.hpp"
@@ -37,9 +38,9 @@ struct Finished {
 using Command =
     std::variant<Finished, RunCommand, RobotCommand, EnvCommand, CheckCommand, DriversCommand,
                  DescribeCommand, NewCommand, SchemaCommand, InfoCommand, VerifyCommand,
-                 PlayCommand, GapCommand, GuiCommand, PsCommand, StopCommand, ArmCommand,
-                 SetCommand, HandOverCommand, ShadowCommand, EditCommand, HoldCommand, EndCommand,
-                 BenchSwarmCommand, BenchCompareCommand, KeysNewCommand, KeysAddCommand,
+                 PlayCommand, ExportCommand, GapCommand, GuiCommand, PsCommand, StopCommand,
+                 ArmCommand, SetCommand, HandOverCommand, ShadowCommand, EditCommand, HoldCommand,
+                 EndCommand, BenchSwarmCommand, BenchCompareCommand, KeysNewCommand, KeysAddCommand,
                  KeysShowCommand, KeysWebCommand, KeysLineCommand, PeopleCommand, TopCommand,
                  DoctorCommand, VersionCommand>;
 

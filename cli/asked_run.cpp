@@ -16,17 +16,17 @@
 
 #include "bus_search.hpp"
 #include "rave/base/names.hpp"
-#include "rave/run_control/client.hpp"
-#include "rave/run_control/folder.hpp"
+#include "rave/control/client.hpp"
+#include "rave/control/folder.hpp"
 #include "rave/watch/observer.hpp"
 
 namespace rave::cli {
 namespace {
 
-using run_control::Answer;
-using run_control::BusPeer;
-using run_control::BusRun;
-using run_control::Request;
+using control::Answer;
+using control::BusPeer;
+using control::BusRun;
+using control::Request;
 
 /// Shorter than that of `rave top`: who has mistyped the name of a run waits for it.
 constexpr Duration kPatienceNear = from_seconds(1.5);
@@ -56,9 +56,9 @@ std::string own_name() {
 
 /// What there is on this machine instead of what was asked for.
 std::string none_here(const std::string& word) {
-  const auto runs = run_control::running_runs();
-  const auto here = run_control::find_run(word);
-  if (!runs || runs->empty() || here) return "no run is under way on this machine";
+  const auto runs = control::running_runs();
+  const auto here = control::find_run(word);
+  if (!runs || runs->empty() || here) return "no run is in progress on this machine";
   return here.error().message;
 }
 
@@ -68,12 +68,11 @@ tl::unexpected<Error> none_at_all(const std::string& word, const bus::BusConfig&
   const std::string where =
       fmt::format("on the bus in domain {} at {}", config.domain, config.interface);
   if (error.code != ErrorCode::kNotFound) {
-    return fail(error.code, "{}; none can be looked for {}: {}", none_here(word), where,
-                error.message);
+    return fail(error.code, "{}; cannot search {}: {}", none_here(word), where, error.message);
   }
   const std::string_view remedy =
-      "to ask one of other machines give --interface and --peer (or --multicast), --domain and "
-      "--security as its processes have them";
+      "for a run on other machines, give --interface and --peer (or --multicast), --domain and "
+      "--security as for its processes";
   return fail(ErrorCode::kNotFound, "{}; {}: {}\n{}", none_here(word), where, error.message,
               remedy);
 }
@@ -133,7 +132,7 @@ std::vector<Reply> ask_each_of(bus::BusConfig config, const bus::RunId& run, std
     return !peer.manager || !peer.live;
   };
   std::vector<Reply> replies;
-  for (run_control::BusReply& reply : (*bus)->ask_each(request, meant)) {
+  for (control::BusReply& reply : (*bus)->ask_each(request, meant)) {
     if (!named) found.run = run_word;
     replies.push_back({name_of(found, reply.peer), std::move(reply.answer)});
   }
@@ -143,7 +142,7 @@ std::vector<Reply> ask_each_of(bus::BusConfig config, const bus::RunId& run, std
 /// The names of the sockets here of a scenario, of its hosts or of its runs themselves.
 std::vector<std::string> here_of(std::string_view scenario, bool hosts) {
   std::vector<std::string> names;
-  for (std::string& name : run_control::running_runs().value_or(std::vector<std::string>{})) {
+  for (std::string& name : control::running_runs().value_or(std::vector<std::string>{})) {
     const std::string_view own = std::string_view(name).substr(0, name.rfind('-'));
     const std::size_t mark = own.find(kOfHost);
     if (own.substr(0, mark) == scenario && (mark != std::string_view::npos) == hosts) {
@@ -165,9 +164,9 @@ std::string machines_of(const std::vector<BusPeer>& peers) {
 }  // namespace
 
 bool AskedRun::may_be_here(const std::string& word) {
-  const auto runs = run_control::running_runs();
+  const auto runs = control::running_runs();
   if (!runs || runs->empty()) return false;
-  if (word.empty() || run_control::find_run(word)) return true;
+  if (word.empty() || control::find_run(word)) return true;
   // Of its scenario there are several, and which of them must be said.
   for (const std::string& run : *runs) {
     if (run.substr(0, run.rfind('-')) == word) return true;
@@ -176,7 +175,7 @@ bool AskedRun::may_be_here(const std::string& word) {
 }
 
 Result<AskedRun> AskedRun::find(const std::string& word, const BusOptions& options) {
-  auto here = run_control::find_run(word);
+  auto here = control::find_run(word);
   if (here) return AskedRun(*std::move(here));
   // Where the sockets are cannot be looked at, or it is one of those here.
   if (here.error().code != ErrorCode::kNotFound || may_be_here(word)) {
@@ -190,7 +189,7 @@ Result<AskedRun> AskedRun::find(const std::string& word, const BusOptions& optio
 
 Result<std::vector<AskedRun>> AskedRun::find_to_end(const std::string& word,
                                                     const BusOptions& options) {
-  RAVE_TRY_ASSIGN(const auto runs, run_control::running_runs());
+  RAVE_TRY_ASSIGN(const auto runs, control::running_runs());
   std::vector<AskedRun> hosts;
   bool any = false;
   for (const std::string& run : runs) {
@@ -200,7 +199,7 @@ Result<std::vector<AskedRun>> AskedRun::find_to_end(const std::string& word,
     any = any || mark == std::string::npos;
     if (mark != std::string::npos) hosts.emplace_back(run);
   }
-  auto here = run_control::find_run(word);
+  auto here = control::find_run(word);
   // A host is meant where nothing else can be, and where it is named.
   if (here && (!word.empty() || here->find(kOfHost) == std::string::npos)) {
     return std::vector<AskedRun>{AskedRun(*std::move(here))};
@@ -256,7 +255,8 @@ Result<AskedRun> AskedRun::find_on_bus(const std::string& word, const BusOptions
   }
   std::vector<std::string_view> names;
   for (const AskedRun& run : having) names.emplace_back(run.name());
-  return fail(ErrorCode::kNotFound, "several processes have it: {}; say which", join_names(names));
+  return fail(ErrorCode::kNotFound, "several processes match: {}; name one of them",
+              join_names(names));
 }
 
 Result<std::vector<Reply>> AskedRun::ask_each_on_bus(const std::string& word,
@@ -302,11 +302,11 @@ Result<std::vector<AskedRun>> AskedRun::controllers(bool sure) const {
   const auto said = status();
   if (!said || !said->live) return itself;
   if (const auto runs = here_of(scenario, false); sure && runs.size() > 1) {
-    return fail(ErrorCode::kNotFound,
-                "{} runs of `{}` are here, and whose hosts are whose cannot be told; name one of "
-                "these: {}",
-                runs.size(), scenario,
-                join_names(std::vector<std::string_view>(here.begin(), here.end())));
+    return fail(
+        ErrorCode::kNotFound,
+        "{} runs of `{}` are on this machine, and their hosts cannot be told apart; name one of "
+        "these: {}",
+        runs.size(), scenario, join_names(std::vector<std::string_view>(here.begin(), here.end())));
   }
   for (const std::string& name : here) hosts.emplace_back(name);
   return hosts;
@@ -345,10 +345,10 @@ Result<std::vector<SeenRun>> AskedRun::all_on_bus(const BusOptions& options) {
 }
 
 Result<Answer> AskedRun::ask(const Request& request, Duration patience) const {
-  return bus_ ? bus_->ask(peer_, request, patience) : run_control::ask(name_, request);
+  return bus_ ? bus_->ask(peer_, request, patience) : control::ask(name_, request);
 }
 
-Result<robot_host::RunStatus> AskedRun::status(Duration patience) const {
+Result<runtime::RunStatus> AskedRun::status(Duration patience) const {
   RAVE_TRY_ASSIGN(auto answer, ask(Request{}, patience));
   if (!answer.good) return fail(ErrorCode::kState, "{}: {}", name_, answer.text);
   return std::move(answer.status);

@@ -9,8 +9,8 @@
 #include "bus_options.hpp"
 #include "rave/base/result.hpp"
 #include "rave/base/time.hpp"
-#include "rave/run_control/bus_run.hpp"
-#include "rave/run_control/protocol.hpp"
+#include "rave/control/bus_run.hpp"
+#include "rave/control/protocol.hpp"
 
 namespace rave::cli {
 
@@ -18,13 +18,13 @@ namespace rave::cli {
 struct SeenRun {
   std::string name;      ///< What a command takes for it.
   std::string machines;  ///< Where its processes are; empty if none is heard.
-  Result<robot_host::RunStatus> status;
+  Result<runtime::RunStatus> status;
 };
 
 /// What came of a request to one of several processes.
 struct Reply {
   std::string name;  ///< For people.
-  Result<run_control::Answer> answer;
+  Result<control::Answer> answer;
 };
 
 /// A process of a run that is asked something: of this user on this machine, over its socket, or
@@ -34,7 +34,7 @@ class AskedRun {
   /// That of a run on this machine, by the name of its socket.
   explicit AskedRun(std::string local) : name_(std::move(local)) {}
 
-  /// The one that a word stands for: on this machine, as of run_control::find_run(); if nothing
+  /// The one that a word stands for: on this machine, as of control::find_run(); if nothing
   /// there can be meant, on the bus: the run, and behind an `@` the host of it, else its
   /// environment manager. Errors: kNotFound with what there is, those of bus::Bus::open().
   [[nodiscard]] static Result<AskedRun> find(const std::string& word, const BusOptions& options);
@@ -42,7 +42,7 @@ class AskedRun {
   /// Of a run on the bus, the process whose status has what is looked for; its environment manager
   /// if all have answered and none has. Errors: those of find(); kNotFound (several have it); if
   /// none has it, those of status() of one that did not answer.
-  using Has = std::function<bool(const robot_host::RunStatus&)>;
+  using Has = std::function<bool(const runtime::RunStatus&)>;
   [[nodiscard]] static Result<AskedRun> find_on_bus(const std::string& word,
                                                     const BusOptions& options, const Has& has);
 
@@ -51,8 +51,9 @@ class AskedRun {
   /// and all hosts. Each is asked as soon as it is found, and not after it is sure that no other
   /// can be meant; what is done to one too many must do no harm, as a stop. Empty: nobody was
   /// found. Errors: those of bus::Bus::open().
-  [[nodiscard]] static Result<std::vector<Reply>> ask_each_on_bus(
-      const std::string& word, const BusOptions& options, const run_control::Request& request);
+  [[nodiscard]] static Result<std::vector<Reply>> ask_each_on_bus(const std::string& word,
+                                                                  const BusOptions& options,
+                                                                  const control::Request& request);
 
   /// The processes that stop and arm the robots of this run: itself, or if it is the manager of a
   /// run in real time the hosts, those of this machine if it was found here. Of several runs of a
@@ -61,7 +62,7 @@ class AskedRun {
   [[nodiscard]] Result<std::vector<AskedRun>> controllers(bool sure) const;
 
   /// Those that have to be asked to end a run: the one that does it alone, its environment manager,
-  /// or where that is gone its hosts. A run on this machine as of run_control::find_run(); else on
+  /// or where that is gone its hosts. A run on this machine as of control::find_run(); else on
   /// the bus; else hosts on this machine of the scenario that the word is. Errors: those of find().
   [[nodiscard]] static Result<std::vector<AskedRun>> find_to_end(const std::string& word,
                                                                  const BusOptions& options);
@@ -78,24 +79,23 @@ class AskedRun {
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   [[nodiscard]] bool on_bus() const noexcept { return bus_ != nullptr; }
 
-  /// `patience` is for answers over the bus. Errors: those of run_control::ask() or
-  /// run_control::BusRun::ask().
-  [[nodiscard]] Result<run_control::Answer> ask(
-      const run_control::Request& request,
-      Duration patience = run_control::BusRun::kPatience) const;
+  /// `patience` is for answers over the bus. Errors: those of control::ask() or
+  /// control::BusRun::ask().
+  [[nodiscard]] Result<control::Answer> ask(const control::Request& request,
+                                            Duration patience = control::BusRun::kPatience) const;
   /// Errors: those of ask(); kState (it was refused, as one that asks too often is, or the status
   /// is larger than the bus carries).
-  [[nodiscard]] Result<robot_host::RunStatus> status(
-      Duration patience = run_control::BusRun::kPatience) const;
+  [[nodiscard]] Result<runtime::RunStatus> status(
+      Duration patience = control::BusRun::kPatience) const;
 
  private:
-  AskedRun(std::string name, std::shared_ptr<run_control::BusRun> bus, run_control::BusPeer peer)
+  AskedRun(std::string name, std::shared_ptr<control::BusRun> bus, control::BusPeer peer)
       : name_(std::move(name)), bus_(std::move(bus)), peer_(std::move(peer)) {}
 
   std::string name_;
   /// Shared by the processes of one run. Null: on this machine.
-  std::shared_ptr<run_control::BusRun> bus_;
-  run_control::BusPeer peer_;
+  std::shared_ptr<control::BusRun> bus_;
+  control::BusPeer peer_;
 };
 
 }  // namespace rave::cli

@@ -15,15 +15,15 @@ void add_workload(CLI::App& app, swarm::Workload& workload, swarm::RunEnd& end) 
          [&workload](const std::string& word) {
            workload.sensing = word == "B" ? swarm::Sensing::kB : swarm::Sensing::kA;
          },
-         "A: 16 rays all round, 3 m; B: 180 rays ahead, 8 m [A]")
+         "A: 16 rays all around, 3 m; B: 180 rays ahead, 8 m [A]")
       ->type_name("A|B")
       ->check(CLI::IsMember({"A", "B"}).description(""));
-  add_value(app, "--robots", workload.robots, "How many robots [1000]", "N")
+  add_value(app, "--robots", workload.robots, "Number of robots [1000]", "N")
       ->check(CLI::Range(std::uint32_t{1}, swarm::kMostRobots));
-  add_threads(app, workload.threads, "Threads; they do not change the result [1]");
-  auto* const steps = add_value(app, "--steps", end.steps, "How many steps of 0.1 s", "K")
+  add_threads(app, workload.threads, "Number of threads; the result does not depend on it [1]");
+  auto* const steps = add_value(app, "--steps", end.steps, "Number of steps of 0.1 s", "K")
                           ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
-  add_value(app, "--seconds", end.seconds, "How long to measure, by the wall [5]", "S")
+  add_value(app, "--seconds", end.seconds, "Wall time to measure [5]", "S")
       ->check(CLI::Range(1e-3, 1e6))
       ->excludes(steps);
   app.add_option_function<std::string>(
@@ -31,22 +31,20 @@ void add_workload(CLI::App& app, swarm::Workload& workload, swarm::RunEnd& end) 
          [&workload](const std::string& word) {
            workload.noise = word == "gaussian" ? swarm::Noise::kGaussian : swarm::Noise::kNone;
          },
-         "Of every range: normal, 1 cm [none]")
+         "Noise of every range: none, or normal with 1 cm [none]")
       ->type_name("none|gaussian")
       ->check(CLI::IsMember({"none", "gaussian"}).description(""));
-  add_value(app, "--seed", workload.seed, "Another seed: other places, other chance [1]", "N");
+  add_value(app, "--seed", workload.seed, "Random seed: start poses and noise [1]", "N");
 }
 
 void add_swarm(CLI::App& parent, BenchSwarmCommand& c) {
   CLI::App& app = *parent.add_subcommand(
-      "swarm", "Measure robots that avoid boxes and one another in an arena");
+      "swarm", "Measure the speed of robots that avoid boxes and each other");
   add_workload(app, c.workload, c.end);
   add_value(app, "--write", c.write,
-            "Also write the scenario into this folder, for `rave run`, as long as this run was",
-            "DIR");
+            "Also write the workload to this folder, as a scenario of the same length", "DIR");
   app.footer(
-      "Prints one line of JSON. The hash is that of the same steps in `rave run` of the written\n"
-      "scenario.\n\n"
+      "Prints one line of JSON. `rave run` of the written scenario gives the same run hash.\n\n"
       "Examples:\n"
       "  rave bench swarm --robots 10000\n"
       "  rave bench swarm --workload B --robots 1000 --steps 500 --write my/swarm\n"
@@ -54,19 +52,21 @@ void add_swarm(CLI::App& parent, BenchSwarmCommand& c) {
 }
 
 void add_compare(CLI::App& parent, BenchCompareCommand& c) {
-  CLI::App& app = *parent.add_subcommand("compare", "Measure two builds in turn");
-  add_word(app, "a", c.options.a, "A folder of a build, or an executable", "BUILD_A");
-  add_word(app, "b", c.options.b, "The other one", "BUILD_B");
+  CLI::App& app =
+      *parent.add_subcommand("compare", "Compare the speed of two builds, measured alternately");
+  add_word(app, "a", c.options.a, "Build folder or executable", "BUILD_A");
+  add_word(app, "b", c.options.b, "Build folder or executable to compare with", "BUILD_B");
   add_workload(app, c.options.workload, c.options.end);
-  add_value(app, "--rounds", c.options.rounds, "How often each runs [7]", "N")
+  add_value(app, "--rounds", c.options.rounds, "Runs of each build [7]", "N")
       ->check(CLI::Range(1, 1000));
   app.add_flag("--allow-different-hash", c.options.allow_different_hash,
-               "Compare them even if they do not do the same");
+               "Compare even if the run hashes differ");
   app.footer(
-      "Prints one line of JSON, and a sentence to the standard error. With --seconds both do as\n"
-      "many steps as A does in that time.\n\n"
-      "Exit code: 0 if both could be measured and their hashes are the same or need not be,\n"
-      "1 if not, 2 for bad input.\n\n"
+      "Prints one line of JSON, and one sentence to standard error. With --seconds, both builds "
+      "do\n"
+      "as many steps as A does in that time.\n\n"
+      "Exit code: 0 if both were measured and their hashes agree (or may differ), 1 if not, 2 for\n"
+      "bad input.\n\n"
       "Example:\n"
       "  rave bench compare ../before/build/release build/release --workload B --robots 1000");
 }
@@ -74,7 +74,7 @@ void add_compare(CLI::App& parent, BenchCompareCommand& c) {
 }  // namespace
 
 void add_bench(CLI::App& root, BenchSwarmCommand& swarm, BenchCompareCommand& compare) {
-  CLI::App& parent = *root.add_subcommand("bench", "Measure how fast this build is");
+  CLI::App& parent = *root.add_subcommand("bench", "Measure the speed of this build");
   parent.require_subcommand(1);
   parent.footer("Example:\n  rave bench swarm --robots 10000");
   add_swarm(parent, swarm);

@@ -30,9 +30,9 @@ class Search {
  public:
   explicit Search(ExpandedScenario scenario) : scenario_(std::move(scenario)) {}
 
-  std::vector<Error> run(plugin::Catalogue& catalogue, const robot_host::BuildOptions& options) {
+  std::vector<Error> run(plugin::Catalogue& catalogue, const runtime::BuildOptions& options) {
     for (int i = 0; i < kMostErrors && !scenario_.robots.empty(); ++i) {
-      auto built = robot_host::build(scenario_, catalogue, options);
+      auto built = runtime::build(scenario_, catalogue, options);
       if (built) break;
       const Error& error = built.error();
       const bool known = !texts_.insert(error.text()).second;
@@ -157,7 +157,7 @@ class Search {
 }  // namespace
 
 std::vector<Error> build_errors(ExpandedScenario scenario, plugin::Catalogue& catalogue,
-                                const robot_host::BuildOptions& options) {
+                                const runtime::BuildOptions& options) {
   return Search(std::move(scenario)).run(catalogue, options);
 }
 

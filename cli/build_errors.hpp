@@ -3,10 +3,10 @@
 
 #include <vector>
 
+#include "rave/assemble/build.hpp"
 #include "rave/base/error.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/plugin/catalogue.hpp"
-#include "rave/robot_host/build.hpp"
 
 namespace rave::cli {
 
@@ -15,6 +15,6 @@ namespace rave::cli {
 /// taken out. Errors that only follow from what was taken out are left out. `scenario` is consumed.
 [[nodiscard]] std::vector<Error> build_errors(config::ExpandedScenario scenario,
                                               plugin::Catalogue& catalogue,
-                                              const robot_host::BuildOptions& options);
+                                              const runtime::BuildOptions& options);
 
 }  // namespace rave::cli

@@ -9,19 +9,21 @@ void add_network_options(CLI::App& app, BusOptions& c) {
   add_value(app, "--domain", c.domain, "DDS domain of a run with several processes [0]", "N")
       ->check(CLI::Range(0, 230));
   add_value(app, "--interface", c.interface,
-            "Address or name of the network interface [this machine only]", "ADDR");
-  add_values(app, "--peer", c.peers, "A machine to look for others at; may be repeated", "ADDR");
-  add_value(app, "--multicast", c.multicast, "off, discovery (to find one another) or on", "USE");
+            "Network interface, by address or name [this machine only]", "ADDR");
+  add_values(app, "--peer", c.peers,
+             "Address of a machine with other processes of the run; repeatable", "ADDR");
+  add_value(app, "--multicast", c.multicast,
+            "Use of multicast: off, discovery (only to find processes) or on [off]", "USE");
   add_value(app, "--security", c.security,
-            "Folder with the certificates of this process, as `rave keys` makes them", "DIR");
+            "Encrypt; folder with the certificates of this process, made by `rave keys`", "DIR");
   // Not for people: keeps tests on one machine apart, and lets a benchmark count what goes by DDS.
   app.add_option("--bus-tag", c.tag)->group("");
   app.add_flag("--dds-only", c.dds_only)->group("");
 }
 
 void add_bus_options(CLI::App& app, BusOptions& c) {
-  add_value(app, "--run", c.run, "Name of the run, the same for all its processes [its scenario]",
-            "NAME");
+  add_value(app, "--run", c.run,
+            "Name of the run, the same for all of its processes [name of the scenario]", "NAME");
   add_network_options(app, c);
 }
 

@@ -51,7 +51,7 @@ Result<bus::RunId> find_bus_run(const bus::BusConfig& config, const std::string&
   }
   if (fitting.size() == 1) return fitting.front().run;
   if (fitting.empty()) return chosen;
-  return fail(ErrorCode::kNotFound, "several runs are of `{}`: {}; say which by its number", word,
+  return fail(ErrorCode::kNotFound, "several runs of `{}`: {}; name one by its number", word,
               watch::list_of(fitting));
 }
 

@@ -8,54 +8,53 @@ namespace rave::cli {
 namespace {
 
 void add_run_name(CLI::App& app, std::string& run) {
-  add_value(app, "run", run,
-            "Its name, process id or scenario, or RUN@HOST; not needed for the only one", "RUN");
+  add_value(app, "run", run, "Name, process id or scenario of the run, or RUN@HOST [the only run]",
+            "RUN");
 }
 
 void add_robot_name(CLI::App& app, std::string& robot) {
-  add_value(app, "--robot", robot, "Only this one [all]", "NAME");
+  add_value(app, "--robot", robot, "Only this robot [all]", "NAME");
 }
 
 void add_ps(CLI::App& root, PsCommand& c) {
-  CLI::App& app = *root.add_subcommand("ps", "List the runs that go on");
-  app.add_flag("--robots", c.robots, "Also each robot, and whether it may move");
+  CLI::App& app = *root.add_subcommand("ps", "List runs in progress");
+  app.add_flag("--robots", c.robots, "Also list each robot, and whether it may move");
   app.add_flag("--network", c.network,
-               "Also the runs of several processes on the bus, those of other machines among them; "
-               "the options below mean it, too");
+               "Also list runs of several processes found on the bus, including other machines; "
+               "implied by the options below");
   add_network_options(app, c.bus);
   app.footer(
-      "On the bus runs are looked for 1.5 s, or 3 s beyond this machine. A run is named there by "
+      "The search on the bus takes 1.5 s, or 3 s with other machines. A run is listed there by "
       "the\n"
-      "beginning of its number; one of this machine that is on the bus is listed under both "
-      "names.\n\n"
+      "first digits of its number. A run of this machine that is on the bus is listed twice.\n\n"
       "Examples:\n"
       "  rave ps\n"
       "  rave ps --interface 192.168.1.9 --peer 192.168.1.2");
 }
 
 void add_stop(CLI::App& root, StopCommand& c) {
-  CLI::App& app = *root.add_subcommand("stop", "Make robots of a run stand until released");
+  CLI::App& app = *root.add_subcommand("stop", "Stop robots of a run until they are released");
   add_run_name(app, c.run);
   add_robot_name(app, c.robot);
-  app.add_flag("--all", c.all, "Every robot of every run on this machine, none of other machines");
+  app.add_flag("--all", c.all, "Stop every robot of every run on this machine");
   add_network_options(app, c.bus);
   app.footer(
-      "No program can move a stopped robot. `rave arm --release` lets it go again.\n\n"
+      "No program can move a stopped robot. `rave arm --release` releases it.\n\n"
       "Examples:\n"
       "  rave stop\n"
       "  rave stop predator-prey --robot predator");
 }
 
 void add_arm(CLI::App& root, ArmCommand& c) {
-  CLI::App& app = *root.add_subcommand("arm", "Let real robots of a run move");
+  CLI::App& app = *root.add_subcommand("arm", "Permit real robots of a run to move");
   add_run_name(app, c.run);
   add_robot_name(app, c.robot);
-  app.add_flag("--release", c.release, "Also those that were stopped");
+  app.add_flag("--release", c.release, "Also release stopped robots");
   add_network_options(app, c.bus);
 }
 
 void add_set(CLI::App& root, SetCommand& c) {
-  CLI::App& app = *root.add_subcommand("set", "Change a parameter of a robot while it runs");
+  CLI::App& app = *root.add_subcommand("set", "Change a parameter of a robot during a run");
   add_word(app, "words", c.words, "[RUN] ROBOT KEY VALUE", "WORD")->expected(3, 4);
   add_network_options(app, c.bus);
   app.footer(
@@ -66,41 +65,42 @@ void add_set(CLI::App& root, SetCommand& c) {
 }
 
 void add_hold(CLI::App& root, HoldCommand& c) {
-  CLI::App& pause = *root.add_subcommand("pause", "Hold a run that is not live");
-  CLI::App& resume = *root.add_subcommand("resume", "Let a paused run go on");
-  CLI::App& step = *root.add_subcommand("step", "Do steps of a paused run");
+  CLI::App& pause = *root.add_subcommand("pause", "Pause a run (not a live one)");
+  CLI::App& resume = *root.add_subcommand("resume", "Continue a paused run");
+  CLI::App& step = *root.add_subcommand("step", "Compute single steps of a paused run");
   for (CLI::App* const app : {&pause, &resume, &step}) {
     add_run_name(*app, c.run);
     add_network_options(*app, c.bus);
   }
-  add_value(step, "--count", c.count, "How many [1]", "N")->check(CLI::Range(1, 1'000'000'000));
+  add_value(step, "--count", c.count, "Number of steps [1]", "N")
+      ->check(CLI::Range(1, 1'000'000'000));
 }
 
 void add_end(CLI::App& root, EndCommand& c) {
-  CLI::App& app = *root.add_subcommand("end", "End a run with all its processes");
+  CLI::App& app = *root.add_subcommand("end", "End a run and all of its processes");
   add_run_name(app, c.run);
   add_network_options(app, c.bus);
   app.footer(
-      "The run ends before its next step and still writes its results. Its environment manager "
-      "tells\n"
-      "the hosts; where that is gone, the hosts themselves are asked: those that were forgotten "
-      "wait\n"
-      "for another one. `rave stop` is for robots: the run goes on.\n\n"
+      "The run ends before its next step and writes its results. The environment manager ends the\n"
+      "hosts. If the manager is gone, the waiting hosts are asked directly. To stop robots "
+      "without\n"
+      "ending the run, use `rave stop`.\n\n"
       "Examples:\n"
       "  rave end predator-prey\n"
       "  rave end 3f2a91c0 --interface 192.168.1.9 --peer 192.168.1.2");
 }
 
 void add_hand_over(CLI::App& root, HandOverCommand& c) {
-  CLI::App& app = *root.add_subcommand("hand-over", "Give a robot its other drivers while it runs");
-  add_word(app, "robot", c.robot, "One whose entry in the scenario has `twin:`", "ROBOT");
-  add_word(app, "to", c.to, "real or simulated; or first (those of `file:`) or twin", "DRIVERS");
+  CLI::App& app = *root.add_subcommand(
+      "hand-over", "Switch a robot between real and simulated drivers during a run");
+  add_word(app, "robot", c.robot, "Robot whose entry in the scenario has `twin:`", "ROBOT");
+  add_word(app, "to", c.to, "real or simulated; or first (drivers of `file:`) or twin", "DRIVERS");
   add_value(app, "--run", c.run, "Name, process id or scenario of the run [the only one]", "RUN");
   add_network_options(app, c.bus);
   app.footer(
-      "The drivers are opened, the robot is brought to stand, and between two steps it changes.\n"
-      "Its program and its controllers go on. What keeps it from changing is told, and then\n"
-      "everything is as it was.\n\n"
+      "The new drivers are opened, the robot is stopped, and it changes between two steps. Its\n"
+      "program and controllers continue. If it cannot change, the reason is printed and nothing\n"
+      "changes.\n\n"
       "Examples:\n"
       "  rave hand-over create real\n"
       "  rave hand-over create simulated --run corridor");
@@ -108,54 +108,53 @@ void add_hand_over(CLI::App& root, HandOverCommand& c) {
 
 void add_shadow(CLI::App& root, ShadowCommand& c) {
   CLI::App& app = *root.add_subcommand(
-      "shadow", "How far real robots are from their simulated twins that run beside them");
+      "shadow", "Show the distance between real robots and their simulated twins (shadows)");
   add_run_name(app, c.run);
   add_robot_name(app, c.robot);
-  app.add_flag("--reset", c.reset, "Put the twin where the robot is");
+  app.add_flag("--reset", c.reset, "Move the twin to the pose of the robot");
   app.add_flag("--json", c.json, "Print the numbers as JSON");
   add_network_options(app, c.bus);
 }
 
 void add_name(CLI::App& app, std::string& name) {
-  add_word(app, "name", name, "Of the obstacle; `rave edit list` has them all", "NAME");
+  add_word(app, "name", name, "Name of the obstacle; `rave edit list` lists all", "NAME");
 }
 
 void add_place(CLI::App& app, std::string& at) {
-  add_word(app, "--at", at, "X,Y or X,Y,DEG in metres and degrees; without DEG it is not turned",
-           "PLACE");
+  add_word(app, "--at", at, "X,Y or X,Y,DEG, in metres and degrees; DEG is 0 if left out", "PLACE");
 }
 
 void add_edit(CLI::App& root, EditCommand& c) {
-  CLI::App& app =
-      *root.add_subcommand("edit", "Add, move and remove obstacles of a run while it goes");
+  CLI::App& app = *root.add_subcommand("edit", "Add, move and remove obstacles during a run");
   add_run_name(app, c.run);
   app.require_subcommand(1);
-  CLI::App& add = *app.add_subcommand("add", "Put an obstacle somewhere");
+  CLI::App& add = *app.add_subcommand("add", "Add an obstacle");
   add_word(add, "shape", c.shape, "box, disc or polygon", "SHAPE")
       ->check(CLI::IsMember({"box", "disc", "polygon"}));
-  add_word(add, "--name", c.name, "What no other obstacle is called", "NAME");
+  add_word(add, "--name", c.name, "Name of the obstacle, unique in the run", "NAME");
   add_place(add, c.at);
-  add_value(add, "--size", c.size, "LxW of a box, the radius of a disc, in metres", "SIZE");
-  add_value(add, "--corners", c.corners, "Of a polygon, such as \"0,0 1,0 0.5,1\"", "PLACES");
-  add_value(add, "--height", c.height, "LOW,HIGH above the floor [0,0.5]", "HEIGHT");
+  add_value(add, "--size", c.size, "Length x width of a box (LxW), or radius of a disc, in metres",
+            "SIZE");
+  add_value(add, "--corners", c.corners, "Corners of a polygon, such as \"0,0 1,0 0.5,1\"",
+            "PLACES");
+  add_value(add, "--height", c.height,
+            "Lower and upper edge above the floor, LOW,HIGH in metres [0,0.5]", "HEIGHT");
   add_value(add, "--layer", c.layer, "virtual_obstacles or mapped_real [virtual_obstacles]",
             "LAYER");
-  add_value(add, "--colour", c.colour, "For pictures, #rrggbb", "COLOUR");
-  add_value(add, "--barcode", c.barcode, "What landmark cameras read on it [none]", "N");
-  CLI::App& move = *app.add_subcommand("move", "Put an obstacle elsewhere");
+  add_value(add, "--colour", c.colour, "Colour in pictures, #rrggbb", "COLOUR");
+  add_value(add, "--barcode", c.barcode, "Barcode that landmark cameras read [none]", "N");
+  CLI::App& move = *app.add_subcommand("move", "Move an obstacle");
   add_name(move, c.name);
   add_place(move, c.at);
-  CLI::App& remove = *app.add_subcommand("remove", "Take an obstacle away");
+  CLI::App& remove = *app.add_subcommand("remove", "Remove an obstacle");
   add_name(remove, c.name);
-  CLI::App& list = *app.add_subcommand("list", "Say which obstacles stand where");
+  CLI::App& list = *app.add_subcommand("list", "List the obstacles and their poses");
   for (CLI::App* const each : {&add, &move, &remove, &list}) add_network_options(*each, c.bus);
   app.footer(
-      "A change counts from the next step on; the answer says which that is. What would overlap a\n"
-      "simulated robot is refused. A run that is not on this machine is looked for on the bus: "
-      "give\n"
-      "--interface and --peer as its processes have them. Exit code: 0 if it was done, 1 if the "
-      "run\n"
-      "refuses, 2 for bad input.\n\n"
+      "A change takes effect in the next step; the answer names that step. An obstacle that would\n"
+      "overlap a simulated robot is refused. For a run on other machines, give --interface and\n"
+      "--peer as for its processes. Exit code: 0 if the change was made, 1 if the run refused it,\n"
+      "2 for bad input.\n\n"
       "Examples:\n"
       "  rave edit add box --name crate --at 1,2,30 --size 0.5x0.3\n"
       "  rave edit move crate --at 2,2\n"

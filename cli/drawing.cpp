@@ -18,7 +18,7 @@ using report::Kind;
 using report::Picture;
 
 /// Leaves what stands and senses and needs no device, program or wait.
-void keep_what_can_be_drawn(const InputFile& input, robot_host::BuiltScenario& built,
+void keep_what_can_be_drawn(const InputFile& input, runtime::BuiltScenario& built,
                             std::vector<std::string>& unplaced) {
   sim::EngineSpec& spec = built.spec;
   std::vector<sim::RobotSpec> robots;
@@ -108,7 +108,7 @@ std::string quote_names(const std::vector<std::string>& names) {
   return text;
 }
 
-Result<Picture> draw_world(const InputFile& input, robot_host::BuiltScenario built) {
+Result<Picture> draw_world(const InputFile& input, runtime::BuiltScenario built) {
   Picture picture;
   std::vector<std::string> unplaced;
   keep_what_can_be_drawn(input, built, unplaced);
@@ -134,19 +134,19 @@ Result<Picture> draw_world(const InputFile& input, robot_host::BuiltScenario bui
   }
   picture.instant.emplace();
   if (has_robots) RAVE_TRY(add_robots(std::move(built.spec), picture));
-  picture.instant->heading =
-      has_robots ? "The robots where they start, and what their range sensors read there"
-                 : "The bodies that stand still";
+  picture.instant->heading = has_robots
+                                 ? "Robots at their start, with the readings of their range sensors"
+                                 : "Static bodies";
   if (!unplaced.empty()) {
-    picture.caption.push_back(fmt::format(
-        "Not shown, because only a device says where they are: {}.", quote_names(unplaced)));
+    picture.caption.push_back(fmt::format("Not shown, because their poses come from devices: {}.",
+                                          quote_names(unplaced)));
   }
   return picture;
 }
 
 }  // namespace
 
-Result<Picture> draw(const InputFile& input, robot_host::BuiltScenario built) {
+Result<Picture> draw(const InputFile& input, runtime::BuiltScenario built) {
   if (input.kind == FileKind::kRobot) return draw_one_robot(input, std::move(built));
   return draw_world(input, std::move(built));
 }
@@ -156,7 +156,7 @@ Status write_picture(const Picture& picture, const std::filesystem::path& path) 
   if (ending == ".svg") return report::write_svg(picture, path);
   if (ending == ".png") return report::write_png(picture, path);
   return fail(ErrorCode::kInvalidArgument,
-              "`{}`: pictures are written as `.svg` or `.png`, as the ending says", path.string());
+              "`{}`: expected a file name that ends in `.svg` or `.png`", path.string());
 }
 
 }  // namespace rave::cli

@@ -9,14 +9,14 @@ namespace {
 void add_check(CLI::App& root, CheckCommand& c) {
   CLI::App& app =
       *root.add_subcommand("check", "Check robot, world and scenario files, and draw them");
-  add_word(app, "files", c.files, "Which of the three a file is, is seen by its keys", "FILE");
-  app.add_flag("--expand", c.expand, "Print the file with all defaults");
+  add_word(app, "files", c.files, "Robot, world or scenario files; the keys tell which", "FILE");
+  app.add_flag("--expand", c.expand, "Print the file with all defaults filled in");
   add_value(app, "--draw", c.draw,
-            "Draw a robot with its sensors, or a world with the robots at their start",
+            "Draw a robot with its sensors, or a world with the start poses of robots",
             "OUT.svg|OUT.png");
   add_plugins(app, c.plugins);
   app.footer(
-      "Exit code: 0 if all files are right, 2 if not.\n\n"
+      "Exit code: 0 if all files are correct, 2 if not.\n\n"
       "Examples:\n"
       "  rave check robots/*.yaml\n"
       "  rave check robot.yaml --draw robot.svg\n"
@@ -24,10 +24,11 @@ void add_check(CLI::App& root, CheckCommand& c) {
 }
 
 void add_drivers(CLI::App& root, DriversCommand& c) {
-  CLI::App& app = *root.add_subcommand("drivers", "List the drivers and programs there are");
-  add_value(app, "--kind", c.kind, "Only one kind, such as virtual_sensor or program", "KIND");
-  auto* const json = app.add_flag("--json", c.json, "For other programs");
-  app.add_flag("--markdown-reference", c.markdown, "The whole reference as one page")
+  CLI::App& app = *root.add_subcommand("drivers", "List available drivers and programs");
+  add_value(app, "--kind", c.kind, "List one kind only, such as virtual_sensor or program", "KIND");
+  auto* const json = app.add_flag("--json", c.json, "Print JSON");
+  app.add_flag("--markdown-reference", c.markdown,
+               "Print the complete reference as one Markdown page")
       ->excludes(json);
   add_plugins(app, c.plugins);
   app.footer(
@@ -37,19 +38,21 @@ void add_drivers(CLI::App& root, DriversCommand& c) {
 }
 
 void add_describe(CLI::App& root, DescribeCommand& c) {
-  CLI::App& app = *root.add_subcommand("describe", "Say what a driver or program is and takes");
-  add_word(app, "driver", c.driver, "Its name; `rave drivers` lists them", "DRIVER");
-  auto* const json = app.add_flag("--json", c.json, "For other programs");
-  app.add_flag("--markdown", c.markdown, "As a section of a page")->excludes(json);
+  CLI::App& app =
+      *root.add_subcommand("describe", "Describe a driver or program and its parameters");
+  add_word(app, "driver", c.driver, "Name; `rave drivers` lists all", "DRIVER");
+  auto* const json = app.add_flag("--json", c.json, "Print JSON");
+  app.add_flag("--markdown", c.markdown, "Print a section of a Markdown page")->excludes(json);
   add_plugins(app, c.plugins);
   app.footer("Example:\n  rave describe virtual_laser");
 }
 
 void add_new(CLI::App& root, NewCommand& c) {
-  CLI::App& app = *root.add_subcommand("new", "Begin a robot program, driver or panel of your own");
+  CLI::App& app =
+      *root.add_subcommand("new", "Create a project for a robot program, driver or panel");
   add_word(app, "kind", c.kind, "program, driver or panel", "KIND");
-  add_word(app, "name", c.name, "In lower_snake_case", "NAME");
-  add_value(app, "--directory", c.directory, "Where [NAME in this folder]", "DIR");
+  add_word(app, "name", c.name, "Name, in lower_snake_case", "NAME");
+  add_value(app, "--directory", c.directory, "Folder to create [NAME, in this folder]", "DIR");
   app.footer("Example:\n  rave new program follow_wall");
 }
 

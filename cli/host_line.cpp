@@ -61,7 +61,7 @@ Result<LinePlace> parse_line_place(const std::string& text) {
 }
 
 Result<HostLineEnds> open_host_line(const LineWish& wish, const std::string& host,
-                                    const bus::BusConfig& bus, robot_host::RunControl& control,
+                                    const bus::BusConfig& bus, runtime::RunControl& control,
                                     LogSink& log) {
   HostLineEnds ends;
   if (!wish.web) {
@@ -84,7 +84,7 @@ Result<HostLineEnds> open_host_line(const LineWish& wish, const std::string& hos
 }
 
 Result<HostLineEnds> open_line_here(const LineWish& wish, const config::ExpandedScenario& scenario,
-                                    robot_host::RunControl& control, gui_server::GuiServer& page,
+                                    runtime::RunControl& control, gui_server::GuiServer& page,
                                     LogSink& log) {
   RAVE_TRY_ASSIGN(auto options, options_of(wish, log));
   const direct_line::SigningKey key = direct_line::new_signing_key();

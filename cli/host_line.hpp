@@ -9,9 +9,9 @@
 #include "rave/base/log.hpp"
 #include "rave/bus/config.hpp"
 #include "rave/config/expanded_scenario.hpp"
+#include "rave/control/run_control.hpp"
 #include "rave/direct_line/lines.hpp"
 #include "rave/gui_server/gui_server.hpp"
-#include "rave/robot_host/run_control.hpp"
 
 namespace rave::cli {
 
@@ -41,12 +41,12 @@ struct HostLineEnds {
 /// address, or no key), those of the key file, LineServer::start() and LineBeacon::start().
 [[nodiscard]] Result<HostLineEnds> open_host_line(const LineWish& wish, const std::string& host,
                                                   const bus::BusConfig& bus,
-                                                  robot_host::RunControl& control, LogSink& log);
+                                                  runtime::RunControl& control, LogSink& log);
 
 /// The line of a run of this process, which `page` gives tickets for. The same errors.
 [[nodiscard]] Result<HostLineEnds> open_line_here(const LineWish& wish,
                                                   const config::ExpandedScenario& scenario,
-                                                  robot_host::RunControl& control,
+                                                  runtime::RunControl& control,
                                                   gui_server::GuiServer& page, LogSink& log);
 
 /// Lets a page of a run on a bus give tickets for the lines of its hosts. Errors: those of

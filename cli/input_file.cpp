@@ -81,12 +81,13 @@ Result<FileKind> recognise(const std::filesystem::path& path) {
   if (scenario > 0) return FileKind::kScenario;
   if (world > 0) return FileKind::kWorld;
   const bool has_keys = root.is_mapping() && root.size() > 0;
-  return fail_at(has_keys ? root.key_where(0) : root.where(), ErrorCode::kParse,
-                 "found {}, which is none of RAVE's files: a robot file has `body`, a world file "
-                 "`obstacles` or `maps`, a scenario file `robots`",
-                 has_keys ? fmt::format("{} {}", root.size() == 1 ? "the key" : "the keys",
-                                        join_names(root.keys()))
-                          : root.found_text());
+  return fail_at(
+      has_keys ? root.key_where(0) : root.where(), ErrorCode::kParse,
+      "found {}; expected a robot file (with `body`), a world file (`obstacles` or `maps`) "
+      "or a scenario file (`robots`)",
+      has_keys
+          ? fmt::format("{} {}", root.size() == 1 ? "the key" : "the keys", join_names(root.keys()))
+          : root.found_text());
 }
 
 Result<InputFile> read_input(const std::filesystem::path& path) {

@@ -7,13 +7,13 @@ namespace rave::cli {
 namespace {
 
 /// A signal handler can reach nothing else.
-robot_host::RunControl run_control;
+runtime::RunControl run_control;
 
 extern "C" void request_stop(int /*signal*/) { run_control.stop(); }
 
 }  // namespace
 
-robot_host::RunControl& ended_by_signals() {
+runtime::RunControl& ended_by_signals() {
   struct sigaction action {};
   action.sa_handler = request_stop;
   action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;

@@ -7,7 +7,7 @@ namespace rave::cli {
 namespace {
 
 void add_members(CLI::App& app, std::vector<std::string>& members) {
-  add_word(app, "members", members, "A name for each process or machine", "MEMBER");
+  add_word(app, "members", members, "Name of each process or machine", "MEMBER");
 }
 
 void add_folder(CLI::App& app, std::string& folder, const char* what) {
@@ -15,44 +15,44 @@ void add_folder(CLI::App& app, std::string& folder, const char* what) {
 }
 
 void add_new(CLI::App& parent, KeysNewCommand& c) {
-  CLI::App& app = *parent.add_subcommand("new", "Make a set of certificates");
-  add_folder(app, c.folder, "Where; it must not be there yet");
+  CLI::App& app = *parent.add_subcommand("new", "Create a set of certificates");
+  add_folder(app, c.folder, "Folder to create");
   add_members(app, c.members);
-  add_value(app, "--name", c.lab, "Of the lab; stands in all certificates [rave]", "LAB");
-  add_value(app, "--days", c.days, "How long they are valid [3650]", "N");
+  add_value(app, "--name", c.lab, "Name of the lab, part of all certificates [rave]", "LAB");
+  add_value(app, "--days", c.days, "Days of validity [3650]", "N");
   app.footer(
-      "Makes DIR/ca, with which members are made, and a folder for each member. Copy these to\n"
-      "where they are used, and keep DIR/ca to yourself.\n\n"
+      "Creates DIR/ca, the certificate authority, and a folder for each member. Copy each member\n"
+      "folder to the machine that uses it. Keep DIR/ca secret.\n\n"
       "Example:\n"
       "  rave keys new lab-keys env left right\n"
       "  rave env lab --security lab-keys/env");
 }
 
 void add_add(CLI::App& parent, KeysAddCommand& c) {
-  CLI::App& app = *parent.add_subcommand("add", "Add members to a set");
-  add_folder(app, c.folder, "The set, with its ca");
+  CLI::App& app = *parent.add_subcommand("add", "Add members to a set of certificates");
+  add_folder(app, c.folder, "Folder of the set, with its ca");
   add_members(app, c.members);
-  add_value(app, "--days", c.days, "How long they are valid [as long as the ca]", "N");
+  add_value(app, "--days", c.days, "Days of validity [that of the ca]", "N");
   app.footer("Example:\n  rave keys add lab-keys gui");
 }
 
 void add_show(CLI::App& parent, KeysShowCommand& c) {
   CLI::App& app =
-      *parent.add_subcommand("show", "Say who is in a set, how long, and what is wrong");
-  add_folder(app, c.folder, "A set, or the folder of one member");
+      *parent.add_subcommand("show", "Show the members of a set, their validity, and problems");
+  add_folder(app, c.folder, "Folder of a set or of one member");
   app.footer(
-      "Exit code: 0 if all can be used, 1 if not, 2 if there are no keys.\n\n"
+      "Exit code: 0 if all certificates are usable, 1 if not, 2 if there are none.\n\n"
       "Example:\n"
       "  rave keys show lab-keys");
 }
 
 void add_web(CLI::App& parent, KeysWebCommand& c) {
-  CLI::App& app = *parent.add_subcommand("web", "Make the certificate that browsers are shown");
-  add_folder(app, c.folder, "Where; an authority that is there signs a new certificate");
-  add_word(app, "names", c.names, "Names and addresses that people type", "NAME");
-  add_value(app, "--days", c.days, "How long it is valid, 397 at most [397]", "N");
+  CLI::App& app = *parent.add_subcommand("web", "Create the certificate of the web page (TLS)");
+  add_folder(app, c.folder, "Folder; an authority that exists there is used again");
+  add_word(app, "names", c.names, "Host names and addresses of the page", "NAME");
+  add_value(app, "--days", c.days, "Days of validity, at most 397 [397]", "N");
   app.footer(
-      "The authority is made for these names alone and has nothing to do with `rave keys new`.\n\n"
+      "The authority is limited to these names. It is independent of `rave keys new`.\n\n"
       "Example:\n"
       "  rave keys web web-keys lab.example 192.168.1.20\n"
       "  rave gui RUN --listen 192.168.1.20 --certificate web-keys/server.pem \\\n"
@@ -74,7 +74,7 @@ void add_line(CLI::App& parent, KeysLineCommand& c) {
 
 void add_keys_commands(CLI::App& root, KeysCommands& commands) {
   CLI::App& parent =
-      *root.add_subcommand("keys", "Make the certificates of processes and of the page");
+      *root.add_subcommand("keys", "Create certificates for encrypted communication");
   parent.require_subcommand(1);
   parent.footer("Example:\n  rave keys new lab-keys env left right");
   add_new(parent, commands.make);

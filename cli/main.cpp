@@ -23,6 +23,7 @@ struct Dispatch {
   int operator()(const InfoCommand& options) const { return info(options); }
   int operator()(const VerifyCommand& options) const { return verify(options); }
   int operator()(const PlayCommand& options) const { return play(options); }
+  int operator()(const ExportCommand& options) const { return export_recording(options); }
   int operator()(const GapCommand& options) const { return report_gap(options); }
   int operator()(const GuiCommand& options) const { return gui(options); }
   int operator()(const PsCommand& options) const { return list_runs(options); }

@@ -10,27 +10,27 @@
 #include "host_command.hpp"
 #include "host_line.hpp"
 #include "places.hpp"
+#include "rave/assemble/build.hpp"
 #include "rave/base/file.hpp"
+#include "rave/control/folder.hpp"
+#include "rave/control/wishes.hpp"
 #include "rave/direct_line/key_files.hpp"
-#include "rave/environment_manager/live_manager.hpp"
-#include "rave/environment_manager/manager.hpp"
 #include "rave/gui_server/bus_run.hpp"
-#include "rave/robot_host/build.hpp"
-#include "rave/robot_host/host_run.hpp"
-#include "rave/run_control/folder.hpp"
-#include "rave/run_control/wishes.hpp"
+#include "rave/host/host_run.hpp"
+#include "rave/manager/live_manager.hpp"
+#include "rave/manager/manager.hpp"
 
 namespace rave::cli {
 namespace {
 
-using environment_manager::LiveManagerOutcome;
+using manager::LiveManagerOutcome;
 
 /// As many find one another on a machine of two cores.
 constexpr std::size_t kMostLiveHosts = 50;
 
-Result<std::unique_ptr<robot_host::SharedResults>> results_of(
-    const ManagedRun& run, const robot_host::BuiltScenario& built) {
-  return robot_host::SharedResults::begin(
+Result<std::unique_ptr<runtime::SharedResults>> results_of(const ManagedRun& run,
+                                                           const runtime::BuiltScenario& built) {
+  return runtime::SharedResults::begin(
       run.scenario, built,
       {run.folder, !run.options.no_picture, !run.options.no_record, &run.console});
 }
@@ -39,8 +39,8 @@ lock_step::Identity manager_of(const config::ExpandedScenario& scenario, bool re
   return {rave_wire_kNone,
           "environment manager",
           0,
-          robot_host::shared_number(scenario),
-          robot_host::interface_stamp(),
+          runtime::shared_number(scenario),
+          runtime::interface_stamp(),
           real_time};
 }
 
@@ -70,13 +70,13 @@ void take_findings(std::vector<lock_step::Findings> findings, ManagedEnd& end) {
   }
 }
 
-Result<ManagedEnd> manage_steps(const ManagedRun& run, robot_host::BuiltScenario built,
+Result<ManagedEnd> manage_steps(const ManagedRun& run, runtime::BuiltScenario built,
                                 std::vector<config::PlannedHost> hosts) {
   ManagedEnd end;
   RAVE_TRY_ASSIGN(end.results, results_of(run, built));
   for (const config::PlannedHost& host : hosts) end.end.hosts.emplace_back().name = host.name;
   const config::ScenarioFile& file = run.scenario.scenario;
-  environment_manager::ManagerOptions how;
+  manager::ManagerOptions how;
   how.bus = run.bus;
   how.identity = manager_of(run.scenario, false);
   how.scenario = file.name.value;
@@ -90,31 +90,32 @@ Result<ManagedEnd> manage_steps(const ManagedRun& run, robot_host::BuiltScenario
   how.log = &run.console;
   how.stopping = run.stopping;
   how.control = &run.control;
-  how.begin_wish = run_control::wishes_of(run.control);
-  how.on_progress = [&run, &file](const environment_manager::ManagerOptions::Progress& progress) {
+  how.begin_wish = control::wishes_of(run.control);
+  how.on_progress = [&run, &file](const manager::ManagerOptions::Progress& progress) {
     const double sim_s = static_cast<double>(progress.step) * file.step_s.value;
-    run.console.show({sim_s / file.duration_s, sim_s, file.duration_s, progress.speed,
-                      run.scenario.robots.size(),
-                      progress.waiting.empty() ? std::string() : "waits for " + progress.waiting});
+    run.console.show(
+        {sim_s / file.duration_s, sim_s, file.duration_s, progress.speed,
+         run.scenario.robots.size(),
+         progress.waiting.empty() ? std::string() : "waiting for " + progress.waiting});
   };
   how.on_world = [&end](const sim::WorldAuthority& authority) {
     return end.results->after_step(authority);
   };
   how.on_end = [&end](const sim::WorldAuthority& authority) { end.results->at_end(authority); };
-  RAVE_TRY_ASSIGN(auto outcome, environment_manager::manage(std::move(built.spec), how));
+  RAVE_TRY_ASSIGN(auto outcome, manager::manage(std::move(built.spec), how));
   end.end.hash = outcome.hash;
   end.end.steps = outcome.steps;
   end.end.wall_s = outcome.wall_s;
   end.end.lateness = std::move(outcome.lateness);
   end.end.problems = std::move(outcome.problems);
   // A run that never began left nothing to wait for.
-  for (robot_host::SharedHost& host : end.end.hosts) host.awaited = outcome.steps > 0;
+  for (runtime::SharedHost& host : end.end.hosts) host.awaited = outcome.steps > 0;
   take_findings(std::move(outcome.findings), end);
   return end;
 }
 
 /// Of a run in real time, before it begins.
-Result<ManagedEnd> begin_live(const ManagedRun& run, const robot_host::BuiltScenario& built) {
+Result<ManagedEnd> begin_live(const ManagedRun& run, const runtime::BuiltScenario& built) {
   ManagedEnd end;
   end.live = true;
   RAVE_TRY_ASSIGN(end.results, results_of(run, built));
@@ -128,7 +129,7 @@ Result<ManagedEnd> begin_live(const ManagedRun& run, const robot_host::BuiltScen
 /// What is known of it then; without a manager the hosts alone know more.
 void note_outcome(LiveManagerOutcome outcome, ManagedEnd& end) {
   take_findings(std::move(outcome.findings), end);
-  for (robot_host::SharedHost& host : end.end.hosts) {
+  for (runtime::SharedHost& host : end.end.hosts) {
     for (const LiveManagerOutcome::Host& met : outcome.hosts) {
       if (met.name != host.name) continue;
       host.awaited = outcome.saw_off && met.heard;
@@ -141,23 +142,23 @@ void note_outcome(LiveManagerOutcome outcome, ManagedEnd& end) {
   }
   end.end.worlds = outcome.worlds;
   end.end.states = outcome.states;
-  end.end.edits = robot_host::SharedEdits{outcome.edits.made, outcome.edits.confirmed,
-                                          outcome.edits.slowest_s, outcome.edits.sum_s};
+  end.end.edits = runtime::SharedEdits{outcome.edits.made, outcome.edits.confirmed,
+                                       outcome.edits.slowest_s, outcome.edits.sum_s};
   end.end.wall_s = outcome.end.seconds();
   end.end.events = std::move(outcome.refused);
   end.end.problems = std::move(outcome.problems);
 }
 
 /// Hosts that need nobody.
-Result<ManagedEnd> wait_for_hosts(const ManagedRun& run, const robot_host::BuiltScenario& built) {
+Result<ManagedEnd> wait_for_hosts(const ManagedRun& run, const runtime::BuiltScenario& built) {
   const std::string& name = run.scenario.scenario.name.value;
   if (!run.hosts_ended) {
     return fail(ErrorCode::kInvalidArgument,
-                "the run of `{}` is in real time and no robot in it has virtual sensors or keeps a "
-                "distance, so it needs no environment manager: start its hosts with `rave robot`",
+                "`{}` needs no environment manager: it runs in real time, and no robot has virtual "
+                "sensors or keeps a distance; start its hosts with `rave robot`",
                 name);
   }
-  run.console.info("run", "no robot looks at others, so the hosts go by themselves");
+  run.console.info("run", "no robot senses others, so the hosts run independently");
   LiveManagerOutcome outcome;
   const auto began = std::chrono::steady_clock::now();
   // A look now and then: ends of processes, their restarts and a person's signal come by no one
@@ -165,7 +166,7 @@ Result<ManagedEnd> wait_for_hosts(const ManagedRun& run, const robot_host::Built
   while (!run.stopping() && !run.hosts_ended()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
-  if (!run.hosts_ended()) outcome.problems.emplace_back("stopped before its hosts had ended");
+  if (!run.hosts_ended()) outcome.problems.emplace_back("stopped before the hosts had ended");
   outcome.end = SimTime{
       std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - began)
           .count()};
@@ -174,19 +175,19 @@ Result<ManagedEnd> wait_for_hosts(const ManagedRun& run, const robot_host::Built
   return end;
 }
 
-Result<ManagedEnd> manage_time(const ManagedRun& run, robot_host::BuiltScenario built,
+Result<ManagedEnd> manage_time(const ManagedRun& run, runtime::BuiltScenario built,
                                std::vector<config::PlannedHost> hosts) {
-  if (!robot_host::needs_manager(built)) return wait_for_hosts(run, built);
+  if (!runtime::needs_manager(built)) return wait_for_hosts(run, built);
   const config::ScenarioFile& file = run.scenario.scenario;
-  run.console.warn("run", "the run goes at real time, because {}", built.live_reason);
-  environment_manager::LiveManagerOptions how;
+  run.console.warn("run", "the run is in real time: {}", built.live_reason);
+  manager::LiveManagerOptions how;
   how.bus = run.bus;
   how.bus.reach = bus::Reach::kAll;
   if (hosts.size() > kMostLiveHosts) {
     return fail(
         ErrorCode::kInvalidArgument,
-        "the run has {} hosts and is in real time, in which each looks for all others: more "
-        "than {} do not find one another; give fewer hosts more robots each",
+        "the run has {} hosts; in real time at most {} hosts can find each other; use fewer hosts "
+        "with more robots each",
         hosts.size(), kMostLiveHosts);
   }
   how.identity = manager_of(run.scenario, true);
@@ -208,7 +209,7 @@ Result<ManagedEnd> manage_time(const ManagedRun& run, robot_host::BuiltScenario 
   how.log = &run.console;
   how.stopping = run.stopping;
   how.control = &run.control;
-  how.begin_wish = run_control::wishes_of(run.control);
+  how.begin_wish = control::wishes_of(run.control);
   how.on_progress = [&run, &file](SimTime now, double speed, const std::string& waiting) {
     run.console.show({now.seconds() / file.duration_s, now.seconds(), file.duration_s, speed,
                       run.scenario.robots.size(),
@@ -216,29 +217,28 @@ Result<ManagedEnd> manage_time(const ManagedRun& run, robot_host::BuiltScenario 
   };
   RAVE_TRY_ASSIGN(auto end, begin_live(run, built));
   how.on_end = [&end](const world::WorldModel& world) { end.results->learn(world); };
-  RAVE_TRY_ASSIGN(auto outcome, environment_manager::manage_live(std::move(built.spec), how));
+  RAVE_TRY_ASSIGN(auto outcome, manager::manage_live(std::move(built.spec), how));
   note_outcome(std::move(outcome), end);
   return end;
 }
 
 }  // namespace
 
-Result<robot_host::BuiltScenario> build_world(const config::ExpandedScenario& scenario,
-                                              const std::vector<std::string>& plugins,
-                                              LogSink& log) {
-  plugin::Catalogue catalogue(robot_host::host_stamp());
+Result<runtime::BuiltScenario> build_world(const config::ExpandedScenario& scenario,
+                                           const std::vector<std::string>& plugins, LogSink& log) {
+  plugin::Catalogue catalogue(runtime::host_stamp());
   RAVE_TRY(add_plugin_folders(plugins, catalogue));
-  robot_host::BuildOptions how;
+  runtime::BuildOptions how;
   how.log = &log;
   how.local.emplace();
   how.others = &catalogue;
-  return robot_host::build(scenario, catalogue, how);
+  return runtime::build(scenario, catalogue, how);
 }
 
 Result<std::unique_ptr<gui_server::GuiServer>> show_run(const RunCommand& options,
                                                         const config::ExpandedScenario& scenario,
                                                         const bus::BusConfig& bus,
-                                                        robot_host::RunControl* control,
+                                                        runtime::RunControl* control,
                                                         LogSink& log) {
   RAVE_TRY_ASSIGN(const auto built, build_world(scenario, options.plugins, log));
   RAVE_TRY_ASSIGN(auto source, gui_server::watch_run(scenario, built, bus, control));
@@ -250,11 +250,11 @@ Result<std::unique_ptr<gui_server::GuiServer>> show_run(const RunCommand& option
   return page;
 }
 
-std::unique_ptr<run_control::Server> serve_control(const std::string& scenario,
-                                                   robot_host::RunControl& control, LogSink& log) {
-  auto server = run_control::Server::start(run_control::own_run_name(scenario), control);
+std::unique_ptr<control::Server> serve_control(const std::string& scenario,
+                                               runtime::RunControl& control, LogSink& log) {
+  auto server = control::Server::start(control::own_run_name(scenario), control);
   if (server) return *std::move(server);
-  log.warn("run", "no other terminal can control this run: {}", server.error().message);
+  log.warn("run", "this run cannot be controlled from other terminals: {}", server.error().message);
   return nullptr;
 }
 
@@ -265,8 +265,8 @@ Result<ManagedEnd> manage_run(const ManagedRun& run) {
   RAVE_TRY_ASSIGN(auto hosts, config::plan_hosts(run.scenario));
   if (hosts.empty()) {
     return fail(ErrorCode::kInvalidArgument,
-                "the scenario `{}` has no hosts: expected `hosts:` with names and robots, or "
-                "`processes:` with a number; `rave run` needs neither",
+                "scenario `{}` has no hosts: expected `hosts:` with names and robots, or "
+                "`processes:` with a number; to run it in one process, use `rave run`",
                 run.scenario.scenario.name.value);
   }
   if (!built.live_reason.empty()) return manage_time(run, std::move(built), std::move(hosts));

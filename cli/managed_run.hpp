@@ -9,13 +9,13 @@
 
 #include "commands/run.hpp"
 #include "console.hpp"
+#include "rave/assemble/build.hpp"
 #include "rave/base/result.hpp"
 #include "rave/bus/config.hpp"
 #include "rave/config/expanded_scenario.hpp"
-#include "rave/robot_host/build.hpp"
-#include "rave/robot_host/run_control.hpp"
-#include "rave/robot_host/shared_results.hpp"
-#include "rave/run_control/server.hpp"
+#include "rave/control/run_control.hpp"
+#include "rave/control/server.hpp"
+#include "rave/results/shared_results.hpp"
 
 namespace rave::cli {
 
@@ -26,7 +26,7 @@ struct ManagedRun {
   const bus::BusConfig& bus;
   std::filesystem::path folder;  ///< Gets scenario.yaml and, of ManagedEnd::results, the rest.
   Console& console;
-  robot_host::RunControl& control;  ///< What others ask of the run.
+  runtime::RunControl& control;  ///< What others ask of the run.
   std::function<bool()> stopping;
   /// Set: the hosts belong to this process; whether all of them have ended.
   std::function<bool()> hosts_ended;
@@ -36,34 +36,34 @@ struct ManagedRun {
 
 /// Lets other terminals control a managed run, under the name of its scenario, until it is
 /// destroyed. Null: they cannot, and the log says why.
-[[nodiscard]] std::unique_ptr<run_control::Server> serve_control(const std::string& scenario,
-                                                                 robot_host::RunControl& control,
-                                                                 LogSink& log);
+[[nodiscard]] std::unique_ptr<control::Server> serve_control(const std::string& scenario,
+                                                             runtime::RunControl& control,
+                                                             LogSink& log);
 
 /// The world of a scenario alone: what its robots do is for their hosts. No plug-in stays loaded.
-[[nodiscard]] Result<robot_host::BuiltScenario> build_world(
-    const config::ExpandedScenario& scenario, const std::vector<std::string>& plugins,
-    LogSink& log);
+[[nodiscard]] Result<runtime::BuiltScenario> build_world(const config::ExpandedScenario& scenario,
+                                                         const std::vector<std::string>& plugins,
+                                                         LogSink& log);
 
 /// Serves a page that looks on at a run on the bus. `control`: that of its manager, if it is in
 /// this process; may be null.
 [[nodiscard]] Result<std::unique_ptr<gui_server::GuiServer>> show_run(
     const RunCommand& options, const config::ExpandedScenario& scenario, const bus::BusConfig& bus,
-    robot_host::RunControl* control, LogSink& log);
+    runtime::RunControl* control, LogSink& log);
 
 /// How it ended.
 struct ManagedEnd {
   bool live = false;  ///< It was in real time.
-  robot_host::SharedEnd end;
+  runtime::SharedEnd end;
   /// To be written when it is known where the hosts left what they know.
-  std::unique_ptr<robot_host::SharedResults> results;
+  std::unique_ptr<runtime::SharedResults> results;
 };
 
 /// Builds the world, waits for the hosts and manages the run to its end, in lock-step or in real
 /// time. No plug-in stays loaded while it goes. A run in real time in which nobody looks at others
 /// is not managed: with hosts of this process it waits for their end. Errors: kInvalidArgument (not
-/// managed, and no hosts here), those of robot_host::build(), environment_manager::manage() and
-/// environment_manager::manage_live().
+/// managed, and no hosts here), those of runtime::build(), manager::manage() and
+/// manager::manage_live().
 [[nodiscard]] Result<ManagedEnd> manage_run(const ManagedRun& run);
 
 }  // namespace rave::cli

@@ -71,7 +71,7 @@ Status copy_filled_in(const fs::path& from, const fs::path& to, const std::strin
     std::error_code error;
     fs::create_directories(path.parent_path(), error);
     if (error) {
-      return fail(ErrorCode::kIo, "cannot make the folder `{}`: {}", path.parent_path().string(),
+      return fail(ErrorCode::kIo, "cannot create the folder `{}`: {}", path.parent_path().string(),
                   error.message());
     }
     RAVE_TRY(write_file_atomically(path, filled_in(std::move(text), name)));
@@ -85,7 +85,7 @@ Result<ProjectKind> parse_project_kind(std::string_view text) {
   if (text == kKinds[0]) return ProjectKind::kProgram;
   if (text == kKinds[1]) return ProjectKind::kDriver;
   if (text == kKinds[2]) return ProjectKind::kPanel;
-  return fail(ErrorCode::kInvalidArgument, "cannot make a new `{}`{}", text,
+  return fail(ErrorCode::kInvalidArgument, "cannot create a new `{}`{}", text,
               suggestion(text, kKinds));
 }
 
@@ -106,16 +106,15 @@ std::string class_name_of(std::string_view project_name) {
 Status check_project_name(std::string_view name) {
   if (!is_snake_case(name)) {
     return fail(ErrorCode::kInvalidArgument,
-                "`{}` cannot be a name: expected lower_snake_case, for example `avoid_walls`",
-                name);
+                "`{}` is not a valid name: expected lower_snake_case, such as `avoid_walls`", name);
   }
   if (name.size() > kLongestName) {
-    return fail(ErrorCode::kInvalidArgument, "`{}` is too long for a name: at most {} characters",
-                name, kLongestName);
+    return fail(ErrorCode::kInvalidArgument,
+                "the name `{}` is too long: expected at most {} characters", name, kLongestName);
   }
   if (std::find(kReserved.begin(), kReserved.end(), name) != kReserved.end()) {
     return fail(ErrorCode::kInvalidArgument,
-                "`{}` cannot be a name: the build keeps it for itself; take another", name);
+                "`{}` is not a valid name: it is reserved by the build; choose another", name);
   }
   return {};
 }
@@ -125,7 +124,7 @@ Status create_project(ProjectKind kind, const std::string& name, const fs::path&
   RAVE_TRY(check_project_name(name));
   std::error_code error;
   if (fs::exists(fs::symlink_status(target_dir, error))) {
-    return fail(ErrorCode::kInvalidArgument, "`{}` exists already; nothing was changed",
+    return fail(ErrorCode::kInvalidArgument, "`{}` already exists; nothing was changed",
                 target_dir.string());
   }
   const fs::path from = template_dir / kKinds[static_cast<std::size_t>(kind)];
@@ -136,7 +135,7 @@ Status create_project(ProjectKind kind, const std::string& name, const fs::path&
   std::error_code ignored;
   if (!copied || error) fs::remove_all(partial, ignored);
   if (copied && error) {
-    return fail(ErrorCode::kIo, "cannot make `{}`: {}", target_dir.string(), error.message());
+    return fail(ErrorCode::kIo, "cannot create `{}`: {}", target_dir.string(), error.message());
   }
   return copied;
 }

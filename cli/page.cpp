@@ -59,14 +59,15 @@ Result<std::unique_ptr<gui_server::GuiServer>> serve_page(
 }
 
 void replay_on_page(gui_server::GuiServer& page, bool quiet, const std::filesystem::path& folder,
-                    const robot_host::RunControl& control) {
+                    const runtime::RunControl& control) {
   if (control.stopping()) return;
   auto source = record_file(folder.string()).and_then(gui_server::open_recording);
   if (source) page.show(*std::move(source));
   if (!quiet) {
-    put(stdout, source ? "the page shows the recording; Ctrl-C ends\n"
-                       : fmt::format("the page shows no recording: {}; Ctrl-C ends\n",
-                                     source.error().text()));
+    put(stdout, source
+                    ? "the page shows the recording; press Ctrl-C to quit\n"
+                    : fmt::format("the page cannot show the recording: {}; press Ctrl-C to quit\n",
+                                  source.error().text()));
   }
   std::fflush(stdout);
   while (!control.stopping()) std::this_thread::sleep_for(std::chrono::milliseconds(100));

@@ -5,9 +5,9 @@
 #include <memory>
 #include <string>
 
+#include "rave/control/run_control.hpp"
 #include "rave/gui_server/gui_server.hpp"
 #include "rave/gui_server/source.hpp"
-#include "rave/robot_host/run_control.hpp"
 
 namespace rave::cli {
 
@@ -30,6 +30,6 @@ struct PageOptions {
 
 /// When a run is over, its page shows the recording in `folder` until somebody ends this process.
 void replay_on_page(gui_server::GuiServer& page, bool quiet, const std::filesystem::path& folder,
-                    const robot_host::RunControl& control);
+                    const runtime::RunControl& control);
 
 }  // namespace rave::cli

@@ -127,8 +127,8 @@ Result<fs::path> find_scenario(std::string_view word) {
   const std::vector<std::string_view> views(names.begin(), names.end());
   return fail(
       ErrorCode::kNotFound,
-      "there is no scenario `{}`: neither a file nor a folder, nor a name below `scenarios` "
-      "of this folder or `{}`{}",
+      "there is no scenario `{}`: not a file, not a folder, and not a name in `scenarios` of "
+      "this folder or of `{}`{}",
       word, share_folder().string(), suggestion(word, views));
 }
 

@@ -70,8 +70,7 @@ Status add_by_hand(const record::McapReader& reader, std::vector<Change>& change
       config::Diagnostics diagnostics;
       auto value = config::parse_yaml(input.value, "input", diagnostics);
       if (!value || !diagnostics.ok()) {
-        return fail(ErrorCode::kParse, "the record has an input `{}` that nobody understands",
-                    input.kind);
+        return fail(ErrorCode::kParse, "the recording has an unknown input `{}`", input.kind);
       }
       changes.push_back({input.step, words.key, *std::move(value)});
     }

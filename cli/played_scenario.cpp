@@ -71,7 +71,8 @@ class Playing {
     }
     for (const record::RecordedRobot* const robot : chosen) {
       if (robot->id.value() >= original_.robots.size()) {
-        return fail(ErrorCode::kParse, "the scenario in the record has no robot `{}`", robot->name);
+        return fail(ErrorCode::kParse, "the scenario of the recording has no robot `{}`",
+                    robot->name);
       }
     }
     return chosen;
@@ -122,7 +123,7 @@ class Playing {
     for (config::SensorFile& sensor : robot.sensors) {
       const record::RecordedSensor* const found = recorded_sensor(recorded.id, sensor.name.value);
       if (found == nullptr) {
-        return fail(ErrorCode::kParse, "the record does not describe sensor `{}` of robot `{}`",
+        return fail(ErrorCode::kParse, "the recording does not describe sensor `{}` of robot `{}`",
                     sensor.name.value, recorded.name);
       }
       if (std::ranges::find(wish_.anew, sensor.name.value) != wish_.anew.end()) {
@@ -152,9 +153,8 @@ class Playing {
 
   Status keep_virtual(const config::SensorFile& sensor) {
     if (!is_virtual(sensor)) {
-      return fail(ErrorCode::kInvalidArgument,
-                  "`{}` cannot sense anew: its driver `{}` is no virtual sensor", sensor.name.value,
-                  sensor.driver.value);
+      return fail(ErrorCode::kInvalidArgument, "--anew: sensor `{}` is not virtual (driver `{}`)",
+                  sensor.name.value, sensor.driver.value);
     }
     used_anew_.push_back(sensor.name.value);
     return {};
@@ -167,7 +167,7 @@ class Playing {
       for (const record::RecordedSensor& sensor : run_.sensors) {
         if (std::ranges::find(names, sensor.name) == names.end()) names.push_back(sensor.name);
       }
-      return fail(ErrorCode::kNotFound, "no robot that is played has a sensor `{}`{}", name,
+      return fail(ErrorCode::kNotFound, "no played robot has a sensor `{}`{}", name,
                   suggestion(name, names));
     }
     return {};
@@ -231,7 +231,7 @@ class Playing {
       std::erase_if(robot.controllers,
                     [&](const auto& c) { return c.actuator.value == actuator.name.value; });
       played_.notes.push_back(fmt::format(
-          "robot `{}`: actuator `{}` is left out, as no driver takes its commands and ignores them",
+          "robot `{}`: actuator `{}` is left out, because no driver ignores its kind of command",
           recorded.name, actuator.name.value));
       return true;
     });
@@ -264,8 +264,8 @@ class Playing {
     const double duration_s = steps * step_s - wish_.start_s;
     if (!(duration_s >= step_s)) {
       return fail(ErrorCode::kInvalidArgument,
-                  "the record is {} s long, so nothing is left to be played from {} s on",
-                  steps * step_s, wish_.start_s);
+                  "the recording is {} s long; expected an earlier start than {} s", steps * step_s,
+                  wish_.start_s);
     }
     RawNode root = RawNode::mapping();
     root.append("name", RawNode::text(played_.name));
@@ -318,8 +318,8 @@ Result<PlayedScenario> played_scenario(const PlayWish& wish, plugin::Catalogue& 
 Status write_played(const PlayedScenario& played, const fs::path& folder) {
   std::error_code error;
   if (fs::exists(folder / "scenario.yaml", error)) {
-    return fail(ErrorCode::kInvalidArgument, "`{}` holds a scenario already; give another folder",
-                folder.string());
+    return fail(ErrorCode::kInvalidArgument,
+                "`{}` already contains a scenario; give another folder", folder.string());
   }
   for (const PlayedScenario::File& file : played.files) {
     const fs::path path = folder / file.path;

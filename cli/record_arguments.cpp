@@ -9,81 +9,92 @@ namespace rave::cli {
 namespace {
 
 void add_info(CLI::App& root, InfoCommand& c) {
-  CLI::App& app = *root.add_subcommand("info", "Say what is in the record of a run");
+  CLI::App& app = *root.add_subcommand("info", "Show the contents of a recording");
   add_record(app, c.file);
-  app.add_flag(
-      "--check", c.check,
-      "Read all of it and compare every checksum; without it only index, beginning and end");
-  app.add_flag("--json", c.json, "For other programs");
+  app.add_flag("--check", c.check,
+               "Read the complete file and verify every checksum [only index, start and end]");
+  app.add_flag("--json", c.json, "Print JSON");
   app.footer(
-      "Exit code: 0, 1 if something is wrong with the record, 2 if it is none.\n\n"
+      "Exit code: 0 if the recording is good, 1 if it is damaged, 2 if it is not a recording.\n\n"
       "Examples:\n"
       "  rave info runs/20260101-120000-mixed-reality\n"
       "  rave info runs/20260101-120000-mixed-reality --check");
 }
 
 void add_verify(CLI::App& root, VerifyCommand& c) {
-  CLI::App& app =
-      *root.add_subcommand("verify", "Run what a record holds again and compare it to the bit");
+  CLI::App& app = *root.add_subcommand("verify", "Run a recording again and compare every bit");
   add_record(app, c.file);
   add_threads(app, c.threads);
   app.add_flag("--quiet", c.quiet, "Print errors and differences only");
   add_plugins(app, c.plugins);
   app.footer(
-      "Exit code: 0 if every step is the same, 1 if not (the first step, robot and channel that\n"
-      "differ are named), 2 if it cannot be run again: a live run, or input files that are "
-      "missing.\n\n"
+      "Exit code: 0 if every step is equal; 1 if not, with the first step, robot and channel that\n"
+      "differ; 2 if the run cannot be repeated (a live run, or missing input files).\n\n"
       "Example:\n"
       "  rave verify runs/20260101-120000-mixed-reality");
 }
 
 void add_play(CLI::App& root, PlayCommand& c) {
   CLI::App& app = *root.add_subcommand(
-      "play", "Play robots of a record as recorded real robots in a new scenario");
+      "play", "Use robots of a recording as recorded real robots in a new scenario");
   add_record(app, c.file);
-  add_values(app, "--robot", c.robots, "One of the recorded robots; may be repeated [all]", "NAME");
+  add_values(app, "--robot", c.robots, "Robot of the recording; repeatable [all]", "NAME");
   add_values(app, "--anew", c.anew,
-             "A virtual sensor that senses the new world instead of being played; may be "
-             "repeated",
+             "Virtual sensor that senses the new world instead of being played; repeatable",
              "SENSOR");
-  add_value(app, "--world", c.world, "A world file [the world of the record]", "FILE");
+  add_value(app, "--world", c.world, "World file [world of the recording]", "FILE");
   add_value(app, "--program", c.program,
-            "Program that gets the readings; its commands are ignored [none]", "NAME");
-  add_value(app, "--start", c.start_s, "Time of the record to start at, in seconds [0]", "S")
+            "Program that receives the readings; its commands are ignored [none]", "NAME");
+  add_value(app, "--start", c.start_s, "Start time in the recording, in seconds [0]", "S")
       ->check(CLI::Range(0.0, 1e9));
-  add_value(app, "--write", c.write, "Only write the scenario, into this folder", "DIR");
+  add_value(app, "--write", c.write, "Write the scenario to this folder, and do not run it", "DIR");
   add_run_options(app, c.run);
   app.footer(
-      "The scenario is left in the folder `played` of the run; simulated robots can be added to "
-      "it\n"
-      "by hand. Exit code: as of `rave run`.\n\n"
+      "The scenario is written to the folder `played` of the run. You can add simulated robots to\n"
+      "it. Exit code: as for `rave run`.\n\n"
       "Examples:\n"
       "  rave play runs/20260101-120000-mixed-reality --robot walker-3 --anew laser\n"
       "  rave play run.mcap --robot hunter --program wander --write my/scenario");
 }
 
+void add_export(CLI::App& root, ExportCommand& c) {
+  CLI::App& app = *root.add_subcommand("export", "Write a part of a recording as CSV");
+  add_record(app, c.file);
+  add_word(app, "what", c.what, "poses, readings or events", "WHAT")
+      ->check(CLI::IsMember({"poses", "readings", "events"}).description(""));
+  add_value(app, "--robot", c.robot, "Only this robot [all]; required for readings", "NAME");
+  add_value(app, "--sensor", c.sensor, "Sensor, for readings", "NAME");
+  add_value(app, "--output", c.output, "File to write [standard output]", "FILE");
+  app.footer(
+      "Times are seconds of the run, all other values SI units. A range without return is `inf`.\n"
+      "Columns: docs/how-to/read-a-recording.md. Exit code: 0, or 2 for bad input.\n\n"
+      "Examples:\n"
+      "  rave export runs/20260101-120000-mixed-reality poses > poses.csv\n"
+      "  rave export run.mcap readings --robot hunter --sensor laser --output laser.csv");
+}
+
 void add_report(CLI::App& root, GapCommand& c) {
-  CLI::App& parent = *root.add_subcommand("report", "Draw conclusions from the record of a run");
+  CLI::App& parent = *root.add_subcommand("report", "Analyse a recording");
   parent.require_subcommand(1);
   parent.footer("Example:\n  rave report gap run.mcap --robot walker-3");
   CLI::App& app = *parent.add_subcommand(
       "gap", "Compare a recorded robot with its simulated twin under the same commands");
   add_record(app, c.file);
-  add_value(app, "--robot", c.robot, "The recorded robot [the only one]", "NAME");
-  add_value(app, "--twin", c.twin, "Robot file whose simulated actuator drives the twin [its own]",
-            "FILE");
+  add_value(app, "--robot", c.robot, "Recorded robot [the only one]", "NAME");
+  add_value(app, "--twin", c.twin,
+            "Robot file with the simulated actuator of the twin [that of the robot]", "FILE");
   add_value(app, "--commands", c.commands,
-            "Velocity sensor that tells the commands [what reached the actuator]", "SENSOR");
-  app.add_flag("--truth", c.truth, "Compare with the true pose, not with the reported one");
-  add_value(app, "--window", c.window_s, "Length of the windows that start anew, in seconds [10]",
-            "S")
+            "Velocity sensor to use as commands [what reached the actuator]", "SENSOR");
+  app.add_flag("--truth", c.truth, "Compare with the true pose instead of the reported pose");
+  add_value(app, "--window", c.window_s,
+            "Time after which the twin is set to the robot again, in seconds [10]", "S")
       ->check(CLI::Range(1e-3, 1e6));
-  add_value(app, "--output", c.output, "Folder for picture and numbers [that of the record]",
-            "DIR");
+  add_value(app, "--output", c.output,
+            "Folder for the picture and the numbers [that of the recording]", "DIR");
   app.add_flag("--json", c.json, "Print the numbers as JSON");
   add_plugins(app, c.plugins);
   app.footer(
-      "The twin starts where the robot was first known to be and drives in an empty world.\n\n"
+      "The twin starts at the first known pose of the robot and drives in an empty world.\n\n"
       "Examples:\n"
       "  rave report gap runs/20260101-120000-corridor --robot create --twin robots/twin.yaml\n"
       "  rave report gap run.mcap --robot real-3 --commands commanded --twin robots/wanderer.yaml");
@@ -91,15 +102,15 @@ void add_report(CLI::App& root, GapCommand& c) {
 
 void add_gui(CLI::App& root, GuiCommand& c) {
   CLI::App& app = *root.add_subcommand("gui", "Show a run or a recording in the browser");
-  add_word(app, "what", c.file, "A recording, the folder of a run, or the scenario of a run",
+  add_word(app, "what", c.file, "Recording, folder of a run, or scenario of a run in progress",
            "WHAT");
   add_page_options(app, c.page);
-  add_processes(app, c.run.processes, "As of `rave env`", 2);
+  add_processes(app, c.run.processes, "As for `rave env`", 2);
   add_plugins(app, c.run.plugins);
   add_bus_options(app, c.run.bus);
   app.footer(
-      "Of a scenario, the run of several processes is shown that goes on, or will; it is found on\n"
-      "the bus as its processes are. `rave run --gui` shows a run of one process.\n\n"
+      "Given a scenario, shows its run of several processes, which is found on the bus; the run\n"
+      "may start later. For a run of one process use `rave run --gui`.\n\n"
       "Examples:\n"
       "  rave gui runs/20260101-120000-mixed-reality\n"
       "  rave gui lab --interface 192.168.1.7 --peer 192.168.1.2");
@@ -111,6 +122,7 @@ void add_record_commands(CLI::App& root, RecordCommands& commands) {
   add_info(root, commands.info);
   add_verify(root, commands.verify);
   add_play(root, commands.play);
+  add_export(root, commands.csv);
   add_report(root, commands.gap);
   add_gui(root, commands.gui);
 }

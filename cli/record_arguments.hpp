@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "commands/export.hpp"
 #include "commands/gui.hpp"
 #include "commands/info.hpp"
 #include "commands/play.hpp"
@@ -18,12 +19,13 @@ struct RecordCommands {
   InfoCommand info;
   VerifyCommand verify;
   PlayCommand play;
+  ExportCommand csv;
   GapCommand gap;
   GuiCommand gui;
 };
 
-/// Adds `info`, `verify`, `play`, `report gap` and `gui`, which write what they are given to
-/// `commands`.
+/// Adds `info`, `verify`, `play`, `export`, `report gap` and `gui`, which write what they are given
+/// to `commands`.
 void add_record_commands(CLI::App& root, RecordCommands& commands);
 
 }  // namespace rave::cli

@@ -103,8 +103,8 @@ std::vector<double> directions_of(const Look& look) {
 
 std::string line_of(const Look& look) {
   std::string text =
-      fmt::format("{} ({}): at x {:g} m, y {:g} m, height {:g} m, turned {:g}°", look.name,
-                  look.driver, look.X_RS.x, look.X_RS.y, look.z_m, rad_to_deg(look.X_RS.yaw));
+      fmt::format("{} ({}): x {:g} m, y {:g} m, height {:g} m, yaw {:g}°", look.name, look.driver,
+                  look.X_RS.x, look.X_RS.y, look.z_m, rad_to_deg(look.X_RS.yaw));
   if (!look.bearings_rad.empty()) {
     const auto [low, high] =
         std::minmax_element(look.bearings_rad.begin(), look.bearings_rad.end());
@@ -135,7 +135,7 @@ void add_sensor(const Look& look, const Pose2& X_WR, double body_m, double scale
 
 }  // namespace
 
-Result<Picture> draw_one_robot(const InputFile& input, robot_host::BuiltScenario built) {
+Result<Picture> draw_one_robot(const InputFile& input, runtime::BuiltScenario built) {
   const world::Body body = built.spec.world.robots[0];
   std::vector<Look> looks = looks_of(built.spec);
   double farthest_m = 0;
@@ -162,7 +162,7 @@ Result<Picture> draw_one_robot(const InputFile& input, robot_host::BuiltScenario
   }
   if (scale < 1) {
     picture.caption.push_back(fmt::format(
-        "Fields of view are drawn {:.2g} times as long as they are; the body is to scale.", scale));
+        "Fields of view are drawn at {:.2g} times their length; the body is to scale.", scale));
   }
   for (const Look& look : looks) {
     picture.caption.push_back(line_of(look));

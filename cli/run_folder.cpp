@@ -73,11 +73,11 @@ Result<RunFolder> RunFolder::create(const WantedFolder& wanted, std::string_view
                   error.message());
     }
     if (const auto trace = trace_of_run(given)) {
-      return fail(ErrorCode::kInvalidArgument,
-                  "the folder `{}` holds `{}`, so it is that of another run; choose another one "
-                  "with --output{}",
-                  given.string(), *trace,
-                  wanted.replace ? "" : ", or let --replace remove what that run left");
+      return fail(
+          ErrorCode::kInvalidArgument,
+          "the folder `{}` has the results of another run (`{}`); choose another folder with "
+          "--output{}",
+          given.string(), *trace, wanted.replace ? "" : ", or remove those results with --replace");
     }
     return folder;
   }

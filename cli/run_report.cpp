@@ -28,7 +28,7 @@ std::string files_of(const std::filesystem::path& folder) {
 
 }  // namespace
 
-int report_outcome(const RunCommand& options, const robot_host::RunOutcome& outcome,
+int report_outcome(const RunCommand& options, const runtime::RunOutcome& outcome,
                    const std::filesystem::path& folder) {
   const bool good = outcome.whole && outcome.checks_hold;
   if (!options.quiet) {
@@ -43,8 +43,8 @@ int report_outcome(const RunCommand& options, const robot_host::RunOutcome& outc
   }
   if (!good) {
     const std::string_view what =
-        outcome.whole ? "a check of the scenario does not hold" : "the run was not whole";
-    put(stderr, fmt::format("{} {}\n", errors.red("not good:"), what));
+        outcome.whole ? "a check of the scenario does not hold" : "the run did not complete";
+    put(stderr, fmt::format("{} {}\n", errors.red("FAILED:"), what));
   } else if (!options.quiet) {
     put(stdout, terminal_of(stdout).green("done") + "\n");
   }

@@ -12,8 +12,8 @@ void add_processes(CLI::App& app, std::optional<int>& processes, const char* wha
     const int most = static_cast<int>(kMostHosts);
     if (CLI::Range(least, most)(word).empty()) return {};
     return fmt::format(
-        "expected {} to {}: a machine has room for so many hosts in a DDS domain; give each more "
-        "robots",
+        "expected {} to {}, the number of hosts that fit into one DDS domain on a machine; give "
+        "each host more robots",
         least, most);
   };
   add_value(app, "--processes", processes, what, "N")->check(check);
@@ -21,27 +21,30 @@ void add_processes(CLI::App& app, std::optional<int>& processes, const char* wha
 
 void add_plugins(CLI::App& app, std::vector<std::string>& folders) {
   add_values(app, "--plugins", folders,
-             "Folder with more plug-ins; may be given several times and wins over "
-             "RAVE_PLUGIN_PATH and the built-in ones",
+             "Folder with more plug-ins, searched before RAVE_PLUGIN_PATH and the built-in ones; "
+             "repeatable",
              "DIR");
 }
 
 void add_scenario(CLI::App& app, std::string& scenario) {
-  add_word(app, "scenario", scenario, "A file, a folder with scenario.yaml, or a name", "SCENARIO");
+  add_word(app, "scenario", scenario, "Scenario: a file, a folder with scenario.yaml, or a name",
+           "SCENARIO");
 }
 
 void add_page_options(CLI::App& app, PageOptions& page) {
-  add_value(app, "--port", page.port, "Port; a busy one means the next [8080]", "PORT");
-  add_value(app, "--page", page.page, "Folder of the built page [that of this installation]",
-            "DIR");
-  app.add_flag("--no-open", page.no_open, "Print the link, but open no browser");
-  add_value(app, "--listen", page.listen, "Address; another one needs TLS and accounts [127.0.0.1]",
+  add_value(app, "--port", page.port, "Port of the page; if it is in use, the next free one [8080]",
+            "PORT");
+  add_value(app, "--page", page.page, "Folder of the built page [the installed one]", "DIR");
+  app.add_flag("--no-open", page.no_open, "Print the link, do not open a browser");
+  add_value(app, "--listen", page.listen,
+            "Address of the page; others than the default need TLS and accounts [127.0.0.1]",
             "ADDRESS");
-  add_value(app, "--certificate", page.certificate, "For TLS, as `rave keys web` makes it", "FILE");
-  add_value(app, "--key", page.key, "The private key of the certificate", "FILE");
+  add_value(app, "--certificate", page.certificate, "Certificate for TLS, made by `rave keys web`",
+            "FILE");
+  add_value(app, "--key", page.key, "Private key of the certificate", "FILE");
   add_value(app, "--line-key", page.line_key,
-            "The key that hosts with --web-key believe: FILE of `rave keys line FILE`", "FILE");
-  add_value(app, "--accounts", page.accounts, "Folder of accounts: see `rave people`", "DIR");
+            "Signing key of direct lines, made by `rave keys line FILE`", "FILE");
+  add_value(app, "--accounts", page.accounts, "Folder of accounts, made by `rave people`", "DIR");
 }
 
 void add_line_options(CLI::App& app, LineWish& line) {
@@ -58,7 +61,7 @@ void add_line_options(CLI::App& app, LineWish& line) {
 }
 
 void add_record(CLI::App& app, std::string& file) {
-  add_word(app, "file", file, "A run.mcap, or the folder of a run", "FILE");
+  add_word(app, "file", file, "Recording (run.mcap), or folder of a run", "FILE");
 }
 
 }  // namespace rave::cli

@@ -37,7 +37,7 @@ inline CLI::Option* add_values(CLI::App& app, const char* name, std::vector<std:
 /// Of a number or an optional one.
 template <class T>
 void add_threads(CLI::App& app, T& threads,
-                 const char* what = "Threads; they do not change the result") {
+                 const char* what = "Number of threads; the result does not depend on it") {
   add_value(app, "--threads", threads, what, "N")->check(CLI::Range(1, 1024));
 }
 

@@ -15,7 +15,7 @@
 #include "places.hpp"
 #include "rave/base/file.hpp"
 #include "rave/direct_line/key_files.hpp"
-#include "rave/robot_host/host_run.hpp"
+#include "rave/host/host_run.hpp"
 #include "run_folder.hpp"
 #include "run_report.hpp"
 
@@ -48,11 +48,11 @@ class Crew {
       member.process.reset();
       member.code = code;
       if (*code == kGood) continue;
-      console_.warn("run", "the process of host `{}` ended with {}", member.name,
+      console_.warn("run", "the process of host `{}` exited with {}", member.name,
                     *code < 0 ? fmt::format("signal {}", -*code) : fmt::format("code {}", *code));
       if (!restarts_ || member.starts >= kMostStarts) continue;
       if (auto started = start(member); !started) {
-        console_.error("run", "host `{}` could not be started again: {}", member.name,
+        console_.error("run", "host `{}` could not be restarted: {}", member.name,
                        started.error().message);
       }
     }
@@ -196,11 +196,11 @@ Status make_lines(RunCommand& options, const std::filesystem::path& folder) {
 }
 
 /// Puts together what all have left.
-Result<robot_host::RunOutcome> put_together(ManagedEnd& managed, const Crew& crew,
-                                            const std::vector<std::string>& problems) {
-  robot_host::SharedEnd& end = managed.end;
+Result<runtime::RunOutcome> put_together(ManagedEnd& managed, const Crew& crew,
+                                         const std::vector<std::string>& problems) {
+  runtime::SharedEnd& end = managed.end;
   end.problems.insert(end.problems.end(), problems.begin(), problems.end());
-  for (robot_host::SharedHost& host : end.hosts) host.folders = crew.folders_of(host.name);
+  for (runtime::SharedHost& host : end.hosts) host.folders = crew.folders_of(host.name);
   return managed.results->write(end);
 }
 
@@ -212,7 +212,7 @@ int run_shared(const RunCommand& asked, const config::ExpandedScenario& scenario
   BusOptions bus_options = options.bus;
   // A run that this process starts is one of its own, whoever runs the same scenario beside it.
   if (bus_options.run.empty()) bus_options.run = bus::RunId::random().text();
-  auto bus = bus_config(bus_options, "environment manager", robot_host::shared_number(scenario));
+  auto bus = bus_config(bus_options, "environment manager", runtime::shared_number(scenario));
   if (!bus) return complain(bus.error());
   const bool lines = wants_lines(options, hosts.size());
   // A line has an end of its own on the bus.
@@ -235,13 +235,13 @@ int run_shared(const RunCommand& asked, const config::ExpandedScenario& scenario
   Crew crew(options, *bus, folder->path(), scenario.scenario, console);
   for (const config::PlannedHost& host : hosts) {
     if (host.elsewhere) {
-      console.warn("run", "waits for host `{}`: {}", host.name,
+      console.warn("run", "waiting for host `{}`; start it with: {}", host.name,
                    host_command(options, host.name, bus->run));
       continue;
     }
     if (auto started = crew.start(host); !started) return complain(started.error());
   }
-  robot_host::RunControl& control = ended_by_signals();
+  runtime::RunControl& control = ended_by_signals();
   const auto server = serve_control(scenario.scenario.name.value, control, console);
   const auto stopping = [&] {
     crew.look_after();

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # What `cmake --install` puts where, and the package that find_package(rave) finds.
-#   component runtime     bin/, the plug-ins, share/rave (scenarios, robots, worlds, data, ...)
+#   component runtime     bin/, the plug-ins, share/rave (scenarios, robots, worlds, data, ...), man
+#                         pages, completion of bash
 #   component gui         share/rave/web: the page of the GUI Server
 #   component robot-dev   what a robot program is written with: no header of the simulator
 #   component driver-dev  on top of it: world and sim, for virtual drivers
@@ -88,12 +89,15 @@ foreach(folder scenarios robots worlds data schemas)
 endforeach()
 install(DIRECTORY "${CMAKE_SOURCE_DIR}/share/templates" DESTINATION share/rave COMPONENT runtime)
 
+install(DIRECTORY "${CMAKE_BINARY_DIR}/share/man" "${CMAKE_BINARY_DIR}/share/bash-completion"
+  DESTINATION share COMPONENT runtime)
+
 install(DIRECTORY "${CMAKE_BINARY_DIR}/share/rave/web" DESTINATION share/rave COMPONENT gui OPTIONAL)
 
 # All that ./run needs, and nothing that only tests need.
 add_custom_target(rave_runtime)
 if(RAVE_RUNTIME_TARGETS)
-  add_dependencies(rave_runtime ${RAVE_RUNTIME_TARGETS})
+  add_dependencies(rave_runtime ${RAVE_RUNTIME_TARGETS} rave_command_docs)
 endif()
 
 # All that `cmake --install` needs.

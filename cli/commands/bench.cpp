@@ -6,7 +6,7 @@
 #include "console.hpp"
 #include "error_text.hpp"
 #include "places.hpp"
-#include "rave/robot_host/build.hpp"
+#include "rave/assemble/build.hpp"
 
 namespace rave::cli {
 namespace {
@@ -22,7 +22,7 @@ swarm::RunEnd usual(swarm::RunEnd end) {
 
 int bench_swarm(const BenchSwarmCommand& command) {
   const auto began = std::chrono::steady_clock::now();
-  plugin::Catalogue catalogue(robot_host::host_stamp());
+  plugin::Catalogue catalogue(runtime::host_stamp());
   if (auto added = add_plugin_folders({}, catalogue); !added) return complain(added.error());
   Console console(true);
   const auto run =

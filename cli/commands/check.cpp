@@ -10,7 +10,7 @@
 #include "error_text.hpp"
 #include "input_file.hpp"
 #include "places.hpp"
-#include "rave/robot_host/build.hpp"
+#include "rave/assemble/build.hpp"
 
 namespace rave::cli {
 namespace {
@@ -28,7 +28,7 @@ std::string devices_text(const config::RobotFile& robot) {
 }
 
 /// What a file was taken for and what is in it, in a line.
-std::string summary_of(const InputFile& input, const robot_host::BuiltScenario& built) {
+std::string summary_of(const InputFile& input, const runtime::BuiltScenario& built) {
   const std::size_t obstacles = built.spec.world.obstacles.size();
   std::size_t simulated = 0;
   for (const sim::RobotSpec& robot : built.spec.robots) {
@@ -76,9 +76,9 @@ class Checker {
     if (!kind) return bad(file, "", kind.error());
     auto input = read_input(file);
     if (!input) return bad(file, to_string(*kind), input.error());
-    robot_host::BuildOptions build_options;
+    runtime::BuildOptions build_options;
     build_options.program_runner = program_runner();
-    auto built = robot_host::build(input->scenario, catalogue_, build_options);
+    auto built = runtime::build(input->scenario, catalogue_, build_options);
     if (!built) {
       const Error first = built.error();
       std::vector<Error> errors =
@@ -95,7 +95,7 @@ class Checker {
 
   /// The verdict goes beside the errors when the expanded file takes the standard output.
   void report_good(const std::string& file, const InputFile& input,
-                   const robot_host::BuiltScenario& built) const {
+                   const runtime::BuiltScenario& built) const {
     std::FILE* const stream = options_.expand ? stderr : stdout;
     const Terminal terminal = terminal_of(stream);
     put(stream, fmt::format("{}: {}: {}\n", terminal.bold(file), terminal.green("ok"),
@@ -104,12 +104,12 @@ class Checker {
       put(stream, fmt::format("{}: {} {}\n", terminal.bold(file), terminal.yellow("note:"), note));
     }
     if (!built.live_reason.empty()) {
-      put(stream, fmt::format("{}: {} a run is live, not repeatable: {}\n", terminal.bold(file),
-                              terminal.yellow("note:"), built.live_reason));
+      put(stream, fmt::format("{}: {} runs are live and cannot be repeated: {}\n",
+                              terminal.bold(file), terminal.yellow("note:"), built.live_reason));
     }
   }
 
-  [[nodiscard]] bool draw_file(const InputFile& input, robot_host::BuiltScenario built) const {
+  [[nodiscard]] bool draw_file(const InputFile& input, runtime::BuiltScenario built) const {
     Status drawn;
     auto picture = draw(input, std::move(built));
     if (picture) {
@@ -131,7 +131,7 @@ class Checker {
   }
   static bool verdict(const std::string& file, std::string_view kind) {
     const Terminal terminal = terminal_of(stderr);
-    const std::string taken = kind.empty() ? "" : fmt::format(" (taken for a {} file)", kind);
+    const std::string taken = kind.empty() ? "" : fmt::format(" (read as a {} file)", kind);
     put(stderr, fmt::format("{}: {}{}\n", terminal.bold(file), terminal.red("not usable"), taken));
     return false;
   }
@@ -143,12 +143,12 @@ class Checker {
 }  // namespace
 
 int check(const CheckCommand& options) {
-  plugin::Catalogue catalogue(robot_host::host_stamp());
+  plugin::Catalogue catalogue(runtime::host_stamp());
   if (auto added = add_plugin_folders(options.plugins, catalogue); !added) {
     return complain(added.error());
   }
   if (!options.draw.empty() && options.files.size() > 1) {
-    return complain({ErrorCode::kInvalidArgument, "--draw takes one file at a time", {}});
+    return complain({ErrorCode::kInvalidArgument, "--draw: expected exactly one file", {}});
   }
   return Checker(options, catalogue).run();
 }

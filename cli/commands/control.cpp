@@ -11,14 +11,14 @@
 
 #include "asked_run.hpp"
 #include "error_text.hpp"
+#include "rave/control/folder.hpp"
 #include "rave/math/scalar.hpp"
 #include "rave/report/table.hpp"
-#include "rave/run_control/folder.hpp"
 
 namespace rave::cli {
 namespace {
 
-using run_control::Request;
+using control::Request;
 
 /// Asks one run and prints its answer.
 int ask_run(const AskedRun& run, const Request& request) {
@@ -34,7 +34,7 @@ int ask_run(const AskedRun& run, const Request& request) {
 
 /// Asks all; those here at once, so that one that stands keeps no stop from the others.
 std::vector<Reply> ask_all(const std::vector<AskedRun>& runs, const Request& request) {
-  std::vector<std::future<Result<run_control::Answer>>> answers;
+  std::vector<std::future<Result<control::Answer>>> answers;
   for (const AskedRun& run : runs) {
     // What is on the bus is asked by its one owner.
     const auto how = run.on_bus() ? std::launch::deferred : std::launch::async;
@@ -101,12 +101,12 @@ Request request_of(Request::What what, const std::string& robot) {
   return request;
 }
 
-std::string pace_text(const robot_host::RunStatus& status) {
+std::string pace_text(const runtime::RunStatus& status) {
   if (status.live) return "live";
   return status.pace == 0 ? "max" : fmt::format("{}x", status.pace);
 }
 
-std::string state_text(const robot_host::RunStatus::Robot& robot) {
+std::string state_text(const runtime::RunStatus::Robot& robot) {
   std::string text = robot.stopped ? "stopped" : robot.armed ? "free" : "not armed";
   if (robot.hand_over) {
     const auto& hand_over = *robot.hand_over;
@@ -120,7 +120,7 @@ std::string state_text(const robot_host::RunStatus::Robot& robot) {
   return text;
 }
 
-std::string state_text(const robot_host::RunStatus& status) {
+std::string state_text(const runtime::RunStatus& status) {
   std::size_t stopped = 0;
   std::size_t unarmed = 0;
   for (const auto& robot : status.robots) {
@@ -130,7 +130,7 @@ std::string state_text(const robot_host::RunStatus& status) {
   std::string text = status.paused ? "paused" : "running";
   if (stopped > 0) text += fmt::format(", {} stopped", stopped);
   if (unarmed > 0) text += fmt::format(", {} not armed", unarmed);
-  if (!status.waits_for.empty()) text += ", waits for " + status.waits_for;
+  if (!status.waits_for.empty()) text += ", waiting for " + status.waits_for;
   return text;
 }
 
@@ -151,10 +151,10 @@ void add_row(report::Table& table, std::vector<std::string> row, const std::stri
 }
 
 /// What `rave ps` says of one run.
-void add_run(report::Table& table, const std::string& run,
-             const Result<robot_host::RunStatus>& answer, const std::string& machine, bool robots) {
+void add_run(report::Table& table, const std::string& run, const Result<runtime::RunStatus>& answer,
+             const std::string& machine, bool robots) {
   if (!answer) return add_row(table, {run, "", "", "", "", answer.error().message}, machine);
-  const robot_host::RunStatus& status = *answer;
+  const runtime::RunStatus& status = *answer;
   if (status.scenario.empty()) {
     return add_row(table, {run, "", "", "", "", "starting or ending"}, machine);
   }
@@ -185,7 +185,7 @@ int stop_run(const StopCommand& options, const Request& request) {
 }  // namespace
 
 int list_runs(const PsCommand& options) {
-  const auto runs = run_control::running_runs();
+  const auto runs = control::running_runs();
   if (!runs) return complain(runs.error());
   const bool network = options.network || options.bus.says_where();
   report::Table table = runs_table(network);
@@ -204,7 +204,7 @@ int list_runs(const PsCommand& options) {
       add_run(table, run.name, run.status, run.machines, options.robots);
     }
   }
-  put(stdout, table.rows.empty() ? "no run is under way\n" : report::render_table(table));
+  put(stdout, table.rows.empty() ? "no run is in progress\n" : report::render_table(table));
   return code;
 }
 
@@ -213,16 +213,16 @@ int stop_robots(const StopCommand& options) {
   if (!options.all) return stop_run(options, request);
   if (!options.run.empty() || !options.robot.empty() || options.bus.says_where()) {
     return complain({ErrorCode::kInvalidArgument,
-                     "`--all` is every robot of every run on this machine; a run of others is "
-                     "stopped by its name, which `rave ps --network` says",
+                     "--all stops the runs of this machine only; stop a run of other machines by "
+                     "its name (`rave ps --network` lists them)",
                      {}});
   }
-  const auto runs = run_control::running_runs();
+  const auto runs = control::running_runs();
   if (!runs) return complain(runs.error());
   if (runs->empty()) {
     return complain({ErrorCode::kNotFound,
-                     "no run is under way on this machine; those of others are stopped by their "
-                     "names, which `rave ps --network` says",
+                     "no run is in progress on this machine; stop a run of other machines by its "
+                     "name (`rave ps --network` lists them)",
                      {}});
   }
   std::vector<AskedRun> all;

@@ -8,10 +8,10 @@
 #include "driver_json.hpp"
 #include "error_text.hpp"
 #include "places.hpp"
+#include "rave/assemble/build.hpp"
 #include "rave/base/names.hpp"
 #include "rave/config/yaml.hpp"
 #include "rave/plugin/params_text.hpp"
-#include "rave/robot_host/build.hpp"
 
 namespace rave::cli {
 namespace {
@@ -47,7 +47,7 @@ Error nothing_named(std::string_view name, plugin::Catalogue& catalogue) {
 }  // namespace
 
 int describe(const DescribeCommand& options) {
-  plugin::Catalogue catalogue(robot_host::host_stamp());
+  plugin::Catalogue catalogue(runtime::host_stamp());
   if (auto added = add_plugin_folders(options.plugins, catalogue); !added) {
     return complain(added.error());
   }

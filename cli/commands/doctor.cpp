@@ -9,7 +9,7 @@
 #include "rave/doctor/checks.hpp"
 #include "rave/doctor/examine.hpp"
 #include "rave/doctor/listener.hpp"
-#include "rave/robot_host/host_run.hpp"
+#include "rave/host/host_run.hpp"
 
 namespace rave::cli {
 namespace {
@@ -41,8 +41,8 @@ void print(const doctor::Findings& findings) {
     if (!finding.mend.empty()) text += fmt::format("         {:<10} {}\n", "", finding.mend);
     problems += finding.verdict == Verdict::kProblem ? 1U : 0U;
   }
-  text += problems == 0 ? std::string("nothing wrong was found\n")
-                        : fmt::format("{} problem{}; below each the command that mends it\n",
+  text += problems == 0 ? std::string("no problem found\n")
+                        : fmt::format("{} problem{}; the line below each one says how to fix it\n",
                                       problems, problems == 1 ? "" : "s");
   put(stdout, text);
 }
@@ -67,7 +67,7 @@ int listen(const bus::BusConfig& config, doctor::About about) {
   if (!bus) return complain(bus.error());
   auto listener = doctor::Listener::open({interface->address, std::move(about)});
   if (!listener) return complain(listener.error());
-  put(stderr, fmt::format("listens at {}, domain {}, until Ctrl-C; on the other machine:\n"
+  put(stderr, fmt::format("listening at {}, domain {}, until Ctrl-C; run on the other machine:\n"
                           "  rave doctor --domain {} --interface ITS_ADDRESS --peers {}\n",
                           interface->address, config.domain, config.domain, interface->address));
   (*listener)->serve([&keys] { return keys.ended(); },
@@ -82,7 +82,7 @@ int doctor(const DoctorCommand& options) {
   auto config = read_bus_options(options.bus, name, 0);
   if (!config) return complain(config.error());
   make_room(*config, kMostHosts);
-  const doctor::About here = doctor::about_here(*config, robot_host::interface_stamp());
+  const doctor::About here = doctor::about_here(*config, runtime::interface_stamp());
   if (options.listen) return listen(*config, here);
   const doctor::Findings findings = doctor::examine(doctor::this_machine(), *config, here);
   if (options.json) {

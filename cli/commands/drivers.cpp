@@ -8,11 +8,11 @@
 #include "driver_json.hpp"
 #include "error_text.hpp"
 #include "places.hpp"
+#include "rave/assemble/build.hpp"
 #include "rave/base/names.hpp"
 #include "rave/config/yaml.hpp"
 #include "rave/plugin/params_text.hpp"
 #include "rave/report/table.hpp"
-#include "rave/robot_host/build.hpp"
 
 namespace rave::cli {
 namespace {
@@ -70,8 +70,9 @@ std::string rejected_text(const plugin::Catalogue& catalogue, const Terminal& te
 /// The generated reference: the same on every machine.
 std::string reference_of(const Drivers& drivers) {
   std::string text =
-      "# Drivers and programs\n\nWhat `rave describe` says of the drivers and programs that come "
-      "with RAVE.\nGenerated from the code by `tools/reference.sh`; edit the drivers instead.\n";
+      "# Drivers and programs\n\nThe output of `rave describe` for the drivers and programs that "
+      "come with RAVE.\nGenerated from the code by `tools/reference.sh`; edit the drivers "
+      "instead.\n";
   std::string_view last;
   for (const plugin::Driver* driver : drivers) {
     const std::string_view kind = to_string(driver->info.kind);
@@ -101,7 +102,7 @@ std::string json_of(const Drivers& drivers, const plugin::Catalogue& catalogue) 
 }  // namespace
 
 int drivers(const DriversCommand& options) {
-  plugin::Catalogue catalogue(robot_host::host_stamp());
+  plugin::Catalogue catalogue(runtime::host_stamp());
   std::optional<DriverKind> wanted;
   if (!options.kind.empty()) {
     const auto kind = kind_of(options.kind);

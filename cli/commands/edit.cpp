@@ -81,18 +81,18 @@ Result<std::string> outline_yaml(const EditCommand& options) {
                       : "the radius of the disc in metres, such as 0.25");
 }
 
-Result<run_control::Request> request_of(const EditCommand& options) {
-  run_control::Request request;
+Result<control::Request> request_of(const EditCommand& options) {
+  control::Request request;
   switch (options.what) {
     case What::kList:
-      request.what = run_control::Request::What::kList;
+      request.what = control::Request::What::kList;
       return request;
     case What::kRemove:
-      request.what = run_control::Request::What::kRemove;
+      request.what = control::Request::What::kRemove;
       request.key = options.name;
       return request;
     case What::kMove: {
-      request.what = run_control::Request::What::kMove;
+      request.what = control::Request::What::kMove;
       RAVE_TRY_ASSIGN(const std::string place, place_yaml(options));
       request.value = fmt::format("{{name: {}, {}}}", in_quotes(options.name), place);
       return request;
@@ -100,7 +100,7 @@ Result<run_control::Request> request_of(const EditCommand& options) {
     case What::kAdd:
       break;
   }
-  request.what = run_control::Request::What::kAdd;
+  request.what = control::Request::What::kAdd;
   RAVE_TRY_ASSIGN(request.value, obstacle_yaml(options));
   return request;
 }

@@ -14,8 +14,8 @@ namespace rave::cli {
 int end_run(const EndCommand& options) {
   const auto processes = AskedRun::find_to_end(options.run, options.bus);
   if (!processes) return complain(processes.error());
-  run_control::Request request;
-  request.what = run_control::Request::What::kEnd;
+  control::Request request;
+  request.what = control::Request::What::kEnd;
   int code = kGood;
   for (const AskedRun& process : *processes) {
     const auto answer = process.ask(request);

@@ -8,7 +8,7 @@
 #include "error_text.hpp"
 #include "managed_run.hpp"
 #include "places.hpp"
-#include "rave/robot_host/host_run.hpp"
+#include "rave/host/host_run.hpp"
 #include "run_scenario.hpp"
 
 namespace rave::cli {
@@ -27,12 +27,11 @@ Result<std::unique_ptr<gui_server::GuiServer>> serve(const GuiCommand& options) 
   const auto scenario = read_scenario(run);
   // There is no scenario of this name either.
   if (!scenario && scenario.error().code == ErrorCode::kNotFound) {
-    return fail(ErrorCode::kNotFound, "`{}` is no recording, no folder of a run, and no scenario",
+    return fail(ErrorCode::kNotFound, "`{}` is not a recording, the folder of a run, or a scenario",
                 options.file);
   }
   if (!scenario) return tl::unexpected(scenario.error());
-  RAVE_TRY_ASSIGN(auto bus,
-                  bus_config(run.bus, "GUI Server", robot_host::shared_number(*scenario)));
+  RAVE_TRY_ASSIGN(auto bus, bus_config(run.bus, "GUI Server", runtime::shared_number(*scenario)));
   make_room(bus, kMostHosts);
   Console console(false);
   return show_run(run, *scenario, bus, nullptr, console);

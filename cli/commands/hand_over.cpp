@@ -13,15 +13,15 @@
 
 #include "asked_run.hpp"
 #include "error_text.hpp"
+#include "rave/control/folder.hpp"
 #include "rave/math/scalar.hpp"
 #include "rave/report/table.hpp"
-#include "rave/run_control/folder.hpp"
 
 namespace rave::cli {
 namespace {
 
-using robot_host::RunStatus;
-using run_control::Request;
+using control::Request;
+using runtime::RunStatus;
 
 constexpr auto kLook = std::chrono::milliseconds(50);
 /// No more often than a process on the bus answers.
@@ -62,7 +62,7 @@ bool has_one(const RunStatus& status, const Has& has) {
 /// says how to choose, with the command's `option` for that).
 Result<std::string> find_process_here(const std::string& word, std::string_view option,
                                       const Has& has) {
-  auto run = run_control::find_run(word);
+  auto run = control::find_run(word);
   // Where a manager runs elsewhere, its hosts are known by the scenario.
   std::string scenario = word;
   if (run) {
@@ -71,7 +71,7 @@ Result<std::string> find_process_here(const std::string& word, std::string_view 
     if (is_it) return run;
     scenario = status->scenario;
   }
-  RAVE_TRY_ASSIGN(const auto all, run_control::running_runs());
+  RAVE_TRY_ASSIGN(const auto all, control::running_runs());
   std::vector<std::string_view> found;
   std::size_t runs = 0;
   for (const std::string& one : all) {
@@ -86,12 +86,12 @@ Result<std::string> find_process_here(const std::string& word, std::string_view 
   if (found.empty()) return run;
   if (run && runs > 1) {
     return fail(ErrorCode::kState,
-                "{} runs of `{}` are here, and whose hosts are whose cannot be told: {}", runs,
-                scenario, run_control::choose_one(found, option));
+                "{} runs of `{}` are on this machine, and their hosts cannot be told apart: {}",
+                runs, scenario, control::choose_one(found, option));
   }
   if (found.size() == 1) return std::string(found.front());
-  return fail(ErrorCode::kState, "several processes have it: {}",
-              run_control::choose_one(found, option));
+  return fail(ErrorCode::kState, "several processes match: {}",
+              control::choose_one(found, option));
 }
 
 /// The same, or if there is none here on the bus.
@@ -115,10 +115,10 @@ int await(const AskedRun& run, const std::string& robot, const RunStatus::HandOv
     if (!answer->good) {
       // Who is asked too much at once has not ended.
       if (run.on_bus() && ++misses < kMostMisses) continue;
-      return refused(run,
-                     fmt::format("the hand-over of {} was asked for, but cannot be followed: {}; "
-                                 "the log of that process will say what came of it",
-                                 robot, answer->text));
+      return refused(
+          run, fmt::format("the hand-over of {} was requested, but its progress is unknown: {}; "
+                           "see the log of that process",
+                           robot, answer->text));
     }
     misses = 0;
     const auto now = hand_over_of(answer->status, robot);
@@ -208,10 +208,11 @@ int show_shadows(const ShadowCommand& options) {
     json.push_back(json_of(robot));
   }
   if (json.empty()) {
-    return refused(*run, options.robot.empty()
-                             ? "no robot of the run has a shadow; `shadow: true` and `twin:` of "
-                               "its entry in the scenario give it one"
-                             : fmt::format("robot `{}` has no shadow", options.robot));
+    return refused(*run,
+                   options.robot.empty()
+                       ? "no robot of the run has a shadow; set `shadow: true` and `twin:` in "
+                         "its entry of the scenario"
+                       : fmt::format("robot `{}` has no shadow", options.robot));
   }
   put(stdout, options.json ? json.dump(2) + "\n" : report::render_table(table));
   return kGood;

@@ -10,12 +10,12 @@
 #include "interrupt.hpp"
 #include "managed_run.hpp"
 #include "places.hpp"
+#include "rave/assemble/build.hpp"
 #include "rave/base/control_characters.hpp"
-#include "rave/robot_host/build.hpp"
-#include "rave/robot_host/host_run.hpp"
-#include "rave/run_control/folder.hpp"
-#include "rave/run_control/server.hpp"
-#include "rave/run_control/wishes.hpp"
+#include "rave/control/folder.hpp"
+#include "rave/control/server.hpp"
+#include "rave/control/wishes.hpp"
+#include "rave/host/host_run.hpp"
 #include "run_folder.hpp"
 #include "run_scenario.hpp"
 
@@ -38,7 +38,7 @@ int tell(const RunCommand& options, bool whole, const std::string& summary,
 Result<bus::BusConfig> bus_of_run(const BusOptions& options, const std::string& participant,
                                   const config::ExpandedScenario& scenario, bus::Reach reach) {
   RAVE_TRY_ASSIGN(const auto hosts, config::plan_hosts(scenario));
-  RAVE_TRY_ASSIGN(auto bus, bus_config(options, participant, robot_host::shared_number(scenario)));
+  RAVE_TRY_ASSIGN(auto bus, bus_config(options, participant, runtime::shared_number(scenario)));
   make_room(bus, hosts.size(), reach);
   return bus;
 }
@@ -49,15 +49,15 @@ int robot(const RobotCommand& options) {
   const RunCommand& run = options.run;
   auto scenario = read_scenario(run);
   if (!scenario) return complain(scenario.error());
-  plugin::Catalogue catalogue(robot_host::host_stamp());
-  auto others = std::make_unique<plugin::Catalogue>(robot_host::host_stamp());
+  plugin::Catalogue catalogue(runtime::host_stamp());
+  auto others = std::make_unique<plugin::Catalogue>(runtime::host_stamp());
   for (plugin::Catalogue* const each : {&catalogue, others.get()}) {
     if (auto added = add_plugin_folders(run.plugins, *each); !added) {
       return complain(added.error());
     }
   }
   const std::string name = fmt::format("{}-{}", scenario->scenario.name.value, options.host);
-  robot_host::HostOptions how;
+  runtime::HostOptions how;
   how.host = options.host;
   how.manager_patience = from_seconds(options.manager_patience_s);
   how.others = std::move(others);
@@ -70,7 +70,7 @@ int robot(const RobotCommand& options) {
   if (auto opened = console.open_file(folder->path() / "console.log"); !opened) {
     return complain(opened.error());
   }
-  robot_host::RunControl& control = ended_by_signals();
+  runtime::RunControl& control = ended_by_signals();
   how.run.output = folder->path();
   how.run.program_runner = program_runner();
   how.run.record = !run.no_record;
@@ -78,18 +78,19 @@ int robot(const RobotCommand& options) {
   how.run.log = &console;
   how.run.control = &control;
   how.run.arm = run.arm;
-  how.run.run_name = run_control::own_run_name(scenario->scenario.name.value, options.host);
-  how.begin_wish = run_control::wishes_of(control);
-  auto server = run_control::Server::start(how.run.run_name, control);
+  how.run.run_name = control::own_run_name(scenario->scenario.name.value, options.host);
+  how.begin_wish = control::wishes_of(control);
+  auto server = control::Server::start(how.run.run_name, control);
   if (!server) {
-    console.warn("host", "no other terminal can control this host: {}", server.error().message);
+    console.warn("host", "this host cannot be controlled from other terminals: {}",
+                 server.error().message);
   }
   const auto line = open_host_line(run.line, options.host, *bus, control, console);
   if (!line) {
     folder->discard();
     return complain(line.error());
   }
-  const auto outcome = robot_host::run_host(*scenario, catalogue, std::move(how));
+  const auto outcome = runtime::run_host(*scenario, catalogue, std::move(how));
   // What a run left that broke off tells why.
   std::error_code error;
   if (!outcome && !std::filesystem::exists(folder->path() / "run.mcap", error)) folder->discard();
@@ -111,7 +112,7 @@ int env(const EnvCommand& options) {
   if (auto opened = console.open_file(folder->path() / "console.log"); !opened) {
     return complain(opened.error());
   }
-  robot_host::RunControl& control = ended_by_signals();
+  runtime::RunControl& control = ended_by_signals();
   const auto server = serve_control(scenario->scenario.name.value, control, console);
   bool started = false;
   auto managed = manage_run({*scenario,

@@ -30,31 +30,32 @@ bool is_good(const record::RecordSummary& summary) {
 
 /// Only of a record of which every byte was looked at it is said that it is whole.
 std::string state_text(const record::RecordSummary& summary) {
-  if (!summary.ended) return "cut: what is there can be read";
+  if (!summary.ended) return "truncated; the part that exists is readable";
   if (!summary.damages.empty()) return "damaged";
-  if (!summary.unsummed.empty()) return "checked as far as it has checksums";
-  return summary.checked ? "whole: every checksum is right"
-                         : "complete by its index; --check compares the checksums";
+  if (!summary.unsummed.empty()) return "partly checked: some parts have no checksum";
+  return summary.checked ? "complete: all checksums are correct"
+                         : "complete according to its index; --check verifies the checksums";
 }
 
 std::string run_text(const record::RecordSummary& summary) {
   if (!summary.run) {
-    return summary.damages.empty() ? "not written by RAVE\n" : "what ran cannot be read\n";
+    return summary.damages.empty() ? "not written by RAVE\n"
+                                   : "the description of the run is not readable\n";
   }
   const record::RunInfo& run = *summary.run;
   const auto real = static_cast<std::size_t>(
       std::count_if(run.robots.begin(), run.robots.end(),
                     [](const record::RecordedRobot& robot) { return robot.kind == "real"; }));
   std::string text =
-      fmt::format("{}, seed {}, begun {}\n{} robots: {} real, {} simulated\n", run.scenario,
+      fmt::format("{}, seed {}, started {}\n{} robots: {} real, {} simulated\n", run.scenario,
                   run.seed, run.started, run.robots.size(), real, run.robots.size() - real);
   if (!summary.end && !summary.missing.empty()) {
-    return text + "its end is not known, because a part of its record is missing\n";
+    return text + "the end of the run is unknown, because a part of the recording is missing\n";
   }
   if (!summary.end && summary.ended && !summary.damages.empty()) {
-    return text + "its end cannot be read\n";
+    return text + "the end of the run is not readable\n";
   }
-  if (!summary.end) return text + "the run did not come to its end\n";
+  if (!summary.end) return text + "the run was cut off before its end\n";
   text += fmt::format("{} steps of {} s", summary.end->steps, run.step_s);
   return text + (summary.end->hash ? fmt::format(", run hash {:016x}\n", *summary.end->hash)
                                    : ", live: no run hash\n");
@@ -130,7 +131,7 @@ std::string info_text(const record::RecordSummary& summary) {
     text += fmt::format("hybrid {}: {}; both parts and the result are recorded\n", sensor, made_of);
   }
   if (!summary.parts.empty()) {
-    text += fmt::format("made of the records of {} processes\n", summary.parts.size());
+    text += fmt::format("merged from the recordings of {} processes\n", summary.parts.size());
   }
   for (const std::string& damage : summary.damages) text += fmt::format("damaged: {}\n", damage);
   for (const std::string& piece : summary.unsummed) text += fmt::format("not checked: {}\n", piece);

@@ -69,10 +69,10 @@ int new_keys(const KeysNewCommand& options) {
   const Status made =
       keys::make_key_set({folder, options.lab, options.days, options.members, now_s()});
   if (!made) return complain(made.error());
-  put(stdout, fmt::format("made {0} for {1}; valid for {2} days\n"
+  put(stdout, fmt::format("created {0} for {1}; valid for {2} days\n"
                           "next: copy {0}/{3} to where {3} runs, and start it there with\n"
                           "  --security {3}\n"
-                          "Whoever has {0}/ca can make members: keep it to yourself.\n",
+                          "Keep {0}/ca secret: whoever has it can create members.\n",
                           folder, list_of(options.members), options.days, options.members.front()));
   return kGood;
 }
@@ -106,14 +106,14 @@ int web_keys(const KeysWebCommand& options) {
   const auto made = keys::make_web_keys({folder, options.names, options.days, now_s()});
   if (!made) return complain(made.error());
   put(stdout,
-      fmt::format("{} {} for {}; valid until {}\n", made->new_authority ? "made" : "renewed in",
+      fmt::format("{} {} for {}; valid until {}\n", made->new_authority ? "created" : "renewed in",
                   folder, list_of(options.names), keys::date_text(made->until_s)));
   if (made->new_authority) {
     put(stdout,
         fmt::format(
             "next: tell browsers once to trust {0}/authority.pem\n"
             "  SHA-256 {1}\n"
-            "Who has {0}/authority_key.pem can pretend to be this server: keep it to yourself.\n",
+            "Keep {0}/authority_key.pem secret: whoever has it can impersonate this server.\n",
             folder, made->fingerprint));
   }
   put(stdout,

@@ -46,13 +46,13 @@ int new_project(const NewCommand& options) {
   const std::string prefix = executable_folder().parent_path().string();
   const std::string shell_folder = quoted(folder);
   const std::string build = quoted(folder + "/build");
-  put(stdout, fmt::format("made {0}; the code to fill in is {0}/{1}.cpp\n\nnext:\n"
+  put(stdout, fmt::format("created {0}; edit {0}/{1}.cpp\n\nnext:\n"
                           "  cmake -S {2} -B {3} -DCMAKE_PREFIX_PATH={4}\n"
                           "  cmake --build {3}\n"
                           "  rave describe {1} --plugins {3}\n",
                           folder, options.name, shell_folder, build, quoted(prefix)));
   put(stdout,
-      "then name it as `driver:` in a robot file, and give `--plugins` to `rave run` or set "
+      "then name it as `driver:` in a robot file, and pass --plugins to `rave run` or set "
       "RAVE_PLUGIN_PATH\n");
   return kGood;
 }

@@ -54,7 +54,7 @@ Result<std::string> read_password() {
   put(stderr, "\nagain: ");
   std::getline(std::cin, second);
   put(stderr, "\n");
-  if (first != second) return fail(ErrorCode::kInvalidArgument, "the two are not the same");
+  if (first != second) return fail(ErrorCode::kInvalidArgument, "the two passwords differ");
   return first;
 }
 
@@ -88,7 +88,7 @@ Result<std::string> invite(Accounts& accounts, const PeopleCommand& options) {
   const auto address = read_file(accounts.folder() / "address", 1000);
   const std::string where = address ? address->substr(0, address->find('\n')) : "";
   return fmt::format("{}/join?invite={}\n{}for {} as {}, within {} days\n", where, secret,
-                     where.empty() ? "behind the address of the page; " : "",
+                     where.empty() ? "append it to the address of the page; " : "",
                      options.uses == 1 ? "one person" : fmt::format("{} people", options.uses),
                      to_string(role), options.days);
 }
@@ -127,10 +127,10 @@ Result<std::string> do_it(const PeopleCommand& options) {
       return list(*accounts);
     case PeopleCommand::What::kRemove:
       RAVE_TRY(accounts->remove(options.name));
-      return fmt::format("removed {}; who is in is out within a second\n", options.name);
+      return fmt::format("removed {}; open sessions end within a second\n", options.name);
     case PeopleCommand::What::kUninvite: {
       RAVE_TRY_ASSIGN(const std::size_t count, accounts->revoke_invitations());
-      return fmt::format("took back {} invitation{}\n", count, count == 1 ? "" : "s");
+      return fmt::format("withdrew {} invitation{}\n", count, count == 1 ? "" : "s");
     }
   }
   return std::string();

@@ -6,14 +6,14 @@
 #include "error_text.hpp"
 #include "places.hpp"
 #include "played_scenario.hpp"
-#include "rave/robot_host/build.hpp"
+#include "rave/assemble/build.hpp"
 #include "run_folder.hpp"
 
 namespace rave::cli {
 namespace {
 
 Result<PlayedScenario> make(const PlayCommand& options) {
-  plugin::Catalogue catalogue(robot_host::host_stamp());
+  plugin::Catalogue catalogue(runtime::host_stamp());
   RAVE_TRY(add_plugin_folders(options.run.plugins, catalogue));
   PlayWish wish;
   RAVE_TRY_ASSIGN(wish.record, record_file(options.file));
@@ -32,7 +32,7 @@ Status keeps_its_record(const PlayCommand& options) {
   std::error_code error;
   if (!std::filesystem::equivalent(record.parent_path(), options.run.output, error)) return {};
   return fail(ErrorCode::kInvalidArgument,
-              "--replace would remove `{}`, which is to be played; choose another --output",
+              "--replace would remove the recording to be played, `{}`; choose another --output",
               record.string());
 }
 
@@ -48,7 +48,7 @@ int play(const PlayCommand& options) {
     if (auto written = write_played(*played, options.write); !written) {
       return complain(written.error());
     }
-    put(stdout, fmt::format("written: {0}; `rave run {0}` runs it\n", options.write));
+    put(stdout, fmt::format("wrote {0}; run it with `rave run {0}`\n", options.write));
     return kGood;
   }
   if (auto kept = keeps_its_record(options); !kept) return complain(kept.error());

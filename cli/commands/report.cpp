@@ -7,10 +7,10 @@
 
 #include "error_text.hpp"
 #include "places.hpp"
+#include "rave/assemble/build.hpp"
 #include "rave/base/file.hpp"
+#include "rave/replay/gap.hpp"
 #include "rave/report/table.hpp"
-#include "rave/robot_host/build.hpp"
-#include "rave/robot_host/gap.hpp"
 
 namespace rave::cli {
 namespace {
@@ -19,19 +19,19 @@ std::vector<std::string> row(std::string what, double metres, double degrees) {
   return {std::move(what), fmt::format("{:.4f} m", metres), fmt::format("{:.2f} deg", degrees)};
 }
 
-std::string table_of(const robot_host::GapReport& gap) {
+std::string table_of(const runtime::GapReport& gap) {
   report::Table table;
   table.title = fmt::format("{} against its simulated twin", gap.robot);
   table.columns = {{"", report::Align::kLeft, false},
                    {"distance", report::Align::kRight, false},
                    {"heading", report::Align::kRight, false}};
-  for (const robot_host::GapAt& at : gap.after) {
+  for (const runtime::GapAt& at : gap.after) {
     table.rows.push_back(row(fmt::format("after {:g} s", at.after_s), at.metres, at.degrees));
   }
   table.rules_before.push_back(table.rows.size());
   table.rows.push_back(row("largest", gap.largest.metres, gap.largest_deg));
   table.rows.push_back(row("RMS", gap.rms_m, gap.rms_deg));
-  const robot_host::GapWindows& windows = gap.windows;
+  const runtime::GapWindows& windows = gap.windows;
   if (windows.count > 0) {
     const std::string of = fmt::format("of {} windows of {:g} s", windows.count, windows.window_s);
     table.rules_before.push_back(table.rows.size());
@@ -46,13 +46,13 @@ std::string table_of(const robot_host::GapReport& gap) {
 }  // namespace
 
 int report_gap(const GapCommand& options) {
-  plugin::Catalogue catalogue(robot_host::host_stamp());
+  plugin::Catalogue catalogue(runtime::host_stamp());
   if (auto added = add_plugin_folders(options.plugins, catalogue); !added) {
     return complain(added.error());
   }
   const auto record = record_file(options.file);
   if (!record) return complain(record.error());
-  const auto gap = robot_host::measure_gap(
+  const auto gap = runtime::measure_gap(
       *record, catalogue,
       {options.robot, options.twin, options.commands, options.truth, options.window_s});
   if (!gap) return complain(gap.error());
@@ -61,8 +61,8 @@ int report_gap(const GapCommand& options) {
   std::error_code error;
   if (!folder.empty()) std::filesystem::create_directories(folder, error);
   const std::string stem = "gap-" + gap->robot;
-  const std::string json = robot_host::gap_json(*gap);
-  if (auto drawn = robot_host::draw_gap(*gap, folder, stem); !drawn) {
+  const std::string json = runtime::gap_json(*gap);
+  if (auto drawn = runtime::draw_gap(*gap, folder, stem); !drawn) {
     return complain(drawn.error());
   }
   if (auto written = write_file_atomically(folder / (stem + ".json"), json); !written) {

@@ -7,12 +7,12 @@
 #include "error_text.hpp"
 #include "interrupt.hpp"
 #include "places.hpp"
+#include "rave/assemble/build.hpp"
 #include "rave/config/expanded_scenario.hpp"
+#include "rave/control/folder.hpp"
+#include "rave/control/server.hpp"
 #include "rave/gui_server/live_run.hpp"
-#include "rave/robot_host/build.hpp"
-#include "rave/robot_host/run.hpp"
-#include "rave/run_control/folder.hpp"
-#include "rave/run_control/server.hpp"
+#include "rave/host/run.hpp"
 #include "run_folder.hpp"
 #include "run_report.hpp"
 #include "run_scenario.hpp"
@@ -26,7 +26,7 @@ int run(const RunCommand& options) {
   const auto hosts = config::plan_hosts(*scenario);
   if (!hosts) return complain(hosts.error());
   if (!hosts->empty()) return run_shared(options, *scenario, *hosts);
-  plugin::Catalogue catalogue(robot_host::host_stamp());
+  plugin::Catalogue catalogue(runtime::host_stamp());
   if (auto added = add_plugin_folders(options.plugins, catalogue); !added) {
     return complain(added.error());
   }
@@ -37,7 +37,7 @@ int run(const RunCommand& options) {
   if (auto opened = console.open_file(folder->path() / "console.log"); !opened) {
     return complain(opened.error());
   }
-  robot_host::RunOptions run_options;
+  runtime::RunOptions run_options;
   run_options.output = folder->path();
   run_options.program_runner = program_runner();
   run_options.picture = !options.no_picture;
@@ -48,14 +48,15 @@ int run(const RunCommand& options) {
     started = true;
     console.show(progress);
   };
-  robot_host::RunControl& control = ended_by_signals();
+  runtime::RunControl& control = ended_by_signals();
   run_options.control = &control;
   run_options.arm = options.arm;
-  run_options.run_name = run_control::own_run_name(scenario->scenario.name.value);
+  run_options.run_name = control::own_run_name(scenario->scenario.name.value);
   // A run that nobody can reach goes on, but whoever relies on `rave stop` should know.
-  auto server = run_control::Server::start(run_options.run_name, control);
+  auto server = control::Server::start(run_options.run_name, control);
   if (!server) {
-    console.warn("run", "no other terminal can control this run: {}", server.error().message);
+    console.warn("run", "this run cannot be controlled from other terminals: {}",
+                 server.error().message);
   }
   std::unique_ptr<gui_server::GuiServer> page;
   gui_server::LiveRun live(*scenario, control,
@@ -74,7 +75,7 @@ int run(const RunCommand& options) {
     if (!opened) return complain(opened.error());
     line = *std::move(opened);
   }
-  const auto outcome = robot_host::run(*scenario, catalogue, run_options);
+  const auto outcome = runtime::run(*scenario, catalogue, run_options);
   console.clear();
   if (outcome) {
     const int code = report_outcome(options, *outcome, folder->path());

@@ -16,7 +16,7 @@
 #include "bus_search.hpp"
 #include "error_text.hpp"
 #include "key_watch.hpp"
-#include "rave/run_control/folder.hpp"
+#include "rave/control/folder.hpp"
 #include "rave/watch/lone_run.hpp"
 #include "rave/watch/observer.hpp"
 #include "rave/watch/page.hpp"
@@ -74,17 +74,17 @@ Result<Look> find_run(const TopCommand& options, const bus::BusConfig& config,
                       const std::stop_token& stop) {
   auto shared = find_shared_run(config, options.run, stop);
   if (shared || shared.error().code != ErrorCode::kNotFound) return shared;
-  const auto lone = run_control::find_run(options.run);
+  const auto lone = control::find_run(options.run);
   if (lone) return look_at(*lone);
-  const auto runs = run_control::running_runs();
+  const auto runs = control::running_runs();
   const bool none = !runs || runs->empty();
   if (!none) return tl::unexpected(lone.error());
   if (!options.run.empty()) return shared;
   return fail(
       ErrorCode::kNotFound,
-      "no run is under way: none on the bus in domain {} at {}, and none of one process\n"
-      "start one, for example `rave run flock --processes 3`; to see one of other machines, "
-      "give --interface and --peer (or --multicast) as its processes have them",
+      "no run is in progress: none on the bus in domain {} at {}, and none in one process\n"
+      "start one, such as `rave run flock --processes 3`; for a run on other machines, give "
+      "--interface and --peer (or --multicast) as for its processes",
       config.domain, config.interface);
 }
 

@@ -7,13 +7,13 @@
 #include "error_text.hpp"
 #include "interrupt.hpp"
 #include "places.hpp"
-#include "rave/robot_host/build.hpp"
-#include "rave/robot_host/verify.hpp"
+#include "rave/assemble/build.hpp"
+#include "rave/replay/verify.hpp"
 
 namespace rave::cli {
 namespace {
 
-void tell_difference(const robot_host::RunDifference& difference, const Terminal& terminal) {
+void tell_difference(const runtime::RunDifference& difference, const Terminal& terminal) {
   const std::string robot =
       difference.robot.empty() ? "" : fmt::format("robot {}, ", difference.robot);
   put(stderr,
@@ -21,11 +21,11 @@ void tell_difference(const robot_host::RunDifference& difference, const Terminal
                   difference.step, difference.time_s, robot, difference.channel, difference.text));
 }
 
-int tell(const VerifyCommand& options, const robot_host::VerifyOutcome& outcome) {
+int tell(const VerifyCommand& options, const runtime::VerifyOutcome& outcome) {
   const Terminal errors = terminal_of(stderr);
   if (!outcome.live_reason.empty()) {
     return complain({ErrorCode::kInvalidArgument,
-                     fmt::format("`{}` cannot be verified: {}, so no second run would be the same",
+                     fmt::format("`{}` cannot be verified: {}, so no two runs are equal",
                                  options.file, outcome.live_reason),
                      {}});
   }
@@ -33,9 +33,10 @@ int tell(const VerifyCommand& options, const robot_host::VerifyOutcome& outcome)
     put(stderr, fmt::format("{} {}\n", errors.red("missing:"), missing));
   }
   if (!outcome.missing.empty()) {
-    return complain({ErrorCode::kNotFound,
-                     fmt::format("`{}` cannot be verified without its input files", options.file),
-                     {}});
+    return complain(
+        {ErrorCode::kNotFound,
+         fmt::format("`{}` cannot be verified without the input files above", options.file),
+         {}});
   }
   for (const std::string& note : outcome.notes) {
     put(stderr, fmt::format("{} {}\n", errors.yellow("note:"), note));
@@ -52,7 +53,7 @@ int tell(const VerifyCommand& options, const robot_host::VerifyOutcome& outcome)
   if (options.quiet) return kGood;
   const std::string hash =
       outcome.recorded_hash ? fmt::format(", run hash {:016x}", *outcome.recorded_hash) : "";
-  put(stdout, fmt::format("{} {} steps, {} messages{}\n", terminal_of(stdout).green("the same:"),
+  put(stdout, fmt::format("{} {} steps, {} messages{}\n", terminal_of(stdout).green("equal:"),
                           outcome.steps, outcome.messages, hash));
   return kGood;
 }
@@ -60,20 +61,20 @@ int tell(const VerifyCommand& options, const robot_host::VerifyOutcome& outcome)
 }  // namespace
 
 int verify(const VerifyCommand& options) {
-  plugin::Catalogue catalogue(robot_host::host_stamp());
+  plugin::Catalogue catalogue(runtime::host_stamp());
   if (auto added = add_plugin_folders(options.plugins, catalogue); !added) {
     return complain(added.error());
   }
   const auto record = record_file(options.file);
   if (!record) return complain(record.error());
   Console console(options.quiet);
-  robot_host::VerifyOptions verify_options;
+  runtime::VerifyOptions verify_options;
   verify_options.program_runner = program_runner();
   verify_options.threads = static_cast<unsigned>(options.threads.value_or(0));
   verify_options.log = &console;
   verify_options.on_progress = [&](const report::Progress& progress) { console.show(progress); };
   verify_options.control = &ended_by_signals();
-  const auto outcome = robot_host::verify(*record, catalogue, verify_options);
+  const auto outcome = runtime::verify(*record, catalogue, verify_options);
   console.clear();
   return outcome ? tell(options, *outcome) : complain(outcome.error());
 }

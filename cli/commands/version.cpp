@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "error_text.hpp"
-#include "rave/robot_host/build.hpp"
+#include "rave/assemble/build.hpp"
 
 namespace rave::cli {
 namespace {
@@ -26,7 +26,7 @@ std::string_view sanitizer_name(std::uint32_t sanitizer) noexcept {
 }  // namespace
 
 int version() {
-  const plugin::Stamp stamp = robot_host::host_stamp();
+  const plugin::Stamp stamp = runtime::host_stamp();
   put(stdout, fmt::format("rave {}\n"
                           "robot interface    {:016x}\n"
                           "virtual interface  {:016x}\n"

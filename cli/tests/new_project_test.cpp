@@ -77,14 +77,14 @@ TEST_F(NewProject, RefusesNames) {
     EXPECT_NE(error_of(name, kTemplates).find("expected lower_snake_case"), std::string::npos)
         << name;
   }
-  EXPECT_NE(error_of("test", kTemplates).find("keeps it for itself"), std::string::npos);
+  EXPECT_NE(error_of("test", kTemplates).find("reserved by the build"), std::string::npos);
   EXPECT_NE(error_of(std::string(49, 'a'), kTemplates).find("at most 48"), std::string::npos);
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 
 TEST_F(NewProject, LeavesWhatExistsAlone) {
   fs::create_directories(folder_ / "made");
-  EXPECT_NE(error_of("walls", kTemplates).find("exists already"), std::string::npos);
+  EXPECT_NE(error_of("walls", kTemplates).find("already exists"), std::string::npos);
   EXPECT_TRUE(fs::is_empty(folder_ / "made"));
 }
 
@@ -97,7 +97,7 @@ TEST(ProjectKindText, NamesTheNearest) {
   EXPECT_EQ(parse_project_kind("driver").value(), ProjectKind::kDriver);
   const auto wrong = parse_project_kind("drivr");
   ASSERT_FALSE(wrong);
-  EXPECT_EQ(wrong.error().text(), "cannot make a new `drivr`; did you mean `driver`?");
+  EXPECT_EQ(wrong.error().text(), "cannot create a new `drivr`; did you mean `driver`?");
 }
 
 TEST(ClassName, JoinsTheWords) {

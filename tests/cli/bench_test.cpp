@@ -96,7 +96,7 @@ TEST(BenchSwarm, BadOptions) {
   EXPECT_NE(both.err.find("--steps excludes --seconds"), std::string::npos) << both.err;
   EXPECT_EQ(run_rave({"bench", "swarm", "--robts=3"}).err,
             "rave: there is no option `--robts`; did you mean `--robots`?\n"
-            "`rave bench swarm --help` says how it is used\n");
+            "for usage: `rave bench swarm --help`\n");
 }
 
 TEST(BenchCompare, ABuildIsAsFastAsItselfAndDoesTheSame) {

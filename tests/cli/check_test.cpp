@@ -20,9 +20,9 @@ std::string complaint(const std::string& file, const std::string& taken_for) {
   return ended.err;
 }
 
-constexpr const char* kRobot = " (taken for a robot file)";
-constexpr const char* kWorld = " (taken for a world file)";
-constexpr const char* kScenario = " (taken for a scenario file)";
+constexpr const char* kRobot = " (read as a robot file)";
+constexpr const char* kWorld = " (read as a world file)";
+constexpr const char* kScenario = " (read as a scenario file)";
 
 /// Nobody writes to it, so whoever reads it waits for ever.
 TEST(Check, ANamedPipeInThePlaceOfAFileIsRefused) {
@@ -128,11 +128,12 @@ TEST(Check, RealRobotWithoutPoseSource) {
 }
 
 TEST(Check, FileOfNoKind) {
-  EXPECT_EQ(complaint("no_kind.yaml", ""),
-            "no_kind.yaml:2:1: found the key colour, which is none of RAVE's files: a robot file "
-            "has `body`, a world file `obstacles` or `maps`, a scenario file `robots`\n"
-            "    2 | colour: blue\n"
-            "      | ^\n");
+  EXPECT_EQ(
+      complaint("no_kind.yaml", ""),
+      "no_kind.yaml:2:1: found the key colour; expected a robot file (with `body`), a world file "
+      "(`obstacles` or `maps`) or a scenario file (`robots`)\n"
+      "    2 | colour: blue\n"
+      "      | ^\n");
 }
 
 TEST(Check, OneBadFileAmongGoodOnes) {
@@ -169,7 +170,7 @@ TEST(Check, DrawsEachKindBothWays) {
   }
   EXPECT_NE(content_of(folder.path() / "robot.svg").find("rear_sonar"), std::string::npos);
   EXPECT_EQ(run_rave({"check", "good_robot.yaml", "--draw", "x.gif"}).err,
-            "rave: `x.gif`: pictures are written as `.svg` or `.png`, as the ending says\n");
+            "rave: `x.gif`: expected a file name that ends in `.svg` or `.png`\n");
 }
 
 }  // namespace

@@ -36,7 +36,8 @@ TEST(Doctor, EachProblemHasTheCommandThatMendsIt) {
   EXPECT_EQ(ended.exit_code, 1) << ended.err;
   for (const char* const text :
        {"there is no interface `eth99`", "--interface ", "CYCLONEDDS_URI names /nowhere.xml",
-        "unset CYCLONEDDS_URI", "rave keys show nowhere", "below each the command that mends it"}) {
+        "unset CYCLONEDDS_URI", "rave keys show nowhere",
+        "the line below each one says how to fix it"}) {
     EXPECT_NE(ended.out.find(text), std::string::npos) << text << "\n" << ended.out;
   }
 }

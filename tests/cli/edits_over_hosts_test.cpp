@@ -66,7 +66,7 @@ class EditsOverHosts : public SharedWorld {
   void expect_verified(const std::string& host) const {
     const Ended ended = rave({"verify", folder(host)});
     EXPECT_EQ(ended.exit_code, 0) << ended.out << ended.err;
-    EXPECT_NE(ended.out.find("the same: "), std::string::npos) << ended.out;
+    EXPECT_NE(ended.out.find("equal: "), std::string::npos) << ended.out;
   }
   void end_by_hand(const std::string& manager) {
     signal(manager, SIGINT);

@@ -20,7 +20,8 @@ class Keys : public ::testing::Test {
 TEST_F(Keys, MadeAddedToAndShown) {
   const Ended made = run_rave({"keys", "new", path("lab-keys/"), "env", "left", "--name", "lab"});
   EXPECT_EQ(made.exit_code, 0) << made.err;
-  EXPECT_TRUE(made.out.starts_with("made " + path("lab-keys") + " for env, left; valid for 3650 "))
+  EXPECT_TRUE(
+      made.out.starts_with("created " + path("lab-keys") + " for env, left; valid for 3650 "))
       << made.out;
   const Ended added = run_rave({"keys", "add", path("lab-keys"), "gui", "--days", "12"});
   EXPECT_EQ(added.exit_code, 0) << added.err;
@@ -59,7 +60,7 @@ TEST_F(Keys, BadInput) {
   EXPECT_EQ(typo.exit_code, 2);
   EXPECT_EQ(typo.err,
             "rave: there is no subcommand `keys shwo`; did you mean `show`?\n"
-            "`rave keys --help` says how it is used\n");
+            "for usage: `rave keys --help`\n");
   const Ended nobody = run_rave({"keys", "new", path("other")});
   EXPECT_EQ(nobody.exit_code, 2);
   EXPECT_FALSE(fs::exists(path("other")));

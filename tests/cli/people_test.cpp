@@ -36,7 +36,7 @@ TEST_F(People, AreInvitedListedAndUninvited) {
   // A server leaves there where it is.
   std::ofstream(folder_.path() / "gui/address") << "https://lab.example:8080\n";
   EXPECT_TRUE(people({"invite"}).out.starts_with("https://lab.example:8080/join?invite="));
-  EXPECT_EQ(people({"uninvite"}).out, "took back 2 invitations\n");
+  EXPECT_EQ(people({"uninvite"}).out, "withdrew 2 invitations\n");
 }
 
 TEST_F(People, BadInput) {
@@ -58,7 +58,8 @@ TEST_F(People, TheirCertificateIsMadeAndRenewed) {
   const std::string web = folder_.path() / "web";
   const Ended made = run_rave({"keys", "web", web, "lab.example", "192.168.1.20"});
   EXPECT_EQ(made.exit_code, 0) << made.err;
-  EXPECT_TRUE(made.out.starts_with("made " + web + " for lab.example, 192.168.1.20; valid until 2"))
+  EXPECT_TRUE(
+      made.out.starts_with("created " + web + " for lab.example, 192.168.1.20; valid until 2"))
       << made.out;
   EXPECT_NE(made.out.find("--certificate " + web + "/server.pem --key " + web + "/server_key.pem"),
             std::string::npos);

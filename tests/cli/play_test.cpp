@@ -126,7 +126,7 @@ TEST(Play, WhatIsWrittenTakesSimulatedRobotsByHand) {
 
   const Ended twice = run_rave({"play", original, "--write", written});
   EXPECT_EQ(twice.exit_code, 2);
-  EXPECT_NE(twice.err.find("holds a scenario already"), std::string::npos) << twice.err;
+  EXPECT_NE(twice.err.find("already contains a scenario"), std::string::npos) << twice.err;
 }
 
 TEST(Play, WhatIsNotThereIsNamedWithWhatIsNear) {
@@ -142,8 +142,8 @@ TEST(Play, WhatIsNotThereIsNamedWithWhatIsNear) {
   EXPECT_EQ(error({"--robot", "ana"}),
             "rave: the record has no robot `ana`; did you mean `anna`?\n");
   EXPECT_EQ(error({"--anew", "lazer"}),
-            "rave: no robot that is played has a sensor `lazer`; did you mean `laser`?\n");
-  EXPECT_NE(error({"--start", "9"}).find("the record is 0.5 s long"), std::string::npos);
+            "rave: no played robot has a sensor `lazer`; did you mean `laser`?\n");
+  EXPECT_NE(error({"--start", "9"}).find("the recording is 0.5 s long"), std::string::npos);
   EXPECT_NE(error({"--world", "nowhere.yaml"}).find("nowhere.yaml"), std::string::npos);
   EXPECT_EQ(run_rave({"play", "good_world.yaml"}).exit_code, 2);
 }

@@ -53,8 +53,8 @@ TEST(Run, UnknownScenarioNamesTheNearest) {
   const Ended ended = run_rave({"run", "smal"}, {"RAVE_SHARE=share"});
   EXPECT_EQ(ended.exit_code, 2);
   EXPECT_EQ(ended.err,
-            "rave: there is no scenario `smal`: neither a file nor a folder, nor a name below "
-            "`scenarios` of this folder or `share`; did you mean `small`?\n");
+            "rave: there is no scenario `smal`: not a file, not a folder, and not a name in "
+            "`scenarios` of this folder or of `share`; did you mean `small`?\n");
 }
 
 TEST(Run, ScenarioByName) {
@@ -93,8 +93,9 @@ TEST(Run, AFolderOfAnotherRunIsRefusedAndLeftAsItIs) {
     const Ended ended = run_rave(again);
     EXPECT_EQ(ended.exit_code, 2) << again.front();
     EXPECT_NE(ended.err.find("the folder `" + output +
-                             "` holds `run.mcap`, so it is that of "
-                             "another run; choose another one with --output, or let --replace"),
+                             "` has the results of another run "
+                             "(`run.mcap`); choose another folder with --output, or remove those "
+                             "results with --replace"),
               std::string::npos)
         << again.front() << ": " << ended.err;
   }
@@ -110,7 +111,9 @@ TEST(Run, EachFileOfARunTellsThatAFolderIsUsed) {
     fs::create_directory(folder.path() / file);
     const Ended ended = run_rave({"run", "good_scenario.yaml", "--output", folder.path()});
     EXPECT_EQ(ended.exit_code, 2) << file;
-    EXPECT_NE(ended.err.find("holds `" + std::string(file) + "`"), std::string::npos) << ended.err;
+    EXPECT_NE(ended.err.find("results of another run (`" + std::string(file) + "`)"),
+              std::string::npos)
+        << ended.err;
   }
 }
 
@@ -141,7 +144,9 @@ TEST(Run, ReplaceDoesNotRemoveTheRecordThatIsPlayed) {
   ASSERT_EQ(run_rave({"run", "good_scenario.yaml", "--output", output}).exit_code, 0);
   const Ended ended = run_rave({"play", output, "--output", output + "/../results", "--replace"});
   EXPECT_EQ(ended.exit_code, 2);
-  EXPECT_NE(ended.err.find("--replace would remove `"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("--replace would remove the recording to be played, `"),
+            std::string::npos)
+      << ended.err;
   EXPECT_TRUE(fs::exists(output + "/run.mcap"));
 }
 

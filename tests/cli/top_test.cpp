@@ -58,7 +58,7 @@ class Top : public SharedWorld {
 TEST_F(Top, SaysSoIfThereIsNoRunAndHowToStartOne) {
   const Ended ended = look({});
   EXPECT_EQ(ended.exit_code, 2);
-  EXPECT_NE(ended.err.find("no run is under way: none on the bus in domain "), std::string::npos)
+  EXPECT_NE(ended.err.find("no run is in progress: none on the bus in domain "), std::string::npos)
       << ended.err;
   EXPECT_NE(ended.err.find("rave run flock --processes 3"), std::string::npos) << ended.err;
 }

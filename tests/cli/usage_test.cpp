@@ -23,7 +23,7 @@ TEST(Usage, HelpGoesDownToTheLastName) {
   EXPECT_NE(ended.out.find("--twin"), std::string::npos);
   EXPECT_EQ(run_rave({"report", "gap", "run.mcap", "--robt=x"}).err,
             "rave: there is no option `--robt`; did you mean `--robot`?\n"
-            "`rave report gap --help` says how it is used\n");
+            "for usage: `rave report gap --help`\n");
 }
 
 TEST(Usage, UnknownSubcommandNamesTheNearest) {
@@ -37,7 +37,7 @@ TEST(Usage, UnknownOptionNamesTheNearest) {
   EXPECT_EQ(ended.exit_code, 2);
   EXPECT_EQ(ended.err,
             "rave: there is no option `--sed`; did you mean `--seed`?\n"
-            "`rave run --help` says how it is used\n");
+            "for usage: `rave run --help`\n");
 }
 
 TEST(Usage, NothingAtAllShowsTheHelp) {

@@ -43,7 +43,7 @@ class Verify : public testing::Test {
 TEST_F(Verify, TheSameRunIsTheSame) {
   const Ended ended = run_rave({"verify", folder_.path() / "run"});
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
-  EXPECT_NE(ended.out.find("the same: 200 steps, "), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("equal: 200 steps, "), std::string::npos) << ended.out;
   EXPECT_NE(ended.out.find("run hash " + hash_of(record_)), std::string::npos) << ended.out;
   EXPECT_EQ(run_rave({"verify", record_, "--threads", "2", "--quiet"}).exit_code, 0);
 }
@@ -217,8 +217,8 @@ TEST_F(Verify, ADamagedRecordIsRefusedAndTheDamageIsNamed) {
 
   const Ended quick = run_rave({"info", changed_});
   EXPECT_EQ(quick.exit_code, 0) << quick.err;
-  EXPECT_EQ(quick.out.find("whole"), std::string::npos) << quick.out;
-  EXPECT_NE(quick.out.find("--check compares the checksums"), std::string::npos) << quick.out;
+  EXPECT_EQ(quick.out.find("checksums are correct"), std::string::npos) << quick.out;
+  EXPECT_NE(quick.out.find("--check verifies the checksums"), std::string::npos) << quick.out;
   const Ended quick_json = run_rave({"info", changed_, "--json"});
   EXPECT_NE(quick_json.out.find("\"whole\": null"), std::string::npos) << quick_json.out;
 

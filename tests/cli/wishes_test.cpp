@@ -27,7 +27,8 @@ namespace {
 TEST_F(Wishes, WithoutARunItSaysWhereItHasLooked) {
   const Ended ended = far({"edit", "list"});
   EXPECT_EQ(ended.exit_code, 2);
-  EXPECT_NE(ended.err.find("no run is under way on this machine"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("no run is in progress on this machine"), std::string::npos)
+      << ended.err;
   EXPECT_NE(ended.err.find("--interface and --peer"), std::string::npos) << ended.err;
 }
 
@@ -105,7 +106,7 @@ TEST_F(Wishes, ARobotIsHandedOverByItsHostWhoeverAsks) {
 TEST_F(Wishes, RunsOfOtherMachinesAreListedWhenTheyAreAskedFor) {
   start_all("crowd.yaml", {"--duration", "100000", "--no-record"});
   const std::string alone = "XDG_RUNTIME_DIR=" + elsewhere_.path().string();
-  EXPECT_EQ(run_rave({"ps"}, {alone}).out, "no run is under way\n");
+  EXPECT_EQ(run_rave({"ps"}, {alone}).out, "no run is in progress\n");
   std::string name;
   std::string line;
   wait_until(
@@ -148,10 +149,10 @@ TEST_F(Wishes, OfSeveralRunsOneHasToBeNamed) {
   const Ended unnamed = far_until({"edit", "list"}, "2 runs are under way, so say which");
   EXPECT_EQ(unnamed.exit_code, 2) << unnamed.err;
   // That of which there are two is done to neither; but a stop harms nobody.
-  const Ended either = far_until({"pause", "crowd"}, "several runs are of `crowd`: ");
+  const Ended either = far_until({"pause", "crowd"}, "several runs of `crowd`: ");
   EXPECT_EQ(either.exit_code, 2) << either.err;
-  EXPECT_NE(either.err.find("several runs are of `crowd`: "), std::string::npos) << either.err;
-  EXPECT_NE(either.err.find("say which by its number"), std::string::npos) << either.err;
+  EXPECT_NE(either.err.find("several runs of `crowd`: "), std::string::npos) << either.err;
+  EXPECT_NE(either.err.find("name one by its number"), std::string::npos) << either.err;
   for (const Words& stop : {Words{"stop", "crowd"}, Words{"stop", "--robot", "left-1"}}) {
     const std::string asked =
         stop.size() == 2 ? R"({"rave":1,"do":"stop"})" : R"("robot":"left-1")";

@@ -9,7 +9,7 @@
 #include "rave/bus/bus.hpp"
 #include "rave/bus/reader.hpp"
 #include "rave/bus/writer.hpp"
-#include "rave/lock_step/messages.hpp"
+#include "rave/protocol/step_messages.hpp"
 
 namespace rave::cli_test {
 

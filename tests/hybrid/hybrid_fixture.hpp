@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "rave/robot_host/build.hpp"
-#include "rave/robot_host/run.hpp"
+#include "rave/assemble/build.hpp"
+#include "rave/host/run.hpp"
 #include "rave/sim/engine.hpp"
 
 namespace rave::tests {
@@ -46,7 +46,7 @@ class HybridTest : public testing::Test {
     folder_ = std::filesystem::temp_directory_path() /
               (std::string("rave_") + test->name() + "_" + std::to_string(::getpid()));
     std::filesystem::create_directories(folder_);
-    catalogue_ = std::make_unique<plugin::Catalogue>(robot_host::host_stamp());
+    catalogue_ = std::make_unique<plugin::Catalogue>(runtime::host_stamp());
     const std::filesystem::path build(RAVE_BINARY_DIR);
     ASSERT_TRUE(catalogue_->add_folder(build / "lib/rave/plugins"));
     ASSERT_TRUE(catalogue_->add_folder(build / "tests/plugins/hybrid"));
@@ -58,7 +58,7 @@ class HybridTest : public testing::Test {
   }
   Result<std::unique_ptr<sim::Engine>> make(const std::string& text) {
     RAVE_TRY_ASSIGN(const auto scenario, expand(text));
-    RAVE_TRY_ASSIGN(auto built, robot_host::build(scenario, *catalogue_, {}));
+    RAVE_TRY_ASSIGN(auto built, runtime::build(scenario, *catalogue_, {}));
     return sim::Engine::create(std::move(built.spec));
   }
   std::unique_ptr<sim::Engine> engine_of(const std::string& text) {

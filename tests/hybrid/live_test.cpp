@@ -115,10 +115,10 @@ TEST_F(HybridTest, AScanFromTheSerialLineReachesTheProgramWithTheVirtualBoxInIt)
   text.replace(duration, 13, "duration_s: " + setting("RAVE_HYBRID_DURATION_S", "2"));
   const auto expanded = expand(text);
   ASSERT_TRUE(expanded) << expanded.error().text();
-  robot_host::RunOptions options;
+  runtime::RunOptions options;
   options.output = folder_ / "run";
   options.picture = false;
-  const auto outcome = robot_host::run(*expanded, *catalogue_, options);
+  const auto outcome = runtime::run(*expanded, *catalogue_, options);
   ASSERT_TRUE(outcome) << outcome.error().text();
   EXPECT_TRUE(outcome->hash.empty());  // a live run
 

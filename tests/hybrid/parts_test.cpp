@@ -40,10 +40,10 @@ bool same(const SampleHeader& header, const void* records, const record::Percept
 TEST_F(Parts, ComeBackBitForBit) {
   const auto expanded = expand(text());
   ASSERT_TRUE(expanded) << expanded.error().text();
-  robot_host::RunOptions options;
+  runtime::RunOptions options;
   options.output = folder_ / "run";
   options.picture = false;
-  const auto outcome = robot_host::run(*expanded, *catalogue_, options);
+  const auto outcome = runtime::run(*expanded, *catalogue_, options);
   ASSERT_TRUE(outcome) << outcome.error().text();
 
   // The same run once more, compared with what the first one wrote.
@@ -96,10 +96,10 @@ TEST_F(Parts, AreRecordedOnceWhenAnotherRobotIsHandedOver) {
       text() + "  - {name: bert, pose: {x_m: 9, y_m: 9}, robot: " + wheels +
       ", twin_robot: " + wheels + "}\nchanges: [{at_s: 0.52, robot: bert, hand_over: twin}]\n");
   ASSERT_TRUE(expanded) << expanded.error().text();
-  robot_host::RunOptions options;
+  runtime::RunOptions options;
   options.output = folder_ / "run";
   options.picture = false;
-  const auto outcome = robot_host::run(*expanded, *catalogue_, options);
+  const auto outcome = runtime::run(*expanded, *catalogue_, options);
   ASSERT_TRUE(outcome) << outcome.error().text();
   std::ifstream log(folder_ / "run/events.log");
   const std::string events{std::istreambuf_iterator<char>(log), {}};

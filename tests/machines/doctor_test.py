@@ -39,7 +39,7 @@ class TwoMachines(Lab):
             stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         self.processes.append(process)
         line = process.stderr.readline()
-        assert line.startswith("listens at"), line
+        assert line.startswith("listening at"), line
         return process
 
     def ask(self, *more):

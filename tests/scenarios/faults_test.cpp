@@ -34,23 +34,23 @@ class Faults : public ScenarioTest {
     return *scenario;
   }
 
-  robot_host::RunOutcome run_faulty(const config::ExpandedScenario& scenario) {
-    plugin::Catalogue catalogue(robot_host::host_stamp());
+  runtime::RunOutcome run_faulty(const config::ExpandedScenario& scenario) {
+    plugin::Catalogue catalogue(runtime::host_stamp());
     const std::filesystem::path build(RAVE_BINARY_DIR);
     EXPECT_TRUE(catalogue.add_folder(build / "tests/plugins/isolation"));
     EXPECT_TRUE(catalogue.add_folder(build / "lib/rave/plugins"));
-    robot_host::RunOptions options;
+    runtime::RunOptions options;
     options.output = folder_;
     options.program_runner = build / "bin/rave-program-runner";
     options.picture = false;
-    auto outcome = robot_host::run(scenario, catalogue, options);
+    auto outcome = runtime::run(scenario, catalogue, options);
     EXPECT_TRUE(outcome) << (outcome ? "" : outcome.error().text());
-    return outcome.value_or(robot_host::RunOutcome{});
+    return outcome.value_or(runtime::RunOutcome{});
   }
 
   /// The line of the test plug-in's source that carries a mark.
   static std::string line_of(std::string_view mark) {
-    const std::string path = "servers/isolation/tests/plugins/faults.cpp";
+    const std::string path = "runtime/isolation/tests/plugins/faults.cpp";
     std::ifstream file(std::filesystem::path(RAVE_SOURCE_DIR) / path);
     int number = 0;
     for (std::string line; std::getline(file, line);) {
@@ -68,7 +68,7 @@ class Faults : public ScenarioTest {
     return {std::istreambuf_iterator<char>(file), {}};
   }
 
-  void expect_only_the_broken_one_lost(const robot_host::RunOutcome& outcome,
+  void expect_only_the_broken_one_lost(const runtime::RunOutcome& outcome,
                                        const std::string& text) {
     EXPECT_FALSE(outcome.whole);
     ASSERT_EQ(outcome.problems.size(), 1U);
@@ -96,7 +96,7 @@ TEST_F(Faults, AnExceptionCostsOneRobotEvenInTheHost) {
 }
 
 TEST(RunControl, StepsOneByOneAndEnds) {
-  robot_host::RunControl control;
+  runtime::RunControl control;
   EXPECT_TRUE(control.wait_for_turn()) << "nothing holds a run at first";
   control.pause();
   EXPECT_TRUE(control.paused());
@@ -111,7 +111,7 @@ TEST(RunControl, StepsOneByOneAndEnds) {
 }
 
 TEST(RunControl, ResumeLetsAHeldRunGoOn) {
-  robot_host::RunControl control;
+  runtime::RunControl control;
   control.pause();
   bool turn = false;
   std::thread run([&] { turn = control.wait_for_turn(); });

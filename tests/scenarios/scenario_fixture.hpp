@@ -9,9 +9,9 @@
 #include <string>
 #include <string_view>
 
+#include "rave/assemble/build.hpp"
 #include "rave/base/log.hpp"
-#include "rave/robot_host/build.hpp"
-#include "rave/robot_host/run.hpp"
+#include "rave/host/run.hpp"
 #include "rave/sim/engine.hpp"
 
 namespace rave::tests {
@@ -27,7 +27,7 @@ class ScenarioTest : public testing::Test {
   }
 
   static std::unique_ptr<plugin::Catalogue> plugins() {
-    auto catalogue = std::make_unique<plugin::Catalogue>(robot_host::host_stamp());
+    auto catalogue = std::make_unique<plugin::Catalogue>(runtime::host_stamp());
     EXPECT_TRUE(catalogue->add_folder(std::filesystem::path(RAVE_BINARY_DIR) / "lib/rave/plugins"));
     return catalogue;
   }
@@ -46,7 +46,7 @@ class ScenarioTest : public testing::Test {
   };
   World make_world(const config::ExpandedScenario& scenario) {
     World world{plugins(), nullptr};
-    auto built = robot_host::build(scenario, *world.catalogue, options());
+    auto built = runtime::build(scenario, *world.catalogue, options());
     EXPECT_TRUE(built) << (built ? "" : built.error().text());
     if (!built) return world;
     built->spec.live_clock = nullptr;
@@ -58,20 +58,20 @@ class ScenarioTest : public testing::Test {
     return world;
   }
 
-  robot_host::BuildOptions options() {
+  runtime::BuildOptions options() {
     return {std::filesystem::path(RAVE_BINARY_DIR) / "bin/rave-program-runner", &log_, nullptr};
   }
 
-  robot_host::RunOutcome run(const config::ExpandedScenario& scenario, bool picture = false) {
+  runtime::RunOutcome run(const config::ExpandedScenario& scenario, bool picture = false) {
     const auto catalogue = plugins();
-    robot_host::RunOptions options;
+    runtime::RunOptions options;
     options.output = folder_;
     options.program_runner = std::filesystem::path(RAVE_BINARY_DIR) / "bin/rave-program-runner";
     options.picture = picture;
     options.log = &log_;
-    auto outcome = robot_host::run(scenario, *catalogue, options);
+    auto outcome = runtime::run(scenario, *catalogue, options);
     EXPECT_TRUE(outcome) << (outcome ? "" : outcome.error().text());
-    return outcome.value_or(robot_host::RunOutcome{});
+    return outcome.value_or(runtime::RunOutcome{});
   }
 
   static std::uint32_t robot_named(const sim::Engine& engine, std::string_view name) {

@@ -8,7 +8,7 @@
 
 #include <filesystem>
 
-#include "rave/robot_host/build.hpp"
+#include "rave/assemble/build.hpp"
 #include "rave/sim/engine.hpp"
 #include "rave/swarm/workload.hpp"
 
@@ -54,7 +54,7 @@ class SwarmGolden : public testing::TestWithParam<Golden> {
         make_scenario({GetParam().sensing, kRobots, GetParam().noise, threads, 1}, 1);
     EXPECT_TRUE(scenario) << (scenario ? "" : scenario.error().text());
     if (!scenario) return nullptr;
-    auto built = robot_host::build(*scenario, catalogue, {{}, nullptr, nullptr});
+    auto built = runtime::build(*scenario, catalogue, {{}, nullptr, nullptr});
     EXPECT_TRUE(built) << (built ? "" : built.error().text());
     if (!built) return nullptr;
     // So few robots would otherwise be left to one thread.
@@ -66,7 +66,7 @@ class SwarmGolden : public testing::TestWithParam<Golden> {
 
   /// With one thread all the way in every build; for the rest a tenth of it in slow ones.
   static void expect_golden(int threads, const std::string& what, bool all_the_way = kFast) {
-    plugin::Catalogue catalogue(robot_host::host_stamp());
+    plugin::Catalogue catalogue(runtime::host_stamp());
     const auto engine = make(catalogue, threads);
     ASSERT_TRUE(engine);
     while (engine->steps_done() < (all_the_way ? kLongWay : kShortWay)) {

@@ -2,14 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Does what a tutorial says, in a fresh folder, and looks whether it says what comes out.
 
-    tools/docs/run_tutorial.py PAGE --rave PROGRAM --prefix FOLDER [--keep]
+    tools/docs/run_tutorial.py PAGE --rave PROGRAM --prefix FOLDER [--copy] [--keep]
 
 Of the fenced blocks of the page, in their order:
   ```sh                       is run with `bash -e`, with rave in the PATH and RAVE_PREFIX set
   ```LANGUAGE title=FILE      is written to FILE, whose folder must exist by then
   ```text title=expect        must stand in the output of the commands before it; `…` stands for
                               anything, on a line of its own for any lines
-Everything else (such as ```console) is only shown.
+Everything else (such as ```console) is only shown. With --copy the fresh folder is a copy of the
+folder of the page, as of an example.
 """
 import argparse
 import dataclasses
@@ -137,6 +138,7 @@ def main():
     parser.add_argument("page", nargs="?", type=pathlib.Path)
     parser.add_argument("--rave", type=pathlib.Path)
     parser.add_argument("--prefix", type=pathlib.Path)
+    parser.add_argument("--copy", action="store_true", help="begin with the files beside the page")
     parser.add_argument("--keep", action="store_true", help="leave the folder for a look")
     parser.add_argument("--self-test", action="store_true")
     arguments = parser.parse_args()
@@ -145,6 +147,8 @@ def main():
     if not (arguments.page and arguments.rave and arguments.prefix):
         parser.error("PAGE, --rave and --prefix are needed")
     folder = pathlib.Path(tempfile.mkdtemp(prefix="rave-tutorial-"))
+    if arguments.copy:
+        shutil.copytree(arguments.page.parent, folder, dirs_exist_ok=True)
     try:
         counts = run_page(arguments.page.read_text(encoding="utf-8"), folder,
                           environment_for(arguments.rave, arguments.prefix))

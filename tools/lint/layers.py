@@ -4,7 +4,7 @@
 
 Reads every #include and the link lines of every CMake file. A test or benchmark may use what it
 likes, but nobody includes a file through `..`, and nobody outside drivers/ and tests links what is
-defined there.
+defined there. The table itself may not go round in a circle.
 """
 import posixpath
 import re
@@ -15,6 +15,8 @@ TABLE = "docs/explanation/layers.md"
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]')
 CALL = re.compile(r"\b(\w+)\s*\(([^()]*(?:\([^()]*\)[^()]*)*)\)")
 RAVE_NAME = re.compile(r"^rave(?:::|_)([a-z0-9_]+)$")
+# Folders whose folders are libraries with a row each, as those of libs/ are.
+ROOMS = ("runtime", "ops")
 # Third-party packages by the start of an include and by the name in a link line.
 PACKAGE_INCLUDES = {"fmt/": "fmt", "tl/": "expected", "yaml-cpp/": "yaml-cpp", "png.h": "png",
                     "cairo": "cairo", "spdlog/": "spdlog", "CLI/": "cli11", "zlib.h": "zlib",
@@ -40,7 +42,7 @@ def read_table(tree):
             continue
         uses = [None if "any" in cell.split() else set(re.findall(r"[a-z][a-z0-9_-]*", cell))
                 for cell in cells[1:3]]
-        for owner in re.findall(r"`([a-z0-9 ]+)`", cells[0]):
+        for owner in re.findall(r"`([a-z0-9_ ]+)`", cells[0]):
             rules[owner] = tuple(uses)
     return rules
 
@@ -48,7 +50,7 @@ def read_table(tree):
 def owner_of(tree, name):
     """The row of the table that a file falls under, or None if it is bound by none."""
     parts = name.split("/")
-    if parts[0] == "libs" and len(parts) > 2:
+    if parts[0] in ("libs", *ROOMS) and len(parts) > 2:
         return parts[1]
     if parts[0] == "drivers" and len(parts) > 2:
         folder = "/".join(parts[:2]) + "/"
@@ -67,8 +69,35 @@ def package_of(text, prefixes):
 def libraries(tree):
     found = {f.split("/")[1] for f in tree.files if f.startswith("libs/") and f.count("/") > 1}
     served = {f.split("/include/rave/")[1].split("/")[0] for f in tree.files
-              if f.startswith("servers/") and "/include/rave/" in f}
-    return found, served
+              if f.startswith(("servers/", "bench/")) and "/include/rave/" in f}
+    rooms = {f.split("/")[1] for f in tree.files
+             if f.startswith(tuple(room + "/" for room in ROOMS)) and f.count("/") > 1}
+    return found, served | rooms
+
+
+def with_libraries(rules, found):
+    """The same table; `libs` in it stands for all libraries of libs/."""
+    return {owner: (uses and uses | (found if "libs" in uses else set()), packages)
+            for owner, (uses, packages) in rules.items()}
+
+
+def circles(rules):
+    """Rows that use each other in a circle, a line for each."""
+    findings, done = set(), set()
+
+    def visit(owner, path):
+        if owner in path:
+            ring = path[path.index(owner):]
+            first = ring.index(min(ring))
+            findings.add(" -> ".join(f"`{o}`" for o in ring[first:] + ring[:first + 1]))
+        elif owner not in done:
+            for used in sorted((rules.get(owner, (None,))[0] or set()) - {owner}):
+                visit(used, [*path, owner])
+            done.add(owner)
+
+    for owner in sorted(rules):
+        visit(owner, [])
+    return [f"{TABLE}: a circle: {ring}" for ring in sorted(findings)]
 
 
 def leaves_folder(name, target):
@@ -154,7 +183,8 @@ def check_links(tree, rules, known):
 def check(tree):
     rules = read_table(tree)
     found, served = libraries(tree)
-    findings = [f"{TABLE}: no row for `{owner}`" for owner in
+    rules = with_libraries(rules, found)
+    findings = circles(rules) + [f"{TABLE}: no row for `{owner}`" for owner in
                 sorted({owner_of(tree, f) for f in tree.sources + tree.cmake_files} - {None})
                 if owner not in rules]
     if findings:
@@ -171,6 +201,8 @@ DOC = """| who | may use | packages | why |
 | `drivers` | base, robot | any | |
 | `virtual drivers` | base, robot, sim | any | |
 | `programs` | base, robot | none | |
+| `host`, `ops` | libs, pace | any | |
+| `pace` | base | any | |
 | `cli` | any | any | |
 """
 CLEAN = {
@@ -182,7 +214,9 @@ CLEAN = {
     "libs/robot/tests/t.cpp": '#include "rave/sim/a.hpp"\n#include "../src/b.hpp"\n',
     "libs/sim/a.hpp": '#include "rave/robot/a.hpp"\n',
     "drivers/x/x.cpp": '#include "rave/sim/a.hpp"\nRAVE_VIRTUAL_PLUGIN("x")\n',
-    "cli/main.cpp": '#include "rave/sim/a.hpp"\n',
+    "runtime/host/src/h.cpp": '#include "rave/sim/a.hpp"\n#include "rave/pace/a.hpp"\n',
+    "runtime/pace/include/rave/pace/a.hpp": '#include "rave/base/a.hpp"\n',
+    "cli/main.cpp": '#include "rave/sim/a.hpp"\n#include "rave/pace/a.hpp"\n',
 }
 
 
@@ -190,7 +224,8 @@ def broken(expected, **files):
     names = {"math": "libs/math/b.cpp", "math_cmake": "libs/math/CMakeLists.txt",
              "driver": "drivers/y/y.cpp", "driver_cmake": "drivers/y/CMakeLists.txt",
              "program": "programs/p/p.cpp", "program_cmake": "programs/p/CMakeLists.txt",
-             "cli_cmake": "cli/CMakeLists.txt", "new": "libs/extra/a.cpp"}
+             "cli_cmake": "cli/CMakeLists.txt", "new": "libs/extra/a.cpp",
+             "pace": "runtime/pace/src/p.cpp", "room": "runtime/extra/src/a.cpp", "table": TABLE}
     return expected, CLEAN | {names[key]: text for key, text in files.items()}
 
 
@@ -211,6 +246,10 @@ BREACHES = [
     broken("include by the name", math='#include "../../sim/a.hpp"\n'),
     broken("there is no library", math='#include "rave/smi/a.hpp"\n'),
     broken("no row for `extra`", new="int x;\n"),
+    broken("no row for `extra`", room="int x;\n"),
+    broken("`pace` may not use `host`", pace='#include "rave/host/a.hpp"\n'),
+    broken("a circle: `host` -> `pace` -> `host`",
+           table=DOC.replace("| `pace` | base |", "| `pace` | base, host |")),
 ]
 
 if __name__ == "__main__":

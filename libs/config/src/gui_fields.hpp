@@ -41,14 +41,18 @@ constexpr auto enum_names(EnumTag<GuiReach> /*tag*/) {
 
 template <class V>
 void describe(V& v, GuiRightFile& c) {
-  v.field("role", c.role, {.doc = "Of all users with this role; null: `user` says of whom."});
-  v.field("user", c.user, {.doc = "Of one user, whatever the role; null: `role` says of whom."});
+  v.field("role", c.role, {.doc = "Role whose rights change; null: see `user`."});
+  v.field("user", c.user, {.doc = "User whose rights change, with any role; null: see `role`."});
   v.required("classes", c.classes,
-             {.doc = "What is given or withheld.", .min_items = 1, .max_items = 16});
-  v.required("reach", c.reach,
-             {.doc = "Of which robots: none, those of the user's own teams, all, or those of "
-                     "`teams`."});
-  v.field("teams", c.teams, {.doc = "With `reach: teams`.", .max_items = 1000});
+             {.doc = "Classes of information or requests that are granted or withdrawn.",
+              .min_items = 1,
+              .max_items = 16});
+  v.required(
+      "reach", c.reach,
+      {.doc =
+           "Robots that the change applies to: none, own teams, all, or the robots of `teams`."});
+  v.field("teams", c.teams,
+          {.doc = "Names of teams; used with `reach: teams`.", .max_items = 1000});
 }
 
 void validate(const GuiRightFile& c, CheckContext& check);
@@ -65,7 +69,7 @@ void validate(const GuiComponentFile& c, CheckContext& check);
 template <class V>
 void describe(V& v, GuiFile& c) {
   v.field("rights", c.rights,
-          {.doc = "Changes of the usual rights; later ones go before earlier ones.",
+          {.doc = "Changes of the default rights; a later change overrides an earlier one.",
            .max_items = 1000});
   v.field("relay", c.relay,
           {.doc = "Orders may go through the GUI Server where a page has no direct line to a host; "

@@ -26,10 +26,10 @@ constexpr FieldOptions error_size(std::string_view doc, std::string_view unit) {
   return {.doc = doc, .min = 0, .unit = unit};
 }
 constexpr FieldOptions driver_name() {
-  return {.doc = "The driver that serves it; `rave drivers` lists them.", .min_items = 1};
+  return {.doc = "Driver; `rave drivers` lists all.", .min_items = 1};
 }
 constexpr FieldOptions driver_params() {
-  return {.doc = "What the driver takes; `rave describe DRIVER` lists it."};
+  return {.doc = "Parameters of the driver; `rave describe DRIVER` lists them."};
 }
 
 template <class V>
@@ -58,41 +58,39 @@ void describe(V& v, NoiseFile& c) {
   v.field("velocity_quantum_mps", c.velocity_quantum_mps,
           error_size("Step that velocities are rounded to; 0: not rounded.", "m/s"));
   v.field("dropout_probability", c.dropout_probability,
-          {.doc = "That a reading is lost.", .min = 0, .max = 1});
+          {.doc = "Probability that a reading is lost.", .min = 0, .max = 1});
 }
 
 template <class V>
 void describe(V& v, MedianFilterFile& c) {
   v.field("window", c.window,
-          {.doc = "Readings that it looks at, an odd number.", .min = 1, .max = 99});
+          {.doc = "Number of readings in the window, odd.", .min = 1, .max = 99});
 }
 
 void validate(const MedianFilterFile& c, CheckContext& check);
 
 template <class V>
 void describe(V& v, ExponentialFilterFile& c) {
-  v.required("time_constant_s", c.time_constant_s,
-             {.doc = "After which a step has been followed to 63 per cent.",
-              .min = 0,
-              .exclusive_min = true,
-              .unit = "s"});
+  v.required(
+      "time_constant_s", c.time_constant_s,
+      {.doc = "Time to reach 63 % of a step.", .min = 0, .exclusive_min = true, .unit = "s"});
 }
 
 template <class V>
 void describe(V& v, FilterFile& c) {
-  v.field("median", c.median, {.doc = "The median of the last readings."});
+  v.field("median", c.median, {.doc = "Median of the last readings."});
   v.field("exponential", c.exponential, {.doc = "First-order low pass."});
 }
 
 void validate(const FilterFile& c, CheckContext& check);
 
 constexpr FieldOptions device_name() {
-  return {.doc = "The entry of `devices` that it is a part of; null: none."};
+  return {.doc = "Entry of `devices` that it belongs to; null: none."};
 }
 
 template <class V>
 void describe(V& v, DeviceFile& c) {
-  v.required("name", c.name, {.doc = "By which sensors and actuators refer to it."});
+  v.required("name", c.name, {.doc = "Name that sensors and actuators use for it."});
   v.required("driver", c.driver, driver_name());
   v.field("params", c.params, driver_params());
 }
@@ -104,34 +102,34 @@ void describe(V& v, SensorHalfFile& c) {
   v.required("driver", c.driver, driver_name());
   v.field("device", c.device, device_name());
   v.field("senses", c.senses,
-          {.doc = "Layers that a virtual half senses; null: what the real half cannot see "
-                  "(virtual_obstacles, simulated_robots).",
+          {.doc = "Layers that the virtual half senses; null: those that the real half cannot "
+                  "sense (virtual_obstacles, simulated_robots).",
            .min_items = 1});
   v.field("params", c.params, driver_params());
-  v.field("noise", c.noise, {.doc = "Errors put on the readings of this half, before fusion."});
+  v.field("noise", c.noise, {.doc = "Noise added to the readings of this half, before fusion."});
 }
 
 void validate(const SensorHalfFile& c, CheckContext& check);
 
 template <class V>
 void describe(V& v, SensorFile& c) {
-  v.required("name", c.name, {.doc = "By which the program asks for it."});
+  v.required("name", c.name, {.doc = "Name that the program uses for it."});
   v.required("driver", c.driver,
-             {.doc = "The driver that serves it, of a hybrid sensor the one that fuses its halves; "
-                     "`rave drivers` lists them.",
+             {.doc = "Driver; for a hybrid sensor, the driver that fuses the halves. `rave "
+                     "drivers` lists all.",
               .min_items = 1});
   v.field("device", c.device, device_name());
-  v.field("real", c.real, {.doc = "The real half of a hybrid sensor; null: not hybrid."});
-  v.field("virtual", c.imagined, {.doc = "The virtual half of a hybrid sensor; null: not hybrid."});
+  v.field("real", c.real, {.doc = "Real half of a hybrid sensor; null: not hybrid."});
+  v.field("virtual", c.imagined, {.doc = "Virtual half of a hybrid sensor; null: not hybrid."});
   v.field("mount", c.mount, {.doc = "Pose in the body frame."});
   v.field("period_s", c.period_s, period_s());
   v.field("phase_s", c.phase_s, phase_s());
   v.field("senses", c.senses,
           {.doc = "Layers of the world that a virtual sensor senses; null: all.", .min_items = 1});
   v.field("params", c.params, driver_params());
-  v.field("noise", c.noise, {.doc = "Errors put on every reading."});
+  v.field("noise", c.noise, {.doc = "Noise added to every reading."});
   v.field("latency_s", c.latency_s,
-          {.doc = "By which readings arrive late.", .min = 0, .max = kLongest_s, .unit = "s"});
+          {.doc = "Delay of the readings.", .min = 0, .max = kLongest_s, .unit = "s"});
   v.field("max_age_s", c.max_age_s,
           {.doc = "Age of the newest sample of a real sensor after which the robot is stopped; "
                   "null: three periods of the sensor, at least 0.2 s. A range sensor whose driver "
@@ -140,14 +138,14 @@ void describe(V& v, SensorFile& c) {
            .exclusive_min = true,
            .max = kLongest_s,
            .unit = "s"});
-  v.field("filters", c.filters, {.doc = "Applied in this order.", .max_items = 16});
+  v.field("filters", c.filters, {.doc = "Filters, applied in this order.", .max_items = 16});
 }
 
 void validate(const SensorFile& c, CheckContext& check);
 
 template <class V>
 void describe(V& v, ActuatorFile& c) {
-  v.required("name", c.name, {.doc = "By which controllers refer to it."});
+  v.required("name", c.name, {.doc = "Name that controllers use for it."});
   v.required("driver", c.driver, driver_name());
   v.field("device", c.device, device_name());
   v.field("params", c.params, driver_params());
@@ -157,9 +155,9 @@ void validate(const ActuatorFile& c, CheckContext& check);
 
 template <class V>
 void describe(V& v, ControllerFile& c) {
-  v.required("name", c.name, {.doc = "By which the program asks for it."});
+  v.required("name", c.name, {.doc = "Name that the program uses for it."});
   v.required("driver", c.driver, driver_name());
-  v.required("actuator", c.actuator, {.doc = "The actuator that it drives."});
+  v.required("actuator", c.actuator, {.doc = "Actuator that it commands."});
   v.field("params", c.params, driver_params());
 }
 
@@ -167,7 +165,7 @@ void validate(const ControllerFile& c, CheckContext& check);
 
 template <class V>
 void describe(V& v, TransmitterFile& c) {
-  v.required("name", c.name, {.doc = "By which communicators refer to it."});
+  v.required("name", c.name, {.doc = "Name that communicators use for it."});
   v.required("driver", c.driver, driver_name());
   v.field("device", c.device, device_name());
   v.field("params", c.params, driver_params());
@@ -177,10 +175,12 @@ void validate(const TransmitterFile& c, CheckContext& check);
 
 template <class V>
 void describe(V& v, CommunicatorFile& c) {
-  v.required("name", c.name,
-             {.doc = "By which the program asks for it; those of the same name hear each other."});
+  v.required(
+      "name", c.name,
+      {.doc =
+           "Name that the program uses for it; communicators with the same name hear each other."});
   v.required("driver", c.driver, driver_name());
-  v.required("transmitter", c.transmitter, {.doc = "The transmitter that carries its messages."});
+  v.required("transmitter", c.transmitter, {.doc = "Transmitter that carries its messages."});
   v.field("params", c.params, driver_params());
 }
 
@@ -193,22 +193,23 @@ constexpr auto enum_names(EnumTag<WorldLost> /*tag*/) {
 
 template <class V>
 void describe(V& v, GuardFile& c) {
-  v.field("arm", c.arm, {.doc = "Whether a real robot stands until somebody arms it."});
+  v.field("arm", c.arm, {.doc = "Whether a real robot stands until it is armed."});
   v.field("max_speed_mps", c.max_speed_mps,
-          {.doc = "Largest speed, either way; null: not limited.", .min = 0, .unit = "m/s"});
-  v.field(
-      "max_turn_dps", c.max_turn_dps,
-      {.doc = "Largest turning rate, either way; null: not limited.", .min = 0, .unit = "deg/s"});
+          {.doc = "Largest speed, forward and backward; null: no limit.", .min = 0, .unit = "m/s"});
+  v.field("max_turn_dps", c.max_turn_dps,
+          {.doc = "Largest turning rate, in both directions; null: no limit.",
+           .min = 0,
+           .unit = "deg/s"});
   v.field("fence_m", c.fence_m,
           {.doc = "Corners of the region of the world that its body may not leave; null: none.",
            .unit = "m",
            .min_items = 3,
            .max_items = 1000});
   v.field("separation_m", c.separation_m,
-          {.doc = "Least distance to the bodies of other robots; null: not kept.",
+          {.doc = "Least distance to the bodies of other robots; null: no limit.",
            .min = 0,
            .unit = "m"});
-  v.field("world_lost", c.world_lost, {.doc = "What it does when the virtual world stops coming."});
+  v.field("world_lost", c.world_lost, {.doc = "Reaction when updates of the virtual world stop."});
   v.field("world_timeout_s", c.world_timeout_s,
           {.doc = "Age of the virtual world after which it counts as lost.",
            .min = 0,
@@ -220,11 +221,17 @@ void describe(V& v, GuardFile& c) {
            .min = 0,
            .unit = "m/s"});
   v.field("deceleration_mps2", c.deceleration_mps2,
-          {.doc = "What the robot surely brakes with.", .min = 0.01, .max = 100, .unit = "m/s^2"});
+          {.doc = "Deceleration that the robot always reaches when it brakes.",
+           .min = 0.01,
+           .max = 100,
+           .unit = "m/s^2"});
   v.field("reaction_s", c.reaction_s,
-          {.doc = "From a command until the robot obeys.", .min = 0, .max = 10, .unit = "s"});
+          {.doc = "Time from a command to the reaction of the robot.",
+           .min = 0,
+           .max = 10,
+           .unit = "s"});
   v.field("watchdog_s", c.watchdog_s,
-          {.doc = "Age after which a command of the program is none.",
+          {.doc = "Age after which a command of the program expires.",
            .min = 0,
            .exclusive_min = true,
            .max = kLongest_s,
@@ -236,7 +243,7 @@ void describe(V& v, ProgramFile& c) {
   v.required("driver", c.driver, driver_name());
   v.field("period_s", c.period_s, period_s());
   v.field("phase_s", c.phase_s, phase_s());
-  v.field("isolate", c.isolate, {.doc = "Whether it runs in a process of its own."});
+  v.field("isolate", c.isolate, {.doc = "Whether the program runs in its own process."});
   v.field("params", c.params, driver_params());
 }
 
@@ -248,7 +255,8 @@ void describe(V& v, BodyFile& c) {
              {.doc = "Upright prisms that make up the body.", .min_items = 1, .max_items = 64});
   v.field("mass_kg", c.mass_kg,
           {.doc = "Mass.", .min = 0, .exclusive_min = true, .max = 1e6, .unit = "kg"});
-  v.field("colour", c.colour, {.doc = "`#rrggbb`; null: pictures choose."});
+  v.field("colour", c.colour,
+          {.doc = "Colour in pictures, `#rrggbb`; null: chosen automatically."});
   describe_barcode(v, c.barcode, c.barcode_z_m);
 }
 
@@ -256,38 +264,44 @@ void validate(const BodyFile& c, CheckContext& check);
 
 template <class V>
 void describe(V& v, RobotFile& c) {
-  v.field("description", c.description, {.doc = "For people."});
+  v.field("description", c.description, {.doc = "Free text."});
   v.field("variables", c.variables,
-          {.doc = "Values that stand as $(name) in this file; a scenario may set others."});
-  v.required("body", c.body, {.doc = "What others sense and touch."});
+          {.doc = "Values of $(name) in this file; a scenario can override them."});
+  v.required("body", c.body, {.doc = "Outline that others sense and touch."});
   v.field("pose_from", c.pose_from,
-          {.doc = "The sensor that says where it is; null: the truth (simulated robots only)."});
+          {.doc = "Sensor that reports the pose; null: the true pose (simulated robots only)."});
   v.field("source_frame", c.source_frame,
-          {.doc = "Pose in the world of the frame that pose_from reports in."});
+          {.doc = "Pose in the world of the frame that `pose_from` reports in."});
   v.field(
       "staleness_s", c.staleness_s,
-      {.doc = "Age after which a reported pose, or what another host says of it, counts as lost.",
+      {.doc = "Age after which a reported pose counts as lost, also one reported by another host.",
        .min = 0,
        .max = kLongest_s,
        .unit = "s"});
   v.field("report_period_s", c.report_period_s,
-          {.doc = "How often its host tells others where it is, in real time; null: every 0.1 s.",
+          {.doc = "Time between reports of the pose to other hosts, in real time; null: 0.1 s.",
            .min = 0,
            .exclusive_min = true,
            .max = kLongest_s,
            .unit = "s"});
   v.field("ros2", c.ros2,
-          {.doc = "Whether ROS 2 sees it: its readings, transforms and description; the scenario's "
-                  "`ros2` says on which network."});
+          {.doc = "Whether to publish readings, transforms and description to ROS 2, on the "
+                  "network of the scenario's `ros2`."});
   v.field("devices", c.devices,
           {.doc = "Hardware that several sensors and actuators share.", .max_items = 1000});
-  v.field("sensors", c.sensors, {.doc = "Each with its processing chain.", .max_items = 1000});
-  v.field("actuators", c.actuators, {.doc = "What moves it.", .max_items = 1000});
-  v.field("controllers", c.controllers, {.doc = "What takes commands.", .max_items = 1000});
-  v.field("transmitters", c.transmitters, {.doc = "What carries messages.", .max_items = 100});
+  v.field("sensors", c.sensors,
+          {.doc = "Sensors, each with its processing chain.", .max_items = 1000});
+  v.field("actuators", c.actuators,
+          {.doc = "Actuators, which move the robot or parts of it.", .max_items = 1000});
+  v.field("controllers", c.controllers,
+          {.doc = "Controllers, which turn commands of the program into commands of actuators.",
+           .max_items = 1000});
+  v.field("transmitters", c.transmitters,
+          {.doc = "Transmitters, which carry messages.", .max_items = 100});
   v.field("communicators", c.communicators,
-          {.doc = "Through which the program talks.", .max_items = 100});
-  v.field("guard", c.guard, {.doc = "Limits that no program can pass; null: none."});
+          {.doc = "Communicators, with which the program sends and receives messages.",
+           .max_items = 100});
+  v.field("guard", c.guard, {.doc = "Limits that no program can exceed; null: none."});
   v.field("program", c.program, {.doc = "The decision process; null: none."});
 }
 

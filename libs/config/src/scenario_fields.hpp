@@ -21,9 +21,9 @@ struct Codec<Pace> {
 
 template <class V>
 void describe(V& v, ScatterFile& c) {
-  v.field("count", c.count, {.doc = "How many robots.", .min = 1, .max = kMaxRobots});
-  v.required("x_m", c.x_m, length_m("Low and high x."));
-  v.required("y_m", c.y_m, length_m("Low and high y."));
+  v.field("count", c.count, {.doc = "Number of robots.", .min = 1, .max = kMaxRobots});
+  v.required("x_m", c.x_m, length_m("Lower and upper limit of x."));
+  v.required("y_m", c.y_m, length_m("Lower and upper limit of y."));
   v.field("clearance_m", c.clearance_m,
           {.doc = "Free space around each body.", .min = 0, .max = kFarthest_m, .unit = "m"});
 }
@@ -39,48 +39,52 @@ constexpr auto enum_names(EnumTag<HandOverTo> /*tag*/) {
 template <class V>
 void describe(V& v, HandOverFile& c) {
   v.field("within_m", c.within_m,
-          {.doc = "How far its pose may jump.", .min = 0, .max = kFarthest_m, .unit = "m"});
+          {.doc = "Largest jump of the pose.", .min = 0, .max = kFarthest_m, .unit = "m"});
   v.field("within_deg", c.within_deg,
-          {.doc = "How far its heading may jump.", .min = 0, .max = 180, .unit = "deg"});
+          {.doc = "Largest jump of the heading.", .min = 0, .max = 180, .unit = "deg"});
 }
 
 template <class V>
 void describe(V& v, RobotEntry& c) {
-  v.required("name", c.name, {.doc = "With several poses or scattered, -1, -2, ... is added."});
-  v.field("file", c.file,
-          {.doc = "The robot file, relative to this file; beside `robot` only its origin.",
-           .min_items = 1});
-  v.field("robot", c.robot, {.doc = "A robot file written out in place."});
-  v.field("team", c.team, {.doc = "Robots of one team know one another."});
+  v.required("name", c.name,
+             {.doc = "Name of the robot; -1, -2, ... is added for `poses` and `scatter`."});
+  v.field(
+      "file", c.file,
+      {.doc =
+           "Robot file, relative to this file; together with `robot`, the file it was read from.",
+       .min_items = 1});
+  v.field("robot", c.robot, {.doc = "Content of a robot file, in place of `file`."});
+  v.field("team", c.team, {.doc = "Team of the robot; messages can be addressed to a team."});
   v.field("variables", c.variables, {.doc = "Values for the variables of the robot file."});
-  v.field("pose", c.pose, {.doc = "Where it starts."});
+  v.field("pose", c.pose, {.doc = "Start pose."});
   v.field("poses", c.poses,
-          {.doc = "Where several start, each [x in m, y in m, yaw in deg].",
+          {.doc = "Start poses of several robots, each [x in m, y in m, yaw in deg].",
            .min = -kFarthest_m,
            .max = kFarthest_m,
            .min_items = 1,
            .max_items = static_cast<std::size_t>(kMaxRobots)});
-  v.field("scatter", c.scatter, {.doc = "Places at random by the seed."});
-  v.field("kind", c.kind, {.doc = "A word for pictures; null: what the drivers say."});
+  v.field("scatter", c.scatter, {.doc = "Random start poses, determined by the seed."});
+  v.field("kind", c.kind,
+          {.doc = "Kind of robot as shown in pictures; null: according to its drivers."});
   v.field("twin", c.twin,
-          {.doc = "A robot file of the same robot with other drivers, which `rave hand-over` and "
-                  "`hand_over` under `changes` give it while the run goes; relative to this file.",
+          {.doc = "Robot file with the other drivers of the same robot, for `rave hand-over` and "
+                  "`hand_over` in `changes`; relative to this file.",
            .min_items = 1});
-  v.field("twin_robot", c.twin_robot, {.doc = "The file of `twin` written out in place."});
+  v.field("twin_robot", c.twin_robot,
+          {.doc = "Content of a robot file, in place of the file of `twin`."});
   v.field("hand_over", c.hand_over,
-          {.doc = "What a change of its drivers keeps to; else it is refused."});
-  v.field(
-      "shadow", c.shadow,
-      {.doc = "Whether the simulated twin runs beside the real robot, unseen by all others, and "
-              "the difference is told."});
+          {.doc = "Limits of a hand-over; a hand-over beyond them is refused."});
+  v.field("shadow", c.shadow,
+          {.doc = "Whether the simulated twin runs beside the real robot, invisible to others, and "
+                  "the difference is reported."});
 }
 
 void validate(const RobotEntry& c, CheckContext& check);
 
 template <class V>
 void describe(V& v, SightingsCheckFile& c) {
-  v.required("real", c.real, {.doc = "The sensor that delivers recorded sightings."});
-  v.required("twin", c.twin, {.doc = "The virtual camera on the same robot."});
+  v.required("real", c.real, {.doc = "Sensor with the recorded sightings."});
+  v.required("twin", c.twin, {.doc = "Virtual camera on the same robot."});
   v.field("range_m", c.range_m,
           {.doc = "Largest difference in range.", .min = 0, .max = kFarthest_m, .unit = "m"});
   v.field("bearing_deg", c.bearing_deg,
@@ -91,53 +95,53 @@ void describe(V& v, SightingsCheckFile& c) {
            .max = 100,
            .unit = "%"});
   v.field("min_compared", c.min_compared,
-          {.doc = "With fewer sightings than this the check fails.", .min = 1});
+          {.doc = "Least number of sightings; the check fails with fewer.", .min = 1});
   v.field("max_unknown", c.max_unknown,
-          {.doc = "Sightings of codes that no body carries, taken for misread ones; each beyond "
-                  "this counts as one that does not lie within.",
+          {.doc = "Number of sightings of unknown barcodes that are ignored as misread; each "
+                  "further one counts as a mismatch.",
            .min = 0});
 }
 
 template <class V>
 void describe(V& v, TouchesCheckFile& c) {
   v.required("robots", c.robots,
-             {.doc = "Robots, or entries that stand for several, whose touches are added up.",
+             {.doc = "Robots, or entries of several robots, whose contacts are counted together.",
               .min_items = 1});
   v.field("sensor", c.sensor,
-          {.doc = "The contact sensor whose readings count; null: contacts in the run's world."});
-  v.field("most", c.most, {.doc = "More touches than this fail.", .min = 0});
-  v.field("least", c.least, {.doc = "Fewer touches than this fail.", .min = 0});
+          {.doc = "Contact sensor to count; null: contacts in the world of the run."});
+  v.field("most", c.most, {.doc = "Largest number of contacts that passes.", .min = 0});
+  v.field("least", c.least, {.doc = "Least number of contacts that passes.", .min = 0});
 }
 
 void validate(const TouchesCheckFile& c, CheckContext& check);
 
 template <class V>
 void describe(V& v, ArrivalCheckFile& c) {
-  v.required("robot", c.robot, {.doc = "A robot, or an entry whose robots must all arrive."});
-  v.required("x_m", c.x_m, length_m("Where, in the world."));
-  v.required("y_m", c.y_m, length_m("Where, in the world."));
+  v.required("robot", c.robot, {.doc = "Robot, or entry of several robots that must all arrive."});
+  v.required("x_m", c.x_m, length_m("Target in the world."));
+  v.required("y_m", c.y_m, length_m("Target in the world."));
   v.field("within_m", c.within_m,
-          {.doc = "How near it has to come by its reported pose.",
+          {.doc = "Largest distance of the reported pose to the target.",
            .min = 0,
            .exclusive_min = true,
            .max = kFarthest_m,
            .unit = "m"});
   v.field(
       "before_s", c.before_s,
-      {.doc = "Until when; null: the end of the run.", .min = 0, .max = kLongest_s, .unit = "s"});
+      {.doc = "Time limit; null: the end of the run.", .min = 0, .max = kLongest_s, .unit = "s"});
 }
 
 template <class V>
 void describe(V& v, CaptureCheckFile& c) {
-  v.required("predator", c.predator, {.doc = "The robot, or the entry of robots, that hunts."});
-  v.required("prey", c.prey, {.doc = "The robot, or the entry of robots, that is hunted."});
+  v.required("predator", c.predator, {.doc = "Robot, or entry of robots, that hunts."});
+  v.required("prey", c.prey, {.doc = "Robot, or entry of robots, that is hunted."});
   v.field("within_m", c.within_m,
           {.doc = "Gap between the outlines that counts as a capture.",
            .min = 0,
            .max = kFarthest_m,
            .unit = "m"});
   v.field("before_s", c.before_s,
-          {.doc = "Without a capture by then the check fails; null: it never does.",
+          {.doc = "Time limit of the capture, after which the check fails; null: no limit.",
            .min = 0,
            .max = 1e9,
            .unit = "s"});
@@ -146,19 +150,20 @@ void describe(V& v, CaptureCheckFile& c) {
 
 template <class V>
 void describe(V& v, ChangeFile& c) {
-  v.required("at_s", c.at_s,
-             {.doc = "When, a multiple of the step.", .min = 0, .max = 1e9, .unit = "s"});
-  v.field("robot", c.robot, {.doc = "The robot, or the entry of robots, that changes."});
+  v.required(
+      "at_s", c.at_s,
+      {.doc = "Time of the change, a multiple of the step.", .min = 0, .max = 1e9, .unit = "s"});
+  v.field("robot", c.robot, {.doc = "Robot, or entry of robots, that changes."});
   v.field("set", c.set,
           {.doc = "New values by key: program.PARAM, controller.NAME.PARAM, "
                   "actuator.NAME.PARAM, body.scale."});
   v.field("hand_over", c.hand_over,
-          {.doc = "Gives the robot its other drivers: the real or the simulated ones, or by their "
-                  "place in the scenario those of `file` (first) or `twin`."});
+          {.doc = "Hands the robot over to other drivers: real, simulated, first (those of `file`) "
+                  "or twin."});
   v.field("add_obstacle", c.add_obstacle,
-          {.doc = "An obstacle that comes; its name is not that of one that stands then."});
-  v.field("move_obstacle", c.move_obstacle, {.doc = "An obstacle that stands elsewhere."});
-  v.field("remove_obstacle", c.remove_obstacle, {.doc = "The name of an obstacle that goes."});
+          {.doc = "Obstacle to add; no other obstacle may have its name at that time."});
+  v.field("move_obstacle", c.move_obstacle, {.doc = "Obstacle to move."});
+  v.field("remove_obstacle", c.remove_obstacle, {.doc = "Name of an obstacle to remove."});
 }
 
 void validate(const ChangeFile& c, CheckContext& check);
@@ -166,19 +171,21 @@ void validate(const ChangeFile& c, CheckContext& check);
 template <class V>
 void describe(V& v, ChecksFile& c) {
   v.field("sightings", c.sightings, {.doc = "Compares real sightings with a virtual camera's."});
-  v.field("touches", c.touches,
-          {.doc = "How often robots may touch something.", .max_items = 1000});
-  v.field("arrivals", c.arrivals, {.doc = "Where robots have to come to.", .max_items = 1000});
-  v.field("capture", c.capture, {.doc = "Whether one robot catches another."});
+  v.field("touches", c.touches, {.doc = "Limits of the number of contacts.", .max_items = 1000});
+  v.field("arrivals", c.arrivals, {.doc = "Places that robots must reach.", .max_items = 1000});
+  v.field("capture", c.capture, {.doc = "Capture of one robot by another."});
 }
 
 template <class V>
 void describe(V& v, PictureFile& c) {
   v.field("instant_s", c.instant_s,
-          {.doc = "The frozen instant; null: the middle.", .min = 0, .max = 1e9, .unit = "s"});
-  v.field("title", c.title, {.doc = "Empty: the scenario's name."});
+          {.doc = "Time of the picture; null: the middle of the run.",
+           .min = 0,
+           .max = 1e9,
+           .unit = "s"});
+  v.field("title", c.title, {.doc = "Title; empty: the name of the scenario."});
   v.field("odometry_sensor", c.odometry_sensor,
-          {.doc = "The sensor whose track is drawn dashed; null: none."});
+          {.doc = "Sensor whose track is drawn dashed; null: none."});
 }
 
 constexpr auto enum_names(EnumTag<LostHost> /*tag*/) {
@@ -193,41 +200,44 @@ constexpr auto enum_names(EnumTag<RunClockMode> /*tag*/) {
 
 template <class V>
 void describe(V& v, HostFile& c) {
-  v.required("name", c.name, {.doc = "Letters, digits, - and _; what `rave robot` is told."});
+  v.required("name", c.name, {.doc = "Name for `rave robot --host`: letters, digits, - and _."});
   v.field("robots", c.robots,
-          {.doc = "Robots, or entries of robots; none: all that no other host has.",
+          {.doc = "Robots, or entries of robots; empty: all that no other host has.",
            .max_items = static_cast<std::size_t>(kMaxRobots)});
   v.field("elsewhere", c.elsewhere,
-          {.doc = "Whether it is started by hand, with `rave robot`; else `rave run` starts it."});
+          {.doc = "Whether you start the host yourself with `rave robot`; otherwise `rave run` "
+                  "starts it."});
 }
 
 void validate(const HostFile& c, CheckContext& check);
 
 template <class V>
 void describe_hosts(V& v, ScenarioFile& c) {
-  v.field(
-      "processes", c.processes,
-      {.doc = "Share the robots evenly among so many processes; null: one.", .min = 1, .max = 100});
+  v.field("processes", c.processes,
+          {.doc = "Number of processes among which the robots are divided evenly; null: one.",
+           .min = 1,
+           .max = 100});
   v.field("hosts", c.hosts,
-          {.doc = "Which robots run in which process, here or elsewhere.", .max_items = 100});
+          {.doc = "Processes of the run, on this or other machines, with their robots.",
+           .max_items = 100});
   v.field("on_lost_host", c.on_lost_host,
-          {.doc = "What happens when a host is late or gone: wait for it, drop its robots, or drop "
-                  "them and let it come back."});
+          {.doc = "Reaction to a host that is late or gone: wait for it, drop its robots, or drop "
+                  "them and let the host come back."});
   v.field("host_timeout_s", c.host_timeout_s,
           {.doc = "Wall time after which a host that does not answer counts as late.",
            .min = 0.1,
            .max = 3600,
            .unit = "s"});
   v.field("clock", c.clock,
-          {.doc = "Whether hosts wait for one another in each step or keep to the clock on the "
-                  "wall; a live driver makes any run one in real time."});
+          {.doc = "Whether hosts wait for each other in each step or follow the wall clock; with a "
+                  "live driver, a run is always in real time."});
   v.field("world_period_s", c.world_period_s,
-          {.doc = "How often hosts are told where all robots are, in real time.",
+          {.doc = "Time between updates of the world to hosts, in real time.",
            .min = 1e-3,
            .max = 10,
            .unit = "s"});
   v.field("max_missed_pct", c.max_missed_pct,
-          {.doc = "A live run in which a larger share of the steps is done too late is not whole.",
+          {.doc = "Share of late steps above which a live run counts as incomplete.",
            .min = 0,
            .max = 100,
            .unit = "%"});
@@ -246,75 +256,80 @@ constexpr auto enum_names(EnumTag<Ros2Nodes> /*tag*/) {
 
 template <class V>
 void describe(V& v, GeoOriginFile& c) {
-  v.required("latitude_deg", c.latitude_deg,
-             {.doc = "Positive in the north (WGS 84).", .min = -90, .max = 90, .unit = "deg"});
+  v.required(
+      "latitude_deg", c.latitude_deg,
+      {.doc = "Latitude, positive in the north (WGS 84).", .min = -90, .max = 90, .unit = "deg"});
   v.required("longitude_deg", c.longitude_deg,
-             {.doc = "Positive in the east.", .min = -180, .max = 180, .unit = "deg"});
+             {.doc = "Longitude, positive in the east.", .min = -180, .max = 180, .unit = "deg"});
   v.field("altitude_m", c.altitude_m,
-          {.doc = "Above the ellipsoid, not above the sea.",
+          {.doc = "Height above the ellipsoid (not above sea level).",
            .min = -10'000,
            .max = 100'000,
            .unit = "m"});
-  v.field("yaw_deg", c.yaw_deg,
-          {.doc = "Of the world's x axis, from east towards north; 0: y is north.",
-           .min = -360,
-           .max = 360,
-           .unit = "deg"});
+  v.field(
+      "yaw_deg", c.yaw_deg,
+      {.doc =
+           "Direction of the world's x axis, counted from east towards north; 0: y points north.",
+       .min = -360,
+       .max = 360,
+       .unit = "deg"});
 }
 
 template <class V>
 void describe(V& v, Ros2File& c) {
-  v.field("domain", c.domain, {.doc = "That of ROS_DOMAIN_ID.", .min = 0, .max = 230});
+  v.field("domain", c.domain, {.doc = "DDS domain, as in ROS_DOMAIN_ID.", .min = 0, .max = 230});
   v.field("interface", c.interface,
           {.doc = "Network interface, by address or name; the default is this machine.",
            .min_items = 1});
-  v.field("peers", c.peers, {.doc = "Addresses to look for others at.", .max_items = 100});
+  v.field("peers", c.peers, {.doc = "Addresses of other machines.", .max_items = 100});
   v.field("multicast", c.multicast,
-          {.doc = "What is sent by multicast: nothing, what finds others, or data as well."});
-  v.field(
-      "nodes", c.nodes,
-      {.doc = "How `ros2 node list` learns of the run: as of Iron (2023) and later, as of Humble "
-              "and before, or not at all. All of a domain must be of one kind."});
+          {.doc = "Use of multicast: off, for discovery only, or also for data."});
+  v.field("nodes", c.nodes,
+          {.doc = "Format in which `ros2 node list` sees the run: Iron (2023) and later, Humble "
+                  "and earlier, or none. All participants of a domain must use the same."});
   v.field("period_s", c.period_s,
           {.doc = "Time between two transforms.", .min = 0.001, .max = 60, .unit = "s"});
 }
 
 template <class V>
 void describe_run(V& v, ScenarioFile& c) {
-  v.field("seed", c.seed, {.doc = "Of all chance in the run."});
+  v.field("seed", c.seed, {.doc = "Random seed of the run."});
   v.field("duration_s", c.duration_s,
           {.doc = "Simulated time.", .min = 0, .exclusive_min = true, .max = 1e9, .unit = "s"});
-  v.field("step_s", c.step_s, {.doc = "Base period.", .min = 1e-4, .max = 10, .unit = "s"});
-  v.field("threads", c.threads, {.doc = "They do not change the result.", .min = 1, .max = 1024});
-  v.field("pace", c.pace, {.doc = "max, realtime, or a factor such as 10x."});
-  v.field(
-      "history_s", c.history_s,
-      {.doc = "How far hybrid sensors and checks look back.", .min = 0, .max = 3600, .unit = "s"});
+  v.field("step_s", c.step_s, {.doc = "Length of a step.", .min = 1e-4, .max = 10, .unit = "s"});
+  v.field("threads", c.threads,
+          {.doc = "Number of threads; the result does not depend on it.", .min = 1, .max = 1024});
+  v.field("pace", c.pace, {.doc = "Largest speed: max, realtime, or a factor such as 10x."});
+  v.field("history_s", c.history_s,
+          {.doc = "Length of the history for hybrid sensors and checks.",
+           .min = 0,
+           .max = 3600,
+           .unit = "s"});
 }
 
 template <class V>
 void describe(V& v, ScenarioFile& c) {
-  v.required("name", c.name, {.doc = "Letters, digits, - and _; names the run's folder."});
-  v.field("description", c.description, {.doc = "For people."});
-  v.field("world", c.world, {.doc = "The world file, relative to this file; null: an empty one."});
+  v.required("name", c.name,
+             {.doc = "Name of the scenario and of folders of runs: letters, digits, - and _."});
+  v.field("description", c.description, {.doc = "Free text."});
+  v.field("world", c.world, {.doc = "World file, relative to this file; null: an empty world."});
   v.field("obstacles", c.obstacles, obstacle_list());
   v.field("maps", c.maps, map_list());
   describe_run(v, c);
   describe_hosts(v, c);
-  v.required(
-      "robots", c.robots,
-      {.doc = "At least one.", .min_items = 1, .max_items = static_cast<std::size_t>(kMaxRobots)});
-  v.field(
-      "changes", c.changes,
-      {.doc = "Parameters and obstacles that change while the run goes.", .max_items = 100'000});
-  v.field("checks", c.checks, {.doc = "What must hold for the run to count as good."});
-  v.field("picture", c.picture, {.doc = "Settings of the picture of the run; null: the usual."});
-  v.field(
-      "geo_origin", c.geo_origin,
-      {.doc = "Where the origin of the world lies on the earth, for satellite navigation; null: "
-              "nobody knows."});
-  v.field("ros2", c.ros2, {.doc = "Where robots with `ros2: true` show themselves."});
-  v.field("gui", c.gui, {.doc = "Who may see and do what on the page."});
+  v.required("robots", c.robots,
+             {.doc = "Robots, at least one entry.",
+              .min_items = 1,
+              .max_items = static_cast<std::size_t>(kMaxRobots)});
+  v.field("changes", c.changes,
+          {.doc = "Changes of parameters and obstacles during the run.", .max_items = 100'000});
+  v.field("checks", c.checks, {.doc = "Conditions that must hold at the end of the run."});
+  v.field("picture", c.picture, {.doc = "Settings of the picture of the run; null: defaults."});
+  v.field("geo_origin", c.geo_origin,
+          {.doc = "Position of the origin of the world on the earth, for satellite navigation; "
+                  "null: unknown."});
+  v.field("ros2", c.ros2, {.doc = "Network on which robots with `ros2: true` are published."});
+  v.field("gui", c.gui, {.doc = "Rights of users on the page."});
 }
 
 void validate(const ScenarioFile& c, CheckContext& check);

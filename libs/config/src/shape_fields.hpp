@@ -52,7 +52,7 @@ void describe_outline(V& v, Outline& c) {
 template <class V>
 void describe_barcode(V& v, std::optional<int>& barcode, std::optional<HeightRange>& z_m) {
   v.field("barcode", barcode,
-          {.doc = "What landmark cameras read on it; null: none.", .min = 0, .max = 65535});
+          {.doc = "Barcode that landmark cameras read; null: none.", .min = 0, .max = 65535});
   v.field("barcode_z_m", z_m,
           length_m("Heights of the barcode, low and high; null: those of the body."));
 }
@@ -61,7 +61,7 @@ template <class V>
 void describe(V& v, ShapeFile& c) {
   describe_outline(v, c.outline);
   v.field("centre_m", c.centre_m, length_m("Origin of the outline in the body frame."));
-  v.field("yaw_deg", c.yaw_deg, angle_deg("Turn of the outline about its origin."));
+  v.field("yaw_deg", c.yaw_deg, angle_deg("Rotation of the outline about its origin."));
   v.required("z_m", c.z_m, length_m("Heights above the floor, low and high."));
 }
 

@@ -11,13 +11,14 @@ template <class V>
 void describe(V& v, ObstacleFile& c) {
   v.required("name", c.name, {.doc = "Unique in the world."});
   describe_outline(v, c.outline);
-  v.field("x_m", c.x_m, length_m("Where the outline's origin stands."));
-  v.field("y_m", c.y_m, length_m("Where the outline's origin stands."));
-  v.field("yaw_deg", c.yaw_deg, angle_deg("Turn of the outline about its origin."));
+  v.field("x_m", c.x_m, length_m("Position of the origin of the outline."));
+  v.field("y_m", c.y_m, length_m("Position of the origin of the outline."));
+  v.field("yaw_deg", c.yaw_deg, angle_deg("Rotation of the outline about its origin."));
   v.field("z_m", c.z_m, length_m("Heights above the floor, low and high."));
-  v.field("layer", c.layer, {.doc = "Whether it exists on the real floor too."});
+  v.field("layer", c.layer, {.doc = "Layer: whether the obstacle also exists on the real floor."});
   describe_barcode(v, c.barcode, c.barcode_z_m);
-  v.field("colour", c.colour, {.doc = "`#rrggbb`; null: pictures choose."});
+  v.field("colour", c.colour,
+          {.doc = "Colour in pictures, `#rrggbb`; null: chosen automatically."});
 }
 
 inline void validate(const ObstacleFile& c, CheckContext& check) {
@@ -30,10 +31,10 @@ inline void validate(const ObstacleFile& c, CheckContext& check) {
 
 template <class V>
 void describe(V& v, MoveObstacleFile& c) {
-  v.required("name", c.name, {.doc = "An obstacle that stands then."});
-  v.field("x_m", c.x_m, length_m("Where the outline's origin stands from then on."));
-  v.field("y_m", c.y_m, length_m("Where the outline's origin stands from then on."));
-  v.field("yaw_deg", c.yaw_deg, angle_deg("Turn of the outline about its origin."));
+  v.required("name", c.name, {.doc = "Name of an existing obstacle."});
+  v.field("x_m", c.x_m, length_m("New position of the origin of the outline."));
+  v.field("y_m", c.y_m, length_m("New position of the origin of the outline."));
+  v.field("yaw_deg", c.yaw_deg, angle_deg("Rotation of the outline about its origin."));
 }
 
 template <class V>
@@ -41,13 +42,13 @@ void describe(V& v, MapFile& c) {
   v.required("file", c.file,
              {.doc = "The YAML of a ROS map_server map, relative to this file.", .min_items = 1});
   v.field("z_m", c.z_m, length_m("Heights of its walls, low and high."));
-  v.field("layer", c.layer, {.doc = "Whether its walls exist on the real floor too."});
+  v.field("layer", c.layer, {.doc = "Layer: whether the walls also exist on the real floor."});
 }
 
 inline void validate(const MapFile& c, CheckContext& check) { check_heights("z_m", c.z_m, check); }
 
 constexpr FieldOptions obstacle_list() {
-  return {.doc = "Upright prisms that stand still.", .max_items = 100000};
+  return {.doc = "Static obstacles (upright prisms).", .max_items = 100000};
 }
 constexpr FieldOptions map_list() {
   return {.doc = "Maps whose occupied cells are walls.", .max_items = 100};
@@ -55,7 +56,7 @@ constexpr FieldOptions map_list() {
 
 template <class V>
 void describe(V& v, WorldFile& c) {
-  v.field("description", c.description, {.doc = "For people."});
+  v.field("description", c.description, {.doc = "Free text."});
   v.field("obstacles", c.obstacles, obstacle_list());
   v.field("maps", c.maps, map_list());
 }

@@ -14,14 +14,13 @@ constexpr auto kStatusEvery = std::chrono::seconds(1);
 constexpr Duration kStatusPatience = from_seconds(1);
 
 /// In lock-step the manager has the say, in real time each host of its robots.
-bool has_the_say(const run_control::BusPeer& peer, const std::string& /*scenario*/) {
+bool has_the_say(const control::BusPeer& peer, const std::string& /*scenario*/) {
   return !peer.manager || !peer.live;
 }
 
 }  // namespace
 
-BusPort::BusPort(std::unique_ptr<run_control::BusRun> bus,
-                 std::unique_ptr<run_control::BusRun> status)
+BusPort::BusPort(std::unique_ptr<control::BusRun> bus, std::unique_ptr<control::BusRun> status)
     : bus_(std::move(bus)),
       status_(std::move(status)),
       thread_([this](const std::stop_token& stop) { work(stop); }),
@@ -34,16 +33,16 @@ BusPort::~BusPort() {
   }
 }
 
-std::vector<robot_host::RunStatus::Robot> BusPort::robots() const {
+std::vector<runtime::RunStatus::Robot> BusPort::robots() const {
   const std::lock_guard lock(mutex_);
   return robots_;
 }
 
 void BusPort::watch(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
-    std::vector<robot_host::RunStatus::Robot> robots;
-    for (run_control::BusReply& reply :
-         status_->ask_each(run_control::Request{}, has_the_say, kStatusPatience)) {
+    std::vector<runtime::RunStatus::Robot> robots;
+    for (control::BusReply& reply :
+         status_->ask_each(control::Request{}, has_the_say, kStatusPatience)) {
       if (!reply.answer || !reply.answer->good) continue;
       auto& told = reply.answer->status.robots;
       robots.insert(robots.end(), std::make_move_iterator(told.begin()),
@@ -55,7 +54,7 @@ void BusPort::watch(const std::stop_token& stop) {
   }
 }
 
-Result<std::future<Result<std::string>>> BusPort::post(robot_host::RunRequest request) {
+Result<std::future<Result<std::string>>> BusPort::post(runtime::RunRequest request) {
   const std::lock_guard lock(mutex_);
   auto& [asked, promise] = waiting_.emplace_back(std::move(request), std::promise<Answer>());
   auto answer = promise.get_future();
@@ -77,19 +76,19 @@ void BusPort::work(const std::stop_token& stop) {
   }
 }
 
-BusPort::Answer BusPort::ask(const robot_host::RunRequest& request) {
-  using Kind = robot_host::RunRequest::Kind;
+BusPort::Answer BusPort::ask(const runtime::RunRequest& request) {
+  using Kind = runtime::RunRequest::Kind;
   if (request.kind != Kind::kStop && request.kind != Kind::kRelease) {
     return fail(ErrorCode::kState, "a run on the bus takes no `{}` from a page yet",
-                robot_host::to_string(request.kind));
+                runtime::to_string(request.kind));
   }
-  run_control::Request asked;
+  control::Request asked;
   const bool stop = request.kind == Kind::kStop;
-  asked.what = stop ? run_control::Request::What::kStop : run_control::Request::What::kRelease;
+  asked.what = stop ? control::Request::What::kStop : control::Request::What::kRelease;
   asked.robot = request.robot;
   std::string done;
   std::string refused;
-  for (const run_control::BusReply& reply : bus_->ask_each(asked, has_the_say)) {
+  for (const control::BusReply& reply : bus_->ask_each(asked, has_the_say)) {
     const bool good = reply.answer && reply.answer->good;
     std::string& text = good ? done : refused;
     if (!text.empty()) text += "; ";

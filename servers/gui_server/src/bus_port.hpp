@@ -7,7 +7,7 @@
 #include <thread>
 #include <utility>
 
-#include "rave/run_control/bus_run.hpp"
+#include "rave/control/bus_run.hpp"
 #include "run_port.hpp"
 
 namespace rave::gui_server {
@@ -18,7 +18,7 @@ namespace rave::gui_server {
 class BusPort final : public RunPort {
  public:
   /// Two ends of the bus of the run.
-  BusPort(std::unique_ptr<run_control::BusRun> bus, std::unique_ptr<run_control::BusRun> status);
+  BusPort(std::unique_ptr<control::BusRun> bus, std::unique_ptr<control::BusRun> status);
   BusPort(const BusPort&) = delete;
   BusPort& operator=(const BusPort&) = delete;
   ~BusPort() override;
@@ -32,23 +32,22 @@ class BusPort final : public RunPort {
   void resume() override {}
   void step(std::uint64_t /*count*/) override {}
   void set_pace(double /*factor*/) override {}
-  [[nodiscard]] std::vector<robot_host::RunStatus::Robot> robots() const override;
-  [[nodiscard]] Result<std::future<Result<std::string>>> post(
-      robot_host::RunRequest request) override;
+  [[nodiscard]] std::vector<runtime::RunStatus::Robot> robots() const override;
+  [[nodiscard]] Result<std::future<Result<std::string>>> post(runtime::RunRequest request) override;
 
  private:
   using Answer = Result<std::string>;
 
   void work(const std::stop_token& stop);
   void watch(const std::stop_token& stop);
-  [[nodiscard]] Answer ask(const robot_host::RunRequest& request);
+  [[nodiscard]] Answer ask(const runtime::RunRequest& request);
 
-  std::unique_ptr<run_control::BusRun> bus_;
-  std::unique_ptr<run_control::BusRun> status_;
+  std::unique_ptr<control::BusRun> bus_;
+  std::unique_ptr<control::BusRun> status_;
   mutable std::mutex mutex_;
   std::condition_variable_any changed_;
-  std::deque<std::pair<robot_host::RunRequest, std::promise<Answer>>> waiting_;
-  std::vector<robot_host::RunStatus::Robot> robots_;
+  std::deque<std::pair<runtime::RunRequest, std::promise<Answer>>> waiting_;
+  std::vector<runtime::RunStatus::Robot> robots_;
   std::jthread thread_;
   std::jthread watcher_;
 };

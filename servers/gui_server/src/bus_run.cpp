@@ -8,7 +8,7 @@
 #include "bus_port.hpp"
 #include "components.hpp"
 #include "live_source.hpp"
-#include "rave/robot_host/describe_run.hpp"
+#include "rave/recording/describe_run.hpp"
 #include "rave/watch/observer.hpp"
 #include "scenario_rights.hpp"
 #include "scene_json.hpp"
@@ -172,8 +172,8 @@ class BusSource final : public LiveSource {
 };
 
 Result<LiveSource::Start> start_of(const config::ExpandedScenario& scenario,
-                                   const robot_host::BuiltScenario& built) {
-  const robot_host::DescribedRun run = robot_host::describe_run(built);
+                                   const runtime::BuiltScenario& built) {
+  const runtime::DescribedRun run = runtime::describe_run(built);
   LiveSource::Start start;
   start.about.live = true;
   start.about.name = scenario.scenario.name.value;
@@ -197,8 +197,8 @@ Result<LiveSource::Start> start_of(const config::ExpandedScenario& scenario,
 }  // namespace
 
 Result<std::shared_ptr<Source>> watch_run(const config::ExpandedScenario& scenario,
-                                          const robot_host::BuiltScenario& built,
-                                          bus::BusConfig bus, robot_host::RunControl* control) {
+                                          const runtime::BuiltScenario& built, bus::BusConfig bus,
+                                          runtime::RunControl* control) {
   // The manager of the run may be in this process, with a bus of its own.
   bus.beside = true;
   RAVE_TRY_ASSIGN(auto observer, watch::Observer::open(bus));
@@ -206,8 +206,8 @@ Result<std::shared_ptr<Source>> watch_run(const config::ExpandedScenario& scenar
   if (control != nullptr && built.live_reason.empty()) {
     port = std::make_unique<LocalPort>(*control, "");
   } else {
-    RAVE_TRY_ASSIGN(auto asker, run_control::BusRun::open(bus, "GUI Server"));
-    RAVE_TRY_ASSIGN(auto status, run_control::BusRun::open(bus, "GUI Server"));
+    RAVE_TRY_ASSIGN(auto asker, control::BusRun::open(bus, "GUI Server"));
+    RAVE_TRY_ASSIGN(auto status, control::BusRun::open(bus, "GUI Server"));
     port = std::make_unique<BusPort>(std::move(asker), std::move(status));
   }
   RAVE_TRY_ASSIGN(auto start, start_of(scenario, built));

@@ -7,7 +7,7 @@
 namespace rave::gui_server {
 namespace {
 
-using robot_host::RunRequest;
+using runtime::RunRequest;
 constexpr auto kStatusInterval = std::chrono::milliseconds(200);
 
 RunRequest::Kind kind_of(CommandMessage::Kind kind) {
@@ -135,7 +135,7 @@ void LiveSource::learn_status(Playhead::Clock::time_point now) {
   if (now - status_at_ < kStatusInterval) return;
   status_at_ = now;
   flags_.assign(picture().standing ? start_.robots.size() : 0, 0);
-  for (const robot_host::RunStatus::Robot& robot : port_->robots()) {
+  for (const runtime::RunStatus::Robot& robot : port_->robots()) {
     const auto slot = slots_.find(robot.name);
     if (slot == slots_.end()) continue;
     learn_leases(robot, slot->second);
@@ -146,7 +146,7 @@ void LiveSource::learn_status(Playhead::Clock::time_point now) {
   }
 }
 
-void LiveSource::learn_leases(const robot_host::RunStatus::Robot& robot, std::uint32_t slot) {
+void LiveSource::learn_leases(const runtime::RunStatus::Robot& robot, std::uint32_t slot) {
   DriveState& known = leases_[slot];
   if (known.lease == robot.lease && known.order == robot.order && known.takes == robot.takes) {
     return;

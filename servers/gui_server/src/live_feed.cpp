@@ -19,7 +19,7 @@ constexpr std::size_t kMostEvents = 100;
 
 }  // namespace
 
-Status LiveFeed::run_begins(const robot_host::RunView& run) {
+Status LiveFeed::run_begins(const runtime::RunView& run) {
   kinds_ = &run.kinds;
   touching_until_s_.assign(run.engine.spec().robots.size(), -1);
   const world::WorldModel& world = run.engine.spec().world;
@@ -32,7 +32,7 @@ Status LiveFeed::run_begins(const robot_host::RunView& run) {
   return begun_(run, std::move(bodies));
 }
 
-void LiveFeed::after_step(const robot_host::StepView& step) {
+void LiveFeed::after_step(const runtime::StepView& step) {
   take_news(step);
   const auto now = Clock::now();
   const bool watched = box_->watched.load(std::memory_order_relaxed);
@@ -48,7 +48,7 @@ void LiveFeed::held(const sim::Engine& engine) {
   draw(engine);
 }
 
-void LiveFeed::take_news(const robot_host::StepView& step) {
+void LiveFeed::take_news(const runtime::StepView& step) {
   const sim::Engine& engine = step.engine;
   if (engine.events().empty() && step.beside.empty()) return;
   auto news = std::make_unique<LiveNews>();
@@ -70,9 +70,9 @@ void LiveFeed::take_news(const robot_host::StepView& step) {
       ++left_out;
       return;
     }
-    news->events.push_back(
-        {engine.time().seconds(), event.robot.valid() ? static_cast<int>(event.robot.value()) : -1,
-         std::string(to_string(event.kind)), robot_host::words_of(*kinds_, event)});
+    news->events.push_back({engine.time().seconds(),
+                            event.robot.valid() ? static_cast<int>(event.robot.value()) : -1,
+                            std::string(to_string(event.kind)), runtime::words_of(*kinds_, event)});
   };
   for (const sim::Event& event : engine.events()) take(event);
   for (const sim::Event& event : step.beside) take(event);

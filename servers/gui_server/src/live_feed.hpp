@@ -7,29 +7,29 @@
 #include <vector>
 
 #include "live_box.hpp"
-#include "rave/robot_host/run_observer.hpp"
+#include "rave/observe/run_observer.hpp"
 
 namespace rave::gui_server {
 
 /// Hands copies of a run to the server's thread: pictures at most 60 times a second while somebody
 /// looks, and four times otherwise; events always. The thread of the run, which never waits here.
-class LiveFeed final : public robot_host::RunObserver {
+class LiveFeed final : public runtime::RunObserver {
  public:
   /// Before the first step: what does not change. `bodies`: by number, as JSON.
-  using Begun = std::function<Status(const robot_host::RunView& run,
+  using Begun = std::function<Status(const runtime::RunView& run,
                                      std::vector<std::pair<std::uint32_t, std::string>> bodies)>;
 
   LiveFeed(std::shared_ptr<LiveBox> box, Begun begun)
       : box_(std::move(box)), begun_(std::move(begun)) {}
 
-  Status run_begins(const robot_host::RunView& run) override;
-  void after_step(const robot_host::StepView& step) override;
+  Status run_begins(const runtime::RunView& run) override;
+  void after_step(const runtime::StepView& step) override;
   void held(const sim::Engine& engine) override;
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  void take_news(const robot_host::StepView& step);
+  void take_news(const runtime::StepView& step);
   void draw(const sim::Engine& engine);
   void draw_poses(const sim::Engine& engine, PosesAt& poses) const;
   static void draw_readings(const sim::Engine& engine, const LiveWants& wants,
@@ -37,7 +37,7 @@ class LiveFeed final : public robot_host::RunObserver {
 
   std::shared_ptr<LiveBox> box_;
   Begun begun_;
-  const robot_host::BodyKinds* kinds_ = nullptr;
+  const runtime::BodyKinds* kinds_ = nullptr;
   std::vector<double> touching_until_s_;  ///< By robot.
   Clock::time_point drawn_{};
   std::uint32_t serial_ = 0;

@@ -17,17 +17,17 @@ const char* const kHeldByNobody =
 }  // namespace
 
 struct LiveRun::Impl {
-  Impl(const config::ExpandedScenario& of, robot_host::RunControl& with,
+  Impl(const config::ExpandedScenario& of, runtime::RunControl& with,
        std::function<void(std::shared_ptr<Source>)> call)
       : scenario(of),
         control(with),
         ready(std::move(call)),
         box(std::make_shared<LiveBox>()),
-        feed(box, [this](const robot_host::RunView& run, auto bodies) {
+        feed(box, [this](const runtime::RunView& run, auto bodies) {
           return begin(run, std::move(bodies));
         }) {}
 
-  Status begin(const robot_host::RunView& run,
+  Status begin(const runtime::RunView& run,
                std::vector<std::pair<std::uint32_t, std::string>> bodies) {
     LiveSource::Start start;
     start.about.live = true;
@@ -52,20 +52,20 @@ struct LiveRun::Impl {
   }
 
   const config::ExpandedScenario& scenario;
-  robot_host::RunControl& control;
+  runtime::RunControl& control;
   std::function<void(std::shared_ptr<Source>)> ready;
   std::shared_ptr<LiveBox> box;
   std::shared_ptr<LiveSource> source;
   LiveFeed feed;
 };
 
-LiveRun::LiveRun(const config::ExpandedScenario& scenario, robot_host::RunControl& control,
+LiveRun::LiveRun(const config::ExpandedScenario& scenario, runtime::RunControl& control,
                  std::function<void(std::shared_ptr<Source>)> ready)
     : impl_(std::make_unique<Impl>(scenario, control, std::move(ready))) {}
 
 LiveRun::~LiveRun() = default;
 
-robot_host::RunObserver& LiveRun::observer() noexcept { return impl_->feed; }
+runtime::RunObserver& LiveRun::observer() noexcept { return impl_->feed; }
 
 void LiveRun::end(std::string reason) {
   if (impl_->source) impl_->source->end(std::move(reason));

@@ -85,7 +85,7 @@ class LiveSource : public Source {
   void write_bodies();
   void answer_asked();
   void learn_status(Playhead::Clock::time_point now);
-  void learn_leases(const robot_host::RunStatus::Robot& robot, std::uint32_t slot);
+  void learn_leases(const runtime::RunStatus::Robot& robot, std::uint32_t slot);
 
   Start start_;
   std::shared_ptr<LiveBox> box_;

@@ -4,7 +4,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "rave/robot_host/parameter_key.hpp"
+#include "rave/assemble/parameter_key.hpp"
 
 namespace rave::gui_server {
 namespace {
@@ -19,7 +19,7 @@ ParameterJson first_value(const ParamSpec& spec, const std::string& text) {
 }
 
 /// Null: a list, which no control of the page shows.
-ParameterJson parameter_json(const robot_host::ChangeableParameter& parameter) {
+ParameterJson parameter_json(const runtime::ChangeableParameter& parameter) {
   const ParamSpec& spec = *parameter.spec;
   ParameterJson json = {{"key", parameter.key}};
   switch (spec.type) {
@@ -54,9 +54,9 @@ ParameterJson parameter_json(const robot_host::ChangeableParameter& parameter) {
 
 ParameterJson parameters_of(const sim::RobotType& type) {
   std::map<std::string, std::string> values;
-  for (auto& [key, text] : robot_host::first_values(type)) values[key] = std::move(text);
+  for (auto& [key, text] : runtime::first_values(type)) values[key] = std::move(text);
   ParameterJson all = ParameterJson::array();
-  for (const auto& parameter : robot_host::changeable_parameters(type)) {
+  for (const auto& parameter : runtime::changeable_parameters(type)) {
     ParameterJson json = parameter_json(parameter);
     if (json.is_null()) continue;
     if (const auto value = values.find(parameter.key); value != values.end()) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "rave/base/result.hpp"
-#include "rave/robot_host/run_control.hpp"
+#include "rave/control/run_control.hpp"
 
 namespace rave::gui_server {
 
@@ -23,17 +23,17 @@ class RunPort {
   virtual void step(std::uint64_t count) = 0;
   virtual void set_pace(double factor) = 0;
   /// Which robots are stopped or wait to be armed, by name; nothing if that is not known here.
-  [[nodiscard]] virtual std::vector<robot_host::RunStatus::Robot> robots() const = 0;
+  [[nodiscard]] virtual std::vector<runtime::RunStatus::Robot> robots() const = 0;
   /// kStop and kRelease. The answer comes later. Error: kState (no run is under way).
   [[nodiscard]] virtual Result<std::future<Result<std::string>>> post(
-      robot_host::RunRequest request) = 0;
+      runtime::RunRequest request) = 0;
 };
 
 /// A run of this process, or the manager of one.
 class LocalPort final : public RunPort {
  public:
   /// `control` outlives it.
-  LocalPort(robot_host::RunControl& control, std::string why_not_held)
+  LocalPort(runtime::RunControl& control, std::string why_not_held)
       : control_(control), why_not_held_(std::move(why_not_held)) {}
 
   [[nodiscard]] std::string why_not_held() const override { return why_not_held_; }
@@ -43,16 +43,16 @@ class LocalPort final : public RunPort {
   void resume() override { control_.resume(); }
   void step(std::uint64_t count) override { control_.step(count); }
   void set_pace(double factor) override { control_.set_pace(factor); }
-  [[nodiscard]] std::vector<robot_host::RunStatus::Robot> robots() const override {
+  [[nodiscard]] std::vector<runtime::RunStatus::Robot> robots() const override {
     return control_.status().robots;
   }
   [[nodiscard]] Result<std::future<Result<std::string>>> post(
-      robot_host::RunRequest request) override {
+      runtime::RunRequest request) override {
     return control_.post(std::move(request));
   }
 
  private:
-  robot_host::RunControl& control_;
+  runtime::RunControl& control_;
   std::string why_not_held_;
 };
 

@@ -8,7 +8,7 @@
 
 #include "rave/base/file.hpp"
 #include "rave/config/expanded_scenario.hpp"
-#include "rave/robot_host/host_run.hpp"
+#include "rave/host/host_run.hpp"
 #include "rights_desk.hpp"
 #include "scenario_rights.hpp"
 #include "view.hpp"
@@ -108,7 +108,7 @@ TEST(RightsOfAScenario, AreNoPartOfWhatProcessesCompare) {
   config::ExpandedScenario shared = plain;
   shared.scenario.gui.rights.push_back(
       {config::GuiRole::kObserver, {}, {config::GuiClass::kPose}, config::GuiReach::kNone, {}});
-  EXPECT_EQ(robot_host::shared_number(plain), robot_host::shared_number(shared));
+  EXPECT_EQ(runtime::shared_number(plain), runtime::shared_number(shared));
   // But recordings have it, so that a replay applies it.
   EXPECT_NE(config::write_expanded(shared).find("role: observer"), std::string::npos);
 }

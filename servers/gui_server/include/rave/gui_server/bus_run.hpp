@@ -3,11 +3,11 @@
 
 #include <memory>
 
+#include "rave/assemble/build.hpp"
 #include "rave/bus/config.hpp"
 #include "rave/config/expanded_scenario.hpp"
+#include "rave/control/run_control.hpp"
 #include "rave/gui_server/source.hpp"
-#include "rave/robot_host/build.hpp"
-#include "rave/robot_host/run_control.hpp"
 
 namespace rave::gui_server {
 
@@ -19,8 +19,8 @@ namespace rave::gui_server {
 /// the source. Null: robots are stopped over the bus, and nobody here can hold the run. Errors:
 /// those of bus::Bus::open().
 [[nodiscard]] Result<std::shared_ptr<Source>> watch_run(const config::ExpandedScenario& scenario,
-                                                        const robot_host::BuiltScenario& built,
+                                                        const runtime::BuiltScenario& built,
                                                         bus::BusConfig bus,
-                                                        robot_host::RunControl* control = nullptr);
+                                                        runtime::RunControl* control = nullptr);
 
 }  // namespace rave::gui_server

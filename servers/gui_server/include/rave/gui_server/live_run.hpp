@@ -6,9 +6,9 @@
 #include <string>
 
 #include "rave/config/expanded_scenario.hpp"
+#include "rave/control/run_control.hpp"
 #include "rave/gui_server/source.hpp"
-#include "rave/robot_host/run_control.hpp"
-#include "rave/robot_host/run_observer.hpp"
+#include "rave/observe/run_observer.hpp"
 
 namespace rave::gui_server {
 
@@ -18,14 +18,14 @@ class LiveRun {
  public:
   /// `control` is that of the run: what pages ask for goes there. `ready` gets the source when the
   /// run is there, in the thread of the run. Both outlive the run.
-  LiveRun(const config::ExpandedScenario& scenario, robot_host::RunControl& control,
+  LiveRun(const config::ExpandedScenario& scenario, runtime::RunControl& control,
           std::function<void(std::shared_ptr<Source>)> ready);
   LiveRun(const LiveRun&) = delete;
   LiveRun& operator=(const LiveRun&) = delete;
   ~LiveRun();
 
   /// For RunOptions::observers.
-  [[nodiscard]] robot_host::RunObserver& observer() noexcept;
+  [[nodiscard]] runtime::RunObserver& observer() noexcept;
   /// The run is over: pages say so, with the reason. Any thread.
   void end(std::string reason);
 

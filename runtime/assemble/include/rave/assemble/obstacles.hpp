@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "rave/config/expanded_scenario.hpp"
+#include "rave/sim/engine_spec.hpp"
+
+// Obstacles as files and people describe them, made into those of the engine.
+namespace rave::runtime {
+
+/// The shapes of one outline, placed at X_BO in its body.
+[[nodiscard]] Result<std::vector<world::Shape>> shapes_of(const config::Outline& outline,
+                                                          const Pose2& X_BO,
+                                                          const config::HeightRange& z_m);
+[[nodiscard]] Layer layer_of(config::ObstacleLayer layer);
+/// Errors: kInvalidArgument with the place in the file.
+[[nodiscard]] Result<world::Obstacle> make_obstacle(const config::ObstacleFile& file);
+
+[[nodiscard]] sim::ObstacleChange addition(world::Obstacle obstacle);
+[[nodiscard]] sim::ObstacleChange move_of(const config::MoveObstacleFile& file);
+[[nodiscard]] sim::ObstacleChange removal(std::string name);
+
+/// The changes of obstacles in a scenario, by step. Errors: kNotFound (no such obstacle at any
+/// time) and kInvalidArgument, with the place in the file.
+Status add_obstacle_changes(const config::ExpandedScenario& scenario, sim::EngineSpec& spec);
+
+/// Number, name, layer and place of all that stand, a line each.
+[[nodiscard]] std::string list_obstacles(const world::WorldModel& world);
+
+}  // namespace rave::runtime

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/assemble/obstacles.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rave/base/names.hpp"
+#include "rave/math/scalar.hpp"
+#include "rave/math/transform.hpp"
+
+namespace rave::runtime {
+namespace {
+
+using Kind = sim::ObstacleChange::Kind;
+
+std::vector<Vec2> corners_of(const config::Outline& outline) {
+  std::vector<Vec2> corners;
+  if (outline.box_m) {
+    const double x = (*outline.box_m)[0] / 2;
+    const double y = (*outline.box_m)[1] / 2;
+    corners = {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
+  } else if (outline.polygon_m) {
+    for (const auto& [x, y] : *outline.polygon_m) corners.push_back({x, y});
+  }
+  return corners;
+}
+
+/// Of one entry of `changes:` that is of an obstacle.
+Result<sim::ObstacleChange> change_of(const config::ChangeFile& file) {
+  if (file.add_obstacle) {
+    RAVE_TRY_ASSIGN(auto obstacle, make_obstacle(*file.add_obstacle));
+    return addition(std::move(obstacle));
+  }
+  return file.move_obstacle ? move_of(*file.move_obstacle) : removal(file.remove_obstacle->value);
+}
+
+const config::Located<std::string>& name_in(const config::ChangeFile& file) {
+  if (file.add_obstacle) return file.add_obstacle->name;
+  return file.move_obstacle ? file.move_obstacle->name : *file.remove_obstacle;
+}
+
+}  // namespace
+
+Result<std::vector<world::Shape>> shapes_of(const config::Outline& outline, const Pose2& X_BO,
+                                            const config::HeightRange& z_m) {
+  if (outline.disc_radius_m) {
+    RAVE_TRY_ASSIGN(auto disc,
+                    world::make_disc(X_BO.position(), *outline.disc_radius_m, z_m[0], z_m[1]));
+    return std::vector<world::Shape>{std::move(disc)};
+  }
+  std::vector<Vec2> corners = corners_of(outline);
+  for (Vec2& corner : corners) corner = transform(X_BO, corner);
+  return world::make_prisms(corners, z_m[0], z_m[1]);
+}
+
+Layer layer_of(config::ObstacleLayer layer) {
+  return layer == config::ObstacleLayer::kMappedReal ? Layer::kMappedReal
+                                                     : Layer::kVirtualObstacles;
+}
+
+Result<world::Obstacle> make_obstacle(const config::ObstacleFile& file) {
+  world::Obstacle obstacle;
+  obstacle.body.name = file.name.value;
+  obstacle.body.layer = layer_of(file.layer);
+  obstacle.body.colour = file.colour.value_or("");
+  obstacle.X_WB = {file.x_m, file.y_m, wrap_angle(deg_to_rad(file.yaw_deg))};
+  auto shapes = shapes_of(file.outline, {}, file.z_m);
+  if (!shapes) {
+    return fail_at(file.name.where, ErrorCode::kInvalidArgument, "obstacle `{}`: {}",
+                   file.name.value, shapes.error().message);
+  }
+  obstacle.body.shapes = *std::move(shapes);
+  if (file.barcode) {
+    const config::HeightRange code_z_m = file.barcode_z_m.value_or(file.z_m);
+    obstacle.body.code = *file.barcode;
+    obstacle.body.code_z0_m = code_z_m[0];
+    obstacle.body.code_z1_m = code_z_m[1];
+  }
+  return obstacle;
+}
+
+sim::ObstacleChange addition(world::Obstacle obstacle) {
+  sim::ObstacleChange change;
+  change.name = obstacle.body.name;
+  change.X_WB = obstacle.X_WB;
+  change.body = std::move(obstacle.body);
+  return change;
+}
+
+sim::ObstacleChange removal(std::string name) {
+  sim::ObstacleChange change;
+  change.kind = Kind::kRemove;
+  change.name = std::move(name);
+  return change;
+}
+
+sim::ObstacleChange move_of(const config::MoveObstacleFile& file) {
+  sim::ObstacleChange change;
+  change.kind = Kind::kMove;
+  change.name = file.name.value;
+  change.X_WB = {file.x_m, file.y_m, wrap_angle(deg_to_rad(file.yaw_deg))};
+  return change;
+}
+
+Status add_obstacle_changes(const config::ExpandedScenario& scenario, sim::EngineSpec& spec) {
+  std::vector<std::string_view> names;
+  for (const world::Obstacle& obstacle : spec.world.obstacles) {
+    names.emplace_back(obstacle.body.name);
+  }
+  for (const config::ChangeFile& file : scenario.scenario.changes) {
+    if (file.add_obstacle) names.emplace_back(*file.add_obstacle->name);
+  }
+  for (const config::ChangeFile& file : scenario.scenario.changes) {
+    if (file.robot) continue;
+    const auto& name = name_in(file);
+    if (std::find(names.begin(), names.end(), *name) == names.end()) {
+      return fail_at(name.where, ErrorCode::kNotFound, "there is no obstacle `{}`{}", *name,
+                     suggestion(*name, names));
+    }
+    sim::ScheduledObstacle scheduled;
+    scheduled.step =
+        static_cast<std::uint64_t>(std::llround(file.at_s.value / scenario.scenario.step_s.value));
+    RAVE_TRY_ASSIGN(scheduled.change, change_of(file));
+    const Status checked = sim::check_obstacle_change(scheduled.change);
+    if (!checked) return fail_at(name.where, checked.error().code, "{}", checked.error().message);
+    spec.obstacle_changes.push_back(std::move(scheduled));
+  }
+  std::stable_sort(spec.obstacle_changes.begin(), spec.obstacle_changes.end(),
+                   [](const auto& a, const auto& b) { return a.step < b.step; });
+  return {};
+}
+
+std::string list_obstacles(const world::WorldModel& world) {
+  std::string text;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < world.obstacle_count(); ++i) {
+    const std::uint32_t id = world.obstacle_id(i);
+    const world::Obstacle& obstacle = *world.obstacle(id);
+    if (obstacle.removed) continue;
+    ++count;
+    text += fmt::format("\n{:>6}  {:<24} {:<18} ({:.3f}, {:.3f}) m, {:.1f} deg", id,
+                        obstacle.body.name, to_string(obstacle.body.layer), obstacle.X_WB.x,
+                        obstacle.X_WB.y, rad_to_deg(obstacle.X_WB.yaw));
+  }
+  return fmt::format("{} obstacle{}{}", count, count == 1 ? "" : "s", text);
+}
+
+}  // namespace rave::runtime

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/assemble/parameter_key.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "rave/assemble/devices.hpp"
+#include "rave/base/names.hpp"
+
+namespace rave::runtime {
+namespace {
+
+using Part = sim::ParameterChange::Part;
+
+/// One parameter that can be changed.
+struct Known {
+  std::string key;
+  Part part = Part::kProgram;
+  std::uint32_t index = 0;
+  const ParamSpec* spec = nullptr;
+};
+
+void add(std::vector<Known>& all, const std::string& prefix, Part part, std::uint32_t index,
+         std::span<const ParamSpec> specs) {
+  for (const ParamSpec& spec : specs) {
+    all.push_back({fmt::format("{}.{}", prefix, spec.name), part, index, &spec});
+  }
+}
+
+std::vector<Known> known_parameters(const sim::RobotType& type) {
+  std::vector<Known> all;
+  if (type.program) add(all, "program", Part::kProgram, 0, type.program->param_specs);
+  for (std::uint32_t i = 0; i < type.controllers.size(); ++i) {
+    add(all, "controller." + type.controllers[i].name, Part::kController, i,
+        type.controllers[i].param_specs);
+  }
+  for (std::uint32_t i = 0; i < type.actuators.size(); ++i) {
+    if (type.actuators[i].virtual_ops == nullptr) continue;
+    add(all, "actuator." + type.actuators[i].name, Part::kActuator, i,
+        type.actuators[i].param_specs);
+  }
+  if (type.simulated) add(all, "body", Part::kBody, 0, sim::body_params());
+  return all;
+}
+
+struct ToValue {
+  sim::ParameterValue operator()(bool value) const { return value ? 1.0 : 0.0; }
+  sim::ParameterValue operator()(std::int64_t value) const { return static_cast<double>(value); }
+  sim::ParameterValue operator()(double value) const { return value; }
+  sim::ParameterValue operator()(const std::string& value) const { return value; }
+  sim::ParameterValue operator()(const std::vector<double>& value) const { return value; }
+};
+
+std::string text_of(const ParamSpec& spec, const ParamValue& value) {
+  switch (spec.type) {
+    case ParamType::kBool:
+      return value.number != 0 ? "true" : "false";
+    case ParamType::kText:
+    case ParamType::kChoice:
+      return value.text;
+    case ParamType::kNumbers:
+      return sim::to_string(std::vector<double>(value.list, value.list + value.list_size));
+    default:
+      return sim::to_string(value.number);
+  }
+}
+
+/// What the files give to the part that a parameter is of.
+std::span<const ParamValue> values_of(const sim::RobotType& type, const Known& known) {
+  switch (known.part) {
+    case Part::kProgram:
+      return type.program->params.values();
+    case Part::kController:
+      return type.controllers[known.index].params.values();
+    case Part::kActuator:
+      return type.actuators[known.index].params.values();
+    case Part::kBody:
+      break;
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<RobotId> find_robot(const sim::EngineSpec& spec, std::string_view name) {
+  std::vector<std::string_view> names;
+  for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
+    if (spec.robots[r].name == name) return RobotId(r);
+    names.emplace_back(spec.robots[r].name);
+  }
+  return fail(ErrorCode::kNotFound, "there is no robot `{}`{}", name, suggestion(name, names));
+}
+
+Result<sim::ParameterChange> parse_change(const sim::RobotType& type, std::string_view key,
+                                          const config::RawNode& value) {
+  const std::vector<Known> all = known_parameters(type);
+  for (const Known& known : all) {
+    if (known.key != key) continue;
+    const std::vector<config::FieldSpec> specs{field_spec(*known.spec)};
+    config::RawNode params = config::RawNode::mapping();
+    params.append(known.spec->name, value);
+    auto values = config::read_params(params, specs, fmt::format("`{}`", key));
+    if (!values) {
+      Error error = std::move(values).error();
+      if (error.where.file.empty()) error.where = value.where();
+      return tl::unexpected(std::move(error));
+    }
+    sim::ParameterChange change;
+    change.part = known.part;
+    change.index = known.index;
+    change.name = known.spec->name;
+    change.value = std::visit(ToValue{}, values->all().front().value);
+    return change;
+  }
+  std::vector<std::string_view> keys;
+  for (const Known& known : all) keys.emplace_back(known.key);
+  Error error{ErrorCode::kNotFound,
+              fmt::format("there is no parameter `{}`{}", key, suggestion(key, keys)),
+              value.where()};
+  return tl::unexpected(std::move(error));
+}
+
+std::vector<std::string> parameter_keys(const sim::RobotType& type) {
+  std::vector<std::string> keys;
+  for (const Known& known : known_parameters(type)) keys.push_back(known.key);
+  return keys;
+}
+
+std::vector<ChangeableParameter> changeable_parameters(const sim::RobotType& type) {
+  std::vector<ChangeableParameter> all;
+  for (const Known& known : known_parameters(type)) all.push_back({known.key, known.spec});
+  return all;
+}
+
+std::vector<std::pair<std::string, std::string>> first_values(const sim::RobotType& type) {
+  std::vector<std::pair<std::string, std::string>> texts;
+  for (const Known& known : known_parameters(type)) {
+    if (known.part == Part::kBody) {
+      texts.emplace_back(known.key, "1");
+      continue;
+    }
+    const auto values = values_of(type, known);
+    const auto value = std::ranges::find_if(values, [&](const ParamValue& one) {
+      return known.spec->name == std::string_view(one.name);
+    });
+    if (value != values.end()) texts.emplace_back(known.key, text_of(*known.spec, *value));
+  }
+  return texts;
+}
+
+std::vector<std::pair<std::string, std::string>> present_values(const sim::Engine& engine,
+                                                                RobotId robot) {
+  std::vector<std::pair<std::string, std::string>> texts;
+  const sim::EngineSpec& spec = engine.spec();
+  for (const Known& known : known_parameters(spec.types[spec.robots[robot.value()].type])) {
+    texts.emplace_back(known.key,
+                       engine.parameter(robot, known.part, known.index, known.spec->name));
+  }
+  return texts;
+}
+
+}  // namespace rave::runtime

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <memory>
+
+#include "device_tools.hpp"
+#include "rave/isolation/isolated_program.hpp"
+
+namespace rave::runtime {
+namespace {
+
+/// Adapts a program in a process of its own to what the engine asks for.
+class Isolated final : public sim::ProgramProcess {
+ public:
+  explicit Isolated(std::unique_ptr<isolation::IsolatedProgram> program)
+      : program_(std::move(program)) {}
+  Status begin(const DecideItem& item) override { return program_->begin_decide(item); }
+  Status end(const DecideItem& item) override { return program_->end_decide(item); }
+  Status update(std::span<const ParamValue> params, double radius_m) override {
+    return program_->update(params, radius_m);
+  }
+
+ private:
+  std::unique_ptr<isolation::IsolatedProgram> program_;
+};
+
+sim::ProgramProcessFactory isolated_factory(const DeviceContext& context,
+                                            const plugin::Driver& driver) {
+  isolation::IsolationOptions options;
+  options.runner = context.options.program_runner;
+  options.plugin = driver.file;
+  options.program = driver.info.name;
+  return [options](const ProgramSetup& setup) -> Result<std::unique_ptr<sim::ProgramProcess>> {
+    RAVE_TRY_ASSIGN(auto program, isolation::IsolatedProgram::start(options, setup));
+    return std::make_unique<Isolated>(std::move(program));
+  };
+}
+
+}  // namespace
+
+Status add_program(const DeviceContext& context, const config::RobotGroup& group,
+                   sim::RobotType& type) {
+  if (!group.robot.program) return {};
+  const config::ProgramFile& file = *group.robot.program;
+  constexpr std::array kKinds = {DriverKind::kProgram};
+  RAVE_TRY_ASSIGN(const plugin::Driver* const driver, find_driver(context, kKinds, file.driver));
+  sim::ProgramSpec program;
+  program.driver = driver->info.name;
+  program.ops = static_cast<const ProgramOps*>(driver->ops);
+  RAVE_TRY_ASSIGN(program.params, read_params(*driver, file.params));
+  program.param_specs = driver->info.param_specs();
+  set_rhythm(context, file, program);
+  if (file.isolate) program.isolate = isolated_factory(context, *driver);
+  type.program = std::move(program);
+  return {};
+}
+
+}  // namespace rave::runtime

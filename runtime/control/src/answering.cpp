@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "answering.hpp"
+
+namespace rave::control {
+namespace {
+
+using What = Request::What;
+using Kind = runtime::RunRequest::Kind;
+
+Kind kind_of(What what) {
+  switch (what) {
+    case What::kRelease:
+      return Kind::kRelease;
+    case What::kArm:
+      return Kind::kArm;
+    case What::kSet:
+      return Kind::kSet;
+    case What::kAdd:
+      return Kind::kAdd;
+    case What::kMove:
+      return Kind::kMove;
+    case What::kRemove:
+      return Kind::kRemove;
+    case What::kList:
+      return Kind::kList;
+    case What::kHandOver:
+      return Kind::kHandOver;
+    case What::kResetShadow:
+      return Kind::kResetShadow;
+    default:
+      return Kind::kStop;
+  }
+}
+
+/// Pause, resume and step: what a live run cannot do.
+Answer hold(runtime::RunControl& control, const Request& request) {
+  const runtime::RunStatus status = control.status();
+  if (status.scenario.empty()) return {false, "no run is under way", {}};
+  if (status.follows) {
+    return {false, "this host goes as its environment manager says: ask that one", {}};
+  }
+  if (status.live) return {false, "a live run cannot be held: the world outside goes on", {}};
+  const std::string waits =
+      status.waits_for.empty() ? "" : fmt::format("; the run waits for {}", status.waits_for);
+  if (request.what == What::kPause) {
+    control.pause();
+    return {true, "paused" + waits, {}};
+  }
+  if (request.what == What::kResume) {
+    control.resume();
+    return {true, "resumed" + waits, {}};
+  }
+  if (!status.paused) return {false, "the run is not paused", {}};
+  control.step(request.count);
+  const std::string steps = fmt::format("{} step{}", request.count, request.count == 1 ? "" : "s");
+  if (waits.empty()) return {true, steps, {}};
+  return {true, fmt::format("{} asked for{}, which is late or gone", steps, waits), {}};
+}
+
+}  // namespace
+
+std::optional<Answer> answer_at_once(runtime::RunControl& control, const Request& request) {
+  switch (request.what) {
+    case What::kStatus:
+      return Answer{true, "", control.status()};
+    case What::kPause:
+    case What::kResume:
+    case What::kStep:
+      return hold(control, request);
+    case What::kEnd:
+      control.end_run();
+      return Answer{true, "ends", {}};
+    default:
+      return std::nullopt;
+  }
+}
+
+runtime::RunRequest run_request(const Request& request) {
+  return {kind_of(request.what), request.robot, request.key, request.value};
+}
+
+Answer answer_of(const Result<std::string>& result) {
+  if (result) return {true, *result, {}};
+  return {false, result.error().message, {}};
+}
+
+}  // namespace rave::control

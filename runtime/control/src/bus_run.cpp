@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/control/bus_run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <utility>
+
+#include "rave/base/control_characters.hpp"
+#include "rave/base/names.hpp"
+#include "rave/bus/sequence.hpp"
+#include "rave/bus/wait_set.hpp"
+#include "rave/bus/wish_parts.hpp"
+#include "rave/bus/writer.hpp"
+
+namespace rave::control {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+/// When nobody new has come for this long, all that are near have been heard of.
+constexpr milliseconds kMoment{400};
+/// What may have gone before the other end was known is sent again, then after twice as long.
+constexpr milliseconds kFirstAgain{50};
+constexpr milliseconds kLongestAgain{500};
+
+/// Messages about one wish that are looked at together.
+constexpr std::size_t kMostAtOnce = 16;
+
+/// What comes from elsewhere and is shown on a terminal; a list has lines.
+std::string plain(std::string_view text) {
+  std::string result;
+  while (true) {
+    const std::size_t end = text.find('\n');
+    result += without_control_characters(text.substr(0, end), " ");
+    if (end == std::string_view::npos) return result;
+    result += '\n';
+    text.remove_prefix(end + 1);
+  }
+}
+
+Result<Answer> read_answer(std::string_view line) {
+  RAVE_TRY_ASSIGN(Answer answer, parse_answer(line));
+  answer.text = plain(answer.text);
+  answer.status.scenario = plain(answer.status.scenario);
+  answer.status.waits_for = plain(answer.status.waits_for);
+  for (runtime::RunStatus::Robot& robot : answer.status.robots) {
+    robot.name = plain(robot.name);
+    if (robot.hand_over) robot.hand_over->last = plain(robot.hand_over->last);
+    if (!robot.shadow) continue;
+    for (auto& reading : robot.shadow->readings) {
+      reading.sensor = plain(reading.sensor);
+      reading.unit = plain(reading.unit);
+    }
+  }
+  return answer;
+}
+
+Result<std::string> wish_line(const Request& request) {
+  std::string line = write_request(request);
+  if (line.ends_with('\n')) line.pop_back();
+  if (line.size() <= rave_wire_kMaxWishBytes && !has_control_characters(line)) return line;
+  return fail(ErrorCode::kInvalidArgument,
+              "what is asked has {} bytes, or control characters; the bus carries {} bytes of "
+              "plain text",
+              line.size(), rave_wire_kMaxWishBytes);
+}
+
+tl::unexpected<Error> gone(const BusPeer& peer) {
+  return fail(ErrorCode::kState, "`{}` has gone without an answer", peer.name);
+}
+
+tl::unexpected<Error> silent(const BusPeer& peer, Duration patience) {
+  return fail(ErrorCode::kTimeout,
+              "`{}` has not answered for {} s: what was asked may still be done, and its log will "
+              "say so; `rave top` shows how it fares (a RAVE that is older than this one takes no "
+              "wishes from the bus)",
+              peer.name, patience.seconds());
+}
+
+/// One of several that are asked at a time.
+struct Asked {
+  BusPeer peer;
+  std::uint64_t number = 0;
+  Clock::time_point send_at;
+  milliseconds again = kFirstAgain;
+  std::optional<Result<Answer>> answer{};
+};
+
+/// The line stays the caller's and must live as long as the wish is used.
+void put_line(bus::Wish& wish, std::string& line) {
+  // The wire type has octets that can be written to.
+  wish.text._buffer = reinterpret_cast<std::uint8_t*>(line.data());
+  wish.text._length = static_cast<std::uint32_t>(line.size());
+  wish.text._maximum = wish.text._length;
+}
+
+}  // namespace
+
+struct BusRun::Impl {
+  std::unique_ptr<bus::Bus> bus;
+  bus::Reader<bus::HostInfo> infos;
+  bus::Reader<bus::RunState> states;
+  bus::Writer<bus::Wish> wishes;
+  bus::Reader<bus::WishAnswer> answers;
+  bus::WaitSet waits;
+  std::string from;
+  std::vector<BusPeer> peers{};
+  std::string scenario{};    ///< Of the run, as its manager says.
+  std::uint64_t number = 0;  ///< Of the last wish.
+
+  void look();
+  [[nodiscard]] bool knows(std::uint64_t writer) const {
+    return std::ranges::find(peers, writer, &BusPeer::writer) != peers.end();
+  }
+  /// A message about a wish.
+  struct Said {
+    bool taken = false;
+    std::string text;
+  };
+  [[nodiscard]] std::vector<Said> take(const BusPeer& peer);
+  Status send(const BusPeer& peer, std::uint64_t wish_number, std::string& line);
+  void take(std::vector<Asked>& asked);
+  std::optional<Clock::time_point> send_due(std::vector<Asked>& asked, std::string& line);
+};
+
+/// Learns who is there.
+void BusRun::Impl::look() {
+  infos.take([this](const bus::HostInfo& info) {
+    if (knows(info.writer) || peers.size() >= rave_wire_kMaxHosts) return;
+    peers.push_back({info.writer, info.name, info.machine, info.host == rave_wire_kNone,
+                     info.clock == rave_wire_CLOCK_REAL_TIME});
+  });
+  states.take([this](const bus::RunState& state) {
+    if (knows(state.writer)) scenario = plain(state.scenario);
+  });
+  for (const bus::BusEvent& event : bus->take_events()) {
+    if (event.kind != bus::EventKind::kParticipantLost || event.writer == 0) continue;
+    std::erase_if(peers, [&](const BusPeer& peer) { return peer.writer == event.writer; });
+  }
+}
+
+/// What has come of the last wish.
+std::vector<BusRun::Impl::Said> BusRun::Impl::take(const BusPeer& peer) {
+  std::vector<Said> said;
+  answers.take([&](const bus::WishAnswer& answer) {
+    const bool ours =
+        answer.writer == peer.writer && answer.target == bus->writer() && answer.number == number;
+    // Beyond the answer to the wish and to its repetitions it is somebody who does not stop.
+    if (!ours || said.size() >= kMostAtOnce) return;
+    said.push_back({answer.taken, std::string(bus::text_of(answer.text))});
+  });
+  return said;
+}
+
+Status BusRun::Impl::send(const BusPeer& peer, std::uint64_t wish_number, std::string& line) {
+  bus::Wish wish{};
+  wish.target = peer.writer;
+  wish.number = wish_number;
+  bus::put_text(wish.from, from);
+  put_line(wish, line);
+  return wishes.write(wish);
+}
+
+/// The answers of those who have not given one.
+void BusRun::Impl::take(std::vector<Asked>& asked) {
+  answers.take([&](const bus::WishAnswer& answer) {
+    if (answer.target != bus->writer()) return;
+    const auto one = std::ranges::find_if(asked, [&](const Asked& other) {
+      return other.peer.writer == answer.writer && other.number == answer.number;
+    });
+    if (one == asked.end() || one->answer) return;
+    const std::string text(bus::text_of(answer.text));
+    if (!answer.taken) {
+      one->answer = Answer{false, plain(text), {}};
+      return;
+    }
+    bus::AnswerParts parts;
+    if (Status added = parts.add(text); !added) {
+      one->answer = tl::unexpected(std::move(added).error());
+    } else if (!parts.complete()) {
+      one->answer = fail(ErrorCode::kParse, "the answer of `{}` is too long", one->peer.name);
+    } else {
+      one->answer = read_answer(parts.text());
+    }
+  });
+}
+
+/// Asks those who have not answered, again if it is time for it; when to do so next.
+std::optional<Clock::time_point> BusRun::Impl::send_due(std::vector<Asked>& asked,
+                                                        std::string& line) {
+  std::optional<Clock::time_point> next;
+  for (Asked& one : asked) {
+    if (one.answer) continue;
+    if (!knows(one.peer.writer)) {
+      one.answer = gone(one.peer);
+      continue;
+    }
+    if (Clock::now() >= one.send_at) {
+      if (Status sent = send(one.peer, one.number, line); !sent) {
+        one.answer = tl::unexpected(std::move(sent).error());
+        continue;
+      }
+      one.send_at = Clock::now() + one.again;
+      one.again = std::min(2 * one.again, kLongestAgain);
+    }
+    next = std::min(next.value_or(one.send_at), one.send_at);
+  }
+  return next;
+}
+
+BusRun::BusRun(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+BusRun::~BusRun() = default;
+
+Result<std::unique_ptr<BusRun>> BusRun::open(bus::BusConfig config, std::string_view from) {
+  // Nobody in the run shall take it for a part of it.
+  config.anonymous = true;
+  RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
+  RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
+  RAVE_TRY_ASSIGN(auto states, bus::Reader<bus::RunState>::create(*bus));
+  RAVE_TRY_ASSIGN(auto wishes, bus::Writer<bus::Wish>::create(*bus));
+  RAVE_TRY_ASSIGN(auto answers, bus::Reader<bus::WishAnswer>::create(*bus));
+  RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(*bus));
+  RAVE_TRY(waits.add(infos));
+  RAVE_TRY(waits.add(states));
+  RAVE_TRY(waits.add(answers));
+  RAVE_TRY(waits.add_events());
+  std::unique_ptr<Impl> impl(new Impl{std::move(bus), std::move(infos), std::move(states),
+                                      std::move(wishes), std::move(answers), std::move(waits),
+                                      without_control_characters(from, " ")});
+  return std::unique_ptr<BusRun>(new BusRun(std::move(impl)));
+}
+
+Result<BusPeer> BusRun::find(std::string_view host, Duration patience) {
+  Impl& run = *impl_;
+  const auto end = Clock::now() + std::chrono::nanoseconds(patience.ns);
+  for (;;) {
+    run.look();
+    const auto found = std::ranges::find_if(run.peers, [host](const BusPeer& peer) {
+      return host.empty() ? peer.manager : !peer.manager && peer.name == host;
+    });
+    if (found != run.peers.end()) return *found;
+    if (Clock::now() >= end) break;
+    static_cast<void>(run.waits.wait(bus::left_until(end)));
+  }
+  if (run.peers.empty()) {
+    // That a process exists is seen without certificates, and nothing that it says.
+    return fail(ErrorCode::kNotFound,
+                "a run is seen, but nothing that its processes say: those with certificates are "
+                "heard by members of their set alone; {}",
+                run.bus->config().security.empty()
+                    ? "give --security with the folder of one that you have"
+                    : "these are of another set, or the run has none (then leave --security out)");
+  }
+  std::vector<std::string_view> names;
+  for (const BusPeer& peer : run.peers) {
+    if (!peer.manager) names.emplace_back(peer.name);
+  }
+  const std::string others =
+      names.empty() ? std::string("nor any host") : "its hosts are " + join_names(names);
+  if (!host.empty()) {
+    return fail(ErrorCode::kNotFound, "host `{}` of the run is not there; {}", host, others);
+  }
+  return fail(ErrorCode::kNotFound,
+              "the environment manager of the run is not there; {}; RUN@HOST asks a host", others);
+}
+
+std::vector<BusPeer> BusRun::all(Duration patience) {
+  Impl& run = *impl_;
+  const auto latest = Clock::now() + std::chrono::nanoseconds(patience.ns);
+  auto end = latest;
+  std::size_t known = 0;
+  for (;;) {
+    run.look();
+    if (run.peers.size() > known) {
+      known = run.peers.size();
+      end = std::min(latest, Clock::now() + kMoment);
+    }
+    if (Clock::now() >= end) return run.peers;
+    static_cast<void>(run.waits.wait(bus::left_until(end)));
+  }
+}
+
+Result<Answer> BusRun::ask(const BusPeer& peer, const Request& request, Duration patience) {
+  Impl& run = *impl_;
+  RAVE_TRY_ASSIGN(std::string line, wish_line(request));
+  ++run.number;
+  bus::AnswerParts parts;
+  auto end = Clock::now() + std::chrono::nanoseconds(patience.ns);
+  auto send_at = Clock::now();
+  auto again = kFirstAgain;
+  while (Clock::now() < end) {
+    if (Clock::now() >= send_at) {
+      RAVE_TRY(run.send(peer, run.number, line));
+      send_at = Clock::now() + again;
+      again = std::min(2 * again, kLongestAgain);
+    }
+    static_cast<void>(run.waits.wait(bus::left_until(std::min(send_at, end))));
+    const std::size_t had = parts.text().size();
+    for (const Impl::Said& said : run.take(peer)) {
+      if (!said.taken) return Answer{false, said.text, {}};
+      RAVE_TRY(parts.add(said.text));
+      if (parts.complete()) return read_answer(parts.text());
+    }
+    if (parts.text().size() > had) {
+      line = bus::wish_for_rest(parts.text().size());
+      send_at = Clock::now();
+      again = kFirstAgain;
+      // For each of the parts, of which there are not many.
+      end = send_at + std::chrono::nanoseconds(patience.ns);
+    }
+    run.look();
+    if (!run.knows(peer.writer)) return gone(peer);
+  }
+  return silent(peer, patience);
+}
+
+std::vector<BusReply> BusRun::ask_each(const Request& request, const Meant& meant,
+                                       Duration patience) {
+  Impl& run = *impl_;
+  auto line = wish_line(request);
+  if (!line) return {};
+  const auto latest = Clock::now() + std::chrono::nanoseconds(patience.ns);
+  auto end = latest;  // of the search
+  std::size_t known = 0;
+  std::vector<Asked> asked;
+  for (;;) {
+    run.look();
+    if (run.peers.size() > known) end = std::min(latest, Clock::now() + kMoment);
+    known = run.peers.size();
+    for (const BusPeer& peer : run.peers) {
+      const bool before = std::ranges::any_of(
+          asked, [&peer](const Asked& one) { return one.peer.writer == peer.writer; });
+      if (!before && meant(peer, run.scenario)) asked.push_back({peer, ++run.number, Clock::now()});
+    }
+    run.take(asked);
+    const auto next = run.send_due(asked, *line);
+    const bool all =
+        std::ranges::all_of(asked, [](const Asked& one) { return one.answer.has_value(); });
+    if (Clock::now() >= latest || (all && Clock::now() >= end)) break;
+    static_cast<void>(run.waits.wait(bus::left_until(std::min(latest, next.value_or(end)))));
+  }
+  std::vector<BusReply> replies;
+  for (Asked& one : asked) {
+    if (!one.answer) one.answer = silent(one.peer, patience);
+    replies.push_back({std::move(one.peer), *std::move(one.answer)});
+  }
+  return replies;
+}
+
+}  // namespace rave::control

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/control/requests.hpp"
+
+#include <fmt/format.h>
+
+#include "asked_change.hpp"
+#include "rave/assemble/obstacles.hpp"
+#include "rave/assemble/parameter_key.hpp"
+#include "rave/assemble/twins.hpp"
+#include "rave/base/names.hpp"
+#include "rave/config/diagnostics.hpp"
+#include "rave/config/yaml.hpp"
+#include "rave/control/world_request.hpp"
+
+namespace rave::runtime {
+namespace {
+
+std::uint32_t robot_count(const sim::Engine& engine) {
+  return static_cast<std::uint32_t>(engine.spec().robots.size());
+}
+
+/// Names of those for which `holds`, of one robot or all.
+template <class Holds>
+std::string names_of(const sim::Engine& engine, RobotId robot, Holds&& holds) {
+  std::vector<std::string_view> names;
+  for (std::uint32_t r = 0; r < robot_count(engine); ++r) {
+    if (robot.valid() && robot.value() != r) continue;
+    if (!engine.is_local(RobotId(r))) continue;
+    if (holds(RobotId(r))) names.emplace_back(engine.spec().robots[r].name);
+  }
+  constexpr std::size_t kMany = 12;
+  if (names.size() > kMany) return fmt::format("{} robots", names.size());
+  return names.empty() ? std::string() : join_names(names);
+}
+
+Result<std::string> arm(sim::Engine& engine, RobotId robot) {
+  const std::string stopped = names_of(engine, robot, [&](RobotId r) { return engine.stopped(r); });
+  const std::string waiting = names_of(engine, robot, [&](RobotId r) { return !engine.armed(r); });
+  if (!stopped.empty()) {
+    return fail(ErrorCode::kState, "stopped: {}; a stop holds until it is released (`--release`)",
+                stopped);
+  }
+  if (waiting.empty()) return std::string("nothing to arm: no robot waits for it");
+  engine.arm(robot);
+  return "armed " + waiting;
+}
+
+Result<std::string> set(sim::Engine& engine, RobotId robot, const RunRequest& request) {
+  if (!robot.valid()) return fail(ErrorCode::kInvalidArgument, "a parameter needs a robot");
+  config::Diagnostics diagnostics;
+  const auto value = config::parse_yaml(request.value, "value", diagnostics);
+  if (!value || !diagnostics.ok() || (!value->is_scalar() && !value->is_sequence())) {
+    return fail(ErrorCode::kInvalidArgument, "`{}` is no value for a parameter", request.value);
+  }
+  const sim::EngineSpec& spec = engine.spec();
+  const sim::RobotSpec& its = spec.robots[robot.value()];
+  auto change = parse_change(spec.types[its.type], request.key, *value);
+  if (!change) {
+    // The place within the word on the command line tells nobody anything.
+    return fail(change.error().code, "{}", change.error().message);
+  }
+  const std::string before = engine.parameter(robot, change->part, change->index, change->name);
+  RAVE_TRY(engine.set_parameters(robot, std::span(&*change, 1)));
+  return fmt::format("{}: {}: {} -> {}", its.name, request.key, before,
+                     engine.parameter(robot, change->part, change->index, change->name));
+}
+
+Result<std::string> edit(sim::Engine& engine, const RunRequest& request) {
+  RAVE_TRY_ASSIGN(const sim::ObstacleChange change, asked_change(request));
+  RAVE_TRY_ASSIGN(const sim::ChangedObstacle made, engine.change_obstacle(change));
+  const double from_s = static_cast<double>(made.step) * engine.spec().step.seconds();
+  return fmt::format("{} {}; counts from step {} on, at {:.3f} s", word_of(change.kind), made.text,
+                     made.step, from_s);
+}
+
+Result<std::string> hand_over(sim::Engine& engine, RobotId robot, const RunRequest& request) {
+  if (!robot.valid()) return fail(ErrorCode::kInvalidArgument, "a hand-over needs a robot");
+  RAVE_TRY_ASSIGN(const config::HandOverTo to, hand_over_word(request.value));
+  const auto state = engine.hand_over_state(robot);
+  const sim::DriverSet active = state ? state->active : sim::DriverSet::kFirst;
+  RAVE_TRY_ASSIGN(const sim::DriverSet set, driver_set(engine.spec(), robot, active, to));
+  RAVE_TRY(engine.hand_over(robot, set));
+  return fmt::format("robot `{}` is being handed over to its {} drivers", request.robot,
+                     request.value);
+}
+
+}  // namespace
+
+Result<std::string> serve_request(sim::Engine& engine, const RunRequest& request) {
+  RobotId robot;
+  if (!request.robot.empty()) {
+    RAVE_TRY_ASSIGN(robot, find_robot(engine.spec(), request.robot));
+    if (!engine.is_local(robot)) {
+      return fail(ErrorCode::kNotFound, "robot `{}` runs in another process of this run",
+                  request.robot);
+    }
+  }
+  switch (request.kind) {
+    case RunRequest::Kind::kStop:
+      engine.stop(robot);
+      return "stopped " + names_of(engine, robot, [](RobotId) { return true; });
+    case RunRequest::Kind::kRelease: {
+      const std::string names =
+          names_of(engine, robot, [&](RobotId r) { return engine.stopped(r); });
+      engine.release(robot);
+      return names.empty() ? std::string("nothing to release: no robot is stopped")
+                           : "released " + names;
+    }
+    case RunRequest::Kind::kArm:
+      return arm(engine, robot);
+    case RunRequest::Kind::kSet:
+      return set(engine, robot, request);
+    case RunRequest::Kind::kAdd:
+    case RunRequest::Kind::kMove:
+    case RunRequest::Kind::kRemove:
+      return edit(engine, request);
+    case RunRequest::Kind::kHandOver:
+      return hand_over(engine, robot, request);
+    case RunRequest::Kind::kResetShadow:
+      return fail(ErrorCode::kNotFound, "no robot of the run has a shadow");
+    case RunRequest::Kind::kList:
+      return list_obstacles(engine.spec().world);
+    case RunRequest::Kind::kDrive:
+    case RunRequest::Kind::kGoal:
+    case RunRequest::Kind::kPath:
+    case RunRequest::Kind::kCancel:
+    case RunRequest::Kind::kText:
+    case RunRequest::Kind::kPlace:
+    case RunRequest::Kind::kTake:
+    case RunRequest::Kind::kGive:
+      return fail(ErrorCode::kState, "this run takes no `{}` yet", to_string(request.kind));
+  }
+  return fail(ErrorCode::kInvalidArgument, "unknown request");
+}
+
+void refresh_status(const sim::Engine& engine, RunStatus& status) {
+  const sim::EngineSpec& spec = engine.spec();
+  status.robots.clear();
+  for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
+    if (!engine.is_local(RobotId(r))) continue;
+    RunStatus::Robot& robot = status.robots.emplace_back();
+    robot.name = spec.robots[r].name;
+    robot.simulated = spec.types[spec.robots[r].type].simulated;
+    robot.armed = engine.armed(RobotId(r));
+    robot.stopped = engine.stopped(RobotId(r));
+    const auto hand_over = engine.hand_over_state(RobotId(r));
+    if (!hand_over) continue;
+    const Pose2 X_WR = engine.snapshot().pose(RobotId(r));
+    robot.hand_over = {hand_over->under_way,
+                       hand_over->made,
+                       hand_over->refused,
+                       hand_over->last,
+                       X_WR.x,
+                       X_WR.y,
+                       X_WR.yaw};
+  }
+}
+
+std::string unarmed_robots(const sim::Engine& engine) {
+  return names_of(engine, RobotId(), [&](RobotId r) { return !engine.armed(r); });
+}
+
+}  // namespace rave::runtime

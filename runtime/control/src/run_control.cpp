@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/control/run_control.hpp"
+
+#include <utility>
+
+namespace rave::runtime {
+namespace {
+
+using Kind = RunRequest::Kind;
+
+constexpr std::pair<Kind, std::string_view> kWords[] = {{Kind::kStop, "stop"},
+                                                        {Kind::kRelease, "release"},
+                                                        {Kind::kArm, "arm"},
+                                                        {Kind::kSet, "set"},
+                                                        {Kind::kAdd, "add"},
+                                                        {Kind::kMove, "move"},
+                                                        {Kind::kRemove, "remove"},
+                                                        {Kind::kList, "list"},
+                                                        {Kind::kHandOver, "hand_over"},
+                                                        {Kind::kResetShadow, "reset_shadow"},
+                                                        {Kind::kDrive, "drive"},
+                                                        {Kind::kGoal, "goal"},
+                                                        {Kind::kPath, "path"},
+                                                        {Kind::kCancel, "cancel"},
+                                                        {Kind::kText, "text"},
+                                                        {Kind::kPlace, "place"},
+                                                        {Kind::kTake, "take"},
+                                                        {Kind::kGive, "give"}};
+
+}  // namespace
+
+std::string_view to_string(RunRequest::Kind kind) noexcept {
+  for (const auto& [its, word] : kWords) {
+    if (its == kind) return word;
+  }
+  return "unknown";
+}
+
+std::optional<RunRequest::Kind> request_kind(std::string_view word) noexcept {
+  for (const auto& [kind, its] : kWords) {
+    if (its == word) return kind;
+  }
+  return std::nullopt;
+}
+
+void RunControl::pause() {
+  const std::lock_guard lock(mutex_);
+  paused_ = true;
+}
+
+void RunControl::resume() {
+  {
+    const std::lock_guard lock(mutex_);
+    paused_ = false;
+    steps_ = 0;
+  }
+  changed_.notify_all();
+}
+
+void RunControl::step(std::uint64_t count) {
+  {
+    const std::lock_guard lock(mutex_);
+    steps_ += count;
+  }
+  changed_.notify_all();
+}
+
+void RunControl::set_pace(double factor) {
+  const std::lock_guard lock(mutex_);
+  status_.pace = factor;
+  pace_asked_.store(factor);
+}
+
+double RunControl::pace() const {
+  const std::lock_guard lock(mutex_);
+  return status_.pace;
+}
+
+std::optional<double> RunControl::take_pace() {
+  if (pace_asked_.load(std::memory_order_relaxed) < 0) return std::nullopt;
+  const double factor = pace_asked_.exchange(-1);
+  return factor < 0 ? std::nullopt : std::optional(factor);
+}
+
+bool RunControl::paused() const {
+  const std::lock_guard lock(mutex_);
+  return paused_;
+}
+
+Result<std::future<Result<std::string>>> RunControl::post(RunRequest request) {
+  std::future<Result<std::string>> answer;
+  std::stop_source wake(std::nostopstate);
+  {
+    const std::lock_guard lock(mutex_);
+    if (!running_) return fail(ErrorCode::kState, "no run is under way");
+    Pending& pending = pending_.emplace_back();
+    pending.request = std::move(request);
+    pending.since = std::chrono::steady_clock::now();
+    answer = pending.answer.get_future();
+    asked_.store(true);
+    wake = wake_;
+  }
+  changed_.notify_all();
+  wake.request_stop();
+  return answer;
+}
+
+Result<std::string> RunControl::ask(RunRequest request, std::chrono::milliseconds patience) {
+  RAVE_TRY_ASSIGN(auto answer, post(std::move(request)));
+  if (answer.wait_for(patience) == std::future_status::ready) return answer.get();
+  return fail(ErrorCode::kTimeout,
+              "the run has not come to it for {} ms: a step does not end; it is done before the "
+              "next one",
+              patience.count());
+}
+
+RunStatus RunControl::status() const {
+  const std::lock_guard lock(mutex_);
+  RunStatus status = status_;
+  status.sim_s = sim_s_.load();
+  status.paused = paused_;
+  return status;
+}
+
+void RunControl::begin(RunStatus status) {
+  const std::lock_guard lock(mutex_);
+  status_ = std::move(status);
+  sim_s_.store(0);
+  running_ = true;
+}
+
+void RunControl::serve(const Serve& serve, const std::function<void(RunStatus&)>& refresh) {
+  std::vector<Asked> asked = take();
+  if (asked.empty()) return;
+  // Told when the status says it too.
+  std::vector<Result<std::string>> answers;
+  for (const Asked& one : asked) answers.push_back(serve(one.request()));
+  this->refresh(refresh);
+  for (std::size_t i = 0; i < asked.size(); ++i) asked[i].answer(std::move(answers[i]));
+}
+
+std::vector<RunControl::Asked> RunControl::take() {
+  std::vector<Asked> asked;
+  if (!asked_.load()) return asked;
+  const std::lock_guard lock(mutex_);
+  for (Pending& one : pending_) {
+    asked.emplace_back(std::move(one.request), std::move(one.answer), one.since);
+  }
+  pending_.clear();
+  asked_.store(false);
+  wake_ = std::stop_source();
+  return asked;
+}
+
+std::stop_token RunControl::asked() const {
+  const std::lock_guard lock(mutex_);
+  return wake_.get_token();
+}
+
+bool RunControl::may_step() {
+  const std::lock_guard lock(mutex_);
+  if (!paused_) return true;
+  if (steps_ == 0) return false;
+  --steps_;
+  return true;
+}
+
+RunControl::Asked::Asked(Asked&& other) noexcept
+    : request_(std::move(other.request_)),
+      promise_(std::move(other.promise_)),
+      since_(other.since_),
+      open_(std::exchange(other.open_, false)) {}
+
+RunControl::Asked& RunControl::Asked::operator=(Asked&& other) noexcept {
+  std::swap(request_, other.request_);
+  std::swap(promise_, other.promise_);
+  std::swap(since_, other.since_);
+  std::swap(open_, other.open_);
+  return *this;
+}
+
+RunControl::Asked::~Asked() { answer(fail(ErrorCode::kState, "the run has ended")); }
+
+void RunControl::Asked::answer(Result<std::string> text) {
+  if (std::exchange(open_, false)) promise_.set_value(std::move(text));
+}
+
+void RunControl::set_waits_for(std::string hosts) {
+  const std::lock_guard lock(mutex_);
+  status_.waits_for = std::move(hosts);
+}
+
+void RunControl::refresh(const std::function<void(RunStatus&)>& refresh) {
+  const std::lock_guard lock(mutex_);
+  refresh(status_);
+}
+
+void RunControl::end() {
+  const std::lock_guard lock(mutex_);
+  running_ = false;
+  status_ = {};
+  for (Pending& one : pending_) {
+    one.answer.set_value(fail(ErrorCode::kState, "the run has ended"));
+  }
+  pending_.clear();
+  asked_.store(false);
+  wake_ = std::stop_source();
+}
+
+bool RunControl::wait_for_turn(const std::function<void()>& serve,
+                               const std::function<void()>& held) {
+  // A signal handler cannot notify, so a held run looks up by itself now and then.
+  constexpr auto kLook = std::chrono::milliseconds(50);
+  std::unique_lock lock(mutex_);
+  while (!stopping()) {
+    if (!pending_.empty() && serve) {
+      lock.unlock();
+      serve();
+      lock.lock();
+      continue;
+    }
+    if (!paused_) return true;
+    if (steps_ > 0) {
+      --steps_;
+      return true;
+    }
+    if (held) {
+      lock.unlock();
+      held();
+      lock.lock();
+    }
+    changed_.wait_for(lock, kLook);
+  }
+  return false;
+}
+
+}  // namespace rave::runtime

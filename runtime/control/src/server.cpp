@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/control/server.hpp"
+
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <thread>
+#include <vector>
+
+#include "answering.hpp"
+#include "rave/control/folder.hpp"
+#include "rave/control/protocol.hpp"
+#include "socket.hpp"
+
+namespace rave::control {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxConnections = 32;
+
+/// Whether the other end is this user's, or the administrator's.
+bool is_own(int file) {
+  ucred peer{};
+  socklen_t size = sizeof peer;
+  if (::getsockopt(file, SOL_SOCKET, SO_PEERCRED, &peer, &size) != 0) return false;
+  return peer.uid == ::geteuid() || peer.uid == 0;
+}
+
+Answer answer_line(runtime::RunControl& control, std::string_view line) {
+  const auto request = parse_request(line);
+  if (!request) return {false, request.error().message, {}};
+  if (auto answer = answer_at_once(control, *request)) return *std::move(answer);
+  return answer_of(control.ask(run_request(*request)));
+}
+
+}  // namespace
+
+struct Server::Impl {
+  struct Connection {
+    Descriptor file;
+    std::string received;
+  };
+
+  void run();
+  void accept_one();
+  /// False: the connection is to be closed.
+  bool read_some(Connection& connection);
+  bool send(const Connection& connection, std::string_view text) const;
+
+  runtime::RunControl* control = nullptr;
+  fs::path path;
+  Descriptor listener;
+  Descriptor wake;
+  std::vector<Connection> connections;
+  std::thread thread;
+};
+
+void Server::Impl::accept_one() {
+  Descriptor file(::accept4(listener.get(), nullptr, nullptr, SOCK_CLOEXEC));
+  if (file.get() < 0 || !is_own(file.get())) return;
+  // The oldest has had the most time.
+  if (connections.size() >= kMaxConnections) connections.erase(connections.begin());
+  connections.push_back({std::move(file), {}});
+}
+
+bool Server::Impl::send(const Connection& connection, std::string_view text) const {
+  // Somebody who does not read must not hold up the others for long.
+  const timeval patience{1, 0};
+  ::setsockopt(connection.file.get(), SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
+  while (!text.empty()) {
+    const ssize_t sent = ::send(connection.file.get(), text.data(), text.size(), MSG_NOSIGNAL);
+    if (sent < 0 && errno == EINTR) continue;
+    if (sent <= 0) return false;
+    text.remove_prefix(static_cast<std::size_t>(sent));
+  }
+  return true;
+}
+
+bool Server::Impl::read_some(Connection& connection) {
+  char part[4096];
+  const ssize_t size = ::recv(connection.file.get(), part, sizeof part, MSG_DONTWAIT);
+  if (size < 0) return errno == EAGAIN || errno == EINTR;
+  if (size == 0) return false;
+  connection.received.append(part, static_cast<std::size_t>(size));
+  for (std::size_t end = connection.received.find('\n'); end != std::string::npos;
+       end = connection.received.find('\n')) {
+    const Answer answer = answer_line(*control, {connection.received.data(), end});
+    connection.received.erase(0, end + 1);
+    if (!send(connection, write_answer(answer))) return false;
+  }
+  return connection.received.size() <= kMaxLineBytes;
+}
+
+void Server::Impl::run() {
+  std::vector<pollfd> watched;
+  for (;;) {
+    watched.assign({{wake.get(), POLLIN, 0}, {listener.get(), POLLIN, 0}});
+    for (const Connection& connection : connections) {
+      watched.push_back({connection.file.get(), POLLIN, 0});
+    }
+    if (::poll(watched.data(), watched.size(), -1) < 0) continue;
+    if (watched[0].revents != 0) return;
+    for (std::size_t i = connections.size(); i-- > 0;) {
+      if (watched[i + 2].revents == 0 || read_some(connections[i])) continue;
+      connections.erase(connections.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+    if (watched[1].revents != 0) accept_one();
+  }
+}
+
+Result<std::unique_ptr<Server>> Server::start(const std::string& run,
+                                              runtime::RunControl& control) {
+  static_cast<void>(running_runs());  // sweeps away what the dead left
+  RAVE_TRY_ASSIGN(const fs::path folder, socket_folder());
+  auto impl = std::make_unique<Impl>();
+  impl->control = &control;
+  impl->path = folder / (run + ".sock");
+  // Under its name only when somebody listens, or it would pass for a dead one's.
+  const fs::path made = folder / (run + ".new");
+  RAVE_TRY_ASSIGN(const sockaddr_un address, address_of(made));
+  RAVE_TRY(address_of(impl->path));
+  impl->listener = Descriptor(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  impl->wake = Descriptor(::eventfd(0, EFD_CLOEXEC));
+  std::error_code ignored;
+  fs::remove(made, ignored);
+  if (impl->wake.get() < 0 || impl->listener.get() < 0 ||
+      ::bind(impl->listener.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) !=
+          0 ||
+      ::chmod(made.c_str(), 0600) != 0 || ::listen(impl->listener.get(), 16) != 0 ||
+      ::rename(made.c_str(), impl->path.c_str()) != 0) {
+    const int error = errno;
+    fs::remove(made, ignored);
+    return fail(ErrorCode::kIo, "cannot open the socket `{}`: {}", impl->path.string(),
+                std::strerror(error));
+  }
+  impl->thread = std::thread([raw = impl.get()] { raw->run(); });
+  return std::unique_ptr<Server>(new Server(std::move(impl)));
+}
+
+Server::Server(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+
+Server::~Server() {
+  std::error_code ignored;
+  fs::remove(impl_->path, ignored);
+  const std::uint64_t one = 1;
+  while (::write(impl_->wake.get(), &one, sizeof one) < 0 && errno == EINTR) {
+  }
+  impl_->thread.join();
+}
+
+}  // namespace rave::control

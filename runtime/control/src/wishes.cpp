@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/control/wishes.hpp"
+
+#include <chrono>
+#include <future>
+#include <memory>
+
+#include "answering.hpp"
+#include "rave/base/control_characters.hpp"
+#include "rave/control/protocol.hpp"
+
+namespace rave::control {
+namespace {
+
+using bus::BegunWish;
+using runtime::RunControl;
+
+/// Without what the bus does not carry.
+std::string line_of(const Answer& answer) {
+  std::string line = write_answer(answer);
+  if (line.ends_with('\n')) line.pop_back();
+  return without_control_characters(line, " ");
+}
+
+BegunWish answered(const Answer& answer, std::string told, bool understood = true) {
+  return {[line = line_of(answer)] { return std::optional(line); }, std::move(told), understood};
+}
+
+/// For the log; empty for what only looks.
+std::string told_of(const Request& request) {
+  if (request.what == Request::What::kStatus || request.what == Request::What::kList) return {};
+  std::string text = write_request(request);
+  text.erase(text.find_last_not_of('\n') + 1);
+  return text;
+}
+
+}  // namespace
+
+bus::BeginWish wishes_of(RunControl& control) {
+  return [&control](std::string_view line) -> BegunWish {
+    const auto request = parse_request(line);
+    if (!request) {
+      return answered({false, request.error().message, {}},
+                      "something that is not understood: " + request.error().message, false);
+    }
+    if (const auto answer = answer_at_once(control, *request)) {
+      return answered(*answer, told_of(*request));
+    }
+    auto posted = control.post(run_request(*request));
+    if (!posted) return answered({false, posted.error().message, {}}, told_of(*request));
+    // Shared with nobody: a std::function wants to be copied.
+    const auto awaited = std::make_shared<std::future<Result<std::string>>>(*std::move(posted));
+    return {[awaited]() -> std::optional<std::string> {
+              if (awaited->wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+                return std::nullopt;
+              }
+              return line_of(answer_of(awaited->get()));
+            },
+            told_of(*request), true};
+  };
+}
+
+}  // namespace rave::control

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/control/world_request.hpp"
+
+#include <algorithm>
+
+#include "asked_change.hpp"
+#include "rave/assemble/obstacles.hpp"
+#include "rave/assemble/parameter_key.hpp"
+#include "rave/config/diagnostics.hpp"
+#include "rave/config/yaml.hpp"
+
+namespace rave::runtime {
+namespace {
+
+using InputKind = sim::WorldInput::Kind;
+using ObstacleKind = sim::ObstacleChange::Kind;
+constexpr std::string_view kBodyKey = "body.scale";
+
+Result<sim::ParameterChange> body_change(const sim::EngineSpec& spec, RobotId robot,
+                                         const RunRequest& request) {
+  if (!robot.valid()) return fail(ErrorCode::kInvalidArgument, "a parameter needs a robot");
+  if (request.key != kBodyKey) {
+    return fail(
+        ErrorCode::kState,
+        "the parameters of `{}` are known where it runs: ask the process of its host, which "
+        "`rave ps` lists; here only `{}` can be set",
+        request.robot, kBodyKey);
+  }
+  config::Diagnostics diagnostics;
+  const auto value = config::parse_yaml(request.value, "value", diagnostics);
+  if (!value || !diagnostics.ok()) {
+    return fail(ErrorCode::kInvalidArgument, "`{}` is no value for a parameter", request.value);
+  }
+  auto change = parse_change(spec.types[spec.robots[robot.value()].type], request.key, *value);
+  // The place within the word on the command line tells nobody anything.
+  if (!change) return fail(change.error().code, "{}", change.error().message);
+  return change;
+}
+
+Result<sim::ObstacleChange> obstacle_change(const RunRequest& request) {
+  RAVE_TRY_ASSIGN(sim::ObstacleChange change, asked_change(request));
+  change.asked = change.kind == ObstacleKind::kRemove ? request.key : request.value;
+  RAVE_TRY(sim::check_obstacle_change(change));
+  return change;
+}
+
+InputKind kind_of(RunRequest::Kind kind) noexcept {
+  if (kind == RunRequest::Kind::kStop) return InputKind::kStop;
+  return kind == RunRequest::Kind::kArm ? InputKind::kArm : InputKind::kRelease;
+}
+
+RunRequest::Kind kind_of(InputKind kind) noexcept {
+  if (kind == InputKind::kStop) return RunRequest::Kind::kStop;
+  return kind == InputKind::kArm ? RunRequest::Kind::kArm : RunRequest::Kind::kRelease;
+}
+
+/// Whether the scenario changes the body of a robot in this step.
+bool is_scheduled(const sim::EngineSpec& spec, std::uint64_t step, RobotId robot) {
+  return std::any_of(spec.changes.begin(), spec.changes.end(), [&](const auto& scheduled) {
+    return scheduled.step == step && scheduled.robot == robot &&
+           std::any_of(scheduled.changes.begin(), scheduled.changes.end(), [](const auto& change) {
+             return change.part == sim::ParameterChange::Part::kBody;
+           });
+  });
+}
+
+}  // namespace
+
+Result<sim::WorldInput> input_of(const sim::EngineSpec& spec, const RunRequest& request) {
+  sim::WorldInput input;
+  if (!request.robot.empty()) {
+    RAVE_TRY_ASSIGN(input.robot, find_robot(spec, request.robot));
+  }
+  switch (request.kind) {
+    case RunRequest::Kind::kStop:
+    case RunRequest::Kind::kRelease:
+    case RunRequest::Kind::kArm:
+      input.kind = kind_of(request.kind);
+      return input;
+    case RunRequest::Kind::kSet: {
+      input.kind = InputKind::kChange;
+      RAVE_TRY_ASSIGN(auto change, body_change(spec, input.robot, request));
+      input.changes = {std::move(change)};
+      return input;
+    }
+    case RunRequest::Kind::kAdd:
+    case RunRequest::Kind::kMove:
+    case RunRequest::Kind::kRemove: {
+      input.kind = InputKind::kObstacle;
+      RAVE_TRY_ASSIGN(input.obstacle, obstacle_change(request));
+      return input;
+    }
+    case RunRequest::Kind::kHandOver:
+    case RunRequest::Kind::kResetShadow:
+      return fail(ErrorCode::kInvalidArgument,
+                  "hosts in lock-step cannot hand a robot over; run it in one process or in real "
+                  "time");
+    case RunRequest::Kind::kDrive:
+    case RunRequest::Kind::kGoal:
+    case RunRequest::Kind::kPath:
+    case RunRequest::Kind::kCancel:
+    case RunRequest::Kind::kText:
+    case RunRequest::Kind::kPlace:
+    case RunRequest::Kind::kTake:
+    case RunRequest::Kind::kGive:
+      return fail(ErrorCode::kState, "hosts in lock-step take no `{}` yet",
+                  to_string(request.kind));
+    case RunRequest::Kind::kList:
+      break;
+  }
+  return fail(ErrorCode::kInvalidArgument, "a request that changes nothing");
+}
+
+std::vector<RunRequest> requests_in(const sim::EngineSpec& spec, const sim::WorldStep& world) {
+  const auto name_of = [&spec](RobotId robot) {
+    return robot.valid() ? spec.robots[robot.value()].name : std::string();
+  };
+  std::vector<RunRequest> requests;
+  for (const sim::ObstacleChange& change : world.obstacles) {
+    if (change.asked.empty()) continue;
+    const bool goes = change.kind == ObstacleKind::kRemove;
+    const auto kind = goes                                ? RunRequest::Kind::kRemove
+                      : change.kind == ObstacleKind::kAdd ? RunRequest::Kind::kAdd
+                                                          : RunRequest::Kind::kMove;
+    requests.push_back({kind, "", goes ? change.asked : "", goes ? "" : change.asked});
+  }
+  for (const sim::ResizedRobot& resized : world.resized) {
+    if (is_scheduled(spec, world.step, resized.robot)) continue;
+    requests.push_back({RunRequest::Kind::kSet, name_of(resized.robot), std::string(kBodyKey),
+                        fmt::format("{}", resized.scale)});
+  }
+  for (const sim::WorldInput& input : world.inputs) {
+    if (input.author != sim::Author::kHand || input.kind == InputKind::kChange) continue;
+    requests.push_back({kind_of(input.kind), name_of(input.robot), "", ""});
+  }
+  return requests;
+}
+
+std::string_view word_of(sim::ObstacleChange::Kind kind) noexcept {
+  if (kind == ObstacleKind::kAdd) return "added";
+  return kind == ObstacleKind::kMove ? "moved" : "removed";
+}
+
+std::string obstacle_list(const world::WorldModel& world) { return list_obstacles(world); }
+
+}  // namespace rave::runtime

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/control/protocol.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rave::control {
+namespace {
+
+using What = Request::What;
+
+TEST(Protocol, RequestsComeBackAsTheyWere) {
+  for (const Request& request :
+       {Request{What::kStatus, "", "", "", 1}, Request{What::kStop, "", "", "", 1},
+        Request{What::kStop, "a \"robot\"\n", "", "", 1}, Request{What::kArm, "b", "", "", 1},
+        Request{What::kRelease, "b", "", "", 1},
+        Request{What::kSet, "prey", "body.scale", "1.5", 1}, Request{What::kPause, "", "", "", 1},
+        Request{What::kStep, "", "", "", 12},
+        Request{What::kAdd, "", "", "{name: a, disc_radius_m: 0.2}", 1},
+        Request{What::kMove, "", "", "{name: a, x_m: 1}", 1},
+        Request{What::kRemove, "", "a", "", 1}, Request{What::kList, "", "", "", 1},
+        Request{What::kHandOver, "create", "", "real", 1},
+        Request{What::kResetShadow, "create", "", "", 1},
+        Request{What::kResetShadow, "", "", "", 1}}) {
+    std::string line = write_request(request);
+    ASSERT_EQ(line.back(), '\n');
+    line.pop_back();
+    EXPECT_EQ(line.find('\n'), std::string::npos);
+    const auto read = parse_request(line);
+    ASSERT_TRUE(read) << line << ": " << read.error().message;
+    EXPECT_EQ(*read, request) << line;
+  }
+}
+
+TEST(Protocol, RefusesWhatIsNotExactlyARequest) {
+  for (const char* const line : {"",
+                                 "stop",
+                                 "[]",
+                                 "null",
+                                 "{}",
+                                 R"({"do":"stop"})",
+                                 R"({"rave":2,"do":"stop"})",
+                                 R"({"rave":1,"do":"fly"})",
+                                 R"({"rave":1,"do":7})",
+                                 R"({"rave":1})",
+                                 R"({"rave":1,"do":"stop","robot":7})",
+                                 R"({"rave":1,"do":"stop","robot":"a","robot":"b"})",
+                                 R"({"rave":1,"do":"stop","rabot":"a"})",
+                                 R"({"rave":1,"do":"pause","robot":"a"})",
+                                 R"({"rave":1,"do":"set","robot":"a","key":"b"})",
+                                 R"({"rave":1,"do":"set","robot":"a","key":"b","value":1})",
+                                 R"({"rave":1,"do":"step","count":0})",
+                                 R"({"rave":1,"do":"step","count":-1})",
+                                 R"({"rave":1,"do":"step","count":1.5})",
+                                 R"({"rave":1,"do":"stop"} x)",
+                                 R"({"rave":1,"do":"add"})",
+                                 R"({"rave":1,"do":"add","value":{"name":"a"}})",
+                                 R"({"rave":1,"do":"add","value":""})",
+                                 R"({"rave":1,"do":"move","key":"a"})",
+                                 R"({"rave":1,"do":"remove","value":"a"})",
+                                 R"({"rave":1,"do":"remove","key":7})",
+                                 R"({"rave":1,"do":"list","robot":"a"})",
+                                 R"({"rave":1,"do":"hand_over","value":"real"})",
+                                 R"({"rave":1,"do":"hand_over","robot":"a"})",
+                                 R"({"rave":1,"do":"hand_over","robot":"a","value":1})",
+                                 R"({"rave":1,"do":"reset_shadow","robot":7})",
+                                 R"({"rave":1,"do":"stop","robot":"a\u0000b"})"}) {
+    const auto read = parse_request(line);
+    EXPECT_FALSE(read) << line;
+    if (!read) {
+      EXPECT_FALSE(read.error().message.empty()) << line;
+    }
+  }
+  EXPECT_FALSE(parse_request(std::string(kMaxLineBytes + 1, ' ')));
+  EXPECT_FALSE(parse_request(std::string(kMaxLineBytes, '[')));
+}
+
+TEST(Protocol, HandOversAndShadowsAreToldWithTheirRobots) {
+  Answer answer;
+  answer.good = true;
+  answer.status.scenario = "lab";
+  auto& robot = answer.status.robots.emplace_back();
+  robot.name = "create";
+  robot.hand_over = {true, 2, 1, "simulated -> real", 1.5, -2, 0.25};
+  robot.shadow = {true, 3, 0.125, 0.5, 0.25, 0.75, {{"laser", "m", 0.0625, 0.5}}};
+  answer.status.robots.push_back({"plain", true, true, false, {}, {}});
+  const auto read = parse_answer(write_answer(answer));
+  ASSERT_TRUE(read) << read.error().text();
+  ASSERT_EQ(read->status.robots.size(), 2U);
+  EXPECT_EQ(read->status.robots[0].hand_over, answer.status.robots[0].hand_over);
+  EXPECT_EQ(read->status.robots[0].shadow, answer.status.robots[0].shadow);
+  EXPECT_FALSE(read->status.robots[1].hand_over);
+  EXPECT_FALSE(read->status.robots[1].shadow);
+  EXPECT_FALSE(parse_answer(
+      R"({"good":true,"text":"","status":{"scenario":"a","sim_s":0,"duration_s":1,"pace":1,)"
+      R"("live":false,"paused":false,"robots":[{"name":"b","simulated":true,"armed":true,)"
+      R"("stopped":false,"hand_over":{"under_way":true,"made":-1,"refused":0,"last":""}}]}})"));
+}
+
+TEST(Protocol, AnswersComeBackAsTheyWere) {
+  Answer answer;
+  answer.good = true;
+  answer.text = "it's \u00e4ll right";
+  answer.status.scenario = "s";
+  answer.status.sim_s = 1.25;
+  answer.status.lateness = {1000, 60, 2.5, 1.25, "decide"};
+  answer.status.waits_for = "left and right";
+  answer.status.robots = {{"a", true, true, false}, {"b", false, false, true}};
+  const auto read = parse_answer(write_answer(answer));
+  ASSERT_TRUE(read);
+  EXPECT_TRUE(read->good);
+  EXPECT_EQ(read->text, answer.text);
+  EXPECT_EQ(read->status.sim_s, 1.25);
+  EXPECT_EQ(read->status.lateness, answer.status.lateness);
+  EXPECT_EQ(read->status.waits_for, "left and right");
+  ASSERT_EQ(read->status.robots.size(), 2U);
+  EXPECT_EQ(read->status.robots[1].name, "b");
+  EXPECT_TRUE(read->status.robots[1].stopped);
+  EXPECT_FALSE(parse_answer(R"({"good":1,"text":""})"));
+  EXPECT_FALSE(parse_answer(
+      R"({"good":true,"text":"","status":{"scenario":"a","sim_s":0,"duration_s":1,"pace":1,)"
+      R"("live":false,"paused":false,"robots":[],"lateness":{"deadlines":-1,"missed":0,)"
+      R"("worst_s":0,"behind_s":0,"phase":""}}})"));
+}
+
+}  // namespace
+}  // namespace rave::control

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "line_book.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "page_key.hpp"
+#include "signed_text.hpp"
+
+namespace rave::direct_line {
+namespace {
+
+using Kind = runtime::RunRequest::Kind;
+using LineJson = nlohmann::ordered_json;
+
+/// Who has shown no ticket by then has none.
+constexpr auto kHelloPatience = std::chrono::seconds(5);
+constexpr std::size_t kMostStrangers = 32;
+constexpr unsigned kMostNonsense = 20;
+constexpr std::size_t kChallengeBytes = 32;
+// Thirty refusals of a network at once, then one in five seconds: a flood must not fill the disk.
+constexpr double kRefusals = 30;
+constexpr double kRefusalsPerSecond = 0.2;
+
+std::string dumped(const LineJson& json) {
+  return json.dump(-1, ' ', false, LineJson::error_handler_t::replace);
+}
+
+std::int64_t day_clock_ms() {
+  return std::chrono::duration_cast<std::chrono::milliseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+/// What of a ticket is about a kind of order.
+const RobotSet& reach_of(const Ticket& ticket, Kind kind) {
+  if (kind == Kind::kStop) return ticket.stops;
+  if (kind == Kind::kRelease) return ticket.releases;
+  return ticket.orders;
+}
+
+}  // namespace
+
+LineBook::LineBook(const LineOptions& options, runtime::RunControl& control)
+    : options_(options),
+      control_(control),
+      post_(control),
+      refusals_(kRefusalsPerSecond, kRefusals) {
+  if (!options_.clock_ms) options_.clock_ms = day_clock_ms;
+}
+
+void LineBook::opened(std::uint64_t id, web::Socket& socket, const web::Request& request) {
+  Line line;
+  line.socket = &socket;
+  line.peer = request.peer;
+  line.address = request.header("host");
+  line.origin = request.header("origin");
+  line.challenge = base64_of(random_bytes(kChallengeBytes));
+  line.since = Line::Clock::now();
+  const auto strangers = std::ranges::count_if(
+      lines_, [](const auto& entry) { return !entry.second.ticket && !entry.second.closing; });
+  Line& kept = lines_.emplace(id, std::move(line)).first->second;
+  if (static_cast<std::size_t>(strangers) >= kMostStrangers) {
+    note_refusal(kept, "a line", "too many others have shown no ticket");
+    return close(kept, kTooManyLines, "too many lines");
+  }
+  kept.send(
+      dumped({{"type", "challenge"}, {"host", options_.host}, {"challenge", kept.challenge}}));
+}
+
+void LineBook::received(std::uint64_t id, std::string_view text) {
+  const auto found = lines_.find(id);
+  if (found == lines_.end() || found->second.closing) return;
+  Line& line = found->second;
+  const auto message = parse_line_message(text);
+  if (!message) {
+    ++counts_.refused_orders;
+    note_refusal(line, "a message", message.error().message);
+    line.send(dumped({{"type", "answer"}, {"good", false}, {"text", message.error().message}}));
+    if (!line.ticket || ++line.nonsense > kMostNonsense) {
+      close(line, kNonsense, "malformed messages");
+    }
+    return;
+  }
+  if (!line.ticket && !std::holds_alternative<HelloMessage>(*message)) {
+    return refuse_line(line, "expected a ticket before anything else");
+  }
+  std::visit([&](const auto& what) { take(id, line, what); }, *message);
+}
+
+void LineBook::closed(std::uint64_t id) {
+  const auto found = lines_.find(id);
+  if (found == lines_.end()) return;
+  // Who drives stops driving with the line, whatever ended it.
+  post_.forget(id);
+  if (found->second.ticket && options_.log != nullptr) {
+    options_.log->info("line", "{} is gone", found->second.who());
+  }
+  lines_.erase(found);
+}
+
+void LineBook::end() {
+  for (const auto& [id, line] : lines_) post_.forget(id);
+  lines_.clear();
+}
+
+Result<Ticket> LineBook::check_ticket(std::string_view text, const Line& line) const {
+  RAVE_TRY_ASSIGN(Ticket ticket, verify_ticket(text, options_.signer, now_ms() / 1000));
+  if (ticket.run != options_.run) return fail(ErrorCode::kState, "the ticket is of another run");
+  if (ticket.host != options_.host) {
+    return fail(ErrorCode::kState, "the ticket is for host `{}`, and this is `{}`", ticket.host,
+                options_.host);
+  }
+  if (ticket.origin != line.origin) {
+    return fail(ErrorCode::kState, "the ticket is for a page of {}, and this one is of {}",
+                ticket.origin, line.origin.empty() ? "nowhere" : line.origin);
+  }
+  const auto epoch = epochs_.find(ticket.user);
+  if (epoch != epochs_.end() && ticket.epoch < epoch->second) {
+    return fail(ErrorCode::kState, "the ticket of `{}` was withdrawn", ticket.user);
+  }
+  return ticket;
+}
+
+void LineBook::take(std::uint64_t id, Line& line, const HelloMessage& hello) {
+  if (line.ticket) return refuse_line(line, "said hello twice");
+  auto ticket = check_ticket(hello.ticket, line);
+  if (!ticket) return refuse_line(line, ticket.error().message);
+  const std::string text = proof_text(line.challenge, line.address, hello.ticket);
+  if (!page_key_signed(ticket->page_key, hello.proof, text)) {
+    return refuse_line(line, "showed a ticket of `" + ticket->user +
+                                 "` without the key of the page that it was given to");
+  }
+  welcome(id, line, *std::move(ticket));
+}
+
+void LineBook::welcome(std::uint64_t id, Line& line, Ticket ticket) {
+  for (auto& [other_id, other] : lines_) {
+    if (other_id == id || !other.ticket || other.ticket->nonce != ticket.nonce) continue;
+    post_.forget(other_id);
+    close(other, kReplaced, "the page has opened another line");
+  }
+  line.ticket = std::move(ticket);
+  ++counts_.welcomed;
+  if (options_.log != nullptr) {
+    options_.log->info("line", "{} is here, as {}", line.who(), line.ticket->role);
+  }
+  line.send(dumped({{"type", "welcome"},
+                    {"host", options_.host},
+                    {"user", line.ticket->user},
+                    {"until", line.ticket->expires_s}}));
+}
+
+void LineBook::take(std::uint64_t /*id*/, Line& line, const RenewMessage& renew) {
+  auto ticket = check_ticket(renew.ticket, line);
+  if (!ticket) return refuse_line(line, ticket.error().message);
+  // The key was shown for this page and this person.
+  if (ticket->page_key != line.ticket->page_key || ticket->user != line.ticket->user) {
+    return refuse_line(line, "showed the ticket of another page");
+  }
+  line.ticket = *std::move(ticket);
+  line.send(dumped({{"type", "renewed"}, {"until", line.ticket->expires_s}}));
+}
+
+void LineBook::take(std::uint64_t /*id*/, Line& line, const PingMessage& ping) {
+  line.send(dumped({{"type", "pong"}, {"id", ping.id}}));
+}
+
+Result<std::vector<runtime::RunRequest>> LineBook::covered(const Ticket& ticket,
+                                                           const Request& request) {
+  const RobotSet& reach = reach_of(ticket, request.kind);
+  const std::string_view word = runtime::to_string(request.kind);
+  if (!request.robot.empty() && !reach.has(request.robot)) {
+    return fail(ErrorCode::kState, "`{}` of `{}` is not among your rights", word, request.robot);
+  }
+  if (request.kind == Kind::kPlace && ticket.role != "super_user") {
+    return fail(ErrorCode::kState, "to place a robot is for super-users");
+  }
+  if (reach.empty()) return fail(ErrorCode::kState, "`{}` is not among your rights", word);
+  Request signed_one = request;
+  signed_one.by = ticket.user;
+  signed_one.overrides = ticket.role == "super_user";
+  std::vector<Request> requests;
+  if (!request.robot.empty() || reach.all) {
+    requests.push_back(std::move(signed_one));
+    return requests;
+  }
+  for (const std::string& robot : reach.names) {
+    signed_one.robot = robot;
+    requests.push_back(signed_one);
+  }
+  return requests;
+}
+
+void LineBook::take(std::uint64_t id, Line& line, const OrderMessage& order) {
+  auto requests = covered(*line.ticket, order.request);
+  if (!requests) {
+    ++counts_.refused_orders;
+    note_refusal(line, runtime::to_string(order.request.kind), requests.error().message);
+    return answer(id, order.id, false, requests.error().message);
+  }
+  auto told = [this, id, order_id = order.id](bool good, const std::string& text) {
+    answer(id, order_id, good, text);
+  };
+  if (order.request.kind == Kind::kDrive) {
+    return post_.drive(id, std::move(requests->front()), order.echo, std::move(told));
+  }
+  post_.give(id, *std::move(requests), std::move(told));
+}
+
+void LineBook::answer(std::uint64_t id, std::uint64_t order, bool good, const std::string& text) {
+  const auto found = lines_.find(id);
+  if (found == lines_.end() || found->second.closing) return;
+  found->second.send(dumped({{"type", "answer"}, {"id", order}, {"good", good}, {"text", text}}));
+}
+
+void LineBook::close(Line& line, std::uint16_t code, std::string_view why) {
+  line.closing = true;
+  line.socket->close(code, why);
+}
+
+void LineBook::refuse_line(Line& line, std::string_view why) {
+  ++counts_.refused_lines;
+  note_refusal(line, "a line", why);
+  close(line, kBadTicket, why);
+}
+
+void LineBook::note_refusal(const Line& line, std::string_view what, std::string_view why) {
+  if (options_.log == nullptr) return;
+  if (!refusals_.take(web::network_of(line.peer), web::RateLimit::Clock::now())) {
+    ++untold_;
+    return;
+  }
+  if (untold_ > 0) options_.log->warn("line", "refused {} times more", std::exchange(untold_, 0));
+  options_.log->warn("line", "refused {} of {}: {}", what, line.who(), why);
+}
+
+void LineBook::withdraw(const std::string& signed_text) {
+  const auto withdrawal = verify_withdrawal(signed_text, options_.signer);
+  if (!withdrawal) {
+    if (options_.log != nullptr) {
+      options_.log->warn("line", "a withdrawal counts for nothing: {}", withdrawal.error().message);
+    }
+    return;
+  }
+  std::uint64_t& epoch = epochs_[withdrawal->user];
+  if (withdrawal->run != options_.run || withdrawal->epoch <= epoch) return;
+  epoch = withdrawal->epoch;
+  for (auto& [id, line] : lines_) {
+    if (line.closing || !line.ticket || line.ticket->user != withdrawal->user) continue;
+    if (line.ticket->epoch >= epoch) continue;
+    ++counts_.withdrawn;
+    if (options_.log != nullptr) options_.log->warn("line", "{}: the rights changed", line.who());
+    post_.forget(id);
+    close(line, kWithdrawn, "your rights have changed");
+  }
+}
+
+void LineBook::look_around() {
+  const auto now = Line::Clock::now();
+  for (auto& [id, line] : lines_) {
+    if (line.closing) continue;
+    if (!line.ticket && now - line.since > kHelloPatience) {
+      refuse_line(line, "showed no ticket");
+    } else if (line.ticket && line.ticket->expires_s + kClockSlack_s < now_ms() / 1000) {
+      post_.forget(id);
+      refuse_line(line, "the ticket has expired");
+    }
+  }
+  tell_state();
+}
+
+void LineBook::tell_state() {
+  const bool anybody = std::ranges::any_of(
+      lines_, [](const auto& entry) { return entry.second.ticket.has_value(); });
+  if (!anybody) return;
+  const runtime::RunStatus status = control_.status();
+  for (auto& [id, line] : lines_) {
+    if (line.closing || !line.ticket) continue;
+    LineJson leases = LineJson::object();
+    LineJson stopped = LineJson::array();
+    for (const runtime::RunStatus::Robot& robot : status.robots) {
+      if (!robot.lease.empty() && line.ticket->orders.has(robot.name)) {
+        leases[robot.name] = robot.lease;
+      }
+      if (robot.stopped && line.ticket->stops.has(robot.name)) stopped.push_back(robot.name);
+    }
+    std::string text =
+        dumped({{"type", "state"}, {"leases", std::move(leases)}, {"stopped", std::move(stopped)}});
+    if (text == line.told_state) continue;
+    line.told_state = text;
+    line.send(std::move(text));
+  }
+}
+
+LineCounts LineBook::counts() const {
+  LineCounts counts = counts_;
+  counts.orders = post_.given();
+  for (const auto& [id, line] : lines_) {
+    if (line.ticket && !line.closing) ++counts.open;
+  }
+  return counts;
+}
+
+}  // namespace rave::direct_line

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "line.hpp"
+#include "line_message.hpp"
+#include "order_post.hpp"
+#include "rave/base/log.hpp"
+#include "rave/direct_line/line_server.hpp"
+#include "rave/web/rate_limit.hpp"
+
+namespace rave::direct_line {
+
+/// The lines of a host: who is at the other end, and what they may. The thread of the server.
+class LineBook {
+ public:
+  /// Why a line is closed.
+  enum Code : std::uint16_t {
+    kNonsense = 4400,
+    kBadTicket = 4401,  ///< None, or it has expired.
+    kWithdrawn = 4403,  ///< The rights have changed: the page asks for another ticket.
+    kReplaced = 4408,   ///< The same page has opened another line.
+    kTooManyLines = 4429,
+  };
+
+  LineBook(const LineOptions& options, runtime::RunControl& control);
+
+  void opened(std::uint64_t id, web::Socket& socket, const web::Request& request);
+  void received(std::uint64_t id, std::string_view text);
+  void closed(std::uint64_t id);
+  void withdraw(const std::string& signed_text);
+  /// Answers that have come; some 200 times a second.
+  void poll() { post_.poll(); }
+  /// Ends lines whose time is over, and tells who drives and who is stopped; a few times a second.
+  void look_around();
+  /// All that is driven stands.
+  void end();
+  [[nodiscard]] LineCounts counts() const;
+
+ private:
+  using Request = runtime::RunRequest;
+
+  void take(std::uint64_t id, Line& line, const HelloMessage& hello);
+  void take(std::uint64_t id, Line& line, const RenewMessage& renew);
+  void take(std::uint64_t id, Line& line, const PingMessage& ping);
+  void take(std::uint64_t id, Line& line, const OrderMessage& order);
+  [[nodiscard]] Result<Ticket> check_ticket(std::string_view text, const Line& line) const;
+  /// The same order for each robot that the ticket covers. Error kState: it covers none.
+  [[nodiscard]] static Result<std::vector<Request>> covered(const Ticket& ticket,
+                                                            const Request& request);
+  void welcome(std::uint64_t id, Line& line, Ticket ticket);
+  void close(Line& line, std::uint16_t code, std::string_view why);
+  void refuse_line(Line& line, std::string_view why);
+  void note_refusal(const Line& line, std::string_view what, std::string_view why);
+  void answer(std::uint64_t id, std::uint64_t order, bool good, const std::string& text);
+  void tell_state();
+  [[nodiscard]] std::int64_t now_ms() const { return options_.clock_ms(); }
+
+  LineOptions options_;
+  runtime::RunControl& control_;
+  OrderPost post_;
+  std::map<std::uint64_t, Line> lines_;
+  std::map<std::string, std::uint64_t, std::less<>> epochs_;  ///< By person.
+  web::RateLimit refusals_;
+  std::uint64_t untold_ = 0;  ///< Refusals that were too many for the log.
+  LineCounts counts_;
+};
+
+}  // namespace rave::direct_line

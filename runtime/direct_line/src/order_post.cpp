@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "order_post.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace rave::direct_line {
+namespace {
+
+constexpr std::chrono::seconds kNow{0};
+
+bool is_ready(const std::future<Result<std::string>>& answer) {
+  return answer.wait_for(kNow) == std::future_status::ready;
+}
+
+void append(std::string& list, const std::string& text) {
+  if (!list.empty()) list += "; ";
+  list += text;
+}
+
+}  // namespace
+
+void OrderPost::give(Line line, std::vector<runtime::RunRequest> requests, Answer answer) {
+  using Kind = runtime::RunRequest::Kind;
+  const bool stop = !requests.empty() && requests.front().kind == Kind::kStop;
+  const auto own = std::ranges::count(waiting_, line, &Waiting::line);
+  if (!stop && static_cast<std::size_t>(own) >= kMostWaiting) {
+    return answer(false, "too many orders wait for the run");
+  }
+  Waiting waiting{line, {}, std::move(answer)};
+  for (runtime::RunRequest& request : requests) {
+    auto posted = control_.post(std::move(request));
+    if (posted) {
+      ++given_;
+      waiting.futures.push_back(*std::move(posted));
+    } else {
+      append(waiting.refused, posted.error().message);
+    }
+  }
+  waiting_.push_back(std::move(waiting));
+}
+
+void OrderPost::drive(Line line, runtime::RunRequest request, bool echo, Answer answer) {
+  Drive& drive = drives_[{line, request.robot}];
+  drive.moves = request.v_mps != 0 || request.w_radps != 0;
+  drive.newest = std::move(request);
+  if (drive.under_way && !is_ready(*drive.under_way)) {
+    drive.next.emplace(echo, std::move(answer));
+    return;
+  }
+  poll(drive);
+  begin(drive, echo, std::move(answer));
+}
+
+void OrderPost::begin(Drive& drive, bool echo, Answer answer) {
+  auto posted = control_.post(drive.newest);
+  if (!posted) return answer(false, posted.error().message);
+  ++given_;
+  drive.under_way = *std::move(posted);
+  drive.echo = echo;
+  drive.answer = std::move(answer);
+}
+
+void OrderPost::poll(Drive& drive) {
+  if (!drive.under_way || !is_ready(*drive.under_way)) return;
+  const auto text = drive.under_way->get();
+  drive.under_way.reset();
+  const Answer answer = std::exchange(drive.answer, nullptr);
+  if (!text) {
+    // Somebody else drives it, so nothing has to be stopped when this line goes.
+    drive.moves = false;
+    answer(false, text.error().message);
+  } else if (drive.echo) {
+    answer(true, *text);
+  }
+  if (!drive.next) return;
+  auto [echo, next] = *std::exchange(drive.next, std::nullopt);
+  drive.moves = drive.newest.v_mps != 0 || drive.newest.w_radps != 0;
+  begin(drive, echo, std::move(next));
+}
+
+void OrderPost::forget(Line line) {
+  for (auto drive = drives_.begin(); drive != drives_.end();) {
+    if (drive->first.first != line) {
+      ++drive;
+      continue;
+    }
+    if (drive->second.moves) {
+      runtime::RunRequest stand = std::move(drive->second.newest);
+      stand.v_mps = stand.w_radps = 0;
+      // Nobody is there to be told.
+      if (control_.post(std::move(stand))) ++given_;
+    }
+    drive = drives_.erase(drive);
+  }
+  std::erase_if(waiting_, [line](const Waiting& waiting) { return waiting.line == line; });
+}
+
+bool OrderPost::take_answers(Waiting& waiting) {
+  std::erase_if(waiting.futures, [&waiting](Future& future) {
+    if (!is_ready(future)) return false;
+    const auto text = future.get();
+    append(text ? waiting.done : waiting.refused, text ? *text : text.error().message);
+    return true;
+  });
+  return waiting.futures.empty();
+}
+
+void OrderPost::poll() {
+  for (auto& [whose, drive] : drives_) poll(drive);
+  std::vector<Waiting> ready;
+  std::erase_if(waiting_, [&ready](Waiting& waiting) {
+    if (!take_answers(waiting)) return false;
+    ready.push_back(std::move(waiting));
+    return true;
+  });
+  for (const Waiting& waiting : ready) {
+    const bool good = waiting.refused.empty();
+    waiting.answer(good, good ? waiting.done : waiting.refused);
+  }
+}
+
+}  // namespace rave::direct_line

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "line_message.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace rave::direct_line {
+namespace {
+
+using Kind = runtime::RunRequest::Kind;
+
+OrderMessage order_of(std::string_view text) {
+  const auto message = parse_line_message(text);
+  EXPECT_TRUE(message) << message.error().message;
+  return message ? std::get<OrderMessage>(*message) : OrderMessage{};
+}
+
+std::string why_refused(std::string_view text) {
+  const auto message = parse_line_message(text);
+  return message ? "" : message.error().message;
+}
+
+TEST(LineMessage, SaysEveryKindOfOrder) {
+  const auto drive = order_of(
+      R"({"type":"order","id":3,"kind":"drive","robot":"r1","v":0.25,"w":-1,"echo":true})");
+  EXPECT_EQ(drive.id, 3U);
+  EXPECT_EQ(drive.request.kind, Kind::kDrive);
+  EXPECT_EQ(drive.request.robot, "r1");
+  EXPECT_EQ(drive.request.v_mps, 0.25);
+  EXPECT_EQ(drive.request.w_radps, -1);
+  EXPECT_TRUE(drive.echo);
+  const auto goal = order_of(
+      R"({"type":"order","id":4,"kind":"goal","robot":"r1","points":[[1,2]],"yaw":3,"speed":1})");
+  ASSERT_EQ(goal.request.points.size(), 1U);
+  EXPECT_EQ(goal.request.points[0].y, 2);
+  EXPECT_EQ(goal.request.yaw_rad, 3);
+  EXPECT_EQ(goal.request.speed_mps, 1);
+  EXPECT_EQ(order_of(R"({"type":"order","id":5,"kind":"path","robot":"r1","points":[[1,2],[3,4]]})")
+                .request.points.size(),
+            2U);
+  EXPECT_EQ(order_of(R"({"type":"order","id":6,"kind":"text","robot":"r1","text":"go home"})")
+                .request.value,
+            "go home");
+  EXPECT_EQ(
+      order_of(R"({"type":"order","id":7,"kind":"take","robot":"r1","force":true})").request.value,
+      "force");
+  EXPECT_EQ(
+      order_of(R"({"type":"order","id":7,"kind":"give","robot":"r1","to":"ben"})").request.value,
+      "ben");
+  for (const char* const word : {"stop", "release", "cancel"}) {
+    const auto all = order_of(std::string(R"({"type":"order","id":8,"kind":")") + word + R"("})");
+    EXPECT_EQ(all.request.robot, "");
+    // Who asks is what the ticket says.
+    EXPECT_EQ(all.request.by, "");
+    EXPECT_FALSE(all.request.overrides);
+  }
+}
+
+TEST(LineMessage, RefusesWhatIsNoOrder) {
+  const std::string start = R"({"type":"order","id":1,"robot":"r1",)";
+  const auto refused = [&start](const char* rest) { return why_refused(start + rest + "}"); };
+  EXPECT_EQ(refused(R"("kind":"drive","v":"NaN","w":0)"), "`v`: expected a finite number");
+  EXPECT_EQ(refused(R"("kind":"drive","v":null,"w":0)"), "`v`: expected a finite number");
+  EXPECT_EQ(refused(R"("kind":"drive","v":NaN,"w":0)"), "this is no message");
+  EXPECT_EQ(refused(R"("kind":"drive","v":1e999,"w":0)"), "this is no message");
+  EXPECT_EQ(refused(R"("kind":"drive","v":101,"w":0)"), "`v`: expected -100 to 100");
+  EXPECT_EQ(refused(R"("kind":"drive","v":1)"), "`w` is missing");
+  EXPECT_EQ(refused(R"("kind":"goal","points":[])"), "`points`: expected 1 to 1 of them");
+  EXPECT_EQ(refused(R"("kind":"goal","points":[[1]])"),
+            "`points`: expected pairs of x and y in metres");
+  EXPECT_EQ(refused(R"("kind":"goal","points":[[1,1e7]])"), "`points`: expected at most 1000000 m");
+  EXPECT_EQ(refused(R"("kind":"path","points":[[1,1]])"), "`points`: expected 2 to 1000 of them");
+  EXPECT_EQ(refused(R"("kind":"text","text":"")"), "`text`: expected words");
+  EXPECT_EQ(refused(R"("kind":"stop","by":"ben")"), "there are unknown members");
+  for (const char* const other : {"set", "add", "arm", "hand_over", "remove", "list"}) {
+    EXPECT_NE(refused((R"("kind":")" + std::string(other) + "\"").c_str()).find("`kind`: expected"),
+              std::string::npos)
+        << other;
+  }
+  std::string many = R"("kind":"path","points":[[0,0])";
+  for (int i = 0; i < 10'000; ++i) many += ",[0,0]";
+  EXPECT_EQ(refused((many + "]").c_str()), "`points`: expected 2 to 1000 of them");
+  EXPECT_EQ(why_refused(R"({"type":"order","id":1,"kind":"drive","v":0,"w":0})"),
+            "`robot`: expected a name");
+  EXPECT_EQ(why_refused("[]"), "this is no message");
+  EXPECT_EQ(why_refused(""), "this is no message");
+  EXPECT_EQ(why_refused(R"({"type":"shutdown"})"), "`type`: expected hello, order, ping or ticket");
+  EXPECT_EQ(why_refused(R"({"type":"ping","id":-1})"), "`id`: expected a whole number from 0");
+}
+
+}  // namespace
+}  // namespace rave::direct_line

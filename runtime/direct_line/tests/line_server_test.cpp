@@ -1,0 +1,454 @@
+// SPDX-License-Identifier: Apache-2.0
+// A hostile client at the direct line of a host, over real sockets and TLS: tickets that are
+// forged, replayed, expired, withdrawn, of others; orders beyond a ticket, and floods.
+#include "rave/direct_line/line_server.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <mutex>
+#include <thread>
+
+#include "page_key.hpp"
+#include "page_of_test.hpp"
+#include "rave/keys/web_keys.hpp"
+#include "raw_client.hpp"
+#include "signed_text.hpp"
+
+namespace rave::direct_line {
+namespace {
+
+namespace fs = std::filesystem;
+using gui_server::testing::RawSocket;
+using Kind = runtime::RunRequest::Kind;
+
+constexpr const char* kOrigin = "https://gui.example:8080";
+
+/// A run that does at once what it is asked, and knows what that was.
+class FakeRun {
+ public:
+  FakeRun() : thread_([this](const std::stop_token& stop) { work(stop); }) {
+    runtime::RunStatus status;
+    status.scenario = "fake";
+    for (const char* const name : {"green-1", "green-2", "blue-1"}) {
+      status.robots.emplace_back().name = name;
+    }
+    control_.begin(status);
+  }
+  ~FakeRun() {
+    thread_.request_stop();
+    thread_.join();
+    control_.end();
+  }
+  [[nodiscard]] runtime::RunControl& control() { return control_; }
+  [[nodiscard]] std::vector<runtime::RunRequest> asked() const {
+    const std::lock_guard lock(mutex_);
+    return asked_;
+  }
+  /// Waits until so many were asked.
+  [[nodiscard]] std::vector<runtime::RunRequest> wait_for(std::size_t count) const {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    while (asked().size() < count && std::chrono::steady_clock::now() < end) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return asked();
+  }
+  std::atomic<bool> stuck = false;
+
+ private:
+  void work(const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      if (!stuck) {
+        control_.serve(
+            [this](const runtime::RunRequest& request) -> Result<std::string> {
+              const std::lock_guard lock(mutex_);
+              asked_.push_back(request);
+              if (request.value == "refuse") return fail(ErrorCode::kState, "`ben` drives it");
+              return "did " + std::string(to_string(request.kind)) + " " + request.robot;
+            },
+            [](runtime::RunStatus& status) { status.robots[0].lease = "anna"; });
+      }
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+  }
+  runtime::RunControl control_;
+  mutable std::mutex mutex_;
+  std::vector<runtime::RunRequest> asked_;
+  std::jthread thread_;
+};
+
+class Journal final : public LogSink {
+ public:
+  void write(LogLevel, std::string_view, std::string_view message) override {
+    const std::lock_guard lock(mutex_);
+    text_.append(message) += '\n';
+  }
+  [[nodiscard]] bool has(std::string_view what) const {
+    const std::lock_guard lock(mutex_);
+    return text_.find(what) != std::string::npos;
+  }
+  [[nodiscard]] std::string text() const {
+    const std::lock_guard lock(mutex_);
+    return text_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::string text_;
+};
+
+class DirectLine : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = fs::temp_directory_path() / "rave-line-XXXXXX";
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    folder_ = name;
+    ASSERT_TRUE(keys::make_web_keys({folder_ / "web", {"127.0.0.1"}, 10, day_s()}));
+    options_.certificate = folder_ / "web/server.pem";
+    options_.key = folder_ / "web/server_key.pem";
+    options_.run = "0123";
+    options_.host = "left";
+    options_.signer = signer_.open;
+    options_.log = &journal_;
+    options_.clock_ms = [this] { return now_ms_.load(); };
+    auto started = LineServer::start(options_, run_.control());
+    ASSERT_TRUE(started) << started.error().text();
+    server_ = *std::move(started);
+  }
+  void TearDown() override {
+    server_.reset();
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+  static std::int64_t day_s() {
+    return std::chrono::duration_cast<std::chrono::seconds>(
+               std::chrono::system_clock::now().time_since_epoch())
+        .count();
+  }
+  [[nodiscard]] Ticket ticket() const {
+    Ticket ticket;
+    ticket.run = "0123";
+    ticket.host = "left";
+    ticket.user = "anna";
+    ticket.role = "commander";
+    ticket.origin = kOrigin;
+    ticket.orders.names = {"green-1", "green-2"};
+    ticket.stops.all = true;
+    ticket.releases.names = {"green-1", "green-2"};
+    ticket.page_key = page_.point();
+    ticket.epoch = 5;
+    ticket.expires_s = now_ms_ / 1000 + kTicketLife_s;
+    ticket.nonce = "first";
+    return ticket;
+  }
+  [[nodiscard]] RawSocket dial(const std::string& origin = kOrigin) const {
+    return {server_->port(), folder_ / "web/authority.pem", "Origin: " + origin + "\r\n"};
+  }
+  [[nodiscard]] std::string address() const {
+    return "127.0.0.1:" + std::to_string(server_->port());
+  }
+  static std::string challenge_of(RawSocket& socket) {
+    const std::string text = socket.text_with("\"challenge\"");
+    const std::string mark = "\"challenge\":\"";
+    const std::size_t at = text.find(mark) + mark.size();
+    return text.substr(at, text.find('"', at) - at);
+  }
+  void hello(RawSocket& socket, const std::string& text, const testing::PageKey& key) const {
+    const std::string proof = key.sign(proof_text(challenge_of(socket), address(), text));
+    socket.send(R"({"type":"hello","ticket":")" + text + R"(","proof":")" + base64_of(proof) +
+                "\"}");
+  }
+  [[nodiscard]] std::string signed_ticket() const { return sign_ticket(ticket(), signer_); }
+  /// A line that is welcome.
+  [[nodiscard]] RawSocket line() const { return line(ticket()); }
+  [[nodiscard]] RawSocket line(const Ticket& with) const {
+    RawSocket socket = dial(with.origin);
+    hello(socket, sign_ticket(with, signer_), page_);
+    EXPECT_NE(socket.text_with("\"welcome\""), "");
+    return socket;
+  }
+  /// What comes of a hello that must not be welcome.
+  void expect_refused(const std::string& text, const testing::PageKey& key, const char* why,
+                      const std::string& origin = kOrigin) {
+    RawSocket socket = dial(origin);
+    hello(socket, text, key);
+    EXPECT_EQ(socket.close_code(), 4401) << why;
+    EXPECT_EQ(socket.heard().find("welcome"), std::string::npos);
+    EXPECT_TRUE(journal_.has(why)) << why << "\n" << journal_.text();
+  }
+  static std::string drive(int id, const char* robot, const char* rest = R"("v":0.5,"w":0)") {
+    return fmt::format(R"({{"type":"order","id":{},"kind":"drive","robot":"{}",{}}})", id, robot,
+                       rest);
+  }
+
+  fs::path folder_;
+  std::atomic<std::int64_t> now_ms_ = 1'790'000'000'000;
+  SigningKey signer_ = new_signing_key();
+  testing::PageKey page_;
+  Journal journal_;
+  FakeRun run_;
+  LineOptions options_;
+  std::unique_ptr<LineServer> server_;
+};
+
+TEST_F(DirectLine, OrdersOfATicketReachTheRunWithItsName) {
+  RawSocket anna = line();
+  anna.send(drive(1, "green-1", R"("v":0.5,"w":-1,"echo":true)"));
+  EXPECT_NE(anna.text_with("\"answer\"").find(R"("id":1,"good":true)"), std::string::npos);
+  anna.send(R"({"type":"order","id":2,"kind":"goal","robot":"green-2","points":[[1,2]]})");
+  EXPECT_NE(anna.text_with("\"answer\"").find("did goal green-2"), std::string::npos);
+  anna.send(R"({"type":"order","id":3,"kind":"text","robot":"green-1","text":"refuse"})");
+  EXPECT_NE(anna.text_with("\"answer\"").find(R"("id":3,"good":false,"text":"`ben` drives it")"),
+            std::string::npos);
+  anna.send(R"({"type":"ping","id":4})");
+  EXPECT_EQ(anna.text_with("\"pong\""), R"({"type":"pong","id":4})");
+  EXPECT_NE(anna.text_with("\"state\"").find(R"("leases":{"green-1":"anna"})"), std::string::npos);
+  const auto asked = run_.asked();
+  ASSERT_EQ(asked.size(), 3U);
+  EXPECT_EQ(asked[0].kind, Kind::kDrive);
+  EXPECT_EQ(asked[0].w_radps, -1);
+  for (const auto& request : asked) {
+    EXPECT_EQ(request.by, "anna");
+    EXPECT_FALSE(request.overrides);
+  }
+}
+
+TEST_F(DirectLine, StopIsOfAllThatTheTicketCoversAndReleaseOfTheOwnTeam) {
+  RawSocket anna = line();
+  anna.send(R"({"type":"order","id":1,"kind":"stop"})");
+  EXPECT_NE(anna.text_with("\"answer\"").find("\"good\":true"), std::string::npos);
+  anna.send(R"({"type":"order","id":2,"kind":"release"})");
+  EXPECT_NE(anna.text_with("\"answer\"").find("did release green-1; did release green-2"),
+            std::string::npos);
+  const auto asked = run_.asked();
+  ASSERT_EQ(asked.size(), 3U);
+  EXPECT_EQ(asked[0].robot, "");
+  EXPECT_EQ(asked[2].robot, "green-2");
+}
+
+TEST_F(DirectLine, SuperUsersOverride) {
+  Ticket boss = ticket();
+  boss.role = "super_user";
+  RawSocket line_of_boss = line(boss);
+  line_of_boss.send(R"({"type":"order","id":1,"kind":"release","robot":"green-1"})");
+  EXPECT_TRUE(run_.wait_for(1).at(0).overrides);
+}
+
+TEST_F(DirectLine, TicketsThatDoNotHoldAreRefusedAndLogged) {
+  const testing::PageKey thief;
+  expect_refused(sign_ticket(ticket(), new_signing_key()), page_, "has not signed the ticket");
+  expect_refused(signed_ticket(), thief, "showed a ticket of `anna` without the key of the page");
+  expect_refused("forged.ticket", page_, "this is no ticket");
+  Ticket other = ticket();
+  other.run = "4567";
+  expect_refused(sign_ticket(other, signer_), page_, "the ticket is of another run");
+  other = ticket();
+  other.host = "right";
+  expect_refused(sign_ticket(other, signer_), page_,
+                 "the ticket is for host `right`, and this is `left`");
+  other = ticket();
+  other.expires_s = now_ms_ / 1000 - 60;
+  expect_refused(sign_ticket(other, signer_), page_, "the ticket has expired 60 s ago");
+  expect_refused(signed_ticket(), page_, "and this one is of https://evil.example",
+                 "https://evil.example");
+  EXPECT_TRUE(journal_.has("somebody (127.0.0.1)"));
+  EXPECT_EQ(server_->counts().welcomed, 0U);
+  EXPECT_TRUE(run_.asked().empty());
+}
+
+TEST_F(DirectLine, AProofIsForOneChallengeAndOneAddress) {
+  const std::string text = signed_ticket();
+  RawSocket first = dial();
+  const std::string proof = page_.sign(proof_text(challenge_of(first), address(), text));
+  const std::string replayed =
+      R"({"type":"hello","ticket":")" + text + R"(","proof":")" + base64_of(proof) + "\"}";
+  RawSocket second = dial();
+  EXPECT_NE(challenge_of(second), "");
+  second.send(replayed);
+  EXPECT_EQ(second.close_code(), 4401);
+  // A host in the middle has led the page elsewhere.
+  RawSocket third = dial();
+  const std::string elsewhere =
+      page_.sign(proof_text(challenge_of(third), "evil.example:8090", text));
+  third.send(R"({"type":"hello","ticket":")" + text + R"(","proof":")" + base64_of(elsewhere) +
+             "\"}");
+  EXPECT_EQ(third.close_code(), 4401);
+  first.send(replayed);
+  EXPECT_NE(first.text_with("\"welcome\""), "");
+}
+
+TEST_F(DirectLine, NothingIsTakenBeforeATicket) {
+  for (const std::string& message :
+       {drive(1, "green-1"), std::string(R"({"type":"order","id":1,"kind":"stop"})"),
+        std::string(R"({"type":"ping","id":1})"),
+        "{\"type\":\"ticket\",\"ticket\":\"" + signed_ticket() + "\"}"}) {
+    RawSocket socket = dial();
+    socket.send(message);
+    EXPECT_EQ(socket.close_code(), 4401) << message;
+  }
+  EXPECT_TRUE(run_.asked().empty());
+}
+
+TEST_F(DirectLine, OrdersBeyondTheTicketAreRefusedAndLogged) {
+  RawSocket anna = line();
+  int id = 0;
+  for (const char* const order :
+       {R"("kind":"drive","robot":"blue-1","v":1,"w":0)",
+        R"("kind":"goal","robot":"blue-1","points":[[0,0]])",
+        R"("kind":"release","robot":"blue-1")", R"("kind":"take","robot":"blue-1","force":true)",
+        R"("kind":"drive","robot":"nobody","v":1,"w":0)"}) {
+    anna.send(fmt::format(R"({{"type":"order","id":{},{}}})", ++id, order));
+    const std::string answer = anna.text_with("\"answer\"");
+    EXPECT_NE(answer.find("is not among your rights"), std::string::npos) << answer;
+  }
+  EXPECT_TRUE(run_.asked().empty());
+  EXPECT_TRUE(journal_.has("refused drive of anna (127.0.0.1): `drive` of `blue-1`"))
+      << journal_.text();
+  anna.send(drive(9, "green-1", R"("v":NaN,"w":0)"));
+  EXPECT_NE(anna.text_with("\"answer\"").find("\"good\":false"), std::string::npos);
+  EXPECT_TRUE(run_.asked().empty());
+}
+
+TEST_F(DirectLine, AWithdrawalEndsLinesAndTheirTickets) {
+  RawSocket anna = line();
+  anna.send(drive(1, "green-1"));
+  EXPECT_EQ(run_.wait_for(1).size(), 1U);
+  // Of somebody else, of another run, of a stranger, and of an epoch that is over: nothing happens.
+  server_->withdraw(sign_withdrawal({"0123", "ben", 9}, signer_));
+  server_->withdraw(sign_withdrawal({"4567", "anna", 9}, signer_));
+  server_->withdraw(sign_withdrawal({"0123", "anna", 9}, new_signing_key()));
+  server_->withdraw(sign_withdrawal({"0123", "anna", 5}, signer_));
+  anna.send(R"({"type":"ping","id":1})");
+  EXPECT_NE(anna.text_with("\"pong\""), "");
+  EXPECT_EQ(server_->counts().withdrawn, 0U);
+  server_->withdraw(sign_withdrawal({"0123", "anna", 9}, signer_));
+  EXPECT_EQ(anna.close_code(), 4403);
+  // What was driven stands.
+  const auto asked = run_.wait_for(2);
+  ASSERT_EQ(asked.size(), 2U);
+  EXPECT_EQ(asked[1].kind, Kind::kDrive);
+  EXPECT_EQ(asked[1].v_mps, 0);
+  expect_refused(signed_ticket(), page_, "the ticket of `anna` was withdrawn");
+  Ticket next = ticket();
+  next.epoch = 9;
+  EXPECT_NE(line(next).answer(), "");
+}
+
+TEST_F(DirectLine, AHostThatExpiresEndsTheLineAndARenewedOneGoesOn) {
+  RawSocket anna = line();
+  RawSocket ben = [this] {
+    Ticket of_ben = ticket();
+    of_ben.user = "ben";
+    of_ben.nonce = "second";
+    return line(of_ben);
+  }();
+  now_ms_ += (kTicketLife_s / 2) * 1000;
+  anna.send(R"({"type":"ticket","ticket":")" + signed_ticket() + "\"}");
+  EXPECT_NE(anna.text_with("\"renewed\""), "");
+  // The ticket of somebody else does not make anna another.
+  now_ms_ += (kTicketLife_s / 2 + kClockSlack_s + 1) * 1000;
+  EXPECT_EQ(ben.close_code(), 4401);
+  anna.send(drive(1, "green-1", R"("v":0,"w":0,"echo":true)"));
+  EXPECT_NE(anna.text_with("\"answer\"").find("\"good\":true"), std::string::npos);
+  Ticket of_ben = ticket();
+  of_ben.user = "ben";
+  anna.send(R"({"type":"ticket","ticket":")" + sign_ticket(of_ben, signer_) + "\"}");
+  EXPECT_EQ(anna.close_code(), 4401);
+}
+
+TEST_F(DirectLine, TheRobotStandsWhenThePageIsGone) {
+  {
+    RawSocket anna = line();
+    anna.send(drive(1, "green-1"));
+    anna.send(drive(2, "green-2", R"("v":0,"w":0)"));
+    EXPECT_EQ(run_.wait_for(2).size(), 2U);
+  }
+  const auto asked = run_.wait_for(3);
+  ASSERT_EQ(asked.size(), 3U);
+  EXPECT_EQ(asked[2].robot, "green-1");
+  EXPECT_EQ(asked[2].v_mps, 0);
+  EXPECT_EQ(asked[2].by, "anna");
+}
+
+TEST_F(DirectLine, TheRobotStandsWhenTheHostEnds) {
+  RawSocket anna = line();
+  anna.send(drive(1, "green-1"));
+  EXPECT_EQ(run_.wait_for(1).size(), 1U);
+  server_.reset();
+  ASSERT_EQ(run_.wait_for(2).size(), 2U);
+  EXPECT_EQ(run_.asked()[1].v_mps, 0);
+  EXPECT_EQ(anna.close_code(), 1001);
+}
+
+TEST_F(DirectLine, TheNewerLineOfAPageStays) {
+  RawSocket old = line();
+  RawSocket young = line();
+  EXPECT_EQ(old.close_code(), 4408);
+  young.send(R"({"type":"ping","id":7})");
+  EXPECT_NE(young.text_with("\"pong\""), "");
+}
+
+TEST_F(DirectLine, OfManyDrivesTheNewestCountsAndAStopIsNotHeldUp) {
+  RawSocket anna = line();
+  run_.stuck = true;
+  for (int i = 0; i < 400; ++i) {
+    anna.send(drive(i, "green-1", fmt::format(R"("v":{},"w":0)", 0.001 * i).c_str()));
+  }
+  anna.send(R"({"type":"order","id":500,"kind":"stop"})");
+  anna.send(R"({"type":"ping","id":1})");
+  EXPECT_NE(anna.text_with("\"pong\""), "");
+  run_.stuck = false;
+  const auto asked = run_.wait_for(3);
+  ASSERT_GE(asked.size(), 3U);
+  EXPECT_LE(asked.size(), 4U);
+  // The first one was under way already; what came in between is old.
+  EXPECT_EQ(asked[1].kind, Kind::kStop);
+  EXPECT_EQ(asked.back().v_mps, 0.001 * 399);
+}
+
+TEST_F(DirectLine, FloodsEndTheLineAndHarmNobodyElse) {
+  Ticket of_ben = ticket();
+  of_ben.user = "ben";
+  of_ben.nonce = "second";
+  RawSocket ben = line(of_ben);
+  RawSocket anna = line();
+  for (int i = 0; i < 2000; ++i) anna.send(drive(i, "green-1"));
+  EXPECT_EQ(anna.close_code(), 4429);
+  RawSocket nonsense = line();
+  for (int i = 0; i < 30; ++i) nonsense.send("{}");
+  EXPECT_EQ(nonsense.close_code(), 4400);
+  ben.send(R"({"type":"order","id":1,"kind":"stop"})");
+  EXPECT_NE(ben.text_with("\"answer\"").find("\"good\":true"), std::string::npos);
+  RawSocket large = dial();
+  EXPECT_NE(challenge_of(large), "");
+  large.send(std::string(400'000, ' '));
+  EXPECT_EQ(large.close_code(), 1009);
+}
+
+TEST_F(DirectLine, StrangersHaveFiveSecondsAndFewPlaces) {
+  std::vector<std::unique_ptr<RawSocket>> strangers;
+  for (int i = 0; i < 33; ++i) strangers.push_back(std::make_unique<RawSocket>(dial()));
+  EXPECT_EQ(strangers.back()->close_code(), 4429);
+  EXPECT_EQ(strangers.front()->close_code(), 4401);
+  EXPECT_TRUE(journal_.has("showed no ticket"));
+  EXPECT_NE(line().answer(), "");
+}
+
+TEST(DirectLineOptions, AnotherAddressNeedsTls) {
+  runtime::RunControl control;
+  LineOptions options;
+  options.address = "0.0.0.0";
+  const auto started = LineServer::start(options, control);
+  ASSERT_FALSE(started);
+  EXPECT_NE(started.error().message.find("a direct line on 0.0.0.0 needs TLS"), std::string::npos);
+  options.address = "127.0.0.1";
+  const auto here = LineServer::start(options, control);
+  ASSERT_TRUE(here) << here.error().text();
+  EXPECT_EQ((*here)->url(), fmt::format("ws://127.0.0.1:{}/ws", (*here)->port()));
+}
+
+}  // namespace
+}  // namespace rave::direct_line

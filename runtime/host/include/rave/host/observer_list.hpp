@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "rave/host/run.hpp"
+#include "rave/observe/run_observer.hpp"
+#include "rave/plugin/catalogue.hpp"
+#include "rave/recording/console_tee.hpp"
+#include "rave/recording/record_keeper.hpp"
+#include "rave/results/observers.hpp"
+#include "rave/ros2_bridge/ros2_face.hpp"
+#include "rave/shadow/shadows.hpp"
+
+namespace rave::runtime {
+
+/// All who look at a run, in the order in which they do: results, ROS 2, shadows, those of the
+/// options; then the recording, which keeps what the others found.
+class ObserverList {
+ public:
+  /// What the list is made from. Refers to its parts, which outlive the list.
+  struct Parts {
+    const config::ExpandedScenario& scenario;  ///< With the history that observers need.
+    const std::string& expanded;               ///< The scenario as a file.
+    const std::vector<std::string>& robot_kinds;
+    const sim::Engine& engine;
+    plugin::Catalogue& catalogue;
+    const RunOptions& options;
+    ConsoleTee& console;
+    std::string host{};    ///< Of one of several: its name.
+    bool live = false;     ///< In real time.
+    bool shadows = false;  ///< Shadows run; not in lock-step over processes.
+  };
+  /// Opens all of them. Errors: what keeps one from starting.
+  [[nodiscard]] static Result<std::unique_ptr<ObserverList>> open(const Parts& parts);
+  ObserverList(const ObserverList&) = delete;
+  ObserverList& operator=(const ObserverList&) = delete;
+  ~ObserverList();
+
+  /// All but the recording.
+  void after_step(const StepView& step);
+  /// The run is held.
+  void held(const sim::Engine& engine);
+  /// The recording, behind after_step().
+  void keep(const StepView& step);
+  /// What they found in the last step goes to the log and to `all`.
+  void tell_found(const sim::Engine& engine, LogSink* log, std::vector<sim::Event>& all) const;
+
+  [[nodiscard]] Observers& results() noexcept { return results_; }
+  [[nodiscard]] const Observers& results() const noexcept { return results_; }
+  [[nodiscard]] Shadows* shadows() const noexcept { return shadows_.get(); }
+
+  /// Does what somebody asks of the run between two steps, or of a shadow, and notes it in the
+  /// recording. Returns what was done, for people.
+  Result<std::string> serve(sim::Engine& engine, const RunRequest& request);
+  /// Notes in the recording what was asked of the run and counts from this step on.
+  void keep(const RunRequest& request, std::uint64_t step);
+  /// Ends the recording. `hash`: none for a live run. Returns why it is not whole; empty if it is,
+  /// or if there is none.
+  [[nodiscard]] std::string end_record(std::optional<std::uint64_t> hash);
+
+ private:
+  explicit ObserverList(const Parts& parts);
+  Status open_all(const Parts& parts);
+
+  ConsoleTee& console_;
+  Observers results_;
+  std::unique_ptr<Ros2Face> ros2_;
+  std::unique_ptr<Shadows> shadows_;
+  std::vector<RunObserver*> others_;
+  std::unique_ptr<RecordKeeper> record_;
+};
+
+}  // namespace rave::runtime

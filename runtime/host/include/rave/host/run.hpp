@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "rave/base/log.hpp"
+#include "rave/base/result.hpp"
+#include "rave/config/expanded_scenario.hpp"
+#include "rave/control/run_control.hpp"
+#include "rave/plugin/catalogue.hpp"
+#include "rave/report/progress.hpp"
+#include "rave/results/run_outcome.hpp"
+
+namespace rave::runtime {
+
+class RunObserver;
+
+/// How to run a scenario. What the command line overrides (seed, duration, threads, pace) is put
+/// into the ExpandedScenario before.
+struct RunOptions {
+  /// Folder for everything that the run leaves; created. Files of an earlier run are replaced.
+  std::filesystem::path output;
+  std::filesystem::path program_runner;  ///< The executable for isolated programs.
+  bool picture = true;                   ///< Draw picture.svg and picture.png.
+  bool record = true;                    ///< Write run.mcap.
+  LogSink* log = nullptr;                ///< Not owned; outlives the call.
+  /// Called in the calling thread about ten times a second of wall time; may be empty.
+  std::function<void(const report::Progress&)> on_progress;
+  /// Who else looks at the run. Not owned; they outlive it.
+  std::vector<RunObserver*> observers{};
+  /// Pauses, steps and ends the run from elsewhere; may be null. Not owned.
+  RunControl* control = nullptr;
+  /// Arm all robots when the run starts; without it those that must be armed wait for somebody.
+  bool arm = false;
+  /// Name of the run for who controls it from elsewhere; only for messages.
+  std::string run_name;
+};
+
+/// Runs a scenario to its end in the calling thread. Errors: what keeps it from starting, and a
+/// stepped driver that stops answering. A run that is merely not whole is no Error.
+[[nodiscard]] Result<RunOutcome> run(const config::ExpandedScenario& scenario,
+                                     plugin::Catalogue& catalogue, const RunOptions& options);
+
+}  // namespace rave::runtime

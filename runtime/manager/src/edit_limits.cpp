@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "edit_limits.hpp"
+
+#include <algorithm>
+
+#include "rave/protocol/obstacle_messages.hpp"
+
+namespace rave::manager {
+
+Status EditLimits::take(const sim::ObstacleChange& change, Clock::time_point now) {
+  RAVE_TRY(lock_step::check_fits(change));
+  const auto bytes = static_cast<double>(lock_step::wire_bytes(change));
+  if (filled_ != Clock::time_point{}) {
+    const double since_s = std::chrono::duration<double>(now - filled_).count();
+    edits_ = std::min(kPerSecond, edits_ + since_s * kPerSecond);
+    bytes_ = std::min(kBytesPerSecond, bytes_ + since_s * kBytesPerSecond);
+  }
+  filled_ = now;
+  if (edits_ < 1 || bytes_ < bytes) {
+    return fail(ErrorCode::kState,
+                "too many edits at once: a run of several processes takes {} a second and {} MB of "
+                "them; ask again later",
+                kPerSecond, kBytesPerSecond * 1e-6);
+  }
+  const bool grows = change.kind != sim::ObstacleChange::Kind::kRemove;
+  if (grows && (entries_ >= kMostEntries ||
+                all_bytes_ + static_cast<std::size_t>(bytes) > lock_step::kMostObstacleBytes)) {
+    return fail(
+        ErrorCode::kState,
+        "the obstacles that came or changed are as many as hosts that come late can be told "
+        "of: {} of at most {}, {} of at most {} bytes",
+        entries_, kMostEntries, all_bytes_, lock_step::kMostObstacleBytes);
+  }
+  if (open_ >= kMostOpen) {
+    return fail(ErrorCode::kState,
+                "{} edits wait for the next step, which is as many as it takes; ask again later",
+                open_);
+  }
+  ++open_;
+  edits_ -= 1;
+  bytes_ -= bytes;
+  return {};
+}
+
+void EditLimits::made(const sim::ObstacleChange& change) {
+  // The removal of one that came was counted with it.
+  if (!changed_.insert(change.id.value()).second) return;
+  entries_ += change.kind == sim::ObstacleChange::Kind::kAdd ? 2 : 1;
+  all_bytes_ += lock_step::wire_bytes(change) - change.asked.size();
+}
+
+Status check_scheduled(const sim::EngineSpec& spec) {
+  std::size_t bytes = 0;
+  for (const sim::ScheduledObstacle& scheduled : spec.obstacle_changes) {
+    RAVE_TRY(lock_step::check_fits(scheduled.change));
+    bytes += lock_step::wire_bytes(scheduled.change);
+  }
+  if (spec.obstacle_changes.size() <= EditLimits::kMostEntries &&
+      bytes <= lock_step::kMostObstacleBytes) {
+    return {};
+  }
+  return fail(
+      ErrorCode::kInvalidArgument,
+      "the scenario changes obstacles {} times, in {} bytes; hosts that come late can be told "
+      "of {} and of {} bytes",
+      spec.obstacle_changes.size(), bytes, EditLimits::kMostEntries, lock_step::kMostObstacleBytes);
+}
+
+}  // namespace rave::manager

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "rave/bus/event_log.hpp"
+#include "rave/bus/host_claims.hpp"
+#include "rave/bus/standstill.hpp"
+#include "rave/bus/wait_set.hpp"
+#include "rave/bus/wish_box.hpp"
+#include "rave/bus/writer.hpp"
+#include "rave/manager/live_manager.hpp"
+#include "rave/protocol/findings.hpp"
+#include "rave/protocol/live_messages.hpp"
+#include "rave/protocol/obstacle_messages.hpp"
+#include "rave/protocol/pulse.hpp"
+#include "rave/protocol/realities.hpp"
+#include "roster_book.hpp"
+#include "step_rate.hpp"
+
+namespace rave::manager {
+
+/// The place of one host of a run in real time, whoever sits in it.
+struct LiveSeat {
+  std::string name;
+  std::string command{};  ///< That starts it again; empty: nobody has to.
+  std::uint32_t robots = 0;
+  std::uint32_t real = 0;    ///< Of these.
+  std::uint64_t writer = 0;  ///< The process; 0: nobody.
+  bool heard = false;        ///< Somebody was there.
+  /// All that have sat here, in the order of their first times.
+  std::vector<std::uint64_t> sat{};
+  std::uint64_t losses = 0;
+  std::uint64_t last_step = 0;
+  StepRate steps{};
+  std::int64_t offset_ns = 0;  ///< Our clock minus its own, as it says.
+  std::int64_t bound_ns = -1;
+  std::uint64_t obstacle_revision = 0;  ///< That it has around its robots,
+  std::int64_t obstacles_ns = 0;        ///< since then.
+};
+
+/// What a manager in real time knows of hosts and robots, and its end of the bus. Belongs to one
+/// thread.
+class LiveBoard {
+ public:
+  /// `options` must outlive it. Errors: those of bus::Bus::open().
+  [[nodiscard]] static Result<std::unique_ptr<LiveBoard>> open(const LiveManagerOptions& options);
+
+  /// Sleeps until something has come, the time is over or `stop` is set.
+  void wait(Duration timeout, const std::stop_token& stop = {}) {
+    pulse_.beat({worlds_sent_});
+    static_cast<void>(waits_->wait(timeout, stop));
+  }
+  /// Begins what others ask on the bus, and answers what is done.
+  void serve_wishes() {
+    if (wishes_) wishes_->serve();
+  }
+  /// Learns who is there and who is gone; that counts as a loss if the run `goes`. Errors: kState
+  /// (another manager).
+  Status look_at_processes(bool goes);
+  template <class Visit>
+  void take_pings(Visit&& visit) {
+    pings_.take(std::forward<Visit>(visit));
+  }
+  /// What its messages are signed with.
+  [[nodiscard]] std::uint64_t writer() const noexcept { return bus_->writer(); }
+  [[nodiscard]] const bus::Standstill& standstill() const noexcept { return bus_->standstill(); }
+  /// How often this process stood still for so long that it may have been missed.
+  [[nodiscard]] std::uint64_t standstills() const noexcept { return standstills_; }
+  /// Whether a process that asks for the time sits in its host's place, as it does now if that was
+  /// free.
+  bool sit_down(const bus::ClockPing& ping);
+  void answer(bus::ClockPong& pong) { static_cast<void>(pongs_.write(pong)); }
+  /// Takes in where hosts say that their robots are.
+  void take_states();
+  /// Simulated seconds per second of the slowest host that is there; 0: none is, or nobody knows.
+  [[nodiscard]] double slowest_speed() const;
+  /// Takes in what hosts say of their robots, and tells it those who ask for the status; `control`
+  /// has begun, or is null.
+  void take_roster(runtime::RunControl* control);
+  /// What hosts have said since the last call of robots with two sets of drivers.
+  [[nodiscard]] std::vector<real_time::RobotReality> take_realities();
+  /// After which a robot that is not heard of counts as stale, with the drivers that it has.
+  [[nodiscard]] Duration staleness(std::size_t robot) const { return staleness_[robot]; }
+  /// Sends where all robots are that were heard of. `stale`: by robot.
+  void send_world(std::uint64_t number, SimTime now, std::span<const std::uint8_t> stale);
+  /// Fills in how it stands with the hosts, and sends it.
+  void publish(bus::RunState& state);
+
+  [[nodiscard]] const std::vector<LiveSeat>& seats() const noexcept { return seats_; }
+  /// When a robot was where it was said to be last; nothing before it was heard of.
+  [[nodiscard]] std::optional<SimTime> stamp_of(std::size_t robot) const noexcept {
+    if (!known_[robot]) return std::nullopt;
+    return robots_[robot].stamp;
+  }
+  /// The robot as it was heard of last; null before.
+  [[nodiscard]] const real_time::RobotSight* sight_of(std::size_t robot) const noexcept {
+    return known_[robot] ? &robots_[robot] : nullptr;
+  }
+  /// Tells all hosts, those that come later too, how an obstacle stands. Errors: kInvalidArgument
+  /// (larger than the bus carries), kIo.
+  Status publish(const real_time::ObstacleSight& sight);
+  /// Takes in what hosts know of the run when it is over for them.
+  void take_findings();
+  [[nodiscard]] lock_step::FindingsCollector& findings() noexcept { return findings_; }
+  /// Asks the hosts that sit here what they know of the obstacles of the manager that was here
+  /// before; again if others have sat down since the last call. Errors: kState, kIo.
+  Status ask_for_handed();
+  /// Takes in what has come of that, of processes that fit. `check` says what cannot be; a process
+  /// that hands over such is named once in the log.
+  void take_handed(const std::function<Status(const real_time::ObstacleSight&)>& check);
+  /// Nothing is handed over any more, and what was is forgotten.
+  void end_handing();
+  /// All that was handed over, by number.
+  [[nodiscard]] const std::map<std::uint32_t, real_time::ObstacleSight>& handed_obstacles()
+      const noexcept {
+    return handed_;
+  }
+  /// The latest change of obstacles that any host says it has.
+  [[nodiscard]] std::uint64_t shown_revision() const noexcept;
+  [[nodiscard]] std::uint64_t states() const noexcept { return states_taken_; }
+  /// Whether a host has come or gone since the last call.
+  [[nodiscard]] bool take_news() noexcept { return std::exchange(news_, false); }
+
+ private:
+  struct Parts;
+  LiveBoard(const LiveManagerOptions& options, Parts parts);
+  void lose(std::uint64_t writer, bool goes);
+  void take_in(const bus::HostState& state);
+  void refuse_handed(std::uint64_t writer, std::string_view why);
+
+  const LiveManagerOptions& options_;
+  bus::EventLog foreign_;
+  std::unique_ptr<bus::Bus> bus_;
+  bus::Writer<bus::HostInfo> own_info_;
+  bus::Writer<bus::World> worlds_;
+  bus::Writer<bus::RunState> runs_;
+  bus::Writer<bus::ClockPong> pongs_;
+  bus::Writer<bus::Obstacle> obstacles_;
+  bus::Reader<bus::HostInfo> infos_;
+  bus::Reader<bus::ClockPing> pings_;
+  bus::Reader<bus::HostState> states_;
+  std::optional<bus::Reader<bus::LastObstacle>> handed_in_;  ///< While something is handed over.
+  bus::Reader<bus::RosterEntry> roster_;
+  lock_step::Pulse pulse_;
+  lock_step::FindingsCollector findings_;
+  std::unique_ptr<bus::WishBox> wishes_{};  ///< May be null.
+  std::optional<bus::WaitSet> waits_;
+  bus::HostInfo introduced_{};  ///< What the others were told of this process.
+  std::vector<LiveSeat> seats_;
+  bus::HostClaims claims_;
+  std::map<std::uint64_t, std::uint32_t> host_of_;  ///< Of processes that fit.
+  std::map<std::uint64_t, bool> refused_;           ///< Processes whose place is taken; told once.
+  std::vector<std::uint32_t> seat_of_;              ///< By robot.
+  std::vector<real_time::RobotSight> robots_;       ///< By robot, as heard last.
+  std::vector<bool> known_;
+  std::vector<std::uint64_t> said_by_;  ///< By robot: the process that spoke of it last.
+  RosterBook book_;
+  std::vector<Duration> staleness_;             ///< By robot.
+  std::vector<real_time::RobotReality> twins_;  ///< Robots with two sets of drivers, as told last.
+  real_time::RobotColumns columns_;
+  std::vector<std::uint32_t> stale_;
+  lock_step::ObstacleParts parts_;
+  std::map<std::uint32_t, real_time::ObstacleSight> handed_;
+  bool all_asked_ = false;               ///< Who sits here, what it has to hand over.
+  std::set<std::uint64_t> wrong_hands_;  ///< Processes that handed over what cannot be.
+  std::uint64_t states_taken_ = 0;
+  std::uint64_t worlds_sent_ = 0;
+  std::uint64_t standstills_ = 0;
+  bool news_ = false;
+};
+
+}  // namespace rave::manager

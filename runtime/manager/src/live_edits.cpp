@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "live_edits.hpp"
+
+#include <algorithm>
+
+#include "manager_habits.hpp"
+#include "rave/base/names.hpp"
+#include "rave/control/world_request.hpp"
+#include "rave/math/transform.hpp"
+
+namespace rave::manager {
+namespace {
+
+using ObstacleKind = sim::ObstacleChange::Kind;
+using RequestKind = runtime::RunRequest::Kind;
+
+/// Hosts that have not said by then that they have an edit are named in its answer.
+constexpr Duration kConfirmation = from_seconds(2);
+/// A manager that takes over waits this long for hosts, and for what they have to hand over.
+constexpr std::chrono::seconds kComing{1};
+constexpr std::chrono::seconds kHandingOver{5};
+
+bool is_edit(RequestKind kind) noexcept {
+  return kind == RequestKind::kAdd || kind == RequestKind::kMove || kind == RequestKind::kRemove;
+}
+
+/// In the order of their numbers, what leads from the obstacles of the start to those that stand.
+std::vector<sim::ObstacleChange> changes_of(
+    const std::map<std::uint32_t, real_time::ObstacleSight>& obstacles) {
+  std::vector<sim::ObstacleChange> changes;
+  for (const auto& [id, sight] : obstacles) {
+    changes.push_back(sight.stands);
+    if (!sight.removed) continue;
+    sim::ObstacleChange& gone = changes.emplace_back();
+    gone.kind = ObstacleKind::kRemove;
+    gone.id = sight.stands.id;
+    gone.name = sight.stands.name;
+  }
+  return changes;
+}
+
+std::uint64_t newest_of(const std::map<std::uint32_t, real_time::ObstacleSight>& obstacles) {
+  std::uint64_t newest = 0;
+  for (const auto& [id, sight] : obstacles) newest = std::max(newest, sight.revision);
+  return newest;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<LiveEdits>> LiveEdits::create(sim::EngineSpec spec,
+                                                     const LiveManagerOptions& options,
+                                                     LiveBoard& board) {
+  RAVE_TRY(check_scheduled(spec));
+  spec.own_authority = true;
+  spec.live_clock = nullptr;
+  std::vector<std::uint32_t> host_of(spec.robots.size(), 0);
+  RAVE_TRY_ASSIGN(auto authority, sim::WorldAuthority::create(std::move(spec), std::move(host_of)));
+  return std::unique_ptr<LiveEdits>(new LiveEdits(options, board, std::move(authority)));
+}
+
+void LiveEdits::begin(bool takes_over) {
+  begun_ = true;
+  takes_over_ = takes_over;
+  began_ = std::chrono::steady_clock::now();
+  if (options_.control == nullptr) return;
+  runtime::RunStatus status;
+  status.scenario = options_.scenario;
+  status.duration_s = options_.duration.seconds();
+  status.live = true;
+  for (const auto& robot : options_.robots) {
+    status.robots.push_back({robot.name, robot.simulated, true, false});
+  }
+  serves_ = true;
+  options_.control->begin(std::move(status));
+}
+
+void LiveEdits::end() {
+  waiting_.clear();
+  if (std::exchange(serves_, false)) options_.control->end();
+}
+
+bool LiveEdits::all_may_be_there() const {
+  const bool all = std::all_of(board_.seats().begin(), board_.seats().end(),
+                               [](const LiveSeat& seat) { return seat.writer != 0; });
+  return all || std::chrono::steady_clock::now() - began_ >= kComing;
+}
+
+/// Hears what hosts have to hand over, once they are there.
+Status LiveEdits::gather_handed() {
+  if (!all_may_be_there()) return {};
+  RAVE_TRY(board_.ask_for_handed());
+  board_.take_handed([this](const real_time::ObstacleSight& sight) {
+    return real_time::check_sight(sight, authority_->world());
+  });
+  return {};
+}
+
+/// Whether nothing is to be waited for any more.
+bool LiveEdits::handed_over() const {
+  if (!all_may_be_there()) return false;
+  const auto since = std::chrono::steady_clock::now() - began_;
+  return newest_of(board_.handed_obstacles()) >= board_.shown_revision() || since >= kHandingOver;
+}
+
+/// Those that came are numbered in a row, and no host can show one whose forerunner is missing.
+void LiveEdits::drop_orphans() {
+  std::uint32_t next = authority_->world().body_count();
+  auto it = obstacles_.lower_bound(next);
+  for (; it != obstacles_.end() && it->first == next; ++it) ++next;
+  const auto orphans = std::distance(it, obstacles_.end());
+  obstacles_.erase(it, obstacles_.end());
+  if (orphans == 0 || options_.log == nullptr) return;
+  options_.log->error(kSource,
+                      "{} obstacles that hosts handed over are left out: nobody knows of the one "
+                      "with the number {}, which came before them",
+                      orphans, next);
+}
+
+/// What the manager before had told the hosts; theirs are all that is left of it.
+Status LiveEdits::take_over(SimTime now) {
+  obstacles_ = board_.handed_obstacles();
+  board_.end_handing();
+  revision_ = newest_of(obstacles_);
+  if (revision_ < board_.shown_revision() && options_.log != nullptr) {
+    options_.log->error(kSource, "hosts have obstacles up to change {}, but handed over only {}",
+                        board_.shown_revision(), revision_);
+  }
+  revision_ = std::max(revision_, board_.shown_revision());
+  drop_orphans();
+  const std::vector<sim::ObstacleChange> changes = changes_of(obstacles_);
+  if (auto put = authority_->put_obstacles(changes, now); !put) {
+    // The run goes on: hosts have their obstacles, and this manager those of the start.
+    obstacles_.clear();
+    takes_over_ = false;
+    if (options_.log != nullptr) {
+      options_.log->error(kSource, "what hosts handed over of obstacles cannot be: {}",
+                          put.error().message);
+    }
+    return {};
+  }
+  for (const sim::ObstacleChange& change : changes) limits_.made(change);
+  for (const auto& [id, sight] : obstacles_) {
+    next_scheduled_ = std::max(
+        next_scheduled_,
+        std::min<std::size_t>(sight.scheduled, authority_->spec().obstacle_changes.size()));
+    RAVE_TRY(publish(sight));
+  }
+  takes_over_ = false;
+  return {};
+}
+
+Status LiveEdits::publish(const real_time::ObstacleSight& sight) {
+  RAVE_TRY(board_.publish(sight));
+  published_ = std::max(published_, sight.revision);
+  return {};
+}
+
+Status LiveEdits::look(SimTime now) {
+  if (!begun_) return {};
+  follow_hand_overs();
+  if (takes_over_) RAVE_TRY(gather_handed());
+  if (takes_over_ && handed_over()) RAVE_TRY(take_over(now));
+  if (!takes_over_) make_scheduled(now);
+  if (!serves_) return {};
+  options_.control->set_time(std::max(0.0, now.seconds()));
+  for (runtime::RunControl::Asked& asked : options_.control->take()) {
+    serve(std::move(asked), now);
+  }
+  answer_waiting(now);
+  return {};
+}
+
+void LiveEdits::make_scheduled(SimTime now) {
+  const sim::EngineSpec& spec = authority_->spec();
+  while (next_scheduled_ < spec.obstacle_changes.size()) {
+    const sim::ScheduledObstacle& scheduled = spec.obstacle_changes[next_scheduled_];
+    const std::int64_t due_ns = static_cast<std::int64_t>(scheduled.step) * spec.step.ns;
+    if (due_ns > std::max<std::int64_t>(0, now.ns)) return;
+    ++next_scheduled_;
+    const auto made = make(scheduled.change, now);
+    if (!made) {
+      const auto step =
+          static_cast<std::uint64_t>(std::max<std::int64_t>(0, now.ns) / spec.step.ns);
+      refused_.push_back(
+          {step, RobotId(), sim::EventKind::kChangeRefused, BodyId(), made.error().text()});
+    }
+    if (options_.log == nullptr) continue;
+    if (made) options_.log->info("scenario", "{:.2f} s: {}", now.seconds(), *made);
+    if (!made) options_.log->error("scenario", "{:.2f} s: {}", now.seconds(), made.error().message);
+  }
+}
+
+/// Obstacles may be put where real robots are.
+void LiveEdits::follow_hand_overs() {
+  for (const real_time::RobotReality& said : board_.take_realities()) {
+    const std::uint32_t r = said.robot.value();
+    const sim::EngineSpec& spec = authority_->spec();
+    const sim::RobotSpec& its = spec.robots[r];
+    const bool changes = its.twin && spec.types[its.type].simulated != said.simulated &&
+                         spec.types[*its.twin].simulated == said.simulated;
+    if (!changes) continue;
+    const Status changed =
+        authority_->change_type(said.robot, *its.twin, authority_->pose(said.robot));
+    if (!changed) continue;
+    authority_->place(said.robot, authority_->pose(said.robot), board_.sight_of(r) != nullptr);
+  }
+}
+
+/// Where robots should be by now, as far as their hosts have said.
+void LiveEdits::place_robots(SimTime now) {
+  for (std::uint32_t r = 0; r < options_.robots.size(); ++r) {
+    const real_time::RobotSight* const sight = board_.sight_of(r);
+    if (sight == nullptr) continue;
+    const std::int64_t age_ns =
+        std::clamp<std::int64_t>((now - sight->stamp).ns, 0, board_.staleness(r).ns);
+    authority_->place(RobotId(r),
+                      integrate(sight->X_WR, sight->velocity, Duration{age_ns}.seconds()), true);
+  }
+}
+
+Result<std::string> LiveEdits::make(const sim::ObstacleChange& change, SimTime now) {
+  place_robots(now);
+  std::string remark;
+  RAVE_TRY_ASSIGN(const sim::ObstacleChange made, authority_->decide(change, now, remark));
+  limits_.step_done();
+  limits_.made(made);
+  note(made);
+  const sim::Event event = sim::obstacle_event(0, made, remark, !made.asked.empty());
+  return fmt::format("{} {}", runtime::word_of(made.kind), event.text);
+}
+
+/// Tells the hosts how the obstacle stands now.
+void LiveEdits::note(const sim::ObstacleChange& made) {
+  auto [place, is_new] = obstacles_.try_emplace(made.id.value());
+  real_time::ObstacleSight& sight = place->second;
+  if (is_new || sight.stands.kind != ObstacleKind::kAdd) {
+    sight.stands = made;
+  } else {
+    if (made.kind == ObstacleKind::kMove) sight.stands.X_WB = made.X_WB;
+    sight.removed = made.kind == ObstacleKind::kRemove;
+    sight.stands.asked = made.asked;
+  }
+  sight.revision = ++revision_;
+  sight.scheduled = next_scheduled_;
+  const Status told = publish(sight);
+  if (!told && options_.log != nullptr) {
+    options_.log->error(kSource, "obstacle `{}` was not sent: {}", made.name, told.error().message);
+  }
+}
+
+Result<std::string> LiveEdits::edit(const runtime::RunRequest& request, SimTime now) {
+  if (!is_edit(request.kind)) {
+    return fail(
+        ErrorCode::kState,
+        "in real time each host controls its own robots: ask the process of the host that "
+        "runs them, which `rave ps` lists and which is RUN@HOST on the bus; obstacles are changed "
+        "here");
+  }
+  if (takes_over_) {
+    return fail(ErrorCode::kState, "this manager is taking over from another one; ask again");
+  }
+  RAVE_TRY_ASSIGN(sim::WorldInput input, runtime::input_of(authority_->spec(), request));
+  RAVE_TRY(limits_.take(*input.obstacle, EditLimits::Clock::now()));
+  return make(*input.obstacle, now);
+}
+
+void LiveEdits::serve(runtime::RunControl::Asked asked, SimTime now) {
+  if (asked.request().kind == RequestKind::kList) {
+    asked.answer(runtime::obstacle_list(authority_->world()));
+    return;
+  }
+  auto made = edit(asked.request(), now);
+  if (!made) {
+    if (options_.log != nullptr) {
+      options_.log->warn("by hand", "refused: {}", made.error().message);
+    }
+    asked.answer(fail(made.error().code, "{}", made.error().message));
+    return;
+  }
+  const auto before = std::chrono::steady_clock::now() - asked.since();
+  const Duration ago{std::chrono::duration_cast<std::chrono::nanoseconds>(before).count()};
+  waiting_.push_back({std::move(asked), revision_, now - ago, *std::move(made)});
+}
+
+std::vector<std::string_view> LiveEdits::hosts_without(std::uint64_t revision) const {
+  std::vector<std::string_view> names;
+  for (const LiveSeat& seat : board_.seats()) {
+    if (seat.writer != 0 && seat.obstacle_revision < revision) names.emplace_back(seat.name);
+  }
+  return names;
+}
+
+void LiveEdits::answer_waiting(SimTime now) {
+  std::erase_if(waiting_, [&](Waiting& one) {
+    const auto missing = hosts_without(one.revision);
+    if (!missing.empty() && now - one.since < kConfirmation) return false;
+    std::int64_t last_ns = one.since.ns;
+    std::size_t hosts = 0;
+    for (const LiveSeat& seat : board_.seats()) {
+      if (seat.writer == 0) continue;
+      ++hosts;
+      last_ns = std::max(last_ns, seat.obstacles_ns);
+    }
+    std::string reach;
+    if (missing.empty()) {
+      const double after_s = Duration{last_ns - one.since.ns}.seconds();
+      reach = fmt::format("around the robots of all {} hosts {:.1f} ms after it was asked for",
+                          hosts, after_s * 1e3);
+      edits_.slowest_s = std::max(edits_.slowest_s, after_s);
+      edits_.sum_s += after_s;
+      ++edits_.confirmed;
+    } else {
+      reach = fmt::format("not confirmed by {}", join_names(missing));
+    }
+    ++edits_.made;
+    const std::string text = fmt::format("{}; {}", one.text, reach);
+    if (options_.log != nullptr) options_.log->info("by hand", "{:.2f} s: {}", now.seconds(), text);
+    one.asked.answer(text);
+    return true;
+  });
+}
+
+}  // namespace rave::manager

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "edit_limits.hpp"
+#include "live_board.hpp"
+#include "rave/manager/live_manager.hpp"
+#include "rave/sim/world_authority.hpp"
+
+namespace rave::manager {
+
+/// The obstacles of a run in real time: makes the changes of the scenario when they are due and
+/// those that people ask for at once, tells all hosts, and measures when all of them have them
+/// around their robots. Belongs to one thread.
+class LiveEdits {
+ public:
+  /// Neither `options` nor `board` is owned. Errors: kInvalidArgument (the scenario).
+  [[nodiscard]] static Result<std::unique_ptr<LiveEdits>> create(sim::EngineSpec spec,
+                                                                 const LiveManagerOptions& options,
+                                                                 LiveBoard& board);
+  LiveEdits(const LiveEdits&) = delete;
+  LiveEdits& operator=(const LiveEdits&) = delete;
+  ~LiveEdits() { end(); }
+
+  /// The run has a time; requests are taken from here on. `takes_over`: it has gone on for a while,
+  /// and what hosts hand over of the manager before counts.
+  void begin(bool takes_over);
+  /// Does what is due, and answers what is done.
+  Status look(SimTime now);
+  void end();
+  /// With the obstacles that came.
+  [[nodiscard]] const world::WorldModel& world() const { return authority_->world(); }
+
+  /// The last change that hosts are told of, and have to hear of before they begin; while this
+  /// manager takes over, the last that any of them has.
+  [[nodiscard]] std::uint64_t revision() const noexcept {
+    return takes_over_ ? board_.shown_revision() : published_;
+  }
+  /// Changes of the scenario that could not be made.
+  [[nodiscard]] const std::vector<sim::Event>& refused() const noexcept { return refused_; }
+  /// Of changes by hand.
+  [[nodiscard]] const LiveManagerOutcome::Edits& edits() const noexcept { return edits_; }
+
+ private:
+  struct Waiting {
+    runtime::RunControl::Asked asked;
+    std::uint64_t revision = 0;
+    SimTime since;  ///< When it was asked for.
+    std::string text;
+  };
+
+  LiveEdits(const LiveManagerOptions& options, LiveBoard& board,
+            std::unique_ptr<sim::WorldAuthority> authority)
+      : options_(options), board_(board), authority_(std::move(authority)) {}
+  Status gather_handed();
+  [[nodiscard]] bool all_may_be_there() const;
+  [[nodiscard]] bool handed_over() const;
+  Status take_over(SimTime now);
+  void drop_orphans();
+  Status publish(const real_time::ObstacleSight& sight);
+  void make_scheduled(SimTime now);
+  void serve(runtime::RunControl::Asked asked, SimTime now);
+  Result<std::string> edit(const runtime::RunRequest& request, SimTime now);
+  Result<std::string> make(const sim::ObstacleChange& change, SimTime now);
+  void note(const sim::ObstacleChange& made);
+  void place_robots(SimTime now);
+  void follow_hand_overs();
+  void answer_waiting(SimTime now);
+  [[nodiscard]] std::vector<std::string_view> hosts_without(std::uint64_t revision) const;
+
+  const LiveManagerOptions& options_;
+  LiveBoard& board_;
+  std::unique_ptr<sim::WorldAuthority> authority_;
+  bool begun_ = false;
+  bool serves_ = false;
+  bool takes_over_ = false;  ///< Hosts still hand over what they know.
+  std::chrono::steady_clock::time_point began_{};
+  std::uint64_t revision_ = 0;   ///< Of the last change that was made, here or before.
+  std::uint64_t published_ = 0;  ///< Of the last that this manager has sent.
+  std::size_t next_scheduled_ = 0;
+  std::map<std::uint32_t, real_time::ObstacleSight> obstacles_;  ///< That are not as at the start.
+  EditLimits limits_;
+  std::vector<Waiting> waiting_;
+  LiveManagerOutcome::Edits edits_;
+  std::vector<sim::Event> refused_;
+};
+
+}  // namespace rave::manager

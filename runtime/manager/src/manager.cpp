@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/manager/manager.hpp"
+
+#include "stepped_run.hpp"
+
+namespace rave::manager {
+
+std::vector<Seat> make_seats(const std::vector<config::PlannedHost>& hosts) {
+  std::vector<Seat> seats;
+  for (const config::PlannedHost& host : hosts) {
+    Seat seat;
+    seat.name = host.name;
+    seat.robots = static_cast<std::uint32_t>(host.robots.size());
+    seats.push_back(std::move(seat));
+  }
+  return seats;
+}
+
+Result<ManagerOutcome> manage(sim::EngineSpec spec, const ManagerOptions& options) {
+  std::vector<std::uint32_t> host_of(spec.robots.size());
+  for (std::uint32_t h = 0; h < options.hosts.size(); ++h) {
+    for (const std::size_t robot : options.hosts[h].robots) host_of[robot] = h;
+  }
+  RAVE_TRY(check_scheduled(spec));
+  RAVE_TRY_ASSIGN(auto authority, sim::WorldAuthority::create(std::move(spec), std::move(host_of)));
+  RAVE_TRY_ASSIGN(auto board, Switchboard::open(options.bus, options.identity, options.log,
+                                                options.begin_wish));
+  SteppedRun run(options, std::move(authority), std::move(board));
+  auto outcome = run.go();
+  if (!outcome) run.give_up(outcome.error());
+  return outcome;
+}
+
+}  // namespace rave::manager

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "roster_book.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "rave/bus/sequence.hpp"
+
+namespace rave::manager {
+namespace {
+
+/// Whoever makes up processes gets no further; besides those that serve, some may start anew.
+constexpr std::size_t kMoreBooks = 64;
+constexpr std::size_t kMostRefused = 1000;
+
+/// A name as it comes through a message.
+std::string on_the_wire(const std::string& name) {
+  bus::RosterEntry entry{};
+  bus::put_text(entry.name, name);
+  return entry.name;
+}
+
+}  // namespace
+
+RosterBook::RosterBook(std::vector<Robot> robots, const std::vector<config::PlannedHost>& hosts)
+    : robots_(std::move(robots)), host_of_(robots_.size(), rave_wire_kNone) {
+  for (Robot& robot : robots_) robot.name = on_the_wire(robot.name);
+  for (std::uint32_t h = 0; h < hosts.size(); ++h) {
+    host_names_.push_back(hosts[h].name);
+    for (const std::size_t robot : hosts[h].robots) host_of_[robot] = h;
+  }
+}
+
+std::string RosterBook::wrong(const bus::RosterEntry& entry) const {
+  if (entry.robot >= robots_.size()) {
+    return fmt::format("robot {} is not one of the {} of the scenario", entry.robot,
+                       robots_.size());
+  }
+  const std::uint32_t host = host_of_[entry.robot];
+  const std::string& name = robots_[entry.robot].name;
+  if (entry.host == host && name == entry.name) return {};
+  const auto host_text = [this](std::uint32_t number) {
+    return number < host_names_.size() ? "`" + host_names_[number] + "`"
+                                       : fmt::format("{}, which there is not", number);
+  };
+  return fmt::format("robot {} is said to be `{}` on host {}; in the scenario it is `{}` on {}",
+                     entry.robot, entry.name, host_text(entry.host), name, host_text(host));
+}
+
+std::optional<std::string> RosterBook::once(std::uint64_t writer, std::string why) {
+  if (told_.size() >= kMostRefused || !told_.insert(writer).second) return std::nullopt;
+  return why;
+}
+
+std::optional<std::string> RosterBook::hear(const bus::RosterEntry& entry, std::uint64_t serving) {
+  if (std::string why = wrong(entry); !why.empty()) return once(entry.writer, std::move(why));
+  const bool room =
+      books_.size() < host_names_.size() + kMoreBooks || books_.contains(entry.writer);
+  if (room || entry.writer == serving) {
+    books_[entry.writer][entry.robot] = entry.kind == rave_wire_ROBOT_SIMULATED;
+    news_ = true;
+  }
+  if (serving == 0 || serving == entry.writer) return std::nullopt;
+  return once(entry.writer,
+              fmt::format("a second robot `{}`: its host `{}` is served by process {:016x}",
+                          entry.name, host_names_[entry.host], serving));
+}
+
+void RosterBook::lose(std::uint64_t writer) {
+  news_ = books_.erase(writer) > 0 || news_;
+  told_.erase(writer);
+}
+
+bool RosterBook::simulated(std::size_t robot, std::uint64_t serving) const {
+  if (const auto book = books_.find(serving); book != books_.end()) {
+    const auto said = book->second.find(static_cast<std::uint32_t>(robot));
+    if (said != book->second.end()) return said->second;
+  }
+  return robots_[robot].simulated;
+}
+
+void read_roster(bus::Reader<bus::RosterEntry>& reader, RosterBook& book, const Serving& serving) {
+  reader.take([&](const bus::RosterEntry& entry) {
+    if (const auto why = book.hear(entry, serving(entry.host))) reader.refuse(entry, *why);
+  });
+}
+
+void show_kinds(RosterBook& book, const Serving& serving, runtime::RunControl* control) {
+  if (control == nullptr || !book.take_news()) return;
+  control->refresh([&](runtime::RunStatus& status) {
+    const std::size_t robots = std::min(status.robots.size(), book.robots());
+    for (std::size_t r = 0; r < robots; ++r) {
+      status.robots[r].simulated = book.simulated(r, serving(book.host_of(r)));
+    }
+  });
+}
+
+}  // namespace rave::manager

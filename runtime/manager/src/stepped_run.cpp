@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stepped_run.hpp"
+
+#include <algorithm>
+
+#include "rave/base/names.hpp"
+#include "sat.hpp"
+
+namespace rave::manager {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using config::LostHost;
+
+/// Wall time of a step at this pace; 0: there is none.
+Clock::duration period_of(const sim::EngineSpec& spec, double pace) {
+  if (pace <= 0) return {};
+  return std::chrono::duration_cast<Clock::duration>(
+      std::chrono::duration<double>(spec.step.seconds() / pace));
+}
+
+std::vector<RosterBook::Robot> planned_robots(const sim::EngineSpec& spec) {
+  std::vector<RosterBook::Robot> robots;
+  for (const sim::RobotSpec& robot : spec.robots) {
+    robots.push_back({robot.name, spec.types[robot.type].simulated});
+  }
+  return robots;
+}
+
+}  // namespace
+
+SteppedRun::SteppedRun(const ManagerOptions& options,
+                       std::unique_ptr<sim::WorldAuthority> authority,
+                       std::unique_ptr<Switchboard> board)
+    : options_(options),
+      authority_(std::move(authority)),
+      board_(std::move(board)),
+      seats_(make_seats(options.hosts)),
+      wishes_(options.control, options.log),
+      claims_(static_cast<std::uint32_t>(options.hosts.size())),
+      roster_(planned_robots(authority_->spec()), options.hosts),
+      lateness_(period_of(authority_->spec(), options.pace)) {
+  for (std::size_t h = 0; h < std::min(seats_.size(), options.commands.size()); ++h) {
+    seats_[h].command = options.commands[h];
+  }
+}
+
+bool SteppedRun::complete() const {
+  const bool all = options_.on_lost_host == config::LostHost::kWait;
+  // Hosts that were in a run before hand over where it stood.
+  if (!begun_ && newest_report_ > 0 && (!handed_over_ || world_.step + 1 < newest_report_)) {
+    return false;
+  }
+  return std::all_of(seats_.begin(), seats_.end(),
+                     [all](const Seat& seat) { return seat.reported || !seat.needed(all); });
+}
+
+Result<SteppedRun::Gathered> SteppedRun::gather() {
+  const auto since = Clock::now();
+  RAVE_TRY(listen());
+  while (!complete()) {
+    board_->wait(Duration{std::chrono::nanoseconds(kLook).count()}, asked());
+    RAVE_TRY(listen());
+    wishes_.listen(*authority_);
+    if (complete()) break;
+    RAVE_TRY(look());
+    const auto now = Clock::now();
+    // Most steps are done before anybody could ask.
+    if (now - since < kLook) continue;
+    look_at_clock(since);
+    note_waiting(waited_for());
+    if (now >= next_tell_) {
+      tell_state(begun_ ? rave_wire_RUN_WAITS : rave_wire_RUN_GATHERS,
+                 fmt::format("waiting for {}", waited_for()));
+    }
+    tell_progress(waited_for());
+    wishes_.put_off(fmt::format("the run waits for {}", waited_for()));
+    if (stopping()) return Gathered::kStopped;
+  }
+  note_waiting({});
+  return Gathered::kAll;
+}
+
+/// All hosts are there. Where they come from a manager that was here before, its world is taken
+/// over.
+Status SteppedRun::take_over() {
+  step_ = newest_report_;
+  if (step_ == 0) return {};
+  if (!handed_over_ || world_.step + 1 < step_) {
+    return fail(ErrorCode::kState,
+                "the hosts are in step {} already, and none has handed over the world of the step "
+                "before: they belong to another run",
+                step_);
+  }
+  // One host may have had a world that the others have not got, and have gone since.
+  if (world_.step > step_) {
+    return fail(ErrorCode::kState,
+                "the world of step {} was handed over, but no host is beyond step {}: whoever did "
+                "so is not of this run",
+                world_.step, step_);
+  }
+  step_ = world_.step + 1;
+  RAVE_TRY(authority_->resume(world_, state_));
+  log(LogLevel::kWarning, "takes over from a manager that is gone, at step {}", step_);
+  for (Seat& seat : seats_) {
+    // A new process begins anew where the one before it was in the run.
+    if (seat.last_step + 1 < step_) {
+      seat.loss = fmt::format("host `{}` was not there from step {} to step {}", seat.name,
+                              seat.last_step, step_ - 1);
+      miss_steps(seat);
+    }
+    if (!seat.reported || authority_->check(seat.report)) continue;
+    seat.reported = false;
+    seat.report = {};
+  }
+  return board_->send(world_, state_, seats_);
+}
+
+Status SteppedRun::make_step() {
+  std::vector<const sim::HostReport*> reports;
+  for (std::size_t h = 0; h < seats_.size(); ++h) {
+    Seat& seat = seats_[h];
+    if (!seat.reported) {
+      authority_->speak_for(static_cast<std::uint32_t>(h), seat.report);
+      miss_steps(seat);
+    }
+    reports.push_back(&seat.report);
+  }
+  const auto begin = Clock::now();
+  RAVE_TRY(authority_->step(reports, world_));
+  const auto now = Clock::now();
+  resolved_.ns[static_cast<std::size_t>(sim::Phase::kResolve)] +=
+      std::chrono::duration_cast<std::chrono::nanoseconds>(now - begin).count();
+  lateness_.worked(resolved_, now);
+  for (const sim::Event& event : authority_->events()) {
+    contacts_ += event.kind == sim::EventKind::kContact ? 1U : 0U;
+  }
+  world_.last = world_.last || ending_ || step_ >= options_.steps;
+  if (options_.on_world && options_.on_world(*authority_)) ending_ = true;
+  RAVE_TRY(board_->send(world_, authority_->state(std::exchange(newcomer_, false)), seats_));
+  wishes_.after_step(*authority_, world_);
+  for (Seat& seat : seats_) seat.reported = false;
+  ++step_;
+  return {};
+}
+
+Clock::time_point SteppedRun::due_of(std::uint64_t step) const {
+  const double due_s =
+      static_cast<double>(step - first_step_) * authority_->spec().step.seconds() / options_.pace;
+  return began_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(due_s));
+}
+
+void SteppedRun::wait_for_turn() {
+  if (options_.pace <= 0) return;
+  const auto due = due_of(step_);
+  lateness_.did(runtime::Lateness::Part::kExchange, Clock::now());
+  for (auto now = Clock::now(); now < due; now = Clock::now()) {
+    const auto left = std::min<Clock::duration>(due - now, kLook);
+    board_->wait(Duration{std::chrono::duration_cast<std::chrono::nanoseconds>(left).count()},
+                 asked());
+    auto status = listen();
+    if (status) status = look();
+    if (!status) failure_ = std::move(status).error();
+    wishes_.listen(*authority_);
+    if (failure_ || stopping()) return;
+  }
+  lateness_.woke(due, Clock::now());
+}
+
+/// Somebody has paused the run.
+void SteppedRun::hold() {
+  constexpr std::chrono::milliseconds kHeld{20};
+  const auto since = Clock::now();
+  while (!wishes_.may_step() && !stopping()) {
+    board_->wait(Duration{std::chrono::nanoseconds(kHeld).count()});
+    auto status = listen();
+    if (status) status = look();
+    if (!status) failure_ = std::move(status).error();
+    if (failure_) return;
+    wishes_.listen(*authority_);
+    wishes_.put_off("the run is paused");
+    // The next step is made without a host that is gone now, and the one after it is not.
+    note_waiting(join_names(names_of(seats_, [this](const Seat& seat) {
+      return seat.state == SeatState::kLost &&
+             seat.needed(options_.on_lost_host == LostHost::kWait);
+    })));
+    if (Clock::now() >= next_tell_) tell_state(rave_wire_RUN_WAITS, "paused");
+    tell_progress("somebody who has paused it");
+  }
+  began_ += Clock::now() - since;
+}
+
+/// The last world again, for whoever has not got it.
+Status SteppedRun::resend() {
+  if (!std::exchange(newcomer_, false)) {
+    board_->resend(seats_);
+    return {};
+  }
+  return board_->send(world_, authority_->state(true), seats_);
+}
+
+runtime::RunStatus SteppedRun::first_status() const {
+  runtime::RunStatus status;
+  status.scenario = options_.scenario;
+  status.duration_s = static_cast<double>(options_.steps) * authority_->spec().step.seconds();
+  status.pace = options_.pace;
+  return status;
+}
+
+Result<ManagerOutcome> SteppedRun::go() {
+  tell_state(rave_wire_RUN_GATHERS, fmt::format("waiting for {}", waited_for()));
+  RAVE_TRY_ASSIGN(Gathered gathered, gather());
+  if (gathered == Gathered::kStopped) {
+    problems_.push_back(fmt::format("stopped while waiting for {}", waited_for()));
+    return outcome();
+  }
+  RAVE_TRY(take_over());
+  begun_ = true;
+  wishes_.begin(*authority_, first_status());
+  began_ = Clock::now();
+  first_step_ = step_;
+  for (;;) {
+    RAVE_TRY_ASSIGN(gathered, gather());
+    if (gathered == Gathered::kStopped) {
+      problems_.push_back(
+          fmt::format("stopped in step {} while waiting for {}", step_, waited_for()));
+      break;
+    }
+    hold();
+    wait_for_turn();
+    wishes_.listen(*authority_);
+    if (failure_) return tl::unexpected(*failure_);
+    if (stopping() && !ending_) {
+      ending_ = true;
+      if (step_ < options_.steps) problems_.push_back(fmt::format("stopped in step {}", step_));
+    }
+    RAVE_TRY(make_step());
+    lateness_.done(Clock::now());
+    tell_progress({});
+    if (Clock::now() >= next_tell_) tell_state(rave_wire_RUN_GOES, {});
+    if (world_.last) break;
+  }
+  return outcome();
+}
+
+void SteppedRun::give_up(const Error& error) {
+  over_ = true;
+  // The hosts are in good hands, or wait for them.
+  if (board_->is_second() || left_alone_) return;
+  tell_state(rave_wire_RUN_FAILED, error.message);
+  see_off(false);
+}
+
+ManagerOutcome SteppedRun::outcome() {
+  ended_ = Clock::now();
+  if (options_.on_end) options_.on_end(*authority_);
+  wishes_.end();
+  ManagerOutcome outcome;
+  outcome.steps = authority_->steps_done();
+  outcome.contacts = contacts_;
+  outcome.wall_s = begun_ ? seconds(ended_ - began_) : 0;
+  for (Seat& seat : seats_) {
+    if (seat.state == SeatState::kLost && begun_) miss_steps(seat);
+  }
+  if (begun_ && options_.pace > 0) lateness_.end(due_of(options_.steps), ended_);
+  outcome.lateness = lateness_.facts();
+  if (outcome.lateness.missed > 0) {
+    log(LogLevel::kInfo, "deadlines of steps: {}", runtime::lateness_text(outcome.lateness));
+  }
+  outcome.problems = problems_;
+  outcome.whole = begun_ && world_.last && problems_.empty();
+  if (begun_ && world_.last && !lost_any_) {
+    RunHash hash = authority_->hash();
+    for (const Seat& seat : seats_) hash.merge(RunHash::of_value(seat.hash));
+    outcome.hash = hash.value();
+  }
+  over_ = true;
+  tell_state(outcome.whole ? rave_wire_RUN_ENDED : rave_wire_RUN_FAILED,
+             problems_.empty() ? std::string() : problems_.back());
+  see_off(begun_);
+  outcome.findings = board_->findings().hand_out();
+  order_by_sitting(seats_, outcome.findings);
+  return outcome;
+}
+
+}  // namespace rave::manager

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "manager_habits.hpp"
+#include "rave/manager/manager.hpp"
+#include "rave/pace/lateness.hpp"
+#include "rave/sim/world_authority.hpp"
+#include "roster_book.hpp"
+#include "seats.hpp"
+#include "switchboard.hpp"
+#include "wishes.hpp"
+
+namespace rave::manager {
+
+/// One run in lock-step, from the first report to the last step. Belongs to one thread.
+class SteppedRun {
+ public:
+  /// `options` are not owned.
+  SteppedRun(const ManagerOptions& options, std::unique_ptr<sim::WorldAuthority> authority,
+             std::unique_ptr<Switchboard> board);
+
+  [[nodiscard]] Result<ManagerOutcome> go();
+  /// The run cannot go on: tells everybody why, unless another manager has it.
+  void give_up(const Error& error);
+
+ private:
+  enum class Gathered : std::uint8_t { kAll, kStopped };
+
+  Result<Gathered> gather();
+  Status listen();
+  Status look();
+  void look_at_roster();
+  void miss(std::uint64_t writer);
+  void see_off(bool awaits_findings);
+  void take_findings();
+  Status hear(const bus::HostReport& message);
+  Status refuse_ahead(const Seat& seat, const bus::HostReport& message);
+  void count_newest();
+  Status sit_down(Seat& seat, const bus::HostReport& message);
+  void lose(Seat& seat, std::string_view why);
+  void miss_steps(Seat& seat);
+  void look_at_clock(std::chrono::steady_clock::time_point since);
+  Status leave_alone(const bus::HostReport& message);
+  Status take_over();
+  Status make_step();
+  [[nodiscard]] std::chrono::steady_clock::time_point due_of(std::uint64_t step) const;
+  void wait_for_turn();
+  void hold();
+  Status resend();
+  [[nodiscard]] runtime::RunStatus first_status() const;
+  /// Wakes from a wait when somebody asks something.
+  [[nodiscard]] std::stop_token asked() const {
+    return options_.control != nullptr ? options_.control->asked() : std::stop_token();
+  }
+  void tell_state(rave_wire_RunPhase phase, std::string_view text);
+  void tell_progress(std::string waiting);
+  void note_waiting(std::string hosts);
+  [[nodiscard]] std::string waited_for() const;
+  [[nodiscard]] bool complete() const;
+  [[nodiscard]] bool stopping() const { return options_.stopping && options_.stopping(); }
+  ManagerOutcome outcome();
+
+  template <class... Args>
+  void log(LogLevel level, fmt::format_string<Args...> format, Args&&... args) {
+    if (options_.log == nullptr) return;
+    options_.log->write(level, kSource, fmt::format(format, std::forward<Args>(args)...));
+  }
+
+  const ManagerOptions& options_;
+  std::unique_ptr<sim::WorldAuthority> authority_;
+  std::unique_ptr<Switchboard> board_;
+  std::vector<Seat> seats_;
+  sim::HostReport heard_;  ///< Before it is known whether it can be used.
+  Wishes wishes_;
+  bus::HostClaims claims_;
+  RosterBook roster_;
+  std::uint64_t step_ = 0;  ///< For which reports are gathered.
+  bool begun_ = false;      ///< All hosts have been there at once.
+  bool lost_any_ = false;
+  bool ending_ = false;
+  bool over_ = false;        ///< Nothing comes any more.
+  bool left_alone_ = false;  ///< The hosts are in a run that this one does not go on with.
+  sim::WorldStep world_;
+  sim::AuthorityState state_;
+  bool handed_over_ = false;  ///< `world_` and `state_` are of a manager that was here before.
+  std::uint64_t newest_report_ = 0;
+  std::string waits_for_;  ///< As those were told who ask.
+  std::uint64_t contacts_ = 0;
+  std::vector<std::string> problems_;
+  std::chrono::steady_clock::time_point began_;
+  std::chrono::steady_clock::time_point ended_;
+  std::uint64_t first_step_ = 0;
+  runtime::Lateness lateness_;
+  sim::PhaseTimes resolved_{};  ///< Of the authority; of its phases it has one.
+  std::chrono::steady_clock::time_point next_tell_;
+  std::chrono::steady_clock::time_point next_progress_;
+  std::chrono::steady_clock::time_point next_roster_;
+  std::chrono::steady_clock::time_point resend_at_;
+  bool asked_again_ = false;
+  bool newcomer_ = false;  ///< Somebody has to be told of all obstacles.
+  std::optional<Error> failure_;
+};
+
+}  // namespace rave::manager

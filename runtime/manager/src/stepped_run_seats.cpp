@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+// Who sits in the seats of the hosts, and what they say.
+
+#include <algorithm>
+
+#include "rave/base/names.hpp"
+#include "sat.hpp"
+#include "stepped_run.hpp"
+
+namespace rave::manager {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using config::LostHost;
+
+/// A host that has not got a step is sent it again, but not more often than this.
+constexpr std::chrono::milliseconds kAgain{20};
+
+}  // namespace
+
+void SteppedRun::lose(Seat& seat, std::string_view why) {
+  const bool for_good = options_.on_lost_host == LostHost::kDrop;
+  seat.state = for_good ? SeatState::kDropped : SeatState::kLost;
+  claims_.release(seat.writer);
+  seat.last_writer = seat.writer;
+  seat.writer = 0;
+  roster_.stir();
+  constexpr std::string_view kThen[] = {"all wait until it is back",
+                                        "its robots stand from this step on",
+                                        "its robots stand until it is back"};
+  std::string text = fmt::format("host `{}` {} in step {}; {}", seat.name, why, step_,
+                                 kThen[static_cast<std::size_t>(options_.on_lost_host)]);
+  const bool again = !for_good && !seat.command.empty();
+  log(LogLevel::kError, "{}{}{}", text, again ? "; start it again with: " : "",
+      again ? seat.command : "");
+  seat.loss = std::move(text);
+  next_tell_ = {};
+}
+
+/// The run is not what it would have been with this host all the time.
+void SteppedRun::miss_steps(Seat& seat) {
+  lost_any_ = true;
+  if (!seat.loss.empty()) problems_.push_back(std::exchange(seat.loss, {}));
+}
+
+/// A report of one who sits in this seat, or wants to.
+Status SteppedRun::sit_down(Seat& seat, const bus::HostReport& message) {
+  if (seat.writer == message.writer && seat.state != SeatState::kLost) {
+    if (seat.state == SeatState::kLate) {
+      log(LogLevel::kInfo, "host `{}` answers again, in step {}", seat.name, step_);
+      seat.state = SeatState::kRuns;
+      next_tell_ = {};
+    }
+    return {};
+  }
+  if (seat.state == SeatState::kDropped) {
+    return fail(ErrorCode::kState, "host `{}` was dropped from this run", seat.name);
+  }
+  RAVE_TRY(claims_.claim(message.host, message.writer));
+  // A process that was cut off and is in its step still has missed nothing.
+  const bool same = seat.last_writer == message.writer && message.step + 1 >= step_;
+  if (begun_ && !same) miss_steps(seat);
+  newcomer_ = newcomer_ || (begun_ && !same);
+  log(LogLevel::kInfo, "host `{}` is {}, with {} robots", seat.name,
+      seat.state == SeatState::kLost ? fmt::format("back in step {}", step_) : "here", seat.robots);
+  seat.writer = message.writer;
+  seat.last_step = 0;
+  roster_.stir();
+  note_sitting(seat.sat, message.writer);
+  seat.state = SeatState::kRuns;
+  seat.reported = false;
+  next_tell_ = {};
+  return {};
+}
+
+/// A report of a step that no host can be in. It must not count as the last one of its host, or all
+/// that this one says would seem to be overtaken by it.
+Status SteppedRun::refuse_ahead(const Seat& seat, const bus::HostReport& message) {
+  std::string why = fmt::format("it is of step {}, but step {} comes next", message.step, step_);
+  if (!over_ && options_.on_lost_host == LostHost::kWait) {
+    // Nobody would answer it, and so all would wait for ever.
+    return fail(ErrorCode::kState,
+                "a report of host `{}` cannot be: {}; the host was told a world that this manager "
+                "has not sent, or somebody else spoke in its name",
+                seat.name, why);
+  }
+  // The others go on without it when it has been silent for long enough.
+  board_->refuse(message, why);
+  return {};
+}
+
+/// A host that is in the middle of a run and has lost its manager is not part of a new one.
+Status SteppedRun::leave_alone(const bus::HostReport& message) {
+  // Who has a manager, or has not missed it yet, is none of them.
+  if (begun_ || options_.resume || message.step == 0 || message.epoch != 0) return {};
+  left_alone_ = true;
+  return fail(
+      ErrorCode::kState,
+      "host `{}` is in step {} of a run that has lost its environment manager: --resume goes "
+      "on with that run, `rave end {}` ends it, and --run with a name begins another one "
+      "beside it",
+      seats_[message.host].name, message.step, options_.scenario);
+}
+
+Status SteppedRun::hear(const bus::HostReport& message) {
+  if (message.host >= seats_.size() || !board_->knows(message.writer)) return {};
+  RAVE_TRY(leave_alone(message));
+  Seat& seat = seats_[message.host];
+  if (const Status sits = sit_down(seat, message); !sits) {
+    board_->refuse(message, sits.error().message);
+    return {};
+  }
+  if (begun_ && message.writer == seat.writer && message.step < seat.last_step) {
+    return {};  // a later one has overtaken it
+  }
+  if (message.step > step_ && begun_) return refuse_ahead(seat, message);
+  seat.last_step = message.step;
+  if (!begun_) count_newest();
+  if (message.state == rave_wire_REPORT_FAILED) {
+    if (over_) return {};  // nothing depends on it any more, and it still says what it knows
+    if (options_.on_lost_host == LostHost::kWait) {
+      return fail(ErrorCode::kState, "host `{}` cannot go on: {}", seat.name, message.text);
+    }
+    lose(seat, fmt::format("cannot go on ({})", message.text));
+    return {};
+  }
+  if (message.step < step_) {
+    if (begun_ && !seat.reported) {
+      asked_again_ = true;  // it has not got the step that it needs
+      newcomer_ = newcomer_ || message.step + 1 < step_;
+    }
+    return {};
+  }
+  if (seat.reported && begun_) return {};  // it was sent twice
+  lock_step::read(message, heard_);
+  // What the authority cannot use is no reason to end the run of the others. Before the run begins
+  // it does not know yet which step comes next.
+  if (const Status usable = begun_ || message.step == 0 ? authority_->check(heard_) : Status{};
+      !usable) {
+    board_->refuse(message, usable.error().text());
+    return {};
+  }
+  std::swap(seat.report, heard_);
+  seat.hash = message.hash;
+  seat.reported = true;
+  return {};
+}
+
+Status SteppedRun::listen() {
+  Status status;
+  board_->take_reports([&](const bus::HostReport& message) {
+    if (status) status = hear(message);
+  });
+  board_->serve_wishes();
+  return status;
+}
+
+/// A process is gone.
+void SteppedRun::miss(std::uint64_t writer) {
+  for (Seat& seat : seats_) {
+    if (seat.writer != writer) continue;
+    if (begun_ && !over_) {
+      lose(seat, "is gone");
+      continue;
+    }
+    if (!begun_) {
+      log(LogLevel::kWarning, "host `{}` is gone before the run began{}{}", seat.name,
+          seat.command.empty() ? "" : "; start it again with: ", seat.command);
+    }
+    claims_.release(writer);
+    seat.writer = 0;
+    seat.state = SeatState::kMissing;
+    seat.reported = false;
+    seat.last_step = 0;
+  }
+  if (!begun_) count_newest();
+}
+
+/// Of what hosts say now: nobody waits for a step that one has said before and does not any more.
+void SteppedRun::count_newest() {
+  newest_report_ = 0;
+  for (const Seat& seat : seats_) newest_report_ = std::max(newest_report_, seat.last_step);
+}
+
+void SteppedRun::take_findings() {
+  board_->findings().take(
+      [this](std::uint64_t writer, std::uint32_t host) { return has_sat(seats_, writer, host); });
+}
+
+/// What can wait until nothing else is to be done.
+Status SteppedRun::look() {
+  take_findings();
+  RAVE_TRY_ASSIGN(const auto gone, board_->look_at_processes(begun_));
+  if (!begun_) handed_over_ = board_->take_last_world(world_, state_, handed_over_) || handed_over_;
+  for (const std::uint64_t writer : gone) {
+    miss(writer);
+    roster_.lose(writer);
+  }
+  look_at_roster();
+  if (asked_again_ && Clock::now() >= resend_at_) {
+    asked_again_ = false;
+    resend_at_ = Clock::now() + kAgain;
+    RAVE_TRY(resend());
+  }
+  return {};
+}
+
+void SteppedRun::look_at_roster() {
+  const auto now = Clock::now();
+  if (now < next_roster_) return;
+  next_roster_ = now + kLook;
+  const auto serving = [this](std::uint32_t host) {
+    return host < seats_.size() ? seats_[host].writer : 0;
+  };
+  board_->take_roster(roster_, serving);
+  if (begun_ && !over_) show_kinds(roster_, serving, options_.control);
+}
+
+/// Who has not answered for too long.
+void SteppedRun::look_at_clock(Clock::time_point since) {
+  const auto patience = std::chrono::nanoseconds(options_.host_timeout.ns);
+  // They may have answered while this process stood still.
+  since = std::max(since, board_->standstill().silence_counts_from());
+  if (!begun_ || Clock::now() - since < patience) return;
+  for (Seat& seat : seats_) {
+    if (seat.reported || seat.state != SeatState::kRuns) continue;
+    if (options_.on_lost_host != LostHost::kWait) {
+      lose(seat, fmt::format("has not answered for {:.1f} s", options_.host_timeout.seconds()));
+      continue;
+    }
+    seat.state = SeatState::kLate;
+    next_tell_ = {};
+    log(LogLevel::kWarning, "host `{}` has not answered for {:.1f} s in step {}; all wait for it",
+        seat.name, options_.host_timeout.seconds(), step_);
+  }
+}
+
+/// The last step reaches everybody before this process goes, and what hosts know reaches it: until
+/// they are gone, or for as long as one can expect of them.
+void SteppedRun::see_off(bool awaits_findings) {
+  const auto began = Clock::now();
+  const auto here = [](const Seat& seat) { return seat.writer != 0; };
+  const auto owes = [this](const Seat& seat) {
+    return seat.writer != 0 && !board_->findings().done_with(seat.writer);
+  };
+  bool told = false;
+  while (std::any_of(seats_.begin(), seats_.end(), here)) {
+    const bool any_owes = awaits_findings && std::any_of(seats_.begin(), seats_.end(), owes);
+    if (Clock::now() - began >= (any_owes ? kLongFarewell : kFarewell)) break;
+    if (Clock::now() - began >= kFarewell && !std::exchange(told, true)) {
+      log(LogLevel::kWarning, "waits up to {} s for what {} know of the run", kLongFarewell.count(),
+          join_names(names_of(seats_, owes)));
+    }
+    board_->wait(Duration{std::chrono::nanoseconds(kLook).count()});
+    if (!listen() || !look()) break;
+  }
+  // What a process sent before it went is here.
+  take_findings();
+}
+
+}  // namespace rave::manager

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "edit_limits.hpp"
+#include "rave/base/log.hpp"
+#include "rave/control/run_control.hpp"
+#include "rave/sim/world_authority.hpp"
+
+namespace rave::manager {
+
+/// What people ask of a run in lock-step while it goes: becomes inputs of the next step, and is
+/// answered when that is made. Belongs to one thread.
+class Wishes {
+ public:
+  /// Neither is owned; both may be null.
+  Wishes(runtime::RunControl* control, LogSink* log) : control_(control), log_(log) {}
+  Wishes(const Wishes&) = delete;
+  Wishes& operator=(const Wishes&) = delete;
+  ~Wishes() { end(); }
+
+  /// Requests are taken from here on. `authority` may be in the middle of a run.
+  void begin(const sim::WorldAuthority& authority, runtime::RunStatus status);
+  void end();
+
+  /// Takes in what was asked, for the step that comes next.
+  void listen(sim::WorldAuthority& authority);
+  /// The step that it was for is not made for a while, and `why`: who asked is told what will be.
+  void put_off(std::string_view why);
+  /// A step was made.
+  void after_step(const sim::WorldAuthority& authority, const sim::WorldStep& world);
+  /// Whether a step may be made now: nobody holds the run.
+  [[nodiscard]] bool may_step() const { return control_ == nullptr || control_->may_step(); }
+
+ private:
+  struct Wish {
+    runtime::RunControl::Asked asked;
+    std::uint64_t number = 0;  ///< As an input of the world.
+    bool obstacle = false;
+    std::chrono::steady_clock::time_point since;
+  };
+  Result<std::uint64_t> pass_on(const runtime::RunRequest& request, sim::WorldAuthority& authority);
+  [[nodiscard]] Status check_released(const sim::WorldAuthority& authority, RobotId robot) const;
+  void note_inputs(const sim::WorldStep& world);
+  void answer(Wish& wish, Result<std::string> text);
+
+  runtime::RunControl* control_;
+  LogSink* log_;
+  bool begun_ = false;
+  std::uint64_t next_step_ = 0;
+  EditLimits limits_;
+  std::vector<Wish> wishes_;           ///< For the next step, in order.
+  std::vector<std::uint8_t> stopped_;  ///< By robot, as far as it was asked here.
+};
+
+}  // namespace rave::manager

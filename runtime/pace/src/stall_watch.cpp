@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/pace/stall_watch.hpp"
+
+namespace rave::runtime {
+namespace {
+
+constexpr auto kLook = std::chrono::milliseconds(250);
+constexpr auto kPatience = std::chrono::seconds(1);
+
+}  // namespace
+
+StallWatch::StallWatch(LogSink* log) : log_(log) {
+  if (log_ != nullptr) thread_ = std::thread([this] { watch(); });
+}
+
+StallWatch::~StallWatch() {
+  {
+    const std::lock_guard lock(mutex_);
+    ending_ = true;
+  }
+  wake_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+void StallWatch::step_begins(std::uint64_t step) {
+  const std::lock_guard lock(mutex_);
+  step_ = step;
+  since_ = std::chrono::steady_clock::now();
+}
+
+void StallWatch::step_ends() {
+  const std::lock_guard lock(mutex_);
+  since_.reset();
+}
+
+void StallWatch::watch() {
+  std::unique_lock lock(mutex_);
+  while (!ending_) {
+    wake_.wait_for(lock, kLook);
+    if (ending_ || !since_ || told_ == step_) continue;
+    if (std::chrono::steady_clock::now() - *since_ < kPatience) continue;
+    told_ = step_;
+    log_->warn("run",
+               "step {} has not come to its end for 1 s: a driver or program does not return; "
+               "`isolate: true` gives a program a process of its own that can be stopped",
+               step_);
+  }
+}
+
+}  // namespace rave::runtime

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/protocol/findings.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "rave/base/hash.hpp"
+#include "rave/bus/sequence.hpp"
+
+namespace rave::lock_step {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kPart = rave_wire_kMaxFindingsPart;
+
+Status too_late(Duration patience) {
+  return fail(ErrorCode::kTimeout, "the environment manager has not taken them within {} s",
+              patience.seconds());
+}
+
+Status nobody(bool listened) {
+  return fail(ErrorCode::kState, "{}",
+              listened ? "the environment manager was gone before it had them"
+                       : "no environment manager is there that would take them");
+}
+
+}  // namespace
+
+Result<FindingsSender> FindingsSender::create(bus::Bus& bus) {
+  RAVE_TRY_ASSIGN(auto writer, bus::Writer<bus::FindingsPart>::create(bus));
+  return FindingsSender(std::move(writer));
+}
+
+Status FindingsSender::send(std::uint32_t host, std::span<const std::byte> bytes,
+                            Duration patience) {
+  const bool listened = readers() > 0;
+  if (bytes.empty() || bytes.size() > kMostFindings) {
+    return fail(ErrorCode::kInvalidArgument, "they have {} bytes; at most {} can be sent",
+                bytes.size(), kMostFindings);
+  }
+  const auto end = Clock::now() + std::chrono::nanoseconds(patience.ns);
+  bus::FindingsPart part{};
+  part.host = host;
+  part.size = bytes.size();
+  part.hash = content_hash(bytes);
+  std::vector<std::uint8_t> piece;
+  for (std::size_t at = 0; at < bytes.size(); at += kPart, ++part.part) {
+    // Each part may have to wait a little for the one before.
+    if (at > 0 && Clock::now() >= end) return too_late(patience);
+    const auto cut = bytes.subspan(at, std::min(kPart, bytes.size() - at));
+    const auto* const first = reinterpret_cast<const std::uint8_t*>(cut.data());
+    piece.assign(first, first + cut.size());
+    bus::borrow(part.bytes, piece);
+    auto written = writer_.write(part);
+    // A writer waits for readers as long as it has much that is not confirmed, and then fails.
+    while (!written && written.error().code == ErrorCode::kTimeout && Clock::now() < end) {
+      written = writer_.write(part);
+    }
+    if (!written && written.error().code == ErrorCode::kTimeout) return too_late(patience);
+    RAVE_TRY(std::move(written));
+  }
+  if (readers() == 0) return nobody(listened);
+  const auto left = std::chrono::duration_cast<std::chrono::nanoseconds>(end - Clock::now());
+  const dds_return_t confirmed =
+      dds_wait_for_acks(writer_.handle(), std::max<std::int64_t>(0, left.count()));
+  if (confirmed == DDS_RETCODE_TIMEOUT) return too_late(patience);
+  if (confirmed == DDS_RETCODE_OK) {
+    // Who is gone is not waited for either.
+    return readers() > 0 ? Status{} : nobody(true);
+  }
+  return fail(ErrorCode::kIo, "nobody says whether they came: {}", dds_strretcode(confirmed));
+}
+
+Status FindingsParts::add(const bus::FindingsPart& part) {
+  if (done_.contains(part.writer)) return {};
+  const auto [place, is_new] = partial_.try_emplace(part.writer);
+  Partial& partial = place->second;
+  if (is_new) {
+    partial.host = part.host;
+    partial.size = part.size;
+    partial.hash = part.hash;
+  }
+  if (part.host != partial.host || part.size != partial.size || part.hash != partial.hash) {
+    return fail(ErrorCode::kInvalidArgument,
+                "part {} is of other findings than those before: of host {} and {} bytes, not of "
+                "host {} and {} bytes",
+                part.part, part.host, part.size, partial.host, partial.size);
+  }
+  const auto bytes = std::as_bytes(bus::elements(part.bytes));
+  partial.parts.try_emplace(part.part, bytes.begin(), bytes.end());
+  // Each part but the last is full, so their number says whether all are there.
+  if (partial.parts.size() < (partial.size + kPart - 1) / kPart) return {};
+  Partial all = std::move(partial);
+  partial_.erase(place);
+  return finish(part.writer, std::move(all));
+}
+
+Status FindingsParts::finish(std::uint64_t writer, Partial partial) {
+  done_.insert(writer);
+  Findings findings{writer, partial.host, {}};
+  findings.bytes.reserve(partial.size);
+  for (const auto& [number, bytes] : partial.parts) {
+    findings.bytes.insert(findings.bytes.end(), bytes.begin(), bytes.end());
+  }
+  if (findings.bytes.size() != partial.size || content_hash(findings.bytes) != partial.hash) {
+    return fail(ErrorCode::kParse, "the findings of host {} are not what it says it has sent",
+                partial.host);
+  }
+  whole_.push_back(std::move(findings));
+  return {};
+}
+
+std::vector<Findings> FindingsParts::hand_out() { return std::exchange(whole_, {}); }
+
+Result<FindingsCollector> FindingsCollector::create(bus::Bus& bus) {
+  RAVE_TRY_ASSIGN(auto reader, bus::Reader<bus::FindingsPart>::create(bus));
+  return FindingsCollector(std::move(reader));
+}
+
+void FindingsCollector::take(const std::function<bool(std::uint64_t, std::uint32_t)>& sat) {
+  const auto hear = [&](const bus::FindingsPart& part) {
+    if (!sat(part.writer, part.host)) {
+      reader_.refuse(part, fmt::format("it is no process of host {} of this run", part.host));
+      return;
+    }
+    if (const Status added = parts_.add(part); !added) {
+      reader_.refuse(part, added.error().message);
+    }
+  };
+  // Whoever never stops sending does not keep the caller here.
+  constexpr int kMostRounds = 32;
+  for (int round = 0; round < kMostRounds; ++round) {
+    if (reader_.take(hear) < bus::ReaderCore::kMostAtOnce) break;
+  }
+}
+
+}  // namespace rave::lock_step

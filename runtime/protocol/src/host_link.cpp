@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/protocol/host_link.hpp"
+
+#include <algorithm>
+
+#include "host_link_impl.hpp"
+#include "rave/bus/sequence.hpp"
+#include "rave/math/transform.hpp"
+
+namespace rave::real_time {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+constexpr milliseconds kLook{100};
+/// So many readings of the manager's clock are made in a hurry before the start.
+constexpr std::uint64_t kFirstReadings = 8;
+constexpr milliseconds kHurry{10};
+constexpr milliseconds kLeisure{1000};
+
+}  // namespace
+
+void HostLink::Impl::tell(LogLevel level, const std::string& text) const {
+  if (options.log != nullptr) options.log->write(level, "host " + options.self.name, text);
+}
+
+/// Each thing once, until something else is said.
+void HostLink::Impl::tell_once(LogLevel level, const std::string& text) {
+  if (text == told) return;
+  told = text;
+  if (!text.empty()) tell(level, text);
+}
+
+/// The same for what others say.
+void HostLink::Impl::tell_foreign(LogLevel level, const std::string& text) {
+  if (text == told) return;
+  told = text;
+  if (!text.empty()) foreign.write(level, "host " + options.self.name, text);
+}
+
+Status HostLink::Impl::open_endpoints() {
+  RAVE_TRY_ASSIGN(auto set, bus::WaitSet::create(*bus));
+  RAVE_TRY(set.add(infos));
+  if (options.managed) {
+    RAVE_TRY(make(pings, *bus));
+    RAVE_TRY(make(pongs, *bus));
+    RAVE_TRY(make(runs, *bus));
+    RAVE_TRY(make(last_obstacles, *bus));
+    RAVE_TRY(make(findings, *bus));
+    RAVE_TRY(set.add(*pongs));
+    RAVE_TRY(set.add(*runs));
+  }
+  if (options.managed && options.sees) {
+    RAVE_TRY(make(worlds, *bus));
+    RAVE_TRY(set.add(*worlds));
+  }
+  if (options.talks) {
+    RAVE_TRY(make(packets_out, *bus));
+    RAVE_TRY(make(packets_in, *bus));
+    RAVE_TRY(set.add(*packets_in));
+  }
+  if (!options.host_of.empty()) {
+    RAVE_TRY_ASSIGN(Realities made, Realities::create(*bus, options.self.host, options.host_of));
+    realities.emplace(std::move(made));
+  }
+  RAVE_TRY_ASSIGN(wishes, bus::WishBox::create(*bus, options.begin_wish, options.log));
+  if (wishes) RAVE_TRY(wishes->wake(set));
+  RAVE_TRY(set.add_events());
+  waits.emplace(std::move(set));
+  RAVE_TRY(make(pulse, *bus, options.self));
+  introduced = lock_step::introduction(options.self);
+  return own_info.write(introduced);
+}
+
+void HostLink::Impl::ping() {
+  if (!pings || manager == 0 || Clock::now() < ping_at) return;
+  // Before the manager knows this process it does not answer.
+  const std::uint64_t done = pongs_heard > 0 ? pongs_heard : pings_sent;
+  const bool knows_it = pongs_heard > 0 && time.known();
+  const auto wait = done < kFirstReadings ? kHurry : (knows_it ? kLeisure : kLook);
+  bus::ClockPing message{};
+  message.target = manager;
+  message.number = ++pings_sent;
+  message.bound_ns = -1;
+  message.run_ns = -1;
+  const std::int64_t now_ns = local_ns();
+  if (const auto reading = time.reading(now_ns)) {
+    message.offset_ns = reading->offset.ns;
+    message.bound_ns = reading->bound.ns;
+  }
+  if (time.known()) message.run_ns = std::max<std::int64_t>(0, time.at(now_ns).ns);
+  message.obstacle_revision = shown_revision;
+  message.obstacles_ns = shown_since.ns;
+  message.sent_ns = local_ns();
+  static_cast<void>(pings->write(message));
+  ping_at = Clock::now() + wait;
+}
+
+bool HostLink::Impl::ready() const {
+  if (!options.managed) return true;
+  if (!time.known() || pongs_heard < kFirstReadings / 2) return false;
+  if (live.heard_revision() < obstacle_revision) return false;
+  return !worlds || world_count > 0;
+}
+
+void HostLink::Impl::start_clock() {
+  if (!options.managed) time.begin_alone(local_ns());
+  zero_ns = time.zero_ns();
+  started = true;
+  last_world = Clock::now();
+  told.clear();
+  if (const auto reading = time.reading(local_ns())) {
+    tell(LogLevel::kInfo,
+         fmt::format("the clock of the environment manager is {:+.6f} s from the one here, give or "
+                     "take {:.6f} s",
+                     reading->offset.seconds(), reading->bound.seconds()));
+  }
+}
+
+Duration HostLink::Impl::patience() const noexcept {
+  return std::max(options.world_period * 3, from_seconds(0.5));
+}
+
+void HostLink::Impl::watch_worlds() {
+  if (!worlds) return;
+  const Duration age{std::chrono::nanoseconds(Clock::now() - last_world).count()};
+  const bool lost = age > patience();
+  if (lost == world_lost) return;
+  world_lost = lost;
+  if (lost) ++losses;
+  tell(lost ? LogLevel::kError : LogLevel::kInfo,
+       lost ? fmt::format("no world has come for {:.1f} s: the robots of other hosts stand where "
+                          "they were heard of last",
+                          age.seconds())
+            : "worlds come again");
+}
+
+HostLink::HostLink(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+HostLink::~HostLink() = default;
+
+Result<std::unique_ptr<HostLink>> HostLink::open(Options options, LiveWorld& world) {
+  RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(options.bus));
+  RAVE_TRY_ASSIGN(auto own_info, bus::Writer<bus::HostInfo>::create(*bus));
+  RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
+  RAVE_TRY_ASSIGN(auto states, bus::Writer<bus::HostState>::create(*bus));
+  RAVE_TRY_ASSIGN(auto roster, lock_step::Roster::create(*bus, options.self.host));
+  std::unique_ptr<Impl> impl(new Impl{std::move(options), world, std::move(bus),
+                                      std::move(own_info), std::move(infos), std::move(states),
+                                      std::move(roster)});
+  RAVE_TRY(impl->open_endpoints());
+  return std::unique_ptr<HostLink>(new HostLink(std::move(impl)));
+}
+
+Result<bool> HostLink::await_start(const std::function<bool()>& stopping) {
+  Impl& link = *impl_;
+  if (link.options.managed) {
+    link.tell_once(LogLevel::kInfo, "waits for the environment manager of the run");
+  }
+  auto look_at = Clock::now() + kLook;
+  for (;;) {
+    link.take();
+    if (link.unfit) return tl::unexpected(*link.unfit);
+    if (link.ready()) break;
+    link.ping();
+    if (Clock::now() >= look_at) {
+      look_at += kLook;
+      link.look_at_patience();
+      if (stopping() || link.ending) return false;
+    }
+    static_cast<void>(link.waits->wait(Duration{std::chrono::nanoseconds(kHurry).count()}));
+  }
+  link.start_clock();
+  return true;
+}
+
+std::chrono::steady_clock::time_point HostLink::zero() const noexcept {
+  return Clock::time_point(std::chrono::nanoseconds(impl_->zero_ns));
+}
+void HostLink::count_real(std::uint32_t robots) noexcept { impl_->pulse->count_real(robots); }
+lock_step::Roster& HostLink::roster() noexcept { return impl_->roster; }
+std::span<const RobotSight> HostLink::starts() const noexcept { return impl_->starts; }
+
+void HostLink::listen_until(std::chrono::steady_clock::time_point due) {
+  Impl& link = *impl_;
+  for (;;) {
+    link.take();
+    link.ping();
+    const auto now = Clock::now();
+    if (now >= due || link.ending) break;
+    const bool pings = link.pings && link.manager != 0;
+    const auto until = pings ? std::min(due, std::max(now, link.ping_at)) : due;
+    const auto left = std::chrono::duration_cast<std::chrono::nanoseconds>(until - now);
+    static_cast<void>(link.waits->wait(Duration{left.count()}));
+  }
+  link.watch_worlds();
+}
+
+void HostLink::tell(const sim::Engine& engine, std::span<const RobotId> robots) {
+  Impl& link = *impl_;
+  const Duration shift = link.shift();
+  link.columns.clear();
+  for (const RobotId robot : robots) link.columns.add(engine, robot, shift);
+  if (link.columns.size() == 0) return;
+  bus::HostState message{};
+  message.host = link.options.self.host;
+  message.step = engine.steps_done();
+  link.facts.step = message.step;
+  link.columns.lend(message.resolved);
+  static_cast<void>(link.states.write(message));
+}
+
+void HostLink::send(const sim::SentPackets& sent) {
+  Impl& link = *impl_;
+  if (!link.packets_out) return;
+  for (auto& [robot, limit] : link.talk) limit.step();
+  for (const sim::SentPacket& packet : sent.packets) {
+    TalkLimit& limit = link.talk[packet.robot];
+    if (!limit.take(packet.size)) {
+      ++link.packets_withheld;
+      if (limit.name()) link.flooders.push_back(packet.robot);
+      continue;
+    }
+    bus::Packet message =
+        packet_of(packet, sent.bytes_of(packet), ++link.packets_sent, link.shift());
+    if (link.packets_out->write(message)) continue;
+    // Nobody waits for a reader that is stuck; the others miss the number.
+    if (link.packets_unsent++ > 0) continue;
+    link.tell(LogLevel::kWarning,
+              "some other process is too slow for what robots here say: messages are dropped until "
+              "it is faster, or taken for dead");
+  }
+}
+
+void HostLink::note_lateness(lock_step::Pulse::Lateness lateness) {
+  impl_->facts.lateness = std::move(lateness);
+}
+
+void HostLink::obstacles_shown() {
+  Impl& link = *impl_;
+  const std::uint64_t shown = link.live.shown_revision();
+  if (shown <= link.shown_revision) return;
+  link.shown_revision = shown;
+  link.shown_since = link.time.at(local_ns());
+  link.ping_at = {};
+}
+
+Status HostLink::deliver(std::span<const std::byte> findings) {
+  Impl& link = *impl_;
+  if (!link.findings || !link.started) return {};
+  return link.findings->send(link.options.self.host, findings, lock_step::kFindingsPatience);
+}
+
+std::vector<RobotReality> HostLink::take_realities() {
+  return impl_->realities ? impl_->realities->take() : std::vector<RobotReality>();
+}
+
+Duration HostLink::world_age() const {
+  const Impl& link = *impl_;
+  if (!link.worlds || !link.started) return {};
+  return {std::chrono::nanoseconds(Clock::now() - link.last_world).count()};
+}
+
+std::optional<bus::ClockReading> HostLink::clock() const { return impl_->time.reading(local_ns()); }
+const std::optional<HostLink::Ending>& HostLink::ending() const noexcept { return impl_->ending; }
+std::vector<RobotId> HostLink::take_flooders() { return std::exchange(impl_->flooders, {}); }
+std::uint64_t HostLink::withheld_packets() const noexcept { return impl_->packets_withheld; }
+std::uint64_t HostLink::unsent_packets() const noexcept { return impl_->packets_unsent; }
+std::uint64_t HostLink::lost_packets() const noexcept { return impl_->packets_lost; }
+std::uint64_t HostLink::worlds() const noexcept { return impl_->world_count; }
+std::uint64_t HostLink::losses() const noexcept { return impl_->losses; }
+
+}  // namespace rave::real_time

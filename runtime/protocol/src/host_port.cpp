@@ -1,0 +1,374 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/protocol/host_port.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <set>
+
+#include "rave/bus/event_log.hpp"
+#include "rave/bus/sequence.hpp"
+#include "rave/bus/standstill.hpp"
+#include "rave/bus/wait_set.hpp"
+#include "rave/bus/wish_box.hpp"
+#include "rave/bus/writer.hpp"
+#include "rave/protocol/findings.hpp"
+#include "rave/protocol/pulse.hpp"
+#include "rave/protocol/robot_columns.hpp"
+#include "rave/protocol/run_words.hpp"
+#include "rave/protocol/step_messages.hpp"
+#include "rave/sim/obstacle_history.hpp"
+
+namespace rave::lock_step {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+constexpr milliseconds kLook{100};
+constexpr milliseconds kShowInterval{33};
+/// A report that is not answered is sent again after this, then after twice as long.
+constexpr milliseconds kFirstPatience{20};
+constexpr milliseconds kLongestPatience{1000};
+/// How soon somebody is missed who was not found again after this process stood still.
+constexpr std::chrono::seconds kMissedAtOnce{1};
+/// The epoch in worlds that hosts hand back: of no authority, but not 0.
+constexpr std::uint64_t kHandedOver = 1;
+/// More processes that have gone are not remembered.
+constexpr std::size_t kMostGone = 4096;
+
+}  // namespace
+
+struct HostPort::Impl {
+  Identity self;
+  LogSink* log;
+  bus::EventLog foreign;  ///< What others have caused, in `log`.
+  std::unique_ptr<bus::Bus> bus;
+  bus::Writer<bus::HostReport> reports;
+  bus::Writer<bus::HostInfo> own_info;
+  bus::Writer<bus::LastWorld> last_worlds;
+  bus::Reader<bus::WorldStep> worlds;
+  bus::Reader<bus::RunState> states;
+  bus::Reader<bus::HostInfo> infos;
+  std::unique_ptr<bus::WishBox> wishes;  ///< May be null.
+  bus::WaitSet waits;
+  Pulse pulse;
+  Roster roster;
+  FindingsSender findings;
+  bus::HostInfo introduced;  ///< What the others were told of this process.
+  Patience patience;
+  ReportMessage message{};
+  WorldMessage last_message{};
+  /// Of the last world; with obstacles only if it brought them.
+  sim::WorldStep coming{};  ///< Before it is known whether it can be used; keeps its memory.
+  sim::AuthorityState authority{};
+  sim::ObstacleHistory obstacles{};                   ///< Before the last world.
+  std::vector<sim::ObstacleChange> last_obstacles{};  ///< Of that world.
+  bool has_world = false;
+  std::uint64_t epoch = 0;  ///< Of the authority that answered last; 0: it is gone.
+  std::uint64_t first_epoch = 0;
+  bool changed_hands = false;      ///< Another authority than the first has answered.
+  std::uint64_t manager = 0;       ///< Its process; 0: nobody has been heard of.
+  std::set<std::uint64_t> gone{};  ///< Processes that have been missed, and not come back.
+  RunWords words{};                ///< What is said of the run, and by whom.
+  Clock::time_point alone_since = Clock::now();  ///< While there is none.
+  bool overslept = false;                        ///< It was missed after this process stood still.
+  std::string told{};                            ///< What the log was told last.
+  Ending ending{};
+  std::optional<Error> unfit{};
+  std::optional<bus::Writer<bus::HostState>> states_out{};  ///< For those who look on.
+  RobotColumns columns{};
+  Clock::time_point next_show{};
+
+  void tell(LogLevel level, const std::string& text);
+  void tell_foreign(LogLevel level, const std::string& text);
+  void look_at_processes();
+  void lose(std::uint64_t writer);
+  void meet(const bus::HostInfo& info);
+  void hear(const RunWord& word);
+  void look_at_patience();
+  Status send(const sim::HostReport& report, std::uint64_t hash, const sim::WorldStep& last);
+  Status follow_obstacles(const sim::WorldStep& world, sim::AuthorityState& state);
+  [[nodiscard]] bool take_world(const sim::HostReport& report, sim::WorldStep& world);
+  [[nodiscard]] bool ended() const noexcept { return over; }
+
+  bool over = false;
+};
+
+/// Each thing once, until something else is said.
+void HostPort::Impl::tell(LogLevel level, const std::string& text) {
+  if (text == told) return;
+  told = text;
+  if (log != nullptr && !text.empty()) log->write(level, "host " + self.name, text);
+}
+
+/// The same for what others say.
+void HostPort::Impl::tell_foreign(LogLevel level, const std::string& text) {
+  if (text == told) return;
+  told = text;
+  if (!text.empty()) foreign.write(level, "host " + self.name, text);
+}
+
+void HostPort::Impl::meet(const bus::HostInfo& info) {
+  if (info.host == rave_wire_kNone) {
+    if (auto fits = check_fits(self, info); !fits) {
+      words.shut_out(info.writer);
+      if (has_world) {
+        return tell_foreign(LogLevel::kError, "refused: " + fits.error().message);
+      }
+      unfit = std::move(fits).error();
+      return;
+    }
+    words.welcome(info.writer);
+    // Another one counts when the one before has been missed, and not before.
+    if (manager != 0 || gone.contains(info.writer)) return;
+    manager = info.writer;
+    tell(LogLevel::kInfo, fmt::format("the environment manager is `{}` on {}", info.name,
+                                      *info.machine != '\0' ? info.machine : "this machine"));
+    return;
+  }
+  // Who is in the run already stays.
+  if (info.host != self.host || epoch != 0 || !gives_way(introduced, info)) return;
+  unfit = Error{ErrorCode::kState,
+                fmt::format("host `{}` of this run is served already, by a process on {}; end that "
+                            "one first, or choose another host",
+                            self.name, *info.machine != '\0' ? info.machine : "this machine"),
+                {}};
+}
+
+void HostPort::Impl::hear(const RunWord& word) {
+  // What the last one said before it went counts, and does not bring it back.
+  if (manager == 0 && !gone.contains(word.writer)) manager = word.writer;
+  if (manager != 0 && word.writer != manager) return;
+  if (word.without_us) {
+    over = true;
+    ending = {false, "it went on without this host, which was late or gone"};
+  }
+  switch (word.phase) {
+    case rave_wire_RUN_GOES:
+      told.clear();
+      return;
+    case rave_wire_RUN_GATHERS:
+    case rave_wire_RUN_WAITS:
+      tell_foreign(LogLevel::kWarning, word.text);
+      return;
+    case rave_wire_RUN_ENDED:
+    case rave_wire_RUN_FAILED:
+      over = true;
+      ending = {word.phase == rave_wire_RUN_ENDED, word.text};
+      return;
+  }
+}
+
+void HostPort::Impl::lose(std::uint64_t writer) {
+  if (writer == 0) return;
+  if (gone.size() >= kMostGone) gone.erase(gone.begin());
+  gone.insert(writer);
+  if (writer != manager) return;
+  manager = 0;
+  epoch = 0;
+  alone_since = Clock::now();
+  // Whoever was not found again is missed as soon as silence counts. The lease of this process
+  // began when it was heard of last, which was some time before it stood.
+  const bus::Standstill& still = bus->standstill();
+  overslept = 2 * still.stood().ns > bus->config().lease.ns &&
+              alone_since - still.silence_counts_from() < kMissedAtOnce;
+  if (over) return;
+  tell(LogLevel::kError, "the environment manager is gone; robots stand until one is back");
+}
+
+void HostPort::Impl::look_at_processes() {
+  using enum bus::EventKind;
+  // Before what processes say: who comes back is heard, and who goes has been.
+  const std::vector<bus::BusEvent> events = bus->take_events();
+  for (const bus::BusEvent& event : events) {
+    if (event.kind == kParticipantAppeared) gone.erase(event.writer);
+  }
+  infos.take([this](const bus::HostInfo& info) { meet(info); });
+  states.take([this](const bus::RunState& state) { words.hear(run_word(state, self.host)); });
+  for (const RunWord& word : words.take()) hear(word);
+  for (const bus::BusEvent& event : events) {
+    if (event.kind == kParticipantLost) lose(event.writer);
+    if (event.kind == kParticipantAppeared) gone.erase(event.writer);
+    foreign.note(event);
+  }
+}
+
+/// Who was started for a run that is no more does not wait for ever.
+void HostPort::Impl::look_at_patience() {
+  const bool short_of_it = overslept && patience.after_standstill.ns > 0;
+  const Duration longest = short_of_it ? patience.after_standstill : patience.usual;
+  if (over || longest.ns <= 0 || manager != 0) return;
+  const auto since = std::max(alone_since, bus->standstill().silence_counts_from());
+  if (Clock::now() - since < std::chrono::nanoseconds(longest.ns)) return;
+  over = true;
+  ending = {
+      false,
+      fmt::format("there was no environment manager for {} s{}", longest.seconds(),
+                  short_of_it ? " after this host stood still: the run went on without it" : "")};
+  tell(LogLevel::kError, fmt::format("gives up: {}", ending.text));
+}
+
+Status HostPort::Impl::send(const sim::HostReport& report, std::uint64_t hash,
+                            const sim::WorldStep& last) {
+  if (has_world && epoch == 0) {
+    // Whoever takes the place of the manager that is gone goes on from here.
+    sim::AuthorityState whole = authority;
+    whole.obstacles = obstacles.changes();
+    RAVE_TRY_ASSIGN(bus::LastWorld* const handed, last_message.fill(last, whole, kHandedOver));
+    RAVE_TRY(last_worlds.write(*handed));
+  }
+  return reports.write(message.fill(report, epoch, hash));
+}
+
+/// What stood before the world that has come now: told by it to whoever was not there, and else
+/// what stood before the last one, with that one's changes.
+Status HostPort::Impl::follow_obstacles(const sim::WorldStep& world, sim::AuthorityState& state) {
+  const std::uint64_t known = obstacles.count() + last_obstacles.size();
+  if (!state.obstacles.empty()) {
+    obstacles = sim::ObstacleHistory(state.obstacles, state.obstacle_changes);
+  } else if (state.obstacle_changes == known) {
+    for (const sim::ObstacleChange& change : last_obstacles) obstacles.add(change);
+  } else {
+    return fail(ErrorCode::kInvalidArgument,
+                "obstacles have changed {} times before this world, of which this host knows {}",
+                state.obstacle_changes, known);
+  }
+  last_obstacles = world.obstacles;
+  return {};
+}
+
+bool HostPort::Impl::take_world(const sim::HostReport& report, sim::WorldStep& world) {
+  bool found = false;
+  worlds.take([&](const bus::WorldStep& sample) {
+    // It came late, and nobody would answer the next report. Who takes over, or comes back, sends
+    // it again.
+    if (gone.contains(sample.writer)) return;
+    if (epoch != 0 && sample.epoch != epoch) {
+      worlds.refuse(sample, "it is of another authority than the one this run has");
+      return;
+    }
+    if (sample.step < report.step) return;           // sent again for somebody else
+    if (found && sample.step <= world.step) return;  // the same one twice
+    const auto hosts = bus::elements(sample.hosts);
+    if (self.host >= hosts.size() || hosts[self.host] != bus->writer()) return;  // not for us
+    sim::AuthorityState state;
+    auto status = read(sample, coming, state);
+    if (status) status = follow_obstacles(coming, state);
+    if (!status) {
+      worlds.refuse(sample, status.error().message);
+      return;
+    }
+    std::swap(world, coming);
+    has_world = true;
+    authority = std::move(state);
+    epoch = sample.epoch;
+    if (first_epoch == 0) first_epoch = epoch;
+    changed_hands = changed_hands || epoch != first_epoch;
+    manager = sample.writer;
+    found = true;
+  });
+  return found;
+}
+
+HostPort::HostPort(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+HostPort::~HostPort() = default;
+
+Result<std::unique_ptr<HostPort>> HostPort::open(const bus::BusConfig& config, Identity identity,
+                                                 LogSink* log, Patience patience,
+                                                 bus::BeginWish begin_wish) {
+  RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
+  RAVE_TRY_ASSIGN(auto reports, bus::Writer<bus::HostReport>::create(*bus));
+  RAVE_TRY_ASSIGN(auto own_info, bus::Writer<bus::HostInfo>::create(*bus));
+  RAVE_TRY_ASSIGN(auto last_worlds, bus::Writer<bus::LastWorld>::create(*bus));
+  RAVE_TRY_ASSIGN(auto worlds, bus::Reader<bus::WorldStep>::create(*bus));
+  RAVE_TRY_ASSIGN(auto states, bus::Reader<bus::RunState>::create(*bus));
+  RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
+  RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(*bus));
+  RAVE_TRY_ASSIGN(auto pulse, Pulse::create(*bus, identity));
+  RAVE_TRY_ASSIGN(auto roster, Roster::create(*bus, identity.host));
+  RAVE_TRY_ASSIGN(auto findings, FindingsSender::create(*bus));
+  RAVE_TRY_ASSIGN(auto wishes, bus::WishBox::create(*bus, std::move(begin_wish), log));
+  RAVE_TRY(waits.add(worlds));
+  RAVE_TRY(waits.add(states));
+  RAVE_TRY(waits.add(infos));
+  if (wishes) RAVE_TRY(wishes->wake(waits));
+  RAVE_TRY(waits.add_events());
+  bus::HostInfo info = introduction(identity);
+  RAVE_TRY(own_info.write(info));
+  std::unique_ptr<Impl> impl(
+      new Impl{std::move(identity), log, bus::EventLog(log), std::move(bus), std::move(reports),
+               std::move(own_info), std::move(last_worlds), std::move(worlds), std::move(states),
+               std::move(infos), std::move(wishes), std::move(waits), std::move(pulse),
+               std::move(roster), std::move(findings), info, patience});
+  RAVE_TRY_ASSIGN(auto states_out, bus::Writer<bus::HostState>::create(*impl->bus));
+  impl->states_out.emplace(std::move(states_out));
+  return std::unique_ptr<HostPort>(new HostPort(std::move(impl)));
+}
+
+Result<HostPort::Answer> HostPort::exchange(const sim::HostReport& report, std::uint64_t hash,
+                                            sim::WorldStep& world,
+                                            const std::function<bool()>& stopping) {
+  Impl& port = *impl_;
+  auto patience = kFirstPatience;
+  auto send_at = Clock::now();
+  // By the clock: what wakes it without end must not keep it from being stopped.
+  auto next_stop = Clock::now() + kLook;
+  for (;;) {
+    port.pulse.beat({report.step});
+    if (Clock::now() >= send_at) {
+      RAVE_TRY(port.send(report, hash, world));
+      send_at = Clock::now() + patience;
+      patience = std::min(2 * patience, kLongestPatience);
+    }
+    static_cast<void>(port.waits.wait(bus::left_until(std::min(send_at, next_stop))));
+    if (port.wishes) port.wishes->serve();
+    if (port.take_world(report, world)) {
+      port.told.clear();
+      return Answer::kWorld;
+    }
+    port.look_at_processes();
+    port.look_at_patience();
+    if (port.unfit) return tl::unexpected(*port.unfit);
+    if (port.ended()) return Answer::kEnded;
+    // Asked seldom: a step is answered long before.
+    if (Clock::now() < next_stop) continue;
+    if (stopping()) return Answer::kStopped;
+    next_stop = Clock::now() + kLook;
+  }
+}
+
+void HostPort::show(const sim::Engine& engine, std::span<const RobotId> robots) {
+  Impl& port = *impl_;
+  const auto now = Clock::now();
+  if (now < port.next_show) return;
+  port.next_show = now + kShowInterval;
+  if (port.states_out->readers() == 0) return;
+  port.columns.clear();
+  for (const RobotId robot : robots) port.columns.add(engine, robot, Duration{});
+  if (port.columns.size() == 0) return;
+  bus::HostState message{};
+  message.host = port.self.host;
+  message.step = engine.steps_done();
+  port.columns.lend(message.resolved);
+  // Who looks on and does not keep up misses some.
+  static_cast<void>(port.states_out->write(message));
+}
+
+Roster& HostPort::roster() noexcept { return impl_->roster; }
+const sim::AuthorityState& HostPort::authority() const noexcept { return impl_->authority; }
+bool HostPort::changed_hands() const noexcept { return impl_->changed_hands; }
+const HostPort::Ending& HostPort::ending() const noexcept { return impl_->ending; }
+
+Status HostPort::deliver(std::span<const std::byte> findings) {
+  Impl& port = *impl_;
+  if (!port.has_world) return {};
+  return port.findings.send(port.self.host, findings, kFindingsPatience);
+}
+
+void HostPort::farewell(const sim::HostReport& report, std::uint64_t hash) {
+  Impl& port = *impl_;
+  static_cast<void>(port.reports.write(port.message.fill(report, port.epoch, hash)));
+}
+
+}  // namespace rave::lock_step

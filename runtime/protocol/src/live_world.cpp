@@ -1,0 +1,391 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/protocol/live_world.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+#include "rave/base/check.hpp"
+#include "rave/math/transform.hpp"
+
+namespace rave::real_time {
+namespace {
+
+constexpr std::uint32_t kOwn = 0;
+constexpr std::uint32_t kOthers = 1;
+constexpr std::uint32_t kNone = RobotId::kNone;
+
+bool finite(const RobotSight& sight) {
+  return std::isfinite(sight.X_WR.x) && std::isfinite(sight.X_WR.y) &&
+         std::isfinite(sight.X_WR.yaw) && std::isfinite(sight.velocity.vx) &&
+         std::isfinite(sight.velocity.vy) && std::isfinite(sight.velocity.wz);
+}
+
+std::vector<std::uint8_t> local_robots(const sim::EngineSpec& spec) {
+  std::vector<std::uint8_t> local(spec.robots.size(), spec.local ? 0 : 1);
+  if (!spec.local) return local;
+  for (const RobotId robot : *spec.local) local[robot.value()] = 1;
+  return local;
+}
+
+/// What an authority looks at of a type.
+sim::RobotType outline_of(const sim::RobotType& type) {
+  sim::RobotType outline;
+  outline.name = type.name;
+  outline.simulated = type.simulated;
+  outline.pose_from = type.pose_from;
+  outline.staleness = type.staleness;
+  outline.communicators.resize(type.communicators.size());
+  return outline;
+}
+
+/// The same world, in which the simulated robots of others are of types that are only placed. Their
+/// bodies keep their layer, so sensors tell them from real ones.
+sim::EngineSpec world_of(const sim::EngineSpec& spec, const std::vector<std::uint8_t>& local,
+                         bool alone) {
+  sim::EngineSpec world;
+  world.world = spec.world;
+  world.robots = spec.robots;
+  world.step = spec.step;
+  world.seed = spec.seed;
+  world.threads = spec.threads;
+  world.share_always = spec.share_always;
+  for (const sim::RobotType& type : spec.types) world.types.push_back(outline_of(type));
+  std::vector<std::uint32_t> placed(spec.types.size(), kNone);
+  for (std::size_t r = 0; r < local.size(); ++r) {
+    std::uint32_t& type = world.robots[r].type;
+    if (local[r] != 0 || !spec.types[type].simulated) continue;
+    if (placed[type] == kNone) {
+      placed[type] = static_cast<std::uint32_t>(world.types.size());
+      world.types.push_back(outline_of(spec.types[type]));
+      world.types.back().simulated = false;
+      world.types.back().pose_from = 0;
+    }
+    type = placed[type];
+  }
+  // Otherwise the manager makes them.
+  if (alone) world.obstacle_changes = spec.obstacle_changes;
+  // Others are changed by their own hosts.
+  for (const sim::ScheduledChange& change : spec.changes) {
+    if (local[change.robot.value()] != 0) world.changes.push_back(change);
+  }
+  return world;
+}
+
+}  // namespace
+
+Status check_sight(const ObstacleSight& sight, const world::WorldModel& start) {
+  const std::uint32_t id = sight.stands.id.value();
+  const bool adds = sight.stands.kind == sim::ObstacleChange::Kind::kAdd;
+  const std::size_t first_added = start.obstacles.size() + start.robots.size();
+  const bool possible =
+      adds ? id >= first_added && id - first_added < sim::ObstacleChange::kMostAdded
+           : id < start.obstacles.size();
+  if (!possible) {
+    return fail(ErrorCode::kInvalidArgument, "{} {} is none of the run",
+                adds ? "an obstacle that came with the number" : "obstacle", id);
+  }
+  if (sight.revision == 0 || sight.revision > ObstacleSight::kMostRevision) {
+    return fail(ErrorCode::kInvalidArgument,
+                "obstacle {} as it stands since change {}; expected 1 "
+                "to {}",
+                id, sight.revision, ObstacleSight::kMostRevision);
+  }
+  return sim::check_obstacle_change(sight.stands);
+}
+
+LiveWorld::LiveWorld(const sim::EngineSpec& spec, std::unique_ptr<sim::WorldAuthority> authority)
+    : authority_(std::move(authority)),
+      local_(local_robots(spec)),
+      other_of_(spec.robots.size(), kNone) {
+  others_report_.host = kOthers;
+  for (std::uint32_t r = 0; r < local_.size(); ++r) {
+    const sim::RobotType& type = spec.types[spec.robots[r].type];
+    if (local_[r] != 0) {
+      if (type.simulated) simulated_.emplace_back(r);
+      continue;
+    }
+    other_of_[r] = static_cast<std::uint32_t>(others_.size());
+    Other& other = others_.emplace_back();
+    other.last.robot = RobotId(r);
+    const sim::RobotType& twin = spec.types[spec.robots[r].twin.value_or(spec.robots[r].type)];
+    other.staleness = type.staleness;
+    other.staleness_of.fill(type.staleness);
+    other.staleness_of[twin.simulated ? 1 : 0] = twin.staleness;
+    other.staleness_of[type.simulated ? 1 : 0] = type.staleness;
+    other.real = !type.simulated;
+    other.sample_ns = INT64_MIN;
+  }
+}
+
+Result<std::unique_ptr<LiveWorld>> LiveWorld::create(const sim::EngineSpec& spec, bool alone) {
+  const std::vector<std::uint8_t> local = local_robots(spec);
+  std::vector<std::uint32_t> host_of;
+  for (const std::uint8_t here : local) host_of.push_back(here != 0 ? kOwn : kOthers);
+  RAVE_TRY_ASSIGN(auto authority,
+                  sim::WorldAuthority::create(world_of(spec, local, alone), std::move(host_of)));
+  return std::unique_ptr<LiveWorld>(new LiveWorld(spec, std::move(authority)));
+}
+
+SimTime LiveWorld::time_of(std::uint64_t step) const noexcept {
+  return {static_cast<std::int64_t>(step) * authority_->spec().step.ns};
+}
+
+bool LiveWorld::see(const RobotSight& sight) {
+  const std::uint32_t r = sight.robot.value();
+  if (r >= other_of_.size() || other_of_[r] == kNone || !finite(sight)) return false;
+  Other& other = others_[other_of_[r]];
+  if (!other.any_stamp && sight.stamp <= other.last.stamp) return false;
+  other.last = sight;
+  other.known = true;
+  other.any_stamp = false;
+  // A clock that is far ahead must not fill the memory here.
+  if (other.real && samples_.size() < kMostPackets)
+    samples_.push_back({sight.robot, sight.stamp, sight.X_WR});
+  return true;
+}
+
+Status LiveWorld::check(const ObstacleSight& sight) const {
+  return check_sight(sight, authority_->world());
+}
+
+bool LiveWorld::see(ObstacleSight sight) {
+  if (!check(sight)) return false;
+  const std::uint32_t id = sight.stands.id.value();
+  std::uint64_t& known = revision_of_[id];
+  if (sight.revision <= known) return false;
+  known = sight.revision;
+  heard_revision_ = std::max(heard_revision_, sight.revision);
+  news_[id] = std::move(sight);
+  return true;
+}
+
+/// Those that came are numbered in a row; one whose forerunner is not there yet waits for it.
+void LiveWorld::adopt_obstacles(std::uint64_t step) {
+  if (news_.empty()) return;
+  std::uint32_t next = authority_->world().body_count();
+  for (auto it = news_.begin(); it != news_.end() && it->first <= next; it = news_.erase(it)) {
+    const bool is_new = it->first == next;
+    adopt(it->second, is_new);
+    adopted_.push_back({step, it->second.stands.id, it->second.revision});
+    if (is_new) ++next;
+  }
+  if (news_.empty()) shown_revision_ = heard_revision_;
+}
+
+void LiveWorld::adopt(const ObstacleSight& sight, bool is_new) {
+  using Kind = sim::ObstacleChange::Kind;
+  const world::Obstacle* const obstacle = authority_->world().obstacle(sight.stands.id.value());
+  sim::ObstacleChange change = sight.stands;
+  if (!is_new && (obstacle == nullptr || obstacle->removed)) return;
+  if (!is_new && change.kind == Kind::kAdd) {
+    change.body = {};
+    change.kind = Kind::kMove;
+    if (!sight.removed) authority_->adopt(change);
+  } else {
+    authority_->adopt(change);
+  }
+  if (!sight.removed) return;
+  change.body = {};
+  change.kind = Kind::kRemove;
+  authority_->adopt(change);
+}
+
+void LiveWorld::clock_changed() {
+  for (Other& other : others_) other.any_stamp = true;
+}
+
+bool LiveWorld::has_room_for(Other& other, std::size_t bytes) {
+  if (heard_.packets.size() >= kMostPackets || heard_.bytes.size() + bytes > kMostBytes) {
+    return false;
+  }
+  if (other.talk.take(bytes)) return true;
+  if (other.talk.name()) flooders_.push_back(other.last.robot);
+  return false;
+}
+
+bool LiveWorld::hear(std::uint64_t writer, const sim::SentPacket& packet,
+                     std::span<const std::byte> bytes) {
+  const std::uint32_t r = packet.robot.value();
+  if (r >= other_of_.size() || other_of_[r] == kNone) return false;
+  const sim::EngineSpec& spec = authority_->spec();
+  const bool sane = packet.communicator < spec.types[spec.robots[r].type].communicators.size() &&
+                    bytes.size() <= sim::SentPacket::kMostBytes &&
+                    packet.to.kind <= RecipientKind::kTeam && std::isfinite(packet.x_m) &&
+                    std::isfinite(packet.y_m) && std::isfinite(packet.antenna_z_m) &&
+                    packet.range_m >= 0 && std::isfinite(packet.range_m);
+  if (!sane) return false;
+  // A restarted process counts anew.
+  Counted& newest = newest_[{r, packet.communicator}];
+  if (newest.writer == writer && packet.sequence <= newest.sequence) return false;
+  newest = {writer, packet.sequence};
+  if (!has_room_for(others_[other_of_[r]], bytes.size())) {
+    ++dropped_packets_;
+    return false;
+  }
+  heard_.add(packet, bytes);
+  return true;
+}
+
+Status LiveWorld::serve(RobotId robot, std::uint32_t type, const Pose2& X_WR) {
+  const std::uint32_t r = robot.value();
+  if (r >= local_.size() || local_[r] == 0) {
+    return fail(ErrorCode::kInvalidArgument, "robot {} does not run here", r);
+  }
+  RAVE_TRY(authority_->change_type(robot, type, X_WR));
+  std::erase(simulated_, robot);
+  if (!authority_->spec().types[type].simulated) return {};
+  simulated_.insert(std::lower_bound(simulated_.begin(), simulated_.end(), robot), robot);
+  return {};
+}
+
+bool LiveWorld::set_reality(RobotId robot, bool simulated) {
+  const std::uint32_t r = robot.value();
+  if (r >= other_of_.size() || other_of_[r] == kNone) return false;
+  Other& other = others_[other_of_[r]];
+  other.real = !simulated;
+  other.staleness = other.staleness_of[simulated ? 1 : 0];
+  if (simulated) {
+    std::erase_if(samples_, [robot](const sim::PoseSample& one) { return one.robot == robot; });
+  }
+  return true;
+}
+
+Status LiveWorld::begin_at(std::uint64_t step, std::span<const RobotSight> starts,
+                           sim::HostReport& own) {
+  if (step == 0) return {};
+  const sim::EngineSpec& spec = authority_->spec();
+  sim::WorldStep before;
+  before.begin(step - 1, spec.robots.size());
+  const auto put = [&before](std::uint32_t robot, const Pose2& X_WR) {
+    before.x_m[robot] = X_WR.x;
+    before.y_m[robot] = X_WR.y;
+    before.yaw_rad[robot] = X_WR.yaw;
+  };
+  for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
+    put(r, spec.robots[r].X_WR);
+    const bool simulated = spec.types[spec.robots[r].type].simulated;
+    before.flags[r] = simulated ? sim::WorldStep::kPresent : 0;
+  }
+  for (const RobotSight& start : starts) {
+    const std::uint32_t r = start.robot.value();
+    if (r < local_.size() && local_[r] != 0 && finite(start)) put(r, start.X_WR);
+  }
+  RAVE_TRY(authority_->resume(before, {}));
+  authority_->repeat_schedule();
+  own.step = step;
+  own.proposals.clear();
+  for (const RobotId robot : simulated_) own.proposals.robots.push_back(robot.value());
+  own.proposals.vx_mps.assign(simulated_.size(), 0);
+  own.proposals.vy_mps.assign(simulated_.size(), 0);
+  own.proposals.wz_radps.assign(simulated_.size(), 0);
+  return {};
+}
+
+void LiveWorld::report_place(Other& other, std::uint64_t step) {
+  const SimTime now = time_of(step);
+  const RobotSight& last = other.last;
+  const Duration age = now - last.stamp;
+  const bool stale = other.known && age > other.staleness;
+  if (stale != other.stale) {
+    const std::string text =
+        stale ? fmt::format("its host was heard of it last at {:.2f} s", last.stamp.seconds())
+              : fmt::format("its host speaks of it again, from {:.2f} s", last.stamp.seconds());
+    events_.push_back({step, last.robot,
+                       stale ? sim::EventKind::kPoseStale : sim::EventKind::kPoseBack, BodyId(),
+                       text});
+    other.stale = stale;
+  }
+  sim::PoseReport& report = others_report_.poses.emplace_back();
+  report.robot = last.robot;
+  if (!other.known) return;
+  // Clocks agree but roughly, so a sight may be of a moment that has not come here yet.
+  const std::int64_t carried_ns = std::clamp<std::int64_t>(age.ns, 0, other.staleness.ns);
+  const Pose2 X_WR = integrate(last.X_WR, last.velocity, Duration{carried_ns}.seconds());
+  sim::ReportedPose& reported = report.reported;
+  reported.pose = {X_WR.x, X_WR.y, X_WR.yaw, 0, 0};
+  if (!stale) reported.velocity = last.velocity;
+  reported.stamp = std::min(last.stamp, now);
+  reported.known = true;
+  reported.stale = stale;
+}
+
+/// Where real robots were said to be at which time, for who looks back.
+void LiveWorld::report_samples(SimTime now) {
+  const auto key = [](const sim::PoseSample& sample) {
+    return std::tie(sample.robot, sample.stamp);
+  };
+  std::stable_sort(samples_.begin(), samples_.end(),
+                   [&](const auto& a, const auto& b) { return key(a) < key(b); });
+  std::size_t kept = 0;
+  for (const sim::PoseSample& sample : samples_) {
+    Other& other = others_[other_of_[sample.robot.value()]];
+    if (sample.stamp > now) {
+      samples_[kept++] = sample;
+    } else if (sample.stamp.ns > other.sample_ns) {
+      other.sample_ns = sample.stamp.ns;
+      others_report_.samples.push_back(sample);
+    }
+  }
+  samples_.resize(kept);
+}
+
+/// As if all that was heard had left its robots in the step that is over.
+void LiveWorld::report_packets(std::uint64_t step) {
+  const std::int64_t begin_ns = time_of(step).ns - authority_->spec().step.ns;
+  order_.resize(heard_.packets.size());
+  std::iota(order_.begin(), order_.end(), 0U);
+  const auto key = [this](std::uint32_t i) {
+    const sim::SentPacket& packet = heard_.packets[i];
+    return std::tie(packet.robot, packet.communicator, packet.sequence);
+  };
+  // Of two with one number, from two starts of a host, the later one is left out.
+  std::stable_sort(order_.begin(), order_.end(), [&](auto a, auto b) { return key(a) < key(b); });
+  const auto end =
+      std::unique(order_.begin(), order_.end(), [&](auto a, auto b) { return key(a) == key(b); });
+  for (auto it = order_.begin(); it != end; ++it) {
+    sim::SentPacket packet = heard_.packets[*it];
+    const std::span<const std::byte> bytes = heard_.bytes_of(packet);
+    packet.stamp_ns = std::min(packet.stamp_ns, begin_ns);
+    packet.complete_ns = begin_ns;
+    others_report_.sent.add(packet, bytes);
+  }
+  heard_.clear();
+  for (Other& other : others_) other.talk.step();
+}
+
+void LiveWorld::report_others(std::uint64_t step) {
+  others_report_.begin(step);
+  for (Other& other : others_) report_place(other, step);
+  report_samples(time_of(step));
+  if (step > 0) report_packets(step);
+}
+
+Status LiveWorld::step(const sim::HostReport& own, sim::WorldStep& world) {
+  RAVE_CHECK(own.host == kOwn);
+  events_.clear();
+  std::array<const sim::HostReport*, 2> reports = {&own, &others_report_};
+  if (!others_.empty()) report_others(own.step);
+  adopt_obstacles(own.step);
+  RAVE_TRY(authority_->step(std::span(reports).first(others_.empty() ? 1 : 2), world));
+  take_events(own.step);
+  return {};
+}
+
+/// Each host is told of a change when it comes; the number says that it is the same.
+void LiveWorld::take_events(std::uint64_t step) {
+  for (const sim::Event& event : authority_->events()) {
+    if (event.robot.valid() && local_[event.robot.value()] == 0) continue;
+    sim::Event& taken = events_.emplace_back(event);
+    if (!is_of_obstacle(event.kind)) continue;
+    const auto change = std::find_if(adopted_.begin(), adopted_.end(), [&](const Adopted& one) {
+      return one.step == event.step && one.id == event.other;
+    });
+    if (change != adopted_.end()) taken.detail = static_cast<std::uint32_t>(change->revision);
+  }
+  std::erase_if(adopted_, [step](const Adopted& one) { return one.step < step; });
+}
+
+}  // namespace rave::real_time

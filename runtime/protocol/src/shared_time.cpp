@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/protocol/shared_time.hpp"
+
+namespace rave::real_time {
+
+void SharedTime::begin_alone(std::int64_t local_ns) {
+  zero_ns_ = local_ns;
+  known_ = true;
+}
+
+Status SharedTime::hear(std::uint64_t manager, const bus::ClockExchange& exchange, bool begun,
+                        std::int64_t zero_ns) {
+  if (manager != manager_) {
+    RAVE_TRY(bus::read_clock(exchange));
+    offset_ = bus::ClockOffset();
+    manager_ = manager;
+    answers_ = 0;
+  }
+  RAVE_TRY(offset_.add(exchange));
+  ++answers_;
+  const auto reading = offset_.at(exchange.heard_ns);
+  if (!begun || !reading) return {};
+  known_ = true;
+  zero_ns_ = zero_ns - reading->offset.ns;
+  return {};
+}
+
+}  // namespace rave::real_time

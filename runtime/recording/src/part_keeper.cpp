@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/recording/part_keeper.hpp"
+
+#include <algorithm>
+
+namespace rave::runtime {
+namespace {
+
+/// Calls `take(robot, sensor index, spec)` for each hybrid sensor of each robot.
+template <class Take>
+void each_hybrid(const sim::EngineSpec& spec, Take take, bool all = false) {
+  for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
+    const bool here =
+        all || !spec.local ||
+        std::find(spec.local->begin(), spec.local->end(), RobotId(r)) != spec.local->end();
+    if (!here) continue;
+    const auto& sensors = spec.types[spec.robots[r].type].sensors;
+    for (std::uint32_t s = 0; s < sensors.size(); ++s) {
+      if (sensors[s].hybrid) take(r, s, sensors[s]);
+    }
+  }
+}
+
+}  // namespace
+
+PartKeeper::PartKeeper(const sim::EngineSpec& spec) {
+  each_hybrid(spec, [this](std::uint32_t robot, std::uint32_t s, const sim::SensorSpec& sensor) {
+    hybrids_.push_back({RobotId(robot), s, sensor.kind, 0});
+  });
+}
+
+void PartKeeper::follow(const sim::EngineSpec& spec) {
+  PartKeeper now(spec);
+  for (Hybrid& hybrid : now.hybrids_) {
+    for (const Hybrid& before : hybrids_) {
+      const bool same = before.robot == hybrid.robot && before.sensor == hybrid.sensor;
+      if (same) hybrid.seen = before.seen;
+    }
+  }
+  // Of a sensor that is no hybrid at present it is still known what was kept.
+  for (const Hybrid& before : hybrids_) {
+    const bool gone =
+        std::none_of(now.hybrids_.begin(), now.hybrids_.end(), [&](const Hybrid& hybrid) {
+          return before.robot == hybrid.robot && before.sensor == hybrid.sensor;
+        });
+    if (gone) now.hybrids_.push_back(before);
+  }
+  hybrids_ = std::move(now.hybrids_);
+}
+
+record::StringMap PartKeeper::describe(const sim::EngineSpec& spec, bool all) {
+  record::StringMap about;
+  each_hybrid(
+      spec,
+      [&](std::uint32_t robot, std::uint32_t, const sim::SensorSpec& sensor) {
+        about[spec.robots[robot].name + "/" + sensor.name] =
+            fmt::format("{} of {} (real) and {} (virtual)", sensor.driver,
+                        sensor.hybrid->real_driver, sensor.hybrid->virtual_driver);
+      },
+      all);
+  return about;
+}
+
+void PartKeeper::keep(const sim::Engine& engine, record::RunRecorder& recorder) {
+  for (Hybrid& hybrid : hybrids_) {
+    const sim::SensorParts parts = engine.sensor_parts(hybrid.robot, hybrid.sensor);
+    if (parts.imagined == nullptr) continue;  // it has other drivers at present
+    // Made together, so the later of the two tells that both are there. Drivers that were opened
+    // for a hand-over have made none yet.
+    if (parts.imagined->sequence <= hybrid.seen) continue;
+    hybrid.seen = parts.imagined->sequence;
+    const auto put = [&](record::PerceptPart part, const SampleHeader& header,
+                         const void* records) {
+      const std::size_t bytes = std::size_t{header.count} * record_size(hybrid.kind);
+      recorder.percept({hybrid.robot,
+                        DeviceId(hybrid.sensor),
+                        static_cast<std::uint8_t>(hybrid.kind),
+                        part,
+                        {header.stamp_ns, header.sequence, header.count, 1, header.dropped},
+                        {static_cast<const std::byte*>(records), bytes}});
+    };
+    put(record::PerceptPart::kReal, *parts.real, parts.real_records);
+    put(record::PerceptPart::kVirtual, *parts.imagined, parts.imagined_records);
+  }
+}
+
+}  // namespace rave::runtime

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "record_match.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <map>
+#include <vector>
+
+#include "rave/record/moment_cursor.hpp"
+#include "rave/record/run_messages.hpp"
+#include "rave/robot/command.hpp"
+#include "rave/robot/reading.hpp"
+
+namespace rave::runtime {
+namespace {
+
+using Bytes = std::vector<std::byte>;
+using ByteSpan = std::span<const std::byte>;
+
+/// In the order in which one follows from the other within a step.
+constexpr std::array kTopics = {record::topic::kPoses,     record::topic::kPercepts,
+                                record::topic::kRadio,     record::topic::kCommands,
+                                record::topic::kActuators, record::topic::kEvents,
+                                record::topic::kHash};
+
+/// One item of a step: whose it is, and its bits.
+struct Item {
+  std::uint32_t robot = RobotId::kNone;
+  std::string channel;
+  Bytes bits;
+  std::string text;
+};
+
+template <class T>
+void append(Bytes& bits, const T& value) {
+  const auto bytes = std::as_bytes(std::span(&value, 1));
+  bits.insert(bits.end(), bytes.begin(), bytes.end());
+}
+
+std::string pose_text(const std::optional<Pose2>& pose) {
+  return pose ? fmt::format("({}, {}, {})", pose->x, pose->y, pose->yaw) : "none";
+}
+
+std::string sensor_name(const record::RunInfo& run, RobotId robot, DeviceId sensor) {
+  for (const record::RecordedSensor& s : run.sensors) {
+    if (s.robot == robot && s.sensor == sensor) return "sensor " + s.name;
+  }
+  return fmt::format("sensor {}", sensor.value());
+}
+
+std::string command_text(ByteSpan bytes) {
+  Command command;
+  if (bytes.size() != sizeof command) return fmt::format("{} bytes", bytes.size());
+  std::memcpy(&command, bytes.data(), sizeof command);
+  std::string text(to_string(command.kind));
+  for (std::uint32_t i = 0; i < std::min(command.count, 4U); ++i) {
+    text += fmt::format(" {}", command.value[i]);
+  }
+  return text;
+}
+
+std::string reading_text(const record::Percept& percept) {
+  std::string text = fmt::format("stamp {:.9f} s, {} records",
+                                 SimTime{percept.header.stamp_ns}.seconds(), percept.header.count);
+  const auto kind = static_cast<ReadingKind>(percept.kind);
+  const std::size_t word = kind == ReadingKind::kRanges ? sizeof(float) : sizeof(double);
+  const bool plain = kind == ReadingKind::kRanges || kind == ReadingKind::kPose ||
+                     kind == ReadingKind::kOdometry || kind == ReadingKind::kVelocity ||
+                     kind == ReadingKind::kValues;
+  if (!plain) return text;
+  text += ":";
+  for (std::size_t at = 0; at + word <= percept.records.size() && at < 8 * word; at += word) {
+    double value = 0;
+    float range = 0;
+    if (word == sizeof(float)) {
+      std::memcpy(&range, percept.records.data() + at, word);
+      text += fmt::format(" {}", range);
+    } else {
+      std::memcpy(&value, percept.records.data() + at, word);
+      text += fmt::format(" {}", value);
+    }
+  }
+  return text + (percept.records.size() > 8 * word ? " ..." : "");
+}
+
+std::vector<Item> poses_of(const record::StepOf<record::RobotPose>& step) {
+  std::vector<Item> items;
+  for (const record::RobotPose& pose : step.items) {
+    Item item{pose.robot.value(), "pose", {}, {}};
+    append(item.bits, pose.true_pose.has_value());
+    append(item.bits, pose.true_pose.value_or(Pose2{}));
+    append(item.bits, pose.reported_pose.has_value());
+    append(item.bits, pose.reported_pose.value_or(Pose2{}));
+    append(item.bits, pose.velocity_W);
+    item.text = fmt::format("true {}, reported {}, velocity ({}, {}, {})",
+                            pose_text(pose.true_pose), pose_text(pose.reported_pose),
+                            pose.velocity_W.vx, pose.velocity_W.vy, pose.velocity_W.wz);
+    items.push_back(std::move(item));
+  }
+  return items;
+}
+
+std::vector<Item> percepts_of(const record::StepOf<record::Percept>& step,
+                              const record::RunInfo& run) {
+  constexpr std::array kParts = {"", " (real part)", " (virtual part)"};
+  std::vector<Item> items;
+  for (const record::Percept& percept : step.items) {
+    Item item{percept.robot.value(), sensor_name(run, percept.robot, percept.sensor), {}, {}};
+    item.channel += kParts[std::min<std::size_t>(static_cast<std::size_t>(percept.part), 2)];
+    append(item.bits, percept.header);
+    item.bits.insert(item.bits.end(), percept.records.begin(), percept.records.end());
+    item.text = reading_text(percept);
+    items.push_back(std::move(item));
+  }
+  return items;
+}
+
+Bytes bytes_of(ByteSpan span) { return {span.begin(), span.end()}; }
+
+std::vector<Item> commands_of(const record::StepOf<record::CommandRecord>& step) {
+  std::vector<Item> items;
+  for (const record::CommandRecord& c : step.items) {
+    items.push_back({c.robot.value(), fmt::format("command to controller {}", c.controller.value()),
+                     bytes_of(c.command), command_text(c.command)});
+  }
+  return items;
+}
+
+std::vector<Item> actuators_of(const record::StepOf<record::ActuatorRecord>& step) {
+  std::vector<Item> items;
+  for (const record::ActuatorRecord& c : step.items) {
+    items.push_back({c.robot.value(), fmt::format("command to actuator {}", c.actuator.value()),
+                     bytes_of(c.command), command_text(c.command)});
+  }
+  return items;
+}
+
+std::vector<Item> packets_of(const record::StepOf<record::RadioPacket>& step) {
+  std::vector<Item> items;
+  for (const record::RadioPacket& p : step.items) {
+    Item item{p.from.value(), fmt::format("radio to robot {}", p.to.value()), bytes_of(p.payload),
+              fmt::format("{} bytes, {}", p.payload.size(), p.delivered ? "delivered" : "lost")};
+    append(item.bits, p.sent_ns);
+    append(item.bits, p.received_ns);
+    append(item.bits, p.transmitter);
+    append(item.bits, p.delivered);
+    items.push_back(std::move(item));
+  }
+  return items;
+}
+
+std::vector<Item> events_of(const record::StepOf<record::RunEvent>& step) {
+  std::vector<Item> items;
+  for (const record::RunEvent& e : step.items) {
+    std::string text = e.kind + " " + e.text;
+    Bytes bits = bytes_of(std::as_bytes(std::span(text)));
+    for (const double value : e.values) append(bits, value);
+    items.push_back({e.robot.value(), "event", std::move(bits), std::move(text)});
+  }
+  return items;
+}
+
+std::vector<Item> hash_of(const record::StepHash& hash) {
+  Item item{RobotId::kNone, "run hash", {}, fmt::format("{:016x}", hash.hash)};
+  append(item.bits, hash.hash);
+  return {std::move(item)};
+}
+
+/// What a message holds, item by item. Nothing for one that cannot be decoded.
+std::vector<Item> items_of(std::string_view topic, ByteSpan message, const record::RunInfo& run) {
+  if (topic == record::topic::kPoses) {
+    if (const auto step = record::decode_poses(message)) return poses_of(*step);
+  } else if (topic == record::topic::kPercepts) {
+    if (const auto step = record::decode_percepts(message)) return percepts_of(*step, run);
+  } else if (topic == record::topic::kCommands) {
+    if (const auto step = record::decode_commands(message)) return commands_of(*step);
+  } else if (topic == record::topic::kActuators) {
+    if (const auto step = record::decode_actuators(message)) return actuators_of(*step);
+  } else if (topic == record::topic::kRadio) {
+    if (const auto step = record::decode_radio(message)) return packets_of(*step);
+  } else if (topic == record::topic::kEvents) {
+    if (const auto step = record::decode_event(message)) return events_of(*step);
+  } else if (const auto step = record::decode_hash(message)) {
+    return hash_of(*step);
+  }
+  return {};
+}
+
+/// The items of all messages of one topic and step.
+std::vector<Item> items_of(std::string_view topic, const std::vector<Bytes>& messages,
+                           const record::RunInfo& run) {
+  std::vector<Item> all;
+  for (const Bytes& message : messages) {
+    for (Item& item : items_of(topic, ByteSpan(message), run)) all.push_back(std::move(item));
+  }
+  return all;
+}
+
+RunDifference describe(const Item* recorded, const Item* again, const record::RunInfo& run) {
+  const Item& item = recorded != nullptr ? *recorded : *again;
+  RunDifference difference;
+  for (const record::RecordedRobot& robot : run.robots) {
+    if (robot.id.value() == item.robot) difference.robot = robot.name;
+  }
+  difference.channel = item.channel;
+  difference.text =
+      fmt::format("recorded: {}; now: {}", recorded != nullptr ? recorded->text : "nothing",
+                  again != nullptr ? again->text : "nothing");
+  return difference;
+}
+
+/// In which order robots of different hosts come in a step is chance; what one of them says in one
+/// channel keeps its order.
+void sort_items(std::vector<Item>& items) {
+  std::stable_sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
+    if (a.robot != b.robot) return a.robot < b.robot;
+    // Two kinds of event of one robot may come from two processes.
+    return a.channel != b.channel ? a.channel < b.channel : a.channel == "event" && a.text < b.text;
+  });
+}
+
+/// Nothing if, of a merged record, the same was said in another order, or in other rows.
+std::optional<RunDifference> difference_of(std::string_view topic,
+                                           const std::vector<Bytes>& recorded,
+                                           const std::vector<Bytes>& again,
+                                           const record::RunInfo& run, bool merged) {
+  std::vector<Item> a = items_of(topic, recorded, run);
+  std::vector<Item> b = items_of(topic, again, run);
+  if (merged) {
+    sort_items(a);
+    sort_items(b);
+  }
+  for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
+    const Item* const first = i < a.size() ? &a[i] : nullptr;
+    const Item* const second = i < b.size() ? &b[i] : nullptr;
+    const bool same_place = first != nullptr && second != nullptr &&
+                            first->robot == second->robot && first->channel == second->channel;
+    if (same_place && first->bits == second->bits) continue;
+    if (same_place || first == nullptr || second == nullptr) return describe(first, second, run);
+    // One of the two is missing in the other list: the one that comes earlier by robot.
+    if (first->robot < second->robot) return describe(first, nullptr, run);
+    if (second->robot < first->robot) return describe(nullptr, second, run);
+    return describe(first, second, run);
+  }
+  if (merged && !a.empty() && recorded.size() == again.size()) return std::nullopt;
+  return RunDifference{0, 0, "", std::string(topic), "the messages differ in form"};
+}
+
+/// One in the step of that time.
+RunDifference difference_at(std::uint64_t time_ns, const record::RunInfo& run,
+                            std::string_view channel, std::string text) {
+  const std::int64_t step_ns = std::max<std::int64_t>(1, from_seconds(run.step_s).ns);
+  return {run.step_s > 0 ? time_ns / static_cast<std::uint64_t>(step_ns) : 0,
+          SimTime{static_cast<std::int64_t>(time_ns)}.seconds(), "", std::string(channel),
+          std::move(text)};
+}
+
+}  // namespace
+
+Result<RecordMatch> match_records(const record::McapReader& recorded,
+                                  const record::McapReader& again, const record::RunInfo& run,
+                                  RecordForm form) {
+  RecordMatch match;
+  std::vector<std::string_view> topics;
+  for (const char* const topic : kTopics) {
+    if (recorded.channel(topic) != nullptr) {
+      topics.emplace_back(topic);
+    } else {
+      match.absent.emplace_back(topic);
+    }
+  }
+  record::MomentCursor a(recorded, topics);
+  record::MomentCursor b(again, topics);
+  while (true) {
+    RAVE_TRY_ASSIGN(const bool more_a, a.next());
+    RAVE_TRY_ASSIGN(const bool more_b, b.next());
+    // The second run stops behind the first step that differs, so its end alone says nothing.
+    if (!more_b || (!more_a && form.cut)) return match;
+    if (!more_a) {
+      match.difference =
+          difference_at(b.time_ns(), run, "record", "recorded: nothing from here on; now: more");
+      return match;
+    }
+    const bool broken_off = form.cut && a.at_last();
+    for (const std::string_view topic : topics) {
+      const auto first = a.messages().find(topic);
+      const auto second = b.messages().find(topic);
+      static const std::vector<Bytes> kNoMessages;
+      const auto& recorded_messages = first == a.messages().end() ? kNoMessages : first->second;
+      const auto& new_messages = second == b.messages().end() ? kNoMessages : second->second;
+      // The last step of a record that broke off need not be whole.
+      if (broken_off && recorded_messages.size() < new_messages.size()) continue;
+      match.messages += recorded_messages.size();
+      if (a.time_ns() == b.time_ns() && recorded_messages == new_messages) continue;
+      match.difference = difference_of(topic, recorded_messages, new_messages, run, form.merged);
+      if (!match.difference && a.time_ns() == b.time_ns()) continue;
+      const std::uint64_t time_ns = std::min(a.time_ns(), b.time_ns());
+      RunDifference there = difference_at(time_ns, run, topic, "not at the same time");
+      if (match.difference) {
+        there.robot = std::move(match.difference->robot);
+        there.channel = std::move(match.difference->channel);
+        there.text = std::move(match.difference->text);
+      }
+      match.difference = std::move(there);
+      return match;
+    }
+  }
+}
+
+}  // namespace rave::runtime

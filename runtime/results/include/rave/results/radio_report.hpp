@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "rave/results/facts.hpp"
+#include "rave/sim/engine.hpp"
+
+namespace rave::runtime {
+
+/// Whether any robot of the run has a communicator.
+[[nodiscard]] bool has_radio(const sim::EngineSpec& spec);
+
+/// `radio` of result.json: what became of all messages.
+[[nodiscard]] nlohmann::ordered_json radio_json(const sim::RadioCounts& counts);
+
+/// Its `transmitters`: what the drivers say of themselves.
+[[nodiscard]] nlohmann::ordered_json transmitters_json(
+    const sim::EngineSpec& spec, const std::vector<InstrumentFacts>& transmitters);
+
+/// One line for the summary.
+[[nodiscard]] std::string radio_line(const sim::RadioCounts& counts);
+
+}  // namespace rave::runtime

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "rave/results/facts.hpp"
+
+namespace rave::runtime {
+
+/// `shadows` of result.json. What is no JSON object, as it may come from elsewhere, is left out.
+[[nodiscard]] nlohmann::ordered_json shadows_json(const std::vector<ShadowFacts>& shadows);
+
+}  // namespace rave::runtime

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/results/capture_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "rave/world/touching.hpp"
+
+namespace rave::runtime {
+namespace {
+
+/// More than the distance of two poses rounds by.
+constexpr double kRounding_m = 1e-6;
+
+std::vector<RobotId> ids_of(const config::ExpandedScenario& scenario, const std::string& name) {
+  std::vector<RobotId> ids;
+  for (const std::size_t r : config::robots_named(scenario, name)) {
+    ids.emplace_back(static_cast<std::uint32_t>(r));
+  }
+  return ids;
+}
+
+}  // namespace
+
+CaptureWatch::CaptureWatch(const config::CaptureCheckFile& check,
+                           const config::ExpandedScenario& scenario)
+    : check_(check),
+      predators_(ids_of(scenario, check.predator.value)),
+      prey_(ids_of(scenario, check.prey.value)),
+      closest_m_(std::numeric_limits<double>::infinity()),
+      closest_before_m_(closest_m_) {}
+
+void CaptureWatch::after_step(const StepView& step) {
+  look(step.engine.snapshot(), step.engine.steps_done() - 1);
+}
+
+void CaptureWatch::look(const world::Snapshot& world, std::uint64_t step) {
+  events_.clear();
+  closest_before_m_ = closest_m_;
+  const auto caught = [&](RobotId prey) {
+    for (const RobotId predator : predators_) {
+      if (predator == prey || !world.robot(predator).present || !world.robot(prey).present) {
+        continue;
+      }
+      const world::Body& hunter = world.model().robots[predator.value()];
+      const world::Body& hunted = world.model().robots[prey.value()];
+      // What is certainly farther than all that counts needs no closer look.
+      const Vec2 apart = world.pose(predator).position() - world.pose(prey).position();
+      const double least_m =
+          std::sqrt(squared_norm(apart)) - hunter.radius_m() - hunted.radius_m() - kRounding_m;
+      if (least_m > check_.within_m && least_m > closest_m_) continue;
+      const double gap_m =
+          world::separation(hunter, world.pose(predator), hunted, world.pose(prey)).distance_m;
+      closest_m_ = std::min(closest_m_, gap_m);
+      if (!(gap_m <= check_.within_m)) continue;
+      captures_.push_back({predator, prey, world.time().seconds(), gap_m});
+      events_.push_back({step, predator, sim::EventKind::kCaptured, world.body_of(prey),
+                         fmt::format("{:.3f} m apart", gap_m)});
+      return true;
+    }
+    return false;
+  };
+  prey_.erase(std::remove_if(prey_.begin(), prey_.end(), caught), prey_.end());
+}
+
+void CaptureWatch::forget_last_look() {
+  captures_.resize(captures_.size() - events_.size());
+  events_.clear();
+  closest_m_ = closest_before_m_;
+}
+
+CaptureFacts CaptureWatch::facts() const {
+  CaptureFacts facts{captures_, std::nullopt};
+  if (std::isfinite(closest_m_)) facts.closest_m = closest_m_;
+  return facts;
+}
+
+bool holds(const config::CaptureCheckFile& check, const CaptureFacts& facts) {
+  if (!check.before_s) return true;
+  return !facts.captures.empty() && facts.captures.front().time_s <= *check.before_s;
+}
+
+}  // namespace rave::runtime

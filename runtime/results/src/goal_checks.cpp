@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/results/goal_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rave::runtime {
+namespace {
+
+/// The robots that a name of a robot or of an entry stands for.
+std::vector<RobotId> robots_named(const config::ExpandedScenario& scenario,
+                                  const std::string& name) {
+  std::vector<RobotId> found;
+  for (std::uint32_t r = 0; r < scenario.robots.size(); ++r) {
+    const config::ExpandedRobot& robot = scenario.robots[r];
+    if (robot.name == name || *scenario.group_of(robot).name == name) found.emplace_back(r);
+  }
+  return found;
+}
+
+std::string listed(const std::vector<config::Located<std::string>>& names) {
+  std::string text;
+  for (const auto& name : names) text += (text.empty() ? "" : ", ") + *name;
+  return text;
+}
+
+bool contains(const std::vector<RobotId>& robots, RobotId robot) {
+  return std::find(robots.begin(), robots.end(), robot) != robots.end();
+}
+
+/// The robots of an entry, each once.
+std::vector<RobotId> robots_of(const config::ExpandedScenario& scenario,
+                               const config::TouchesCheckFile& file) {
+  std::vector<RobotId> robots;
+  for (const auto& name : file.robots) {
+    for (const RobotId robot : robots_named(scenario, *name)) {
+      if (!contains(robots, robot)) robots.push_back(robot);
+    }
+  }
+  return robots;
+}
+
+}  // namespace
+
+GoalChecks::GoalChecks(const config::ExpandedScenario& scenario, const sim::EngineSpec& spec) {
+  for (const config::TouchesCheckFile& file : scenario.scenario.checks.touches) {
+    Touches touches;
+    for (const RobotId robot : robots_of(scenario, file)) {
+      const auto& sensors = spec.types[spec.robots[robot.value()].type].sensors;
+      for (std::uint32_t s = 0; file.sensor && s < sensors.size(); ++s) {
+        if (sensors[s].name == **file.sensor) touches.feelers.push_back({robot, s});
+      }
+    }
+    touches_.push_back(std::move(touches));
+  }
+  for (const config::ArrivalCheckFile& file : scenario.scenario.checks.arrivals) {
+    for (const RobotId robot : robots_named(scenario, *file.robot)) {
+      arrivals_.push_back({file, robot, {}});
+    }
+  }
+}
+
+void GoalChecks::count_readings(const sim::Engine& engine, Touches& touches) {
+  for (Feeler& feeler : touches.feelers) {
+    feeler.here = engine.is_local(feeler.robot);
+    if (!feeler.here) continue;
+    const sim::SensorSample sample = engine.sensor(feeler.robot, feeler.sensor);
+    if (sample.info->kind != ReadingKind::kContact || sample.header->count == 0) continue;
+    feeler.heard = true;
+    const auto* first = static_cast<const ContactReading*>(sample.records);
+    const bool touching = std::any_of(first, first + sample.header->count,
+                                      [](const ContactReading& c) { return c.touching != 0; });
+    if (touching && !feeler.touching) ++touches.count;
+    feeler.touching = touching;
+  }
+}
+
+void GoalChecks::after_step(const StepView& step) {
+  const sim::Engine& engine = step.engine;
+  for (Touches& touches : touches_) count_readings(engine, touches);
+  for (Arrival& arrival : arrivals_) {
+    ArrivalFacts& facts = arrival.facts;
+    if (!engine.is_local(arrival.id)) continue;
+    const sim::ReportedPose& pose = engine.reported(arrival.id);
+    if (!pose.known || facts.time_s) continue;
+    const double off_m =
+        std::hypot(pose.pose.x_m - arrival.file.x_m, pose.pose.y_m - arrival.file.y_m);
+    facts.nearest_m = facts.known ? std::min(facts.nearest_m, off_m) : off_m;
+    facts.known = true;
+    const double now_s = engine.time().seconds();
+    if (off_m <= arrival.file.within_m && now_s <= arrival.file.before_s.value_or(now_s)) {
+      facts.time_s = now_s;
+    }
+  }
+}
+
+GoalFacts GoalChecks::facts() const {
+  GoalFacts facts;
+  for (const Touches& touches : touches_) {
+    facts.touches.push_back(touches.count);
+    std::vector<std::uint32_t>& silent = facts.silent.emplace_back();
+    for (const Feeler& feeler : touches.feelers) {
+      if (feeler.here && !feeler.heard) silent.push_back(feeler.robot.value());
+    }
+  }
+  for (const Arrival& arrival : arrivals_) facts.arrivals.push_back(arrival.facts);
+  return facts;
+}
+
+namespace {
+
+/// The one that pushes has the event; the one that is pushed has been touched as well.
+std::uint64_t count_contacts(const sim::EngineSpec& spec, const std::vector<sim::Event>& events,
+                             const std::vector<RobotId>& robots) {
+  const auto first_robot = static_cast<std::uint32_t>(spec.world.obstacles.size());
+  const auto concerned = [&](const sim::Event& event) {
+    if (event.kind != sim::EventKind::kContact) return false;
+    return contains(robots, event.robot) ||
+           std::any_of(robots.begin(), robots.end(), [&](RobotId robot) {
+             return BodyId(first_robot + robot.value()) == event.other;
+           });
+  };
+  return static_cast<std::uint64_t>(std::count_if(events.begin(), events.end(), concerned));
+}
+
+CheckResult touches_result(const config::TouchesCheckFile& file, std::uint64_t count) {
+  const auto& [robots, sensor, most, least] = file;
+  CheckResult result;
+  result.name = fmt::format("touches of {}{}", listed(robots),
+                            sensor ? fmt::format(" (by `{}`)", **sensor) : std::string());
+  const auto counted = static_cast<std::int64_t>(count);
+  result.holds = counted >= least && counted <= most;
+  result.text = least > 0 ? fmt::format("{}, expected {} to {}", count, least, most)
+                          : fmt::format("{}, expected at most {}", count, most);
+  return result;
+}
+
+CheckResult arrival_result(const config::ArrivalCheckFile& file, const std::string& robot,
+                           const ArrivalFacts& facts) {
+  CheckResult result;
+  result.name = fmt::format("{} comes to ({:.2f}, {:.2f}) m", robot, file.x_m, file.y_m);
+  result.holds = facts.time_s.has_value();
+  const std::string limit =
+      file.before_s ? fmt::format(" before {} s", *file.before_s) : std::string();
+  if (facts.time_s) {
+    result.text = fmt::format("at {:.2f} s", *facts.time_s);
+  } else if (facts.known) {
+    result.text = fmt::format("came no nearer than {:.2f} m, expected {} m{}", facts.nearest_m,
+                              file.within_m, limit);
+  } else {
+    result.text = "never said where it is";
+  }
+  return result;
+}
+
+/// What stands in the place of a result if nothing is known of a robot that it needs.
+void note_lost(const std::vector<RobotId>& robots, const sim::EngineSpec& spec,
+               const std::vector<std::uint8_t>& lost, CheckResult& result) {
+  for (const RobotId robot : robots) {
+    if (robot.value() >= lost.size() || lost[robot.value()] == 0) continue;
+    result.holds = false;
+    result.made = false;
+    result.text =
+        fmt::format("not made: nothing is known of `{}` here", spec.robots[robot.value()].name);
+    return;
+  }
+}
+
+/// The same if a sensor that counts never gave a reading, or if nobody knows where a robot was:
+/// then nothing could have been counted.
+void note_missing(const config::TouchesCheckFile& file, const std::vector<RobotId>& robots,
+                  const std::vector<std::uint32_t>& silent, const sim::EngineSpec& spec,
+                  const RunFacts& facts, CheckResult& result) {
+  const auto not_made = [&](RobotId robot, std::string reason) {
+    result.holds = false;
+    result.made = false;
+    result.text = fmt::format("not made: {} of `{}` {}",
+                              file.sensor ? fmt::format("`{}`", **file.sensor) : "the place",
+                              spec.robots[robot.value()].name, reason);
+  };
+  for (const RobotId robot : robots) {
+    if (file.sensor) {
+      if (std::ranges::find(silent, robot.value()) == silent.end()) continue;
+      return not_made(robot, "never gave a reading");
+    }
+    const auto found = std::ranges::find(facts.robots, robot.value(), &RobotFacts::robot);
+    if (found != facts.robots.end() && !found->known) return not_made(robot, "was never known");
+  }
+}
+
+/// The same if contacts are known only since a manager took over.
+void note_unknown(const RunFacts& facts, CheckResult& result) {
+  if (facts.world_from == 0) return;
+  result.holds = false;
+  result.made = false;
+  result.text = fmt::format(
+      "not made: contacts before step {} are known to the manager alone that was there before",
+      facts.world_from);
+}
+
+}  // namespace
+
+std::vector<CheckResult> goal_results(const config::ExpandedScenario& scenario,
+                                      const sim::EngineSpec& spec, const RunFacts& facts,
+                                      const std::vector<std::uint8_t>& lost) {
+  std::vector<CheckResult> results;
+  const auto& checks = scenario.scenario.checks;
+  for (std::size_t i = 0; i < checks.touches.size(); ++i) {
+    const config::TouchesCheckFile& file = checks.touches[i];
+    const std::vector<RobotId> robots = robots_of(scenario, file);
+    std::uint64_t count = i < facts.goals.touches.size() ? facts.goals.touches[i] : 0;
+    if (!file.sensor) count = count_contacts(spec, facts.events, robots);
+    results.push_back(touches_result(file, count));
+    const bool exceeds = static_cast<std::int64_t>(count) > file.most;
+    if (!exceeds) {
+      static const std::vector<std::uint32_t> kNone;
+      const auto& silent = i < facts.goals.silent.size() ? facts.goals.silent[i] : kNone;
+      note_missing(file, robots, silent, spec, facts, results.back());
+    }
+    if (!file.sensor && !exceeds) note_unknown(facts, results.back());
+    if (file.sensor || !facts.has_world) note_lost(robots, spec, lost, results.back());
+  }
+  std::size_t next = 0;
+  for (const config::ArrivalCheckFile& file : checks.arrivals) {
+    for (const RobotId robot : robots_named(scenario, *file.robot)) {
+      const bool there = next < facts.goals.arrivals.size();
+      results.push_back(arrival_result(file, spec.robots[robot.value()].name,
+                                       there ? facts.goals.arrivals[next] : ArrivalFacts()));
+      note_lost({robot}, spec, lost, results.back());
+      ++next;
+    }
+  }
+  return results;
+}
+
+}  // namespace rave::runtime

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/results/outcome.hpp"
+
+#include <algorithm>
+
+#include "rave/base/file.hpp"
+#include "rave/results/capture_watch.hpp"
+#include "rave/results/event_log.hpp"
+#include "rave/results/sighting_check.hpp"
+#include "stream_losses.hpp"
+
+namespace rave::runtime {
+namespace {
+
+/// Events that mean that something of the run was lost.
+bool is_loss(sim::EventKind kind) {
+  return kind == sim::EventKind::kProgramFailed || kind == sim::EventKind::kDriverFailed;
+}
+
+void fail_check(RunOutcome& outcome, bool made, std::string problem) {
+  outcome.checks_hold = false;
+  outcome.checks_fail = outcome.checks_fail || made;
+  outcome.problems.push_back(std::move(problem));
+}
+
+void judge_capture(const Findings& findings, RunOutcome& outcome) {
+  const auto& check = findings.scenario.scenario.checks.capture;
+  if (!check) return;
+  const RunFacts& facts = findings.facts;
+  if (!facts.capture) {
+    fail_check(outcome, false, "the capture check was not made: nobody saw all of the robots");
+    return;
+  }
+  if (holds(*check, *facts.capture)) return;
+  if (facts.world_from > 0) {
+    fail_check(outcome, false,
+               fmt::format("the capture check was not made: captures before step {} are known to "
+                           "the manager alone that was there before",
+                           facts.world_from));
+    return;
+  }
+  fail_check(
+      outcome, true,
+      fmt::format("the capture check fails: nobody was captured before {} s", *check->before_s));
+}
+
+void judge_sightings(const Findings& findings, RunOutcome& outcome) {
+  const auto& limits = findings.scenario.scenario.checks.sightings;
+  if (!limits) return;
+  const SightingTally tally = findings.facts.sightings.value_or(SightingFacts()).all();
+  if (findings.any_lost()) {
+    fail_check(outcome, false, "the sighting check was not made: a host left nothing here");
+  } else if (tally.total < static_cast<std::uint64_t>(limits->min_compared)) {
+    fail_check(outcome, true,
+               fmt::format("the sighting check fails: {} real sightings had a code that a body "
+                           "carries, {} had none; expected at least {} to compare",
+                           tally.total, tally.unknown, limits->min_compared));
+  } else if (!holds(*limits, tally)) {
+    const std::uint64_t unknown = counted(*limits, tally) - tally.total;
+    fail_check(
+        outcome, true,
+        fmt::format("the sighting check fails: {} of {} real sightings ({:.2f} %) agree with the "
+                    "virtual camera within {} m and {} degrees; expected at least {} %{}",
+                    tally.within, counted(*limits, tally), within_pct(*limits, tally),
+                    limits->range_m, limits->bearing_deg, limits->min_within_pct,
+                    unknown == 0
+                        ? std::string()
+                        : fmt::format("; {} of them have codes that no body carries", unknown)));
+  }
+}
+
+void judge_checks(const Findings& findings, RunOutcome& outcome) {
+  judge_capture(findings, outcome);
+  judge_sightings(findings, outcome);
+  for (const CheckResult& check :
+       goal_results(findings.scenario, findings.spec, findings.facts, findings.lost)) {
+    if (check.holds) continue;
+    fail_check(outcome, check.made,
+               fmt::format("a check {}: {}: {}", check.made ? "fails" : "was not made", check.name,
+                           check.text));
+  }
+}
+
+}  // namespace
+
+bool Findings::any_lost() const noexcept {
+  return std::any_of(lost.begin(), lost.end(), [](auto robot) { return robot != 0; });
+}
+
+double Findings::done_s() const noexcept {
+  return static_cast<double>(facts.steps) * spec.step.seconds();
+}
+
+std::size_t Findings::real_robots() const {
+  return static_cast<std::size_t>(std::count_if(
+      spec.robots.begin(), spec.robots.end(),
+      [&](const sim::RobotSpec& robot) { return !spec.types[robot.type].simulated; }));
+}
+
+std::size_t Findings::count(sim::EventKind kind) const {
+  return static_cast<std::size_t>(
+      std::count_if(facts.events.begin(), facts.events.end(),
+                    [kind](const sim::Event& event) { return event.kind == kind; }));
+}
+
+GuardCounts guard_counts(const Findings& findings) {
+  GuardCounts counts;
+  for (const sim::Event& event : findings.facts.events) {
+    const bool slowed = event.kind == sim::EventKind::kGuardSlowed;
+    if (!slowed && event.kind != sim::EventKind::kGuardStopped) continue;
+    const std::string_view limit = to_string(static_cast<sim::GuardLimit>(event.detail));
+    ++counts[findings.spec.robots[event.robot.value()].name]
+            [fmt::format("{} by {}", slowed ? "slowed" : "stopped", limit)];
+  }
+  return counts;
+}
+
+RunOutcome judge(const Findings& findings) {
+  RunOutcome outcome;
+  if (findings.ended_early) outcome.problems.emplace_back("the run was ended early");
+  const RunFacts& facts = findings.facts;
+  outcome.problems.insert(outcome.problems.end(), facts.problems.begin(), facts.problems.end());
+  const sim::EngineSpec& spec = findings.spec;
+  for (const sim::Event& event : facts.events) {
+    if (!is_loss(event.kind)) continue;
+    outcome.problems.push_back(
+        fmt::format("robot `{}` at {:.2f} s: {}", spec.robots[event.robot.value()].name,
+                    static_cast<double>(event.step) * spec.step.seconds(), event.text));
+  }
+  for (const RobotFacts& robot : facts.robots) {
+    if (robot.known || facts.steps == 0) continue;
+    outcome.problems.push_back(
+        fmt::format("robot `{}` never said where it is", spec.robots[robot.robot].name));
+  }
+  for (const sim::Event& event : facts.events) {
+    if (event.kind != sim::EventKind::kChangeRefused) continue;
+    outcome.problems.push_back(fmt::format("the change at {:.2f} s was refused: {}",
+                                           static_cast<double>(event.step) * spec.step.seconds(),
+                                           event.text));
+  }
+  for (const sim::Event& event : facts.events) {
+    // Whoever asked by hand has been told.
+    const bool scheduled = !event.text.ends_with("(by hand)");
+    if (event.kind != sim::EventKind::kHandOverRefused || !scheduled) continue;
+    outcome.problems.push_back(fmt::format(
+        "robot `{}` at {:.2f} s was not handed over: {}", spec.robots[event.robot.value()].name,
+        static_cast<double>(event.step) * spec.step.seconds(), event.text));
+  }
+  outcome.whole = outcome.problems.empty();
+  // The run did all it could with what its recordings gave it; who reads the result should know.
+  for (std::string& loss : stream_losses(findings)) outcome.problems.push_back(std::move(loss));
+  judge_checks(findings, outcome);
+  if (findings.hash) outcome.hash = fmt::format("{:016x}", *findings.hash);
+  return outcome;
+}
+
+std::string why_no_hash(const Findings& findings, const RunOutcome& outcome) {
+  if (!outcome.hash.empty()) return {};
+  if (!findings.live_reason.empty()) return findings.live_reason;
+  return outcome.problems.empty() ? std::string("nobody knows the parts of all hosts")
+                                  : "the run was not whole: " + outcome.problems.front();
+}
+
+Result<RunOutcome> write_results(const Findings& findings, const std::filesystem::path& folder,
+                                 bool picture) {
+  RunOutcome outcome = judge(findings);
+  if (picture) {
+    const report::Picture drawn = make_picture(findings, outcome);
+    RAVE_TRY(report::write_svg(drawn, folder / "picture.svg"));
+    RAVE_TRY(report::write_png(drawn, folder / "picture.png"));
+  }
+  outcome.summary = summary_text(findings, outcome);
+  RAVE_TRY(write_file_atomically(folder / "summary.txt", outcome.summary));
+  RAVE_TRY(write_file_atomically(folder / "events.log",
+                                 events_log(findings.spec, findings.kinds, findings.facts.events)));
+  RAVE_TRY(write_file_atomically(folder / "result.json", result_json(findings, outcome)));
+  return outcome;
+}
+
+}  // namespace rave::runtime

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/results/radio_report.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace rave::runtime {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+}  // namespace
+
+Json transmitters_json(const sim::EngineSpec& spec,
+                       const std::vector<InstrumentFacts>& transmitters) {
+  Json all = Json::array();
+  for (const InstrumentFacts& instrument : transmitters) {
+    // A driver's text is not ours: what is no JSON is left out.
+    const Json report = Json::parse(instrument.report, nullptr, false);
+    if (!report.is_object() || report.empty()) continue;
+    Json entry = {{"robot", spec.robots[instrument.robot].name},
+                  {"transmitter", instrument.name},
+                  {"driver", instrument.driver}};
+    for (const auto& [key, value] : report.items()) entry[key] = value;
+    all.push_back(std::move(entry));
+  }
+  return all;
+}
+
+bool has_radio(const sim::EngineSpec& spec) {
+  return std::any_of(spec.robots.begin(), spec.robots.end(), [&](const sim::RobotSpec& robot) {
+    return !spec.types[robot.type].communicators.empty();
+  });
+}
+
+Json radio_json(const sim::RadioCounts& c) {
+  Json json = {{"offered", c.offered},
+               {"sent", c.sent},
+               {"addressed", c.addressed},
+               {"delivered", c.delivered}};
+  json["lost"] = {{"range", c.lost_range}, {"obstacle", c.lost_obstacle}, {"chance", c.lost_chance},
+                  {"queue", c.lost_queue}, {"mailbox", c.lost_mailbox},   {"device", c.lost_device},
+                  {"refused", c.refused}};
+  json["from_devices"] = {{"heard", c.heard},
+                          {"foreign", c.foreign},
+                          {"repeated", c.repeated},
+                          {"garbled", c.garbled},
+                          {"overrun", c.overrun}};
+  return json;
+}
+
+std::string radio_line(const sim::RadioCounts& c) {
+  std::string text = fmt::format("{} sent, {} delivered to {} addressees; lost: {} out of range",
+                                 c.sent, c.delivered, c.addressed, c.lost_range);
+  const auto add = [&text](std::uint64_t count, const char* why) {
+    if (count > 0) text += fmt::format(", {} {}", count, why);
+  };
+  add(c.lost_obstacle, "behind obstacles");
+  add(c.lost_chance, "by chance");
+  add(c.lost_queue, "in full queues");
+  add(c.lost_mailbox, "at full mailboxes");
+  add(c.lost_device, "at transmitters");
+  add(c.refused, "refused");
+  return text;
+}
+
+}  // namespace rave::runtime

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "rave/observe/event_words.hpp"
+#include "rave/results/capture_watch.hpp"
+#include "rave/results/lateness_report.hpp"
+#include "rave/results/outcome.hpp"
+#include "rave/results/radio_report.hpp"
+#include "rave/results/shadow_report.hpp"
+#include "rave/results/sighting_check.hpp"
+
+namespace rave::runtime {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double rounded(double value, double unit) { return std::round(value / unit) * unit; }
+
+Json tally_json(const SightingTally& tally) {
+  return {{"total", tally.total},
+          {"unknown", tally.unknown},
+          {"within", tally.within},
+          {"within_pct", rounded(tally.within_pct(), 0.01)}};
+}
+
+Json sightings_json(const config::SightingsCheckFile& limits, const SightingFacts& facts,
+                    bool whole) {
+  const SightingTally all = facts.all();
+  Json json = tally_json(all);
+  // Robots may misread a code now and then; for that, only all together are judged.
+  json["counted"] = counted(limits, all);
+  json["within_pct"] = rounded(within_pct(limits, all), 0.01);
+  json["limits"] = {{"range_m", limits.range_m},
+                    {"bearing_deg", limits.bearing_deg},
+                    {"min_within_pct", limits.min_within_pct},
+                    {"min_compared", limits.min_compared},
+                    {"max_unknown", limits.max_unknown}};
+  json["holds"] = whole ? Json(holds(limits, all)) : Json();
+  json["robots"] = Json::object();
+  for (const auto& [robot, tally] : facts.by_robot) json["robots"][robot] = tally_json(tally);
+  json["unknown_codes"] = Json::array();
+  for (const auto& [code, count] : facts.unknown_codes) {
+    json["unknown_codes"].push_back({{"code", code}, {"count", count}});
+  }
+  return json;
+}
+
+Json encounters_json(const Findings& findings) {
+  Json json = Json::object();
+  for (const auto& [pair, encounter] : findings.facts.closest) {
+    json[pair] = {
+        {"gap_m", rounded(encounter.gap_m, 1e-4)},
+        {"centres_m", rounded(encounter.centres_m, 1e-4)},
+        {"time_s", encounter.time_s},
+        {"between", {findings.kinds.name(encounter.a), findings.kinds.name(encounter.b)}}};
+  }
+  return json;
+}
+
+/// A driver's text is not ours: what is no JSON object is kept as text. What its data calls its
+/// robot need not be what the scenario calls it.
+void add_report(const std::string& text, Json& entry) {
+  const Json report = Json::parse(text, nullptr, false);
+  if (!report.is_object()) {
+    entry["report"] = text;
+    return;
+  }
+  for (const auto& [key, value] : report.items()) {
+    entry[entry.contains(key) ? "source_" + key : key] = value;
+  }
+}
+
+/// What the drivers of one sort of part say of themselves; `part`: what the sort is called.
+Json instruments_json(const Findings& findings, const std::vector<InstrumentFacts>& instruments,
+                      const char* part) {
+  Json json = Json::array();
+  for (const InstrumentFacts& instrument : instruments) {
+    Json entry = {{"robot", findings.spec.robots[instrument.robot].name},
+                  {part, instrument.name},
+                  {"driver", instrument.driver}};
+    add_report(instrument.report, entry);
+    json.push_back(std::move(entry));
+  }
+  return json;
+}
+
+/// A driver's text is not ours: of a transmitter, what is no JSON is left out.
+Json robot_json(const Findings& findings, const RobotFacts& robot) {
+  const sim::RobotSpec& spec = findings.spec.robots[robot.robot];
+  const bool simulated = findings.spec.types[spec.type].simulated;
+  Json json = {{"name", spec.name},        {"reality", simulated ? "simulated" : "real"},
+               {"program", robot.program}, {"commands", robot.commands},
+               {"obeys", robot.obeys},     {"way_m", rounded(robot.way_m, 1e-3)}};
+  json["final_pose"] = {{"x_m", rounded(robot.x_m, 1e-4)},
+                        {"y_m", rounded(robot.y_m, 1e-4)},
+                        {"yaw_rad", rounded(robot.yaw_rad, 1e-4)},
+                        {"stamp_s", SimTime{robot.stamp_ns}.seconds()},
+                        {"stale", robot.stale}};
+  return json;
+}
+
+Json robots_json(const Findings& findings) {
+  Json json = Json::array();
+  for (const RobotFacts& robot : findings.facts.robots) {
+    json.push_back(robot_json(findings, robot));
+  }
+  return json;
+}
+
+/// Where what is known of each host's robots comes from.
+Json hosts_json(const Findings& findings) {
+  const auto value = [](const auto& optional) { return optional ? Json(*optional) : Json(); };
+  Json json = Json::array();
+  for (const HostShare& host : findings.hosts) {
+    Json entry = {{"name", host.name}, {"found", host.found}, {"folders", host.folders}};
+    if (!findings.live_reason.empty()) {
+      if (host.heard) entry["heard"] = *host.heard;
+      if (host.losses) entry["losses"] = *host.losses;
+      entry["clock_offset_s"] = value(host.offset_s);
+      entry["clock_bound_s"] = value(host.bound_s);
+    }
+    json.push_back(std::move(entry));
+  }
+  return json;
+}
+
+Json events_json(const Findings& findings) {
+  Json json = Json::object();
+  for (const auto kind : {sim::EventKind::kContact,         sim::EventKind::kPinned,
+                          sim::EventKind::kPoseStale,       sim::EventKind::kPoseBack,
+                          sim::EventKind::kProgramFailed,   sim::EventKind::kDriverFailed,
+                          sim::EventKind::kDriverBack,      sim::EventKind::kGuardSlowed,
+                          sim::EventKind::kGuardStopped,    sim::EventKind::kStopped,
+                          sim::EventKind::kReleased,        sim::EventKind::kArmed,
+                          sim::EventKind::kChanged,         sim::EventKind::kChangeRefused,
+                          sim::EventKind::kObstacleAdded,   sim::EventKind::kObstacleMoved,
+                          sim::EventKind::kObstacleRemoved, sim::EventKind::kCaptured,
+                          sim::EventKind::kHandedOver,      sim::EventKind::kHandOverRefused,
+                          sim::EventKind::kShadowReset}) {
+    std::string name(to_string(kind));
+    std::replace(name.begin(), name.end(), ' ', '_');
+    json[name] = findings.count(kind);
+  }
+  return json;
+}
+
+Json capture_json(const Findings& findings) {
+  const sim::EngineSpec& spec = findings.spec;
+  const config::CaptureCheckFile& check = *findings.scenario.scenario.checks.capture;
+  Json json = {{"within_m", check.within_m},
+               {"holds", nullptr},
+               {"captured_at_s", nullptr},
+               {"captures", Json::array()}};
+  if (!findings.facts.capture) return json;
+  const CaptureFacts& facts = *findings.facts.capture;
+  if (holds(check, facts) || findings.facts.world_from == 0) json["holds"] = holds(check, facts);
+  if (facts.closest_m.value_or(1e9) < 1e9) json["closest_m"] = rounded(*facts.closest_m, 1e-4);
+  for (const Capture& capture : facts.captures) {
+    if (json["captured_at_s"].is_null()) json["captured_at_s"] = capture.time_s;
+    json["captures"].push_back({{"predator", spec.robots[capture.predator.value()].name},
+                                {"prey", spec.robots[capture.prey.value()].name},
+                                {"time_s", capture.time_s},
+                                {"gap_m", rounded(capture.gap_m, 1e-4)}});
+  }
+  return json;
+}
+
+/// Changes while the run went, with their times.
+Json changes_json(const Findings& findings) {
+  Json json = Json::array();
+  const sim::EngineSpec& spec = findings.spec;
+  for (const sim::Event& event : findings.facts.events) {
+    if (event.kind != sim::EventKind::kChanged && event.kind != sim::EventKind::kChangeRefused &&
+        !is_of_obstacle(event.kind)) {
+      continue;
+    }
+    json.push_back({{"time_s", static_cast<double>(event.step) * spec.step.seconds()},
+                    {"robot", event.robot.valid() ? Json(subject_of(spec, event)) : Json()},
+                    {"made", event.kind != sim::EventKind::kChangeRefused},
+                    {"what", event.text}});
+  }
+  return json;
+}
+
+/// What became of each hand-over, and of shadows; nothing for a scenario without twins.
+void add_hand_overs(const Findings& findings, Json& json) {
+  const sim::EngineSpec& spec = findings.spec;
+  const bool twins = std::any_of(spec.robots.begin(), spec.robots.end(),
+                                 [](const auto& robot) { return robot.twin.has_value(); });
+  if (!twins) return;
+  json["hand_overs"] = Json::array();
+  for (const sim::Event& event : findings.facts.events) {
+    const bool made = event.kind == sim::EventKind::kHandedOver;
+    if (!made && event.kind != sim::EventKind::kHandOverRefused) continue;
+    json["hand_overs"].push_back({{"time_s", static_cast<double>(event.step) * spec.step.seconds()},
+                                  {"robot", subject_of(spec, event)},
+                                  {"made", made},
+                                  {"what", event.text}});
+  }
+  if (!findings.facts.shadows.empty()) json["shadows"] = shadows_json(findings.facts.shadows);
+}
+
+void add_edits(const SharedEdits& edits, Json& json) {
+  const auto confirmed = static_cast<double>(edits.confirmed);
+  const bool measured = edits.confirmed > 0;
+  json["edits"] = edits.made;
+  json["edits_confirmed_by_all"] = edits.confirmed;
+  json["edit_slowest_s"] = measured ? Json(edits.slowest_s) : Json();
+  json["edit_mean_s"] = measured ? Json(edits.sum_s / confirmed) : Json();
+}
+
+}  // namespace
+
+std::string result_json(const Findings& findings, const RunOutcome& outcome) {
+  const config::ScenarioFile& scenario = findings.scenario.scenario;
+  Json json;
+  json["scenario"] = scenario.name.value;
+  json["whole"] = outcome.whole;
+  json["checks_hold"] = outcome.checks_hold;
+  json["problems"] = outcome.problems;
+  json["seed"] = scenario.seed;
+  json["step_s"] = scenario.step_s.value;
+  json["steps"] = findings.facts.steps;
+  // Contacts, changes of the world and captures before it are not known here.
+  if (findings.facts.world_from > 0) json["world_from_step"] = findings.facts.world_from;
+  json["simulated_s"] = findings.done_s();
+  json["wall_s"] = rounded(findings.wall_s, 1e-3);
+  json["lateness"] = lateness_json(findings.facts.lateness);
+  json["threads"] = findings.spec.threads;
+  json["hash"] = outcome.hash.empty() ? Json(nullptr) : Json(outcome.hash);
+  if (outcome.hash.empty()) json["no_hash_because"] = why_no_hash(findings, outcome);
+  if (scenario.checks.sightings) {
+    json["sightings"] =
+        sightings_json(*scenario.checks.sightings,
+                       findings.facts.sightings.value_or(SightingFacts()), !findings.any_lost());
+  }
+  json["checks"] = Json::array();
+  for (const CheckResult& check :
+       goal_results(findings.scenario, findings.spec, findings.facts, findings.lost)) {
+    json["checks"].push_back({{"check", check.name},
+                              {"holds", check.made ? Json(check.holds) : Json()},
+                              {"text", check.text}});
+  }
+  json["hits"] = findings.facts.hits;
+  json["closest"] = encounters_json(findings);
+  json["events"] = events_json(findings);
+  if (has_radio(findings.spec)) {
+    json["radio"] = radio_json(findings.facts.radio);
+    json["radio"]["transmitters"] = transmitters_json(findings.spec, findings.facts.transmitters);
+  }
+  json["guard"] = guard_counts(findings);
+  json["changes"] = changes_json(findings);
+  json["inputs_by_hand"] = findings.facts.inputs_by_hand;
+  add_hand_overs(findings, json);
+  if (scenario.checks.capture) json["capture"] = capture_json(findings);
+  json["robots"] = robots_json(findings);
+  json["devices"] = instruments_json(findings, findings.facts.devices, "device");
+  json["streams"] = instruments_json(findings, findings.facts.streams, "sensor");
+  if (findings.worlds) json["worlds"] = *findings.worlds;
+  if (findings.states) json["states"] = *findings.states;
+  if (findings.edits) add_edits(*findings.edits, json);
+  if (!findings.hosts.empty()) json["hosts"] = hosts_json(findings);
+  // What came from other processes may be no text.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace rave::runtime

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/results/instant.hpp"
+#include "rave/results/outcome.hpp"
+#include "rave/results/sighting_check.hpp"
+
+namespace rave::runtime {
+namespace {
+
+std::vector<report::PictureTrack> tracks_of(const RunFacts& facts) {
+  std::vector<report::PictureTrack> tracks;
+  for (const TrackFacts& track : facts.tracks) tracks.push_back(track.track);
+  return tracks;
+}
+
+report::PictureInstant shown(const InstantFacts& facts) {
+  report::PictureInstant instant;
+  instant.t_s = facts.t_s;
+  for (const InstantRobot& robot : facts.robots) {
+    instant.robots.insert(instant.robots.end(), robot.bodies.begin(), robot.bodies.end());
+    instant.hits.insert(instant.hits.end(), robot.hits.begin(), robot.hits.end());
+  }
+  for (const InstantSighting& sighting : facts.sightings) {
+    instant.sightings.push_back(sighting.shown);
+  }
+  return instant;
+}
+
+}  // namespace
+
+report::Picture make_picture(const Findings& findings, const RunOutcome& outcome) {
+  report::Picture picture;
+  const config::ScenarioFile& scenario = findings.scenario.scenario;
+  picture.title = scenario.picture && !scenario.picture->title.empty() ? scenario.picture->title
+                                                                       : scenario.name.value;
+  const std::size_t count = findings.spec.robots.size();
+  const std::size_t real = findings.real_robots();
+  picture.subtitle = fmt::format("{} real and {} simulated robots in one world, {:.0f} s", real,
+                                 count - real, findings.done_s());
+  if (scenario.checks.sightings && findings.facts.sightings) {
+    const SightingTally tally = findings.facts.sightings->all();
+    picture.caption.push_back(
+        fmt::format("{:.2f} % of {} real camera sightings agree with the virtual camera within "
+                    "{} m and {}\u00b0.",
+                    tally.within_pct(), tally.total, scenario.checks.sightings->range_m,
+                    scenario.checks.sightings->bearing_deg));
+  }
+  if (!outcome.hash.empty()) picture.caption.push_back("Run hash " + outcome.hash);
+  const world::WorldModel& world = findings.spec.world;
+  for (std::size_t number = 0; number < world.obstacle_count(); ++number) {
+    const std::uint32_t body = world.obstacle_id(number);
+    const world::Obstacle& obstacle = *world.obstacle(body);
+    if (obstacle.removed) continue;
+    for (std::size_t i = 0; i < obstacle.body.shapes.size(); ++i) {
+      report::PictureBody shown;
+      shown.outline_W = outline_of(obstacle.body.shapes[i], obstacle.X_WB);
+      shown.kind = findings.kinds.kind(body);
+      // Tubes are known by their number, walls of a map are too many to be named.
+      if (i == 0 && shown.kind == report::Kind::kLandmark) {
+        const std::size_t dash = obstacle.body.name.rfind('-');
+        shown.label =
+            dash == std::string::npos ? obstacle.body.name : obstacle.body.name.substr(dash + 1);
+      } else if (i == 0 && shown.kind == report::Kind::kVirtualObstacle) {
+        shown.label = obstacle.body.name;
+      }
+      shown.colour = obstacle.body.colour;
+      picture.bodies.push_back(std::move(shown));
+    }
+  }
+  picture.tracks = tracks_of(findings.facts);
+  if (findings.facts.instant) picture.instant = shown(*findings.facts.instant);
+  return picture;
+}
+
+}  // namespace rave::runtime

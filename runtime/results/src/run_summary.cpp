@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <limits>
+
+#include "rave/base/names.hpp"
+#include "rave/report/table.hpp"
+#include "rave/results/outcome.hpp"
+#include "rave/results/radio_report.hpp"
+#include "rave/results/sighting_check.hpp"
+
+namespace rave::runtime {
+namespace {
+
+void add_guard_row(const Findings& findings, report::Table& table) {
+  std::map<std::string, std::size_t> total;
+  for (const auto& [robot, counts] : guard_counts(findings)) {
+    for (const auto& [what, count] : counts) total[what] += count;
+  }
+  std::string text;
+  for (const auto& [what, count] : total) {
+    const std::size_t space = what.find(' ');
+    text += fmt::format("{}{} {}x{}", text.empty() ? "" : ", ", what.substr(0, space), count,
+                        what.substr(space));
+  }
+  if (!text.empty()) table.rows.push_back({"guard", text});
+}
+
+void add_capture_rows(const Findings& findings, report::Table& table) {
+  if (!findings.scenario.scenario.checks.capture) return;
+  if (!findings.facts.capture) {
+    table.rows.push_back({"captured", "not made: nobody saw all of the robots"});
+    return;
+  }
+  const sim::EngineSpec& spec = findings.spec;
+  const CaptureFacts& capture = *findings.facts.capture;
+  for (const Capture& caught : capture.captures) {
+    table.rows.push_back(
+        {"captured", fmt::format("{} by {} at {:.2f} s", spec.robots[caught.prey.value()].name,
+                                 spec.robots[caught.predator.value()].name, caught.time_s)});
+  }
+  if (!capture.captures.empty()) return;
+  const double closest_m = capture.closest_m.value_or(std::numeric_limits<double>::infinity());
+  table.rows.push_back({"captured", fmt::format("nobody; nearest {:.2f} m", closest_m)});
+}
+
+void add_sighting_row(const Findings& findings, report::Table& table) {
+  if (!findings.scenario.scenario.checks.sightings) return;
+  const config::SightingsCheckFile& limits = *findings.scenario.scenario.checks.sightings;
+  const SightingFacts facts = findings.facts.sightings.value_or(SightingFacts());
+  const SightingTally tally = facts.all();
+  const bool holds = runtime::holds(limits, tally) && !findings.any_lost();
+  std::vector<std::string_view> blind;
+  for (const auto& [robot, own] : facts.by_robot) {
+    if (own.total + own.unknown == 0) blind.emplace_back(robot);
+  }
+  table.rows.push_back(
+      {"sighting check",
+       fmt::format(
+           "{}: {:.2f} % of {} real sightings agree with the virtual camera ({} with "
+           "unknown codes){}",
+           holds ? "holds" : "FAILS", within_pct(limits, tally), counted(limits, tally),
+           tally.unknown,
+           blind.empty() ? std::string() : fmt::format("; none of {}", join_names(blind)))});
+}
+
+/// Real robots whose commands went nowhere, as `a, b and c`.
+std::string disobedient(const Findings& findings) {
+  std::vector<std::string_view> names;
+  for (const RobotFacts& robot : findings.facts.robots) {
+    if (robot.commands > 0 && !robot.obeys) {
+      names.emplace_back(findings.spec.robots[robot.robot].name);
+    }
+  }
+  return names.empty() ? std::string() : join_names(names);
+}
+
+void add_encounter_rows(const Findings& findings, report::Table& table) {
+  for (const auto& [pair, encounter] : findings.facts.closest) {
+    table.rows.push_back(
+        {fmt::format("closest {}", pair),
+         fmt::format("{:.3f} m between outlines at {:.2f} s ({} and {})",
+                     std::max(encounter.gap_m, 0.0), encounter.time_s,
+                     findings.kinds.name(encounter.a), findings.kinds.name(encounter.b))});
+  }
+}
+
+void add_hit_rows(const Findings& findings, report::Table& table) {
+  for (const auto& [who, counts] : findings.facts.hits) {
+    std::string text;
+    for (const auto& [what, count] : counts) {
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", what, count);
+    }
+    table.rows.push_back({fmt::format("rays of {} robots met", who), text});
+  }
+}
+
+}  // namespace
+
+std::string summary_text(const Findings& findings, const RunOutcome& outcome) {
+  report::Table table;
+  table.title = findings.scenario.scenario.name.value;
+  table.columns = {{"what", report::Align::kLeft, false}, {"result", report::Align::kLeft, true}};
+  const std::size_t count = findings.spec.robots.size();
+  const std::size_t real = findings.real_robots();
+  const double simulated_s = findings.done_s();
+  table.rows.push_back(
+      {"robots", fmt::format("{}: {} real, {} simulated", count, real, count - real)});
+  table.rows.push_back(
+      {"time", fmt::format("{:.2f} s simulated in {:.2f} s ({:.1f}x)", simulated_s, findings.wall_s,
+                           simulated_s / std::max(findings.wall_s, 1e-9))});
+  if (const LatenessFacts& late = findings.facts.lateness; late.deadlines > 0) {
+    table.rows.push_back({"deadlines", lateness_text(late)});
+  }
+  add_sighting_row(findings, table);
+  const auto goals = goal_results(findings.scenario, findings.spec, findings.facts, findings.lost);
+  for (const CheckResult& check : goals) {
+    table.rows.push_back(
+        {check.name, fmt::format("{}: {}", check.holds ? "holds" : "FAILS", check.text)});
+  }
+  table.rules_before.push_back(table.rows.size());
+  add_encounter_rows(findings, table);
+  table.rules_before.push_back(table.rows.size());
+  add_hit_rows(findings, table);
+  table.rules_before.push_back(table.rows.size());
+  table.rows.push_back(
+      {"contacts, pins", fmt::format("{}, {}", findings.count(sim::EventKind::kContact),
+                                     findings.count(sim::EventKind::kPinned))});
+  if (findings.facts.world_from > 0) {
+    table.rows.push_back(
+        {"", fmt::format("and captures, from step {} on: the manager before is gone with the rest",
+                         findings.facts.world_from)});
+  }
+  if (has_radio(findings.spec)) {
+    table.rows.push_back({"messages", radio_line(findings.facts.radio)});
+  }
+  add_guard_row(findings, table);
+  add_capture_rows(findings, table);
+  if (const auto by_hand = findings.facts.inputs_by_hand; by_hand > 0) {
+    table.rows.push_back({"changed by hand", fmt::format("{} inputs; the scenario alone gives "
+                                                         "another run",
+                                                         by_hand)});
+  }
+  const std::string deaf = disobedient(findings);
+  if (!deaf.empty()) {
+    table.rows.push_back({"did not obey", deaf + ": a recording cannot; its commands were logged"});
+  }
+  for (const HostShare& host : findings.hosts) {
+    if (host.found || !host.folders.empty()) continue;
+    table.rows.push_back({fmt::format("host {}", host.name),
+                          "elsewhere: what it knows of its robots lies there, in the folder of its "
+                          "`rave robot`"});
+  }
+  table.rows.push_back({"run hash", outcome.hash.empty() ? "none: " + why_no_hash(findings, outcome)
+                                                         : outcome.hash});
+  for (const std::string& problem : outcome.problems) table.rows.push_back({"problem", problem});
+  return report::render_table(table, {100, false});
+}
+
+}  // namespace rave::runtime

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/results/shared_results.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "rave/base/file.hpp"
+#include "rave/protocol/agreement.hpp"
+#include "rave/recording/world_record.hpp"
+#include "rave/results/capture_watch.hpp"
+#include "rave/results/facts_file.hpp"
+#include "rave/results/outcome.hpp"
+
+namespace rave::runtime {
+namespace {
+
+/// What results say of a spec, without what cannot be copied: its drivers.
+sim::EngineSpec outline_of(const sim::EngineSpec& spec) {
+  sim::EngineSpec outline;
+  outline.step = spec.step;
+  outline.seed = spec.seed;
+  outline.threads = spec.threads;
+  outline.world = spec.world;
+  outline.robots = spec.robots;
+  for (const sim::RobotType& type : spec.types) {
+    sim::RobotType& known = outline.types.emplace_back();
+    known.name = type.name;
+    known.simulated = type.simulated;
+    if (!type.communicators.empty()) known.communicators.emplace_back();
+  }
+  return outline;
+}
+
+/// Changes of the world that somebody asked for.
+std::uint64_t count_by_hand(std::span<const sim::Event> events) {
+  return static_cast<std::uint64_t>(std::ranges::count_if(events, [](const sim::Event& event) {
+    return (sim::is_of_obstacle(event.kind) || event.kind == sim::EventKind::kChanged) &&
+           event.text.ends_with("(by hand)");
+  }));
+}
+
+}  // namespace
+
+struct SharedResults::Impl {
+  Impl(const config::ExpandedScenario& s, const BuiltScenario& built, Options o)
+      : scenario(s),
+        options(std::move(o)),
+        spec(outline_of(built.spec)),
+        live_reason(built.live_reason),
+        kinds(spec, built.robot_kinds) {
+    const auto& checks = scenario.scenario.checks;
+    if (live_reason.empty() && checks.capture) capture.emplace(*checks.capture, scenario);
+  }
+
+  void note_step(const sim::WorldAuthority& authority);
+  void note_take_over(const sim::WorldAuthority& authority, std::uint64_t from);
+  Status add(const SharedHost& host, std::string bytes, std::vector<std::string>& added);
+  [[nodiscard]] HostShare share_of(const SharedHost& host) const;
+  void fill_in_before(std::uint64_t steps);
+  void take(const SharedHost& host, const std::vector<std::size_t>& robots, Findings& findings);
+
+  const config::ExpandedScenario& scenario;
+  Options options;
+  sim::EngineSpec spec;
+  std::string live_reason;
+  BodyKinds kinds;
+  std::optional<CaptureWatch> capture;
+  std::unique_ptr<WorldRecord> record;
+  RunFacts facts;
+  std::vector<sim::Event> seen;  ///< Captures of the step that is not done yet.
+  bool begun = false;
+  bool taken_over = false;    ///< From another manager.
+  bool missed_steps = false;  ///< A host was not there in some, perhaps before this manager.
+  std::uint64_t noted = 0;    ///< Steps whose events have been taken.
+};
+
+/// What a manager before knew and is a problem of the run.
+void SharedResults::Impl::note_take_over(const sim::WorldAuthority& authority, std::uint64_t from) {
+  taken_over = true;
+  facts.world_from = from;
+  const auto told = authority.refused();
+  for (const sim::Event& event : told) {
+    if (event.step < from) facts.events.push_back(event);
+  }
+  if (authority.refused_count() <= told.size()) return;
+  facts.problems.push_back(
+      fmt::format("{} changes of the scenario were refused until step {}; the first {} are told",
+                  authority.refused_count(), from + 1, told.size()));
+}
+
+/// The step that is done now.
+void SharedResults::Impl::note_step(const sim::WorldAuthority& authority) {
+  const std::uint64_t done = authority.steps_done();
+  kinds.learn(authority.world());
+  const bool first = !std::exchange(begun, true);
+  // The step that a manager before left unfinished has been finished here.
+  if (first && done > 0) note_take_over(authority, done - 1);
+  // With the first world of a run no step is done.
+  if (first ? done == 0 : done == noted) return;
+  noted = done;
+  std::vector<sim::Event> events(authority.events().begin(), authority.events().end());
+  events.insert(events.end(), seen.begin(), seen.end());
+  seen.clear();
+  if (record) record->step(done - 1, kinds, events, authority.hash().value());
+  facts.events.insert(facts.events.end(), events.begin(), events.end());
+  facts.inputs_by_hand += count_by_hand(authority.events());
+}
+
+/// What one process of a host knows; each once, whichever way it came.
+Status SharedResults::Impl::add(const SharedHost& host, std::string bytes,
+                                std::vector<std::string>& added) {
+  if (std::ranges::find(added, bytes) != added.end()) return {};
+  RAVE_TRY_ASSIGN(
+      RunFacts found,
+      decode_facts(std::as_bytes(std::span(bytes)), {shared_number(scenario), host.name},
+                   {static_cast<std::uint32_t>(spec.robots.size()), kinds.count()}));
+  missed_steps = missed_steps || found.first_step > 0;
+  merge(std::move(found), facts);
+  added.push_back(std::move(bytes));
+  return {};
+}
+
+HostShare SharedResults::Impl::share_of(const SharedHost& host) const {
+  HostShare share;
+  share.name = host.name;
+  for (const auto& folder : host.folders) {
+    share.folders.push_back(folder.lexically_proximate(options.folder).generic_string());
+  }
+  share.offset_s = host.offset_s;
+  share.bound_s = host.bound_s;
+  share.heard = host.heard;
+  share.losses = host.losses;
+  return share;
+}
+
+void SharedResults::Impl::take(const SharedHost& host, const std::vector<std::size_t>& robots,
+                               Findings& findings) {
+  HostShare share = share_of(host);
+  std::vector<std::string> added;
+  for (const auto& folder : host.folders) {
+    auto text = read_file(folder / kFactsFile);
+    if (!text && text.error().code == ErrorCode::kNotFound) continue;
+    const Status status =
+        text ? add(host, *std::move(text), added) : Status(tl::unexpected(text.error()));
+    if (status) continue;
+    facts.problems.push_back(fmt::format("host `{}`: `{}`: {}", host.name,
+                                         (folder / kFactsFile).string(), status.error().message));
+  }
+  for (const std::vector<std::byte>& bytes : host.findings) {
+    const Status status =
+        add(host, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, added);
+    if (status) continue;
+    facts.problems.push_back(
+        fmt::format("host `{}`: what it has sent: {}", host.name, status.error().message));
+  }
+  share.found = !added.empty();
+  if (!share.found) {
+    findings.lost.resize(spec.robots.size());
+    for (const std::size_t robot : robots) findings.lost[robot] = 1;
+    // What a host elsewhere knows lies there if nobody could ask it for that.
+    if (!host.folders.empty() || host.awaited) {
+      facts.problems.push_back(
+          fmt::format("host `{}` {}: nothing is known of its robots here", host.name,
+                      host.folders.empty() ? "has not sent its findings" : "left no findings"));
+    }
+  }
+  findings.hosts.push_back(std::move(share));
+}
+
+/// Where a host saw the whole run, what was before this manager is known as well. `steps`: that
+/// were done.
+void SharedResults::Impl::fill_in_before(std::uint64_t steps) {
+  if (!taken_over) return;
+  const auto from = facts.world_from;
+  // Also of one that took over in the first step; nobody may have seen the whole run.
+  facts.world_from = std::max<std::uint64_t>(from, 1);
+  if (!facts.world) return;
+  WorldFacts told = *std::exchange(facts.world, std::nullopt);
+  if (told.first_step > 0 || told.next_step < steps) return;
+  using Kind = sim::EventKind;
+  // Of the step in which it took over this manager knows no texts, and of captures it does not know
+  // which came before.
+  std::erase_if(facts.events, [from](const sim::Event& event) {
+    if (event.kind == Kind::kCaptured) return true;
+    const bool textless = event.kind == Kind::kChanged && event.text.empty();
+    return event.step == from && (textless || event.kind == Kind::kContact ||
+                                  event.kind == Kind::kPinned || sim::is_of_obstacle(event.kind));
+  });
+  std::erase_if(told.events, [from](const sim::Event& event) {
+    return event.step > from && event.kind != Kind::kCaptured;
+  });
+  RunFacts before;
+  before.first_step = facts.first_step;
+  before.inputs_by_hand = count_by_hand(told.events);
+  before.events = std::move(told.events);
+  merge(std::move(before), facts);
+  facts.capture = std::move(told.capture);
+  facts.world_from = 0;
+}
+
+SharedResults::SharedResults(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+SharedResults::~SharedResults() = default;
+
+Result<std::unique_ptr<SharedResults>> SharedResults::begin(
+    const config::ExpandedScenario& scenario, const BuiltScenario& built, Options options) {
+  auto impl = std::make_unique<Impl>(scenario, built, std::move(options));
+  if (impl->live_reason.empty() && impl->options.record) {
+    RAVE_TRY_ASSIGN(impl->record, WorldRecord::begin(impl->options.folder / "world.mcap", scenario,
+                                                     impl->spec, impl->kinds, impl->options.log));
+  }
+  return std::unique_ptr<SharedResults>(new SharedResults(std::move(impl)));
+}
+
+bool SharedResults::after_step(const sim::WorldAuthority& authority) {
+  impl_->note_step(authority);
+  if (!impl_->capture) return false;
+  impl_->capture->look(authority.snapshot(), authority.steps_done());
+  const auto seen = impl_->capture->events();
+  impl_->seen.assign(seen.begin(), seen.end());
+  return impl_->capture->ends_run();
+}
+
+void SharedResults::learn(const world::WorldModel& world) {
+  impl_->spec.world = world;
+  impl_->kinds.learn(world);
+}
+
+void SharedResults::at_end(const sim::WorldAuthority& authority) {
+  impl_->spec.world = authority.world();
+  impl_->facts.has_world = true;
+  if (impl_->capture) {
+    // Nobody was in the step that the last world began.
+    if (impl_->begun) impl_->capture->forget_last_look();
+    impl_->facts.capture = impl_->capture->facts();
+  }
+  if (!impl_->record) return;
+  const Status written = impl_->record->end(authority.hash().value());
+  if (!written) {
+    impl_->facts.problems.push_back("the record of the world is not whole: " +
+                                    written.error().text());
+  }
+}
+
+Result<RunOutcome> SharedResults::write(const SharedEnd& end) {
+  Impl& impl = *impl_;
+  RAVE_TRY_ASSIGN(const auto planned, config::plan_hosts(impl.scenario));
+  RunFacts& facts = impl.facts;
+  facts.problems.insert(facts.problems.begin(), end.problems.begin(), end.problems.end());
+  facts.events.insert(facts.events.end(), end.events.begin(), end.events.end());
+  facts.lateness += end.lateness;
+  Findings findings{impl.scenario, impl.spec, impl.kinds, impl.live_reason, facts};
+  for (std::size_t h = 0; h < planned.size() && h < end.hosts.size(); ++h) {
+    impl.take(end.hosts[h], planned[h].robots, findings);
+  }
+  if (impl.live_reason.empty()) facts.steps = end.steps;
+  impl.fill_in_before(facts.steps);
+  findings.worlds = end.worlds;
+  findings.states = end.states;
+  findings.edits = end.edits;
+  findings.wall_s = end.wall_s;
+  if (!impl.missed_steps) findings.hash = end.hash;
+  return write_results(findings, impl.options.folder, impl.options.picture);
+}
+
+}  // namespace rave::runtime

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stream_losses.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+namespace rave::runtime {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kMostLost = 0.05;
+
+/// A driver's text is not ours: what is no count is none.
+std::uint64_t count_of(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  const bool is_count = found != object.end() && found->is_number_unsigned();
+  return is_count ? found->get<std::uint64_t>() : 0;
+}
+
+std::string loss_of(const Findings& findings, const InstrumentFacts& stream) {
+  const Json report = Json::parse(stream.report, nullptr, false);
+  if (!report.is_object() || !report.contains("dropped")) return {};
+  const Json& dropped = report["dropped"];
+  if (!dropped.is_object()) return {};
+  const std::uint64_t count = count_of(dropped, "count");
+  const std::uint64_t of = count_of(dropped, "of");
+  const double share = of > 0 ? static_cast<double>(count) / static_cast<double>(of) : 0;
+  if (!(share > kMostLost)) return {};
+  const auto because = dropped.find("because");
+  const bool said = because != dropped.end() && because->is_string() && *because != "";
+  return fmt::format("sensor `{}` of robot `{}` lost {} of {} readings ({:.1f} %){}", stream.name,
+                     findings.spec.robots[stream.robot].name, count, of, 100 * share,
+                     said ? ": " + because->get<std::string>() : "");
+}
+
+}  // namespace
+
+std::vector<std::string> stream_losses(const Findings& findings) {
+  std::vector<std::string> losses;
+  for (const InstrumentFacts& stream : findings.facts.streams) {
+    if (std::string loss = loss_of(findings, stream); !loss.empty()) {
+      losses.push_back(std::move(loss));
+    }
+  }
+  return losses;
+}
+
+}  // namespace rave::runtime

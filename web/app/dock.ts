@@ -67,7 +67,7 @@ export class Dock {
   offer(id: string): void {
     if (this.view.panels.some((panel) => panel.id === id)) return;
     const beside = this.view.panels.find((panel) => panel.id === 'sensors' || panel.id === 'robot')?.id;
-    this.add(id, beside === undefined ? undefined : {referencePanel: beside, direction: 'within'});
+    this.add(id, beside === undefined ? undefined : {referencePanel: beside, direction: 'within'}, {inactive: true});
   }
 
   /** Titles with their numbers, such as `Robots 16`. */

@@ -56,6 +56,7 @@ export class FakeRun {
     this.reason = '';
     this.pace = 1;
     this.stopped = new Set();
+    this.components = [];
     /** Velocities that came: slot, m/s, rad/s. */
     this.driven = [];
     this.drives = new Map(this.robots.map((_, slot) => [slot, {lease: '', takes: ['drive', 'goal', 'path', 'text', 'place'], order: ''}]));
@@ -74,7 +75,7 @@ export class FakeRun {
     const why = {seek: 'A live run cannot be moved in time.', play: 'Only a super-user holds the run.', stop: 'Observers do not stop robots.', command: 'Observers do not command robots.', edit: 'Only a super-user edits the world.'};
     const every = ['play', 'seek', 'pace', 'step', 'stop', 'release', 'true_pose', 'readings', 'hybrid_parts', 'obstacles', 'log', 'recording', 'rights', 'command', 'edit', 'chat'];
     const why_not = Object.fromEntries(every.filter((power) => !this.may.includes(power)).map((power) => [power, why[power] ?? 'Not given to this role.']));
-    return {type: 'hello', protocol: 1, server: 'fake 0', user: {name: 'Ada N', role: this.role}, ...(this.seenBy ? {user: this.seenBy.as, seen_by: this.seenBy.by} : {}), may: this.may, why_not,
+    return {type: 'hello', protocol: 1, server: 'fake 0', user: {name: 'Ada N', role: this.role}, ...(this.seenBy ? {user: this.seenBy.as, seen_by: this.seenBy.by} : {}), may: this.may, why_not, ...(this.components.length ? {components: this.components} : {}),
       run: {name: this.name, source: this.source, clock: 'lock_step', started: '', step_s: 0.01, seed: 1, hash: null, recording: null}};
   }
 

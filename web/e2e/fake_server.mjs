@@ -73,6 +73,8 @@ class FakeServer {
     this.run = run;
     this.viewers = new Set();
     this.heard = [];
+    /** Text of modules by path, such as `/components/0/heat.js`. */
+    this.components = new Map();
   }
 
   async listen(port) {
@@ -101,6 +103,11 @@ class FakeServer {
 
   answer(request, response) {
     const path = normalize(new URL(request.url, 'http://x').pathname);
+    const component = this.components.get(path);
+    if (component !== undefined) {
+      response.writeHead(200, {'Content-Type': 'text/javascript', 'Content-Security-Policy': kPolicy}).end(component);
+      return;
+    }
     if (path === '/ticket') {
       response.writeHead(200, {'Content-Type': 'application/json'});
       response.end('{"relay":true,"lines":[]}');

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of how a person commands, with a made-up run: node order_shots.mjs PAGE FOLDER
+// Pictures of how a person commands, with a made-up run: node order_shots.mjs PAGE FOLDER [NAME].
+// Those of docs/images are made with `command-dark` and `command-pen`.
 import {mkdirSync} from 'node:fs';
 import {join} from 'node:path';
 import {launch} from './browser.mjs';
@@ -7,7 +8,7 @@ import {app, until} from './checks.mjs';
 import {FakeRun} from './fake_run.mjs';
 import {serveFake} from './fake_server.mjs';
 
-const [pageFolder, folder] = process.argv.slice(2);
+const [pageFolder, folder, only = ''] = process.argv.slice(2);
 mkdirSync(folder, {recursive: true});
 
 function made() {
@@ -30,6 +31,7 @@ const place = (page, x, y) => page.evaluate(([wx, wy]) => {
 }, [x, y]);
 
 async function shot(name, [width, height], theme, act, options = {}) {
+  if (only !== '' && only !== name) return;
   const server = await serveFake(pageFolder, made());
   const context = await browser.newContext({viewport: {width, height}, ...options});
   const page = await context.newPage();
@@ -57,8 +59,8 @@ async function drivePath(page) {
   await page.mouse.up();
 }
 
-await shot('commander-dark', [1600, 1000], 'dark', drivePath);
-await shot('commander-light', [1600, 1000], 'light', async (page) => {
+await shot('command-dark', [1600, 1000], 'dark', drivePath);
+await shot('command-light', [1600, 1000], 'light', async (page) => {
   await drivePath(page);
   const box = await page.locator('rave-joystick .stick').boundingBox();
   await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
@@ -83,7 +85,7 @@ await shot('pen', [480, 640], 'light', async (page) => {
   await page.evaluate(() => document.querySelector('rave-app').selection.set([6]));
   await page.evaluate(() => document.querySelector('rave-app').commands.goal([6], [[1, 2]]));
 }, {hasTouch: true});
-await shot('pen-ring', [480, 640], 'light', async (page) => {
+await shot('command-pen', [480, 640], 'light', async (page) => {
   await page.evaluate(() => document.querySelector('rave-app').selection.set([6]));
   const [x, y] = await place(page, 0, 0);
   await page.mouse.click(x, y, {button: 'right'});

@@ -143,6 +143,7 @@ export class ChatPanel extends LitElement {
       .bad { margin: 4px 14px; color: var(--danger); font-size: var(--fs-12); }
       form.field { margin: 6px 10px 2px; height: auto; min-height: 34px; padding-right: 2px; flex: none; }
       textarea { flex: 1; min-width: 0; border: 0; outline: 0; resize: none; background: none; color: var(--text-1); font: inherit; font-size: var(--fs-13); field-sizing: content; max-height: 90px; padding: 6px 0; }
+      textarea:focus-visible { outline: none; }
       textarea::placeholder { color: var(--text-3); }
       .kept { margin: 0 12px 6px; color: var(--text-3); font-size: var(--fs-11); flex: none; }
     `,

@@ -134,7 +134,7 @@ export class JoystickPanel extends LitElement {
           @blur=${() => { this.keys.clear(); this.loop.release('keys'); }} @contextmenu=${(event: Event) => event.preventDefault()}>
           ${renderDial({x: this.loop.x, y: this.loop.y, held: this.loop.held !== null, disabled: why !== '', guard: guard === null ? null : guard.limit_mps / this.loop.v_mps})}</div></div>
       ${this.renderValues(slot, guard)}
-      <footer><span class="chip">${icon('server', 13)} through the server</span>${this.renderDelay()}</footer>`;
+      <footer>${this.renderWay(robot.name)}${this.renderDelay()}</footer>`;
   }
 
   private renderSources(): TemplateResult {
@@ -166,6 +166,12 @@ export class JoystickPanel extends LitElement {
           ${kTop_mps.map((top) => html`<option value=${top} ?selected=${top === this.loop.v_mps}>${top} m/s</option>`)}</select></small></div></div>`;
   }
 
+  /** Which way the velocities go. */
+  private renderWay(name: string): TemplateResult {
+    const direct = this.context.link.direct?.way(name) === 'direct';
+    return html`<span class="chip ${direct ? 'direct' : ''}">${icon(direct ? 'zap' : 'server', 13)} ${direct ? 'Direct line' : 'through the server'}</span>`;
+  }
+
   private renderDelay(): TemplateResult | typeof nothing {
     if (this.loop.delay_ms === 0) return nothing;
     const {delays_ms} = this.loop;
@@ -195,7 +201,7 @@ export class JoystickPanel extends LitElement {
       .notes small { display: block; font-size: var(--fs-11); font-weight: 400; color: var(--text-3); }
       .notes .held { color: var(--intent); }
       .guarded { color: var(--warn); text-align: right; max-width: 130px; }
-      .stick { width: min(100%, 240px); max-height: 100%; aspect-ratio: 1; touch-action: none; user-select: none; cursor: grab; border-radius: 50%; }
+      .stick { position: absolute; inset: 4px 12px; margin: auto; height: min(100% - 8px, 240px); max-width: calc(100% - 24px); aspect-ratio: 1; touch-action: none; user-select: none; cursor: grab; border-radius: 50%; }
       .stick[aria-disabled='true'] { cursor: not-allowed; }
       .values { display: grid; grid-template-columns: 1fr 1fr; gap: 18px; padding: 6px 14px 10px; font-size: var(--fs-12); color: var(--text-2); }
       .values label { display: block; white-space: nowrap; }
@@ -206,6 +212,7 @@ export class JoystickPanel extends LitElement {
       .track i { position: absolute; top: 0; height: 6px; border-radius: 3px; background: var(--intent); }
       .track u { position: absolute; top: -3px; width: 2px; height: 12px; background: var(--warn); }
       footer { display: flex; align-items: center; gap: 10px; padding: 8px 12px; border-top: 1px solid var(--line-1); font-size: var(--fs-12); flex: none; }
+      .chip.direct { background: linear-gradient(var(--ok-soft) 0 0), var(--bg-1); color: var(--ok); }
       polyline { fill: none; stroke: var(--ok); stroke-width: 1.25; }
       .empty { display: grid; place-content: center; justify-items: center; gap: 4px; height: 100%; color: var(--text-3); font-size: var(--fs-12); }
     `,

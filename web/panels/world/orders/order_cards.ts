@@ -58,7 +58,7 @@ export function renderCards(context: PanelContext, desk: OrderDesk, at: ToScreen
 }
 
 function place([x, y]: readonly [number, number], look: string, content: TemplateResult): TemplateResult {
-  return html`<div class="beside ${look}" role=${look === 'refused' ? 'alert' : 'group'} style="left:clamp(8px, ${Math.round(x + 18)}px, calc(100% - 228px));top:clamp(8px, ${Math.round(y - 18)}px, calc(100% - 110px))">${content}</div>`;
+  return html`<div class="beside ${look}" role=${look === 'refused' ? 'alert' : 'group'} style="left:clamp(8px, ${Math.round(x + 18)}px, calc(100% - 228px));top:clamp(8px, ${Math.round(y - (look === 'draft' ? 64 : 18))}px, calc(100% - 110px))">${content}</div>`;
 }
 
 function renderDraft(context: PanelContext, desk: OrderDesk, at: ToScreen): TemplateResult | typeof nothing {
@@ -103,6 +103,8 @@ export const orderStyles = css`
   .shapes { display: inline-flex; gap: 2px; }
   .shapes button[aria-checked='true'] { background: #fff; color: #4a3bbf; font-weight: var(--fw-medium); }
   .beside { position: absolute; z-index: 4; display: flex; align-items: center; flex-wrap: wrap; gap: 8px; max-width: 220px; padding: 8px 10px; background: var(--bg-2); border: 1px solid var(--line-2); border-radius: var(--r-4); box-shadow: var(--shadow-pop); font-size: var(--fs-12); }
+  .beside.draft { pointer-events: none; }
+  .beside.draft button { pointer-events: auto; }
   .beside.refused { border-color: var(--danger); }
   .beside.refused b { flex: 1 0 100%; color: var(--danger); }
   .beside span { min-width: 0; overflow-wrap: anywhere; }

@@ -26,6 +26,13 @@ export class RingMenu extends LitElement {
     this.renderRoot.querySelector<HTMLElement>('button:not([disabled])')?.focus({preventScroll: true});
   }
 
+  /** Where the press that opened the menu ends is no choice: a choice begins in the menu, or is made by a key. */
+  private begun = false;
+
+  private press(event: MouseEvent, sector: Sector | null): void {
+    if (this.begun || event.detail === 0) this.choose(sector);
+  }
+
   private choose(sector: Sector | null): void {
     this.dispatchEvent(new CustomEvent('choose', {detail: sector?.id ?? null}));
   }
@@ -43,14 +50,14 @@ export class RingMenu extends LitElement {
 
   override render(): TemplateResult {
     return html`<div class="shade" @pointerdown=${() => this.choose(null)}></div><span class="name">${this.name}</span>
-      <div class="ring" role="menu" aria-label="Orders for ${this.name}" @keydown=${this.key}>
+      <div class="ring" role="menu" aria-label="Orders for ${this.name}" @pointerdown=${() => { this.begun = true; }} @keydown=${this.key}>
         <svg viewBox="${-kOuter} ${-kOuter} ${kRing_px} ${kRing_px}" aria-hidden="true">${this.sectors.map((sector, i) => svg`<path class="${sector.id} ${sector.why === '' ? '' : 'off'}" d=${wedge(i)} />`)}</svg>
         ${this.sectors.map((sector, i) => {
           const a = (i * Math.PI) / 3;
           return html`<button class="sector ${sector.id}" role="menuitem" ?disabled=${sector.why !== ''} title=${sector.why || sector.label}
-            style="left:${kOuter + 70 * Math.sin(a)}px;top:${kOuter - 70 * Math.cos(a)}px" @click=${() => this.choose(sector)}>${icon(sector.icon, 20)}${sector.label}</button>`;
+            style="left:${kOuter + 70 * Math.sin(a)}px;top:${kOuter - 70 * Math.cos(a)}px" @click=${(event: MouseEvent) => this.press(event, sector)}>${icon(sector.icon, 20)}${sector.label}</button>`;
         })}
-        <button class="close" aria-label="Close" @click=${() => this.choose(null)}>${icon('x', 18)}</button>
+        <button class="close" aria-label="Close" @click=${(event: MouseEvent) => this.press(event, null)}>${icon('x', 18)}</button>
       </div>`;
   }
 

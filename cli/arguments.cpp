@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <initializer_list>
+#include <string_view>
 
 #include "bench_arguments.hpp"
 #include "command_tree.hpp"
@@ -131,6 +133,10 @@ Command chosen_command(const CLI::App& root, const Everything& all) {
   if (name == "set") return all.control.set;
   if (name == "hand-over") return all.control.hand_over;
   if (name == "shadow") return all.control.shadow;
+  if (name == "drive") return all.control.drive;
+  if (name == "goal") return all.control.goal;
+  if (name == "say") return all.control.say;
+  if (name == "place") return all.control.place;
   if (name == "bench") {
     if (chosen_app(root).get_name() == "swarm") return all.bench_swarm;
     return all.bench_compare;
@@ -157,17 +163,39 @@ Command chosen_command(const CLI::App& root, const Everything& all) {
   return VersionCommand{};
 }
 
+/// Headings of the help. A command that is not named here controls a run in progress.
+void group_commands(CLI::App& root) {
+  using Names = std::initializer_list<std::string_view>;
+  struct Group {
+    const char* heading;
+    Names names;
+  };
+  const Group groups[] = {
+      {"Start a run", {"run", "robot", "env"}},
+      {"Files, drivers and programs", {"check", "drivers", "describe", "new", "schema"}},
+      {"Recordings", {"info", "verify", "play", "export", "report"}},
+      {"Page in the browser", {"gui", "people"}},
+      {"Several machines", {"keys", "doctor"}},
+      {"This build", {"bench", "version"}},
+  };
+  for (CLI::App* const app : root.get_subcommands(nullptr)) {
+    app->group("Runs in progress");
+    for (const Group& group : groups) {
+      for (const std::string_view name : group.names) {
+        if (app->get_name() == name) app->group(group.heading);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 Command parse_arguments(int argc, const char* const* argv) {
   Everything all;
   bool version = false;
-  bool tree = false;
   CLI::App root("Real and simulated mobile robots in one world", "rave");
   root.require_subcommand(0, 1);
   root.add_flag("--version", version, "Print the version and exit");
-  // Not for people: tools make man pages and shell completion from it.
-  root.add_flag("--command-tree", tree)->group("");
   add_run_commands(root, all.runs);
   add_file_commands(root, all.files);
   add_record_commands(root, all.records);
@@ -184,6 +212,12 @@ Command parse_arguments(int argc, const char* const* argv) {
       "  rave check my/robot.yaml --draw robot.svg\n"
       "  rave describe virtual_laser\n\n"
       "Help on one command: `rave SUBCOMMAND --help`, or `man rave-SUBCOMMAND`.");
+  group_commands(root);
+  // Not for people: tools make man pages and shell completion from it.
+  if (argc == 2 && std::string_view(argv[1]) == "--command-tree") {
+    put(stdout, command_tree(root));
+    return Finished{kGood};
+  }
   if (argc > 1) {
     if (const auto finished = unknown_subcommand(root, argv[1])) return *finished;
   }
@@ -196,10 +230,6 @@ Command parse_arguments(int argc, const char* const* argv) {
     return usage_error(root, e);
   }
   if (version) return VersionCommand{};
-  if (tree) {
-    put(stdout, command_tree(root));
-    return Finished{kGood};
-  }
   if (root.get_subcommands().empty()) {
     put(stderr, root.help());
     return Finished{kBadInput};

@@ -18,6 +18,7 @@
 #include "commands/info.hpp"
 #include "commands/keys.hpp"
 #include "commands/new.hpp"
+#include "commands/order.hpp"
 #include "commands/people.hpp"
 #include "commands/play.hpp"
 #include "commands/report.hpp"
@@ -39,10 +40,10 @@ using Command =
     std::variant<Finished, RunCommand, RobotCommand, EnvCommand, CheckCommand, DriversCommand,
                  DescribeCommand, NewCommand, SchemaCommand, InfoCommand, VerifyCommand,
                  PlayCommand, ExportCommand, GapCommand, GuiCommand, PsCommand, StopCommand,
-                 ArmCommand, SetCommand, HandOverCommand, ShadowCommand, EditCommand, HoldCommand,
-                 EndCommand, BenchSwarmCommand, BenchCompareCommand, KeysNewCommand, KeysAddCommand,
-                 KeysShowCommand, KeysWebCommand, KeysLineCommand, PeopleCommand, TopCommand,
-                 DoctorCommand, VersionCommand>;
+                 ArmCommand, SetCommand, HandOverCommand, ShadowCommand, EditCommand, OrderCommand,
+                 HoldCommand, EndCommand, BenchSwarmCommand, BenchCompareCommand, KeysNewCommand,
+                 KeysAddCommand, KeysShowCommand, KeysWebCommand, KeysLineCommand, PeopleCommand,
+                 TopCommand, DoctorCommand, VersionCommand>;
 
 /// Reads the command line. Prints help and complaints itself.
 [[nodiscard]] Command parse_arguments(int argc, const char* const* argv);

@@ -116,6 +116,52 @@ void add_shadow(CLI::App& root, ShadowCommand& c) {
   add_network_options(app, c.bus);
 }
 
+void add_order(CLI::App& app, OrderCommand& c) {
+  add_value(app, "--run", c.run, "Name, process id or scenario of the run [the only one]", "RUN");
+  app.add_flag("--force", c.force, "Take the robot from who drives it");
+  add_network_options(app, c.bus);
+}
+
+void add_orders(CLI::App& root, ControlCommands& commands) {
+  CLI::App& drive = *root.add_subcommand("drive", "Drive a robot of a run in place of its program");
+  add_word(drive, "robot", commands.drive.robot, "Which one", "ROBOT");
+  add_word(drive, "velocity", commands.drive.numbers, "Forward, m/s; to the left, rad/s", "V W")
+      ->expected(2);
+  add_value(drive, "--for", commands.drive.for_s, "So long, s [1]", "S")
+      ->check(CLI::Range(0.1, 3600.0));
+  add_order(drive, commands.drive);
+  drive.footer(
+      "The guard of the robot stays in force. When it ends, or this command is ended, the robot\n"
+      "stands, and its program has it again.\n\n"
+      "Examples:\n"
+      "  rave drive prey 0.3 0.5 --for 2");
+  CLI::App& goal = *root.add_subcommand("goal", "Send a robot of a run to a point or along a line");
+  add_word(goal, "robot", commands.goal.robot, "Which one", "ROBOT");
+  add_value(goal, "points", commands.goal.numbers, "World frame, m", "X Y [X Y ...]");
+  add_value(goal, "--speed", commands.goal.speed_mps, "The largest, m/s [the robot's own]", "V");
+  goal.add_flag("--cancel", commands.goal.cancel, "What was asked before counts no more");
+  add_order(goal, commands.goal);
+  goal.footer(
+      "Examples:\n"
+      "  rave goal prey 1.5 -2\n"
+      "  rave goal prey 0 0 1 0 1 1 --speed 0.2\n"
+      "  rave goal prey --cancel");
+  CLI::App& say = *root.add_subcommand("say", "Tell the program of a robot something");
+  add_word(say, "robot", commands.say.robot, "Which one", "ROBOT");
+  add_word(say, "text", commands.say.text, "At most 1000 bytes", "TEXT");
+  add_order(say, commands.say);
+  CLI::App& place = *root.add_subcommand("place", "Put a simulated robot of a run elsewhere");
+  add_word(place, "robot", commands.place.robot, "Which one", "ROBOT");
+  add_word(place, "pose", commands.place.numbers, "World frame, m; degrees", "X Y [YAW]")
+      ->expected(2, 3);
+  add_order(place, commands.place);
+  place.footer("Examples:\n  rave place prey 1.5 -2 90");
+  commands.drive.what = OrderCommand::What::kDrive;
+  commands.goal.what = OrderCommand::What::kGoal;
+  commands.say.what = OrderCommand::What::kSay;
+  commands.place.what = OrderCommand::What::kPlace;
+}
+
 void add_name(CLI::App& app, std::string& name) {
   add_word(app, "name", name, "Name of the obstacle; `rave edit list` lists all", "NAME");
 }
@@ -174,6 +220,7 @@ void add_control_commands(CLI::App& root, ControlCommands& commands) {
   add_hand_over(root, commands.hand_over);
   add_shadow(root, commands.shadow);
   add_edit(root, commands.edit);
+  add_orders(root, commands);
 }
 
 }  // namespace rave::cli

@@ -5,6 +5,7 @@
 #include "commands/edit.hpp"
 #include "commands/end.hpp"
 #include "commands/hand_over.hpp"
+#include "commands/order.hpp"
 
 namespace CLI {  // its own name. NOLINT(readability-identifier-naming)
 class App;
@@ -23,11 +24,14 @@ struct ControlCommands {
   HandOverCommand hand_over;
   ShadowCommand shadow;
   EditCommand edit;
+  OrderCommand drive;
+  OrderCommand goal;
+  OrderCommand say;
+  OrderCommand place;
 };
 
-/// Adds `ps`, `stop`, `arm`, `set`, `pause`, `resume`, `step`, `end`, `hand-over`, `shadow` and
-/// `edit`,
-/// which write what they are given to `commands`.
+/// Adds `ps`, `stop`, `arm`, `set`, `pause`, `resume`, `step`, `end`, `hand-over`, `shadow`,
+/// `edit`, `drive`, `goal`, `say` and `place`, which write what they are given to `commands`.
 void add_control_commands(CLI::App& root, ControlCommands& commands);
 
 }  // namespace rave::cli

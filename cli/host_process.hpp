@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <sys/types.h>
-
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "rave/base/result.hpp"
+#include "rave/process/child.hpp"
 
 namespace rave::cli {
 
@@ -27,14 +27,14 @@ class HostProcess {
   [[nodiscard]] std::optional<int> wait(double longest_s);
   /// Asks it to end, as Ctrl-C does.
   void interrupt() const noexcept;
-  [[nodiscard]] ::pid_t id() const noexcept { return process_; }
+  /// 0 once it has ended.
+  [[nodiscard]] ::pid_t id() const noexcept { return child_.id(); }
 
  private:
-  explicit HostProcess(::pid_t process) : process_(process) {}
+  explicit HostProcess(process::Child child) : child_(std::move(child)) {}
   void end() noexcept;
 
-  ::pid_t process_ = -1;  ///< -1: there is none any more.
-  std::optional<int> code_;
+  process::Child child_;
 };
 
 }  // namespace rave::cli

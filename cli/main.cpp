@@ -33,6 +33,7 @@ struct Dispatch {
   int operator()(const HandOverCommand& options) const { return hand_over(options); }
   int operator()(const ShadowCommand& options) const { return show_shadows(options); }
   int operator()(const EditCommand& options) const { return edit_world(options); }
+  int operator()(const OrderCommand& options) const { return give_order(options); }
   int operator()(const HoldCommand& options) const { return hold_run(options); }
   int operator()(const EndCommand& options) const { return end_run(options); }
   int operator()(const BenchSwarmCommand& options) const { return bench_swarm(options); }

@@ -12,13 +12,12 @@
 #include "places.hpp"
 #include "rave/assemble/build.hpp"
 #include "rave/base/file.hpp"
+#include "rave/control/commands.hpp"
 #include "rave/control/folder.hpp"
 #include "rave/control/wishes.hpp"
 #include "rave/direct_line/key_files.hpp"
 #include "rave/gui_server/bus_run.hpp"
 #include "rave/host/host_run.hpp"
-#include "rave/manager/live_manager.hpp"
-#include "rave/manager/manager.hpp"
 
 namespace rave::cli {
 namespace {
@@ -91,6 +90,7 @@ Result<ManagedEnd> manage_steps(const ManagedRun& run, runtime::BuiltScenario bu
   how.stopping = run.stopping;
   how.control = &run.control;
   how.begin_wish = control::wishes_of(run.control);
+  how.on_command = control::commands_of(run.control, run.scenario);
   how.on_progress = [&run, &file](const manager::ManagerOptions::Progress& progress) {
     const double sim_s = static_cast<double>(progress.step) * file.step_s.value;
     run.console.show(

@@ -114,6 +114,8 @@ std::string state_text(const runtime::RunStatus::Robot& robot) {
                         rad_to_deg(hand_over.yaw_rad));
     if (hand_over.under_way) text += ", being handed over";
   }
+  if (!robot.order.empty()) text += ", " + robot.order;
+  if (!robot.lease.empty()) text += fmt::format(", `{}` drives it", robot.lease);
   if (robot.shadow && robot.shadow->running) {
     text += fmt::format(", shadow {:.3f} m away", robot.shadow->m);
   }
@@ -213,7 +215,7 @@ int stop_robots(const StopCommand& options) {
   if (!options.all) return stop_run(options, request);
   if (!options.run.empty() || !options.robot.empty() || options.bus.says_where()) {
     return complain({ErrorCode::kInvalidArgument,
-                     "--all stops the runs of this machine only; stop a run of other machines by "
+                     "--all stops only runs on this machine; stop a run of other machines by "
                      "its name (`rave ps --network` lists them)",
                      {}});
   }

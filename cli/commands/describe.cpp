@@ -36,8 +36,9 @@ Error nothing_named(std::string_view name, plugin::Catalogue& catalogue) {
   names.erase(std::unique(names.begin(), names.end()), names.end());
   const std::string_view nearest = nearest_name(name, names);
   std::string message = fmt::format("there is no driver or program `{}`", name);
-  if (!nearest.empty()) message += fmt::format("; did you mean `{}`?", nearest);
-  message += fmt::format("; there are {}", join_names(names));
+  message += nearest.empty()
+                 ? fmt::format("; there are {}", join_names(names))
+                 : fmt::format("; did you mean `{}`? (`rave drivers` lists all)", nearest);
   for (const plugin::RejectedPlugin& plugin : catalogue.rejected()) {
     message += "\n" + plugin.error.text();
   }

@@ -90,8 +90,7 @@ Result<std::string> find_process_here(const std::string& word, std::string_view 
                 runs, scenario, control::choose_one(found, option));
   }
   if (found.size() == 1) return std::string(found.front());
-  return fail(ErrorCode::kState, "several processes match: {}",
-              control::choose_one(found, option));
+  return fail(ErrorCode::kState, "several processes match: {}", control::choose_one(found, option));
 }
 
 /// The same, or if there is none here on the bus.

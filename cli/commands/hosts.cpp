@@ -12,6 +12,7 @@
 #include "places.hpp"
 #include "rave/assemble/build.hpp"
 #include "rave/base/control_characters.hpp"
+#include "rave/control/commands.hpp"
 #include "rave/control/folder.hpp"
 #include "rave/control/server.hpp"
 #include "rave/control/wishes.hpp"
@@ -80,6 +81,7 @@ int robot(const RobotCommand& options) {
   how.run.arm = run.arm;
   how.run.run_name = control::own_run_name(scenario->scenario.name.value, options.host);
   how.begin_wish = control::wishes_of(control);
+  how.on_command = control::commands_of(control, *scenario);
   auto server = control::Server::start(how.run.run_name, control);
   if (!server) {
     console.warn("host", "this host cannot be controlled from other terminals: {}",

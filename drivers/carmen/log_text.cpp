@@ -71,7 +71,7 @@ class LogParser {
     if (name == "FLASER") return take_scan();
     if (name == "ODOM") return take_odometry(behind_scan);
     if (std::find(kMessages.begin(), kMessages.end(), name) == kMessages.end()) {
-      return refuse(0, fmt::format("`{}` is no message of a CARMEN log{}", shown(name),
+      return refuse(0, fmt::format("`{}` is not a message of a CARMEN log{}", shown(name),
                                    suggestion(name, kMessages)));
     }
     ++log_.passed_over;

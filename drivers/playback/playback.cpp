@@ -19,12 +19,12 @@ constexpr const char* kSensorDoc = "The sensor of that robot whose readings are 
 constexpr std::array<ParamSpec, 6> params_with(ParamSpec sensor) noexcept {
   return {
       required(text_param("file", "",
-                          "The record (run.mcap), relative to the folder of the robot file.")),
-      required(text_param("robot", "", "Name of the robot in the record.")),
+                          "The recording (run.mcap), relative to the folder of the robot file.")),
+      required(text_param("robot", "", "Name of the robot in the recording.")),
       sensor,
       choice_param("part", "result", kParts,
                    "What is played of a hybrid sensor: what the program was given, or one half."),
-      number_param("start_s", "s", 0, 0, 1e9, "Time of the record that is run time 0."),
+      number_param("start_s", "s", 0, 0, 1e9, "Time of the recording that is run time 0."),
       choice_param("clock", "stepped", kClocks,
                    "Whether samples come by simulation time or by the clock on the wall."),
   };
@@ -130,27 +130,23 @@ RAVE_PLUGIN(
   using namespace rave;
   using namespace rave::playback;
   add_player<ReadingKind::kRanges>(registry, "playback_ranges",
-                                   "Plays the ranges of a sensor in the record of a run.", kParams);
-  add_player<ReadingKind::kSightings>(
-      registry, "playback_sightings",
-      "Plays the barcode sightings of a sensor in the record of a run.", kSightingParams);
+                                   "Plays the ranges of a sensor in a recording.", kParams);
+  add_player<ReadingKind::kSightings>(registry, "playback_sightings",
+                                      "Plays the barcode sightings of a sensor in a recording.",
+                                      kSightingParams);
   add_player<ReadingKind::kPose>(
       registry, "playback_pose",
-      "Plays the poses of a sensor, or those reported of a robot, in the record of a run.",
-      kPoseParams);
+      "Plays the poses of a sensor, or those reported of a robot, in a recording.", kPoseParams);
   add_player<ReadingKind::kOdometry>(registry, "playback_odometry",
-                                     "Plays the odometry of a sensor in the record of a run.",
-                                     kParams);
+                                     "Plays the odometry of a sensor in a recording.", kParams);
   add_player<ReadingKind::kNeighbours>(registry, "playback_neighbours",
-                                       "Plays what a sensor in the record of a run saw of other "
+                                       "Plays what a sensor in a recording saw of other "
                                        "robots.",
                                        kParams);
   add_player<ReadingKind::kContact>(registry, "playback_contact",
-                                    "Plays the contacts of a sensor in the record of a run.",
-                                    kParams);
+                                    "Plays the contacts of a sensor in a recording.", kParams);
   add_player<ReadingKind::kVelocity>(registry, "playback_velocity",
-                                     "Plays the velocities of a sensor in the record of a run.",
-                                     kParams);
+                                     "Plays the velocities of a sensor in a recording.", kParams);
   add_player<ReadingKind::kValues>(registry, "playback_values",
-                                   "Plays the values of a sensor in the record of a run.", kParams);
+                                   "Plays the values of a sensor in a recording.", kParams);
 }

@@ -68,7 +68,7 @@ Result<bool> Ros2Velocity::find_stamped(const std::string& topic, std::string_vi
     waiter.wait(Duration{left.count() * 1'000'000});
   }
   const char* const type = wanted == "twist_stamped" ? kTwistStamped : kTwist;
-  return fail(ErrorCode::kTimeout, "nobody to drive was found within {} s: {}", limit_s,
+  return fail(ErrorCode::kTimeout, "no robot to drive was found within {} s: {}", limit_s,
               participant.explain_silence(topic, type, false));
 }
 
@@ -106,7 +106,7 @@ Status Ros2Velocity::write(const Command& command, SimTime /*now*/) {
   }
   if (changed) device_->ring();
   if (there == 0) {
-    return fail(ErrorCode::kIo, "nobody reads `{}` any more; the robot cannot be told anything",
+    return fail(ErrorCode::kIo, "`{}` has no reader any more; the robot cannot be commanded",
                 topic_);
   }
   if (device_->away()) {

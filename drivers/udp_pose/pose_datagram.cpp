@@ -42,7 +42,7 @@ class Guard {
 };
 
 Result<double> number_of(const Json& value, std::string_view name, double most) {
-  if (!value.is_number()) return fail(ErrorCode::kParse, "`{}` is no number", name);
+  if (!value.is_number()) return fail(ErrorCode::kParse, "`{}` is not a number", name);
   const double number = value.get<double>();
   if (!std::isfinite(number) || std::abs(number) > most) {
     return fail(ErrorCode::kParse, "`{}` is beyond {}", name, most);
@@ -60,7 +60,7 @@ Status read_variance(const Json& object, PoseDatagram& datagram) {
   const auto found = object.find("cov");
   if (found == object.end()) return {};
   if (!found->is_array() || found->size() != 3) {
-    return fail(ErrorCode::kParse, "`cov` is no list of three numbers");
+    return fail(ErrorCode::kParse, "`cov` is not a list of three numbers");
   }
   std::array<double, 3> values{};
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -79,7 +79,7 @@ Status read_names(const Json& object, PoseDatagram& datagram) {
   }
   const auto body = object.find("body");
   if (body == object.end()) return fail(ErrorCode::kParse, "`body` is missing");
-  if (!body->is_string()) return fail(ErrorCode::kParse, "`body` is no text");
+  if (!body->is_string()) return fail(ErrorCode::kParse, "`body` is not a text");
   datagram.body = body->get_ref<const std::string&>();
   if (datagram.body.empty() || datagram.body.size() > kLongestName) {
     return fail(ErrorCode::kParse, "`body` must have 1 to {} bytes", kLongestName);
@@ -87,7 +87,7 @@ Status read_names(const Json& object, PoseDatagram& datagram) {
   const auto seq = object.find("seq");
   if (seq == object.end()) return {};
   const bool fits = seq->is_number_unsigned() && seq->get<std::uint64_t>() <= INT64_MAX;
-  if (!fits) return fail(ErrorCode::kParse, "`seq` is no whole number from 0");
+  if (!fits) return fail(ErrorCode::kParse, "`seq` is not a whole number from 0");
   datagram.seq = seq->get<std::int64_t>();
   return {};
 }

@@ -7,7 +7,7 @@ namespace {
 
 constexpr ParamSpec kParams[] = {
     number_param("range_min_m", "m", 0.1, 0, 1000, "Anything nearer is read as this range."),
-    number_param("range_max_m", "m", 0.8, 0, 1000, "Anything farther is no return."),
+    number_param("range_max_m", "m", 0.8, 0, 1000, "Anything farther gives no return."),
 };
 
 /// Infra-red ranger: one beam along the sensor's x axis, cast by the engine.

@@ -16,7 +16,7 @@ constexpr ParamSpec kParams[] = {
                "In a hybrid sensor: the rays are those of the real half, and `rays` and `fov_deg` "
                "are not looked at. Elsewhere without effect."),
     number_param("range_min_m", "m", 0.02, 0, 1000, "Anything nearer is read as this range."),
-    number_param("range_max_m", "m", 8, 0, 1000, "Anything farther is no return."),
+    number_param("range_max_m", "m", 8, 0, 1000, "Anything farther gives no return."),
 };
 
 /// Scanning laser: declares its rays, the engine casts them.

@@ -14,7 +14,7 @@ constexpr ParamSpec kParams[] = {
     number_param("resolution_deg", "deg", 1, 0.01, 180,
                  "Largest angle between neighbouring rays that sample the cone."),
     number_param("range_min_m", "m", 0.15, 0, 1000, "Anything nearer is read as this range."),
-    number_param("range_max_m", "m", 6, 0, 1000, "Anything farther is no return."),
+    number_param("range_max_m", "m", 6, 0, 1000, "Anything farther gives no return."),
 };
 
 /// One ultrasonic ranger: declares rays across its cone, the engine takes the nearest of them.

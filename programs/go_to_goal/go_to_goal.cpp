@@ -5,6 +5,7 @@
 
 #include "obstacle_memory.hpp"
 #include "rave/math/scalar.hpp"
+#include "rave/robot/ordered_way.hpp"
 #include "rave/robot/plugin_entry.hpp"
 #include "rave/robot/steering.hpp"
 
@@ -29,8 +30,11 @@ constexpr ParamSpec kParams[] = {
 /// boundary until it is nearer to the goal than ever and sees the way free: the leave condition of
 /// TangentBug (I. Kamon, E. Rivlin, E. Rimon, "A new range-sensor based globally convergent
 /// navigation algorithm for mobile robots", ICRA 1996). Directions are chosen as in VFH+.
+/// Goals and paths of people come first; when they are cancelled it goes on with its own.
 class GoToGoal final : public DecisionProcess {
  public:
+  static constexpr OrderSet kTakes = kTakesGoal | kTakesPath;
+
   Status start(const Setup& setup) override {
     const Params params = setup.params();
     setup_ = setup;
@@ -46,8 +50,7 @@ class GoToGoal final : public DecisionProcess {
     if (goals_W != goals_W_) {
       goals_W_ = std::move(goals_W);
       current_ = 0;
-      side_ = 0;
-      nearest_m_ = kFar_m;
+      begin_goal();
     }
     look_m_ = params.number("look_m");
     steering_ = Steering(setup_->robot_radius_m() + params.number("margin_m"), look_m_);
@@ -75,12 +78,9 @@ class GoToGoal final : public DecisionProcess {
     points_R_.clear();
     memory_.append_to(points_R_, X_WR, look_m_ + 0.5);
 
-    if (current_ < goals_W_.size()) arrive(X_WR, percepts.now());
-    if (current_ == goals_W_.size()) {
-      commands.velocity(drive_, 0, 0);
-      return;
-    }
-    const Vec2 goal_R = transform_back(X_WR, goals_W_[current_]);
+    const std::optional<Vec2> goal_W = next_goal(percepts, X_WR, commands);
+    if (!goal_W) return;
+    const Vec2 goal_R = transform_back(X_WR, *goal_W);
     const FreeHeading way =
         side_ == 0 ? toward(goal_R, percepts.now()) : along_wall(goal_R, X_WR, percepts.now());
     drive(way, std::sqrt(squared_norm(goal_R)), commands);
@@ -100,6 +100,33 @@ class GoToGoal final : public DecisionProcess {
     return goals_W;
   }
 
+  /// Where to drive now, for people or for itself. None: `commands` has what to do instead.
+  std::optional<Vec2> next_goal(const Percepts& percepts, const Pose2& X_WR, Commands& commands) {
+    if (way_.update(percepts, commands, tolerance_m_)) begin_goal();
+    switch (way_.state()) {
+      case OrderedWay::State::kGoing:
+        return way_.next();
+      case OrderedWay::State::kTurning:
+        commands.velocity(drive_, 0, way_.turn_radps(percepts.pose(), max_turn_rate_radps_));
+        return std::nullopt;
+      case OrderedWay::State::kThere:
+        commands.velocity(drive_, 0, 0);
+        return std::nullopt;
+      case OrderedWay::State::kNone:
+        break;
+    }
+    if (current_ < goals_W_.size()) arrive(X_WR, percepts.now());
+    if (current_ < goals_W_.size()) return goals_W_[current_];
+    commands.velocity(drive_, 0, 0);
+    return std::nullopt;
+  }
+
+  /// Nothing is known of the way to the goal that comes now.
+  void begin_goal() {
+    side_ = 0;
+    nearest_m_ = kFar_m;
+  }
+
   /// Takes the next goal when this one is reached.
   void arrive(const Pose2& X_WR, SimTime now) {
     const double distance_m = std::sqrt(squared_norm(goals_W_[current_] - X_WR.position()));
@@ -107,8 +134,7 @@ class GoToGoal final : public DecisionProcess {
     setup_->log(fmt::format("goal {} of {} reached at {:.2f} s", current_ + 1, goals_W_.size(),
                             now.seconds()));
     ++current_;
-    side_ = 0;
-    nearest_m_ = kFar_m;
+    begin_goal();
   }
 
   /// Heads for the goal; begins to follow the wall when that brings it no nearer.
@@ -143,8 +169,13 @@ class GoToGoal final : public DecisionProcess {
       nearer_at_ = now;
     } else if (went_round(X_WR)) {
       // Once around without a way: what it remembers may be wrong, or the world has changed.
-      setup_->log(fmt::format("no way to goal {} found so far at {:.2f} s; trying anew",
-                              current_ + 1, now.seconds()));
+      setup_->log(way_.asked()
+                      ? fmt::format("no way to the goal of people found so far at {:.2f} s; "
+                                    "trying anew",
+                                    now.seconds())
+                      : fmt::format("no way to goal {} found so far at {:.2f} s; trying "
+                                    "anew",
+                                    current_ + 1, now.seconds()));
       memory_.forget();
       side_ = 0;
       nearest_m_ = kFar_m;
@@ -187,7 +218,8 @@ class GoToGoal final : public DecisionProcess {
     // Slower where it is narrow and near the goal; none while it still has to turn far.
     const double room = std::clamp(way.free_m / kFollowLook_m, 0.0, 1.0);
     const double turned = std::max(0.0, 1.0 - std::abs(way.heading_rad) / deg_to_rad(60));
-    const double v_mps = std::min(cruise_mps_, distance_m) * room * turned;
+    const double most_mps = way_.asked() ? way_.speed_mps(cruise_mps_) : cruise_mps_;
+    const double v_mps = std::min(most_mps, distance_m) * room * turned;
     commands.velocity(drive_, v_mps,
                       std::clamp(turn_gain_per_s_ * way.heading_rad, -max_turn_rate_radps_,
                                  max_turn_rate_radps_));
@@ -210,6 +242,7 @@ class GoToGoal final : public DecisionProcess {
   double max_turn_rate_radps_ = 0;
   Duration patience_;
 
+  OrderedWay way_;
   std::size_t current_ = 0;    ///< Of the goals.
   int side_ = 0;               ///< 0: toward the goal; else along a wall.
   double nearest_m_ = kFar_m;  ///< To this goal so far, while heading for it.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <optional>
 
+#include "rave/robot/ordered_way.hpp"
 #include "rave/robot/plugin_entry.hpp"
 
 namespace rave {
@@ -15,21 +16,27 @@ constexpr ParamSpec kParams[] = {
 };
 
 /// Does what its sensors say that others want: velocities as long as they come, else the last goal.
-/// A velocity ends the goal that came before it.
+/// A velocity ends the goal that came before it. Goals and paths of people count before both.
 class Obey final : public DecisionProcess {
  public:
+  static constexpr OrderSet kTakes = kTakesGoal | kTakesPath | kTakesText;
+
   Status start(const Setup& setup) override {
     const Params params = setup.params();
     RAVE_TRY_ASSIGN(drive_, setup.controller(CommandKind::kVelocity));
-    auto wanted = setup.sensor<VelocityReading>(params.text("velocity_sensor"));
-    auto goal = setup.sensor<PoseReading>(params.text("goal_sensor"));
+    const std::string_view velocity_sensor = params.text("velocity_sensor");
+    const std::string_view goal_sensor = params.text("goal_sensor");
+    auto wanted = setup.sensor<VelocityReading>(velocity_sensor);
+    auto goal = setup.sensor<PoseReading>(goal_sensor);
+    const bool people_alone = velocity_sensor.empty() && goal_sensor.empty();
+    if (people_alone) return begin(setup);
     if (!wanted && !goal) return tl::unexpected(std::move(wanted).error());
     if (wanted) wanted_ = *wanted;
     if (goal) {
       RAVE_TRY_ASSIGN(navigate_, setup.controller(CommandKind::kGoal));
       goal_ = *goal;
     }
-    return parameters_changed(params);
+    return begin(setup);
   }
 
   Status parameters_changed(const Params& params) override {
@@ -39,6 +46,7 @@ class Obey final : public DecisionProcess {
   }
 
   void decide(const Percepts& percepts, Commands& commands) override {
+    if (follows_people(percepts, commands)) return;
     if (wanted_ && !percepts[*wanted_].empty()) {
       const std::int64_t stamp_ns = percepts.header(*wanted_).stamp_ns;
       if (percepts.now().ns - stamp_ns <= timeout_.ns) {
@@ -57,6 +65,40 @@ class Obey final : public DecisionProcess {
   }
 
  private:
+  Status begin(const Setup& setup) {
+    const auto navigate = setup.controller(CommandKind::kGoal);
+    can_navigate_ = navigate.has_value();
+    if (navigate) navigate_ = *navigate;
+    return parameters_changed(setup.params());
+  }
+
+  /// Goals and paths that people gave; false: there are none.
+  bool follows_people(const Percepts& percepts, Commands& commands) {
+    for (const Order order : percepts.orders()) {
+      if (order.kind == OrderKind::kText) commands.say("I obey goals and paths, no words.");
+    }
+    way_.update(percepts, commands, kTolerance_m);
+    if (way_.state() == OrderedWay::State::kNone) return false;
+    if (way_.state() == OrderedWay::State::kGoing && can_navigate_) {
+      commands.goal(navigate_, way_.next(),
+                    speed_mps_ > 0 ? way_.speed_mps(speed_mps_) : way_.asked_speed_mps());
+    } else if (way_.state() == OrderedWay::State::kTurning) {
+      commands.velocity(drive_, 0, way_.turn_radps(percepts.pose(), kTurn_radps));
+    } else {
+      if (way_.state() == OrderedWay::State::kGoing && !complained_) {
+        complained_ = commands.done("I cannot go there: none of my controllers takes goals.");
+      }
+      commands.velocity(drive_, 0, 0);
+    }
+    return true;
+  }
+
+  static constexpr double kTolerance_m = 0.15;
+  static constexpr double kTurn_radps = 1;
+
+  OrderedWay way_;
+  bool can_navigate_ = false;
+  bool complained_ = false;
   std::optional<SensorHandle<VelocityReading>> wanted_;
   std::optional<SensorHandle<PoseReading>> goal_;
   ControllerHandle drive_;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr ParamSpec kParams[] = {
     number_param("max_speed_mps", "m/s", 0.5, 0.01, 10, "Speed while fleeing."),
-    number_param("calm_speed_mps", "m/s", 0.2, 0, 10, "Speed while nobody is near."),
+    number_param("calm_speed_mps", "m/s", 0.2, 0, 10, "Speed while no robot is near."),
     number_param("fear_m", "m", 3.0, 0, 100, "It flees from robots nearer than this."),
     number_param("turn_gain_per_s", "1/s", 3.0, 0.1, 100, "Turning rate per radian of error."),
     number_param("max_turn_rate_radps", "rad/s", 2.0, 0.1, 10, "Largest turning rate."),

@@ -5,6 +5,7 @@
 
 #include "rave/math/scalar.hpp"
 #include "rave/math/transform.hpp"
+#include "rave/robot/ordered_way.hpp"
 #include "rave/robot/plugin_entry.hpp"
 #include "rave/robot/scan.hpp"
 
@@ -30,8 +31,11 @@ constexpr ParamSpec kParams[] = {
 };
 
 /// Drives ahead; turns away from whatever comes near, to the freer side, for a random time.
+/// Asked by people it heads for their goals instead of straight ahead.
 class Wander final : public DecisionProcess {
  public:
+  static constexpr OrderSet kTakes = kTakesGoal | kTakesPath;
+
   Status start(const Setup& setup) override {
     setup_ = setup;
     RAVE_TRY_ASSIGN(drive_, setup.controller(CommandKind::kVelocity));
@@ -63,13 +67,19 @@ class Wander final : public DecisionProcess {
   }
 
   void decide(const Percepts& percepts, Commands& commands) override {
+    if (way_.asked() || !percepts.orders().empty()) way_.update(percepts, commands, kTolerance_m);
     scan_.update(percepts);
     if (scan_.is_old()) {
       commands.velocity(drive_, 0, 0);  // What was free then need not be free now.
       return;
     }
+    if (way_.asked() && way_.state() != OrderedWay::State::kGoing) {
+      const bool turns = way_.state() == OrderedWay::State::kTurning;
+      commands.velocity(drive_, 0, turns ? way_.turn_radps(percepts.pose(), turn_radps_) : 0);
+      return;
+    }
     const double clearance_m = scan_.nearest_m(-front_rad_, front_rad_) - radius_m_;
-    const int home = way_home(percepts.pose());
+    const int home = way_.asked() ? 0 : way_home(percepts.pose());
     const bool must_turn = clearance_m < avoid_m_ || home != 0;
 
     if (turns_left_ == 0 && must_turn) {
@@ -87,11 +97,26 @@ class Wander final : public DecisionProcess {
 
     // Full speed at avoid_m, none at stop_m: a disc that only turns cannot hit anything.
     const double share = std::clamp((clearance_m - stop_m_) / (avoid_m_ - stop_m_), 0.0, 1.0);
+    if (way_.asked() && !turning_) return head_for(way_.next(), percepts.pose(), share, commands);
     const double most_mps = turning_ ? 0.5 * cruise_mps_ : cruise_mps_;
     commands.velocity(drive_, most_mps * share, turning_ ? side_ * turn_radps_ : 0);
   }
 
  private:
+  static constexpr double kTolerance_m = 0.2;
+
+  /// Towards a goal of people, slower while it still has to turn far.
+  void head_for(Vec2 goal_W, const PoseReading& pose, double share, Commands& commands) const {
+    const Vec2 to_goal_W = goal_W - Vec2{pose.x_m, pose.y_m};
+    const Vec2 to_goal_R = rotate(-pose.yaw_rad, to_goal_W);
+    const double bearing_rad = atan2(to_goal_R.y, to_goal_R.x);
+    const double turned = std::max(0.0, 1 - std::abs(bearing_rad) / deg_to_rad(60));
+    const double most_mps =
+        std::min(way_.speed_mps(cruise_mps_), std::sqrt(squared_norm(to_goal_W)));
+    commands.velocity(drive_, most_mps * share * turned,
+                      std::clamp(2 * bearing_rad, -turn_radps_, turn_radps_));
+  }
+
   /// Whether it reverses now: for a while before it turns, as long as nothing that it can see is
   /// behind. What it cannot see there, it runs into.
   bool backs_off() {
@@ -143,6 +168,7 @@ class Wander final : public DecisionProcess {
   double rear_rad_ = 0;
   std::int64_t longest_back_off_ = 0;
   std::int64_t back_off_left_ = 0;
+  OrderedWay way_;
   Vec2 centre_W_;
   double stay_within_m_ = 0;
   std::int64_t turns_left_ = 0;

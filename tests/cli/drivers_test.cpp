@@ -52,7 +52,7 @@ TEST(Describe, PageAndUnknownName) {
   EXPECT_NE(page.out.find("range_max_m"), std::string::npos);
   const Ended none = run_rave({"describe", "virtul_laser"});
   EXPECT_EQ(none.exit_code, 2);
-  EXPECT_EQ(none.err.substr(0, none.err.find("; there are")),
+  EXPECT_EQ(none.err.substr(0, none.err.find(" (`rave drivers` lists all)")),
             "rave: there is no driver or program `virtul_laser`; did you mean `virtual_laser`?");
   EXPECT_EQ(run_rave({"describe", "wander", "--json"}).out.substr(0, 1), "[");
 }

@@ -57,7 +57,7 @@ void KillRound::expect_readable_record(const std::string& name, double least_s) 
   // One that was killed before it had anything to record left nothing, or the beginning of a file.
   if (least_s <= 0 && !std::filesystem::exists(file)) return;
   const Ended info = run_rave({"info", file});
-  if (least_s <= 0 && info.err.find("there is no whole header") != std::string::npos) return;
+  if (least_s <= 0 && info.err.find("there is no complete header") != std::string::npos) return;
   EXPECT_EQ(info.exit_code, 1) << info.err;
   EXPECT_NE(info.out.find("truncated; the part that exists is readable"), std::string::npos)
       << info.out;

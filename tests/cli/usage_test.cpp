@@ -43,7 +43,7 @@ TEST(Usage, UnknownOptionNamesTheNearest) {
 TEST(Usage, NothingAtAllShowsTheHelp) {
   const Ended ended = run_rave({});
   EXPECT_EQ(ended.exit_code, 2);
-  EXPECT_NE(ended.err.find("Subcommands:"), std::string::npos);
+  EXPECT_NE(ended.err.find("Runs in progress:"), std::string::npos);
 }
 
 TEST(Usage, VersionBothWays) {

@@ -146,7 +146,7 @@ TEST_F(Wishes, OfSeveralRunsOneHasToBeNamed) {
   }
   wait_until([this] { return logged_foreign("morning") && logged_foreign("evening"); },
              "both know of each other");
-  const Ended unnamed = far_until({"edit", "list"}, "2 runs are under way, so say which");
+  const Ended unnamed = far_until({"edit", "list"}, "2 runs are in progress; name one");
   EXPECT_EQ(unnamed.exit_code, 2) << unnamed.err;
   // That of which there are two is done to neither; but a stop harms nobody.
   const Ended either = far_until({"pause", "crowd"}, "several runs of `crowd`: ");
@@ -197,7 +197,7 @@ class SecretWishes : public Wishes {
     EXPECT_EQ(ended.exit_code, 2) << ended.out;
     EXPECT_TRUE(ended.out.empty()) << ended.out;
     EXPECT_NE(ended.err.find("--security"), std::string::npos) << ended.err;
-    EXPECT_TRUE(ended.err.find("no run of several processes is under way") != std::string::npos ||
+    EXPECT_TRUE(ended.err.find("no run of several processes is in progress") != std::string::npos ||
                 ended.err.find("heard by members of their set alone") != std::string::npos)
         << ended.err;
   }

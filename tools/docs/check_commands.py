@@ -21,6 +21,9 @@ INDENTED = re.compile(r"(?<=\n\n)(?: {4}[^\n]*\n)+")
 INLINE = re.compile(r"`(rave [^`\n]*)`")
 COMMAND = re.compile(r"^\s*(?:\$ )?(?:sudo |nice )?(?:build/release/bin/)?rave\s+(.*)$")
 NAME = re.compile(r"^[a-z][a-z-]*$")
+# A heading of the help, and the lines below it; those of OTHERS list no subcommands.
+BLOCK = re.compile(r"^([A-Z][^\n:]*):\n((?:  [^\n]*\n)+)", re.MULTILINE)
+OTHERS = ("Positionals", "Options", "Examples", "Example")
 OPTION = re.compile(r"^(--[a-z][a-z-]*)")
 
 
@@ -38,9 +41,8 @@ class Help:
 
     @functools.cache
     def subcommands(self, words):
-        _, _, listed = self.text(words).partition("\nSubcommands:\n")
-        block = re.split(r"\n\s*\n", listed)[0]
-        return set(re.findall(r"^  ([a-z][a-z-]*)\b", block, re.MULTILINE))
+        return {name for heading, block in BLOCK.findall(self.text(words)) if heading not in OTHERS
+                for name in re.findall(r"^  ([a-z][a-z-]*)\b", block, re.MULTILINE)}
 
     @functools.cache
     def options(self, words):
@@ -102,7 +104,8 @@ def check(pages, told):
 
 
 class FakeHelp(Help):
-    TEXTS = {(): "Options:\n  -h,--help\n\nSubcommands:\n  run   Run\n  edit  Edit\n\nMore\n",
+    TEXTS = {(): "Options:\n  -h,--help\n\nRuns:\n  run   Run\n\nOther things:\n  edit  Edit\n\n"
+                 "Examples:\n  walk\n\nMore\n",
              ("run",): "Options:\n  --seed N\n",
              ("edit",): "\nSubcommands:\n  add   Add\n", ("edit", "add"): "  --at PLACE\n"}
 

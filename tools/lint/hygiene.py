@@ -3,8 +3,9 @@
 """What every file of the repository must keep to, whatever is in it.
 
 A licence line on top of sources and scripts; no path of one machine; nothing left to do; file names
-in lower case; libraries that neither print nor exit; no large files. Headers that grow beyond 250
-lines are named, without being an error.
+in lower case; libraries that neither print nor exit; no large files. Each library and room has a
+README and is made by rave_library(). Headers that grow beyond 250 lines are named, without being an
+error.
 """
 import re
 import sys
@@ -28,6 +29,9 @@ OUTPUT = re.compile(r"(?<![\w.>])(?:std\s*::\s*)?(?:exit|_exit|quick_exit|printf
 # The one place of a library that speaks: it says which check failed before the process aborts.
 MAY_PRINT = ("libs/base/src/check.cpp",)
 LARGEST_BYTES = 1_000_000
+# A folder in one of these is a library.
+LIBRARY_FOLDERS = ("libs", "runtime", "ops", "servers")
+BY_HAND = re.compile(r"\badd_library\(\s*\w+\s+(?:STATIC|SHARED|OBJECT)\b")
 LONG_HEADER_LINES = 250
 
 
@@ -88,6 +92,19 @@ def check_output(tree):
                 yield f"{name}:{number}: `{match.group(0)}`: libraries do not print and do not exit"
 
 
+def check_libraries(tree):
+    for name in tree.cmake_files:
+        parts = name.split("/")
+        if parts[0] not in LIBRARY_FOLDERS or len(parts) != 3:
+            continue
+        folder = "/".join(parts[:2])
+        if f"{folder}/README.md" not in tree.files:
+            yield f"{folder}: a library has a README.md of some ten lines"
+        for number, line in common.numbered(tree.read(name)):
+            if BY_HAND.search(line):
+                yield f"{name}:{number}: a library is made by rave_library()"
+
+
 def long_headers(tree):
     for name in tree.sources:
         lines = tree.read(name).count("\n")
@@ -96,8 +113,8 @@ def long_headers(tree):
 
 
 def check(tree):
-    return [finding for rule in (check_names, check_sizes, check_licence, check_text, check_output)
-            for finding in rule(tree)]
+    rules = (check_names, check_sizes, check_licence, check_text, check_output, check_libraries)
+    return [finding for rule in rules for finding in rule(tree)]
 
 
 TOP = f"// {LICENCE}\n"
@@ -107,6 +124,8 @@ CLEAN = {
     "cli/main.cpp": TOP + 'int main() { std::exit(1); }\n',
     "tools/a.py": f"#!/usr/bin/env python3\n# {LICENCE}\n",
     "docs/Guide-1.md": "Look at /tmp/x.\n",
+    "libs/a/CMakeLists.txt": f"# {LICENCE}\nrave_library(a)\nadd_library(a_testing INTERFACE)\n",
+    "libs/a/README.md": "# a\n",
 }
 BREACHES = [
     ("is missing", {"libs/a/a.cpp": "int x;\n"}),
@@ -121,6 +140,9 @@ BREACHES = [
     ("do not print", {"libs/a/a.cpp": TOP + 'void f() { std::printf("x"); }\n'}),
     ("do not print", {"libs/a/a.cpp": TOP + "void f() { std::cout << 1; }\n"}),
     ("do not print", {"libs/a/a.cpp": TOP + "void f() { exit(1); }\n"}),
+    ("runtime/a: a library has a README", {"runtime/a/CMakeLists.txt": f"# {LICENCE}\n"}),
+    ("made by rave_library", {"ops/a/CMakeLists.txt": f"# {LICENCE}\nadd_library(a STATIC a.cpp)\n",
+                              "ops/a/README.md": "# a\n"}),
     ("bytes; more", {"docs/a.bin": "x" * (LARGEST_BYTES + 1)}),
 ]
 

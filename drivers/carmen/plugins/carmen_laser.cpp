@@ -19,7 +19,7 @@ constexpr auto kParams = recording::join_params(
                               "x axis.")),
         number_param("range_min_m", "m", 0.02, 0, 1000, "Anything nearer is read as this range."),
         number_param("range_max_m", "m", 80, 0.1, 1000,
-                     "A range this long or longer is no return."),
+                     "A range this long or longer counts as no return."),
     });
 
 /// The scans of the front laser.

@@ -48,7 +48,7 @@ TEST(LogText, JunkStandsOnlyRightBehindAScan) {
 
 TEST(LogText, NamesThePlaceOfWhatIsWrong) {
   EXPECT_EQ(error_of(altered("NEFF", "NEF")),
-            "f:5:1: `NEF` is no message of a CARMEN log; did you mean `NEFF`?");
+            "f:5:1: `NEF` is not a message of a CARMEN log; did you mean `NEFF`?");
   EXPECT_EQ(error_of(altered("FLASER 4 1.5", "FLASER 4 x")),
             "f:3:10: range [m] is `x`: expected a number from 0 to 1000");
   EXPECT_EQ(error_of(altered("FLASER 4 1.5", "FLASER 4 -1")),

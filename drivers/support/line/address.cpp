@@ -57,7 +57,7 @@ Result<std::uint16_t> parse_port(std::string_view text) {
   const char* const end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, port);
   if (error != std::errc() || stop != end) {
-    return fail(ErrorCode::kInvalidArgument, "`{}` is no port; one is 0 to 65535", text);
+    return fail(ErrorCode::kInvalidArgument, "`{}` is not a port; expected 0 to 65535", text);
   }
   return port;
 }

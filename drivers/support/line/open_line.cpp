@@ -80,7 +80,7 @@ Result<int> detail::open_serial(const Address& address) {
   Fd fd(::open(address.device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (fd.get() < 0) return system_error(address, errno);
   if (::isatty(fd.get()) == 0) {
-    return fail(ErrorCode::kInvalidArgument, "`{}` is no serial line", address.device);
+    return fail(ErrorCode::kInvalidArgument, "`{}` is not a serial line", address.device);
   }
   RAVE_TRY(make_raw(address, fd.get()));
   return fd.take();

@@ -99,8 +99,23 @@ Status check_refused(const rave_wire_AuthorityState& authority, std::size_t robo
                              authority.refused_count));
 }
 
+/// Orders of people; which of them a robot takes is for its host to say.
+Status check_order(const rave_wire_WorldInput& input) {
+  RAVE_TRY(check_label("inputs.by", input.by, false));
+  RAVE_TRY(check_label("inputs.text", input.text, false));
+  for (const auto& point : elements(input.points)) {
+    RAVE_TRY(check_number("inputs.points.x_m", point.x_m, kMaxPosition_m));
+    RAVE_TRY(check_number("inputs.points.y_m", point.y_m, kMaxPosition_m));
+  }
+  RAVE_TRY(check_number("inputs.yaw_rad", input.yaw_rad, kMaxAngle_rad));
+  RAVE_TRY(check_number("inputs.v_mps", input.v_mps, kMaxSpeed_mps));
+  RAVE_TRY(check_number("inputs.w_radps", input.w_radps, kMaxTurn_radps));
+  return check_number("inputs.speed_mps", input.speed_mps, kMaxSpeed_mps);
+}
+
 Status check_inputs(const WorldStep& world) {
   for (const auto& input : elements(world.inputs)) {
+    RAVE_TRY(check_order(input));
     for (const auto& change : elements(input.changes)) {
       RAVE_TRY(check_label("inputs.changes.name", change.name, true));
       if (change.kind > rave_wire_VALUE_LIST) return invalid("inputs.changes.kind is unknown");

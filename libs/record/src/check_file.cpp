@@ -89,7 +89,7 @@ class FileCheck {
       messages_ += code == opcode::kMessage && ok ? 1 : 0;
       return ok;
     });
-    if (!ok || !complete) damage_at("chunk", info.offset, "has a record that is not whole");
+    if (!ok || !complete) damage_at("chunk", info.offset, "has an incomplete record");
   }
 
   /// The checksum of all data also covers what has none of its own.

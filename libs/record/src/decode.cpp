@@ -182,6 +182,8 @@ Result<RunInput> decode_input(Message message) {
   input.robot = reader.get_string();
   input.key = reader.get_string();
   input.value = reader.get_string();
+  // Older records do not say who.
+  if (!reader.at_end()) input.by = reader.get_string();
   if (!reader.ok()) return malformed(topic::kInputs);
   return input;
 }

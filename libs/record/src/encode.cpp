@@ -45,6 +45,7 @@ void encode_input(CdrWriter& writer, SimTime time, const RunInput& input) {
   writer.put_string(input.robot);
   writer.put_string(input.key);
   writer.put_string(input.value);
+  writer.put_string(input.by);
 }
 
 void encode_console(CdrWriter& writer, const ConsoleLine& line) {

@@ -15,19 +15,18 @@ namespace {
   const ByteSource& source = *file.source;
   Bytes bytes;
   if (source.size() < kMagic.size() + kRecordHead) {
-    return fail(ErrorCode::kParse, "`{}` is no MCAP file: it has only {} bytes", source.name(),
+    return fail(ErrorCode::kParse, "`{}` is not an MCAP file: it has only {} bytes", source.name(),
                 source.size());
   }
   RAVE_TRY(source.read(0, kMagic.size() + kRecordHead, bytes));
   ByteReader reader(bytes);
   if (!std::ranges::equal(reader.raw(kMagic.size()), as_bytes(kMagic))) {
-    return fail(ErrorCode::kParse, "`{}` is no MCAP file: it does not begin with its mark",
-                source.name());
+    return fail(ErrorCode::kParse, "`{}` is not an MCAP file (wrong magic bytes)", source.name());
   }
   const auto code = reader.get<std::uint8_t>();
   const auto size = reader.get<std::uint64_t>();
   if (code != opcode::kHeader || size > source.size() - bytes.size()) {
-    return fail(ErrorCode::kParse, "`{}`: there is no whole header at offset {}", source.name(),
+    return fail(ErrorCode::kParse, "`{}`: there is no complete header at offset {}", source.name(),
                 kMagic.size());
   }
   const std::uint64_t at = bytes.size();
@@ -36,7 +35,7 @@ namespace {
   file.profile = header.string();
   file.library = header.string();
   if (!header.ok()) {
-    return fail(ErrorCode::kParse, "`{}`: there is no whole header at offset {}", source.name(),
+    return fail(ErrorCode::kParse, "`{}`: there is no complete header at offset {}", source.name(),
                 kMagic.size());
   }
   file.data_begin = at + size;
@@ -120,8 +119,8 @@ Result<std::string> McapReader::read_attachment(const AttachmentInfo& attachment
   const std::size_t end = reader.position();
   const auto crc = reader.get<std::uint32_t>();
   if (!right || !reader.ok()) {
-    return fail(ErrorCode::kParse, "`{}`: there is no whole attachment at offset {}", source.name(),
-                attachment.offset);
+    return fail(ErrorCode::kParse, "`{}`: there is no complete attachment at offset {}",
+                source.name(), attachment.offset);
   }
   if (crc != 0 && crc32(ByteSpan(bytes).first(end).subspan(kRecordHead)) != crc) {
     return fail(ErrorCode::kParse, "`{}`: the attachment at offset {} does not match its checksum",
@@ -140,8 +139,8 @@ Result<StringMap> McapReader::read_metadata(const MetadataInfo& metadata) const 
   static_cast<void>(reader.string());
   StringMap entries = reader.map();
   if (!right || !reader.ok()) {
-    return fail(ErrorCode::kParse, "`{}`: there is no whole metadata at offset {}", source.name(),
-                metadata.offset);
+    return fail(ErrorCode::kParse, "`{}`: there is no complete metadata at offset {}",
+                source.name(), metadata.offset);
   }
   return entries;
 }

@@ -55,7 +55,7 @@ Status MessageCursor::Impl::open_chunk(std::size_t index) {
     open_[index] = std::move(chunk);
   }
   if (ok && complete) return {};
-  return fail(ErrorCode::kParse, "`{}`: the chunk at offset {} has a record that is not whole",
+  return fail(ErrorCode::kParse, "`{}`: the chunk at offset {} has an incomplete record",
               file_->source->name(), info.offset);
 }
 

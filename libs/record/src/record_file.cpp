@@ -156,7 +156,7 @@ Status read_summary(RecordFile& file) {
                                           return ok;
                                         });
   if (!ok || !complete) {
-    return fail(ErrorCode::kParse, "`{}`: the summary at offset {} has a record that is not whole",
+    return fail(ErrorCode::kParse, "`{}`: the summary at offset {} has an incomplete record",
                 source.name(), start);
   }
   // Without counts, or with messages that no chunk index tells of, the data must be looked at.
@@ -181,7 +181,7 @@ Status load_chunk(const RecordFile& file, const ChunkInfo& chunk, Bytes& records
   const std::string compression = reader.string();
   const ByteSpan packed = reader.raw(reader.get<std::uint64_t>());
   if (!reader.ok() || code != opcode::kChunk || length != bytes.size() - kRecordHead) {
-    return fail(ErrorCode::kParse, "`{}`: there is no whole chunk at offset {}",
+    return fail(ErrorCode::kParse, "`{}`: there is no complete chunk at offset {}",
                 file.source->name(), chunk.offset);
   }
   if (summed != nullptr) *summed = crc != 0;

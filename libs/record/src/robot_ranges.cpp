@@ -42,7 +42,7 @@ Result<std::vector<std::uint32_t>> parse_robot_ranges(std::string_view text, std
     const auto last = dash == std::string_view::npos ? first : number_of(piece.substr(dash + 1));
     const bool ascends = robots.empty() || (first && *first > robots.back());
     if (!first || !last || *last < *first || *last >= count || !ascends) {
-      return fail(ErrorCode::kParse, "`{}` are no ids of robots below {}", text, count);
+      return fail(ErrorCode::kParse, "`{}` are not ids of robots below {}", text, count);
     }
     for (std::uint32_t robot = *first; robot <= *last; ++robot) robots.push_back(robot);
   }

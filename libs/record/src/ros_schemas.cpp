@@ -77,7 +77,7 @@ const RosSchema kEventSchema{
 
 const RosSchema kInputSchema{"rave_msgs/msg/Input",
                              "builtin_interfaces/Time stamp\nuint64 step\nstring kind\n"
-                             "string robot\nstring key\nstring value\n" RAVE_TIME};
+                             "string robot\nstring key\nstring value\nstring by\n" RAVE_TIME};
 
 const RosSchema kShadowSchema{
     "rave_msgs/msg/Shadow",

@@ -154,7 +154,7 @@ void WriteQueue::note_failure(const Error& error) {
   }
   failed_ = true;
   if (sink_ != nullptr) {
-    sink_->error("record", "{}; the run goes on, its record ends here", error.text());
+    sink_->error("record", "{}; the run continues, its recording ends here", error.text());
   }
 }
 

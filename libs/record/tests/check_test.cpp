@@ -87,8 +87,8 @@ class CheckedRecord : public ::testing::Test {
 TEST_F(CheckedRecord, IsWholeAsItWasWritten) { EXPECT_EQ(said_of(whole_), ""); }
 
 TEST_F(CheckedRecord, EachPieceIsNamedWhenItIsDamaged) {
-  expect_said(flipped(0), "is no MCAP file", "mark");
-  expect_said(flipped(kMagic.size()), "no whole header", "kind of the header");
+  expect_said(flipped(0), "is not an MCAP file", "mark");
+  expect_said(flipped(kMagic.size()), "no complete header", "kind of the header");
   expect_said(flipped(kMagic.size() + kRecordHead + 4), "the header", "profile in the header");
   for (const ChunkInfo& chunk : reader_->chunks()) {
     const std::string name = fmt::format("the chunk at offset {}", chunk.offset);

@@ -268,7 +268,7 @@ TEST(Mcap, ADamagedSummaryIsSaidAndReplacedByAScan) {
 TEST(Mcap, SaysWhatIsNoRecord) {
   const auto wrong = McapReader::open_memory(bytes_of("%PDF-1.7 and much more text"), "a.pdf");
   ASSERT_FALSE(wrong);
-  EXPECT_EQ(wrong.error().text(), "`a.pdf` is no MCAP file: it does not begin with its mark");
+  EXPECT_EQ(wrong.error().text(), "`a.pdf` is not an MCAP file (wrong magic bytes)");
   const auto missing = McapReader::open("/nowhere/x.mcap");
   ASSERT_FALSE(missing);
   EXPECT_EQ(missing.error().text(), "cannot open `/nowhere/x.mcap`: No such file or directory");
@@ -345,7 +345,7 @@ TEST(Mcap, ADiskThatIsFullIsToldOnceAndLeavesAReadableFile) {
   EXPECT_EQ(writer->dropped(), 21U);
   EXPECT_FALSE(writer->close());
   ASSERT_EQ(sink.lines().size(), 1U);
-  EXPECT_NE(sink.lines()[0].find("the run goes on, its record ends here"), std::string::npos);
+  EXPECT_NE(sink.lines()[0].find("the run continues, its recording ends here"), std::string::npos);
   const auto reader = McapReader::open(file.path());
   ASSERT_TRUE(reader) << reader.error().text();
   EXPECT_TRUE(reader->whole());

@@ -170,7 +170,7 @@ TEST_F(Merged, WhatIsMissingOrTornIsNamed) {
   std::ofstream(torn) << "nothing";
   run = open();
   ASSERT_EQ(run.notes.size(), 2U);
-  EXPECT_NE(run.notes[0].find("is no MCAP file"), std::string::npos) << run.notes[0];
+  EXPECT_NE(run.notes[0].find("is not an MCAP file"), std::string::npos) << run.notes[0];
   const auto reader = McapReader::open(run.file);
   ASSERT_TRUE(reader);
   EXPECT_FALSE(read_run_end(*reader));

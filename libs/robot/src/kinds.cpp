@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/robot/command.hpp"
+#include "rave/robot/order.hpp"
 #include "rave/robot/reading.hpp"
 
 namespace rave {
@@ -50,6 +51,26 @@ std::uint32_t record_size(ReadingKind kind) noexcept {
       return sizeof(double);
   }
   return 0;
+}
+
+std::string_view to_string(OrderKind kind) noexcept {
+  switch (kind) {
+    case OrderKind::kNone:
+      return "nothing";
+    case OrderKind::kDrive:
+      return "drive";
+    case OrderKind::kGoal:
+      return "goal";
+    case OrderKind::kPath:
+      return "path";
+    case OrderKind::kCancel:
+      return "cancel";
+    case OrderKind::kText:
+      return "text";
+    case OrderKind::kPlace:
+      return "place";
+  }
+  return "unknown";
 }
 
 std::string_view to_string(CommandKind kind) noexcept {

@@ -39,10 +39,11 @@ Result<std::string> whole_name(std::string_view name_space, std::string_view top
     rest.remove_prefix(1);  // the slash
     const std::string_view word = rest.substr(0, rest.find('/'));
     if (!is_word(word)) {
-      return fail(ErrorCode::kInvalidArgument,
-                  "`{}` is no name of a topic: `{}` must be letters, digits and underscores, no "
-                  "digit first, as in `/cart/scan`",
-                  name, word);
+      return fail(
+          ErrorCode::kInvalidArgument,
+          "`{}` is not a valid topic name: `{}` must be letters, digits and underscores, no "
+          "digit first, as in `/cart/scan`",
+          name, word);
     }
     rest.remove_prefix(word.size());
   }

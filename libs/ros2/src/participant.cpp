@@ -194,7 +194,8 @@ std::string Participant::explain_silence(std::string_view topic, std::string_vie
   const char* const does = writers ? "writes" : "reads";
   if (others_here() == 0) {
     return fmt::format(
-        "nobody else is in domain {} at {}; compare ROS_DOMAIN_ID, `interface`, `multicast` and "
+        "no other participant is in domain {} at {}; compare ROS_DOMAIN_ID, `interface`, "
+        "`multicast` and "
         "`peers`",
         network_.domain, network_.interface);
   }

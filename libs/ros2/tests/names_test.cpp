@@ -14,9 +14,10 @@ TEST(Ros2Names, TopicsStandInTheirNamespace) {
 }
 
 TEST(Ros2Names, WrongOnesAreNamed) {
-  EXPECT_EQ(whole_name("", "2d/scan").error().message,
-            "`/2d/scan` is no name of a topic: `2d` must be letters, digits and underscores, no "
-            "digit first, as in `/cart/scan`");
+  EXPECT_EQ(
+      whole_name("", "2d/scan").error().message,
+      "`/2d/scan` is not a valid topic name: `2d` must be letters, digits and underscores, no "
+      "digit first, as in `/cart/scan`");
   for (const char* const wrong : {"", "/", "a//b", "a/", "a b", "a-b", "~/scan", "a\nb"}) {
     EXPECT_FALSE(whole_name("", wrong)) << wrong;
   }

@@ -103,7 +103,7 @@ TEST(Ros2Participant, SilenceIsExplained) {
   ASSERT_TRUE(reader);
   const std::string domain = std::to_string(own_domain());
   EXPECT_EQ(reader->explain_silence(),
-            "nobody else is in domain " + domain +
+            "no other participant is in domain " + domain +
                 " at 127.0.0.1; compare ROS_DOMAIN_ID, `interface`, `multicast` and `peers`");
   const auto robot = participant("robot");
   auto waiter = Waiter::create(*us);

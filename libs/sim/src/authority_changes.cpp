@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "input_notes.hpp"
+#include "order_checks.hpp"
+#include "rave/math/scalar.hpp"
 #include "spec_checks.hpp"
 #include "world_authority_impl.hpp"
 
@@ -42,7 +44,7 @@ void WorldAuthority::Impl::refuse(RobotId robot, const Error& why) {
   if (refused_count++ < AuthorityState::kMostRefused) refused.push_back(events.back());
 }
 
-Status WorldAuthority::Impl::change_obstacle(const ObstacleChange& change, Author author,
+Status WorldAuthority::Impl::change_obstacle(const ObstacleChange& change, const Author& author,
                                              WorldStep& world) {
   std::string note;
   const SimTime from{static_cast<std::int64_t>(step) * spec.step.ns};
@@ -56,7 +58,7 @@ Status WorldAuthority::Impl::change_obstacle(const ObstacleChange& change, Autho
 void WorldAuthority::Impl::take_over_obstacles(WorldStep& world) {
   truth.put_obstacles(adopted, {static_cast<std::int64_t>(step) * spec.step.ns});
   for (ObstacleChange& change : adopted) {
-    const Author author = change.asked.empty() ? Author::kRun : Author::kHand;
+    const Author author{!change.asked.empty(), change.by};
     events.push_back(noted_obstacle(step, change, "", author, hash));
     world.obstacles.push_back(std::move(change));
   }
@@ -75,6 +77,13 @@ void WorldAuthority::Impl::do_input(WorldInput& input, WorldStep& world) {
     if (!status) refusals.push_back({input.sequence, status.error().text()});
     return;
   }
+  if (input.kind == WorldInput::Kind::kPlace) {
+    const Status status = place(input);
+    if (!status) refusals.push_back({input.sequence, status.error().text()});
+    // Its host keeps in its record what was asked.
+    if (status) world.inputs.push_back(std::move(input));
+    return;
+  }
   const bool here = input.kind == WorldInput::Kind::kChange && is_of_body(input.changes.front());
   if (!here) {
     world.inputs.push_back(std::move(input));
@@ -85,7 +94,7 @@ void WorldAuthority::Impl::do_input(WorldInput& input, WorldStep& world) {
 }
 
 Status WorldAuthority::Impl::change_body(RobotId robot, std::span<const ParameterChange> changes,
-                                         Author author, WorldStep& world) {
+                                         const Author& author, WorldStep& world) {
   for (const ParameterChange& change : changes) {
     const Status checked = check_body_change(change);
     if (!checked) return refused_change(spec, robot, "body", checked.error());
@@ -94,14 +103,42 @@ Status WorldAuthority::Impl::change_body(RobotId robot, std::span<const Paramete
   const double after = std::get<double>(changes.back().value);
   const Status resized = truth.resize(robot, after);
   if (!resized) return refused_change(spec, robot, "body", resized.error());
-  world.resized.push_back({robot, after});
+  world.resized.push_back({robot, after, author.name});
   events.push_back(
       noted_input(step, robot, EventKind::kChanged, body_change_text(before, after), author, hash));
   return {};
 }
 
+/// As in one process, see Engine::Impl::place().
+Status WorldAuthority::Impl::place(const WorldInput& input) {
+  const std::uint32_t r = input.robot.value();
+  const Vec2 p_WR = input.order.points_W.front();
+  const double yaw_rad = input.order.yaw_rad.value_or(truth.movers[r].X_WR.yaw);
+  const Status placed = truth.place(input.robot, {p_WR.x, p_WR.y, wrap_angle(yaw_rad)});
+  if (!placed) {
+    return fail(placed.error().code, "robot `{}`, place: {}", spec.robots[r].name,
+                placed.error().message);
+  }
+  events.push_back(noted_order(step, input, EventKind::kPlaced, hash));
+  return {};
+}
+
+Status WorldAuthority::check_place(const WorldInput& input) const {
+  const Impl& authority = *impl_;
+  RAVE_TRY(check_order(authority.spec, input));
+  const std::uint32_t r = input.robot.value();
+  const Vec2 p_WR = input.order.points_W.front();
+  const double yaw_rad = input.order.yaw_rad.value_or(authority.truth.movers[r].X_WR.yaw);
+  const Status room =
+      authority.truth.check_place(input.robot, {p_WR.x, p_WR.y, wrap_angle(yaw_rad)});
+  if (room) return {};
+  return fail(room.error().code, "robot `{}`, place: {}", authority.spec.robots[r].name,
+              room.error().message);
+}
+
 Result<std::uint64_t> WorldAuthority::ask(WorldInput input) {
   Impl& authority = *impl_;
+  if (is_order(input.kind)) RAVE_TRY(check_order(authority.spec, input));
   if (input.kind == WorldInput::Kind::kObstacle) {
     if (!input.obstacle) return fail(ErrorCode::kInvalidArgument, "nothing to change");
     RAVE_TRY(check_obstacle_change(*input.obstacle));

@@ -28,7 +28,7 @@ inline void describe_fan(const VirtualDeclaration& declaration, SensorInfo& info
 }
 
 /// How far a range sensor measures; no limit where its driver does not say it.
-[[nodiscard]] inline RangeLimits range_limits_of(const SensorInfo& info) noexcept {
+[[nodiscard]] inline rave::RangeLimits range_limits_of(const SensorInfo& info) noexcept {
   if (!(info.range_max_m > 0)) return {};
   return {info.range_min_m, info.range_max_m};
 }

@@ -123,6 +123,14 @@ std::string_view to_string(EventKind kind) noexcept {
       return "hand over refused";
     case EventKind::kShadowReset:
       return "shadow reset";
+    case EventKind::kOrdered:
+      return "ordered";
+    case EventKind::kSaid:
+      return "said";
+    case EventKind::kPlaced:
+      return "placed";
+    case EventKind::kLease:
+      return "lease";
   }
   return "unknown";
 }
@@ -196,7 +204,7 @@ Status Engine::Impl::make() {
   radio = std::make_unique<Radio>(spec, local, logs, pool);
   RAVE_TRY(radio->make());
   for (std::uint32_t g = 0; g < groups.size(); ++g) {
-    RAVE_TRY(make_group({spec, logs, radio.get()}, groups[g]));
+    RAVE_TRY(make_group({spec, logs, radio.get(), nullptr, answers.service()}, groups[g]));
     const auto size = static_cast<std::uint32_t>(groups[g].members.size());
     for (std::uint32_t begin = 0; begin < size; begin += kMemberBlock) {
       blocks.push_back({g, begin, std::min(begin + kMemberBlock, size)});
@@ -217,14 +225,16 @@ Status Engine::Impl::reset() {
   restore_obstacles();
   restore_bodies();
   radio->clear();
-  for (RobotGroup& group : groups) RAVE_TRY(reset_group({spec, logs, radio.get()}, group));
+  for (RobotGroup& group : groups)
+    RAVE_TRY(reset_group({spec, logs, radio.get(), nullptr, answers.service()}, group));
   return begin();
 }
 
 Status Engine::Impl::begin() {
   set_initial_state();
   if (spec.on_ready) spec.on_ready();
-  for (RobotGroup& group : groups) RAVE_TRY(open_sensors({spec, logs, radio.get()}, group));
+  for (RobotGroup& group : groups)
+    RAVE_TRY(open_sensors({spec, logs, radio.get(), nullptr, answers.service()}, group));
   RAVE_TRY(radio->open());
   return start_guards();
 }
@@ -242,6 +252,8 @@ void Engine::Impl::set_initial_state() {
   next_hand_over = 0;
   next_obstacle = 0;
   world_age = {};
+  orders.reset();
+  answers.clear();
   set_up_guards();
   history.clear();
   past_valid = false;

@@ -20,6 +20,7 @@ std::string_view text_for(const ErrorText& error, std::size_t slot) noexcept {
 }  // namespace
 
 void Engine::Impl::act() {
+  if (orders) steer();
   pool.for_each_block(blocks.size(), act_effort,
                       [this](std::size_t b, unsigned w) { act_block(blocks[b], workers[w]); });
   // Hardware is written to from one thread, in the order of the robots, or by their guards.

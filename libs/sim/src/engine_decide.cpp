@@ -7,9 +7,12 @@
 namespace rave::sim {
 
 void Engine::Impl::decide() {
+  if (orders) show_orders();
   pool.for_each_block(blocks.size(), decide_effort,
                       [this](std::size_t b, unsigned w) { decide_block(blocks[b], workers[w]); });
   decide_isolated();
+  if (answers.any()) take_answers();
+  if (orders) hide_orders();
 }
 
 namespace {

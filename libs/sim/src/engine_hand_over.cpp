@@ -37,7 +37,7 @@ bool is_below(const Twist2& twist, double mps, double radps) noexcept {
 
 }  // namespace
 
-Status Engine::Impl::hand_over(RobotId robot, DriverSet to, Author author) {
+Status Engine::Impl::hand_over(RobotId robot, DriverSet to, const Author& author) {
   const std::string& name = spec.robots[robot.value()].name;
   Twin* const twin = find_twin(robot);
   if (twin == nullptr) {
@@ -62,10 +62,10 @@ Status Engine::Impl::hand_over(RobotId robot, DriverSet to, Author author) {
     return fail(ErrorCode::kState, "the body of robot `{}` has `scale` {}; a real one has 1", name,
                 truth.scale_of(robot));
   }
-  if (author == Author::kHand) ++by_hand;
-  twin->by_hand = author == Author::kHand;
+  if (author.by_hand) ++by_hand;
+  twin->author = author;
   twin->state.under_way = true;
-  twin->state.by_hand = twin->by_hand;
+  twin->state.by_hand = author.by_hand;
   twin->state.to = to;
   twin->heard.reset();
   begin_stage(*twin, Twin::Stage::kOpening);
@@ -220,7 +220,7 @@ void Engine::Impl::end_hand_over(Twin& twin, EventKind kind, std::string text) {
   begin_stage(twin, Twin::Stage::kIdle);
   twin.state.under_way = false;
   twin.state.last = text;
-  const Author author = twin.by_hand ? Author::kHand : Author::kRun;
+  const Author author = twin.author;
   pending.push_back(noted_input(step, twin.robot, kind, std::move(text), author, hash));
 }
 
@@ -236,7 +236,7 @@ void Engine::Impl::begin_hand_overs() {
   }
 }
 
-Status Engine::hand_over(RobotId robot, DriverSet to, Author author) {
+Status Engine::hand_over(RobotId robot, DriverSet to, const Author& author) {
   RAVE_CHECK(robot.value() < impl_->spec.robots.size());
   return impl_->hand_over(robot, to, author);
 }

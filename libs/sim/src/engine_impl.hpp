@@ -9,9 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "answer_book.hpp"
 #include "history_ring.hpp"
 #include "host_part.hpp"
 #include "listed_fan.hpp"
+#include "order_book.hpp"
 #include "outlets.hpp"
 #include "pose_reading.hpp"
 #include "pose_track.hpp"
@@ -237,7 +239,7 @@ struct Engine::Impl {
   [[nodiscard]] std::string still_busy(const Twin& twin) const;
 
   // engine_hand_over.cpp: how they come to that
-  Status hand_over(RobotId robot, DriverSet to, Author author);
+  Status hand_over(RobotId robot, DriverSet to, const Author& author);
   void begin_hand_overs();
   void advance_hand_overs();
   void advance(Twin& twin);
@@ -251,14 +253,14 @@ struct Engine::Impl {
   void end_hand_over(Twin& twin, EventKind kind, std::string text);
 
   // engine_inputs.cpp: what is asked of a run between two steps
-  void note_input(RobotId robot, EventKind kind, std::string text, Author author);
+  void note_input(RobotId robot, EventKind kind, std::string text, const Author& author);
   void make_changes();
   void make_change(const ScheduledChange& scheduled);
-  void stop(RobotId robot, Author author);
-  void release(RobotId robot, Author author);
-  void arm(RobotId robot, Author author);
-  Status change(RobotId robot, std::span<const ParameterChange> changes, Author author);
-  Result<ChangedObstacle> change_obstacle(const ObstacleChange& change, Author author);
+  void stop(RobotId robot, const Author& author);
+  void release(RobotId robot, const Author& author);
+  void arm(RobotId robot, const Author& author);
+  Status change(RobotId robot, std::span<const ParameterChange> changes, const Author& author);
+  Result<ChangedObstacle> change_obstacle(const ObstacleChange& change, const Author& author);
   void make_obstacle_changes();
   /// The same for the snapshots of the past.
   void obstacle_changed(const ObstacleChange& change);
@@ -268,6 +270,27 @@ struct Engine::Impl {
   void body_changed(RobotId robot);
   void tell_program_of_body(RobotId robot);
   void restore_bodies();
+
+  // engine_orders.cpp: what people ask of robots
+  [[nodiscard]] OrderSet takes(RobotId robot) const;
+  Status order(const WorldInput& input);
+  Status check_moved(const WorldInput& input);
+  Status order_text_for(const WorldInput& input);
+  Status order_motion(const WorldInput& input);
+  Status place(const WorldInput& input);
+  void steer_by(const WorldInput& input, std::uint32_t controller);
+  void tell_cancelled(const WorldInput& input, OrderedRobot& robot);
+  void give_back(RobotId id, OrderedRobot& robot);
+  /// False: there was none.
+  bool end_orders(const WorldInput& input, RobotId id);
+  void cancel_orders(const WorldInput& input);
+  void note_order(const WorldInput& input, EventKind kind);
+  [[nodiscard]] OrderedRobot& orders_of(RobotId robot);
+  void show_orders();
+  void hide_orders();
+  void take_answers();
+  void steer();
+  void look_at_goal(RobotId id, OrderedRobot& robot);
 
   // engine_split.cpp: one of several hosts
   Status propose(HostReport& report, PhaseTimer& phase);
@@ -279,6 +302,7 @@ struct Engine::Impl {
   Status catch_up(const WorldStep& world, const AuthorityState& state);
   void put_obstacles(std::span<const ObstacleChange> changes);
   void do_input(const WorldInput& input);
+  void do_order(const WorldInput& input);
   void adopt(const WorldStep& world);
   Status take_newer_samples();
   [[nodiscard]] bool is_local(std::uint32_t robot) const noexcept { return local[robot] != 0; }
@@ -340,6 +364,8 @@ struct Engine::Impl {
   RunHash hash;
   PhaseTimes phase_times;
   FanScratch past_scratch;
+  std::unique_ptr<OrderBook> orders;  ///< Null: nobody has asked anything of a robot yet.
+  AnswerBook answers;
   std::unique_ptr<FusionWorld> fusion_world;  ///< Null without hybrid sensors.
 };
 

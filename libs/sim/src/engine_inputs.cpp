@@ -139,8 +139,9 @@ void undo(std::vector<Done>& done) {
 
 }  // namespace
 
-void Engine::Impl::note_input(RobotId robot, EventKind kind, std::string text, Author author) {
-  if (author == Author::kHand) ++by_hand;
+void Engine::Impl::note_input(RobotId robot, EventKind kind, std::string text,
+                              const Author& author) {
+  if (author.by_hand) ++by_hand;
   pending.push_back(noted_input(step, robot, kind, std::move(text), author, hash));
 }
 
@@ -158,7 +159,7 @@ void Engine::Impl::make_change(const ScheduledChange& scheduled) {
 }
 
 Status Engine::Impl::change(RobotId robot, std::span<const ParameterChange> changes,
-                            Author author) {
+                            const Author& author) {
   RobotGroup& group = groups[group_index[robot.value()]];
   const std::size_t m = member_index[robot.value()];
   std::vector<Done> done;
@@ -241,11 +242,12 @@ void Engine::Impl::tell_program_of_body(RobotId robot) {
   if (target) static_cast<void>(target->update(target->present));
 }
 
-Result<ChangedObstacle> Engine::Impl::change_obstacle(const ObstacleChange& change, Author author) {
+Result<ChangedObstacle> Engine::Impl::change_obstacle(const ObstacleChange& change,
+                                                      const Author& author) {
   std::string note;
   RAVE_TRY_ASSIGN(const ObstacleChange made, truth.change_obstacle(change, step_time(step), note));
   obstacle_changed(made);
-  if (author == Author::kHand) ++by_hand;
+  if (author.by_hand) ++by_hand;
   pending.push_back(noted_obstacle(step, made, note, author, hash));
   return ChangedObstacle{made.id, step, pending.back().text};
 }
@@ -277,7 +279,7 @@ void Engine::Impl::restore_bodies() {
   for (const RobotId robot : truth.restore_bodies()) body_changed(robot);
 }
 
-void Engine::Impl::stop(RobotId robot, Author author) {
+void Engine::Impl::stop(RobotId robot, const Author& author) {
   for (std::uint32_t r = 0; r < robot_guards.size(); ++r) {
     if (!is_local(r) || (robot.valid() && robot.value() != r)) continue;
     if (!robot_guards[r].stop()) continue;
@@ -285,10 +287,14 @@ void Engine::Impl::stop(RobotId robot, Author author) {
     const RobotGroup& group = groups[group_index[r]];
     if (group.has_guard(member_index[r])) group.guards[member_index[r]].thread->stand();
     note_input(RobotId(r), EventKind::kStopped, "", author);
+    if (!orders) continue;
+    WorldInput cancel;
+    cancel.author = author;
+    static_cast<void>(end_orders(cancel, RobotId(r)));
   }
 }
 
-void Engine::Impl::release(RobotId robot, Author author) {
+void Engine::Impl::release(RobotId robot, const Author& author) {
   for (std::uint32_t r = 0; r < robot_guards.size(); ++r) {
     if (!is_local(r) || (robot.valid() && robot.value() != r)) continue;
     if (!robot_guards[r].release(is_armed_at_first(r))) continue;
@@ -296,16 +302,16 @@ void Engine::Impl::release(RobotId robot, Author author) {
   }
 }
 
-void Engine::Impl::arm(RobotId robot, Author author) {
+void Engine::Impl::arm(RobotId robot, const Author& author) {
   for (std::uint32_t r = 0; r < robot_guards.size(); ++r) {
     if (!is_local(r) || (robot.valid() && robot.value() != r)) continue;
     if (robot_guards[r].arm()) note_input(RobotId(r), EventKind::kArmed, "", author);
   }
 }
 
-void Engine::stop(RobotId robot, Author author) { impl_->stop(robot, author); }
-void Engine::release(RobotId robot, Author author) { impl_->release(robot, author); }
-void Engine::arm(RobotId robot, Author author) { impl_->arm(robot, author); }
+void Engine::stop(RobotId robot, const Author& author) { impl_->stop(robot, author); }
+void Engine::release(RobotId robot, const Author& author) { impl_->release(robot, author); }
+void Engine::arm(RobotId robot, const Author& author) { impl_->arm(robot, author); }
 
 bool Engine::stopped(RobotId robot) const noexcept {
   return impl_->robot_guards[robot.value()].holds().stopped;
@@ -325,14 +331,15 @@ Status Engine::Impl::check_own(RobotId robot, std::span<const ParameterChange> c
 }
 
 Status Engine::set_parameters(RobotId robot, std::span<const ParameterChange> changes,
-                              Author author) {
+                              const Author& author) {
   RAVE_CHECK(robot.value() < impl_->spec.robots.size());
   if (changes.empty()) return fail(ErrorCode::kInvalidArgument, "nothing to change");
   if (impl_->host) RAVE_TRY(impl_->check_own(robot, changes));
   return impl_->change(robot, changes, author);
 }
 
-Result<ChangedObstacle> Engine::change_obstacle(const ObstacleChange& change, Author author) {
+Result<ChangedObstacle> Engine::change_obstacle(const ObstacleChange& change,
+                                                const Author& author) {
   if (impl_->host) {
     return fail(ErrorCode::kState, "obstacles are the authority's to change");
   }

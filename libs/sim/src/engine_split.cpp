@@ -244,12 +244,21 @@ void Engine::Impl::do_input(const WorldInput& input) {
       arm(input.robot, input.author);
       return;
     case WorldInput::Kind::kObstacle:
+    case WorldInput::Kind::kPlace:
       return;  // the authority has done it
     case WorldInput::Kind::kChange:
       break;
+    default:
+      return do_order(input);
   }
   if (!is_local(input.robot.value())) return;
   const Status status = change(input.robot, input.changes, input.author);
+  if (!status) host->refusals.push_back({input.sequence, status.error().text()});
+}
+
+void Engine::Impl::do_order(const WorldInput& input) {
+  if (input.robot.valid() && !is_local(input.robot.value())) return;
+  const Status status = order(input);
   if (!status) host->refusals.push_back({input.sequence, status.error().text()});
 }
 

@@ -3,28 +3,38 @@
 
 #include <utility>
 
+#include "order_checks.hpp"
 #include "parameters.hpp"
 #include "rave/sim/authority_state.hpp"
 
 namespace rave::sim {
 
+std::string by_hand_text(const Author& author) {
+  return author.name.empty() ? "by hand" : "by hand: " + author.name;
+}
+
+bool says_by_hand(std::string_view text) noexcept {
+  return text.starts_with("by hand") || text.find("(by hand") != std::string_view::npos;
+}
+
 namespace {
 
-std::string with_author(std::string text, bool by_hand) {
-  if (by_hand) text += text.empty() ? "by hand" : " (by hand)";
-  return text;
+std::string with_author(std::string text, const Author& author) {
+  if (!author.by_hand) return text;
+  const std::string by = by_hand_text(author);
+  return text.empty() ? by : fmt::format("{} ({})", text, by);
 }
 
 }  // namespace
 
 Event resized_event(std::uint64_t step, const ResizedRobot& robot, double before, bool by_hand) {
   return {step, robot.robot, EventKind::kChanged, BodyId(),
-          with_author(body_change_text(before, robot.scale), by_hand)};
+          with_author(body_change_text(before, robot.scale), Author{by_hand, robot.by})};
 }
 
 Event noted_input(std::uint64_t step, RobotId robot, EventKind kind, std::string text,
-                  Author author, RunHash& hash) {
-  text = with_author(std::move(text), author == Author::kHand);
+                  const Author& author, RunHash& hash) {
+  text = with_author(std::move(text), author);
   ItemHash item(step, robot.value(), HashChannel::kInput, static_cast<std::uint32_t>(kind));
   item.add_bytes(std::as_bytes(std::span(text)));
   hash.add(item);
@@ -53,8 +63,8 @@ void add_body(ItemHash& item, const world::Body& body) {
 }  // namespace
 
 Event noted_obstacle(std::uint64_t step, const ObstacleChange& change, std::string_view note,
-                     Author author, RunHash& hash) {
-  Event event = obstacle_event(step, change, note, author == Author::kHand);
+                     const Author& author, RunHash& hash) {
+  Event event = obstacle_event(step, change, note, author);
   const Pose2& X_WB = change.X_WB;
   ItemHash item(step, RobotId::kNone, HashChannel::kInput, static_cast<std::uint32_t>(event.kind));
   item.add(std::uint64_t{change.id.value()});
@@ -65,6 +75,25 @@ Event noted_obstacle(std::uint64_t step, const ObstacleChange& change, std::stri
   if (change.kind == ObstacleChange::Kind::kAdd) add_body(item, change.body);
   hash.add(item);
   return event;
+}
+
+Event noted_order(std::uint64_t step, const WorldInput& input, EventKind kind, RunHash& hash) {
+  const OrderDetails& order = input.order;
+  ItemHash item(step, input.robot.value(), HashChannel::kInput,
+                static_cast<std::uint32_t>(kind) << 8U | static_cast<std::uint32_t>(input.kind));
+  for (const Vec2 p_W : order.points_W) {
+    item.add(p_W.x);
+    item.add(p_W.y);
+  }
+  item.add(order.yaw_rad ? std::uint64_t{1} : std::uint64_t{0});
+  for (const double number :
+       {order.yaw_rad.value_or(0), order.v_mps, order.w_radps, order.speed_mps}) {
+    item.add(number);
+  }
+  item.add_bytes(std::as_bytes(std::span(order.text)));
+  item.add_bytes(std::as_bytes(std::span(input.author.name)));
+  hash.add(item);
+  return {step, input.robot, kind, BodyId(), with_author(order_text(input), input.author)};
 }
 
 Status check_body_change(const ParameterChange& change) {

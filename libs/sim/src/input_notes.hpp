@@ -13,12 +13,16 @@ namespace rave::sim {
 
 /// The event of an input that counts from `step` on; adds it to the hash.
 [[nodiscard]] Event noted_input(std::uint64_t step, RobotId robot, EventKind kind, std::string text,
-                                Author author, RunHash& hash);
+                                const Author& author, RunHash& hash);
 
 /// The event of a change of an obstacle that was made, and counts from `step` on; adds it to the
 /// hash, with all its numbers. `note`: what else is worth telling.
 [[nodiscard]] Event noted_obstacle(std::uint64_t step, const ObstacleChange& change,
-                                   std::string_view note, Author author, RunHash& hash);
+                                   std::string_view note, const Author& author, RunHash& hash);
+
+/// The event of an order that counts from `step` on; adds it to the hash, with all its numbers.
+[[nodiscard]] Event noted_order(std::uint64_t step, const WorldInput& input, EventKind kind,
+                                RunHash& hash);
 
 /// Whether the change of a body names what bodies have, with a value that it may have. Errors:
 /// kNotFound, kInvalidArgument.

@@ -6,6 +6,8 @@
 #include <set>
 #include <tuple>
 
+#include "order_checks.hpp"
+
 namespace rave::sim {
 namespace {
 
@@ -178,9 +180,12 @@ Status check_columns(const EngineSpec& spec, const WorldStep& world) {
 
 Status check_inputs(const EngineSpec& spec, const WorldStep& world) {
   for (const WorldInput& input : world.inputs) {
-    const bool all = !input.robot.valid() && input.kind != WorldInput::Kind::kChange;
-    if (input.kind <= WorldInput::Kind::kChange &&
-        (all || input.robot.value() < spec.robots.size())) {
+    using Kind = WorldInput::Kind;
+    // Obstacles are the authority's, and reach hosts otherwise.
+    const bool known = input.kind <= Kind::kChange || is_order_formed(input);
+    const bool all =
+        !input.robot.valid() && (input.kind < Kind::kChange || input.kind == Kind::kCancel);
+    if (known && (all || input.robot.value() < spec.robots.size())) {
       continue;
     }
     return wrong(spec, input.robot.value(), "an input that cannot be");

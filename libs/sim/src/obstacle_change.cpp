@@ -5,6 +5,7 @@
 
 #include "rave/base/control_characters.hpp"
 #include "rave/sim/event.hpp"
+#include "rave/sim/world_input.hpp"
 
 namespace rave::sim {
 namespace {
@@ -94,14 +95,14 @@ EventKind kind_of(ObstacleChange::Kind kind) noexcept {
 }  // namespace
 
 Event obstacle_event(std::uint64_t step, const ObstacleChange& change, std::string_view note,
-                     bool by_hand) {
+                     const Author& author) {
   const Pose2& X_WB = change.X_WB;
   std::string text = fmt::format("`{}`", change.name);
   if (change.kind != Kind::kRemove) {
     text += fmt::format(" at ({}, {}), yaw {} rad", X_WB.x, X_WB.y, X_WB.yaw);
   }
   text += note;
-  if (by_hand) text += " (by hand)";
+  if (author.by_hand) text += fmt::format(" ({})", by_hand_text(author));
   return {step, RobotId(), kind_of(change.kind), change.id, std::move(text)};
 }
 

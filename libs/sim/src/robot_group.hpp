@@ -167,7 +167,8 @@ struct GroupContext {
   const EngineSpec& spec;
   std::vector<RobotLog>& logs;  ///< By RobotId.
   const Radio* radio = nullptr;
-  OpeningNote* opening = nullptr;  ///< Told of each driver that is about to be opened.
+  OpeningNote* opening = nullptr;          ///< Told of each driver that is about to be opened.
+  const AnswerService* answers = nullptr;  ///< For programs that take orders.
 
   void note(std::string_view kind, std::string_view name, std::string_view driver) const {
     if (opening != nullptr) opening->set(kind, name, driver);

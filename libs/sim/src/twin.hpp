@@ -8,6 +8,7 @@
 
 #include "opening_note.hpp"
 #include "rave/sim/hand_over.hpp"
+#include "rave/sim/world_input.hpp"
 #include "robot_group.hpp"
 #include "side_task.hpp"
 
@@ -38,7 +39,7 @@ struct Twin {
   OpeningNote opening;             ///< What `work` opens now.
   std::atomic<bool> left = false;  ///< The run is over, and `work` is not.
   bool given_up = false;           ///< `work` still opens the set for a hand-over that was refused.
-  bool by_hand = false;
+  Author author = Author::kRun;    ///< Of the hand-over that is under way.
   std::optional<PoseReading> heard;  ///< By the pose source of the other set, in its frame.
   SimTime heard_at;
   SimTime moved_at;  ///< When the robot was seen to move last, or could not be seen.

@@ -24,9 +24,10 @@ struct WorldAuthority::Impl {
   void put_refusal_texts(std::uint64_t in_step);
   void make_changes(WorldStep& world);
   void do_input(WorldInput& input, WorldStep& world);
-  Status change_body(RobotId robot, std::span<const ParameterChange> changes, Author author,
+  Status change_body(RobotId robot, std::span<const ParameterChange> changes, const Author& author,
                      WorldStep& world);
-  Status change_obstacle(const ObstacleChange& change, Author author, WorldStep& world);
+  Status change_obstacle(const ObstacleChange& change, const Author& author, WorldStep& world);
+  Status place(const WorldInput& input);
   void make_obstacle_changes(WorldStep& world);
   void refuse(RobotId robot, const Error& why);
   void take_over_obstacles(WorldStep& world);

@@ -61,6 +61,11 @@ struct WorldTruth {
   /// A robot is from now on a simulated or a real one, and stands there; between resolve() and
   /// make_way().
   void set_reality(RobotId robot, bool simulated, const Pose2& X_WR);
+  /// Puts a simulated robot elsewhere, where it stands; between resolve() and make_way(). Errors:
+  /// kInvalidArgument (a real robot, it would overlap something); then everything is as it was.
+  Status place(RobotId robot, const Pose2& X_WR);
+  /// Whether that could be done now.
+  [[nodiscard]] Status check_place(RobotId robot, const Pose2& X_WR) const;
   /// Gives all robots back the bodies that they had, and returns whose changed.
   [[nodiscard]] std::vector<RobotId> restore_bodies();
 

@@ -80,7 +80,7 @@ Result<std::unique_ptr<Tls>> Tls::load(const std::filesystem::path& certificate,
   boost::system::error_code error;
   tls->context_->use_certificate_chain(boost::asio::buffer(chain), error);
   if (error) {
-    return fail(ErrorCode::kParse, "`{}` is no certificate: {}", certificate.string(),
+    return fail(ErrorCode::kParse, "`{}` is not a certificate: {}", certificate.string(),
                 error.message());
   }
   tls->context_->use_private_key(boost::asio::buffer(key_text), ssl::context::pem, error);

@@ -212,9 +212,9 @@ TEST_F(WebTls, SaysWhatIsWrongWithACertificate) {
   EXPECT_NE(error_of(wrong).find("none.pem"), std::string::npos);
   wrong.key = folder_ / "web/authority_key.pem";
   EXPECT_NE(error_of(wrong).find("is not the private key of"), std::string::npos);
-  std::ofstream(folder_ / "text.pem") << "no certificate";
+  std::ofstream(folder_ / "text.pem") << "not a certificate";
   wrong.certificate = folder_ / "text.pem";
-  EXPECT_NE(error_of(wrong).find("text.pem` is no certificate"), std::string::npos);
+  EXPECT_NE(error_of(wrong).find("text.pem` is not a certificate"), std::string::npos);
   wrong.certificate = folder_ / "web/authority.pem";
   EXPECT_NE(error_of(wrong).find("names no host"), std::string::npos);
   ASSERT_TRUE(keys::make_web_keys({folder_ / "old", {"lab.example"}, 1, now_s() - 9 * 86'400}));

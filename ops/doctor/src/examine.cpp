@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "rave/doctor/checks.hpp"
-#include "rave/doctor/visit.hpp"
+#include "rave/doctor/probe_peer.hpp"
 
 namespace rave::doctor {
 
@@ -17,7 +17,6 @@ Findings examine(const Machine& machine, const bus::BusConfig& config, const Abo
                        check_ports(config),
                        check_own_way(machine, config),
                        check_multicast(machine, config),
-                       check_firewall(machine, config),
                        check_keys(config.security, machine.now_s),
                        check_clock(machine),
                        check_receive_buffer(machine),
@@ -31,13 +30,13 @@ Findings examine(const Machine& machine, const bus::BusConfig& config, const Abo
   };
   if (broken("interface")) return findings;
   const bool can_join = !broken("peers") && !broken("keys") && !broken("domain") && !broken("self");
-  VisitOptions options;
+  ProbeOptions options;
   options.address = machine.find(config.interface)->address;
   options.domain = config.domain;
   options.multicast = config.multicast != bus::Multicast::kOff;
   bool any = false;
   for (const std::string& peer : peers) {
-    const Visit result = visit(peer, options);
+    const ProbeResult result = probe_peer(peer, options);
     for (Finding& finding : judge(result, here)) findings.push_back(std::move(finding));
     // With other certificates it is seen there all the same, and gives and gets nothing.
     const bool same_keys = result.about.authority == here.authority;

@@ -5,7 +5,7 @@
 
 #include "rave/bus/wait_set.hpp"
 #include "rave/doctor/ports.hpp"
-#include "rave/doctor/visit.hpp"
+#include "rave/doctor/probe_peer.hpp"
 
 namespace rave::doctor {
 namespace {
@@ -15,11 +15,12 @@ constexpr double kSameTime_s = 2;
 
 class Judge {
  public:
-  Judge(const Visit& visit, const About& here) : visit_(visit), there_(visit.about), here_(here) {}
+  Judge(const ProbeResult& result, const About& here)
+      : result_(result), there_(result.about), here_(here) {}
 
   Findings all() {
-    door();
-    if (visit_.door != Visit::Door::kOpen) return std::move(findings_);
+    port_state();
+    if (result_.port != ProbeResult::PortState::kOpen) return std::move(findings_);
     sameness();
     clock();
     ports();
@@ -31,39 +32,39 @@ class Judge {
  private:
   void add(const char* check, Verdict verdict, std::string what, std::string mend = {}) {
     findings_.push_back(
-        {check, verdict, fmt::format("{}: {}", visit_.peer, what), std::move(mend)});
+        {check, verdict, fmt::format("{}: {}", result_.peer, what), std::move(mend)});
   }
   void good(const char* check, std::string what) { add(check, Verdict::kGood, std::move(what)); }
   void problem(const char* check, std::string what, std::string mend) {
     add(check, Verdict::kProblem, std::move(what), std::move(mend));
   }
 
-  void door() {
+  void port_state() {
     const unsigned first = first_port(here_.domain);
     const unsigned last = last_port(here_.domain);
     const std::string listen = fmt::format(
-        "rave doctor --listen --interface {} --domain {}    # there", visit_.peer, here_.domain);
-    if (visit_.other_domain) {
+        "rave doctor --listen --interface {} --domain {}    # there", result_.peer, here_.domain);
+    if (result_.other_domain) {
       problem(
           "domain",
-          fmt::format("it is in domain {}, and this machine in {}", *visit_.other_domain,
+          fmt::format("it is in domain {}, and this machine in {}", *result_.other_domain,
                       here_.domain),
-          fmt::format("--domain {}    # here, or the other number there", *visit_.other_domain));
+          fmt::format("--domain {}    # here, or the other number there", *result_.other_domain));
       return;
     }
-    switch (visit_.door) {
-      case Visit::Door::kOpen:
+    switch (result_.port) {
+      case ProbeResult::PortState::kOpen:
         good("way", fmt::format("`{}` answers", there_.machine));
         return;
-      case Visit::Door::kRefused:
+      case ProbeResult::PortState::kRefused:
         problem("way", "the machine is there, and no doctor listens on it", listen);
         return;
-      case Visit::Door::kNoWay:
-        problem("way", fmt::format("there is no way to it ({})", visit_.why),
+      case ProbeResult::PortState::kNoWay:
+        problem("way", fmt::format("there is no way to it ({})", result_.why),
                 fmt::format("ip route get {0}; ping -c 3 {0}    # which address does it have?",
-                            visit_.peer));
+                            result_.peer));
         return;
-      case Visit::Door::kSilent:
+      case ProbeResult::PortState::kSilent:
         problem("way",
                 fmt::format("nothing comes back: no doctor listens there, a cable is out, or a "
                             "firewall on one of the two drops UDP {} to {}",
@@ -104,13 +105,13 @@ class Judge {
   }
 
   void clock() {
-    if (!visit_.clock) return;
-    const double offset_s = visit_.clock->offset.seconds();
+    if (!result_.clock) return;
+    const double offset_s = result_.clock->offset.seconds();
     const std::string text = fmt::format(
         "its clock of day is {:+.3f} s from the one here, give or "
         "take {:.3f} s",
-        offset_s, visit_.clock->bound.seconds());
-    if (std::fabs(offset_s) <= kSameTime_s + visit_.clock->bound.seconds()) {
+        offset_s, result_.clock->bound.seconds());
+    if (std::fabs(offset_s) <= kSameTime_s + result_.clock->bound.seconds()) {
       good("clock", text);
       return;
     }
@@ -124,14 +125,14 @@ class Judge {
               "sudo ss -ulpn    # there: says who has them");
       return;
     }
-    if (visit_.discovery_open && visit_.data_open) {
+    if (result_.discovery_open && result_.data_open) {
       good("ports", fmt::format("{} and {} are reached", there_.discovery_port, there_.data_port));
       return;
     }
     problem("ports",
             fmt::format("UDP port {} is not reached, while {} is: a firewall lets a part of the "
                         "domain through",
-                        visit_.discovery_open ? there_.data_port : there_.discovery_port,
+                        result_.discovery_open ? there_.data_port : there_.discovery_port,
                         doctor_port(here_.domain)),
             fmt::format("sudo nft insert rule inet filter input udp dport {}-{} accept    # there",
                         first_port(here_.domain), last_port(here_.domain)));
@@ -139,26 +140,26 @@ class Judge {
 
   void multicast() {
     if (here_.multicast == "off") return;
-    const bool tried = visit_.multicast_there && visit_.multicast_back;
-    if (tried && *visit_.multicast_there && *visit_.multicast_back) {
+    const bool tried = result_.multicast_there && result_.multicast_back;
+    if (tried && *result_.multicast_there && *result_.multicast_back) {
       good("multicast", "both ways");
       return;
     }
-    const char* const what = !tried                    ? "it does not take part in the group"
-                             : *visit_.multicast_there ? "what it sends is not heard here"
-                             : *visit_.multicast_back  ? "what is sent here is not heard there"
-                                                       : "neither hears the other";
-    problem(
-        "multicast", what,
-        fmt::format("--multicast off --peer {}    # a list of all machines, on each", visit_.peer));
+    const char* const what = !tried                     ? "it does not take part in the group"
+                             : *result_.multicast_there ? "what it sends is not heard here"
+                             : *result_.multicast_back  ? "what is sent here is not heard there"
+                                                        : "neither hears the other";
+    problem("multicast", what,
+            fmt::format("--multicast off --peer {}    # a list of all machines, on each",
+                        result_.peer));
   }
 
   void sizes() {
     const auto lost = std::ranges::find_if(
-        visit_.sizes, [](const Visit::Size& size) { return !size.there || !size.back; });
-    if (lost == visit_.sizes.end()) {
-      if (!visit_.sizes.empty()) {
-        good("sizes", fmt::format("datagrams up to {} bytes arrive", visit_.sizes.back().bytes));
+        result_.sizes, [](const ProbeResult::Size& size) { return !size.there || !size.back; });
+    if (lost == result_.sizes.end()) {
+      if (!result_.sizes.empty()) {
+        good("sizes", fmt::format("datagrams up to {} bytes arrive", result_.sizes.back().bytes));
       }
       return;
     }
@@ -170,7 +171,7 @@ class Judge {
                         lost->bytes <= 1472 ? 1400 : 1500));
   }
 
-  const Visit& visit_;
+  const ProbeResult& result_;
   const About& there_;
   const About& here_;
   Findings findings_;
@@ -178,7 +179,7 @@ class Judge {
 
 }  // namespace
 
-Findings judge(const Visit& visit, const About& here) { return Judge(visit, here).all(); }
+Findings judge(const ProbeResult& result, const About& here) { return Judge(result, here).all(); }
 
 Finding check_bus(const bus::BusConfig& given, const std::string& participant) {
   bus::BusConfig config = given;

@@ -52,7 +52,7 @@ struct Listener::Impl {
   std::vector<Socket> sockets{};  ///< That of the doctor first.
   std::optional<Socket> group{};
   std::set<std::string> known{};
-  std::vector<char> bytes = std::vector<char>(kLargestLetter + 1);
+  std::vector<char> bytes = std::vector<char>(kLargestProbe + 1);
 
   Status open();
   void open_participant_ports();
@@ -98,29 +98,29 @@ void Listener::Impl::answer(const Socket& socket, bool by_multicast,
   const auto received = socket.receive(bytes, 0);
   if (!received || !*received) return;
   const Socket::Received& got = **received;
-  const auto letter = parse_letter({bytes.data(), got.size});
-  if (!letter) return;
+  const auto probe = parse_probe({bytes.data(), got.size});
+  if (!probe) return;
   if (known.size() < kMostMachines && known.insert(got.from.address).second && heard) {
     heard(got.from.address);
   }
-  Letter reply;
-  reply.number = letter->number;
+  Probe reply;
+  reply.number = probe->number;
   reply.by_multicast = by_multicast;
   reply.size = static_cast<std::uint32_t>(got.size);
-  reply.asked_ns = letter->sent_ns;
-  if (letter->kind == Letter::Kind::kCall && group) {
-    reply.kind = Letter::Kind::kShout;
+  reply.asked_ns = probe->sent_ns;
+  if (probe->kind == Probe::Kind::kCall && group) {
+    reply.kind = Probe::Kind::kShout;
     reply.sent_ns = options.clock();
     static_cast<void>(
-        group->send(write_letter(reply), {kMulticastGroup, multicast_port(options.about.domain)}));
+        group->send(write_probe(reply), {kMulticastGroup, multicast_port(options.about.domain)}));
     return;
   }
-  if (letter->kind != Letter::Kind::kAsk) return;
-  reply.kind = Letter::Kind::kAnswer;
+  if (probe->kind != Probe::Kind::kAsk) return;
+  reply.kind = Probe::Kind::kAnswer;
   reply.about = options.about;
   reply.received_ns = options.clock();
   reply.sent_ns = reply.received_ns;
-  const std::string text = write_letter(reply, std::min<std::size_t>(letter->want, got.size));
+  const std::string text = write_probe(reply, std::min<std::size_t>(probe->want, got.size));
   // Nobody can use this process to multiply packets.
   if (text.size() > got.size) return;
   // What came by multicast is answered from a port of its own.

@@ -151,11 +151,12 @@ Finding check_cyclone_uri(const Machine& machine) {
     const std::filesystem::path path(entry.substr(kFile.size()));
     std::error_code error;
     if (std::filesystem::is_regular_file(path, error)) continue;
-    return {"settings", Verdict::kProblem,
-            fmt::format("CYCLONEDDS_URI names {}, which is no file; programs of ROS 2 do not start "
-                        "with it",
-                        path.string()),
-            "unset CYCLONEDDS_URI"};
+    return {
+        "settings", Verdict::kProblem,
+        fmt::format("CYCLONEDDS_URI names {}, which is not a file; programs of ROS 2 do not start "
+                    "with it",
+                    path.string()),
+        "unset CYCLONEDDS_URI"};
   }
   finding.verdict = Verdict::kAdvice;
   finding.what =

@@ -61,7 +61,7 @@ Finding check_peers(const Machine& machine, const bus::BusConfig& config,
   const bool local = config.loopback() && addresses.empty();
   if (local) return {"peers", Verdict::kGood, "this machine only", {}};
   if (addresses.empty() && !multicast) {
-    return {"peers", Verdict::kProblem, "without peers and without multicast nobody is found",
+    return {"peers", Verdict::kProblem, "without peers and without multicast, no process is found",
             "--peer ADDRESS    # of each machine that takes part, this one included"};
   }
   if (!self && !multicast) {
@@ -135,7 +135,7 @@ Finding check_own_way(const Machine& machine, const bus::BusConfig& config) {
             fmt::format("what {} sends to its own UDP port {} does not arrive: a packet filter "
                         "drops it",
                         address, port),
-            fmt::format("sudo nft insert rule inet filter input udp dport {}-{} accept",
+            fmt::format("sudo nft list ruleset    # shows its rules; let UDP {} to {} in",
                         first_port(domain), last_port(domain))};
   }
   return {"self", Verdict::kUnknown, "no port is free to try it on", {}};

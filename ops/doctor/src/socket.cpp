@@ -42,7 +42,7 @@ Place place_of(const ::sockaddr_in& address) {
 
 Result<Socket> Socket::bind(const Place& place, bool shared) {
   const auto address = address_of(place);
-  if (!address) return fail(ErrorCode::kInvalidArgument, "`{}` is no address", place.address);
+  if (!address) return fail(ErrorCode::kInvalidArgument, "`{}` is not an address", place.address);
   Socket socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
   if (socket.descriptor_ < 0) return failed("socket");
   const int on = 1;
@@ -59,7 +59,7 @@ Socket::~Socket() {
 
 Status Socket::connect(const Place& place) {
   const auto address = address_of(place);
-  if (!address) return fail(ErrorCode::kInvalidArgument, "`{}` is no address", place.address);
+  if (!address) return fail(ErrorCode::kInvalidArgument, "`{}` is not an address", place.address);
   if (::connect(descriptor_, general(*address), sizeof *address) != 0) return failed("connect");
   return {};
 }
@@ -68,7 +68,7 @@ Status Socket::join(const char* group, const std::string& interface_address) {
   ::ip_mreqn request{};
   if (::inet_pton(AF_INET, group, &request.imr_multiaddr) != 1 ||
       ::inet_pton(AF_INET, interface_address.c_str(), &request.imr_address) != 1) {
-    return fail(ErrorCode::kInvalidArgument, "`{}` is no address", interface_address);
+    return fail(ErrorCode::kInvalidArgument, "`{}` is not an address", interface_address);
   }
   const int on = 1;
   if (::setsockopt(descriptor_, IPPROTO_IP, IP_MULTICAST_IF, &request, sizeof request) != 0 ||
@@ -81,7 +81,7 @@ Status Socket::join(const char* group, const std::string& interface_address) {
 
 Status Socket::send(std::string_view bytes, const Place& to) const {
   const auto address = address_of(to);
-  if (!address) return fail(ErrorCode::kInvalidArgument, "`{}` is no address", to.address);
+  if (!address) return fail(ErrorCode::kInvalidArgument, "`{}` is not an address", to.address);
   if (::sendto(descriptor_, bytes.data(), bytes.size(), 0, general(*address), sizeof *address) <
       0) {
     return failed("send");

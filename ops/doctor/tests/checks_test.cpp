@@ -114,7 +114,7 @@ TEST(CheckSettings, WhomTheVariableOfCycloneIsFor) {
   EXPECT_EQ(check_cyclone_uri(machine).verdict, Verdict::kGood);
   machine.cyclone_uri = "<CycloneDDS/>,file:///nowhere/cyclone.xml";
   expect(check_cyclone_uri(machine), Verdict::kProblem,
-         "CYCLONEDDS_URI names /nowhere/cyclone.xml, which is no file; programs of ROS 2 do not "
+         "CYCLONEDDS_URI names /nowhere/cyclone.xml, which is not a file; programs of ROS 2 do not "
          "start with it",
          "unset CYCLONEDDS_URI");
   machine.cyclone_uri = "<CycloneDDS/>";
@@ -137,7 +137,7 @@ TEST(CheckPeers, NamesThatNobodyKnowsAndListsWithoutThisMachine) {
          Verdict::kProblem, "no address is known for no-such-machine.invalid",
          "getent ahostsv4 no-such-machine.invalid    # name the address instead");
   expect(check_peers(machine, config_of("eth0"), found), Verdict::kProblem,
-         "without peers and without multicast nobody is found",
+         "without peers and without multicast, no process is found",
          "--peer ADDRESS    # of each machine that takes part, this one included");
   EXPECT_TRUE(found.empty());
   expect(

@@ -82,7 +82,7 @@ Result<Certificate> parse_certificate(const std::string& text) {
   ERR_clear_error();
   const Stream stream = reading(text);
   Certificate certificate(PEM_read_bio_X509(stream.get(), nullptr, no_passphrase, nullptr));
-  if (!certificate) return failed(ErrorCode::kParse, "it is no certificate");
+  if (!certificate) return failed(ErrorCode::kParse, "it is not a certificate");
   return certificate;
 }
 
@@ -90,7 +90,7 @@ Result<Key> parse_key(const std::string& text) {
   ERR_clear_error();
   const Stream stream = reading(text);
   Key key(PEM_read_bio_PrivateKey(stream.get(), nullptr, no_passphrase, nullptr));
-  if (!key) return failed(ErrorCode::kParse, "it is no private key");
+  if (!key) return failed(ErrorCode::kParse, "it is not a private key");
   return key;
 }
 
@@ -306,9 +306,9 @@ Result<std::string> signed_text(const std::string& certificate, const std::strin
   BIO* raw_content = nullptr;
   const Signed parsed(SMIME_read_PKCS7(in.get(), &raw_content));
   const Stream content(raw_content);
-  if (!parsed) return failed(ErrorCode::kParse, "it is no signed document");
+  if (!parsed) return failed(ErrorCode::kParse, "it is not a signed document");
   if (!has_known_digests(parsed.get())) {
-    return fail(ErrorCode::kParse, "it is no document that is signed with SHA-256, 384 or 512");
+    return fail(ErrorCode::kParse, "it is not a document signed with SHA-256, 384 or 512");
   }
   const Certificates signers(sk_X509_new_null());
   const Stream out = writing();

@@ -113,7 +113,7 @@ TEST_F(Certificates, TextsThatAreNone) {
   for (const char* const text : {"", "left", "-----BEGIN CERTIFICATE-----\nAAAA\n"}) {
     const auto facts = read_certificate(text);
     ASSERT_FALSE(facts) << text;
-    EXPECT_TRUE(facts.error().message.starts_with("it is no certificate: "))
+    EXPECT_TRUE(facts.error().message.starts_with("it is not a certificate: "))
         << facts.error().message;
   }
 }

@@ -151,7 +151,7 @@ TEST_F(KeySet, ASetThatIsNotThereHasANearName) {
   ASSERT_TRUE(make_key_set(plan()));
   EXPECT_EQ(error_of(add_members(folder_ / "sett", {"gui"}, 0, kNow_s)),
             "`" + (folder_ / "sett").string() +
-                "` is no set of keys: there is no ca/authority.pem in it; did you mean `set`?");
+                "` is not a set of keys: there is no ca/authority.pem in it; did you mean `set`?");
 }
 
 TEST_F(KeySet, AnExpiredAuthorityMakesNoMembers) {
@@ -182,7 +182,7 @@ TEST_F(KeySet, ADamagedAuthorityMakesNoMembers) {
   write(ca / "authority_key.pem", text_of(folder_ / "set/left/identity_key.pem"));
   EXPECT_NE(add().find("certificate and key do not belong together"), std::string::npos) << add();
   write(ca / "authority_key.pem", "");
-  EXPECT_NE(add().find("authority_key.pem: it is no private key"), std::string::npos) << add();
+  EXPECT_NE(add().find("authority_key.pem: it is not a private key"), std::string::npos) << add();
   fs::remove(ca / "authority_key.pem");
   EXPECT_NE(add().find("authority_key.pem"), std::string::npos) << add();
   EXPECT_EQ(names_in(folder_ / "set"), (Names{"ca", "left", "right"}));

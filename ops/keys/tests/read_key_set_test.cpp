@@ -74,7 +74,7 @@ TEST_F(ReadKeySet, KeysOfAnotherMemberAreNamed) {
 TEST_F(ReadKeySet, ADamagedCertificateIsListedWithoutDates) {
   write(left_ / "identity.pem", "nothing");
   ASSERT_EQ(problems().size(), 1U);
-  EXPECT_TRUE(problems()[0].starts_with("identity.pem: it is no certificate")) << problems()[0];
+  EXPECT_TRUE(problems()[0].starts_with("identity.pem: it is not a certificate")) << problems()[0];
 }
 
 TEST_F(ReadKeySet, AMemberOfAnotherSetIsNamed) {
@@ -114,7 +114,8 @@ TEST_F(ReadKeySet, NoKeysAtAll) {
   const auto damaged = read_key_set(folder_ / "set");
   ASSERT_FALSE(damaged);
   EXPECT_EQ(damaged.error().code, ErrorCode::kState);
-  EXPECT_NE(damaged.error().message.find("authority.pem: it is no certificate"), std::string::npos)
+  EXPECT_NE(damaged.error().message.find("authority.pem: it is not a certificate"),
+            std::string::npos)
       << damaged.error().message;
 }
 

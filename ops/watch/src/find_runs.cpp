@@ -83,10 +83,11 @@ bool is_called(const bus::RunId& run, std::string_view word) {
 }
 
 Result<bus::RunId> choose_run(const std::vector<FoundRun>& found, std::string_view word) {
-  if (found.empty()) return fail(ErrorCode::kNotFound, "no run of several processes is under way");
+  if (found.empty())
+    return fail(ErrorCode::kNotFound, "no run of several processes is in progress");
   if (word.empty()) {
     if (found.size() == 1) return found.front().run;
-    return fail(ErrorCode::kNotFound, "{} runs are under way, so say which: {}", found.size(),
+    return fail(ErrorCode::kNotFound, "{} runs are in progress; name one: {}", found.size(),
                 list_of(found));
   }
   std::vector<FoundRun> fitting;
@@ -99,7 +100,7 @@ Result<bus::RunId> choose_run(const std::vector<FoundRun>& found, std::string_vi
     return fail(ErrorCode::kNotFound, "the numbers of several runs begin with `{}`: {}", word,
                 list_of(fitting));
   }
-  return fail(ErrorCode::kNotFound, "there is no run `{}`; those under way: {}", word,
+  return fail(ErrorCode::kNotFound, "there is no run `{}`; runs in progress: {}", word,
               list_of(found));
 }
 

@@ -98,15 +98,15 @@ TEST(ChooseRun, ByNameNumberOrAlone) {
   FoundRun other;
   other.run.bytes.fill(0xab);
   other.processes = {"right"};
-  EXPECT_EQ(reason({}, ""), "no run of several processes is under way");
+  EXPECT_EQ(reason({}, ""), "no run of several processes is in progress");
   EXPECT_EQ(reason({other}, ""), "abab");
   EXPECT_EQ(reason({one, other}, "abab"), "abab");
   EXPECT_EQ(reason({one, other}, "morning"), one.run.text().substr(0, 4));
   EXPECT_EQ(reason({one, other}, ""),
-            "2 runs are under way, so say which: " + one.run.text().substr(0, 8) +
+            "2 runs are in progress; name one: " + one.run.text().substr(0, 8) +
                 " (of environment manager and left); abababab (of right)");
   EXPECT_EQ(reason({other}, "evening"),
-            "there is no run `evening`; those under way: abababab (of right)");
+            "there is no run `evening`; runs in progress: abababab (of right)");
   EXPECT_EQ(reason({other}, "aba").substr(0, 22), "there is no run `aba`;") << "too few digits";
   EXPECT_TRUE(is_named(one.run, "morning"));
   EXPECT_TRUE(is_named(other.run, other.run.text()));

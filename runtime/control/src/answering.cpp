@@ -5,32 +5,6 @@ namespace rave::control {
 namespace {
 
 using What = Request::What;
-using Kind = runtime::RunRequest::Kind;
-
-Kind kind_of(What what) {
-  switch (what) {
-    case What::kRelease:
-      return Kind::kRelease;
-    case What::kArm:
-      return Kind::kArm;
-    case What::kSet:
-      return Kind::kSet;
-    case What::kAdd:
-      return Kind::kAdd;
-    case What::kMove:
-      return Kind::kMove;
-    case What::kRemove:
-      return Kind::kRemove;
-    case What::kList:
-      return Kind::kList;
-    case What::kHandOver:
-      return Kind::kHandOver;
-    case What::kResetShadow:
-      return Kind::kResetShadow;
-    default:
-      return Kind::kStop;
-  }
-}
 
 /// Pause, resume and step: what a live run cannot do.
 Answer hold(runtime::RunControl& control, const Request& request) {
@@ -73,10 +47,6 @@ std::optional<Answer> answer_at_once(runtime::RunControl& control, const Request
     default:
       return std::nullopt;
   }
-}
-
-runtime::RunRequest run_request(const Request& request) {
-  return {kind_of(request.what), request.robot, request.key, request.value};
 }
 
 Answer answer_of(const Result<std::string>& result) {

@@ -15,10 +15,7 @@ namespace rave::control {
 [[nodiscard]] std::optional<Answer> answer_at_once(runtime::RunControl& control,
                                                    const Request& request);
 
-/// What the run is asked.
-[[nodiscard]] runtime::RunRequest run_request(const Request& request);
-
-/// What the run says to it.
+/// What the run says to a request.
 [[nodiscard]] Answer answer_of(const Result<std::string>& result);
 
 }  // namespace rave::control

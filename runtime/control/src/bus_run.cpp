@@ -47,6 +47,9 @@ Result<Answer> read_answer(std::string_view line) {
   answer.status.waits_for = plain(answer.status.waits_for);
   for (runtime::RunStatus::Robot& robot : answer.status.robots) {
     robot.name = plain(robot.name);
+    robot.lease = plain(robot.lease);
+    robot.order = plain(robot.order);
+    for (std::string& word : robot.takes) word = plain(word);
     if (robot.hand_over) robot.hand_over->last = plain(robot.hand_over->last);
     if (!robot.shadow) continue;
     for (auto& reading : robot.shadow->readings) {

@@ -2,11 +2,13 @@
 #include "rave/control/protocol.hpp"
 
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <vector>
 
 #include "rave/base/names.hpp"
+#include "rave/robot/order.hpp"
 
 namespace rave::control {
 namespace {
@@ -34,7 +36,41 @@ constexpr std::array kWords = {Word{"status", Request::What::kStatus},
                                Word{"remove", Request::What::kRemove},
                                Word{"list", Request::What::kList},
                                Word{"hand_over", Request::What::kHandOver},
-                               Word{"reset_shadow", Request::What::kResetShadow}};
+                               Word{"reset_shadow", Request::What::kResetShadow},
+                               Word{"drive", Request::What::kDrive},
+                               Word{"goal", Request::What::kGoal},
+                               Word{"path", Request::What::kPath},
+                               Word{"cancel", Request::What::kCancel},
+                               Word{"text", Request::What::kText},
+                               Word{"place", Request::What::kPlace},
+                               Word{"take", Request::What::kTake},
+                               Word{"give", Request::What::kGive}};
+
+using RunKind = runtime::RunRequest::Kind;
+
+struct RunWord {
+  Request::What what;
+  RunKind kind;
+};
+/// What a run is asked, in both forms.
+constexpr std::array kRunWords = {RunWord{Request::What::kStop, RunKind::kStop},
+                                  RunWord{Request::What::kRelease, RunKind::kRelease},
+                                  RunWord{Request::What::kArm, RunKind::kArm},
+                                  RunWord{Request::What::kSet, RunKind::kSet},
+                                  RunWord{Request::What::kAdd, RunKind::kAdd},
+                                  RunWord{Request::What::kMove, RunKind::kMove},
+                                  RunWord{Request::What::kRemove, RunKind::kRemove},
+                                  RunWord{Request::What::kList, RunKind::kList},
+                                  RunWord{Request::What::kHandOver, RunKind::kHandOver},
+                                  RunWord{Request::What::kResetShadow, RunKind::kResetShadow},
+                                  RunWord{Request::What::kDrive, RunKind::kDrive},
+                                  RunWord{Request::What::kGoal, RunKind::kGoal},
+                                  RunWord{Request::What::kPath, RunKind::kPath},
+                                  RunWord{Request::What::kCancel, RunKind::kCancel},
+                                  RunWord{Request::What::kText, RunKind::kText},
+                                  RunWord{Request::What::kPlace, RunKind::kPlace},
+                                  RunWord{Request::What::kTake, RunKind::kTake},
+                                  RunWord{Request::What::kGive, RunKind::kGive}};
 
 /// An object without repeated keys; discarded for anything else.
 Json parse_object(std::string_view line) {
@@ -81,8 +117,88 @@ std::optional<Request::What> take_what(Json& json) {
   return std::nullopt;
 }
 
+bool take_flag(Json& json, const char* key, bool& value) {
+  if (!json.contains(key)) return true;
+  if (!json.at(key).is_boolean()) return false;
+  value = json.at(key).get<bool>();
+  json.erase(key);
+  return true;
+}
+
+/// Who asks: what changes something may say it.
+bool take_author(Json& json, Request& request) {
+  return take_text(json, "by", request.by) && request.by.size() <= kMostOrderAuthor &&
+         take_flag(json, "overrides", request.overrides);
+}
+
+/// A number, which must be finite; `needed`: it must be there.
+bool take_number(Json& json, const char* key, bool needed, double& value) {
+  if (!json.contains(key)) return !needed;
+  if (!json.at(key).is_number()) return false;
+  value = json.at(key).get<double>();
+  json.erase(key);
+  return std::isfinite(value);
+}
+
+bool take_yaw(Json& json, Request& request) {
+  if (!json.contains("yaw")) return true;
+  return take_number(json, "yaw", true, request.yaw_rad.emplace());
+}
+
+/// A list of points, each a list of x and y.
+bool take_points(Json& json, std::size_t least, std::size_t most, Request& request) {
+  if (!json.contains("points") || !json.at("points").is_array()) return false;
+  const Json points = std::move(json.at("points"));
+  json.erase("points");
+  if (points.size() < least || points.size() > most) return false;
+  for (const Json& point : points) {
+    const bool is_point =
+        point.is_array() && point.size() == 2 && point[0].is_number() && point[1].is_number();
+    if (!is_point) return false;
+    request.points.push_back({point[0].get<double>(), point[1].get<double>()});
+    const Vec2 last = request.points.back();
+    if (!std::isfinite(last.x) || !std::isfinite(last.y)) return false;
+  }
+  return true;
+}
+
+bool take_robot(Json& json, Request& request) {
+  return take_text(json, "robot", request.robot) && !request.robot.empty();
+}
+
+/// Of orders and leases.
+bool take_order(Json& json, Request& request) {
+  if (!take_author(json, request)) return false;
+  switch (request.what) {
+    case Request::What::kDrive:
+      return take_robot(json, request) && take_number(json, "v", true, request.v_mps) &&
+             take_number(json, "w", true, request.w_radps);
+    case Request::What::kGoal:
+      return take_robot(json, request) && take_points(json, 1, 1, request) &&
+             take_yaw(json, request) && take_number(json, "speed", false, request.speed_mps);
+    case Request::What::kPath:
+      return take_robot(json, request) && take_points(json, 2, kMostOrderPoints, request) &&
+             take_number(json, "speed", false, request.speed_mps);
+    case Request::What::kPlace:
+      return take_robot(json, request) && take_points(json, 1, 1, request) &&
+             take_yaw(json, request);
+    case Request::What::kText:
+      return take_robot(json, request) && take_text(json, "value", request.value) &&
+             !request.value.empty() && request.value.size() <= kMostOrderText;
+    case Request::What::kCancel:
+      return take_text(json, "robot", request.robot);
+    default:
+      return take_robot(json, request) && take_text(json, "value", request.value) &&
+             request.value.size() <= kMostOrderAuthor;
+  }
+}
+
 /// The keys that belong to a request; false: one of them is wrong.
 bool take_details(Json& json, Request& request) {
+  if (request.what >= Request::What::kDrive) return take_order(json, request);
+  const bool changes =
+      request.what != Request::What::kStatus && request.what != Request::What::kList;
+  if (changes && !take_author(json, request)) return false;
   switch (request.what) {
     case Request::What::kStop:
     case Request::What::kRelease:
@@ -152,6 +268,9 @@ Json status_json(const runtime::RunStatus& status) {
     Json& last = json["robots"].back();
     if (robot.hand_over) last["hand_over"] = hand_over_json(*robot.hand_over);
     if (robot.shadow) last["shadow"] = shadow_json(*robot.shadow);
+    if (!robot.lease.empty()) last["lease"] = robot.lease;
+    if (!robot.takes.empty()) last["takes"] = robot.takes;
+    if (!robot.order.empty()) last["order"] = robot.order;
   }
   return json;
 }
@@ -218,6 +337,19 @@ bool read_shadow(const Json& json, runtime::RunStatus::Shadow& shadow) {
   return good;
 }
 
+/// What a robot takes and does of orders; older processes say nothing of that.
+bool read_orders(const Json& item, runtime::RunStatus::Robot& robot) {
+  if (item.contains("lease") && !read_text(item, "lease", robot.lease)) return false;
+  if (item.contains("order") && !read_text(item, "order", robot.order)) return false;
+  if (!item.contains("takes")) return true;
+  if (!item.at("takes").is_array()) return false;
+  for (const Json& word : item.at("takes")) {
+    if (!word.is_string()) return false;
+    robot.takes.push_back(word.get<std::string>());
+  }
+  return true;
+}
+
 bool read_status(const Json& json, runtime::RunStatus& status) {
   bool good = json.is_object() && read_text(json, "scenario", status.scenario) &&
               read_number(json, "sim_s", status.sim_s) &&
@@ -242,12 +374,49 @@ bool read_status(const Json& json, runtime::RunStatus& status) {
     if (good && item.contains("shadow")) {
       good = read_shadow(item.at("shadow"), *(robot.shadow = runtime::RunStatus::Shadow{}));
     }
+    good = good && read_orders(item, robot);
     status.robots.push_back(std::move(robot));
   }
   return good;
 }
 
 }  // namespace
+
+Request request_of(const runtime::RunRequest& request) {
+  Request asked;
+  for (const auto& [what, kind] : kRunWords) {
+    if (kind == request.kind) asked.what = what;
+  }
+  asked.robot = request.robot;
+  asked.key = request.key;
+  asked.value = request.value;
+  asked.by = request.by;
+  asked.overrides = request.overrides;
+  asked.points = request.points;
+  asked.yaw_rad = request.yaw_rad;
+  asked.v_mps = request.v_mps;
+  asked.w_radps = request.w_radps;
+  asked.speed_mps = request.speed_mps;
+  return asked;
+}
+
+runtime::RunRequest run_request(const Request& request) {
+  runtime::RunRequest asked;
+  for (const auto& [what, kind] : kRunWords) {
+    if (what == request.what) asked.kind = kind;
+  }
+  asked.robot = request.robot;
+  asked.key = request.key;
+  asked.value = request.value;
+  asked.by = request.by;
+  asked.overrides = request.overrides;
+  asked.points = request.points;
+  asked.yaw_rad = request.yaw_rad;
+  asked.v_mps = request.v_mps;
+  asked.w_radps = request.w_radps;
+  asked.speed_mps = request.speed_mps;
+  return asked;
+}
 
 Result<Request> parse_request(std::string_view line) {
   if (line.size() > kMaxLineBytes) return fail(ErrorCode::kParse, "the line is too long");
@@ -285,6 +454,15 @@ std::string write_request(const Request& request) {
   if (!request.key.empty()) json["key"] = request.key;
   if (!request.value.empty()) json["value"] = request.value;
   if (request.what == Request::What::kStep) json["count"] = request.count;
+  if (!request.by.empty()) json["by"] = request.by;
+  if (request.overrides) json["overrides"] = true;
+  for (const Vec2 p_W : request.points) json["points"].push_back({p_W.x, p_W.y});
+  if (request.yaw_rad) json["yaw"] = *request.yaw_rad;
+  if (request.speed_mps != 0) json["speed"] = request.speed_mps;
+  if (request.what == Request::What::kDrive) {
+    json["v"] = request.v_mps;
+    json["w"] = request.w_radps;
+  }
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

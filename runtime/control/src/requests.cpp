@@ -10,6 +10,7 @@
 #include "rave/base/names.hpp"
 #include "rave/config/diagnostics.hpp"
 #include "rave/config/yaml.hpp"
+#include "rave/control/order_words.hpp"
 #include "rave/control/world_request.hpp"
 
 namespace rave::runtime {
@@ -33,7 +34,7 @@ std::string names_of(const sim::Engine& engine, RobotId robot, Holds&& holds) {
   return names.empty() ? std::string() : join_names(names);
 }
 
-Result<std::string> arm(sim::Engine& engine, RobotId robot) {
+Result<std::string> arm(sim::Engine& engine, RobotId robot, const sim::Author& author) {
   const std::string stopped = names_of(engine, robot, [&](RobotId r) { return engine.stopped(r); });
   const std::string waiting = names_of(engine, robot, [&](RobotId r) { return !engine.armed(r); });
   if (!stopped.empty()) {
@@ -41,7 +42,7 @@ Result<std::string> arm(sim::Engine& engine, RobotId robot) {
                 stopped);
   }
   if (waiting.empty()) return std::string("nothing to arm: no robot waits for it");
-  engine.arm(robot);
+  engine.arm(robot, author);
   return "armed " + waiting;
 }
 
@@ -60,17 +61,35 @@ Result<std::string> set(sim::Engine& engine, RobotId robot, const RunRequest& re
     return fail(change.error().code, "{}", change.error().message);
   }
   const std::string before = engine.parameter(robot, change->part, change->index, change->name);
-  RAVE_TRY(engine.set_parameters(robot, std::span(&*change, 1)));
+  RAVE_TRY(engine.set_parameters(robot, std::span(&*change, 1), {true, request.by}));
   return fmt::format("{}: {}: {} -> {}", its.name, request.key, before,
                      engine.parameter(robot, change->part, change->index, change->name));
 }
 
 Result<std::string> edit(sim::Engine& engine, const RunRequest& request) {
   RAVE_TRY_ASSIGN(const sim::ObstacleChange change, asked_change(request));
-  RAVE_TRY_ASSIGN(const sim::ChangedObstacle made, engine.change_obstacle(change));
+  RAVE_TRY_ASSIGN(const sim::ChangedObstacle made,
+                  engine.change_obstacle(change, {true, request.by}));
   const double from_s = static_cast<double>(made.step) * engine.spec().step.seconds();
   return fmt::format("{} {}; counts from step {} on, at {:.3f} s", word_of(change.kind), made.text,
                      made.step, from_s);
+}
+
+/// A robot that does not know where it is cannot be sent anywhere.
+Status check_pose(const sim::Engine& engine, const sim::WorldInput& input) {
+  using Kind = sim::WorldInput::Kind;
+  if (input.kind != Kind::kGoal && input.kind != Kind::kPath) return {};
+  const sim::ReportedPose& pose = engine.reported(input.robot);
+  if (engine.steps_done() == 0 || (pose.known && !pose.stale)) return {};
+  return fail(ErrorCode::kState, "robot `{}`: where it is is not known at present",
+              engine.spec().robots[input.robot.value()].name);
+}
+
+Result<std::string> order(sim::Engine& engine, const RunRequest& request) {
+  RAVE_TRY_ASSIGN(const sim::WorldInput input, order_input(engine.spec(), request));
+  RAVE_TRY(check_pose(engine, input));
+  RAVE_TRY(engine.order(input));
+  return order_answer(request);
 }
 
 Result<std::string> hand_over(sim::Engine& engine, RobotId robot, const RunRequest& request) {
@@ -79,7 +98,7 @@ Result<std::string> hand_over(sim::Engine& engine, RobotId robot, const RunReque
   const auto state = engine.hand_over_state(robot);
   const sim::DriverSet active = state ? state->active : sim::DriverSet::kFirst;
   RAVE_TRY_ASSIGN(const sim::DriverSet set, driver_set(engine.spec(), robot, active, to));
-  RAVE_TRY(engine.hand_over(robot, set));
+  RAVE_TRY(engine.hand_over(robot, set, {true, request.by}));
   return fmt::format("robot `{}` is being handed over to its {} drivers", request.robot,
                      request.value);
 }
@@ -95,19 +114,20 @@ Result<std::string> serve_request(sim::Engine& engine, const RunRequest& request
                   request.robot);
     }
   }
+  const sim::Author author{true, request.by};
   switch (request.kind) {
     case RunRequest::Kind::kStop:
-      engine.stop(robot);
+      engine.stop(robot, author);
       return "stopped " + names_of(engine, robot, [](RobotId) { return true; });
     case RunRequest::Kind::kRelease: {
       const std::string names =
           names_of(engine, robot, [&](RobotId r) { return engine.stopped(r); });
-      engine.release(robot);
+      engine.release(robot, author);
       return names.empty() ? std::string("nothing to release: no robot is stopped")
                            : "released " + names;
     }
     case RunRequest::Kind::kArm:
-      return arm(engine, robot);
+      return arm(engine, robot, author);
     case RunRequest::Kind::kSet:
       return set(engine, robot, request);
     case RunRequest::Kind::kAdd:
@@ -126,19 +146,27 @@ Result<std::string> serve_request(sim::Engine& engine, const RunRequest& request
     case RunRequest::Kind::kCancel:
     case RunRequest::Kind::kText:
     case RunRequest::Kind::kPlace:
+      return order(engine, request);
     case RunRequest::Kind::kTake:
     case RunRequest::Kind::kGive:
-      return fail(ErrorCode::kState, "this run takes no `{}` yet", to_string(request.kind));
+      return fail(ErrorCode::kState, "nobody keeps leases here");
   }
   return fail(ErrorCode::kInvalidArgument, "unknown request");
 }
 
 void refresh_status(const sim::Engine& engine, RunStatus& status) {
   const sim::EngineSpec& spec = engine.spec();
-  status.robots.clear();
+  // In place: with many robots most of it stays as it is.
+  std::size_t count = 0;
   for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
     if (!engine.is_local(RobotId(r))) continue;
-    RunStatus::Robot& robot = status.robots.emplace_back();
+    if (status.robots.size() == count) status.robots.emplace_back();
+    RunStatus::Robot& robot = status.robots[count++];
+    robot.hand_over.reset();
+    robot.shadow.reset();
+    robot.lease.clear();
+    robot.order = engine.order_of(RobotId(r));
+    write_takes(engine.takes(RobotId(r)), robot.takes);
     robot.name = spec.robots[r].name;
     robot.simulated = spec.types[spec.robots[r].type].simulated;
     robot.armed = engine.armed(RobotId(r));
@@ -154,6 +182,7 @@ void refresh_status(const sim::Engine& engine, RunStatus& status) {
                        X_WR.y,
                        X_WR.yaw};
   }
+  status.robots.resize(count);
 }
 
 std::string unarmed_robots(const sim::Engine& engine) {

@@ -3,34 +3,17 @@
 
 #include <sys/socket.h>
 #include <sys/un.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <utility>
 
 #include "rave/base/result.hpp"
+#include "rave/process/descriptor.hpp"
 
 namespace rave::control {
 
-/// Owns a file descriptor.
-class Descriptor {
- public:
-  explicit Descriptor(int file = -1) noexcept : file_(file) {}
-  Descriptor(Descriptor&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    std::swap(file_, other.file_);
-    return *this;
-  }
-  ~Descriptor() {
-    if (file_ >= 0) ::close(file_);
-  }
-  [[nodiscard]] int get() const noexcept { return file_; }
-
- private:
-  int file_;
-};
+using process::Descriptor;
 
 [[nodiscard]] inline Result<sockaddr_un> address_of(const std::filesystem::path& path) {
   sockaddr_un address{};

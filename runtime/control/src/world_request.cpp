@@ -8,6 +8,7 @@
 #include "rave/assemble/parameter_key.hpp"
 #include "rave/config/diagnostics.hpp"
 #include "rave/config/yaml.hpp"
+#include "rave/control/order_words.hpp"
 
 namespace rave::runtime {
 namespace {
@@ -39,6 +40,7 @@ Result<sim::ParameterChange> body_change(const sim::EngineSpec& spec, RobotId ro
 
 Result<sim::ObstacleChange> obstacle_change(const RunRequest& request) {
   RAVE_TRY_ASSIGN(sim::ObstacleChange change, asked_change(request));
+  change.by = request.by;
   change.asked = change.kind == ObstacleKind::kRemove ? request.key : request.value;
   RAVE_TRY(sim::check_obstacle_change(change));
   return change;
@@ -68,6 +70,7 @@ bool is_scheduled(const sim::EngineSpec& spec, std::uint64_t step, RobotId robot
 
 Result<sim::WorldInput> input_of(const sim::EngineSpec& spec, const RunRequest& request) {
   sim::WorldInput input;
+  input.author.name = request.by;
   if (!request.robot.empty()) {
     RAVE_TRY_ASSIGN(input.robot, find_robot(spec, request.robot));
   }
@@ -101,10 +104,10 @@ Result<sim::WorldInput> input_of(const sim::EngineSpec& spec, const RunRequest& 
     case RunRequest::Kind::kCancel:
     case RunRequest::Kind::kText:
     case RunRequest::Kind::kPlace:
+      return order_input(spec, request);
     case RunRequest::Kind::kTake:
     case RunRequest::Kind::kGive:
-      return fail(ErrorCode::kState, "hosts in lock-step take no `{}` yet",
-                  to_string(request.kind));
+      return fail(ErrorCode::kState, "the host of a robot keeps its lease");
     case RunRequest::Kind::kList:
       break;
   }
@@ -122,16 +125,20 @@ std::vector<RunRequest> requests_in(const sim::EngineSpec& spec, const sim::Worl
     const auto kind = goes                                ? RunRequest::Kind::kRemove
                       : change.kind == ObstacleKind::kAdd ? RunRequest::Kind::kAdd
                                                           : RunRequest::Kind::kMove;
-    requests.push_back({kind, "", goes ? change.asked : "", goes ? "" : change.asked});
+    requests.push_back({kind, "", goes ? change.asked : "", goes ? "" : change.asked, change.by});
   }
   for (const sim::ResizedRobot& resized : world.resized) {
     if (is_scheduled(spec, world.step, resized.robot)) continue;
     requests.push_back({RunRequest::Kind::kSet, name_of(resized.robot), std::string(kBodyKey),
-                        fmt::format("{}", resized.scale)});
+                        fmt::format("{}", resized.scale), resized.by});
   }
   for (const sim::WorldInput& input : world.inputs) {
-    if (input.author != sim::Author::kHand || input.kind == InputKind::kChange) continue;
-    requests.push_back({kind_of(input.kind), name_of(input.robot), "", ""});
+    if (!input.author.by_hand || input.kind == InputKind::kChange) continue;
+    if (sim::is_order(input.kind)) {
+      requests.push_back(order_request(spec, input));
+    } else {
+      requests.push_back({kind_of(input.kind), name_of(input.robot), "", "", input.author.name});
+    }
   }
   return requests;
 }

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 namespace rave::control {
 namespace {
 
@@ -29,6 +32,96 @@ TEST(Protocol, RequestsComeBackAsTheyWere) {
     ASSERT_TRUE(read) << line << ": " << read.error().message;
     EXPECT_EQ(*read, request) << line;
   }
+}
+
+std::vector<Request> orders() {
+  Request drive{What::kDrive, "r1", "", "", 1, "anna"};
+  drive.v_mps = 0.1;
+  drive.w_radps = -1.0 / 3;
+  Request goal{What::kGoal, "r1", "", "", 1, "anna", true};
+  goal.points = {{1.5, -2}};
+  goal.yaw_rad = 0.25;
+  goal.speed_mps = 0.3;
+  Request path{What::kPath, "r1", "", "", 1};
+  path.points = {{0, 0}, {1e-9, 7}, {3, 4}};
+  Request place{What::kPlace, "r1", "", "", 1};
+  place.points = {{1, 2}};
+  Request stop{What::kStop, "r1", "", "", 1, "anna"};
+  return {drive,
+          goal,
+          path,
+          place,
+          stop,
+          Request{What::kCancel, "", "", "", 1},
+          Request{What::kCancel, "r1", "", "", 1, "bert"},
+          Request{What::kText, "r1", "", "h\u00e4llo", 1},
+          Request{What::kTake, "r1", "", "force", 1, "anna"},
+          Request{What::kTake, "r1", "", "", 1, "anna"},
+          Request{What::kGive, "r1", "", "bert", 1, "anna"}};
+}
+
+TEST(Protocol, OrdersComeBackAsTheyWere) {
+  for (const Request& request : orders()) {
+    std::string line = write_request(request);
+    line.pop_back();
+    const auto read = parse_request(line);
+    ASSERT_TRUE(read) << line << ": " << read.error().message;
+    EXPECT_EQ(*read, request) << line;
+    EXPECT_EQ(request_of(run_request(request)), request) << line;
+  }
+}
+
+TEST(Protocol, RefusesOrdersThatAreNone) {
+  const std::string many(1001, 'a');
+  std::string points = "[[0,0]";
+  for (int i = 0; i < 1000; ++i) points += ",[0,0]";
+  for (const std::string& line :
+       {std::string(R"({"rave":1,"do":"drive","robot":"a","v":1})"),
+        std::string(R"({"rave":1,"do":"drive","v":1,"w":0})"),
+        std::string(R"({"rave":1,"do":"drive","robot":"a","v":"1","w":0})"),
+        std::string(R"({"rave":1,"do":"drive","robot":"a","v":1e999,"w":0})"),
+        std::string(R"({"rave":1,"do":"drive","robot":"a","v":NaN,"w":0})"),
+        std::string(R"({"rave":1,"do":"goal","robot":"a"})"),
+        std::string(R"({"rave":1,"do":"goal","robot":"a","points":[]})"),
+        std::string(R"({"rave":1,"do":"goal","robot":"a","points":[[1]]})"),
+        std::string(R"({"rave":1,"do":"goal","robot":"a","points":[[1,2],[3,4]]})"),
+        std::string(R"({"rave":1,"do":"goal","robot":"a","points":[["1",2]]})"),
+        std::string(R"({"rave":1,"do":"goal","robot":"a","points":[[1,2]],"yaw":"x"})"),
+        std::string(R"({"rave":1,"do":"path","robot":"a","points":[[1,2]]})"),
+        R"({"rave":1,"do":"path","robot":"a","points":)" + points + "]}",
+        std::string(R"({"rave":1,"do":"place","robot":"a","points":[[1,2]],"speed":1})"),
+        std::string(R"({"rave":1,"do":"text","robot":"a"})"),
+        R"({"rave":1,"do":"text","robot":"a","value":")" + many + "\"}",
+        std::string(R"({"rave":1,"do":"text","value":"a"})"),
+        std::string(R"({"rave":1,"do":"take"})"),
+        std::string(R"({"rave":1,"do":"stop","by":7})"),
+        std::string(R"({"rave":1,"do":"stop","overrides":"yes"})"),
+        std::string(R"({"rave":1,"do":"status","by":"anna"})"),
+        R"({"rave":1,"do":"stop","by":")" + std::string(65, 'a') + "\"}"}) {
+    EXPECT_FALSE(parse_request(line)) << line;
+  }
+}
+
+TEST(Protocol, AStatusSaysWhoDrivesAndWhat) {
+  Answer answer{true, "", {}};
+  answer.status.scenario = "small";
+  runtime::RunStatus::Robot& robot = answer.status.robots.emplace_back();
+  robot.name = "r1";
+  robot.lease = "anna";
+  robot.takes = {"drive", "goal"};
+  robot.order = "goal 1.00, 2.00";
+  std::string line = write_answer(answer);
+  line.pop_back();
+  const auto read = parse_answer(line);
+  ASSERT_TRUE(read) << read.error().message;
+  ASSERT_EQ(read->status.robots.size(), 1U);
+  EXPECT_EQ(read->status.robots[0].lease, "anna");
+  EXPECT_EQ(read->status.robots[0].takes, robot.takes);
+  EXPECT_EQ(read->status.robots[0].order, "goal 1.00, 2.00");
+  EXPECT_FALSE(parse_answer(
+      R"({"good":true,"text":"","status":{"scenario":"s","sim_s":0,"duration_s":1,"pace":1,)"
+      R"("live":false,"paused":false,"robots":[{"name":"a","simulated":true,"armed":true,)"
+      R"("stopped":false,"takes":"all"}]}})"));
 }
 
 TEST(Protocol, RefusesWhatIsNotExactlyARequest) {

@@ -41,7 +41,7 @@ bool changes_status(std::span<const sim::Event> events) {
   return std::ranges::any_of(events, [](const sim::Event& event) {
     using enum sim::EventKind;
     return event.kind == kStopped || event.kind == kReleased || event.kind == kArmed ||
-           event.kind == kHandedOver;
+           event.kind == kHandedOver || event.kind == kOrdered || event.kind == kSaid;
   });
 }
 
@@ -86,6 +86,7 @@ void introduce_robots(lock_step::Roster& roster, const sim::EngineSpec& spec,
 void serve_requests(HostJourney& journey) {
   RunControl* const control = journey.options.run.control;
   if (control == nullptr) return;
+  journey.observers.tick(journey.engine);
   control->serve(
       [&journey](const RunRequest& request) {
         return journey.observers.serve(journey.engine, request);
@@ -95,6 +96,7 @@ void serve_requests(HostJourney& journey) {
 
 void refresh(const HostJourney& journey, RunStatus& status) {
   refresh_status(journey.engine, status);
+  journey.observers.refresh(status);
   if (const Shadows* const shadows = journey.observers.shadows()) shadows->refresh(status);
 }
 
@@ -164,7 +166,8 @@ Status leave_facts(const HostJourney& journey, std::span<const std::byte> bytes,
 std::vector<sim::Event> obstacle_events(const sim::WorldStep& world) {
   std::vector<sim::Event> events;
   for (const sim::ObstacleChange& change : world.obstacles) {
-    events.push_back(sim::obstacle_event(world.step, change, "", !change.asked.empty()));
+    events.push_back(
+        sim::obstacle_event(world.step, change, "", {!change.asked.empty(), change.by}));
   }
   return events;
 }

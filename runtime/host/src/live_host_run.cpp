@@ -126,7 +126,8 @@ void name_flooders(LiveJourney& journey, const std::vector<RobotId>& robots) {
 void show_status(LiveJourney& journey) {
   RunControl* const control = journey.options.run.control;
   const auto now = Clock::now();
-  if (control == nullptr || !journey.twins.any() || now < journey.next_status) return;
+  const bool changes = journey.twins.any() || journey.observers.has_orders();
+  if (control == nullptr || !changes || now < journey.next_status) return;
   journey.next_status = now + kLiveStatusInterval;
   control->refresh([&journey](RunStatus& status) { refresh(journey, status); });
 }
@@ -276,6 +277,7 @@ Result<HostLink::Options> link_options(const LiveHost& host, const BuiltScenario
   options.manager_patience = host.options.manager_patience;
   options.log = &host.console;
   options.begin_wish = host.options.begin_wish;
+  options.on_command = host.options.on_command;
   return options;
 }
 
@@ -293,6 +295,7 @@ Result<HostOutcome> go(const LiveHost& host, sim::Engine& engine, HostLink& link
       link, live, host.pace, report_groups(host.scenario, host.seat), host.seat.robots);
   look = [&journey] { look_back(journey); };
   journey.steps = static_cast<std::uint64_t>(std::llround(file.duration_s / file.step_s.value));
+  observers->on_place([&live](const sim::WorldInput& input) { return live.place(input); });
   const ControlledHost controlled(engine, file, run.control, true);
   tell_who_waits(engine, run, host.console);
   Status went;

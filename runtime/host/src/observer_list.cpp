@@ -1,12 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/host/observer_list.hpp"
 
+#include "rave/assemble/parameter_key.hpp"
+#include "rave/control/order_words.hpp"
 #include "rave/control/requests.hpp"
 #include "rave/recording/provenance.hpp"
 #include "rave/recording/world_record.hpp"
 #include "rave/results/event_log.hpp"
 
 namespace rave::runtime {
+namespace {
+
+/// Whether a robot of this name runs in this process.
+Status check_here(const sim::Engine& engine, const std::string& name) {
+  RAVE_TRY_ASSIGN(const RobotId robot, find_robot(engine.spec(), name));
+  if (engine.is_local(robot)) return {};
+  return fail(ErrorCode::kNotFound, "robot `{}` runs in another process of this run", name);
+}
+
+bool is_driven(const sim::Engine& engine, const std::string& name) {
+  const auto robot = find_robot(engine.spec(), name);
+  return robot && engine.order_of(*robot) == "drive";
+}
+
+}  // namespace
 
 ObserverList::ObserverList(const Parts& parts)
     : console_(parts.console),
@@ -16,6 +33,7 @@ ObserverList::~ObserverList() { console_.attach(nullptr); }
 
 Result<std::unique_ptr<ObserverList>> ObserverList::open(const Parts& parts) {
   std::unique_ptr<ObserverList> list(new ObserverList(parts));
+  list->follows_ = !parts.host.empty() && !parts.live;
   RAVE_TRY(list->open_all(parts));
   return list;
 }
@@ -52,6 +70,8 @@ Status ObserverList::open_all(const Parts& parts) {
 }
 
 void ObserverList::after_step(const StepView& step) {
+  leases_.swap(new_leases_);
+  new_leases_.clear();
   results_.after_step(step);
   for (RunObserver* const observer : others_) observer->after_step(step);
 }
@@ -65,6 +85,7 @@ void ObserverList::keep(const StepView& step) {
   record_->after_step(step);
   record_->keep(step.beside);
   record_->keep(results_.events());
+  record_->keep(leases_);
   for (const RunObserver* const observer : others_) {
     record_->keep(observer->events());
     observer->record(record_->recorder());
@@ -74,19 +95,64 @@ void ObserverList::keep(const StepView& step) {
 void ObserverList::tell_found(const sim::Engine& engine, LogSink* log,
                               std::vector<sim::Event>& all) const {
   tell_events(engine, results_.events(), log, all);
+  tell_events(engine, leases_, log, all);
   for (const RunObserver* const observer : others_) {
     tell_events(engine, observer->events(), log, all);
   }
+}
+
+Result<std::string> ObserverList::place(const sim::Engine& engine, const RunRequest& request) {
+  RAVE_TRY_ASSIGN(const sim::WorldInput input, order_input(engine.spec(), request));
+  RAVE_TRY(place_(input));
+  return order_answer(request);
+}
+
+Result<std::string> ObserverList::make_input(sim::Engine& engine, const RunRequest& request) {
+  const bool places = request.kind == RunRequest::Kind::kPlace && place_;
+  auto answer = places ? place(engine, request) : serve_request(engine, request);
+  const bool asks = request.kind == RunRequest::Kind::kList;
+  if (answer && !asks) keep(request, engine.steps_done());
+  return answer;
 }
 
 Result<std::string> ObserverList::serve(sim::Engine& engine, const RunRequest& request) {
   if (request.kind == RunRequest::Kind::kResetShadow && shadows_) {
     return shadows_->reset(request.robot);
   }
-  auto answer = serve_request(engine, request);
-  const bool asks = request.kind == RunRequest::Kind::kList;
-  if (answer && !asks) keep(request, engine.steps_done());
+  if (!OrderDesk::is_for(request.kind)) return make_input(engine, request);
+  if (follows_ && request.kind != RunRequest::Kind::kRelease) {
+    return fail(ErrorCode::kState,
+                "hosts in lock-step get orders from their environment manager: ask that one");
+  }
+  if (!request.robot.empty()) RAVE_TRY(check_here(engine, request.robot));
+  had_orders_ = true;
+  auto answer = desk_.serve(
+      request, [&](const RunRequest& asked) { return make_input(engine, asked); },
+      [&engine](const std::string& robot) { return is_driven(engine, robot); },
+      OrderDesk::Time::clock::now());
+  note_leases(engine);
   return answer;
+}
+
+void ObserverList::tick(sim::Engine& engine) {
+  if (!desk_.waits()) return;
+  desk_.tick([&](const RunRequest& asked) { return make_input(engine, asked); },
+             OrderDesk::Time::clock::now());
+  note_leases(engine);
+}
+
+void ObserverList::note_leases(const sim::Engine& engine) {
+  for (const HostLeases::Change& change : desk_.take_changes()) {
+    const auto robot = find_robot(engine.spec(), change.robot);
+    if (!robot) continue;
+    new_leases_.push_back(
+        {engine.steps_done(), *robot, sim::EventKind::kLease, BodyId(), lease_text(change)});
+  }
+}
+
+void ObserverList::refresh(RunStatus& status) const {
+  if (!had_orders_) return;
+  for (RunStatus::Robot& robot : status.robots) robot.lease = desk_.holder(robot.name);
 }
 
 void ObserverList::keep(const RunRequest& request, std::uint64_t step) {

@@ -47,12 +47,14 @@ struct Journey {
 
 void refresh(const Journey& journey, RunStatus& status) {
   refresh_status(journey.engine, status);
+  journey.observers.refresh(status);
   if (const Shadows* const shadows = journey.observers.shadows()) shadows->refresh(status);
 }
 
 /// Does what somebody has asked for since the last step.
 void serve_requests(Journey& journey) {
   if (journey.options.control == nullptr) return;
+  journey.observers.tick(journey.engine);
   journey.options.control->serve(
       [&journey](const RunRequest& request) {
         return journey.observers.serve(journey.engine, request);
@@ -118,7 +120,8 @@ bool look_back(Journey& journey) {
 void tell_onlookers(Journey& journey, Clock::time_point now) {
   RunControl* const control = journey.options.control;
   const int rarer = journey.late.behind() ? kLateFactor : 1;
-  if (control != nullptr && journey.shows_more && now >= journey.next_status) {
+  const bool shows_more = journey.shows_more || journey.observers.has_orders();
+  if (control != nullptr && shows_more && now >= journey.next_status) {
     journey.next_status = now + rarer * kStatusInterval;
     control->refresh([&](RunStatus& status) { refresh(journey, status); });
   }

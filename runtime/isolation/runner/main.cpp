@@ -72,7 +72,7 @@ void end_with_host(pid_t host) {
 Status run() {
   limit_this_process();
   RAVE_TRY(install_crash_report(kChildSocket));
-  RAVE_TRY_ASSIGN(SharedMemory memory, SharedMemory::map(FileDescriptor(kChildMemory)));
+  RAVE_TRY_ASSIGN(SharedMemory memory, SharedMemory::map(process::Descriptor(kChildMemory)));
   RAVE_TRY_ASSIGN(const auto host, ProgramHost::create(std::move(memory), kChildSocket));
   end_with_host(static_cast<pid_t>(host->order().parent));
   if (host->start()) host->serve();

@@ -43,6 +43,9 @@ ProgramHost::ProgramHost(SharedMemory memory, std::unique_ptr<SetupCopy> setup, 
     views_.push_back(
         {memory_.at<SampleHeader>(sensor.header), memory_.at<std::byte>(sensor.records)});
   }
+  answers_ = std::make_unique<AnswerWriter>(
+      memory_.at<SharedAnswers>(layout_.answers),
+      memory_.at<std::byte>(layout_.answers + sizeof(SharedAnswers)));
   boxes_.resize(2 * layout_.communicators.size());
   for (std::size_t c = 0; c < layout_.communicators.size(); ++c) {
     boxes_[2 * c] = mailbox(layout_.communicators[c].in);
@@ -139,6 +142,13 @@ bool ProgramHost::decide(std::uint32_t decision) {
   item.decision = shared.decision;
   item.robot = shared.robot;
   item.seed = shared.seed;
+  const SharedOrders asked = *memory_.at<SharedOrders>(layout_.orders);
+  read_orders(asked, memory_.at<std::byte>(layout_.orders + sizeof asked), orders_);
+  item.orders = orders_.data();
+  item.order_count = static_cast<std::uint32_t>(orders_.size());
+  item.driven = asked.driven;
+  answers_->begin();
+  if (asked.listens != 0) item.answers = answers_->service();
   const ProgramOps& ops = file_->ops();
   std::uint8_t failed = 0;
   ErrorText error;

@@ -9,6 +9,7 @@
 
 #include "layout.hpp"
 #include "log_sender.hpp"
+#include "order_bytes.hpp"
 #include "program_file.hpp"
 #include "rave/base/result.hpp"
 #include "rave/robot/program.hpp"
@@ -58,6 +59,8 @@ class ProgramHost {
   std::vector<SensorView> views_;
   std::vector<Mailbox> boxes_;  ///< In and out of each communicator.
   std::vector<CommunicatorView> communicators_;
+  std::vector<OrderItem> orders_;
+  std::unique_ptr<AnswerWriter> answers_;
   std::unique_ptr<void, FreeAligned> instance_;
   bool constructed_ = false;
 };

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "file_descriptor.hpp"
 #include "rave/base/result.hpp"
+#include "rave/process/child.hpp"
 
 namespace rave::isolation {
 
-/// A child process, held by a descriptor, so that a signal never hits a stranger with its old id.
+/// The process of an isolated program.
 class ChildProcess {
  public:
   /// Starts `arguments[0]` with `socket` and `memory` as kChildSocket and kChildMemory, standard
@@ -26,8 +26,8 @@ class ChildProcess {
   ~ChildProcess() = default;
 
   /// 0 once it is gone.
-  [[nodiscard]] pid_t id() const noexcept { return id_; }
-  void signal(int number) const noexcept;
+  [[nodiscard]] pid_t id() const noexcept { return child_.id(); }
+  void signal(int number) const noexcept { child_.signal(number); }
   /// Waits at most `milliseconds`; true if it is gone, and `how` says how it ended.
   bool wait_for_end(int milliseconds);
   void kill();
@@ -35,9 +35,9 @@ class ChildProcess {
   [[nodiscard]] const std::string& how() const noexcept { return how_; }
 
  private:
-  void reap();
-  pid_t id_ = 0;
-  FileDescriptor handle_;
+  void note(const process::ChildEnd& end);
+
+  process::Child child_;
   std::string how_;
 };
 

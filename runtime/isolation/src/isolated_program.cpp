@@ -15,6 +15,7 @@
 #include "describe.hpp"
 #include "layout.hpp"
 #include "link.hpp"
+#include "order_bytes.hpp"
 #include "setup_copy.hpp"
 #include "shared_memory.hpp"
 
@@ -22,7 +23,7 @@ namespace rave::isolation {
 
 struct IsolatedProgram::Impl {
   Impl(const IsolationOptions& options, std::string who, const HostServices& host,
-       SharedMemory shared, Layout where, ChildProcess child, FileDescriptor socket)
+       SharedMemory shared, Layout where, ChildProcess child, process::Descriptor socket)
       : timeout_s(options.decide_timeout_s),
         memory(std::move(shared)),
         layout(std::move(where)),
@@ -36,6 +37,10 @@ struct IsolatedProgram::Impl {
                   layout.command_count * sizeof(Command));
     }
     copy_messages_out(item);
+    const SharedAnswers said = *memory.at<SharedAnswers>(layout.answers);
+    if (said.count > 0) {
+      take_answers(said, memory.at<std::byte>(layout.answers + sizeof said), item);
+    }
   }
   void copy_messages_out(const DecideItem& item) const;
 
@@ -66,6 +71,9 @@ Status IsolatedProgram::Impl::copy_in(const DecideItem& item) const {
   RAVE_TRY(copy_messages_in(item));
   *memory.at<SharedDecide>(layout.decide) = {item.now_ns, item.pose, item.decision, item.robot,
                                              item.seed};
+  *memory.at<SharedOrders>(layout.orders) =
+      write_orders(item, memory.at<std::byte>(layout.orders + sizeof(SharedOrders)));
+  *memory.at<SharedAnswers>(layout.answers) = {};
   if (layout.command_count > 0) {
     std::memcpy(memory.at<Command>(layout.commands), item.commands,
                 layout.command_count * sizeof(Command));
@@ -114,8 +122,8 @@ void IsolatedProgram::Impl::copy_messages_out(const DecideItem& item) const {
 namespace {
 
 struct Sockets {
-  FileDescriptor host;
-  FileDescriptor child;
+  process::Descriptor host;
+  process::Descriptor child;
 };
 
 Result<Sockets> make_sockets() {
@@ -123,7 +131,7 @@ Result<Sockets> make_sockets() {
   if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, files) != 0) {
     return fail(ErrorCode::kIo, "cannot make a socket pair: {}", std::strerror(errno));
   }
-  return Sockets{FileDescriptor(files[0]), FileDescriptor(files[1])};
+  return Sockets{process::Descriptor(files[0]), process::Descriptor(files[1])};
 }
 
 struct Shared {

@@ -52,6 +52,8 @@ Layout make_layout(std::size_t setup_bytes, std::span<const SensorInfo> sensors,
     communicator.out = take_box(info);
     layout.communicators.push_back(communicator);
   }
+  layout.orders = memory.take(sizeof(SharedOrders) + kOrderBytes);
+  layout.answers = memory.take(sizeof(SharedAnswers) + kAnswerBytes);
   layout.command_count = command_count;
   layout.commands = memory.take(command_count * sizeof(Command));
   layout.total_bytes = memory.end();

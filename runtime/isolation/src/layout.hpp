@@ -27,6 +27,23 @@ struct SharedDecide {
   std::uint64_t seed = 0;
 };
 
+/// What people ask, as bytes: see order_bytes.hpp.
+struct SharedOrders {
+  std::uint32_t count = 0;
+  std::uint32_t bytes = 0;
+  std::uint32_t driven = 0;
+  std::uint32_t listens = 0;  ///< Not 0: answers are taken.
+};
+/// Room for the orders of one decision: a path, texts, and the names of who asks.
+inline constexpr std::size_t kOrderBytes = 32'768;
+
+/// What a program says to people in one decision: this, then size and text of each answer.
+struct SharedAnswers {
+  std::uint32_t count = 0;
+  std::uint32_t bytes = 0;
+};
+inline constexpr std::size_t kAnswerBytes = 8'192;
+
 /// The part of a Mailbox that is no pointer and no limit.
 struct SharedMailbox {
   std::uint32_t count = 0;
@@ -63,6 +80,8 @@ struct Layout {
   std::size_t decide = 0;
   std::vector<Sensor> sensors;
   std::vector<Communicator> communicators;
+  std::size_t orders = 0;   ///< Offset of the SharedOrders; their bytes follow.
+  std::size_t answers = 0;  ///< Offset of the SharedAnswers; their bytes follow.
   std::size_t commands = 0;
   std::size_t command_count = 0;
   std::size_t total_bytes = 0;

@@ -10,9 +10,9 @@
 
 #include "child_process.hpp"
 #include "deadline.hpp"
-#include "file_descriptor.hpp"
 #include "message.hpp"
 #include "rave/base/result.hpp"
+#include "rave/process/descriptor.hpp"
 #include "rave/robot/interface.hpp"
 
 namespace rave::isolation {
@@ -23,7 +23,7 @@ class Link {
  public:
   /// `who` begins every error: "program `wander` of robot `anna`". `last_word_s`: how long a child
   /// that is late may take to say where it is.
-  Link(std::string who, HostServices host, ChildProcess child, FileDescriptor socket,
+  Link(std::string who, HostServices host, ChildProcess child, process::Descriptor socket,
        double last_word_s);
   Link(const Link&) = delete;
   Link& operator=(const Link&) = delete;
@@ -57,7 +57,7 @@ class Link {
   std::string who_;
   HostServices host_;
   ChildProcess child_;
-  FileDescriptor socket_;
+  process::Descriptor socket_;
   double last_word_s_;
   std::vector<char> buffer_;
   std::string refusal_;

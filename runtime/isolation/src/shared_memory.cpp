@@ -12,7 +12,7 @@
 namespace rave::isolation {
 
 Result<SharedMemory> SharedMemory::create(std::size_t bytes) {
-  FileDescriptor file(::memfd_create("rave-program", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+  process::Descriptor file(::memfd_create("rave-program", MFD_CLOEXEC | MFD_ALLOW_SEALING));
   if (file.get() < 0 || ::ftruncate(file.get(), static_cast<off_t>(bytes)) != 0 ||
       ::fcntl(file.get(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL) != 0) {
     return fail(ErrorCode::kIo, "cannot make {} bytes of shared memory: {}", bytes,
@@ -21,7 +21,7 @@ Result<SharedMemory> SharedMemory::create(std::size_t bytes) {
   return map(std::move(file));
 }
 
-Result<SharedMemory> SharedMemory::map(FileDescriptor file) {
+Result<SharedMemory> SharedMemory::map(process::Descriptor file) {
   struct stat info {};
   if (::fstat(file.get(), &info) != 0) {
     return fail(ErrorCode::kIo, "cannot read the size of shared memory: {}", std::strerror(errno));

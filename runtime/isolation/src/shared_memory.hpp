@@ -3,8 +3,8 @@
 
 #include <cstddef>
 
-#include "file_descriptor.hpp"
 #include "rave/base/result.hpp"
+#include "rave/process/descriptor.hpp"
 
 namespace rave::isolation {
 
@@ -14,7 +14,7 @@ class SharedMemory {
   /// Zeroed. Nobody can change its size, so a child cannot make the host fault. Errors: kIo.
   [[nodiscard]] static Result<SharedMemory> create(std::size_t bytes);
   /// Maps what a host created. Takes the descriptor. Errors: kIo.
-  [[nodiscard]] static Result<SharedMemory> map(FileDescriptor file);
+  [[nodiscard]] static Result<SharedMemory> map(process::Descriptor file);
 
   SharedMemory() = default;
   SharedMemory(SharedMemory&& other) noexcept;
@@ -30,7 +30,7 @@ class SharedMemory {
   }
 
  private:
-  FileDescriptor file_;
+  process::Descriptor file_;
   std::byte* data_ = nullptr;
   std::size_t size_ = 0;
 };

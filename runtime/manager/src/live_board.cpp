@@ -26,35 +26,22 @@ std::int64_t steady_ns() {
 }  // namespace
 
 struct LiveBoard::Parts {
-  std::unique_ptr<bus::Bus> bus;
-  bus::Writer<bus::HostInfo> own_info;
+  std::unique_ptr<ManagerEndpoint> endpoint;
   bus::Writer<bus::World> worlds;
-  bus::Writer<bus::RunState> runs;
   bus::Writer<bus::ClockPong> pongs;
   bus::Writer<bus::Obstacle> obstacles;
-  bus::Reader<bus::HostInfo> infos;
   bus::Reader<bus::ClockPing> pings;
   bus::Reader<bus::HostState> states;
-  bus::Reader<bus::RosterEntry> roster;
-  lock_step::Pulse pulse;
-  lock_step::FindingsCollector findings;
 };
 
 LiveBoard::LiveBoard(const LiveManagerOptions& options, Parts parts)
     : options_(options),
-      foreign_(options.log),
-      bus_(std::move(parts.bus)),
-      own_info_(std::move(parts.own_info)),
+      endpoint_(std::move(parts.endpoint)),
       worlds_(std::move(parts.worlds)),
-      runs_(std::move(parts.runs)),
       pongs_(std::move(parts.pongs)),
       obstacles_(std::move(parts.obstacles)),
-      infos_(std::move(parts.infos)),
       pings_(std::move(parts.pings)),
       states_(std::move(parts.states)),
-      roster_(std::move(parts.roster)),
-      pulse_(std::move(parts.pulse)),
-      findings_(std::move(parts.findings)),
       claims_(static_cast<std::uint32_t>(options.hosts.size())),
       seat_of_(options.robots.size()),
       robots_(options.robots.size()),
@@ -79,70 +66,34 @@ LiveBoard::LiveBoard(const LiveManagerOptions& options, Parts parts)
 }
 
 Result<std::unique_ptr<LiveBoard>> LiveBoard::open(const LiveManagerOptions& options) {
-  RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(options.bus));
-  RAVE_TRY_ASSIGN(auto own_info, bus::Writer<bus::HostInfo>::create(*bus));
-  RAVE_TRY_ASSIGN(auto worlds, bus::Writer<bus::World>::create(*bus));
-  RAVE_TRY_ASSIGN(auto runs, bus::Writer<bus::RunState>::create(*bus));
-  RAVE_TRY_ASSIGN(auto pongs, bus::Writer<bus::ClockPong>::create(*bus));
-  RAVE_TRY_ASSIGN(auto obstacles, bus::Writer<bus::Obstacle>::create(*bus));
-  RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
-  RAVE_TRY_ASSIGN(auto pings, bus::Reader<bus::ClockPing>::create(*bus));
-  RAVE_TRY_ASSIGN(auto states, bus::Reader<bus::HostState>::create(*bus));
-  RAVE_TRY_ASSIGN(auto roster, bus::Reader<bus::RosterEntry>::create(*bus));
-  RAVE_TRY_ASSIGN(auto pulse, lock_step::Pulse::create(*bus, options.identity));
-  RAVE_TRY_ASSIGN(auto findings, lock_step::FindingsCollector::create(*bus));
-  std::unique_ptr<LiveBoard> board(new LiveBoard(
-      options, {std::move(bus), std::move(own_info), std::move(worlds), std::move(runs),
-                std::move(pongs), std::move(obstacles), std::move(infos), std::move(pings),
-                std::move(states), std::move(roster), std::move(pulse), std::move(findings)}));
-  RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(*board->bus_));
+  RAVE_TRY_ASSIGN(auto endpoint, ManagerEndpoint::open(options.bus, options.identity, options.log,
+                                                       options.begin_wish, {}));
+  bus::Bus& bus = endpoint->bus();
+  RAVE_TRY_ASSIGN(auto worlds, bus::Writer<bus::World>::create(bus));
+  RAVE_TRY_ASSIGN(auto pongs, bus::Writer<bus::ClockPong>::create(bus));
+  RAVE_TRY_ASSIGN(auto obstacles, bus::Writer<bus::Obstacle>::create(bus));
+  RAVE_TRY_ASSIGN(auto pings, bus::Reader<bus::ClockPing>::create(bus));
+  RAVE_TRY_ASSIGN(auto states, bus::Reader<bus::HostState>::create(bus));
+  std::unique_ptr<LiveBoard> board(
+      new LiveBoard(options, {std::move(endpoint), std::move(worlds), std::move(pongs),
+                              std::move(obstacles), std::move(pings), std::move(states)}));
+  RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(bus));
   RAVE_TRY(waits.add(board->pings_));
   RAVE_TRY(waits.add(board->states_));
-  RAVE_TRY(board->findings_.wake(waits));
-  RAVE_TRY_ASSIGN(board->wishes_,
-                  bus::WishBox::create(*board->bus_, options.begin_wish, options.log));
-  if (board->wishes_) RAVE_TRY(board->wishes_->wake(waits));
+  RAVE_TRY(board->endpoint_->wake(waits));
   board->waits_.emplace(std::move(waits));
-  board->introduced_ = lock_step::introduction(options.identity);
-  RAVE_TRY(board->own_info_.write(board->introduced_));
+  RAVE_TRY(board->endpoint_->introduce());
   return board;
 }
 
 Status LiveBoard::look_at_processes(bool goes) {
-  bool second = false;
-  infos_.take([&](const bus::HostInfo& info) {
-    if (info.host == rave_wire_kNone) {
-      const bool stays = goes || !lock_step::gives_way(introduced_, info);
-      second = second || !stays;
-      if (stays) foreign_.write(LogLevel::kWarning, kSource, not_listened_to(info));
-      return;
-    }
-    const Status fits = lock_step::check_fits(options_.identity, info);
-    if (fits) {
-      host_of_[info.writer] = info.host;
-    } else {
-      foreign_.write(LogLevel::kError, kSource, "refused: " + fits.error().message);
-    }
-  });
-  if (second) {
-    return fail(ErrorCode::kState,
-                "this run has an environment manager already; to start another run of the same "
-                "scenario beside it, give both a name of their own with --run");
-  }
-  for (const bus::BusEvent& event : bus_->take_events()) {
-    using enum bus::EventKind;
-    if (event.kind == kParticipantLost && event.writer != 0) {
-      lose(event.writer, goes);
-      continue;
-    }
-    if (event.kind == kStoodStill && goes) ++standstills_;
-    foreign_.note(event);
-  }
+  RAVE_TRY_ASSIGN(const auto gone, endpoint_->look_at_processes(goes));
+  for (const std::uint64_t writer : gone) lose(writer, goes);
   return {};
 }
 
 void LiveBoard::lose(std::uint64_t writer, bool goes) {
-  host_of_.erase(writer);
+  endpoint_->forget(writer);
   refused_.erase(writer);
   wrong_hands_.erase(writer);
   claims_.release(writer);
@@ -164,17 +115,15 @@ void LiveBoard::lose(std::uint64_t writer, bool goes) {
 }
 
 bool LiveBoard::sit_down(const bus::ClockPing& ping) {
-  if (ping.target != bus_->writer()) return false;
-  const auto host = host_of_.find(ping.writer);
-  if (host == host_of_.end() || host->second >= seats_.size()) return false;
-  LiveSeat& seat = seats_[host->second];
+  if (ping.target != endpoint_->writer()) return false;
+  const auto host = endpoint_->host_of(ping.writer);
+  if (!host || *host >= seats_.size()) return false;
+  LiveSeat& seat = seats_[*host];
   if (seat.writer != ping.writer) {
-    const Status claimed = claims_.claim(host->second, ping.writer);
+    const Status claimed = claims_.claim(*host, ping.writer);
     if (!claimed) {
-      const bool again = std::exchange(refused_[ping.writer], true);
-      if (!again) {
-        foreign_.write(LogLevel::kError, kSource, "refused: " + claimed.error().message);
-      }
+      if (refused_.insert(ping.writer).second)
+        endpoint_->log_fault("refused: " + claimed.error().message);
       return false;
     }
     seat.writer = ping.writer;
@@ -201,12 +150,12 @@ void LiveBoard::take_roster(runtime::RunControl* control) {
   const auto serving = [this](std::uint32_t host) {
     return host < seats_.size() ? seats_[host].writer : 0;
   };
-  read_roster(roster_, book_, serving);
+  endpoint_->take_roster(book_, serving);
   show_kinds(book_, serving, control);
 }
 
 void LiveBoard::take_findings() {
-  findings_.take(
+  endpoint_->findings().take(
       [this](std::uint64_t writer, std::uint32_t host) { return has_sat(seats_, writer, host); });
 }
 
@@ -215,7 +164,7 @@ void LiveBoard::take_states() {
 }
 
 void LiveBoard::take_in(const bus::HostState& state) {
-  if (state.host >= seats_.size() || !host_of_.contains(state.writer)) return;
+  if (state.host >= seats_.size() || !endpoint_->host_of(state.writer)) return;
   LiveSeat& seat = seats_[state.host];
   if (seat.writer != 0 && seat.writer != state.writer) {
     states_.refuse(state, fmt::format("host `{}` is served by another process", seat.name));
@@ -272,7 +221,7 @@ void LiveBoard::send_world(std::uint64_t number, SimTime now, std::span<const st
     if (stale[r] != 0) stale_.push_back(r);
   }
   bus::World world{};
-  world.epoch = bus_->writer();
+  world.epoch = endpoint_->writer();
   world.step = number;
   world.time_ns = now.ns;
   columns_.lend(world.robots);
@@ -296,7 +245,7 @@ Status LiveBoard::ask_for_handed() {
   if (std::exchange(all_asked_, true)) return {};
   // A new reader is told all that hosts keep, also what came before they were known.
   handed_in_.reset();
-  RAVE_TRY_ASSIGN(auto reader, bus::Reader<bus::LastObstacle>::create(*bus_));
+  RAVE_TRY_ASSIGN(auto reader, bus::Reader<bus::LastObstacle>::create(endpoint_->bus()));
   handed_in_.emplace(std::move(reader));
   return {};
 }
@@ -304,7 +253,7 @@ Status LiveBoard::ask_for_handed() {
 void LiveBoard::take_handed(const std::function<Status(const real_time::ObstacleSight&)>& check) {
   if (!handed_in_) return;
   const auto hear = [this, &check](const bus::LastObstacle& sample) {
-    if (!host_of_.contains(sample.writer)) return;
+    if (!endpoint_->host_of(sample.writer)) return;
     auto sight = real_time::read_obstacle(sample);
     const Status fits = sight ? check(*sight) : Status(tl::unexpected(sight.error()));
     if (!fits) {
@@ -321,8 +270,7 @@ void LiveBoard::take_handed(const std::function<Status(const real_time::Obstacle
 
 void LiveBoard::refuse_handed(std::uint64_t writer, std::string_view why) {
   if (!wrong_hands_.insert(writer).second) return;
-  foreign_.write(LogLevel::kError, kSource,
-                 fmt::format("refused what the process {:016x} hands over: {}", writer, why));
+  endpoint_->log_fault(fmt::format("refused what the process {:016x} hands over: {}", writer, why));
 }
 
 void LiveBoard::end_handing() {
@@ -350,7 +298,7 @@ void LiveBoard::publish(bus::RunState& state) {
     hosts[i].bound_s = seat.bound_ns < 0 ? -1 : static_cast<double>(seat.bound_ns) * 1e-9;
   }
   bus::borrow(state.hosts, hosts);
-  static_cast<void>(runs_.write(state));
+  endpoint_->publish(state);
 }
 
 }  // namespace rave::manager

@@ -11,19 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "rave/bus/event_log.hpp"
+#include "manager_endpoint.hpp"
 #include "rave/bus/host_claims.hpp"
-#include "rave/bus/standstill.hpp"
-#include "rave/bus/wait_set.hpp"
-#include "rave/bus/wish_box.hpp"
-#include "rave/bus/writer.hpp"
 #include "rave/manager/live_manager.hpp"
-#include "rave/protocol/findings.hpp"
 #include "rave/protocol/live_messages.hpp"
 #include "rave/protocol/obstacle_messages.hpp"
-#include "rave/protocol/pulse.hpp"
 #include "rave/protocol/realities.hpp"
-#include "roster_book.hpp"
 #include "step_rate.hpp"
 
 namespace rave::manager {
@@ -56,13 +49,11 @@ class LiveBoard {
 
   /// Sleeps until something has come, the time is over or `stop` is set.
   void wait(Duration timeout, const std::stop_token& stop = {}) {
-    pulse_.beat({worlds_sent_});
-    static_cast<void>(waits_->wait(timeout, stop));
+    endpoint_->wait(*waits_, worlds_sent_, timeout, stop);
   }
-  /// Begins what others ask on the bus, and answers what is done.
-  void serve_wishes() {
-    if (wishes_) wishes_->serve();
-  }
+  /// What it has in common with the managers of other runs.
+  [[nodiscard]] ManagerEndpoint& endpoint() noexcept { return *endpoint_; }
+  [[nodiscard]] const ManagerEndpoint& endpoint() const noexcept { return *endpoint_; }
   /// Learns who is there and who is gone; that counts as a loss if the run `goes`. Errors: kState
   /// (another manager).
   Status look_at_processes(bool goes);
@@ -70,11 +61,6 @@ class LiveBoard {
   void take_pings(Visit&& visit) {
     pings_.take(std::forward<Visit>(visit));
   }
-  /// What its messages are signed with.
-  [[nodiscard]] std::uint64_t writer() const noexcept { return bus_->writer(); }
-  [[nodiscard]] const bus::Standstill& standstill() const noexcept { return bus_->standstill(); }
-  /// How often this process stood still for so long that it may have been missed.
-  [[nodiscard]] std::uint64_t standstills() const noexcept { return standstills_; }
   /// Whether a process that asks for the time sits in its host's place, as it does now if that was
   /// free.
   bool sit_down(const bus::ClockPing& ping);
@@ -110,7 +96,6 @@ class LiveBoard {
   Status publish(const real_time::ObstacleSight& sight);
   /// Takes in what hosts know of the run when it is over for them.
   void take_findings();
-  [[nodiscard]] lock_step::FindingsCollector& findings() noexcept { return findings_; }
   /// Asks the hosts that sit here what they know of the obstacles of the manager that was here
   /// before; again if others have sat down since the last call. Errors: kState, kIo.
   Status ask_for_handed();
@@ -138,29 +123,19 @@ class LiveBoard {
   void refuse_handed(std::uint64_t writer, std::string_view why);
 
   const LiveManagerOptions& options_;
-  bus::EventLog foreign_;
-  std::unique_ptr<bus::Bus> bus_;
-  bus::Writer<bus::HostInfo> own_info_;
+  std::unique_ptr<ManagerEndpoint> endpoint_;
   bus::Writer<bus::World> worlds_;
-  bus::Writer<bus::RunState> runs_;
   bus::Writer<bus::ClockPong> pongs_;
   bus::Writer<bus::Obstacle> obstacles_;
-  bus::Reader<bus::HostInfo> infos_;
   bus::Reader<bus::ClockPing> pings_;
   bus::Reader<bus::HostState> states_;
   std::optional<bus::Reader<bus::LastObstacle>> handed_in_;  ///< While something is handed over.
-  bus::Reader<bus::RosterEntry> roster_;
-  lock_step::Pulse pulse_;
-  lock_step::FindingsCollector findings_;
-  std::unique_ptr<bus::WishBox> wishes_{};  ///< May be null.
-  std::optional<bus::WaitSet> waits_;
-  bus::HostInfo introduced_{};  ///< What the others were told of this process.
+  std::optional<bus::WaitSet> waits_;                        ///< Behind all that it waits for.
   std::vector<LiveSeat> seats_;
   bus::HostClaims claims_;
-  std::map<std::uint64_t, std::uint32_t> host_of_;  ///< Of processes that fit.
-  std::map<std::uint64_t, bool> refused_;           ///< Processes whose place is taken; told once.
-  std::vector<std::uint32_t> seat_of_;              ///< By robot.
-  std::vector<real_time::RobotSight> robots_;       ///< By robot, as heard last.
+  std::set<std::uint64_t> refused_;            ///< Processes whose place is taken; told once.
+  std::vector<std::uint32_t> seat_of_;         ///< By robot.
+  std::vector<real_time::RobotSight> robots_;  ///< By robot, as heard last.
   std::vector<bool> known_;
   std::vector<std::uint64_t> said_by_;  ///< By robot: the process that spoke of it last.
   RosterBook book_;
@@ -174,7 +149,6 @@ class LiveBoard {
   std::set<std::uint64_t> wrong_hands_;  ///< Processes that handed over what cannot be.
   std::uint64_t states_taken_ = 0;
   std::uint64_t worlds_sent_ = 0;
-  std::uint64_t standstills_ = 0;
   bool news_ = false;
 };
 

@@ -225,7 +225,7 @@ Result<std::string> LiveEdits::make(const sim::ObstacleChange& change, SimTime n
   limits_.step_done();
   limits_.made(made);
   note(made);
-  const sim::Event event = sim::obstacle_event(0, made, remark, !made.asked.empty());
+  const sim::Event event = sim::obstacle_event(0, made, remark, {!made.asked.empty(), made.by});
   return fmt::format("{} {}", runtime::word_of(made.kind), event.text);
 }
 

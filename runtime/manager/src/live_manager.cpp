@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "drain.hpp"
 #include "live_board.hpp"
 #include "live_edits.hpp"
 #include "manager_habits.hpp"
@@ -46,7 +47,7 @@ class LiveRun {
   void tell_silence(const std::vector<std::string_view>& names, std::string_view what);
   void tell_state(rave_wire_RunPhase phase, const std::string& text);
   void tell_progress();
-  void see_off();
+  void drain_hosts();
   LiveManagerOutcome outcome();
   [[nodiscard]] bool stopping() const { return options_.stopping && options_.stopping(); }
   [[nodiscard]] SimTime now() const { return {ns_of(Clock::now()) - zero_ns_}; }
@@ -110,7 +111,8 @@ void LiveRun::begin_if_ready() {
     begin_in(kLead);
     edits_->begin(false);
     log(LogLevel::kInfo, "all hosts are there: the run begins");
-  } else if (Clock::now() - std::max(first_host_, board_->standstill().silence_counts_from()) >
+  } else if (Clock::now() -
+                 std::max(first_host_, board_->endpoint().standstill().silence_counts_from()) >
              std::chrono::nanoseconds(options_.host_timeout.ns)) {
     begin_in(kLead);
     edits_->begin(false);
@@ -157,7 +159,7 @@ Status LiveRun::listen() {
   if (left_alone_) return tl::unexpected(*left_alone_);
   board_->take_states();
   board_->take_findings();
-  board_->serve_wishes();
+  board_->endpoint().serve_requests();
   if (Clock::now() < next_look_) return {};
   next_look_ = Clock::now() + kLook;
   // Towards the end each host goes when it is done.
@@ -222,30 +224,15 @@ void LiveRun::tell_progress() {
   options_.on_progress(begun_ ? now() : SimTime{}, board_->slowest_speed(), missing());
 }
 
-/// Hosts hear of the end before this process goes, and what they know reaches it.
-void LiveRun::see_off() {
-  const auto began = Clock::now();
-  const auto& seats = board_->seats();
-  const auto here = [](const LiveSeat& seat) { return seat.writer != 0; };
-  const auto owes = [this](const LiveSeat& seat) {
-    return seat.writer != 0 && !board_->findings().done_with(seat.writer);
+/// Hosts hear of the end before this process goes.
+void LiveRun::drain_hosts() {
+  const auto owes = [this](std::uint64_t writer) {
+    return begun_ && !board_->endpoint().findings().done_with(writer);
   };
-  bool told = false;
-  while (std::any_of(seats.begin(), seats.end(), here)) {
-    const bool any_owes = begun_ && std::any_of(seats.begin(), seats.end(), owes);
-    if (Clock::now() - began >= (any_owes ? kLongFarewell : kFarewell)) break;
-    if (Clock::now() - began >= kFarewell && !std::exchange(told, true) &&
-        options_.log != nullptr) {
-      std::vector<std::string_view> names;
-      for (const LiveSeat& seat : seats) {
-        if (owes(seat)) names.emplace_back(seat.name);
-      }
-      options_.log->warn(kSource, "waits up to {} s for what {} know of the run",
-                         kLongFarewell.count(), join_names(names));
-    }
+  drain(board_->seats(), options_.log, owes, [this] {
     board_->wait(Duration{std::chrono::nanoseconds(kLook).count()});
-    if (!listen()) break;
-  }
+    return listen().has_value();
+  });
   // What a process sent before it went is here.
   board_->take_findings();
 }
@@ -300,11 +287,13 @@ LiveManagerOutcome LiveRun::outcome() {
                       seat.losses == 1 ? "once" : fmt::format("{} times", seat.losses)));
     }
   }
-  if (board_->standstills() > 0) {
+  if (board_->endpoint().standstills() > 0) {
     problems_.push_back(fmt::format(
         "the environment manager stood still for so long that hosts may have missed it{}: no "
         "worlds were sent meanwhile",
-        board_->standstills() == 1 ? "" : fmt::format(" ({} times)", board_->standstills())));
+        board_->endpoint().standstills() == 1
+            ? ""
+            : fmt::format(" ({} times)", board_->endpoint().standstills())));
   }
   const bool over = begun_ && now().ns >= options_.duration.ns;
   outcome.problems = problems_;
@@ -314,15 +303,15 @@ LiveManagerOutcome LiveRun::outcome() {
       options_.ends_hosts || (options_.control != nullptr && options_.control->ends_everybody());
   if (!over && !ends) {
     board_->take_findings();
-    outcome.findings = board_->findings().hand_out();
+    outcome.findings = board_->endpoint().findings().hand_out();
     order_by_sitting(board_->seats(), outcome.findings);
     return outcome;
   }
   tell_state(over ? rave_wire_RUN_ENDED : rave_wire_RUN_FAILED,
              over || problems_.empty() ? std::string() : problems_.front());
-  see_off();
+  drain_hosts();
   outcome.saw_off = true;
-  outcome.findings = board_->findings().hand_out();
+  outcome.findings = board_->endpoint().findings().hand_out();
   order_by_sitting(board_->seats(), outcome.findings);
   return outcome;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "rave/bus/sequence.hpp"
+#include "rave/control/order_words.hpp"
 
 namespace rave::manager {
 namespace {
@@ -58,7 +59,7 @@ std::optional<std::string> RosterBook::hear(const bus::RosterEntry& entry, std::
   const bool room =
       books_.size() < host_names_.size() + kMoreBooks || books_.contains(entry.writer);
   if (room || entry.writer == serving) {
-    books_[entry.writer][entry.robot] = entry.kind == rave_wire_ROBOT_SIMULATED;
+    books_[entry.writer][entry.robot] = {entry.kind == rave_wire_ROBOT_SIMULATED, entry.takes};
     news_ = true;
   }
   if (serving == 0 || serving == entry.writer) return std::nullopt;
@@ -72,12 +73,21 @@ void RosterBook::lose(std::uint64_t writer) {
   told_.erase(writer);
 }
 
+const RosterBook::Said* RosterBook::said(std::size_t robot, std::uint64_t serving) const {
+  const auto book = books_.find(serving);
+  if (book == books_.end()) return nullptr;
+  const auto found = book->second.find(static_cast<std::uint32_t>(robot));
+  return found == book->second.end() ? nullptr : &found->second;
+}
+
 bool RosterBook::simulated(std::size_t robot, std::uint64_t serving) const {
-  if (const auto book = books_.find(serving); book != books_.end()) {
-    const auto said = book->second.find(static_cast<std::uint32_t>(robot));
-    if (said != book->second.end()) return said->second;
-  }
-  return robots_[robot].simulated;
+  const Said* const its = said(robot, serving);
+  return its != nullptr ? its->simulated : robots_[robot].simulated;
+}
+
+OrderSet RosterBook::takes(std::size_t robot, std::uint64_t serving) const {
+  const Said* const its = said(robot, serving);
+  return its != nullptr ? its->takes : 0;
 }
 
 void read_roster(bus::Reader<bus::RosterEntry>& reader, RosterBook& book, const Serving& serving) {
@@ -91,7 +101,9 @@ void show_kinds(RosterBook& book, const Serving& serving, runtime::RunControl* c
   control->refresh([&](runtime::RunStatus& status) {
     const std::size_t robots = std::min(status.robots.size(), book.robots());
     for (std::size_t r = 0; r < robots; ++r) {
-      status.robots[r].simulated = book.simulated(r, serving(book.host_of(r)));
+      const std::uint64_t by = serving(book.host_of(r));
+      status.robots[r].simulated = book.simulated(r, by);
+      runtime::write_takes(book.takes(r, by), status.robots[r].takes);
     }
   });
 }

@@ -13,6 +13,7 @@
 #include "rave/bus/reader.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/control/run_control.hpp"
+#include "rave/robot/order.hpp"
 
 namespace rave::manager {
 
@@ -42,6 +43,8 @@ class RosterBook {
   [[nodiscard]] std::uint32_t host_of(std::size_t robot) const { return host_of_[robot]; }
   /// Whether a robot is simulated, as the process `serving` its host says; else as at the start.
   [[nodiscard]] bool simulated(std::size_t robot, std::uint64_t serving) const;
+  /// Which orders of people it takes, as that process says; none before it does.
+  [[nodiscard]] OrderSet takes(std::size_t robot, std::uint64_t serving) const;
   [[nodiscard]] std::size_t robots() const noexcept { return robots_.size(); }
   /// Whether anything was taken in, or lost, since the last call.
   [[nodiscard]] bool take_news() noexcept { return std::exchange(news_, false); }
@@ -49,8 +52,13 @@ class RosterBook {
   void stir() noexcept { news_ = true; }
 
  private:
-  /// What one process said: by robot, whether it is simulated.
-  using Book = std::map<std::uint32_t, bool>;
+  struct Said {
+    bool simulated = true;
+    OrderSet takes = 0;
+  };
+  /// What one process said, by robot.
+  using Book = std::map<std::uint32_t, Said>;
+  [[nodiscard]] const Said* said(std::size_t robot, std::uint64_t serving) const;
   [[nodiscard]] std::string wrong(const bus::RosterEntry& entry) const;
   [[nodiscard]] std::optional<std::string> once(std::uint64_t writer, std::string why);
 

@@ -31,7 +31,7 @@ std::vector<RosterBook::Robot> planned_robots(const sim::EngineSpec& spec) {
 
 SteppedRun::SteppedRun(const ManagerOptions& options,
                        std::unique_ptr<sim::WorldAuthority> authority,
-                       std::unique_ptr<Switchboard> board)
+                       std::unique_ptr<SteppedEndpoint> board)
     : options_(options),
       authority_(std::move(authority)),
       board_(std::move(board)),
@@ -246,9 +246,9 @@ Result<ManagerOutcome> SteppedRun::go() {
 void SteppedRun::give_up(const Error& error) {
   over_ = true;
   // The hosts are in good hands, or wait for them.
-  if (board_->is_second() || left_alone_) return;
+  if (board_->endpoint().is_second() || left_alone_) return;
   tell_state(rave_wire_RUN_FAILED, error.message);
-  see_off(false);
+  drain_hosts(false);
 }
 
 ManagerOutcome SteppedRun::outcome() {
@@ -277,8 +277,8 @@ ManagerOutcome SteppedRun::outcome() {
   over_ = true;
   tell_state(outcome.whole ? rave_wire_RUN_ENDED : rave_wire_RUN_FAILED,
              problems_.empty() ? std::string() : problems_.back());
-  see_off(begun_);
-  outcome.findings = board_->findings().hand_out();
+  drain_hosts(begun_);
+  outcome.findings = board_->endpoint().findings().hand_out();
   order_by_sitting(seats_, outcome.findings);
   return outcome;
 }

@@ -17,7 +17,7 @@
 #include "rave/sim/world_authority.hpp"
 #include "roster_book.hpp"
 #include "seats.hpp"
-#include "switchboard.hpp"
+#include "stepped_endpoint.hpp"
 #include "wishes.hpp"
 
 namespace rave::manager {
@@ -27,7 +27,7 @@ class SteppedRun {
  public:
   /// `options` are not owned.
   SteppedRun(const ManagerOptions& options, std::unique_ptr<sim::WorldAuthority> authority,
-             std::unique_ptr<Switchboard> board);
+             std::unique_ptr<SteppedEndpoint> board);
 
   [[nodiscard]] Result<ManagerOutcome> go();
   /// The run cannot go on: tells everybody why, unless another manager has it.
@@ -41,7 +41,7 @@ class SteppedRun {
   Status look();
   void look_at_roster();
   void miss(std::uint64_t writer);
-  void see_off(bool awaits_findings);
+  void drain_hosts(bool awaits_findings);
   void take_findings();
   Status hear(const bus::HostReport& message);
   Status refuse_ahead(const Seat& seat, const bus::HostReport& message);
@@ -78,7 +78,7 @@ class SteppedRun {
 
   const ManagerOptions& options_;
   std::unique_ptr<sim::WorldAuthority> authority_;
-  std::unique_ptr<Switchboard> board_;
+  std::unique_ptr<SteppedEndpoint> board_;
   std::vector<Seat> seats_;
   sim::HostReport heard_;  ///< Before it is known whether it can be used.
   Wishes wishes_;

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "rave/base/names.hpp"
+#include "drain.hpp"
 #include "sat.hpp"
 #include "stepped_run.hpp"
 
@@ -151,7 +151,7 @@ Status SteppedRun::listen() {
   board_->take_reports([&](const bus::HostReport& message) {
     if (status) status = hear(message);
   });
-  board_->serve_wishes();
+  board_->endpoint().serve_requests();
   return status;
 }
 
@@ -183,14 +183,14 @@ void SteppedRun::count_newest() {
 }
 
 void SteppedRun::take_findings() {
-  board_->findings().take(
+  board_->endpoint().findings().take(
       [this](std::uint64_t writer, std::uint32_t host) { return has_sat(seats_, writer, host); });
 }
 
 /// What can wait until nothing else is to be done.
 Status SteppedRun::look() {
   take_findings();
-  RAVE_TRY_ASSIGN(const auto gone, board_->look_at_processes(begun_));
+  RAVE_TRY_ASSIGN(const auto gone, board_->endpoint().look_at_processes(begun_));
   if (!begun_) handed_over_ = board_->take_last_world(world_, state_, handed_over_) || handed_over_;
   for (const std::uint64_t writer : gone) {
     miss(writer);
@@ -212,7 +212,7 @@ void SteppedRun::look_at_roster() {
   const auto serving = [this](std::uint32_t host) {
     return host < seats_.size() ? seats_[host].writer : 0;
   };
-  board_->take_roster(roster_, serving);
+  board_->endpoint().take_roster(roster_, serving);
   if (begun_ && !over_) show_kinds(roster_, serving, options_.control);
 }
 
@@ -220,7 +220,7 @@ void SteppedRun::look_at_roster() {
 void SteppedRun::look_at_clock(Clock::time_point since) {
   const auto patience = std::chrono::nanoseconds(options_.host_timeout.ns);
   // They may have answered while this process stood still.
-  since = std::max(since, board_->standstill().silence_counts_from());
+  since = std::max(since, board_->endpoint().standstill().silence_counts_from());
   if (!begun_ || Clock::now() - since < patience) return;
   for (Seat& seat : seats_) {
     if (seat.reported || seat.state != SeatState::kRuns) continue;
@@ -235,25 +235,15 @@ void SteppedRun::look_at_clock(Clock::time_point since) {
   }
 }
 
-/// The last step reaches everybody before this process goes, and what hosts know reaches it: until
-/// they are gone, or for as long as one can expect of them.
-void SteppedRun::see_off(bool awaits_findings) {
-  const auto began = Clock::now();
-  const auto here = [](const Seat& seat) { return seat.writer != 0; };
-  const auto owes = [this](const Seat& seat) {
-    return seat.writer != 0 && !board_->findings().done_with(seat.writer);
+/// The last step reaches everybody before this process goes.
+void SteppedRun::drain_hosts(bool awaits_findings) {
+  const auto owes = [&](std::uint64_t writer) {
+    return awaits_findings && !board_->endpoint().findings().done_with(writer);
   };
-  bool told = false;
-  while (std::any_of(seats_.begin(), seats_.end(), here)) {
-    const bool any_owes = awaits_findings && std::any_of(seats_.begin(), seats_.end(), owes);
-    if (Clock::now() - began >= (any_owes ? kLongFarewell : kFarewell)) break;
-    if (Clock::now() - began >= kFarewell && !std::exchange(told, true)) {
-      log(LogLevel::kWarning, "waits up to {} s for what {} know of the run", kLongFarewell.count(),
-          join_names(names_of(seats_, owes)));
-    }
+  drain(seats_, options_.log, owes, [this] {
     board_->wait(Duration{std::chrono::nanoseconds(kLook).count()});
-    if (!listen() || !look()) break;
-  }
+    return listen() && look();
+  });
   // What a process sent before it went is here.
   take_findings();
 }

@@ -42,7 +42,7 @@ void SteppedRun::tell_state(rave_wire_RunPhase phase, std::string_view text) {
     hosts[i].bound_s = -1;  // nobody asks for the time here
   }
   bus::borrow(state.hosts, hosts);
-  board_->publish(state);
+  board_->endpoint().publish(state);
   next_tell_ = Clock::now() + kTell;
 }
 

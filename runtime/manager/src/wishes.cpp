@@ -2,11 +2,15 @@
 #include "wishes.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "manager_habits.hpp"
+#include "rave/assemble/parameter_key.hpp"
 #include "rave/base/names.hpp"
+#include "rave/control/order_words.hpp"
 #include "rave/control/world_request.hpp"
 #include "rave/protocol/step_messages.hpp"
+#include "rave/sim/orders.hpp"
 
 namespace rave::manager {
 namespace {
@@ -15,6 +19,8 @@ using runtime::RunRequest;
 
 /// Who asks is told that it will take a while after this.
 constexpr std::chrono::seconds kWishPatience{1};
+/// The order of a robot that somebody drives, as engines call it.
+constexpr std::string_view kDriven = "drive";
 
 std::string from_step(const sim::WorldAuthority& authority, std::uint64_t step) {
   const double at_s = static_cast<double>(step) * authority.spec().step.seconds();
@@ -31,6 +37,7 @@ std::string done_text(const RunRequest& request) {
     case RunRequest::Kind::kArm:
       return "armed " + whom;
     default:
+      if (runtime::is_order(request.kind)) return runtime::order_answer(request);
       return fmt::format("{}: {}: {}", whom, request.key, request.value);
   }
 }
@@ -51,6 +58,8 @@ void Wishes::begin(const sim::WorldAuthority& authority, runtime::RunStatus stat
   next_step_ = authority.next_step();
   const sim::EngineSpec& spec = authority.spec();
   stopped_.assign(spec.robots.size(), 0);
+  orders_.assign(spec.robots.size(), {});
+  order_numbers_.assign(spec.robots.size(), 0);
   if (control_ == nullptr) return;
   for (const sim::RobotSpec& robot : spec.robots) {
     status.robots.push_back({robot.name, spec.types[robot.type].simulated, true, false});
@@ -92,20 +101,79 @@ Result<std::uint64_t> Wishes::pass_on(const RunRequest& request, sim::WorldAutho
 
 void Wishes::listen(sim::WorldAuthority& authority) {
   if (!begun_) return;
-  for (runtime::RunControl::Asked& asked : control_->take()) {
-    if (asked.request().kind == RunRequest::Kind::kList) {
-      asked.answer(runtime::obstacle_list(authority.world()));
-      continue;
+  if (desk_.waits()) {
+    desk_.tick(
+        [&](const RunRequest& request) -> Result<std::string> {
+          RAVE_TRY(pass_on(request, authority));
+          return std::string();
+        },
+        runtime::OrderDesk::Time::clock::now());
+    tell_leases();
+  }
+  for (runtime::RunControl::Asked& asked : control_->take()) take(std::move(asked), authority);
+}
+
+void Wishes::take(runtime::RunControl::Asked asked, sim::WorldAuthority& authority) {
+  if (asked.request().kind == RunRequest::Kind::kList) {
+    return asked.answer(runtime::obstacle_list(authority.world()));
+  }
+  if (runtime::OrderDesk::is_for(asked.request().kind)) {
+    return take_order(std::move(asked), authority);
+  }
+  const auto number = pass_on(asked.request(), authority);
+  if (!number) return asked.answer(fail(number.error().code, "{}", number.error().message));
+  using Kind = RunRequest::Kind;
+  const Kind kind = asked.request().kind;
+  const bool obstacle = kind == Kind::kAdd || kind == Kind::kMove || kind == Kind::kRemove;
+  wishes_.push_back(
+      {std::move(asked), *number, obstacle, false, false, std::chrono::steady_clock::now()});
+}
+
+void Wishes::take_order(runtime::RunControl::Asked asked, sim::WorldAuthority& authority) {
+  const RunRequest request = asked.request();
+  if (!request.robot.empty()) {
+    const auto robot = runtime::find_robot(authority.spec(), request.robot);
+    if (!robot) return asked.answer(fail(robot.error().code, "{}", robot.error().message));
+  }
+  std::uint64_t number = 0;
+  auto answer = desk_.serve(
+      request,
+      [&](const RunRequest& input) -> Result<std::string> {
+        RAVE_TRY_ASSIGN(number, pass_on(input, authority));
+        return std::string();
+      },
+      [&](const std::string& robot) { return is_driven(authority, robot); },
+      runtime::OrderDesk::Time::clock::now());
+  tell_leases();
+  // What ends with a lease that changes hands is nobody's wish.
+  const bool of_lease =
+      request.kind == RunRequest::Kind::kTake || request.kind == RunRequest::Kind::kGive;
+  if (!answer || number == 0 || of_lease) return asked.answer(std::move(answer));
+  wishes_.push_back({std::move(asked), number, false, runtime::is_order(request.kind), false,
+                     std::chrono::steady_clock::now()});
+}
+
+bool Wishes::is_driven(const sim::WorldAuthority& authority, const std::string& name) const {
+  const auto robot = runtime::find_robot(authority.spec(), name);
+  return robot && orders_[robot->value()] == kDriven;
+}
+
+void Wishes::tell_leases() {
+  const auto changes = desk_.take_changes();
+  if (changes.empty()) return;
+  for (const runtime::HostLeases::Change& change : changes) {
+    if (log_ != nullptr) {
+      log_->info("robot " + change.robot, "lease: {}", runtime::lease_text(change));
     }
-    const auto number = pass_on(asked.request(), authority);
-    if (!number) {
-      asked.answer(fail(number.error().code, "{}", number.error().message));
-      continue;
-    }
-    using Kind = RunRequest::Kind;
-    const Kind kind = asked.request().kind;
-    const bool obstacle = kind == Kind::kAdd || kind == Kind::kMove || kind == Kind::kRemove;
-    wishes_.push_back({std::move(asked), *number, obstacle, std::chrono::steady_clock::now()});
+  }
+  control_->refresh([this](runtime::RunStatus& status) { show_orders(status); });
+}
+
+void Wishes::show_orders(runtime::RunStatus& status) const {
+  for (std::size_t r = 0; r < status.robots.size(); ++r) {
+    runtime::RunStatus::Robot& robot = status.robots[r];
+    robot.lease = desk_.holder(robot.name);
+    robot.order = orders_[r];
   }
 }
 
@@ -125,9 +193,35 @@ void Wishes::answer(Wish& wish, Result<std::string> text) {
   wish.asked.answer(std::move(text));
 }
 
-void Wishes::note_inputs(const sim::WorldStep& world) {
+/// What robots do for people, as far as it was asked here.
+void Wishes::note_order(const sim::WorldInput& input) {
+  using Kind = sim::WorldInput::Kind;
+  const bool ends = input.kind == Kind::kStop || input.kind == Kind::kCancel;
+  const bool moves =
+      input.kind == Kind::kDrive || input.kind == Kind::kGoal || input.kind == Kind::kPath;
+  if (!ends && !moves) return;
+  for (std::uint32_t r = 0; r < orders_.size(); ++r) {
+    if (input.robot.valid() && input.robot.value() != r) continue;
+    orders_[r] = ends                         ? std::string()
+                 : input.kind == Kind::kDrive ? std::string(kDriven)
+                                              : sim::order_text(input);
+    order_numbers_[r] = input.sequence;
+  }
+}
+
+void Wishes::note_inputs(const sim::WorldAuthority& authority, const sim::WorldStep& world) {
   bool any = false;
+  // What a host has refused in the step before, its robot does not do.
+  for (const sim::InputRefusal& refusal : authority.refusals()) {
+    for (std::uint32_t r = 0; r < orders_.size(); ++r) {
+      if (order_numbers_[r] != refusal.sequence || orders_[r].empty()) continue;
+      orders_[r].clear();
+      any = true;
+    }
+  }
   for (const sim::WorldInput& input : world.inputs) {
+    note_order(input);
+    any = any || sim::is_order(input.kind);
     const bool stops = input.kind == sim::WorldInput::Kind::kStop;
     if (!stops && input.kind != sim::WorldInput::Kind::kRelease) continue;
     any = true;
@@ -138,6 +232,7 @@ void Wishes::note_inputs(const sim::WorldStep& world) {
   if (!any) return;
   control_->refresh([this](runtime::RunStatus& status) {
     for (std::size_t r = 0; r < status.robots.size(); ++r) status.robots[r].stopped = stopped_[r];
+    show_orders(status);
   });
 }
 
@@ -147,10 +242,11 @@ void Wishes::after_step(const sim::WorldAuthority& authority, const sim::WorldSt
   next_step_ = world.step + 1;
   if (!begun_) return;
   control_->set_time(static_cast<double>(world.step) * authority.spec().step.seconds());
+  if (!world.inputs.empty() || !authority.refusals().empty()) note_inputs(authority, world);
   if (wishes_.empty()) return;
-  note_inputs(world);
   // Those by hand come before those of the scenario, in the order in which they were asked for.
   auto made = world.obstacles.begin();
+  std::vector<Wish> later;
   for (Wish& wish : wishes_) {
     const auto refusals = authority.refusals();
     const auto refusal = std::find_if(refusals.begin(), refusals.end(),
@@ -159,12 +255,17 @@ void Wishes::after_step(const sim::WorldAuthority& authority, const sim::WorldSt
       answer(wish, fail(ErrorCode::kInvalidArgument, "{}", refusal->text));
       continue;
     }
+    if (wish.order && !std::exchange(wish.told, true)) {
+      later.push_back(std::move(wish));
+      continue;
+    }
     const bool of_obstacle = wish.obstacle && made != world.obstacles.end();
     const std::string done =
         of_obstacle ? made_text(authority, *made++) : done_text(wish.asked.request());
-    answer(wish, fmt::format("{}; {}", done, from_step(authority, world.step)));
+    const std::uint64_t from = wish.order ? world.step - 1 : world.step;
+    answer(wish, fmt::format("{}; {}", done, from_step(authority, from)));
   }
-  wishes_.clear();
+  wishes_ = std::move(later);
 }
 
 }  // namespace rave::manager

@@ -9,13 +9,15 @@
 
 #include "edit_limits.hpp"
 #include "rave/base/log.hpp"
+#include "rave/control/order_desk.hpp"
 #include "rave/control/run_control.hpp"
 #include "rave/sim/world_authority.hpp"
 
 namespace rave::manager {
 
 /// What people ask of a run in lock-step while it goes: becomes inputs of the next step, and is
-/// answered when that is made. Belongs to one thread.
+/// answered when that is made; orders when the hosts have said what they refuse, a step later. It
+/// keeps the leases of all robots, since it numbers what they are asked. Belongs to one thread.
 class Wishes {
  public:
   /// Neither is owned; both may be null.
@@ -42,11 +44,21 @@ class Wishes {
     runtime::RunControl::Asked asked;
     std::uint64_t number = 0;  ///< As an input of the world.
     bool obstacle = false;
+    bool order = false;  ///< A host may refuse it.
+    bool told = false;   ///< The hosts know it.
     std::chrono::steady_clock::time_point since;
   };
   Result<std::uint64_t> pass_on(const runtime::RunRequest& request, sim::WorldAuthority& authority);
   [[nodiscard]] Status check_released(const sim::WorldAuthority& authority, RobotId robot) const;
-  void note_inputs(const sim::WorldStep& world);
+  void take(runtime::RunControl::Asked asked, sim::WorldAuthority& authority);
+  /// Orders and leases.
+  void take_order(runtime::RunControl::Asked asked, sim::WorldAuthority& authority);
+  [[nodiscard]] bool is_driven(const sim::WorldAuthority& authority,
+                               const std::string& robot) const;
+  void tell_leases();
+  void note_inputs(const sim::WorldAuthority& authority, const sim::WorldStep& world);
+  void note_order(const sim::WorldInput& input);
+  void show_orders(runtime::RunStatus& status) const;
   void answer(Wish& wish, Result<std::string> text);
 
   runtime::RunControl* control_;
@@ -56,6 +68,9 @@ class Wishes {
   EditLimits limits_;
   std::vector<Wish> wishes_;           ///< For the next step, in order.
   std::vector<std::uint8_t> stopped_;  ///< By robot, as far as it was asked here.
+  runtime::OrderDesk desk_;
+  std::vector<std::string> orders_;           ///< By robot: what people asked last, for people.
+  std::vector<std::uint64_t> order_numbers_;  ///< By robot: of that.
 };
 
 }  // namespace rave::manager

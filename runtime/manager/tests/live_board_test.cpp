@@ -43,7 +43,7 @@ class LiveBoardTest : public ::testing::Test {
   }
   void seat(SpeakingHost& host, std::size_t number) {
     go_until([&] { return board_->seats()[number].writer == host.writer(); },
-             [&] { host.ping(board_->writer()); }, "the host is here");
+             [&] { host.ping(board_->endpoint().writer()); }, "the host is here");
   }
   [[nodiscard]] bool has_heard(std::string_view words) const {
     return ears_.heard.find(words) != std::string::npos;
@@ -79,7 +79,7 @@ TEST_F(LiveBoardTest, OfTwoProcessesOfAHostTheOneThatSitsSpeaks) {
   SpeakingHost second(options_.bus, 0, "one");
   go_until([&] { return has_heard("host `one` is served by another process"); },
            [&] {
-             second.ping(board_->writer());
+             second.ping(board_->endpoint().writer());
              second.say(9, {0});
            },
            "the second is named");

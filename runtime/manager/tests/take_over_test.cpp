@@ -102,7 +102,7 @@ class TakeOver : public ::testing::Test {
   /// With what the host says that its robots have around them.
   void take_over(std::uint64_t shown, std::uint64_t published) {
     shown_ = shown;
-    board_writer_ = board_->writer();
+    board_writer_ = board_->endpoint().writer();
     go_until([this] { return board_->seats()[0].writer != 0; }, "the host is here");
     go_until([this] { return board_->shown_revision() == shown_; }, "it says what it has");
     edits_->begin(true);

@@ -66,6 +66,8 @@ Status HostLink::Impl::open_endpoints() {
   }
   RAVE_TRY_ASSIGN(wishes, bus::WishBox::create(*bus, options.begin_wish, options.log));
   if (wishes) RAVE_TRY(wishes->wake(set));
+  RAVE_TRY_ASSIGN(commands, bus::CommandBox::create(*bus, options.on_command));
+  if (commands) RAVE_TRY(commands->wake(set));
   RAVE_TRY(set.add_events());
   waits.emplace(std::move(set));
   RAVE_TRY(make(pulse, *bus, options.self));

@@ -222,6 +222,7 @@ void HostLink::Impl::take() {
   if (packets_in) take_packets();
   if (realities) realities->hear();
   if (wishes) wishes->serve();
+  if (commands) commands->serve();
   look();
   if (obstacles) take_obstacles();
 }

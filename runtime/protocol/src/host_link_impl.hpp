@@ -62,7 +62,8 @@ struct HostLink::Impl {
   std::optional<bus::Reader<bus::Packet>> packets_in{};
   std::optional<Realities> realities{};    // if drivers may change
   std::unique_ptr<bus::WishBox> wishes{};  // if others may ask
-  std::optional<bus::WaitSet> waits{};     // behind all that it waits for
+  std::unique_ptr<bus::CommandBox> commands{};
+  std::optional<bus::WaitSet> waits{};  // behind all that it waits for
   std::optional<lock_step::Pulse> pulse{};
   lock_step::Pulse::Facts facts{};      ///< For those who look on.
   std::uint64_t last_world_number = 0;  ///< Of this manager; 0: none yet.

@@ -241,6 +241,12 @@ Status LiveWorld::serve(RobotId robot, std::uint32_t type, const Pose2& X_WR) {
   return {};
 }
 
+Status LiveWorld::place(const sim::WorldInput& input) {
+  RAVE_TRY(authority_->check_place(input));
+  RAVE_TRY(authority_->ask(input));
+  return {};
+}
+
 bool LiveWorld::set_reality(RobotId robot, bool simulated) {
   const std::uint32_t r = robot.value();
   if (r >= other_of_.size() || other_of_[r] == kNone) return false;

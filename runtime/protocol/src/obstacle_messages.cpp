@@ -146,6 +146,7 @@ Status ObstacleParts::fill(std::span<const sim::ObstacleChange> changes) {
     wire.id = change.id.value();
     if (!bus::put_text(wire.name, change.name)) return too_long("the name", change);
     if (!bus::put_text(wire.asked, change.asked)) return too_long("the wish", change);
+    if (!bus::put_text(wire.author, change.by)) return too_long("the name of who asks", change);
     if (change.kind == Kind::kRemove) continue;
     wire.x_m = change.X_WB.x;
     wire.y_m = change.X_WB.y;
@@ -162,6 +163,7 @@ Result<sim::ObstacleChange> read_obstacle(const rave_wire_ObstacleChange& wire) 
   change.name = wire.name;
   change.X_WB = {wire.x_m, wire.y_m, wire.yaw_rad};
   change.asked = wire.asked;
+  change.by = wire.author;
   if (change.kind == Kind::kAdd) RAVE_TRY(read_body(wire, change.body));
   RAVE_TRY(sim::check_obstacle_change(change));
   return change;

@@ -7,6 +7,7 @@
 #include "rave/bus/sequence.hpp"
 #include "rave/bus/validate.hpp"
 #include "rave/math/trigonometry.hpp"
+#include "rave/sim/orders.hpp"
 
 namespace rave::lock_step {
 namespace {
@@ -90,6 +91,7 @@ bus::RosterEntry& RobotDescription::fill(const sim::EngineSpec& spec, RobotId ro
   bus::put_text(entry_.team, its.team);
   entry_.leader = rave_wire_kNone;
   entry_.kind = type.simulated ? rave_wire_ROBOT_SIMULATED : rave_wire_ROBOT_REAL;
+  entry_.takes = sim::declared_orders(type);
   put_body(spec.world.robots[robot.value()]);
   put_sensors(type);
   parameters_.clear();

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "rave/bus/sequence.hpp"
+#include "rave/robot/order.hpp"
 
 namespace rave::lock_step {
 namespace {
@@ -147,14 +148,19 @@ template <class Sequence>
 void fill_sizes(const std::vector<sim::ResizedRobot>& robots,
                 std::vector<rave_wire_ResizedRobot>& wire, Sequence& sequence) {
   wire.clear();
-  for (const sim::ResizedRobot& robot : robots) wire.push_back({robot.robot.value(), robot.scale});
+  for (const sim::ResizedRobot& robot : robots) {
+    auto& one = wire.emplace_back();
+    one.robot = robot.robot.value();
+    one.scale = robot.scale;
+    put_text(one.author, robot.by);
+  }
   borrow(sequence, wire);
 }
 
 template <class Sequence>
 void read_sizes(const Sequence& sequence, std::vector<sim::ResizedRobot>& robots) {
   for (const auto& robot : elements(sequence)) {
-    robots.push_back({RobotId(robot.robot), robot.scale});
+    robots.push_back({RobotId(robot.robot), robot.scale, robot.author});
   }
 }
 
@@ -193,6 +199,28 @@ Status to_wire(const sim::ParameterChange& change, rave_wire_ParameterChange& wi
   return std::visit(PutValue{wire, change.name}, change.value);
 }
 
+/// Who asks, and the details of an order.
+Status to_wire(const sim::WorldInput& input, rave_wire_WorldInput& wire,
+               std::vector<rave_wire_OrderPoint>& points) {
+  const sim::OrderDetails& order = input.order;
+  if (!put_text(wire.by, input.author.name) || !put_text(wire.text, order.text) ||
+      order.points_W.size() > kMostOrderPoints) {
+    return fail(ErrorCode::kInvalidArgument,
+                "an order is too long to be sent to another process: at most {} points, {} bytes "
+                "of text, {} bytes of a name",
+                kMostOrderPoints, kMostOrderText, kMostOrderAuthor);
+  }
+  points.clear();
+  for (const Vec2 p_W : order.points_W) points.push_back({p_W.x, p_W.y});
+  borrow(wire.points, points);
+  wire.has_yaw = order.yaw_rad.has_value();
+  wire.yaw_rad = order.yaw_rad.value_or(0);
+  wire.v_mps = order.v_mps;
+  wire.w_radps = order.w_radps;
+  wire.speed_mps = order.speed_mps;
+  return {};
+}
+
 Result<sim::ParameterChange> from_wire(const rave_wire_ParameterChange& wire) {
   sim::ParameterChange change;
   change.part = static_cast<sim::ParameterChange::Part>(wire.part);
@@ -221,8 +249,9 @@ Result<sim::WorldInput> from_wire(const rave_wire_WorldInput& wire) {
   sim::WorldInput input;
   input.sequence = wire.number;
   input.kind = static_cast<sim::WorldInput::Kind>(wire.kind);
-  input.author = static_cast<sim::Author>(wire.author);
-  if (input.kind > sim::WorldInput::Kind::kChange || input.author > sim::Author::kHand) {
+  input.author.by_hand = wire.author != 0;
+  const bool known = input.kind <= sim::WorldInput::Kind::kChange || sim::is_order(input.kind);
+  if (!known || wire.author > 1) {
     return fail(ErrorCode::kInvalidArgument, "an input of no known kind or author");
   }
   input.robot = RobotId(wire.robot);
@@ -230,6 +259,15 @@ Result<sim::WorldInput> from_wire(const rave_wire_WorldInput& wire) {
     RAVE_TRY_ASSIGN(auto read_change, from_wire(change));
     input.changes.push_back(std::move(read_change));
   }
+  input.author.name = wire.by;
+  for (const auto& point : elements(wire.points)) {
+    input.order.points_W.push_back({point.x_m, point.y_m});
+  }
+  if (wire.has_yaw) input.order.yaw_rad = wire.yaw_rad;
+  input.order.v_mps = wire.v_mps;
+  input.order.w_radps = wire.w_radps;
+  input.order.speed_mps = wire.speed_mps;
+  input.order.text = wire.text;
   return input;
 }
 
@@ -334,18 +372,20 @@ Status WorldMessage::fill_authority(const sim::AuthorityState& authority) {
 Status WorldMessage::fill_inputs(const sim::WorldStep& world) {
   inputs_.assign(world.inputs.size(), {});
   changes_.resize(std::max(changes_.size(), world.inputs.size()));
+  points_.resize(std::max(points_.size(), world.inputs.size()));
   for (std::size_t i = 0; i < world.inputs.size(); ++i) {
     const sim::WorldInput& input = world.inputs[i];
     rave_wire_WorldInput& wire = inputs_[i];
     wire.number = input.sequence;
     wire.kind = static_cast<std::uint8_t>(input.kind);
-    wire.author = static_cast<std::uint8_t>(input.author);
+    wire.author = input.author.by_hand ? 1 : 0;
     wire.robot = input.robot.value();
     changes_[i].resize(input.changes.size());
     for (std::size_t c = 0; c < input.changes.size(); ++c) {
       RAVE_TRY(to_wire(input.changes[c], changes_[i][c]));
     }
     borrow(wire.changes, changes_[i]);
+    RAVE_TRY(to_wire(input, wire, points_[i]));
   }
   borrow(message_.inputs, inputs_);
   return {};

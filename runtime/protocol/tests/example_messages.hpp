@@ -69,7 +69,7 @@ inline sim::WorldStep example_world() {
   world.touches = {{RobotId(2), {0.6, -0.8}}};
   world.poses = {example_pose(0), example_pose(1)};
   world.samples = {{RobotId(1), SimTime{700}, {1, 2, 3}}};
-  world.resized = {{RobotId(2), 1.5}};
+  world.resized = {{RobotId(2), 1.5, "bert"}};
   add_packets(world.sent);
   sim::WorldInput stop;
   stop.sequence = 4;
@@ -82,12 +82,32 @@ inline sim::WorldStep example_world() {
   change.changes = {{Part::kProgram, 0, "speed_mps", 0.4},
                     {Part::kController, 1, "mode", std::string("fast")},
                     {Part::kActuator, 2, "gains", std::vector<double>{1, 2, 3}}};
-  world.inputs = {stop, change};
+  sim::WorldInput path;
+  path.sequence = 6;
+  path.kind = sim::WorldInput::Kind::kPath;
+  path.author.name = "anna";
+  path.robot = RobotId(0);
+  path.order.points_W = {{1, 2}, {-3.5, 1e-3}};
+  path.order.yaw_rad = 0.75;
+  path.order.speed_mps = 0.125;
+  sim::WorldInput words;
+  words.sequence = 7;
+  words.kind = sim::WorldInput::Kind::kText;
+  words.robot = RobotId(2);
+  words.order.text = "hello";
+  sim::WorldInput drive;
+  drive.sequence = 8;
+  drive.kind = sim::WorldInput::Kind::kDrive;
+  drive.robot = RobotId(2);
+  drive.order.v_mps = -0.5;
+  drive.order.w_radps = 1.5;
+  world.inputs = {stop, change, path, words, drive};
   sim::ObstacleChange crate;
   crate.id = BodyId(9);
   crate.name = "crate";
   crate.X_WB = {1, -2, 0.5};
   crate.asked = "{name: crate}";
+  crate.by = "anna";
   crate.body.name = crate.name;
   crate.body.colour = "#102030";
   crate.body.code = 7;

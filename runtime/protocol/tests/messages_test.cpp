@@ -98,15 +98,19 @@ std::string text_of(const sim::WorldStep& world) {
             bits(point.direction_W.y);
   }
   for (const sim::ResizedRobot& robot : world.resized) {
-    text += fmt::format("resized {} ", robot.robot.value()) + bits(robot.scale);
+    text += fmt::format("resized {} {} ", robot.robot.value(), robot.by) + bits(robot.scale);
   }
   put(text, world.poses);
   put(text, world.samples);
   put(text, world.sent);
   put(text, world.obstacles);
   for (const sim::WorldInput& input : world.inputs) {
-    text += fmt::format("input {} {} {} {} ", input.sequence, static_cast<int>(input.kind),
-                        static_cast<int>(input.author), input.robot.value());
+    text += fmt::format("input {} {} {} {} {} ", input.sequence, static_cast<int>(input.kind),
+                        input.author.by_hand, input.author.name, input.robot.value());
+    for (const Vec2 p_W : input.order.points_W) text += bits(p_W.x) + bits(p_W.y);
+    text += input.order.yaw_rad ? bits(*input.order.yaw_rad) : "none ";
+    text += bits(input.order.v_mps) + bits(input.order.w_radps) + bits(input.order.speed_mps) +
+            input.order.text;
     for (const sim::ParameterChange& change : input.changes) {
       text += fmt::format("{} {} {} {} ", static_cast<int>(change.part), change.index, change.name,
                           sim::to_string(change.value));
@@ -242,6 +246,23 @@ TEST(Messages, AWorldThatNobodyCouldUseIsRefusedWithItsField) {
             "an input of no known kind or author");
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.inputs._buffer[1].changes._buffer[0].part = 9; }),
             "a parameter of no known part of a robot");
+  EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.inputs._buffer[0].kind = 4; }),
+            "an input of no known kind or author")
+      << "obstacles come otherwise";
+  EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.inputs._buffer[0].author = 2; }),
+            "an input of no known kind or author");
+  EXPECT_EQ(refusal_of([](bus::WorldStep& w) {
+              w.inputs._buffer[2].points._buffer[1].x_m = std::nan("");
+            }),
+            "inputs.points.x_m is nan, not within +-10000000");
+  EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.inputs._buffer[2].yaw_rad = 1e9; }),
+            "inputs.yaw_rad is 1000000000, not within +-6283185.307179586");
+  EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.inputs._buffer[3].text[1] = '\x1b'; }),
+            "inputs.text has control characters");
+  EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.inputs._buffer[2].by[0] = '\n'; }),
+            "inputs.by has control characters");
+  EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.inputs._buffer[4].v_mps = std::nan(""); }),
+            "inputs.v_mps is nan, not within +-10000");
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.obstacles._buffer[1].kind = kUnknownChange; }),
             "obstacles[1].kind is unknown");
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) {

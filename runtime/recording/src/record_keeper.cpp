@@ -6,6 +6,7 @@
 #include <chrono>
 #include <ctime>
 
+#include "rave/control/order_words.hpp"
 #include "rave/observe/event_words.hpp"
 
 namespace rave::runtime {
@@ -156,8 +157,9 @@ void RecordKeeper::keep_pose(const sim::Engine& engine, RobotId robot) {
 }
 
 void RecordKeeper::keep(const RunRequest& request, std::uint64_t step) {
-  static_cast<void>(recorder_.input(
-      {step, std::string(to_string(request.kind)), request.robot, request.key, request.value}));
+  static_cast<void>(
+      recorder_.input({step, std::string(to_string(request.kind)), request.robot, request.key,
+                       is_order(request.kind) ? order_words(request) : request.value, request.by}));
 }
 
 void RecordKeeper::keep(std::span<const sim::Event> events) {

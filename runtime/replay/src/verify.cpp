@@ -8,6 +8,7 @@
 #include "host_again.hpp"
 #include "rave/assemble/build.hpp"
 #include "rave/config/expanded_scenario.hpp"
+#include "rave/control/order_words.hpp"
 #include "rave/control/requests.hpp"
 #include "rave/pace/stall_watch.hpp"
 #include "rave/pace/wall_pace.hpp"
@@ -96,6 +97,21 @@ Again again_of(HostAgain& host) {
           [&host] { return host.beside(); }, true};
 }
 
+/// The request that was recorded.
+Result<RunRequest> request_of(RunRequest::Kind kind, const record::RunInput& input) {
+  RunRequest request;
+  request.kind = kind;
+  request.robot = input.robot;
+  request.key = input.key;
+  request.by = input.by;
+  if (is_order(kind)) {
+    RAVE_TRY(read_order_words(input.value, request));
+  } else {
+    request.value = input.value;
+  }
+  return request;
+}
+
 /// Asks for the same again, at the same steps.
 class InputReplay {
  public:
@@ -111,7 +127,7 @@ class InputReplay {
         return fail(ErrorCode::kParse,
                     "the record has an input `{}`, which this RAVE does not know", input.kind);
       }
-      const RunRequest request{*kind, input.robot, input.key, input.value};
+      RAVE_TRY_ASSIGN(const RunRequest request, request_of(*kind, input));
       const auto answer = again.ask(request);
       if (answer) {
         keeper.keep(request, step);

@@ -25,6 +25,10 @@ LogLevel level_of(sim::EventKind kind) {
     case sim::EventKind::kObstacleRemoved:
     case sim::EventKind::kHandedOver:
     case sim::EventKind::kShadowReset:
+    case sim::EventKind::kOrdered:
+    case sim::EventKind::kSaid:
+    case sim::EventKind::kPlaced:
+    case sim::EventKind::kLease:
       return LogLevel::kInfo;
     default:
       return LogLevel::kWarning;

@@ -140,7 +140,7 @@ RunOutcome judge(const Findings& findings) {
   }
   for (const sim::Event& event : facts.events) {
     // Whoever asked by hand has been told.
-    const bool scheduled = !event.text.ends_with("(by hand)");
+    const bool scheduled = !sim::says_by_hand(event.text);
     if (event.kind != sim::EventKind::kHandOverRefused || !scheduled) continue;
     outcome.problems.push_back(fmt::format(
         "robot `{}` at {:.2f} s was not handed over: {}", spec.robots[event.robot.value()].name,

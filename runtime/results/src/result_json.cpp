@@ -129,17 +129,31 @@ Json hosts_json(const Findings& findings) {
 
 Json events_json(const Findings& findings) {
   Json json = Json::object();
-  for (const auto kind : {sim::EventKind::kContact,         sim::EventKind::kPinned,
-                          sim::EventKind::kPoseStale,       sim::EventKind::kPoseBack,
-                          sim::EventKind::kProgramFailed,   sim::EventKind::kDriverFailed,
-                          sim::EventKind::kDriverBack,      sim::EventKind::kGuardSlowed,
-                          sim::EventKind::kGuardStopped,    sim::EventKind::kStopped,
-                          sim::EventKind::kReleased,        sim::EventKind::kArmed,
-                          sim::EventKind::kChanged,         sim::EventKind::kChangeRefused,
-                          sim::EventKind::kObstacleAdded,   sim::EventKind::kObstacleMoved,
-                          sim::EventKind::kObstacleRemoved, sim::EventKind::kCaptured,
-                          sim::EventKind::kHandedOver,      sim::EventKind::kHandOverRefused,
-                          sim::EventKind::kShadowReset}) {
+  for (const auto kind : {sim::EventKind::kContact,
+                          sim::EventKind::kPinned,
+                          sim::EventKind::kPoseStale,
+                          sim::EventKind::kPoseBack,
+                          sim::EventKind::kProgramFailed,
+                          sim::EventKind::kDriverFailed,
+                          sim::EventKind::kDriverBack,
+                          sim::EventKind::kGuardSlowed,
+                          sim::EventKind::kGuardStopped,
+                          sim::EventKind::kStopped,
+                          sim::EventKind::kReleased,
+                          sim::EventKind::kArmed,
+                          sim::EventKind::kChanged,
+                          sim::EventKind::kChangeRefused,
+                          sim::EventKind::kObstacleAdded,
+                          sim::EventKind::kObstacleMoved,
+                          sim::EventKind::kObstacleRemoved,
+                          sim::EventKind::kCaptured,
+                          sim::EventKind::kHandedOver,
+                          sim::EventKind::kHandOverRefused,
+                          sim::EventKind::kShadowReset,
+                          sim::EventKind::kOrdered,
+                          sim::EventKind::kSaid,
+                          sim::EventKind::kPlaced,
+                          sim::EventKind::kLease}) {
     std::string name(to_string(kind));
     std::replace(name.begin(), name.end(), ' ', '_');
     json[name] = findings.count(kind);

@@ -35,7 +35,7 @@ sim::EngineSpec outline_of(const sim::EngineSpec& spec) {
 std::uint64_t count_by_hand(std::span<const sim::Event> events) {
   return static_cast<std::uint64_t>(std::ranges::count_if(events, [](const sim::Event& event) {
     return (sim::is_of_obstacle(event.kind) || event.kind == sim::EventKind::kChanged) &&
-           event.text.ends_with("(by hand)");
+           sim::says_by_hand(event.text);
   }));
 }
 

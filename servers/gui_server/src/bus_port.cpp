@@ -12,6 +12,8 @@ namespace {
 
 constexpr auto kStatusEvery = std::chrono::seconds(1);
 constexpr Duration kStatusPatience = from_seconds(1);
+/// How often the driver of a robot is asked about, who is heard without an answer meanwhile.
+constexpr auto kAskDriver = std::chrono::seconds(1);
 
 /// In lock-step the manager has the say, in real time each host of its robots.
 bool has_the_say(const control::BusPeer& peer, const std::string& /*scenario*/) {
@@ -20,9 +22,11 @@ bool has_the_say(const control::BusPeer& peer, const std::string& /*scenario*/) 
 
 }  // namespace
 
-BusPort::BusPort(std::unique_ptr<control::BusRun> bus, std::unique_ptr<control::BusRun> status)
+BusPort::BusPort(std::unique_ptr<control::BusRun> bus, std::unique_ptr<control::BusRun> status,
+                 std::unique_ptr<CommandLine> commands)
     : bus_(std::move(bus)),
       status_(std::move(status)),
+      commands_(std::move(commands)),
       thread_([this](const std::stop_token& stop) { work(stop); }),
       watcher_([this](const std::stop_token& stop) { watch(stop); }) {}
 
@@ -55,6 +59,28 @@ void BusPort::watch(const std::stop_token& stop) {
 }
 
 Result<std::future<Result<std::string>>> BusPort::post(runtime::RunRequest request) {
+  const bool drives = request.kind == runtime::RunRequest::Kind::kDrive;
+  return drives && commands_ ? drive(request) : queue(std::move(request));
+}
+
+Result<std::future<Result<std::string>>> BusPort::drive(const runtime::RunRequest& request) {
+  RAVE_TRY(commands_->send(request));
+  const auto now = std::chrono::steady_clock::now();
+  auto& asked = asked_[request.robot];
+  if (now - asked < kAskDriver) {
+    std::promise<Answer> said;
+    said.set_value(fmt::format("{} is told", request.robot));
+    return said.get_future();
+  }
+  asked = now;
+  runtime::RunRequest take;
+  take.kind = runtime::RunRequest::Kind::kTake;
+  take.robot = request.robot;
+  take.by = request.by;
+  return queue(std::move(take));
+}
+
+Result<std::future<Result<std::string>>> BusPort::queue(runtime::RunRequest request) {
   const std::lock_guard lock(mutex_);
   auto& [asked, promise] = waiting_.emplace_back(std::move(request), std::promise<Answer>());
   auto answer = promise.get_future();
@@ -77,15 +103,7 @@ void BusPort::work(const std::stop_token& stop) {
 }
 
 BusPort::Answer BusPort::ask(const runtime::RunRequest& request) {
-  using Kind = runtime::RunRequest::Kind;
-  if (request.kind != Kind::kStop && request.kind != Kind::kRelease) {
-    return fail(ErrorCode::kState, "a run on the bus takes no `{}` from a page yet",
-                runtime::to_string(request.kind));
-  }
-  control::Request asked;
-  const bool stop = request.kind == Kind::kStop;
-  asked.what = stop ? control::Request::What::kStop : control::Request::What::kRelease;
-  asked.robot = request.robot;
+  const control::Request asked = control::request_of(request);
   std::string done;
   std::string refused;
   for (const control::BusReply& reply : bus_->ask_each(asked, has_the_say)) {

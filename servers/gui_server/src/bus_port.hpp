@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <map>
 #include <mutex>
+#include <string>
 #include <thread>
 #include <utility>
 
+#include "command_line.hpp"
 #include "rave/control/bus_run.hpp"
 #include "run_port.hpp"
 
@@ -17,8 +21,9 @@ namespace rave::gui_server {
 /// never waits for that.
 class BusPort final : public RunPort {
  public:
-  /// Two ends of the bus of the run.
-  BusPort(std::unique_ptr<control::BusRun> bus, std::unique_ptr<control::BusRun> status);
+  /// Two ends of the bus of the run; `commands`: the way of drives, which may be null.
+  BusPort(std::unique_ptr<control::BusRun> bus, std::unique_ptr<control::BusRun> status,
+          std::unique_ptr<CommandLine> commands);
   BusPort(const BusPort&) = delete;
   BusPort& operator=(const BusPort&) = delete;
   ~BusPort() override;
@@ -41,9 +46,15 @@ class BusPort final : public RunPort {
   void work(const std::stop_token& stop);
   void watch(const std::stop_token& stop);
   [[nodiscard]] Answer ask(const runtime::RunRequest& request);
+  /// A drive goes at once, by the topic that nobody answers; now and then its robot is asked
+  /// whether it listens to this driver.
+  [[nodiscard]] Result<std::future<Answer>> drive(const runtime::RunRequest& request);
+  [[nodiscard]] Result<std::future<Answer>> queue(runtime::RunRequest request);
 
   std::unique_ptr<control::BusRun> bus_;
   std::unique_ptr<control::BusRun> status_;
+  std::unique_ptr<CommandLine> commands_;                               ///< Of the server's thread.
+  std::map<std::string, std::chrono::steady_clock::time_point> asked_;  ///< By robot; the same.
   mutable std::mutex mutex_;
   std::condition_variable_any changed_;
   std::deque<std::pair<runtime::RunRequest, std::promise<Answer>>> waiting_;

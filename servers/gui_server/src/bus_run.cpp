@@ -208,7 +208,10 @@ Result<std::shared_ptr<Source>> watch_run(const config::ExpandedScenario& scenar
   } else {
     RAVE_TRY_ASSIGN(auto asker, control::BusRun::open(bus, "GUI Server"));
     RAVE_TRY_ASSIGN(auto status, control::BusRun::open(bus, "GUI Server"));
-    port = std::make_unique<BusPort>(std::move(asker), std::move(status));
+    std::vector<std::string> names;
+    for (const sim::RobotSpec& robot : built.spec.robots) names.push_back(robot.name);
+    RAVE_TRY_ASSIGN(auto commands, CommandLine::open(bus, names));
+    port = std::make_unique<BusPort>(std::move(asker), std::move(status), std::move(commands));
   }
   RAVE_TRY_ASSIGN(auto start, start_of(scenario, built));
   // In lock-step the manager takes the orders; beside it there is no shorter way.

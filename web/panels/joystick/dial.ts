@@ -48,5 +48,5 @@ export const dialStyles = css`
   .held .knob { fill: var(--intent-fill); stroke: var(--intent); }
   .grip { fill: none; stroke: var(--text-2); stroke-width: 1.75; stroke-linecap: round; }
   .held .grip { stroke: #fff; }
-  .off { opacity: .4; }
+  .dial.off { opacity: .4; }
 `;

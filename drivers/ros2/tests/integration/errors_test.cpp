@@ -21,7 +21,7 @@ TEST(Ros2Errors, WhoIsNotThereIsLookedForAndNamed) {
             "sensor_msgs/msg/Imu instead of sensor_msgs/msg/LaserScan");
   LiveActuator drive(bench.plugin, "ros2_velocity");
   EXPECT_EQ(drive.open({{"message", "twist_stamped"}}, bench.device.base()),
-            "nobody to drive was found within 2 s: `/cart/cmd_vel` is there with the type "
+            "no robot to drive was found within 2 s: `/cart/cmd_vel` is there with the type "
             "geometry_msgs/msg/Twist instead of geometry_msgs/msg/TwistStamped");
   LiveSensor tf(bench.plugin, "ros2_tf_pose");
   EXPECT_EQ(tf.configure({{"base_frame", "gripper"}}, bench.device.base()),
@@ -64,7 +64,7 @@ TEST(Ros2Errors, WrongParametersAreNamed) {
   testing::LivePlugin plugin("ros2");
   testing::LiveDevice device(plugin, "ros2");
   EXPECT_EQ(device.configure({{"namespace", "cart-1"}}),
-            "`/cart-1/topic` is no name of a topic: `cart-1` must be letters, digits and "
+            "`/cart-1/topic` is not a valid topic name: `cart-1` must be letters, digits and "
             "underscores, no digit first, as in `/cart/scan`");
   const std::string missing = "interface: this machine has no `no_such_interface`; ";
   EXPECT_EQ(device.configure({{"interface", "no_such_interface"}}).substr(0, missing.size()),
@@ -83,7 +83,7 @@ TEST(Ros2Errors, AnEmptyDomainIsSaidToBeEmpty) {
   ASSERT_EQ(device.configure({{"domain", domain}, {"start_timeout_s", 0.2}}), "");
   LiveSensor laser(plugin, "ros2_laser");
   EXPECT_EQ(laser.configure({}, device.base()),
-            "no message came on `/scan` within 0.2 s: nobody else is in domain " +
+            "no message came on `/scan` within 0.2 s: no other participant is in domain " +
                 std::to_string(Ros2Bench::domain()) +
                 " at 127.0.0.1; compare ROS_DOMAIN_ID, `interface`, `multicast` and `peers`");
 }

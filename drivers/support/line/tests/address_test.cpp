@@ -38,8 +38,9 @@ TEST(Address, SaysWhatIsWrong) {
   EXPECT_EQ(error_of(parse_address("", 0, "laser")), "`address` must be `host:port`, not `laser`");
   EXPECT_EQ(error_of(parse_address("", 0, ":80")), "`address` must be `host:port`, not `:80`");
   EXPECT_EQ(error_of(parse_address("", 0, "a:0")), "`address` must be `host:port`, not `a:0`");
-  EXPECT_EQ(error_of(parse_address("", 0, "a:99999")), "`99999` is no port; one is 0 to 65535");
-  EXPECT_EQ(error_of(parse_address("", 0, "a:8o")), "`8o` is no port; one is 0 to 65535");
+  EXPECT_EQ(error_of(parse_address("", 0, "a:99999")),
+            "`99999` is not a port; expected 0 to 65535");
+  EXPECT_EQ(error_of(parse_address("", 0, "a:8o")), "`8o` is not a port; expected 0 to 65535");
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ TEST(ByteLine, ErrorsNameTheDevice) {
   EXPECT_EQ(missing.error().text(), "cannot open `/dev/no-such-laser`: No such file or directory");
   auto null = ByteLine::open({"/dev/null", 115200, "", ""}, kLong, nullptr);
   ASSERT_FALSE(null);
-  EXPECT_EQ(null.error().text(), "`/dev/null` is no serial line");
+  EXPECT_EQ(null.error().text(), "`/dev/null` is not a serial line");
 }
 
 /// A listening socket on a free port of the loopback.

@@ -126,6 +126,8 @@ class CdrReader {
     return ok_ ? count : 0;
   }
   [[nodiscard]] bool ok() const noexcept { return ok_; }
+  /// Whether all has been read.
+  [[nodiscard]] bool at_end() const noexcept { return position_ == body_.size(); }
 
  private:
   [[nodiscard]] static bool is_plain(std::span<const std::byte> message) noexcept {

@@ -135,11 +135,13 @@ struct RunEvent {
 /// What somebody asked of the run between two steps, and was done: enough to ask for it again.
 struct RunInput {
   std::uint64_t step = 0;  ///< The step that comes next.
-  /// `stop`, `release`, `arm`, `set`, `hand_over`; of obstacles `add`, `move`, `remove`.
+  /// `stop`, `release`, `arm`, `set`, `hand_over`; of obstacles `add`, `move`, `remove`; of people
+  /// to robots `drive`, `goal`, `path`, `cancel`, `text`, `place`.
   std::string kind;
   std::string robot;  ///< Empty: all of them.
   std::string key;    ///< Of `set`: such as `program.max_speed_mps`; of `remove`: which one.
-  std::string value;  ///< Of `set`, `hand_over`, `add` and `move`: as in a file.
+  std::string value;  ///< Of `set`, `hand_over`, `add` and `move`: as in a file; of orders: what.
+  std::string by{};   ///< Who asked; empty: nobody with a name, or an older record.
 
   friend bool operator==(const RunInput&, const RunInput&) = default;
 };

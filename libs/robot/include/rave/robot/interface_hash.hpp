@@ -19,7 +19,7 @@
 namespace rave {
 
 /// Raised by hand when the meaning of the interface changes while its layout stays.
-inline constexpr std::uint64_t kRobotInterfaceVersion = 4;
+inline constexpr std::uint64_t kRobotInterfaceVersion = 5;
 
 namespace detail {
 constexpr std::uint64_t hash_layout(std::uint64_t version,
@@ -58,6 +58,9 @@ constexpr std::uint64_t robot_interface_hash() noexcept {
                                                       offsetof(ProgramSetup, period_s),
                                                       sizeof(DecideItem),
                                                       offsetof(DecideItem, pose),
+                                                      offsetof(DecideItem, orders),
+                                                      sizeof(OrderItem),
+                                                      sizeof(AnswerService),
                                                       sizeof(ProgramOps),
                                                       sizeof(DeviceSetup),
                                                       sizeof(ControlInput),

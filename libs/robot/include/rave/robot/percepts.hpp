@@ -10,6 +10,7 @@
 #include "rave/base/random.hpp"
 #include "rave/base/time.hpp"
 #include "rave/robot/handles.hpp"
+#include "rave/robot/order.hpp"
 
 namespace rave {
 
@@ -29,6 +30,10 @@ struct DecideItem {
   std::uint32_t decision = 0;  ///< Counts from 0.
   std::uint32_t robot = 0;
   std::uint64_t seed = 0;
+  const OrderItem* orders = nullptr;  ///< What people ask, since the last decision.
+  std::uint32_t order_count = 0;
+  std::uint32_t driven = 0;                ///< Not 0: somebody drives the robot.
+  const AnswerService* answers = nullptr;  ///< Null: nobody listens.
 };
 
 /// One message as its receiver sees it. A view: valid during decide().
@@ -122,6 +127,12 @@ class Percepts {
   [[nodiscard]] Messages messages(CommunicatorHandle communicator) const noexcept {
     return Messages(*item_->communicators[communicator.index()].in);
   }
+  /// What people have asked of the robot since the last decision, of the kinds that the program
+  /// takes (its constant `kTakes`), in the order in which it counts.
+  [[nodiscard]] Orders orders() const noexcept { return {item_->orders, item_->order_count}; }
+  /// Whether somebody drives the robot now: then what the program gives to controllers of the
+  /// actuator that is driven has no effect.
+  [[nodiscard]] bool is_driven() const noexcept { return item_->driven != 0; }
   /// Random numbers of this decision: the same in every repetition of the run.
   [[nodiscard]] RandomStream random() const noexcept {
     return {item_->seed, item_->robot, kProgramDevice, item_->decision};
@@ -170,8 +181,18 @@ class Commands {
     const std::span<const std::byte> bytes = std::as_bytes(std::span<const T, 1>(&message, 1));
     return send(communicator, bytes, to);
   }
+  /// Says something to the people who look on: UTF-8, at most kMostOrderText bytes. False if it is
+  /// longer, or too much for one decision; then nothing is said.
+  bool say(std::string_view text) noexcept { return answer(text, 0); }
+  /// The same, and the order under way is done.
+  bool done(std::string_view text) noexcept { return answer(text, 1); }
 
  private:
+  bool answer(std::string_view text, std::uint32_t done) noexcept {
+    const AnswerService* const answers = item_->answers;
+    return answers != nullptr &&
+           answers->say(answers->context, item_->robot, text.data(), text.size(), done);
+  }
   const DecideItem* item_;
 };
 

@@ -13,6 +13,9 @@ namespace rave {
 /// The one class that the author of a robot program writes. One object per robot; start() comes
 /// once before the first decide(); all calls of one object come from one thread at a time. A
 /// program sees readings and gives commands; nothing tells it what is real and what is virtual.
+///
+/// A program that takes orders of people says which, by a public constant of its class:
+/// `static constexpr OrderSet kTakes = kTakesGoal | kTakesText;`. See Percepts::orders().
 class DecisionProcess {
  public:
   virtual ~DecisionProcess() = default;
@@ -35,9 +38,21 @@ struct ProgramOps {
   void (*decide)(void* first, std::uint64_t stride, const DecideItem* items, std::uint64_t count,
                  std::uint8_t* failed, ErrorText* error) = nullptr;
   UpdateFunction update = nullptr;
+  OrderSet takes = 0;  ///< Orders that go to the program.
+  std::uint32_t reserved = 0;
 };
 
 namespace detail {
+template <class Program>
+constexpr OrderSet taken_orders() noexcept {
+  if constexpr (requires { Program::kTakes; }) {
+    static_assert((Program::kTakes & ~(kTakesGoal | kTakesPath | kTakesText)) == 0,
+                  "a program takes goals, paths and texts");
+    return Program::kTakes;
+  }
+  return 0;
+}
+
 template <class Program>
 constexpr ProgramOps program_ops() noexcept {
   ProgramOps ops;
@@ -46,6 +61,7 @@ constexpr ProgramOps program_ops() noexcept {
     return guarded(error, [&] { return static_cast<Program*>(instance)->start(Setup(*setup)); });
   };
   ops.update = update_function<Program>();
+  ops.takes = taken_orders<Program>();
   ops.decide = [](void* first, std::uint64_t stride, const DecideItem* items, std::uint64_t count,
                   std::uint8_t* failed, ErrorText* error) {
     for (std::size_t i = 0; i < count; ++i) {

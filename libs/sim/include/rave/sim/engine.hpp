@@ -173,11 +173,11 @@ class Engine {
 
   /// Makes robots stand, whatever their programs say, until they are released. Any robot can be
   /// stopped, simulated ones too.
-  void stop(RobotId robot, Author author = Author::kHand);
+  void stop(RobotId robot, const Author& author = Author::kHand);
   /// Ends a stop. A robot that must be armed has to be armed anew.
-  void release(RobotId robot, Author author = Author::kHand);
+  void release(RobotId robot, const Author& author = Author::kHand);
   /// Lets robots move that must be armed; of a stopped one the stop stays.
-  void arm(RobotId robot, Author author = Author::kHand);
+  void arm(RobotId robot, const Author& author = Author::kHand);
   [[nodiscard]] bool stopped(RobotId robot) const noexcept;
   /// False: it stands until it is armed.
   [[nodiscard]] bool armed(RobotId robot) const noexcept;
@@ -186,25 +186,37 @@ class Engine {
   /// (its program has failed; a body, which the authority
   /// changes); then everything is as it was.
   Status set_parameters(RobotId robot, std::span<const ParameterChange> changes,
-                        Author author = Author::kHand);
+                        const Author& author = Author::kHand);
   /// Adds, moves or removes an obstacle. From the call on spec().world and snapshot() have it; what
   /// looks back does not see it before the next step. Errors: kInvalidArgument and kNotFound (see
   /// ObstacleChange; it would overlap a simulated robot), kState (one of several hosts: it is the
   /// authority's to change); then everything is as it was.
   Result<ChangedObstacle> change_obstacle(const ObstacleChange& change,
-                                          Author author = Author::kHand);
+                                          const Author& author = Author::kHand);
   /// Begins to give a robot its other drivers, by RobotSpec::twin: opens them, makes the robot
   /// stand, and changes between two steps when it stands and they say where it is. Program and
   /// controllers go on as they are. What came of it is an event, kHandedOver or kHandOverRefused.
   /// Errors: kInvalidArgument (it has one set), kState (one is under way; it has these; its body is
   /// scaled).
-  Status hand_over(RobotId robot, DriverSet to, Author author = Author::kHand);
+  Status hand_over(RobotId robot, DriverSet to, const Author& author = Author::kHand);
   /// Nothing for a robot with one set of drivers.
   [[nodiscard]] std::optional<HandOverState> hand_over_state(RobotId robot) const;
   /// What somebody says of a robot of another host: whether its real or its simulated drivers serve
   /// it. From the next step on sensors see it so. Between two steps; false, and nothing has
   /// changed, if it has no such drivers.
   bool show_reality(RobotId robot, bool simulated);
+  /// Gives a robot an order of people (is_order(input.kind)): a velocity takes the place of what
+  /// its program gives; goals, paths and texts go to the program if that takes them, else a goal to
+  /// a controller that does; kPlace puts a simulated robot elsewhere. A stop ends orders. Errors:
+  /// kInvalidArgument (numbers, points that no robot can be sent to, a robot that does not take it,
+  /// a place where it would overlap something), kState (it is stopped, not armed, being handed
+  /// over, lost, or of another host; one of several hosts does not place); then everything is as it
+  /// was.
+  Status order(const WorldInput& input);
+  /// Which orders a robot takes now; none of one that runs elsewhere.
+  [[nodiscard]] OrderSet takes(RobotId robot) const noexcept;
+  /// The order of people that a robot is carrying out, for people; empty: none.
+  [[nodiscard]] std::string order_of(RobotId robot) const;
   /// The present value of a parameter; empty if there is none of this name.
   [[nodiscard]] std::string parameter(RobotId robot, ParameterChange::Part part,
                                       std::uint32_t index, std::string_view name) const;

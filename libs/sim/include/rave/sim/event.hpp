@@ -32,6 +32,10 @@ enum class EventKind : std::uint32_t {
   kHandedOver = 31,       ///< A robot has its other set of drivers from this step on.
   kHandOverRefused = 32,  ///< ... or could not be given it; everything is as it was.
   kShadowReset = 33,      ///< The host put a shadow where its robot is; no part of the hash.
+  kOrdered = 34,          ///< Somebody gave a robot an order, or it is done with one.
+  kSaid = 35,             ///< A program said something to people.
+  kPlaced = 36,           ///< Somebody put a simulated robot elsewhere.
+  kLease = 37,            ///< Who may give a robot orders now; by the host, no part of the hash.
 };
 [[nodiscard]] std::string_view to_string(EventKind kind) noexcept;
 

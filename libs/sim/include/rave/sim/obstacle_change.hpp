@@ -12,6 +12,7 @@
 
 namespace rave::sim {
 
+struct Author;
 struct Event;
 
 /// A wish to change which obstacles there are, or what became of one. Obstacles do not push: a new
@@ -42,6 +43,7 @@ struct ObstacleChange {
   /// In the words of whoever asked for it by hand, for records on all hosts; at most
   /// kMostAskedBytes. Empty: it belongs to the run.
   std::string asked;
+  std::string by{};  ///< Who that was, if it has a name.
 };
 
 /// What became of a change that was made.
@@ -61,7 +63,7 @@ struct ScheduledObstacle {
 /// The event of a change that was made and counts from `step` on. `note`: what else is worth
 /// telling.
 [[nodiscard]] Event obstacle_event(std::uint64_t step, const ObstacleChange& change,
-                                   std::string_view note, bool by_hand);
+                                   std::string_view note, const Author& author);
 
 /// What can be seen without a world: numbers are finite and within the limits above, the body of a
 /// new obstacle has shapes of positive size and an obstacle's layer. Errors: kInvalidArgument.

@@ -56,6 +56,9 @@ class WorldAuthority {
   /// kInvalidArgument (no such robot, nothing to change, a change of the body together with other
   /// parts, what check_obstacle_change() says).
   Result<std::uint64_t> ask(WorldInput input);
+  /// Whether ask() would put a robot where the input says, as things stand now. Errors:
+  /// kInvalidArgument.
+  [[nodiscard]] Status check_place(const WorldInput& input) const;
   /// A change of an obstacle that another authority has made, and given its number: it counts from
   /// the next step on, whoever stands there. It has passed check_obstacle_change(), and its number
   /// is that of an obstacle of world(), or the one that comes next.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "rave/sim/pose_report.hpp"
@@ -26,6 +27,7 @@ struct PushedRobot {
 struct ResizedRobot {
   RobotId robot;
   double scale = 1;  ///< Of the outline in its file.
+  std::string by{};  ///< Who asked for it by hand, if it has a name.
 };
 
 /// The message of the authority to all hosts of a world, one per step, and the tick of the run:

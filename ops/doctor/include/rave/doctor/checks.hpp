@@ -42,11 +42,4 @@ namespace rave::doctor {
 /// Whether the certificates of a member can be used at `now_s`.
 [[nodiscard]] Finding check_keys(const std::filesystem::path& folder, std::int64_t now_s);
 
-/// What a packet filter does to UDP of the ports of a domain that comes in through an interface.
-/// `ruleset`: what `nft -j list ruleset` prints.
-[[nodiscard]] Finding check_ruleset(std::string_view ruleset, std::uint32_t domain,
-                                    std::string_view interface);
-/// The same with the rules of this machine; unknown to those who may not read them.
-[[nodiscard]] Finding check_firewall(const Machine& machine, const bus::BusConfig& config);
-
 }  // namespace rave::doctor

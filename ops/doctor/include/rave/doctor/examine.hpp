@@ -3,12 +3,12 @@
 
 #include "rave/bus/config.hpp"
 #include "rave/doctor/finding.hpp"
-#include "rave/doctor/letter.hpp"
 #include "rave/doctor/machine.hpp"
+#include "rave/doctor/probe.hpp"
 
 namespace rave::doctor {
 
-/// All checks of a machine, and a visit to each peer of `config` that is another machine. `config`
+/// All checks of a machine, and probes of each peer of `config` that is another machine. `config`
 /// need not be valid. Takes some seconds where peers do not answer.
 [[nodiscard]] Findings examine(const Machine& machine, const bus::BusConfig& config,
                                const About& here);

@@ -8,7 +8,7 @@
 
 #include "rave/base/result.hpp"
 #include "rave/bus/config.hpp"
-#include "rave/doctor/letter.hpp"
+#include "rave/doctor/probe.hpp"
 
 namespace rave::doctor {
 
@@ -19,9 +19,9 @@ namespace rave::doctor {
 /// `stamp`: of the interfaces that hosts of a run must agree on.
 [[nodiscard]] About about_here(const bus::BusConfig& config, std::uint64_t stamp);
 
-/// The other side of a visit: answers doctors of other machines at the doctor's port of a domain,
-/// at ports that a participant of DDS would have, and at the multicast group. An answer is never
-/// longer than its question. One owner thread.
+/// The other side of probe_peer(): answers doctors of other machines at the doctor's port of a
+/// domain, at ports that a participant of DDS would have, and at the multicast group. An answer is
+/// never longer than its question. One owner thread.
 class Listener {
  public:
   struct Options {

@@ -8,6 +8,7 @@
 
 #include "rave/assemble/build.hpp"
 #include "rave/base/time.hpp"
+#include "rave/bus/command_box.hpp"
 #include "rave/bus/config.hpp"
 #include "rave/bus/wish_book.hpp"
 #include "rave/config/expanded_scenario.hpp"
@@ -32,6 +33,7 @@ struct HostOptions {
   /// What is done with what others ask of this host on the bus, in the calling thread; may be
   /// empty: they cannot.
   bus::BeginWish begin_wish;
+  bus::OnCommand on_command;  ///< The same of commands, in real time; in lock-step the manager's.
 };
 
 /// How it ended for this host. It leaves result.json, events.log, scenario.yaml, findings.cdr (of

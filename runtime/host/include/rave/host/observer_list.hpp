@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "rave/control/order_desk.hpp"
 #include "rave/host/run.hpp"
 #include "rave/observe/run_observer.hpp"
 #include "rave/plugin/catalogue.hpp"
@@ -54,8 +56,18 @@ class ObserverList {
   [[nodiscard]] Shadows* shadows() const noexcept { return shadows_.get(); }
 
   /// Does what somebody asks of the run between two steps, or of a shadow, and notes it in the
-  /// recording. Returns what was done, for people.
+  /// recording: orders of people if they have the lease of the robot. Returns what was done, for
+  /// people.
   Result<std::string> serve(sim::Engine& engine, const RunRequest& request);
+  /// Ends what people do not renew: drives and leases. Between two steps.
+  void tick(sim::Engine& engine);
+  /// In real time over several hosts: puts a simulated robot of this host elsewhere, in the world
+  /// that this host keeps of it.
+  void on_place(std::function<Status(const sim::WorldInput&)> place) { place_ = std::move(place); }
+  /// Whether the status of the run changes though nobody asks for anything.
+  [[nodiscard]] bool has_orders() const noexcept { return had_orders_; }
+  /// Puts into the status who drives whom.
+  void refresh(RunStatus& status) const;
   /// Notes in the recording what was asked of the run and counts from this step on.
   void keep(const RunRequest& request, std::uint64_t step);
   /// Ends the recording. `hash`: none for a live run. Returns why it is not whole; empty if it is,
@@ -63,6 +75,9 @@ class ObserverList {
   [[nodiscard]] std::string end_record(std::optional<std::uint64_t> hash);
 
  private:
+  Result<std::string> place(const sim::Engine& engine, const RunRequest& request);
+  Result<std::string> make_input(sim::Engine& engine, const RunRequest& request);
+  void note_leases(const sim::Engine& engine);
   explicit ObserverList(const Parts& parts);
   Status open_all(const Parts& parts);
 
@@ -72,6 +87,12 @@ class ObserverList {
   std::unique_ptr<Shadows> shadows_;
   std::vector<RunObserver*> others_;
   std::unique_ptr<RecordKeeper> record_;
+  OrderDesk desk_;
+  std::function<Status(const sim::WorldInput&)> place_;
+  bool follows_ = false;  ///< A host in lock-step: its manager takes orders.
+  bool had_orders_ = false;
+  std::vector<sim::Event> new_leases_;  ///< Since the last step.
+  std::vector<sim::Event> leases_;      ///< As events of the last step.
 };
 
 }  // namespace rave::runtime

@@ -14,6 +14,7 @@
 #include "rave/base/log.hpp"
 #include "rave/base/result.hpp"
 #include "rave/bus/clock_offset.hpp"
+#include "rave/bus/command_box.hpp"
 #include "rave/bus/config.hpp"
 #include "rave/bus/wish_book.hpp"
 #include "rave/protocol/introduction.hpp"
@@ -47,6 +48,7 @@ class HostLink {
     LogSink* log = nullptr;  ///< Not owned; may be null.
     /// What is done with what others ask on the bus, inside the calls of this object; may be empty.
     bus::BeginWish begin_wish = {};
+    bus::OnCommand on_command = {};  ///< The same of commands, which nobody answers.
   };
   /// Goes on the bus. `world` hears of other robots and what they say, inside the calls of this
   /// object; not owned. Errors: those of bus::Bus::open().

@@ -73,6 +73,9 @@ class LiveWorld {
   /// next report of this host on. Error kInvalidArgument: there is no such robot here, or no such
   /// type.
   Status serve(RobotId robot, std::uint32_t type, const Pose2& X_WR);
+  /// Puts a simulated robot that runs here elsewhere, from the next step on. Errors:
+  /// kInvalidArgument (it would overlap something, it is real, or of another host).
+  Status place(const sim::WorldInput& input);
   /// Its host says of a robot whether it is real. False: it runs here or does not exist.
   bool set_reality(RobotId robot, bool simulated);
 

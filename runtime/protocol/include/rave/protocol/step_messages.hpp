@@ -66,6 +66,7 @@ class WorldMessage {
   ObstacleParts obstacles_;
   ObstacleParts obstacles_before_;
   std::vector<std::vector<rave_wire_ParameterChange>> changes_;
+  std::vector<std::vector<rave_wire_OrderPoint>> points_;  ///< By input.
 };
 
 /// Whether the bus can carry what is asked; error as of WorldMessage::fill().

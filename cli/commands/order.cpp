@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/order.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "asked_run.hpp"
+#include "error_text.hpp"
+#include "rave/math/scalar.hpp"
+
+namespace rave::cli {
+namespace {
+
+using control::Request;
+using Clock = std::chrono::steady_clock;
+
+/// Well within the time after which a driver counts as gone.
+constexpr std::chrono::milliseconds kAgain{100};
+
+Request request_of(Request::What what, const std::string& robot) {
+  Request request;
+  request.what = what;
+  request.robot = robot;
+  return request;
+}
+
+Result<std::vector<Vec2>> points_of(const OrderCommand& options) {
+  if (options.numbers.size() % 2 != 0 || options.numbers.empty()) {
+    return fail(ErrorCode::kInvalidArgument, "expected X Y, or X Y X Y ...; there are {} numbers",
+                options.numbers.size());
+  }
+  std::vector<Vec2> points;
+  for (std::size_t i = 0; i < options.numbers.size(); i += 2) {
+    points.push_back({options.numbers[i], options.numbers[i + 1]});
+  }
+  return points;
+}
+
+Result<Request> read_request(const OrderCommand& options) {
+  using What = OrderCommand::What;
+  switch (options.what) {
+    case What::kDrive: {
+      Request request = request_of(Request::What::kDrive, options.robot);
+      request.v_mps = options.numbers[0];
+      request.w_radps = options.numbers[1];
+      return request;
+    }
+    case What::kGoal: {
+      if (options.cancel) return request_of(Request::What::kCancel, options.robot);
+      RAVE_TRY_ASSIGN(auto points, points_of(options));
+      Request request = request_of(points.size() == 1 ? Request::What::kGoal : Request::What::kPath,
+                                   options.robot);
+      request.points = std::move(points);
+      request.speed_mps = options.speed_mps;
+      return request;
+    }
+    case What::kSay: {
+      Request request = request_of(Request::What::kText, options.robot);
+      request.value = options.text;
+      return request;
+    }
+    case What::kPlace: {
+      Request request = request_of(Request::What::kPlace, options.robot);
+      request.points = {{options.numbers[0], options.numbers[1]}};
+      if (options.numbers.size() > 2) request.yaw_rad = deg_to_rad(options.numbers[2]);
+      return request;
+    }
+  }
+  return fail(ErrorCode::kInvalidArgument, "no order");
+}
+
+/// What came of it, and the process that has the robot.
+struct Given {
+  int code = kGood;
+  const AskedRun* by = nullptr;
+};
+
+/// Asks those who may have the robot, and prints what the one says that does.
+Given ask(const std::vector<AskedRun>& runs, const Request& request) {
+  std::vector<std::pair<const AskedRun*, Error>> refused;
+  for (const AskedRun& run : runs) {
+    const auto answer = run.ask(request);
+    if (answer && answer->good) {
+      put(stdout, fmt::format("{}: {}\n", run.name(), answer->text));
+      return {kGood, &run};
+    }
+    refused.emplace_back(&run,
+                         answer ? Error{ErrorCode::kState, answer->text, {}} : answer.error());
+  }
+  Given given{kNotGood, nullptr};
+  for (const auto& [run, why] : refused) {
+    complain({why.code, fmt::format("{}: {}", run->name(), why.message), {}});
+  }
+  return given;
+}
+
+/// Keeps driving, and gives the robot back to its program.
+int drive_on(const AskedRun& run, const Request& drive, double for_s) {
+  const auto end = Clock::now() + std::chrono::duration<double>(for_s);
+  while (Clock::now() + kAgain < end) {
+    std::this_thread::sleep_for(kAgain);
+    const auto answer = run.ask(drive);
+    if (!answer) return complain(answer.error());
+    if (answer->good) continue;
+    complain({ErrorCode::kState, fmt::format("{}: {}", run.name(), answer->text), {}});
+    return kNotGood;
+  }
+  std::this_thread::sleep_until(end);
+  return ask({run}, request_of(Request::What::kCancel, drive.robot)).code;
+}
+
+}  // namespace
+
+int give_order(const OrderCommand& options) {
+  const auto request = read_request(options);
+  if (!request) return complain(request.error());
+  const auto run = AskedRun::find(options.run, options.bus);
+  if (!run) return complain(run.error());
+  const auto runs = run->controllers(false);
+  if (!runs) return complain(runs.error());
+  if (options.force) {
+    Request take = request_of(Request::What::kTake, options.robot);
+    take.value = "force";
+    if (const int code = ask(*runs, take).code; code != kGood) return code;
+  }
+  const Given given = ask(*runs, *request);
+  if (given.by == nullptr || options.what != OrderCommand::What::kDrive) return given.code;
+  return drive_on(*given.by, *request, options.for_s);
+}
+
+}  // namespace rave::cli

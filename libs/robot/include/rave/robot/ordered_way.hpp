@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "rave/math/scalar.hpp"
+#include "rave/robot/percepts.hpp"
+
+namespace rave {
+
+/// The way that people asked a robot to go, for programs that take goals or paths: what came last
+/// counts until it is cancelled. A value; call update() once in each decision.
+class OrderedWay {
+ public:
+  enum class State : std::uint8_t {
+    kNone,     ///< Nobody asks: the program does what it does.
+    kGoing,    ///< To next().
+    kTurning,  ///< It is there, and has to look where it was told: turn_radps().
+    kThere,    ///< It stands there until it is asked for something else.
+  };
+
+  /// Takes the orders of this decision and passes points that are nearer than `tolerance_m`. Says
+  /// when it is there, and that a cancel was heard. True: there is another way than before, or
+  /// another point of it.
+  bool update(const Percepts& percepts, Commands& commands, double tolerance_m) {
+    const State before = state_;
+    const std::size_t point = next_;
+    bool changed = false;
+    for (const Order order : percepts.orders()) changed |= take(order);
+    if (state_ == State::kGoing) go(percepts.pose(), tolerance_m);
+    if (state_ == State::kTurning && std::abs(turn_left_rad(percepts.pose())) < kNear_rad) {
+      state_ = State::kThere;
+    }
+    if (state_ == State::kThere && before != State::kThere) {
+      commands.done(points_W_.size() == 1 ? "I am at the goal." : "I am at the end of the path.");
+    }
+    return changed || state_ != before || next_ != point;
+  }
+
+  [[nodiscard]] State state() const noexcept { return state_; }
+  [[nodiscard]] bool asked() const noexcept { return state_ != State::kNone; }
+  /// The point to go to, world frame; while kGoing.
+  [[nodiscard]] Vec2 next() const noexcept { return points_W_[next_]; }
+  /// The least of this and what people allow.
+  [[nodiscard]] double speed_mps(double own_mps) const noexcept {
+    return speed_mps_ > 0 ? std::min(speed_mps_, own_mps) : own_mps;
+  }
+  /// What people allow; 0: as the robot likes.
+  [[nodiscard]] double asked_speed_mps() const noexcept { return speed_mps_; }
+  /// Turning rate while kTurning.
+  [[nodiscard]] double turn_radps(const PoseReading& pose, double most_radps) const noexcept {
+    return std::clamp(2 * turn_left_rad(pose), -most_radps, most_radps);
+  }
+
+ private:
+  static constexpr double kNear_rad = 0.05;
+
+  bool take(const Order& order) {
+    if (order.kind == OrderKind::kCancel) {
+      state_ = State::kNone;
+      return true;
+    }
+    if (order.kind != OrderKind::kGoal && order.kind != OrderKind::kPath) return false;
+    points_W_.assign(order.points_W.begin(), order.points_W.end());
+    yaw_rad_ = order.yaw_rad;
+    speed_mps_ = order.speed_mps;
+    next_ = 0;
+    state_ = State::kGoing;
+    return true;
+  }
+  void go(const PoseReading& pose, double tolerance_m) {
+    while (state_ == State::kGoing &&
+           squared_norm(next() - Vec2{pose.x_m, pose.y_m}) <= tolerance_m * tolerance_m) {
+      if (++next_ < points_W_.size()) continue;
+      state_ = yaw_rad_ ? State::kTurning : State::kThere;
+    }
+  }
+  [[nodiscard]] double turn_left_rad(const PoseReading& pose) const noexcept {
+    return wrap_angle(yaw_rad_.value_or(pose.yaw_rad) - pose.yaw_rad);
+  }
+
+  State state_ = State::kNone;
+  std::vector<Vec2> points_W_;
+  std::size_t next_ = 0;
+  std::optional<double> yaw_rad_;
+  double speed_mps_ = 0;
+};
+
+}  // namespace rave

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "order_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rave/base/control_characters.hpp"
+#include "rave/math/scalar.hpp"
+#include "rave/math/transform.hpp"
+#include "rave/sim/orders.hpp"
+
+namespace rave::sim {
+namespace {
+
+using InputKind = WorldInput::Kind;
+
+constexpr double kFastest_mps = 100;
+constexpr double kFastest_radps = 100;
+constexpr double kMostTurn_rad = 1e6;
+/// So far beyond everything that stands in it a world goes on, at least.
+constexpr double kWorldMargin_m = 10;
+
+/// What everything of a world is in.
+struct Box {
+  Vec2 low{1e300, 1e300};
+  Vec2 high{-1e300, -1e300};
+  void add(Vec2 middle, double radius_m) {
+    low = {std::min(low.x, middle.x - radius_m), std::min(low.y, middle.y - radius_m)};
+    high = {std::max(high.x, middle.x + radius_m), std::max(high.y, middle.y + radius_m)};
+  }
+};
+
+/// Where robots may be sent: the box of all bodies, and around it as much again, at least 10 m.
+Box world_box(const EngineSpec& spec) {
+  Box box;
+  const world::WorldModel& world = spec.world;
+  for (std::size_t i = 0; i < world.obstacle_count(); ++i) {
+    const world::Obstacle& obstacle = *world.obstacle(world.obstacle_id(i));
+    if (!obstacle.removed) box.add(obstacle.X_WB.position(), obstacle.body.radius_m());
+  }
+  for (std::size_t r = 0; r < spec.robots.size(); ++r) {
+    box.add(spec.robots[r].X_WR.position(), world.robots[r].radius_m());
+  }
+  const double margin_m =
+      std::max({kWorldMargin_m, box.high.x - box.low.x, box.high.y - box.low.y});
+  box.add(box.low, margin_m);
+  box.add(box.high, margin_m);
+  return box;
+}
+
+/// Heights that a body fills.
+std::pair<double, double> heights_of(const world::Body& body) {
+  std::pair heights{1e300, -1e300};
+  for (const world::Shape& shape : body.shapes) {
+    heights = {std::min(heights.first, shape.z0_m), std::max(heights.second, shape.z1_m)};
+  }
+  return heights;
+}
+
+bool covers(const world::Body& body, Vec2 p_B, double z0_m, double z1_m) {
+  return std::any_of(body.shapes.begin(), body.shapes.end(), [&](const world::Shape& shape) {
+    if (shape.z1_m <= z0_m || shape.z0_m >= z1_m) return false;
+    if (shape.polygon) return shape.polygon->contains(p_B);
+    return squared_norm(p_B - shape.centre) <= shape.radius_m * shape.radius_m;
+  });
+}
+
+/// The obstacle that a point is in, at the heights of a robot; null: none.
+const world::Obstacle* obstacle_at(const world::WorldModel& world, const world::Body& robot,
+                                   Vec2 p_W) {
+  const auto [z0_m, z1_m] = heights_of(robot);
+  for (std::size_t i = 0; i < world.obstacle_count(); ++i) {
+    const world::Obstacle& obstacle = *world.obstacle(world.obstacle_id(i));
+    const double radius_m = obstacle.body.radius_m();
+    if (obstacle.removed ||
+        squared_norm(p_W - obstacle.X_WB.position()) > radius_m * radius_m + 1e-9) {
+      continue;
+    }
+    if (covers(obstacle.body, transform_back(obstacle.X_WB, p_W), z0_m, z1_m)) return &obstacle;
+  }
+  return nullptr;
+}
+
+/// By the number of edges to one side of the point.
+bool is_inside(const std::vector<Vec2>& corners, Vec2 p) {
+  bool inside = false;
+  for (std::size_t i = 0, j = corners.size() - 1; i < corners.size(); j = i++) {
+    const Vec2 a = corners[i];
+    const Vec2 b = corners[j];
+    if ((a.y > p.y) == (b.y > p.y)) continue;
+    if (p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x) inside = !inside;
+  }
+  return inside;
+}
+
+tl::unexpected<Error> wrong(const EngineSpec& spec, const WorldInput& input,
+                            const std::string& what) {
+  return fail(ErrorCode::kInvalidArgument, "robot `{}`, {}: {}",
+              spec.robots[input.robot.value()].name, to_string(order_kind(input.kind)), what);
+}
+
+Status check_point(const EngineSpec& spec, const WorldInput& input, const Box& box, Vec2 p_W) {
+  if (!std::isfinite(p_W.x) || !std::isfinite(p_W.y)) {
+    return wrong(spec, input, fmt::format("({}, {}) is no point; expected metres", p_W.x, p_W.y));
+  }
+  if (p_W.x < box.low.x || p_W.x > box.high.x || p_W.y < box.low.y || p_W.y > box.high.y) {
+    return wrong(spec, input,
+                 fmt::format("({:.2f}, {:.2f}) is outside the world; expected x from {:.2f} to "
+                             "{:.2f} m, y from {:.2f} to {:.2f} m",
+                             p_W.x, p_W.y, box.low.x, box.high.x, box.low.y, box.high.y));
+  }
+  if (input.kind == InputKind::kPlace) return {};  // there its whole body is looked at
+  const std::uint32_t r = input.robot.value();
+  if (const auto* const obstacle = obstacle_at(spec.world, spec.world.robots[r], p_W)) {
+    return wrong(spec, input,
+                 fmt::format("({:.2f}, {:.2f}) is inside the obstacle `{}`", p_W.x, p_W.y,
+                             obstacle->body.name));
+  }
+  const auto& guard = spec.types[spec.robots[r].type].guard;
+  if (guard && !guard->fence_W.empty() && !is_inside(guard->fence_W, p_W)) {
+    return wrong(spec, input,
+                 fmt::format("({:.2f}, {:.2f}) is outside the fence of the robot", p_W.x, p_W.y));
+  }
+  return {};
+}
+
+Status check_points(const EngineSpec& spec, const WorldInput& input) {
+  const bool path = input.kind == InputKind::kPath;
+  const std::size_t least = path ? 2 : 1;
+  const std::size_t most = path ? kMostOrderPoints : 1;
+  const std::size_t count = input.order.points_W.size();
+  if (count < least || count > most) {
+    return wrong(spec, input,
+                 path ? fmt::format("{} points; expected {} to {}", count, least, most)
+                      : fmt::format("{} points; expected one", count));
+  }
+  const Box box = world_box(spec);
+  for (const Vec2 p_W : input.order.points_W) RAVE_TRY(check_point(spec, input, box, p_W));
+  const double yaw_rad = input.order.yaw_rad.value_or(0);
+  if (!(std::abs(yaw_rad) <= kMostTurn_rad)) {
+    return wrong(spec, input, fmt::format("{} is no yaw; expected radians", yaw_rad));
+  }
+  const double speed_mps = input.order.speed_mps;
+  if (!(speed_mps >= 0 && speed_mps <= kFastest_mps)) {
+    return wrong(spec, input,
+                 fmt::format("{} is no speed; expected 0 to {} m/s", speed_mps, kFastest_mps));
+  }
+  return {};
+}
+
+}  // namespace
+
+OrderSet declared_orders(const RobotType& type) noexcept {
+  OrderSet set = type.simulated ? order_bit(OrderKind::kPlace) : 0;
+  for (const ControllerSpec& controller : type.controllers) {
+    if (controller.accepts == CommandKind::kVelocity) set |= order_bit(OrderKind::kDrive);
+    if (controller.accepts == CommandKind::kGoal) set |= order_bit(OrderKind::kGoal);
+  }
+  if (type.program && type.program->ops != nullptr) set |= type.program->ops->takes;
+  return set;
+}
+
+OrderKind order_kind(WorldInput::Kind kind) noexcept {
+  switch (kind) {
+    case InputKind::kDrive:
+      return OrderKind::kDrive;
+    case InputKind::kGoal:
+      return OrderKind::kGoal;
+    case InputKind::kPath:
+      return OrderKind::kPath;
+    case InputKind::kCancel:
+      return OrderKind::kCancel;
+    case InputKind::kText:
+      return OrderKind::kText;
+    case InputKind::kPlace:
+      return OrderKind::kPlace;
+    default:
+      return OrderKind::kNone;
+  }
+}
+
+bool is_order_formed(const WorldInput& input) noexcept {
+  const OrderDetails& order = input.order;
+  bool formed = is_order(input.kind) && order.text.size() <= kMostOrderText &&
+                order.points_W.size() <= kMostOrderPoints &&
+                input.author.name.size() <= kMostOrderAuthor;
+  for (const Vec2 p_W : order.points_W) {
+    formed = formed && std::isfinite(p_W.x) && std::isfinite(p_W.y);
+  }
+  for (const double number :
+       {order.yaw_rad.value_or(0), order.v_mps, order.w_radps, order.speed_mps}) {
+    formed = formed && std::isfinite(number);
+  }
+  const bool goes = input.kind == InputKind::kGoal || input.kind == InputKind::kPlace;
+  if (goes) return formed && order.points_W.size() == 1;
+  return formed && (input.kind != InputKind::kPath || order.points_W.size() >= 2);
+}
+
+Status check_order(const EngineSpec& spec, const WorldInput& input) {
+  const OrderDetails& order = input.order;
+  const std::string& name = input.author.name;
+  if (name.size() > kMostOrderAuthor || has_control_characters(name)) {
+    return fail(ErrorCode::kInvalidArgument,
+                "the name of who asks has {} bytes, or control characters; expected at most {}",
+                name.size(), kMostOrderAuthor);
+  }
+  const bool for_all = input.kind == InputKind::kCancel && !input.robot.valid();
+  if (!for_all && input.robot.value() >= spec.robots.size()) {
+    return fail(ErrorCode::kInvalidArgument, "`{}` needs a robot",
+                to_string(order_kind(input.kind)));
+  }
+  switch (input.kind) {
+    case InputKind::kDrive:
+      if (std::abs(order.v_mps) <= kFastest_mps && std::abs(order.w_radps) <= kFastest_radps) {
+        return {};
+      }
+      return wrong(spec, input,
+                   fmt::format("{} m/s, {} rad/s: expected at most {} m/s and {} rad/s",
+                               order.v_mps, order.w_radps, kFastest_mps, kFastest_radps));
+    case InputKind::kGoal:
+    case InputKind::kPath:
+    case InputKind::kPlace:
+      return check_points(spec, input);
+    case InputKind::kText:
+      if (order.text.empty() || order.text.size() > kMostOrderText) {
+        return wrong(spec, input,
+                     fmt::format("{} bytes; expected 1 to {}", order.text.size(), kMostOrderText));
+      }
+      if (has_control_characters(order.text)) {
+        return wrong(spec, input, "it has control characters; expected a line of plain text");
+      }
+      return {};
+    case InputKind::kCancel:
+      return {};
+    default:
+      return fail(ErrorCode::kInvalidArgument, "the input is no order");
+  }
+}
+
+std::string order_text(const WorldInput& input) {
+  const OrderDetails& order = input.order;
+  std::string text(to_string(order_kind(input.kind)));
+  switch (input.kind) {
+    case InputKind::kDrive:
+      return text + fmt::format(" {:.2f} m/s, {:.2f} rad/s", order.v_mps, order.w_radps);
+    case InputKind::kText:
+      return text + ": " + order.text;
+    case InputKind::kPath:
+      text += fmt::format(" of {} points to", order.points_W.size());
+      break;
+    case InputKind::kCancel:
+      return text;
+    default:
+      break;
+  }
+  if (!order.points_W.empty()) {
+    const Vec2 last = order.points_W.back();
+    text += fmt::format(" {:.2f}, {:.2f}", last.x, last.y);
+  }
+  if (order.yaw_rad) text += fmt::format(", yaw {:.0f} deg", rad_to_deg(*order.yaw_rad));
+  return text;
+}
+
+}  // namespace rave::sim

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "rave/base/result.hpp"
+#include "rave/robot/order.hpp"
+#include "rave/sim/engine_spec.hpp"
+#include "rave/sim/orders.hpp"
+#include "rave/sim/world_input.hpp"
+
+/// What can be said of an order without its robot's drivers: an engine and an authority say the
+/// same.
+namespace rave::sim {
+
+/// Of an input that is an order.
+[[nodiscard]] OrderKind order_kind(WorldInput::Kind kind) noexcept;
+
+/// Whether it has the form of an order: numbers are finite, texts and lists have at most their
+/// length. What another process says is looked at so before anything else.
+[[nodiscard]] bool is_order_formed(const WorldInput& input) noexcept;
+
+/// Whether an order may be given at all: numbers are finite and within their limits, texts have
+/// their length, points are in the world, in no obstacle, and within the fence of the robot.
+/// Errors: kInvalidArgument, with the name of the robot.
+[[nodiscard]] Status check_order(const EngineSpec& spec, const WorldInput& input);
+
+}  // namespace rave::sim

@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <limits>
+
+#include "order_programs.hpp"
+#include "split_run.hpp"
+
+namespace rave::sim::testing {
+namespace {
+
+using Kind = WorldInput::Kind;
+
+EngineSpec small_world() {
+  EngineSpec spec;
+  spec.world.obstacles.push_back(box({4, 0, 0}, 0.2, 4, 1, "wall"));
+  add_robot(spec, listener_type(), {0, 0, 0});
+  add_robot(spec, driver_type(), {0, 2, 0});
+  add_robot(spec, goal_type(), {0, -2, 0});
+  return spec;
+}
+
+constexpr RobotId kListener(0);
+constexpr RobotId kDriver(1);
+constexpr RobotId kGoalGetter(2);
+
+std::string why(const Status& status) { return status ? "" : status.error().message; }
+
+TEST(EngineOrders, ADriveTakesThePlaceOfTheProgram) {
+  const auto engine = make_engine(small_world());
+  run(*engine, 10);
+  const double before_m = engine->true_pose(kDriver).x;
+  EXPECT_NEAR(before_m, 0.02, 1e-9) << "the program drives at 0.2 m/s";
+  ASSERT_TRUE(engine->order(drive(kDriver, 0.5, 0)));
+  EXPECT_EQ(engine->order_of(kDriver), "drive");
+  const auto events = of_kind(run(*engine, 10), EventKind::kOrdered);
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].step, 10U);
+  EXPECT_EQ(events[0].text, "drive 0.50 m/s, 0.00 rad/s (by hand: anna)");
+  EXPECT_NEAR(engine->true_pose(kDriver).x - before_m, 0.05, 1e-9);
+  // That somebody goes on driving is told once, and counts.
+  ASSERT_TRUE(engine->order(drive(kDriver, 0.1, 0)));
+  EXPECT_TRUE(of_kind(run(*engine, 10), EventKind::kOrdered).empty());
+  EXPECT_NEAR(engine->true_pose(kDriver).x - before_m, 0.06, 1e-9);
+  EXPECT_EQ(engine->inputs_by_hand(), 2U);
+  ASSERT_TRUE(engine->order(order(Kind::kCancel, kDriver)));
+  EXPECT_EQ(engine->order_of(kDriver), "");
+  run(*engine, 10);
+  EXPECT_NEAR(engine->true_pose(kDriver).x - before_m, 0.08, 1e-9) << "the program has it again";
+}
+
+TEST(EngineOrders, AProgramIsToldThatItIsDriven) {
+  const auto engine = make_engine(small_world());
+  ASSERT_TRUE(engine->order(drive(kListener, 0.1, 0)));
+  const auto events = of_kind(run(*engine, 3), EventKind::kSaid);
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].text, "driven");
+}
+
+TEST(EngineOrders, AProgramGetsWhatItTakes) {
+  const auto engine = make_engine(small_world());
+  run(*engine, 3);
+  WorldInput path = order(Kind::kPath, kListener);
+  path.order.points_W = {{1, 0}, {1, 1}};
+  path.order.speed_mps = 0.3;
+  ASSERT_TRUE(engine->order(path)) << why(engine->order(path));
+  EXPECT_EQ(engine->order_of(kListener), "path of 2 points to 1.00, 1.00");
+  WorldInput text = order(Kind::kText, kListener);
+  text.order.text = "hello";
+  ASSERT_TRUE(engine->order(text));
+  const auto said = of_kind(run(*engine, 5), EventKind::kSaid);
+  ASSERT_EQ(said.size(), 2U) << "each comes once";
+  EXPECT_EQ(said[0].text, "path 2 points speed 0.3 by anna");
+  EXPECT_EQ(said[1].text, "text hello by anna");
+  EXPECT_EQ(said[0].robot, kListener);
+  WorldInput goal = order(Kind::kGoal, kListener);
+  goal.order.points_W = {{1, 0}};
+  goal.order.yaw_rad = 1;
+  ASSERT_TRUE(engine->order(goal));
+  const auto done = of_kind(run(*engine, 5), EventKind::kSaid);
+  ASSERT_EQ(done.size(), 1U);
+  EXPECT_EQ(done[0].text, "goal 1 points yaw 1 by anna");
+  EXPECT_EQ(engine->order_of(kListener), "") << "the program is done with a goal at once";
+}
+
+TEST(EngineOrders, OfSeveralGoalsTheLastOneCounts) {
+  const auto engine = make_engine(small_world());
+  for (const double x_m : {1.0, 2.0, 3.0}) {
+    WorldInput goal = order(Kind::kGoal, kListener);
+    goal.order.points_W = {{x_m, 0}};
+    ASSERT_TRUE(engine->order(goal));
+  }
+  EXPECT_EQ(of_kind(run(*engine, 3), EventKind::kSaid).size(), 1U);
+}
+
+TEST(EngineOrders, AProgramThatTalksTooMuchIsCutShort) {
+  EngineSpec spec;
+  add_robot(spec, chatterer_type());
+  const auto engine = make_engine(std::move(spec));
+  const auto events = of_kind(run(*engine, 100), EventKind::kSaid);
+  EXPECT_EQ(events.size(), 10U) << "ten in a second";
+}
+
+TEST(EngineOrders, AGoalGoesToAControllerIfTheProgramTakesNone) {
+  const auto engine = make_engine(small_world());
+  run(*engine, 5);
+  WorldInput goal = order(Kind::kGoal, kGoalGetter);
+  goal.order.points_W = {{0.5, -2}};
+  ASSERT_TRUE(engine->order(goal));
+  EXPECT_EQ(engine->order_of(kGoalGetter), "goal 0.50, -2.00");
+  const auto events = of_kind(run(*engine, 400), EventKind::kOrdered);
+  ASSERT_EQ(events.size(), 2U);
+  EXPECT_EQ(events[1].text, "goal 0.50, -2.00: reached");
+  EXPECT_EQ(engine->order_of(kGoalGetter), "goal 0.50, -2.00, reached");
+  EXPECT_NEAR(engine->true_pose(kGoalGetter).x, 0.5, 0.11) << "it stays there";
+}
+
+TEST(EngineOrders, AStopEndsOrdersAndNoneIsTakenUntilRelease) {
+  const auto engine = make_engine(small_world());
+  ASSERT_TRUE(engine->order(drive(kDriver, 0.5, 0)));
+  run(*engine, 5);
+  engine->stop(kDriver, {true, "bert"});
+  EXPECT_EQ(engine->order_of(kDriver), "");
+  const auto events = of_kind(run(*engine, 2), EventKind::kStopped);
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].text, "by hand: bert");
+  EXPECT_NE(why(engine->order(drive(kDriver, 0.5, 0))).find("it is stopped"), std::string::npos);
+  engine->release(kDriver);
+  const double x_m = engine->true_pose(kDriver).x;
+  run(*engine, 10);
+  EXPECT_NEAR(engine->true_pose(kDriver).x - x_m, 0.02, 1e-9) << "its program, not the drive";
+}
+
+TEST(EngineOrders, TheGuardStaysInForce) {
+  EngineSpec spec;
+  RobotType type = driver_type();
+  type.guard = GuardSpec{};
+  type.guard->max_speed_mps = 0.3;
+  const RobotId robot = add_robot(spec, std::move(type));
+  const auto engine = make_engine(std::move(spec));
+  ASSERT_TRUE(engine->order(drive(robot, 1, 0)));
+  const auto events = run(*engine, 200);
+  EXPECT_EQ(of_kind(events, EventKind::kGuardSlowed).size(), 1U);
+  EXPECT_NEAR(engine->true_pose(robot).x, 0.6, 1e-6) << "and no watchdog stops it";
+}
+
+TEST(EngineOrders, PlacePutsARobotElsewhereAndMakesNoOverlap) {
+  const auto engine = make_engine(small_world());
+  run(*engine, 5);
+  ASSERT_TRUE(engine->order(place(kListener, {2, 1}, 1.5)));
+  const auto events = of_kind(run(*engine, 1), EventKind::kPlaced);
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].text, "place 2.00, 1.00, yaw 86 deg (by hand: anna)");
+  EXPECT_NEAR(engine->snapshot().pose(kListener).x, 2, 0.01);
+  EXPECT_NEAR(engine->snapshot().pose(kListener).yaw, 1.5, 0.01);
+  EXPECT_NE(why(engine->order(place(kListener, {4, 0}))).find("it would overlap `wall`"),
+            std::string::npos);
+  EXPECT_NE(why(engine->order(place(kListener, {3.8, 0}))).find("it would overlap `wall`"),
+            std::string::npos);
+  EXPECT_NE(why(engine->order(place(kDriver, {2, 1}))).find("it would overlap `r0`"),
+            std::string::npos);
+  EXPECT_TRUE(engine->order(place(kListener, {3.7, 0}))) << "beside it there is room";
+  run(*engine, 1);
+}
+
+TEST(EngineOrders, ARefusedOrderLeavesEverythingAsItWas) {
+  const auto untouched = [](auto&& spoil) {
+    EngineSpec spec = small_world();
+    spec.types[0].guard = GuardSpec{};
+    spec.types[0].guard->fence_W = {{-3, -3}, {3, -3}, {3, 3}, {-3, 3}};
+    add_robot(spec, real_type({{"x", 2}, {"y", 3}}), {2, 3, 0});
+    const auto engine = make_engine(std::move(spec));
+    run(*engine, 10);
+    spoil(*engine);
+    EXPECT_EQ(engine->inputs_by_hand(), 0U);
+    run(*engine, 30);
+    return engine->hash();
+  };
+  const RunHash plain = untouched([](Engine&) {});
+  const auto refused = [&](const std::string& text, const WorldInput& input) {
+    EXPECT_EQ(untouched([&](Engine& engine) {
+                const Status status = engine.order(input);
+                ASSERT_FALSE(status) << text;
+                EXPECT_NE(status.error().message.find(text), std::string::npos)
+                    << status.error().message;
+              }),
+              plain)
+        << text;
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  refused("expected at most 100 m/s", drive(kDriver, nan, 0));
+  refused("expected at most 100 m/s", drive(kDriver, 0, std::numeric_limits<double>::infinity()));
+  refused("expected at most 100 m/s", drive(kDriver, 101, 0));
+  refused("is no point", goal(kListener, {nan, 0}));
+  refused("is outside the world", goal(kListener, {1e6, 0}));
+  refused("is inside the obstacle `wall`", goal(kListener, {4, 1}));
+  refused("is outside the fence", goal(kListener, {3.5, 0}));
+  refused("is no yaw", place(kListener, {1, 1}, nan));
+  refused("`path` needs a robot", order(Kind::kPath, RobotId()));
+  refused("`goal` needs a robot", goal(RobotId(99), {0, 0}));
+  refused("1 points; expected 2 to 1000", [] {
+    WorldInput path = order(Kind::kPath, kListener);
+    path.order.points_W = {{1, 0}};
+    return path;
+  }());
+  refused("10000 points; expected 2 to 1000", [] {
+    WorldInput path = order(Kind::kPath, kListener);
+    path.order.points_W.assign(10'000, {1, 0});
+    return path;
+  }());
+  refused("its program takes no paths", [] {
+    WorldInput path = order(Kind::kPath, kDriver);
+    path.order.points_W = {{1, 0}, {2, 0}};
+    return path;
+  }());
+  refused("neither its program nor one of its controllers takes goals", goal(kDriver, {1, 0}));
+  refused("its program takes no texts", words(kDriver, "hello"));
+  refused("0 bytes; expected 1 to 1000", words(kListener, ""));
+  refused("1001 bytes; expected 1 to 1000", words(kListener, std::string(1001, 'a')));
+  refused("control characters", words(kListener, "a\x1b[2J"));
+  refused("a velocity that an actuator obeys", drive(RobotId(3), 0.1, 0));
+  refused("a real robot is where it is", place(RobotId(3), {1, 1}));
+}
+
+TEST(EngineOrders, ARobotSaysWhatItTakes) {
+  const auto engine = make_engine(small_world());
+  const OrderSet always = order_bit(OrderKind::kDrive) | order_bit(OrderKind::kPlace);
+  EXPECT_EQ(engine->takes(kDriver), always);
+  EXPECT_EQ(engine->takes(kGoalGetter), always | order_bit(OrderKind::kGoal));
+  EXPECT_EQ(engine->takes(kListener), always | kTakesGoal | kTakesPath | kTakesText);
+}
+
+TEST(EngineOrders, AResetForgetsThem) {
+  const auto engine = make_engine(small_world());
+  run(*engine, 50);
+  const RunHash plain = engine->hash();
+  ASSERT_TRUE(engine->reset());
+  ASSERT_TRUE(engine->order(drive(kDriver, 0.5, 0)));
+  ASSERT_TRUE(engine->order(place(kListener, {2, 1})));
+  run(*engine, 50);
+  EXPECT_NE(engine->hash(), plain);
+  ASSERT_TRUE(engine->reset());
+  EXPECT_EQ(engine->order_of(kDriver), "");
+  run(*engine, 50);
+  EXPECT_EQ(engine->hash(), plain);
+}
+
+/// What people ask in the run below, by step.
+std::vector<std::pair<int, WorldInput>> orders_of_a_day() {
+  WorldInput path = order(Kind::kPath, kListener);
+  path.order.points_W = {{1, 0}, {1, 1}};
+  WorldInput again = drive(kDriver, 0.2, -0.5);
+  again.author.name = "bert";
+  return {{5, drive(kDriver, 0.5, 0.3)},
+          {9, drive(kDriver, 0.4, 0.3)},
+          {12, goal(kGoalGetter, {1, -1.5})},
+          {12, path},
+          {15, place(kListener, {2, 1}, 0.5)},
+          {15, words(kListener, "hello")},
+          {20, again},
+          {25, order(Kind::kCancel, kDriver)},
+          {30, order(Kind::kCancel, RobotId())}};
+}
+
+TEST(EngineOrders, HostsGiveTheSameRunAsOneProcess) {
+  constexpr int kLast = 60;
+  const auto day = orders_of_a_day();
+  const auto alone = make_engine(small_world());
+  std::vector<RunHash> hashes;
+  for (int k = 0; k < kLast; ++k) {
+    for (const auto& [step, input] : day) {
+      if (step != k) continue;
+      const Status given = alone->order(input);
+      ASSERT_TRUE(given) << given.error().text();
+    }
+    run(*alone, 1);
+    hashes.push_back(alone->hash());
+  }
+  for (const std::vector<std::uint32_t>& hosts :
+       {std::vector<std::uint32_t>{0, 0, 0}, {0, 1, 0}, {2, 1, 0}}) {
+    SplitRun split(small_world, hosts);
+    for (int k = 0; k < kLast; ++k) {
+      // The world of step k + 1 is made at the end of step k.
+      for (const auto& [step, input] : day) {
+        if (step != k + 1) continue;
+        const auto asked = split.authority->ask(input);
+        ASSERT_TRUE(asked) << asked.error().text();
+      }
+      ASSERT_TRUE(split.advance());
+      ASSERT_EQ(split.hash(), hashes[static_cast<std::size_t>(k)]) << "step " << k;
+      EXPECT_TRUE(split.authority->refusals().empty());
+    }
+  }
+}
+
+TEST(EngineOrders, WhatAHostRefusesChangesNothing) {
+  SplitRun plain(small_world, {0, 1, 1});
+  SplitRun asked(small_world, {0, 1, 1});
+  const auto wall = asked.authority->ask(place(kListener, {4, 0}));
+  ASSERT_TRUE(wall) << "only the step that does it looks for room";
+  const auto deaf = asked.authority->ask(words(kDriver, "hello"));
+  ASSERT_TRUE(deaf) << "only its host knows its program";
+  EXPECT_FALSE(asked.authority->ask(goal(kListener, {1e9, 0})));
+  std::vector<std::string> refusals;
+  for (int k = 0; k < 10; ++k) {
+    ASSERT_TRUE(plain.advance());
+    ASSERT_TRUE(asked.advance());
+    for (const InputRefusal& refusal : asked.authority->refusals()) {
+      refusals.push_back(refusal.text);
+    }
+  }
+  EXPECT_EQ(asked.hash(), plain.hash());
+  ASSERT_EQ(refusals.size(), 2U);
+  EXPECT_NE(refusals[0].find("it would overlap `wall`"), std::string::npos) << refusals[0];
+  EXPECT_NE(refusals[1].find("its program takes no texts"), std::string::npos) << refusals[1];
+}
+
+}  // namespace
+}  // namespace rave::sim::testing

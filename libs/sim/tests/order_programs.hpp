@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "engine_fixture.hpp"
+#include "rave/math/trigonometry.hpp"
+
+/// Programs and controllers that people give orders to, and such orders.
+namespace rave::sim::testing {
+
+/// Says what it is asked; is done with goals at once.
+class Listener final : public DecisionProcess {
+ public:
+  static constexpr OrderSet kTakes = kTakesGoal | kTakesPath | kTakesText;
+  Status start(const Setup& setup) override {
+    RAVE_TRY_ASSIGN(drive_, setup.controller(CommandKind::kVelocity));
+    return {};
+  }
+  void decide(const Percepts& percepts, Commands& commands) override {
+    for (const Order order : percepts.orders()) {
+      std::string text(to_string(order.kind));
+      if (!order.points_W.empty()) text += fmt::format(" {} points", order.points_W.size());
+      if (order.yaw_rad) text += fmt::format(" yaw {}", *order.yaw_rad);
+      if (order.speed_mps > 0) text += fmt::format(" speed {}", order.speed_mps);
+      if (!order.text.empty()) text += fmt::format(" {}", order.text);
+      text += fmt::format(" by {}", order.by);
+      if (order.kind == OrderKind::kGoal) {
+        commands.done(text);
+      } else {
+        commands.say(text);
+      }
+    }
+    if (percepts.is_driven() && !driven_) commands.say("driven");
+    driven_ = percepts.is_driven();
+    commands.velocity(drive_, 0.1, 0.2);
+  }
+
+ private:
+  ControllerHandle drive_;
+  bool driven_ = false;
+};
+
+/// Says something in each decision.
+class Chatterer final : public DecisionProcess {
+ public:
+  static constexpr OrderSet kTakes = kTakesText;
+  Status start(const Setup& /*setup*/) override { return {}; }
+  void decide(const Percepts& /*percepts*/, Commands& commands) override {
+    EXPECT_FALSE(commands.say(std::string(1001, 'a')));
+    EXPECT_TRUE(commands.say("I am here"));
+  }
+};
+
+/// Drives to a point, straight on and turning on the spot.
+class Seeker final : public Controller {
+ public:
+  static constexpr CommandKind kGives = CommandKind::kVelocity;
+  Status start(const DeviceSetup& /*setup*/) override { return {}; }
+  Command control(const ControlInput& input) override {
+    if (input.command.kind != CommandKind::kGoal) return velocity_command(0, 0);
+    const double dx_m = input.command.value[0] - input.pose.x_m;
+    const double dy_m = input.command.value[1] - input.pose.y_m;
+    const double error_rad = wrap_angle(atan2(dy_m, dx_m) - input.pose.yaw_rad);
+    if (dx_m * dx_m + dy_m * dy_m < 0.01 * 0.01) return velocity_command(0, 0);
+    if (error_rad > 0.1) return velocity_command(0, 1);
+    if (error_rad < -0.1) return velocity_command(0, -1);
+    return velocity_command(0.5, error_rad);
+  }
+};
+
+inline RobotType listener_type() {
+  RobotType type = simulated_type();
+  type.program = program<Listener>({}, 2);
+  return type;
+}
+
+inline RobotType chatterer_type() {
+  RobotType type = simulated_type();
+  type.program = program<Chatterer>();
+  return type;
+}
+
+/// Its program drives ahead and takes no orders.
+inline RobotType driver_type() {
+  RobotType type = simulated_type();
+  type.program =
+      program<Drive>({{"v", 0.2}, {"w", 0}, {"quiet_after", 0}, {"throw_at", 0}, {"nan_at", 0}});
+  return type;
+}
+
+/// The same, with a controller that takes goals.
+inline RobotType goal_type() {
+  static constexpr ControllerOps kSeek = detail::controller_ops<Seeker>();
+  RobotType type = driver_type();
+  ControllerSpec spec;
+  spec.name = "seek";
+  spec.driver = "seek";
+  spec.ops = &kSeek;
+  spec.accepts = CommandKind::kGoal;
+  type.controllers.push_back(std::move(spec));
+  return type;
+}
+
+inline WorldInput order(WorldInput::Kind kind, RobotId robot) {
+  WorldInput input;
+  input.kind = kind;
+  input.author.name = "anna";
+  input.robot = robot;
+  return input;
+}
+
+inline WorldInput drive(RobotId robot, double v_mps, double w_radps) {
+  WorldInput input = order(WorldInput::Kind::kDrive, robot);
+  input.order.v_mps = v_mps;
+  input.order.w_radps = w_radps;
+  return input;
+}
+
+inline WorldInput goal(RobotId robot, Vec2 p_WG) {
+  WorldInput input = order(WorldInput::Kind::kGoal, robot);
+  input.order.points_W = {p_WG};
+  return input;
+}
+
+inline WorldInput words(RobotId robot, std::string text) {
+  WorldInput input = order(WorldInput::Kind::kText, robot);
+  input.order.text = std::move(text);
+  return input;
+}
+
+inline WorldInput place(RobotId robot, Vec2 p_WR, std::optional<double> yaw_rad = std::nullopt) {
+  WorldInput input = order(WorldInput::Kind::kPlace, robot);
+  input.order.points_W = {p_WR};
+  input.order.yaw_rad = yaw_rad;
+  return input;
+}
+
+}  // namespace rave::sim::testing

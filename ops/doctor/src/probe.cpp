@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/doctor/probe.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <type_traits>
+
+#include "rave/base/control_characters.hpp"
+
+namespace rave::doctor {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::array<std::string_view, 4> kKinds = {"ask", "answer", "call", "shout"};
+constexpr std::size_t kLongestText = 256;
+
+/// Reads fields of an object; remembers if one was not as it must be.
+class Fields {
+ public:
+  explicit Fields(const Json& json) : json_(json), good_(json.is_object()) {}
+
+  template <class Number>
+  void read(const char* key, Number& number) {
+    const Json* const value = find(key);
+    if (value == nullptr) return;
+    bool fits = false;
+    if constexpr (std::is_signed_v<Number>) {
+      // Differences of times must not overflow.
+      constexpr double kMost = 4e18;
+      fits = value->is_number_integer() && std::fabs(value->get<double>()) <= kMost;
+    } else {
+      fits = value->is_number_unsigned() &&
+             value->get<std::uint64_t>() <= std::numeric_limits<Number>::max();
+    }
+    good_ = good_ && fits;
+    if (fits) number = value->get<Number>();
+  }
+  void read(const char* key, bool& truth) {
+    const Json* const value = find(key);
+    good_ = good_ && value != nullptr && value->is_boolean();
+    if (good_) truth = value->get<bool>();
+  }
+  /// Text ends up on terminals.
+  void read(const char* key, std::string& text) {
+    const Json* const value = find(key);
+    good_ = good_ && value != nullptr && value->is_string();
+    if (!good_) return;
+    text = value->get<std::string>();
+    good_ = text.size() <= kLongestText && !has_control_characters(text);
+  }
+  [[nodiscard]] const Json* find(const char* key) {
+    const auto found = good_ ? json_.find(key) : json_.end();
+    if (good_ && found != json_.end()) return &*found;
+    good_ = false;
+    return nullptr;
+  }
+  [[nodiscard]] bool good() const noexcept { return good_; }
+
+ private:
+  const Json& json_;
+  bool good_;
+};
+
+Json json_of(const About& about) {
+  return {{"machine", about.machine},
+          {"version", about.version},
+          {"interface_stamp", about.interface_stamp},
+          {"domain", about.domain},
+          {"multicast", about.multicast},
+          {"authority", about.authority},
+          {"participant", about.participant},
+          {"discovery_port", about.discovery_port},
+          {"data_port", about.data_port},
+          {"hears_multicast", about.hears_multicast}};
+}
+
+bool read_about(const Json& json, About& about) {
+  Fields fields(json);
+  fields.read("machine", about.machine);
+  fields.read("version", about.version);
+  fields.read("interface_stamp", about.interface_stamp);
+  fields.read("domain", about.domain);
+  fields.read("multicast", about.multicast);
+  fields.read("authority", about.authority);
+  fields.read("participant", about.participant);
+  fields.read("discovery_port", about.discovery_port);
+  fields.read("data_port", about.data_port);
+  fields.read("hears_multicast", about.hears_multicast);
+  return fields.good();
+}
+
+}  // namespace
+
+std::string write_probe(const Probe& probe, std::size_t least) {
+  Json json = {{"rave_doctor", 1},
+               {"kind", kKinds[static_cast<std::size_t>(probe.kind)]},
+               {"number", probe.number},
+               {"want", probe.want},
+               {"size", probe.size},
+               {"by_multicast", probe.by_multicast},
+               {"sent_ns", probe.sent_ns},
+               {"asked_ns", probe.asked_ns},
+               {"received_ns", probe.received_ns}};
+  if (probe.kind == Probe::Kind::kAnswer) json["about"] = json_of(probe.about);
+  std::string bytes = json.dump(-1, ' ', true, Json::error_handler_t::replace);
+  bytes.resize(std::max(bytes.size(), std::min(least, kLargestProbe)), ' ');
+  return bytes;
+}
+
+Result<Probe> parse_probe(std::string_view bytes) {
+  const auto refused = [](std::string_view why) {
+    return fail(ErrorCode::kParse, "this is not a message of a doctor: {}", why);
+  };
+  // Nothing of ours is nested deeper, and a parser that recurses must not be led down.
+  if (std::ranges::count(bytes, '{') > 2 || bytes.find('[') != std::string_view::npos) {
+    return refused("it is nested");
+  }
+  const Json json = Json::parse(bytes, nullptr, false);
+  if (json.is_discarded()) return refused("it is not JSON");
+  Fields fields(json);
+  std::uint32_t layout = 0;
+  std::string kind;
+  Probe probe;
+  fields.read("rave_doctor", layout);
+  fields.read("kind", kind);
+  fields.read("number", probe.number);
+  fields.read("want", probe.want);
+  fields.read("size", probe.size);
+  fields.read("by_multicast", probe.by_multicast);
+  fields.read("sent_ns", probe.sent_ns);
+  fields.read("asked_ns", probe.asked_ns);
+  fields.read("received_ns", probe.received_ns);
+  if (!fields.good()) return refused("a field is missing or of another type");
+  if (layout != 1) return refused("it is of another version");
+  const auto found = std::ranges::find(kKinds, kind);
+  if (found == kKinds.end()) return refused("its kind is not known");
+  probe.kind = static_cast<Probe::Kind>(found - kKinds.begin());
+  if (probe.kind != Probe::Kind::kAnswer) return probe;
+  const Json* const about = fields.find("about");
+  if (about == nullptr || !read_about(*about, probe.about)) return refused("it says too little");
+  return probe;
+}
+
+}  // namespace rave::doctor

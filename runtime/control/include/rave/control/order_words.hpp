@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rave/base/result.hpp"
+#include "rave/control/run_control.hpp"
+#include "rave/robot/order.hpp"
+#include "rave/sim/engine_spec.hpp"
+#include "rave/sim/world_input.hpp"
+
+/// Orders in the three forms that they have: as a request, as an input of a run, and as the text of
+/// a recording.
+namespace rave::runtime {
+
+/// Whether a request is an order: kDrive to kPlace.
+[[nodiscard]] constexpr bool is_order(RunRequest::Kind kind) noexcept {
+  return kind >= RunRequest::Kind::kDrive && kind <= RunRequest::Kind::kPlace;
+}
+
+/// An order as an input of the run, with its author. Errors: kNotFound (no such robot),
+/// kInvalidArgument (it names none).
+[[nodiscard]] Result<sim::WorldInput> order_input(const sim::EngineSpec& spec,
+                                                  const RunRequest& request);
+/// The same back.
+[[nodiscard]] RunRequest order_request(const sim::EngineSpec& spec, const sim::WorldInput& input);
+
+/// The words of the orders that a robot takes, such as `goal`; written anew when they change.
+void write_takes(OrderSet set, std::vector<std::string>& words);
+
+/// What somebody is told whose order was taken.
+[[nodiscard]] std::string order_answer(const RunRequest& request);
+
+/// The details of an order in one line, as a recording has them: `points 1.5 2 yaw 0.5 speed 0.2`,
+/// `v 0.3 w -0.1`, or the text of kText. Numbers come back bit by bit.
+[[nodiscard]] std::string order_words(const RunRequest& request);
+/// Puts them back into a request of a known kind. Error: kParse.
+Status read_order_words(std::string_view words, RunRequest& request);
+
+}  // namespace rave::runtime

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/control/host_leases.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace rave::runtime {
+namespace {
+
+const std::string kNobody;
+
+std::string_view name_of(const HostLeases::Person& person) {
+  return person.name.empty() ? HostLeases::kTerminal : person.name;
+}
+
+}  // namespace
+
+std::string lease_text(const HostLeases::Change& change) {
+  if (change.after.empty()) {
+    return fmt::format("`{}` drives no more{}", change.before,
+                       change.expired ? ": nothing was heard of them" : "");
+  }
+  if (change.before.empty()) return fmt::format("`{}` drives", change.after);
+  return fmt::format("`{}` drives, no more `{}`", change.after, change.before);
+}
+
+const HostLeases::Lease* HostLeases::find(const std::string& robot) const noexcept {
+  const auto found = leases_.find(robot);
+  return found == leases_.end() ? nullptr : &found->second;
+}
+
+const std::string& HostLeases::holder(const std::string& robot) const noexcept {
+  const Lease* const lease = find(robot);
+  return lease != nullptr ? lease->holder : kNobody;
+}
+
+void HostLeases::set(const std::string& robot, std::string_view holder, bool driven, Time now) {
+  Lease& lease = leases_[robot];
+  if (lease.holder != holder) {
+    changes_.push_back({robot, lease.holder, std::string(holder), lease.driven, false});
+    lease.holder = holder;
+  }
+  lease.driven = driven;
+  lease.until = driven ? now + kAfterDrive : now + kAfterOrder;
+}
+
+Status HostLeases::use(const std::string& robot, const Person& person, Use how, Time now) {
+  const Lease* const lease = find(robot);
+  const std::string_view name = name_of(person);
+  const bool own = lease != nullptr && lease->holder == name;
+  if (lease != nullptr && !own) {
+    return fail(ErrorCode::kState, "`{}` drives {}", lease->holder, robot);
+  }
+  // What a terminal says once shall not keep people from the robot for minutes.
+  const bool takes = how == Use::kDrive || (how == Use::kOrder && (own || !person.name.empty()));
+  if (takes) set(robot, name, how == Use::kDrive, now);
+  return {};
+}
+
+Result<std::string> HostLeases::take(const std::string& robot, const Person& person, bool force,
+                                     Time now) {
+  const Lease* const lease = find(robot);
+  const std::string_view name = name_of(person);
+  const bool rights = force || person.overrides || person.name.empty();
+  if (lease != nullptr && lease->holder != name && !rights) {
+    return fail(ErrorCode::kState, "`{}` drives {}", lease->holder, robot);
+  }
+  const bool own = lease != nullptr && lease->holder == name;
+  const std::string before = lease != nullptr && !own ? lease->holder : "";
+  set(robot, name, own && lease->driven, now);
+  if (before.empty()) return fmt::format("{} is yours", robot);
+  return fmt::format("{} is yours; `{}` had it", robot, before);
+}
+
+Result<std::string> HostLeases::give(const std::string& robot, const Person& person,
+                                     const std::string& to, Time now) {
+  const Lease* const lease = find(robot);
+  const bool rights = person.overrides || person.name.empty();
+  if (lease == nullptr && to.empty()) {
+    return fail(ErrorCode::kInvalidArgument, "nobody drives {}", robot);
+  }
+  if (lease != nullptr && lease->holder != name_of(person) && !rights) {
+    return fail(ErrorCode::kState, "`{}` drives {}", lease->holder, robot);
+  }
+  if (!to.empty()) {
+    set(robot, to, false, now);
+    return fmt::format("{} is now `{}`'s", robot, to);
+  }
+  changes_.push_back({robot, lease->holder, "", lease->driven, false});
+  leases_.erase(robot);
+  return fmt::format("nobody drives {} now", robot);
+}
+
+void HostLeases::drive_ended(const std::string& robot, Time now) {
+  const auto found = leases_.find(robot);
+  if (found == leases_.end() || !found->second.driven) return;
+  found->second.driven = false;
+  found->second.until = now + kAfterOrder;
+}
+
+void HostLeases::expire(Time now) {
+  for (auto lease = leases_.begin(); lease != leases_.end();) {
+    if (now < lease->second.until) {
+      ++lease;
+      continue;
+    }
+    changes_.push_back({lease->first, lease->second.holder, "", lease->second.driven, true});
+    lease = leases_.erase(lease);
+  }
+}
+
+std::vector<HostLeases::Change> HostLeases::take_changes() { return std::exchange(changes_, {}); }
+
+}  // namespace rave::runtime

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/control/order_desk.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "rave/control/order_words.hpp"
+
+namespace rave::runtime {
+namespace {
+
+RunRequest ended_by(RunRequest::Kind kind, const std::string& robot, const std::string& by) {
+  RunRequest request;
+  request.kind = kind;
+  request.robot = robot;
+  // The terminal has a name for people alone.
+  if (by != HostLeases::kTerminal) request.by = by;
+  return request;
+}
+
+HostLeases::Person person_of(const RunRequest& request) { return {request.by, request.overrides}; }
+
+}  // namespace
+
+bool OrderDesk::is_for(RunRequest::Kind kind) noexcept {
+  return is_order(kind) || kind == RunRequest::Kind::kTake || kind == RunRequest::Kind::kGive ||
+         kind == RunRequest::Kind::kRelease;
+}
+
+Status OrderDesk::check_rate(const std::string& robot, Time now) {
+  Bucket& bucket = rates_[robot];
+  if (bucket.since != Time()) {
+    const double passed_s = std::chrono::duration<double>(now - bucket.since).count();
+    bucket.left = std::min(kMostInSecond, bucket.left + passed_s * kMostInSecond);
+  }
+  bucket.since = now;
+  if (bucket.left < 1) {
+    return fail(ErrorCode::kState, "robot `{}`: more than {} orders in a second", robot,
+                kMostInSecond);
+  }
+  bucket.left -= 1;
+  return {};
+}
+
+Status OrderDesk::check_release(const RunRequest& request) const {
+  if (request.by.empty() || request.overrides) return {};
+  if (!request.robot.empty()) {
+    const std::string& holder = leases_.holder(request.robot);
+    if (holder.empty() || holder == request.by) return {};
+    return fail(ErrorCode::kState, "`{}` drives {}", holder, request.robot);
+  }
+  return fail(ErrorCode::kState,
+              "all robots are released by a super-user; release those that you drive one by one");
+}
+
+Result<std::string> OrderDesk::serve(const RunRequest& request, const Give& give,
+                                     const IsDriven& is_driven, Time now) {
+  leases_.expire(now);
+  follow_leases(give);
+  const bool gives_to_it =
+      request.kind == RunRequest::Kind::kGive && request.value == HostLeases::kTerminal;
+  if (request.by == HostLeases::kTerminal || gives_to_it) {
+    return fail(ErrorCode::kInvalidArgument, "`{}` is no name of a person", HostLeases::kTerminal);
+  }
+  if (request.kind == RunRequest::Kind::kRelease) {
+    RAVE_TRY(check_release(request));
+    return give(request);
+  }
+  const bool for_all = request.kind == RunRequest::Kind::kCancel && request.robot.empty();
+  if (request.robot.empty() && !for_all) {
+    return fail(ErrorCode::kInvalidArgument, "`{}` needs a robot", to_string(request.kind));
+  }
+  if (for_all && !request.by.empty() && !request.overrides) {
+    return fail(ErrorCode::kState, "only a super-user cancels the orders of all robots");
+  }
+  RAVE_TRY(check_rate(request.robot, now));
+  Result<std::string> answer;
+  if (request.kind == RunRequest::Kind::kTake) {
+    if (!request.value.empty() && request.value != "force") {
+      return fail(ErrorCode::kInvalidArgument, "`{}` is no way to take a robot; expected `force`",
+                  request.value);
+    }
+    answer = leases_.take(request.robot, person_of(request), request.value == "force", now);
+  } else if (request.kind == RunRequest::Kind::kGive) {
+    answer = leases_.give(request.robot, person_of(request), request.value, now);
+  } else {
+    answer = order(request, give, is_driven, now);
+  }
+  follow_leases(give);
+  return answer;
+}
+
+Result<std::string> OrderDesk::order(const RunRequest& request, const Give& give,
+                                     const IsDriven& is_driven, Time now) {
+  if (request.robot.empty()) {
+    watch_.all_ended();
+    ordered_.clear();
+    return give(request);
+  }
+  if (request.kind == RunRequest::Kind::kDrive) return drive(request, give, is_driven, now);
+  RAVE_TRY(leases_.use(request.robot, person_of(request), HostLeases::Use::kLook, now));
+  auto answer = give(request);
+  if (!answer) return answer;
+  RAVE_TRY(leases_.use(request.robot, person_of(request), HostLeases::Use::kOrder, now));
+  const bool words =
+      request.kind == RunRequest::Kind::kText || request.kind == RunRequest::Kind::kPlace;
+  if (words) return answer;
+  watch_.ended(request.robot);
+  leases_.drive_ended(request.robot, now);
+  if (request.kind == RunRequest::Kind::kCancel) {
+    ordered_.erase(request.robot);
+  } else {
+    ordered_[request.robot] = request.by;
+  }
+  return answer;
+}
+
+Result<std::string> OrderDesk::drive(const RunRequest& request, const Give& give,
+                                     const IsDriven& is_driven, Time now) {
+  RAVE_TRY(leases_.use(request.robot, person_of(request), HostLeases::Use::kLook, now));
+  // What is renewed as it was is no new input of the run.
+  const bool known = watch_.drives(request.robot) && is_driven(request.robot);
+  const bool changed =
+      watch_.driven(request.robot, request.by, request.v_mps, request.w_radps, now) || !known;
+  Result<std::string> answer = fmt::format("{} is driven", request.robot);
+  if (changed) answer = give(request);
+  if (!answer) {
+    watch_.ended(request.robot);
+    return answer;
+  }
+  RAVE_TRY(leases_.use(request.robot, person_of(request), HostLeases::Use::kDrive, now));
+  ordered_[request.robot] = request.by;
+  return answer;
+}
+
+void OrderDesk::tick(const Give& give, Time now) {
+  if (!waits()) return;
+  for (const DriveWatch::Silent& silent : watch_.take_silent(now)) {
+    // Refused if the robot has been stopped or is gone: then it stands anyway.
+    static_cast<void>(give(ended_by(RunRequest::Kind::kDrive, silent.robot, silent.by)));
+  }
+  leases_.expire(now);
+  follow_leases(give);
+}
+
+void OrderDesk::follow_leases(const Give& give) {
+  for (HostLeases::Change& change : leases_.take_changes()) {
+    const bool drove = watch_.drives(change.robot);
+    const auto ordered = ordered_.find(change.robot);
+    const bool gone = !change.before.empty() && ordered != ordered_.end();
+    if (gone && change.after.empty()) {
+      // Nobody has it now: its program goes on.
+      static_cast<void>(give(ended_by(RunRequest::Kind::kCancel, change.robot, change.before)));
+      ordered_.erase(ordered);
+    } else if (gone && drove) {
+      // It stands until its new driver says something.
+      static_cast<void>(give(ended_by(RunRequest::Kind::kDrive, change.robot, change.before)));
+    }
+    if (gone) watch_.ended(change.robot);
+    told_.push_back(std::move(change));
+  }
+}
+
+}  // namespace rave::runtime

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/control/order_words.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <optional>
+#include <utility>
+
+#include "rave/assemble/parameter_key.hpp"
+#include "rave/robot/order.hpp"
+
+namespace rave::runtime {
+namespace {
+
+using InputKind = sim::WorldInput::Kind;
+
+constexpr std::pair<RunRequest::Kind, InputKind> kKinds[] = {
+    {RunRequest::Kind::kDrive, InputKind::kDrive}, {RunRequest::Kind::kGoal, InputKind::kGoal},
+    {RunRequest::Kind::kPath, InputKind::kPath},   {RunRequest::Kind::kCancel, InputKind::kCancel},
+    {RunRequest::Kind::kText, InputKind::kText},   {RunRequest::Kind::kPlace, InputKind::kPlace}};
+
+/// Takes the words of a line one by one.
+class Words {
+ public:
+  explicit Words(std::string_view text) : left_(text) {}
+  [[nodiscard]] bool empty() const noexcept { return left_.empty(); }
+  std::string_view next() {
+    const std::size_t end = std::min(left_.find(' '), left_.size());
+    const std::string_view word = left_.substr(0, end);
+    left_.remove_prefix(std::min(end + 1, left_.size()));
+    return word;
+  }
+  /// A number, if one comes next.
+  std::optional<double> number() {
+    const std::string_view before = left_;
+    const std::string_view word = next();
+    double value = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error == std::errc() && end == word.data() + word.size() && !word.empty()) return value;
+    left_ = before;
+    return std::nullopt;
+  }
+
+ private:
+  std::string_view left_;
+};
+
+bool read_points(Words& words, RunRequest& request) {
+  while (const auto x = words.number()) {
+    const auto y = words.number();
+    if (!y || request.points.size() >= kMostOrderPoints) return false;
+    request.points.push_back({*x, *y});
+  }
+  return !request.points.empty();
+}
+
+bool read_word(Words& words, RunRequest& request) {
+  const std::string_view word = words.next();
+  if (word == "points") return read_points(words, request);
+  const auto number = words.number();
+  if (!number) return false;
+  if (word == "yaw") {
+    request.yaw_rad = *number;
+    return true;
+  }
+  for (const auto& [name, value] : {std::pair<std::string_view, double*>{"v", &request.v_mps},
+                                    {"w", &request.w_radps},
+                                    {"speed", &request.speed_mps}}) {
+    if (name != word) continue;
+    *value = *number;
+    return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Result<sim::WorldInput> order_input(const sim::EngineSpec& spec, const RunRequest& request) {
+  sim::WorldInput input;
+  for (const auto& [kind, its] : kKinds) {
+    if (kind == request.kind) input.kind = its;
+  }
+  input.author = {true, request.by};
+  if (!request.robot.empty()) {
+    RAVE_TRY_ASSIGN(input.robot, find_robot(spec, request.robot));
+  } else if (request.kind != RunRequest::Kind::kCancel) {
+    return fail(ErrorCode::kInvalidArgument, "`{}` needs a robot", to_string(request.kind));
+  }
+  input.order.points_W = request.points;
+  input.order.yaw_rad = request.yaw_rad;
+  input.order.v_mps = request.v_mps;
+  input.order.w_radps = request.w_radps;
+  input.order.speed_mps = request.speed_mps;
+  if (request.kind == RunRequest::Kind::kText) input.order.text = request.value;
+  return input;
+}
+
+RunRequest order_request(const sim::EngineSpec& spec, const sim::WorldInput& input) {
+  RunRequest request;
+  for (const auto& [kind, its] : kKinds) {
+    if (its == input.kind) request.kind = kind;
+  }
+  if (input.robot.valid()) request.robot = spec.robots[input.robot.value()].name;
+  request.by = input.author.name;
+  request.value = input.order.text;
+  request.points = input.order.points_W;
+  request.yaw_rad = input.order.yaw_rad;
+  request.v_mps = input.order.v_mps;
+  request.w_radps = input.order.w_radps;
+  request.speed_mps = input.order.speed_mps;
+  return request;
+}
+
+void write_takes(OrderSet set, std::vector<std::string>& words) {
+  OrderSet written = 0;
+  constexpr std::array kKinds = {OrderKind::kDrive, OrderKind::kGoal, OrderKind::kPath,
+                                 OrderKind::kText, OrderKind::kPlace};
+  for (const std::string& word : words) {
+    for (const OrderKind kind : kKinds) {
+      if (word == to_string(kind)) written |= order_bit(kind);
+    }
+  }
+  if (written == set) return;
+  words.clear();
+  for (const OrderKind kind : kKinds) {
+    if (has_order(set, kind)) words.emplace_back(to_string(kind));
+  }
+}
+
+std::string order_answer(const RunRequest& request) {
+  const std::string whom = request.robot.empty() ? "all robots" : request.robot;
+  const auto last = [&request] {
+    return fmt::format("{:.2f}, {:.2f}", request.points.back().x, request.points.back().y);
+  };
+  switch (request.kind) {
+    case RunRequest::Kind::kDrive:
+      return fmt::format("{} is driven", whom);
+    case RunRequest::Kind::kGoal:
+      return fmt::format("{} is sent to {}", whom, last());
+    case RunRequest::Kind::kPath:
+      return fmt::format("{} is sent along {} points to {}", whom, request.points.size(), last());
+    case RunRequest::Kind::kCancel:
+      return fmt::format("{}: no order of people counts any more", whom);
+    case RunRequest::Kind::kText:
+      return fmt::format("{} was told", whom);
+    case RunRequest::Kind::kPlace:
+      return fmt::format("{} is put at {}", whom, last());
+    default:
+      return whom;
+  }
+}
+
+std::string order_words(const RunRequest& request) {
+  if (request.kind == RunRequest::Kind::kText) return request.value;
+  if (request.kind == RunRequest::Kind::kDrive) {
+    return fmt::format("v {} w {}", request.v_mps, request.w_radps);
+  }
+  std::string words;
+  const auto add = [&words](std::string_view word) {
+    if (!words.empty()) words += ' ';
+    words += word;
+  };
+  if (!request.points.empty()) add("points");
+  for (const Vec2 p_W : request.points) add(fmt::format("{} {}", p_W.x, p_W.y));
+  if (request.yaw_rad) add(fmt::format("yaw {}", *request.yaw_rad));
+  if (request.speed_mps != 0) add(fmt::format("speed {}", request.speed_mps));
+  return words;
+}
+
+Status read_order_words(std::string_view text, RunRequest& request) {
+  if (request.kind == RunRequest::Kind::kText) {
+    request.value = text;
+    return {};
+  }
+  Words words(text);
+  while (!words.empty()) {
+    if (read_word(words, request)) continue;
+    return fail(ErrorCode::kParse, "`{}` are no details of a `{}`", text, to_string(request.kind));
+  }
+  return {};
+}
+
+}  // namespace rave::runtime

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// Orders to robots of a run: from the request to the recording, and again by verify().
+#include <future>
+#include <map>
+
+#include "host_fixture.hpp"
+#include "rave/base/file.hpp"
+#include "rave/host/run.hpp"
+#include "rave/observe/run_observer.hpp"
+#include "rave/replay/verify.hpp"
+
+namespace rave::runtime::testing {
+namespace {
+
+using Kind = RunRequest::Kind;
+
+/// Asks for something behind certain steps, and keeps the answers.
+class Commander final : public RunObserver {
+ public:
+  explicit Commander(RunControl& control) : control_(control) {}
+  void at(std::uint64_t step, RunRequest request) { asks_.emplace(step, std::move(request)); }
+  void after_step(const StepView& step) override {
+    const auto [begin, end] = asks_.equal_range(step.engine.steps_done());
+    for (auto ask = begin; ask != end; ++ask) {
+      auto answer = control_.post(ask->second);
+      ASSERT_TRUE(answer);
+      answers_.push_back(*std::move(answer));
+    }
+    if (step.engine.steps_done() == kLook) status = control_.status();
+  }
+  [[nodiscard]] std::vector<std::string> answers() {
+    std::vector<std::string> texts;
+    for (auto& answer : answers_) {
+      const auto text = answer.get();
+      texts.push_back(text ? *text : "refused: " + text.error().message);
+    }
+    return texts;
+  }
+  static constexpr std::uint64_t kLook = 150;
+  RunStatus status;
+
+ private:
+  RunControl& control_;
+  std::multimap<std::uint64_t, RunRequest> asks_;
+  std::vector<std::future<Result<std::string>>> answers_;
+};
+
+RunRequest order(Kind kind, const std::string& robot, const std::string& by,
+                 std::vector<Vec2> points = {}) {
+  RunRequest request;
+  request.kind = kind;
+  request.robot = robot;
+  request.by = by;
+  request.points = std::move(points);
+  return request;
+}
+
+std::string scenario() {
+  const std::string goals =
+      "controllers: [{name: drive, driver: velocity, actuator: wheels}, "
+      "{name: navigate, driver: goal_point, actuator: wheels}]";
+  const std::string wheels = "actuators: [{name: wheels, driver: differential_drive}], ";
+  return "name: orders\nduration_s: 8\npace: max\nrobots:\n"
+         "  - {name: anna, file: ../robots/wanderer.yaml, pose: {x_m: 0, y_m: 0}}\n"
+         "  - {name: bert, pose: {x_m: 0, y_m: 3}, robot: {" +
+         kBody + ", " + wheels + goals + "}}\n  - {name: carl, pose: {x_m: 0, y_m: -3}, robot: {" +
+         kBody + ", " + wheels + goals +
+         ", program: {driver: obey, params: {velocity_sensor: \"\", goal_sensor: \"\"}}}}\n";
+}
+
+void ask_for_all_kinds(Commander& commander) {
+  RunRequest drive = order(Kind::kDrive, "anna", "lisa");
+  drive.v_mps = 0.2;
+  drive.w_radps = 1.0 / 3;
+  RunRequest words = order(Kind::kText, "carl", "mona");
+  words.value = "hello";
+  RunRequest place = order(Kind::kPlace, "anna", "", {{2, 1}});
+  place.yaw_rad = 0.5;
+  RunRequest stop = order(Kind::kStop, "bert", "mona");
+  commander.at(50, place);
+  commander.at(60, drive);
+  commander.at(60, order(Kind::kGoal, "bert", "lisa", {{0.5, 3}}));
+  commander.at(60, order(Kind::kPath, "carl", "mona", {{0.2, -3}, {0.4, -2.9}}));
+  commander.at(60, words);
+  commander.at(70, order(Kind::kGoal, "anna", "mona", {{1, 1}}));          // lisa has it
+  commander.at(70, order(Kind::kPath, "bert", "lisa", {{1, 1}, {2, 2}}));  // no program
+  commander.at(160, order(Kind::kCancel, "anna", "lisa"));
+  commander.at(170, order(Kind::kGoal, "anna", "lisa", {{2.5, 1.5}}));
+  commander.at(700, stop);
+}
+
+TEST(OrderedRun, IsRecordedAndVerified) {
+  Host host;
+  const auto expanded = host.expand(scenario());
+  ASSERT_TRUE(expanded) << expanded.error().text();
+  RunControl control;
+  Commander commander(control);
+  ask_for_all_kinds(commander);
+  RunOptions options;
+  options.output = std::filesystem::path(::testing::TempDir()) / "rave_ordered_run";
+  std::filesystem::remove_all(options.output);
+  options.picture = false;
+  options.control = &control;
+  options.observers = {&commander};
+  const auto outcome = run(*expanded, host.catalogue(), options);
+  ASSERT_TRUE(outcome) << outcome.error().text();
+
+  const std::vector<std::string> expected = {
+      "anna is put at 2.00, 1.00",
+      "anna is driven",
+      "bert is sent to 0.50, 3.00",
+      "carl is sent along 2 points to 0.40, -2.90",
+      "carl was told",
+      "refused: `lisa` drives anna",
+      "refused: robot `bert`, path: its program takes no paths",
+      "anna: no order of people counts any more",
+      "anna is sent to 2.50, 1.50",
+      "stopped bert"};
+  EXPECT_EQ(commander.answers(), expected);
+  ASSERT_EQ(commander.status.robots.size(), 3U);
+  const RunStatus::Robot& anna = commander.status.robots[0];
+  EXPECT_EQ(anna.lease, "lisa");
+  EXPECT_EQ(anna.order, "drive");
+  EXPECT_EQ(anna.takes, (std::vector<std::string>{"drive", "goal", "path", "place"}));
+
+  const std::string events = read_file(options.output / "events.log").value_or("");
+  for (const char* const text :
+       {"drive 0.20 m/s, 0.33 rad/s (by hand: lisa)", "goal 0.50, 3.00: reached",
+        "I am at the end of the path.", "I obey goals and paths, no words.", "`lisa` drives",
+        "place 2.00, 1.00, yaw 29 deg (by hand)", "by hand: mona"}) {
+    EXPECT_NE(events.find(text), std::string::npos) << text << "\n" << events;
+  }
+  const auto again = verify(options.output / "run.mcap", host.catalogue(), {});
+  ASSERT_TRUE(again) << again.error().text();
+  EXPECT_TRUE(again->same()) << (again->difference ? again->difference->text : "");
+  for (const std::string& note : again->notes) {
+    EXPECT_EQ(note.find("refused here"), std::string::npos) << note;
+  }
+  EXPECT_EQ(again->hash, again->recorded_hash);
+  std::filesystem::remove_all(options.output);
+}
+
+}  // namespace
+}  // namespace rave::runtime::testing

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "manager_endpoint.hpp"
+
+namespace rave::manager {
+
+struct ManagerEndpoint::Parts {
+  lock_step::Identity identity;
+  LogSink* log;
+  std::unique_ptr<bus::Bus> bus;
+  bus::Writer<bus::RunState> states;
+  bus::Writer<bus::HostInfo> own_info;
+  bus::Reader<bus::HostInfo> infos;
+  bus::Reader<bus::RosterEntry> roster;
+  std::unique_ptr<bus::WishBox> wishes;
+  std::unique_ptr<bus::CommandBox> commands;
+  lock_step::Pulse pulse;
+  lock_step::FindingsCollector findings;
+};
+
+ManagerEndpoint::ManagerEndpoint(Parts parts)
+    : identity_(std::move(parts.identity)),
+      foreign_(parts.log),
+      bus_(std::move(parts.bus)),
+      states_(std::move(parts.states)),
+      own_info_(std::move(parts.own_info)),
+      infos_(std::move(parts.infos)),
+      roster_(std::move(parts.roster)),
+      wishes_(std::move(parts.wishes)),
+      commands_(std::move(parts.commands)),
+      pulse_(std::move(parts.pulse)),
+      findings_(std::move(parts.findings)),
+      introduced_(lock_step::introduction(identity_)) {}
+
+Result<std::unique_ptr<ManagerEndpoint>> ManagerEndpoint::open(const bus::BusConfig& config,
+                                                               lock_step::Identity identity,
+                                                               LogSink* log,
+                                                               bus::BeginWish begin_wish,
+                                                               bus::OnCommand on_command) {
+  RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
+  RAVE_TRY_ASSIGN(auto states, bus::Writer<bus::RunState>::create(*bus));
+  RAVE_TRY_ASSIGN(auto own_info, bus::Writer<bus::HostInfo>::create(*bus));
+  RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
+  RAVE_TRY_ASSIGN(auto roster, bus::Reader<bus::RosterEntry>::create(*bus));
+  RAVE_TRY_ASSIGN(auto wishes, bus::WishBox::create(*bus, std::move(begin_wish), log));
+  RAVE_TRY_ASSIGN(auto commands, bus::CommandBox::create(*bus, std::move(on_command)));
+  RAVE_TRY_ASSIGN(auto pulse, lock_step::Pulse::create(*bus, identity));
+  RAVE_TRY_ASSIGN(auto findings, lock_step::FindingsCollector::create(*bus));
+  return std::unique_ptr<ManagerEndpoint>(new ManagerEndpoint(
+      {std::move(identity), log, std::move(bus), std::move(states), std::move(own_info),
+       std::move(infos), std::move(roster), std::move(wishes), std::move(commands),
+       std::move(pulse), std::move(findings)}));
+}
+
+Status ManagerEndpoint::wake(bus::WaitSet& waits) {
+  RAVE_TRY(findings_.wake(waits));
+  if (commands_) RAVE_TRY(commands_->wake(waits));
+  return wishes_ ? wishes_->wake(waits) : Status();
+}
+
+Status ManagerEndpoint::wake_for_processes(bus::WaitSet& waits) {
+  RAVE_TRY(waits.add(infos_));
+  return waits.add_events();
+}
+
+Status ManagerEndpoint::introduce() { return own_info_.write(introduced_); }
+
+/// A process says who it is.
+void ManagerEndpoint::meet(const bus::HostInfo& info, bool begun) {
+  if (info.host == rave_wire_kNone) {
+    const bool goes = !begun && lock_step::gives_way(introduced_, info);
+    second_ = second_ || goes;
+    if (!goes) foreign_.write(LogLevel::kWarning, kSource, not_listened_to(info));
+    return;
+  }
+  if (const Status fits = lock_step::check_fits(identity_, info); !fits) {
+    log_fault("refused: " + fits.error().message);
+    return;
+  }
+  host_of_[info.writer] = info.host;
+}
+
+Result<std::vector<std::uint64_t>> ManagerEndpoint::look_at_processes(bool begun) {
+  infos_.take([&](const bus::HostInfo& info) { meet(info, begun); });
+  if (second_) {
+    return fail(ErrorCode::kState,
+                "this run has an environment manager already; to start another run of the same "
+                "scenario beside it, give both a name of their own with --run");
+  }
+  std::vector<std::uint64_t> gone;
+  for (const bus::BusEvent& event : bus_->take_events()) {
+    using enum bus::EventKind;
+    if (event.kind == kParticipantLost && event.writer != 0) {
+      gone.push_back(event.writer);
+      continue;
+    }
+    if (event.kind == kStoodStill && begun) ++standstills_;
+    foreign_.note(event);
+  }
+  return gone;
+}
+
+std::optional<std::uint32_t> ManagerEndpoint::host_of(std::uint64_t writer) const {
+  const auto found = host_of_.find(writer);
+  if (found == host_of_.end()) return std::nullopt;
+  return found->second;
+}
+
+}  // namespace rave::manager

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// People give orders to robots of a run from another terminal.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <csignal>
+#include <thread>
+
+#include "process.hpp"
+
+namespace rave::cli_test {
+namespace {
+
+/// A run in a process of its own, ended with the test.
+class Orders : public ::testing::Test {
+ protected:
+  void SetUp() override { setting_ = "XDG_RUNTIME_DIR=" + folder_.path().string(); }
+  void TearDown() override {
+    if (process_ <= 0) return;
+    ::kill(process_, SIGKILL);
+    static_cast<void>(wait_for(process_));
+  }
+
+  void start(std::vector<std::string> more = {}) {
+    std::vector<std::string> words = {"run",    "orders.yaml", "--output",   output(),
+                                      "--pace", "realtime",    "--duration", "100000"};
+    words.insert(words.end(), more.begin(), more.end());
+    process_ = start_rave(words, {setting_});
+    ASSERT_GT(process_, 0);
+    wait_until([&] { return rave({"ps"}).out.find("running") != std::string::npos; });
+  }
+  /// Gives up only when something is broken.
+  template <class Holds>
+  void wait_until(Holds&& holds) {
+    for (int i = 0; i < 3000; ++i) {
+      if (holds()) return;
+      ASSERT_EQ(::waitpid(process_, nullptr, WNOHANG), 0) << "the run has ended";
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    FAIL() << "never";
+  }
+  [[nodiscard]] Ended rave(const std::vector<std::string>& words) const {
+    return run_rave(words, {setting_});
+  }
+  void refused(const std::vector<std::string>& words, const std::string& why) const {
+    const Ended ended = rave(words);
+    EXPECT_EQ(ended.exit_code, 1) << ended.out;
+    EXPECT_NE(ended.err.find(why), std::string::npos) << ended.err;
+  }
+  void end() {
+    ASSERT_EQ(::kill(process_, SIGINT), 0);
+    EXPECT_EQ(wait_for(process_), 1);
+    process_ = -1;
+  }
+  [[nodiscard]] std::string output() const { return folder_.path() / "results"; }
+  [[nodiscard]] std::string events() const { return content_of(output() + "/events.log"); }
+  [[nodiscard]] bool happened(const std::string& text) const {
+    return events().find(text) != std::string::npos;
+  }
+
+  TemporaryFolder folder_;
+  std::string setting_;
+  pid_t process_ = -1;
+};
+
+TEST_F(Orders, AreDoneAndDoneAgainByVerify) {
+  start();
+  const Ended sent = rave({"goal", "bert", "-2.5", "-3"});
+  EXPECT_EQ(sent.exit_code, 0) << sent.err;
+  EXPECT_NE(sent.out.find("bert is sent to -2.50, -3.00"), std::string::npos) << sent.out;
+  EXPECT_EQ(rave({"goal", "carl", "3", "-2.8", "3.2", "-2.8", "--speed", "0.3"}).exit_code, 0);
+  EXPECT_EQ(rave({"goal", "anna", "0.3", "-0.5"}).exit_code, 0);
+  const Ended said = rave({"say", "carl", "hello"});
+  EXPECT_EQ(said.exit_code, 0) << said.err;
+  EXPECT_EQ(rave({"goal", "anna", "--cancel"}).exit_code, 0);
+  const Ended driven = rave({"drive", "anna", "-0.1", "0.5", "--for", "0.5"});
+  EXPECT_EQ(driven.exit_code, 0) << driven.err;
+  EXPECT_NE(driven.out.find("no order of people counts any more"), std::string::npos) << driven.out;
+  EXPECT_EQ(rave({"place", "anna", "2.5", "0.5", "90"}).exit_code, 0);
+  std::this_thread::sleep_for(std::chrono::seconds(3));
+  EXPECT_EQ(rave({"stop", "--robot", "bert"}).exit_code, 0);
+  refused({"goal", "bert", "0", "0"}, "it is stopped");
+  end();
+  EXPECT_TRUE(happened("goal -2.50, -3.00 (by hand)")) << events();
+  EXPECT_TRUE(happened("goal -2.50, -3.00: reached")) << events();
+  EXPECT_TRUE(happened("I obey goals and paths, no words.")) << events();
+  EXPECT_TRUE(happened("I am at the end of the path.")) << events();
+  EXPECT_TRUE(happened("drive -0.10 m/s, 0.50 rad/s (by hand)")) << events();
+  EXPECT_TRUE(happened("place 2.50, 0.50, yaw 90 deg (by hand)")) << events();
+  EXPECT_TRUE(happened("`terminal` drives")) << events();
+  const Ended verified = rave({"verify", output()});
+  EXPECT_EQ(verified.exit_code, 0) << verified.err;
+  EXPECT_NE(verified.out.find("the same: "), std::string::npos) << verified.out;
+  EXPECT_EQ(verified.out.find("is refused here"), std::string::npos) << verified.out;
+}
+
+TEST_F(Orders, AreRefusedWithASentence) {
+  start({"--no-record"});
+  refused({"goal", "ana", "0", "0"}, "did you mean `anna`");
+  refused({"goal", "anna", "0", "2"}, "is inside the obstacle `wall`");
+  refused({"goal", "anna", "1e6", "0"}, "is outside the world");
+  refused({"place", "anna", "1", "1"}, "it would overlap `post`");
+  refused({"goal", "bert", "0", "0", "1", "0"}, "its program takes no paths");
+  refused({"say", "bert", "hello"}, "its program takes no texts");
+  refused({"drive", "anna", "1000", "0"}, "expected at most 100 m/s");
+  EXPECT_EQ(rave({"goal", "anna"}).exit_code, 2);
+  EXPECT_EQ(rave({"goal", "anna", "1"}).exit_code, 2);
+  EXPECT_EQ(rave({"drive", "anna", "1"}).exit_code, 2);
+  end();
+  EXPECT_FALSE(happened("ordered"));
+}
+
+TEST_F(Orders, ADriverThatIsKilledLeavesARobotThatStandsAndThenItsProgram) {
+  start({"--no-record"});
+  const pid_t driver = start_rave({"drive", "bert", "0.3", "0", "--for", "3000"}, {setting_});
+  ASSERT_GT(driver, 0);
+  wait_until([&] {
+    return rave({"ps", "--robots"}).out.find("`terminal` drives it") != std::string::npos;
+  });
+  ::kill(driver, SIGKILL);
+  static_cast<void>(wait_for(driver));
+  // The lease ends by itself.
+  wait_until([&] {
+    return rave({"ps", "--robots"}).out.find("`terminal` drives it") == std::string::npos;
+  });
+  end();
+  EXPECT_TRUE(happened("cancel (by hand)")) << events();
+  EXPECT_TRUE(happened("`terminal` drives no more: nothing was heard of them")) << events();
+}
+
+}  // namespace
+}  // namespace rave::cli_test

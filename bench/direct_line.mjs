@@ -10,7 +10,7 @@
 // Meanwhile `clients` other lines send drives as fast as a page may.
 import {execFileSync, spawn} from 'node:child_process';
 import {webcrypto} from 'node:crypto';
-import {mkdtempSync, rmSync, writeFileSync} from 'node:fs';
+import {mkdirSync, mkdtempSync, rmSync, writeFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import {tmpdir} from 'node:os';
 import {join, resolve} from 'node:path';
@@ -27,10 +27,11 @@ const kDrive_ms = 33;
 
 const folder = mkdtempSync(join(tmpdir(), 'rave-direct-'));
 const key = join(folder, 'line');
-const scenario = join(folder, 'scenario.yaml');
+const scenario = join(folder, 'lab');
 const names = Array.from({length: hosts}, (_, i) => `h${i}`);
 const robots = new URL('../robots/wanderer.yaml', import.meta.url).pathname;
-writeFileSync(scenario, [
+mkdirSync(scenario);
+writeFileSync(join(scenario, 'scenario.yaml'), [
   'name: direct-bench', 'clock: real_time', 'max_missed_pct: 100', 'duration_s: 3600', `step_s: ${kStep_s}`, 'hosts:',
   ...names.map((name) => `  - {name: ${name}, robots: [r${name}]}`), 'robots:',
   ...names.map((name, i) => `  - {name: r${name}, file: ${robots}, pose: {x_m: ${3 * i}, y_m: 0}}`), ''].join('\n'));

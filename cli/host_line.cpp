@@ -78,8 +78,7 @@ Result<HostLineEnds> open_host_line(const LineWish& wish, const std::string& hos
   options.run = bus.run.text();
   options.host = host;
   RAVE_TRY_ASSIGN(ends.server, direct_line::LineServer::start(options, control));
-  RAVE_TRY_ASSIGN(ends.beacon, direct_line::LineBeacon::start(bus, host, *ends.server));
-  log.info("line", "pages reach this host at {}", ends.server->url());
+  ends.beacon = direct_line::LineBeacon::start(bus, host, *ends.server, control, log);
   return ends;
 }
 
@@ -104,6 +103,8 @@ Status offer_bus_lines(const config::ExpandedScenario& scenario, const bus::BusC
   RAVE_TRY_ASSIGN(const auto hosts, config::plan_hosts(scenario));
   std::map<std::string, std::vector<std::string>> robots;
   for (const config::PlannedHost& host : hosts) robots[host.name] = names_of(scenario, host);
+  auto& all = robots[direct_line::kManagerHost];
+  for (const config::ExpandedRobot& robot : scenario.robots) all.push_back(robot.name);
   RAVE_TRY_ASSIGN(
       auto lines,
       direct_line::lines_on_bus(bus, [robots = std::move(robots)](const std::string& host) {

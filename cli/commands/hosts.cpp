@@ -116,6 +116,11 @@ int env(const EnvCommand& options) {
   }
   runtime::RunControl& control = ended_by_signals();
   const auto server = serve_control(scenario->scenario.name.value, control, console);
+  const auto line = open_host_line(run.line, direct_line::kManagerHost, *bus, control, console);
+  if (!line) {
+    folder->discard();
+    return complain(line.error());
+  }
   bool started = false;
   auto managed = manage_run({*scenario,
                              run,

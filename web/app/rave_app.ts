@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
-import {DirectLines} from '../model/direct_lines';
 import {Commands} from '../model/commands';
+import {DirectLines} from '../model/direct_lines';
 import {Link} from '../model/link';
 import {RunModel} from '../model/run_model';
 import type {PanelContext, PanelElement, PanelKind} from '../panel_api';

@@ -41,7 +41,7 @@ try {
   const {port} = new URL(gui.link);
 
   await check('hosts say where their lines are', async () => {
-    for (const host of ['left', 'right']) await untilHere(page, () => /pages reach this host at ws:/.test(log(host)), host, 60000);
+    for (const host of ['left', 'right']) await untilHere(page, () => /pages reach `.*` at ws:/.test(log(host)), host, 60000);
   });
 
   let seen = null;

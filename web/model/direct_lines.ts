@@ -9,6 +9,9 @@ const kAgain_ms = 5000;
 const kQuiet_ms = 30_000;
 /** A withdrawn ticket: the server knows the new rights already. */
 const kWithdrawn_ms = 300;
+const kReloaded = 'rave.reloaded';
+const kYoung_ms = 30_000;
+const kRarely_ms = 60_000;
 
 /** How orders of a robot go. `none`: they cannot. */
 export type Way = 'direct' | 'relay' | 'none';
@@ -32,9 +35,18 @@ export class DirectLines {
   constructor(private readonly url: string) {
     document.addEventListener('securitypolicyviolation', (event) => {
       for (const line of this.lines.values()) {
-        if (event.blockedURI !== '' && line.ticket.url.startsWith(event.blockedURI.replace(/\/$/, ''))) line.block();
+        if (event.blockedURI !== '' && line.ticket.url.startsWith(event.blockedURI.replace(/\/$/, ''))) this.block(line);
       }
     });
+  }
+
+  /** A page that was opened just before its hosts is loaded anew by itself, once. */
+  private block(line: DirectLine): void {
+    line.block();
+    const last_ms = Number(sessionStorage.getItem(kReloaded) ?? 0);
+    if (performance.now() > kYoung_ms || Date.now() - last_ms < kRarely_ms) return;
+    sessionStorage.setItem(kReloaded, String(Date.now()));
+    location.reload();
   }
 
   /** The page has a live run and somebody who may give orders; or has not any more. */

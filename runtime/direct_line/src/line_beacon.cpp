@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <condition_variable>
+#include <mutex>
 #include <thread>
 
 #include "rave/bus/reader.hpp"
@@ -7,21 +9,83 @@
 #include "rave/direct_line/lines.hpp"
 
 namespace rave::direct_line {
+namespace {
 
-struct LineBeacon::Impl {
+constexpr auto kLookForRun = std::chrono::milliseconds(50);
+
+/// In lock-step the manager has the say, in real time each host of its robots.
+bool has_the_say(const runtime::RunStatus& status, const std::string& host) {
+  return host == kManagerHost ? !status.live : !status.follows;
+}
+
+/// The thread of the beacon alone.
+struct BeaconEnds {
   std::unique_ptr<bus::Bus> bus;
   bus::Writer<bus::LineInfo> infos;
   bus::Reader<bus::LineWithdrawal> withdrawals;
   bus::WaitSet waits;
+};
+
+Result<BeaconEnds> open_ends(const bus::BusConfig& config) {
+  RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
+  RAVE_TRY_ASSIGN(auto infos, bus::Writer<bus::LineInfo>::create(*bus));
+  RAVE_TRY_ASSIGN(auto withdrawals, bus::Reader<bus::LineWithdrawal>::create(*bus));
+  RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(*bus));
+  RAVE_TRY(waits.add(withdrawals));
+  return BeaconEnds{std::move(bus), std::move(infos), std::move(withdrawals), std::move(waits)};
+}
+
+}  // namespace
+
+struct LineBeacon::Impl {
+  bus::BusConfig config;
+  std::string host;
   LineServer& server;
+  const runtime::RunControl& control;
+  LogSink& log;
+  std::mutex mutex{};
+  std::condition_variable_any stopped{};
   std::jthread thread{};
 
   void work(const std::stop_token& stop) {
-    while (!stop.stop_requested()) {
-      withdrawals.take(
-          [this](const bus::LineWithdrawal& withdrawal) { server.withdraw(withdrawal.text); });
-      static_cast<void>(waits.wait(Duration{-1}, stop));
+    if (!wait_for_run(stop)) return;
+    // A process that must not announce its line needs no end on the bus for it.
+    if (!has_the_say(control.status(), host)) {
+      log.info("line", "no line of `{}`: another process takes the orders of this run", host);
+      return;
     }
+    auto ends = open_ends(config);
+    const Status told = ends ? tell(*ends) : Status(tl::unexpected(ends.error()));
+    if (!told) {
+      log.warn("line", "pages do not learn of the line of `{}`: {}", host, told.error().message);
+      return;
+    }
+    log.info("line", "pages reach `{}` at {}", host, server.url());
+    while (!stop.stop_requested()) {
+      ends->withdrawals.take(
+          [this](const bus::LineWithdrawal& withdrawal) { server.withdraw(withdrawal.text); });
+      static_cast<void>(ends->waits.wait(Duration{-1}, stop));
+    }
+    // Nobody is left to whom it matters if this does not get through.
+    bus::LineInfo info{};
+    static_cast<void>(ends->infos.dispose(info));
+  }
+
+  [[nodiscard]] bool wait_for_run(const std::stop_token& stop) {
+    std::unique_lock lock(mutex);
+    while (!stop.stop_requested()) {
+      if (!control.status().scenario.empty()) return true;
+      stopped.wait_for(lock, stop, kLookForRun, [] { return false; });
+    }
+    return false;
+  }
+
+  [[nodiscard]] Status tell(BeaconEnds& ends) const {
+    bus::LineInfo info{};
+    const std::string url = server.url();
+    host.copy(info.host, sizeof info.host - 1);
+    url.copy(info.url, sizeof info.url - 1);
+    return ends.infos.write(info);
   }
 };
 
@@ -30,27 +94,14 @@ LineBeacon::LineBeacon(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(im
 LineBeacon::~LineBeacon() {
   impl_->thread.request_stop();
   impl_->thread.join();
-  // Nobody is left to whom it matters that this does not get through.
-  bus::LineInfo info{};
-  static_cast<void>(impl_->infos.dispose(info));
 }
 
-Result<std::unique_ptr<LineBeacon>> LineBeacon::start(bus::BusConfig config,
-                                                      const std::string& host, LineServer& server) {
+std::unique_ptr<LineBeacon> LineBeacon::start(bus::BusConfig config, const std::string& host,
+                                              LineServer& server,
+                                              const runtime::RunControl& control, LogSink& log) {
   config.anonymous = true;
   config.beside = true;
-  RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
-  RAVE_TRY_ASSIGN(auto infos, bus::Writer<bus::LineInfo>::create(*bus));
-  RAVE_TRY_ASSIGN(auto withdrawals, bus::Reader<bus::LineWithdrawal>::create(*bus));
-  RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(*bus));
-  RAVE_TRY(waits.add(withdrawals));
-  bus::LineInfo info{};
-  const std::string url = server.url();
-  host.copy(info.host, sizeof info.host - 1);
-  url.copy(info.url, sizeof info.url - 1);
-  RAVE_TRY(infos.write(info));
-  std::unique_ptr<Impl> impl(
-      new Impl{std::move(bus), std::move(infos), std::move(withdrawals), std::move(waits), server});
+  std::unique_ptr<Impl> impl(new Impl{std::move(config), host, server, control, log});
   impl->thread = std::jthread([raw = impl.get()](const std::stop_token& stop) { raw->work(stop); });
   return std::unique_ptr<LineBeacon>(new LineBeacon(std::move(impl)));
 }

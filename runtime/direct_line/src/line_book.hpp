@@ -64,6 +64,7 @@ class LineBook {
   std::map<std::uint64_t, Line> lines_;
   std::map<std::string, std::uint64_t, std::less<>> epochs_;  ///< By person.
   web::RateLimit refusals_;
+  bool follows_ = false;      ///< The run of this process takes no orders: its manager does.
   std::uint64_t untold_ = 0;  ///< Refusals that were too many for the log.
   LineCounts counts_;
 };

@@ -36,6 +36,7 @@ class LinesOnBus : public ::testing::Test {
     bus_.beside = true;
     bus_.tag = bus_.run.text();
     runtime::RunStatus status;
+    status.scenario = "test";
     status.robots.emplace_back().name = "r1";
     control_.begin(status);
   }
@@ -58,9 +59,7 @@ class LinesOnBus : public ::testing::Test {
     return *std::move(lines);
   }
   [[nodiscard]] std::unique_ptr<LineBeacon> beacon(const std::string& host, LineServer& server) {
-    auto started = LineBeacon::start(bus_, host, server);
-    EXPECT_TRUE(started) << started.error().text();
-    return *std::move(started);
+    return LineBeacon::start(bus_, host, server, control_, log_);
   }
   [[nodiscard]] RawSocket page_at(const LineServer& server, std::uint64_t epoch,
                                   const std::string& user = "anna") const {
@@ -94,6 +93,7 @@ class LinesOnBus : public ::testing::Test {
   SigningKey signer_ = new_signing_key();
   testing::PageKey page_;
   runtime::RunControl control_;
+  NullLogSink log_;
 };
 
 TEST_F(LinesOnBus, AWithdrawalEndsALineWithinASecond) {
@@ -151,6 +151,34 @@ TEST_F(LinesOnBus, AHostThatEndsIsTakenBackAndANewOneIsFound) {
   told = beacon("left", *server);
   ASSERT_TRUE(comes_true([&] { return lines->hosts().size() == 1; }));
   EXPECT_EQ(lines->hosts()[0].url, server->url());
+}
+
+TEST_F(LinesOnBus, InLockStepTheManagerHasTheLineAndAHostRefusesOrders) {
+  runtime::RunStatus follows;
+  follows.scenario = "test";
+  follows.follows = true;
+  control_.end();
+  control_.begin(follows);
+  const auto server = line("left");
+  const auto told = beacon("left", *server);
+  runtime::RunControl of_manager;
+  runtime::RunStatus steps;
+  steps.scenario = "test";
+  of_manager.begin(steps);
+  const auto manager = line(kManagerHost);
+  const auto told_of_manager = LineBeacon::start(bus_, kManagerHost, *manager, of_manager, log_);
+  auto lines =
+      lines_on_bus(bus_, [](const std::string&) { return std::vector<std::string>{"r1"}; });
+  ASSERT_TRUE(lines) << lines.error().text();
+  ASSERT_TRUE(comes_true([&] { return !(*lines)->hosts().empty(); }));
+  ASSERT_EQ((*lines)->hosts().size(), 1U);
+  EXPECT_EQ((*lines)->hosts()[0].host, kManagerHost);
+  RawSocket anna = page_at(*server, 5);
+  ASSERT_NE(anna.text_with("\"welcome\""), "");
+  anna.send(R"({"type":"order","id":1,"kind":"stop","robot":"r1"})");
+  EXPECT_NE(anna.text_with("\"answer\"").find("orders go to the environment manager"),
+            std::string::npos);
+  of_manager.end();
 }
 
 }  // namespace

@@ -86,6 +86,8 @@ Result<std::shared_ptr<Source>> watch_run(const config::ExpandedScenario& scenar
     port = std::make_unique<BusPort>(std::move(asker), std::move(status), std::move(commands));
   }
   RAVE_TRY_ASSIGN(auto start, start_of(scenario, built));
+  // In lock-step the manager takes the orders; beside it there is no shorter way.
+  if (control != nullptr && start.about.lock_step) start.about.relay = true;
   return std::make_shared<BusSource>(std::move(start), std::make_shared<LiveBox>(), std::move(port),
                                      std::move(observer), std::move(listener),
                                      world_of(scenario, built));

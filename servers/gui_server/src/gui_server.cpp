@@ -171,7 +171,8 @@ class GuiServer::Impl final : public web::Handler {
     if (visitors_.sees_as_other(session)) {
       return web::text_response(403, "you look with the eyes of somebody else\n");
     }
-    return tickets_.serve(request, {*person, session, view, visitors_.source()->about().relay});
+    return tickets_.serve(
+        request, {Visitors::known(*person), session, view, visitors_.source()->about().relay});
   }
 
   /// What somebody may not have is, for them, not there.

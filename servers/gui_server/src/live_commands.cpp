@@ -58,6 +58,11 @@ RunRequest request_of(const CommandMessage& command, const Author& author) {
   return request;
 }
 
+constexpr const char* kNoRelay =
+    "Orders go by the direct line to the host of the robot, and there is none; `gui: {relay: "
+    "true}` "
+    "in the scenario lets the server pass them on.";
+
 }  // namespace
 
 void LiveSource::halt(const HaltMessage& halt, const Author& author, Reply reply) {
@@ -89,6 +94,13 @@ void LiveSource::command(const CommandMessage& command, const Author& author,
                       }});
   };
   if (command.of_obstacle()) return post(request_of(command, author), kNoSlot);
+  // Robots that are driven by way of a server would stop with it.
+  const bool passes =
+      command.kind == CommandMessage::Kind::kSet || command.kind == CommandMessage::Kind::kPlace;
+  if (!start_.about.relay && !passes) {
+    for (const std::uint32_t slot : command.slots) reply(slot, false, kNoRelay);
+    return;
+  }
   const bool shared = command.kind == CommandMessage::Kind::kPath || command.points.size() == 1;
   for (std::size_t i = 0; i < command.slots.size(); ++i) {
     const std::uint32_t slot = command.slots[i];

@@ -108,7 +108,7 @@ web::Response TicketDesk::serve(const web::Request& request, const Asker& asker)
   const Indices indices = indices_of(asker.view->cast());
   for (const HostLine& line : lines_->hosts()) {
     ticket.host = line.host;
-    ticket.orders = robots_with(InfoClass::kRelease, line, *asker.view, indices);
+    ticket.orders = robots_with(InfoClass::kCommand, line, *asker.view, indices);
     ticket.stops = robots_with(InfoClass::kStop, line, *asker.view, indices);
     ticket.releases = robots_with(InfoClass::kRelease, line, *asker.view, indices);
     if (ticket.orders.empty() && ticket.stops.empty()) continue;

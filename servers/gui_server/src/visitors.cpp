@@ -214,6 +214,8 @@ std::shared_ptr<const View> Visitors::view_of(const Person& person) {
   return source_ ? desk_.view_of(person) : nullptr;
 }
 
+Person Visitors::known(const Person& person) { return known_as(person); }
+
 bool Visitors::sees_as_other(std::string_view session) const {
   return std::ranges::any_of(visitors_, [session](const auto& entry) {
     return entry.second.session == session && entry.second.eyes.has_value();

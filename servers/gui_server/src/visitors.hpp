@@ -42,6 +42,8 @@ class Visitors {
   /// What somebody gets, as for the recording; null: there is no run.
   [[nodiscard]] std::shared_ptr<const View> view_of(const Person& person);
   [[nodiscard]] const std::shared_ptr<Source>& source() const noexcept { return source_; }
+  /// As the run and other people call somebody.
+  [[nodiscard]] static Person known(const Person& person);
   /// Whether a page of this session looks with the eyes of somebody else.
   [[nodiscard]] bool sees_as_other(std::string_view session) const;
   [[nodiscard]] std::size_t count() const noexcept { return visitors_.size(); }

@@ -41,14 +41,21 @@ class Lines {
 [[nodiscard]] Result<std::unique_ptr<Lines>> lines_on_bus(
     bus::BusConfig bus, std::function<std::vector<std::string>(const std::string&)> robots_of);
 
-/// What a host does on the bus for its line, in a thread of its own: tells where it is, and passes
-/// on withdrawals.
+/// As the line of the environment manager is called. In lock-step orders go there, and in real time
+/// to each host.
+inline constexpr const char* kManagerHost = "environment manager";
+
+/// What a process does on the bus for its line, in a thread of its own: once the run is there, it
+/// tells where the line is, if this process takes the orders, and passes on withdrawals.
 class LineBeacon {
  public:
-  /// `server` outlives it. Errors: those of bus::Bus::open().
-  [[nodiscard]] static Result<std::unique_ptr<LineBeacon>> start(bus::BusConfig bus,
-                                                                 const std::string& host,
-                                                                 LineServer& server);
+  /// `host`: its name in the scenario, or kManagerHost. `control`: of the run of this process. The
+  /// last three outlive it. A bus that cannot be opened is a warning in the log: the run goes on.
+  [[nodiscard]] static std::unique_ptr<LineBeacon> start(bus::BusConfig bus,
+                                                         const std::string& host,
+                                                         LineServer& server,
+                                                         const runtime::RunControl& control,
+                                                         LogSink& log);
   LineBeacon(const LineBeacon&) = delete;
   LineBeacon& operator=(const LineBeacon&) = delete;
   ~LineBeacon();

@@ -18,6 +18,8 @@
 #include "rave/direct_line/key_files.hpp"
 #include "rave/gui_server/bus_run.hpp"
 #include "rave/host/host_run.hpp"
+#include "rave/manager/live_manager.hpp"
+#include "rave/manager/manager.hpp"
 
 namespace rave::cli {
 namespace {

@@ -59,6 +59,7 @@ class BusPort final : public RunPort {
   std::deque<std::pair<runtime::RunRequest, std::promise<Answer>>> waiting_;
   std::vector<runtime::RunStatus::Robot> robots_;
   std::jthread thread_;
+  std::jthread watcher_;
 };
 
 }  // namespace rave::gui_server

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// A commander and real runs: node commands_test.mjs RAVE SCENARIO FOLDER
+// The same page commands a run of one process, and one of three in lock-step.
+import assert from 'node:assert/strict';
+import {execFileSync, spawnSync} from 'node:child_process';
+import {mkdirSync, rmSync} from 'node:fs';
+import {join} from 'node:path';
+import {launch, startServer} from './browser.mjs';
+import {app, check, report, showFailures, until, untilHere} from './checks.mjs';
+import {clickAt, dragThrough} from './hands.mjs';
+
+const [rave, scenario, folder] = process.argv.slice(2);
+const newest = `${app}.model.poses.newest`;
+rmSync(folder, {recursive: true, force: true});
+mkdirSync(folder, {recursive: true});
+
+const slotOf = (page, name) => page.evaluate(`${app}.model.robots.findIndex((robot) => robot.name === '${name}')`);
+const placeOf = (page, slot) => page.evaluate(`[${newest}.x[${slot}], ${newest}.y[${slot}]]`);
+const choose = (page, slot) => page.evaluate((what) => document.querySelector('rave-app').selection.set([what]), slot);
+const near = (page, slot, x, y, m) => until(page, `Math.hypot(${newest}.x[${slot}] - ${x}, ${newest}.y[${slot}] - ${y}) < ${m}`, 30000);
+const speed = (slot) => `Math.abs(${newest}.speed[${slot}])`;
+const happened = (kind, text) => `${app}.model.events.some((event) => event.kind === '${kind}' && event.text.includes('${text}'))`;
+
+/** Sends a robot to a place by a click and waits until it is there. */
+async function sendByClick(page, name, x, y) {
+  const slot = await slotOf(page, name);
+  await choose(page, slot);
+  await page.keyboard.press('g');
+  await clickAt(page, x, y);
+  await until(page, happened('ordered', `goal`));
+  await near(page, slot, x, y, 0.3);
+  await page.keyboard.press('v');
+}
+
+/** Drives a robot by the mouse on the stick; it stands when the mouse lets go. */
+async function driveByMouse(page, name) {
+  const slot = await slotOf(page, name);
+  await choose(page, slot);
+  await page.getByRole('radio', {name: 'Drive'}).click();
+  await page.waitForTimeout(300);
+  const before = await placeOf(page, slot);
+  const box = await page.locator('rave-joystick .stick').boundingBox();
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x, y - box.height / 4, {steps: 3});
+  await until(page, `Math.hypot(${newest}.x[${slot}] - ${before[0]}, ${newest}.y[${slot}] - ${before[1]}) > 0.1`);
+  await until(page, `${speed(slot)} > 0.05`);
+  await page.mouse.up();
+  await until(page, `${speed(slot)} < 0.001`, 3000);
+}
+
+const browser = await launch();
+const servers = [];
+try {
+  for (const [what, more] of [['one process', []], ['three processes', ['--processes', '3']]]) {
+    const context = await browser.newContext({viewport: {width: 1500, height: 950}});
+    const page = await context.newPage();
+    const output = join(folder, what.replace(' ', '-'));
+    const server = await startServer(rave, ['run', scenario, '--gui', '--quiet', '--no-picture', '--pace', 'realtime', '--duration', '100000', '--output', output, ...more]);
+    servers.push(server);
+    showFailures(page, join(folder, `failure-${what.replace(' ', '-')}.png`));
+
+    await check(`${what}: the page may command`, async () => {
+      await page.goto(server.link);
+      await until(page, `${app}?.model?.robots?.length === 3 && ${newest} !== null`, 60000);
+      await until(page, `${app}.model.may('command')`);
+      await page.waitForTimeout(500);
+    });
+
+    await check(`${what}: a goal by click arrives, for a program that takes goals and for a controller alone`, async () => {
+      await sendByClick(page, 'carl', 3.5, -2.5);
+      await sendByClick(page, 'bert', -2.5, -2.5);
+    });
+
+    await check(`${what}: a goal inside a wall is refused beside the goal`, async () => {
+      await choose(page, await slotOf(page, 'bert'));
+      await page.keyboard.press('g');
+      await clickAt(page, 1, 1);
+      const card = page.locator('rave-world .beside.refused');
+      await card.waitFor();
+      assert.match(await card.innerText(), /inside the obstacle `post`/);
+      await card.getByRole('button', {name: 'Drop'}).click();
+      await page.keyboard.press('Escape');
+    });
+
+    await check(`${what}: the mouse drives a robot, and letting go stops it`, () => driveByMouse(page, 'bert'));
+
+    await check(`${what}: whoever drives holds the lease, which another commander is told of`, async () => {
+      const other = await context.newPage();
+      await other.goto(new URL(server.link).origin);
+      await until(other, `${app}?.model?.drives?.get(${await slotOf(page, 'bert')})?.lease?.length > 0`);
+      await other.close();
+    });
+
+    await check(`${what}: a robot is told something, and answers`, async () => {
+      await page.evaluate((slot) => document.querySelector('rave-app').link.send({type: 'say', request: 900, to: 'robot', slot, text: 'hello'}), await slotOf(page, 'carl'));
+      await until(page, happened('said', 'no words'));
+    });
+
+    if (more.length === 0) {
+      await check(`${what}: an obstacle is drawn, and stands in the run`, async () => {
+        await page.getByRole('radio', {name: 'Watch'}).click().catch(() => {});
+        await page.keyboard.press('o');
+        await dragThrough(page, [[-1.4, 1.0], [-0.9, 1.4]]);
+        await until(page, happened('obstacle added', ''), 10000).catch(() => until(page, `[...${app}.model.bodies.values()].some((body) => body.kind === 'virtual')`));
+        const list = execFileSync(rave, ['edit', String(server.child.pid), 'list'], {encoding: 'utf8'});
+        assert.match(list, /-1\.1/);
+        await page.keyboard.press('v');
+      });
+    }
+
+    await check(`${what}: the robots stop, and are released`, async () => {
+      await page.evaluate(() => document.querySelector('rave-app').link.send({type: 'halt', do: 'stop', slots: []}));
+      await until(page, `[...${newest}.flags].filter((flags) => flags & 4).length === 3`);
+      await page.evaluate(() => document.querySelector('rave-app').link.send({type: 'halt', do: 'release', slots: []}));
+      await until(page, `[...${newest}.flags].filter((flags) => flags & 4).length === 0`);
+    });
+
+    await check(`${what}: rave verify does the orders again`, async () => {
+      server.child.kill('SIGINT');
+      await untilHere(page, () => server.child.exitCode !== null || spawnSync('test', ['-s', join(output, 'result.json')]).status === 0, 'the run ends', 30000);
+      server.child.kill('SIGINT');
+      await server.end();
+      const records = more.length === 0 ? [output] : ['host-1', 'host-2', 'host-3'].map((host) => join(output, 'hosts', host));
+      for (const record of records) {
+        const {status, stdout, stderr} = spawnSync(rave, ['verify', record], {encoding: 'utf8'});
+        assert.equal(status, 0, stdout + stderr);
+        assert.match(stdout, /the same/);
+      }
+    });
+    await context.close();
+  }
+} finally {
+  await browser.close();
+  for (const server of servers) server.child.kill('SIGKILL');
+}
+report();
+process.exit(0);

@@ -90,7 +90,7 @@ TEST_F(Orders, AreDoneAndDoneAgainByVerify) {
   EXPECT_TRUE(happened("`terminal` drives")) << events();
   const Ended verified = rave({"verify", output()});
   EXPECT_EQ(verified.exit_code, 0) << verified.err;
-  EXPECT_NE(verified.out.find("the same: "), std::string::npos) << verified.out;
+  EXPECT_NE(verified.out.find("equal: "), std::string::npos) << verified.out;
   EXPECT_EQ(verified.out.find("is refused here"), std::string::npos) << verified.out;
 }
 

@@ -237,7 +237,8 @@ TEST_F(Verify, ADamagedRecordIsRefusedAndTheDamageIsNamed) {
 TEST(VerifyLive, CannotBe) {
   const TemporaryFolder folder;
   const std::string scenario = folder.path() / "live.yaml";
-  std::ofstream(scenario) << "name: live\nduration_s: 0.3\nrobots:\n  - {name: it, file: "
+  std::ofstream(scenario) << "name: live\nduration_s: 0.3\nmax_missed_pct: 100\n"
+                             "robots:\n  - {name: it, file: "
                           << RAVE_SOURCE_DIR
                           << "/robots/recorded-create.yaml, variables: {clock: live}}\n";
   const std::string run = folder.path() / "run";

@@ -86,7 +86,7 @@ class CommandDocs(unittest.TestCase):
         self.assertEqual(self.complete("rave", "check", "a", "rob"), {"robot.yaml"})
         self.assertIn("lab", self.complete("rave", "run", "--seed", "7", "la"))
         self.assertEqual(self.complete("rave", "schema", "s"), {"scenario"})
-        self.assertEqual(self.complete("rave", "new", ""), {"program", "driver"})
+        self.assertEqual(self.complete("rave", "new", ""), {"program", "driver", "panel"})
         self.assertEqual(self.complete("rave", "edit", "add", ""), {"box", "disc", "polygon"})
         self.assertEqual(self.complete("rave", "run", "--pace", "r"), {"realtime"})
         self.assertEqual(self.complete("rave", "bench", "swarm", "--workload", ""), {"A", "B"})

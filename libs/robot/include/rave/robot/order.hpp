@@ -13,7 +13,7 @@
 // What people ask of a robot while it runs. A program that says what it takes, by a constant
 // `static constexpr OrderSet kTakes`, gets it with its percepts.
 namespace rave {
-
+/// What an order asks of a robot.
 enum class OrderKind : std::uint32_t {
   kNone = 0,
   kDrive = 1,   ///< A velocity. Never reaches a program, which is told by Percepts::is_driven().
@@ -26,8 +26,8 @@ enum class OrderKind : std::uint32_t {
 
 /// `drive`, `goal`, `path`, `cancel`, `text` or `place`.
 [[nodiscard]] std::string_view to_string(OrderKind kind) noexcept;
-
-/// A set of kinds of orders, one bit each.
+/// @{
+/// A set of kinds of orders, one bit each: `kTakesGoal | kTakesText`; has_order() asks for a bit.
 using OrderSet = std::uint32_t;
 [[nodiscard]] constexpr OrderSet order_bit(OrderKind kind) noexcept {
   return OrderSet{1} << static_cast<std::uint32_t>(kind);
@@ -38,10 +38,10 @@ using OrderSet = std::uint32_t;
 inline constexpr OrderSet kTakesGoal = order_bit(OrderKind::kGoal);
 inline constexpr OrderSet kTakesPath = order_bit(OrderKind::kPath);
 inline constexpr OrderSet kTakesText = order_bit(OrderKind::kText);
-
-inline constexpr std::size_t kMostOrderPoints = 1000;
-inline constexpr std::size_t kMostOrderText = 1000;  ///< Bytes of UTF-8, of kText and of answers.
-inline constexpr std::size_t kMostOrderAuthor = 64;  ///< Bytes of the name of who asks.
+/// @}
+inline constexpr std::size_t kMostOrderPoints = 1000;  ///< Of a path.
+inline constexpr std::size_t kMostOrderText = 1000;    ///< Bytes of UTF-8, of kText and of answers.
+inline constexpr std::size_t kMostOrderAuthor = 64;    ///< Bytes of the name of who asks.
 /// Orders that wait for one decision; of goal, path and cancel only the last one counts.
 inline constexpr std::size_t kMostWaitingOrders = 8;
 

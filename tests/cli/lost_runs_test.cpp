@@ -196,8 +196,9 @@ TEST_F(LostRuns, AStepOfAPausedRunWithADeadHostIsNotSaidToBeDone) {
   ASSERT_EQ(rave({"pause", "crowd"}).out.substr(0, 6), "crowd-");
   kill_process("one");
   wait_for_line("env", "all wait until it is back");
-  wait_until([this] { return rave({"ps"}).out.find("paused, waiting for one") != std::string::npos; },
-             "the status says for whom it waits");
+  wait_until(
+      [this] { return rave({"ps"}).out.find("paused, waiting for one") != std::string::npos; },
+      "the status says for whom it waits");
   const Ended step = rave({"step", "crowd", "--count", "5"});
   EXPECT_NE(step.out.find("5 steps asked for; the run waits for one, which is late or gone"),
             std::string::npos)

@@ -29,8 +29,8 @@ class OrdersOverHosts : public ::testing::Test {
   }
   void start(const std::string& name, const Words& more) {
     output_ = folder_.path() / name;
-    Words words = {"run",      "orders.yaml", "--output", output_,       "--pace",
-                   "realtime", "--duration",  "9",        "--no-picture"};
+    Words words = {"run",  "orders.yaml", "--output", output_,       "--pace",
+                   "0.5x", "--duration",  "9",        "--no-picture"};
     words.insert(words.end(), more.begin(), more.end());
     process_ = start_rave(words, {"XDG_RUNTIME_DIR=" + folder_.path().string()}, output_ + ".log");
     ASSERT_GT(process_, 0);
@@ -75,15 +75,15 @@ class OrdersOverHosts : public ::testing::Test {
   /// The hash of a run in which people ask all kinds of things.
   std::string hash_of_orders(const std::string& name, const Words& more) {
     start(name, more);
-    go_to(300);
+    go_to(500);
     give({"goal", "bert", "-2.5", "-3"});
     give({"goal", "carl", "3", "-2.8", "3.2", "-2.8", "--speed", "0.3"});
     give({"say", "carl", "hello"});
     give({"place", "anna", "2.5", "0.5", "90"});
-    go_to(400);
+    go_to(600);
     give({"goal", "anna", "2.2", "-0.5"});
     give({"stop", "--robot", "bert"});
-    go_to(500);
+    go_to(700);
     give({"goal", "anna", "--cancel"});
     // A run in lock-step that is paused has not released it yet when it is asked to arm it.
     static_cast<void>(rave({"arm", "--robot", "bert", "--release"}));

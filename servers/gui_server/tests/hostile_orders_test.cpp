@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// Orders, chat and components of a client that may not have them.
+#include <unistd.h>
+
+#include "hostile_fixture.hpp"
+
+namespace rave::gui_server::testing {
+namespace {
+
+TEST_F(Hostile, OrdersOfAnObserverAreRefusedAndLogged) {
+  RawSocket eve = socket(guest(Role::kObserver, "eve"));
+  for (const char* const request :
+       {R"({"type":"order","request":1,"kind":"drive","slots":[0],"v":1,"w":0})",
+        R"({"type":"order","request":2,"kind":"goal","slots":[0,1],"points":[[0,0]]})",
+        R"({"type":"order","request":3,"kind":"cancel","slots":[0]})",
+        R"({"type":"order","request":4,"kind":"text","slots":[0],"text":"run"})",
+        R"({"type":"order","request":5,"kind":"place","slots":[0],"points":[[0,0]]})",
+        R"({"type":"lease","request":6,"do":"force","slots":[0]})",
+        R"({"type":"set","request":7,"slots":[0],"key":"program.v","value":9})",
+        R"({"type":"edit","request":8,"do":"remove","name":"secret-pond"})",
+        R"({"type":"edit","request":9,"do":"add","name":"a","pose":[0,0,0],"disc":1})",
+        R"({"type":"order","request":10,"kind":"cancel","slots":[3]})",
+        R"({"type":"order","request":11,"kind":"cancel","slots":[4294967295]})"}) {
+    eve.send(request);
+    const std::string answer = eve.text_with("\"type\":\"answer\"");
+    EXPECT_NE(answer.find("\"good\":false"), std::string::npos) << request;
+    EXPECT_NE(answer.find("Your rights do not include this."), std::string::npos) << answer;
+  }
+  EXPECT_TRUE(run_->commands().empty());
+  EXPECT_NE(audit().find(R"("what":"refused","why":"order","user":"eve")"), std::string::npos)
+      << audit();
+  // Who drives is shown with the robot; whoever is not seen, and what they are called, is not.
+  EXPECT_EQ(eve.heard().find("spy"), std::string::npos);
+}
+
+TEST_F(Hostile, ACommanderCommandsTheirOwnTeamAlone) {
+  RawSocket ben = socket(guest(Role::kCommander, "ben"));
+  // Slots are those of the run here, since commanders see all; 1 and 3 are of the other team.
+  ben.send(
+      R"({"type":"order","request":1,"kind":"goal","slots":[0,1,3],"points":[[1,2],[3,4],[5,6]]})");
+  const std::string answer = ben.text_with("\"to\":\"goal\"");
+  EXPECT_NE(answer.find(R"("refused":[{"slot":1,)"), std::string::npos) << answer;
+  auto asked = run_->commands();
+  ASSERT_EQ(asked.size(), 1U);
+  EXPECT_EQ(asked[0].first.slots, (std::vector<std::uint32_t>{0}));
+  EXPECT_EQ(asked[0].first.points[0], (Vec2{1, 2}));
+  EXPECT_EQ(asked[0].second, (Author{"ben", false}));
+  for (const char* const request :
+       {R"({"type":"order","request":2,"kind":"place","slots":[0],"points":[[0,0]]})",
+        R"({"type":"edit","request":3,"do":"add","name":"a","pose":[0,0,0],"disc":1})",
+        R"({"type":"lease","request":4,"do":"take","slots":[1]})"}) {
+    ben.send(request);
+    EXPECT_NE(ben.text_with("\"type\":\"answer\"").find("Your rights"), std::string::npos);
+  }
+  EXPECT_EQ(run_->commands().size(), 1U);
+  EXPECT_NE(audit().find("goal, 3 robots: Your rights do not include this."), std::string::npos);
+  RawSocket boss = super_user();
+  boss.send(R"({"type":"edit","request":1,"do":"add","name":"a","pose":[0,0,0],"disc":1})");
+  EXPECT_NE(boss.text_with("\"to\":\"add\"").find("\"good\":true"), std::string::npos);
+  EXPECT_TRUE(run_->commands().back().second.overrides);
+}
+
+TEST_F(Hostile, MalformedOrdersNeverReachARun) {
+  RawSocket ben = socket(guest(Role::kCommander, "ben"));
+  std::string path = R"({"type":"order","request":1,"kind":"path","slots":[0],"points":[)";
+  for (int i = 0; i < 10'000; ++i) path += i == 0 ? "[0,1]" : ",[0,1]";
+  for (const std::string& request :
+       {std::string(R"({"type":"order","request":1,"kind":"drive","slots":[0],"v":NaN,"w":0})"),
+        std::string(R"({"type":"order","request":1,"kind":"drive","slots":[0],"v":1e999,"w":0})"),
+        std::string(
+            R"({"type":"order","request":1,"kind":"goal","slots":[0],"points":[[null,0]]})"),
+        std::string(R"({"type":"order","request":-1,"kind":"cancel","slots":[0]})"),
+        std::string(
+            R"({"type":"order","request":1,"kind":"drive","slots":[0],"v":1,"w":0,"by":"ada"})"),
+        path + "]}"}) {
+    ben.send(request);
+    EXPECT_NE(ben.text_with("\"to\":\"message\"").find("\"good\":false"), std::string::npos)
+        << request.substr(0, 80);
+  }
+  EXPECT_TRUE(run_->commands().empty());
+}
+
+TEST_F(Hostile, AFloodOfOrdersIsRefusedAndThenCutOff) {
+  RawSocket ben = socket(guest(Role::kCommander, "ben"));
+  for (int i = 0; i < 2000; ++i) {
+    ben.send(R"({"type":"order","request":1,"kind":"goal","slots":[0,2],"points":[[0,0]]})");
+  }
+  EXPECT_EQ(ben.close_code(), 4429);
+}
+
+TEST_F(Hostile, APageThatGoesLeavesNoRobotDriving) {
+  {
+    RawSocket ben = socket(guest(Role::kCommander, "ben"));
+    ben.send(R"({"type":"order","request":1,"kind":"drive","slots":[0],"v":0.5,"w":0})");
+    EXPECT_NE(ben.text_with("\"to\":\"drive\"").find("\"good\":true"), std::string::npos);
+  }
+  for (int i = 0; i < 1000 && run_->commands().size() < 2; ++i) ::usleep(10'000);
+  ASSERT_EQ(run_->commands().size(), 2U);
+  EXPECT_TRUE(run_->commands()[1].first.stands());
+}
+
+TEST_F(Hostile, WhatIsSaidReachesWhoMayHearItAlone) {
+  RawSocket ben = socket(guest(Role::kCommander, "ben"));
+  RawSocket eve = socket(guest(Role::kObserver, "eve"));
+  RawSocket ada = socket(guest(Role::kCommander, "ada"));
+  ben.send(R"({"type":"say","request":1,"to":"all","text":"good morning"})");
+  EXPECT_NE(eve.text_with("good morning").find(R"("name":"ben","role":"commander")"),
+            std::string::npos);
+  ben.send(R"({"type":"say","request":2,"to":"user","name":"ada","text":"for ada alone"})");
+  ben.send(R"({"type":"say","request":3,"to":"role","name":"commander","text":"for commanders"})");
+  ben.send(R"({"type":"say","request":4,"to":"robot","slot":0,"text":"to walker-1"})");
+  EXPECT_NE(ada.text_with("for commanders"), "");
+  EXPECT_NE(ada.heard().find("for ada alone"), std::string::npos);
+  EXPECT_NE(eve.text_with("to walker-1"), "");
+  EXPECT_EQ(eve.heard().find("for "), std::string::npos);
+  // The robot was told, in the name of who said it.
+  const auto asked = run_->commands();
+  ASSERT_EQ(asked.size(), 1U);
+  EXPECT_EQ(asked[0].first.value, "to walker-1");
+  EXPECT_EQ(asked[0].second.name, "ben");
+  // Who does not command it speaks to people alone; who is not there is told so.
+  eve.send(R"({"type":"say","request":1,"to":"robot","slot":0,"text":"and me"})");
+  EXPECT_NE(ben.text_with("and me"), "");
+  EXPECT_EQ(run_->commands().size(), 1U);
+  eve.send(R"({"type":"say","request":2,"to":"user","name":"nobody","text":"psst"})");
+  EXPECT_NE(eve.text_with("\"request\":2").find("is not here"), std::string::npos);
+}
+
+TEST_F(Hostile, ComponentsAreServedToTheirRolesAlone) {
+  const std::string eve = guest(Role::kObserver, "eve");
+  const std::string ben = guest(Role::kCommander, "ben");
+  std::ofstream(folder_ / "heat map.js") << "export const component = 1;\n";
+  auto run = std::make_shared<FakeRun>();
+  run->about_.components.push_back({"heat_map", folder_ / "heat map.js", {Role::kCommander}});
+  server_->show(run);
+  RawSocket commander = socket(ben);
+  EXPECT_NE(commander.text_with("\"hello\"").find("components/0/heat_map.js"), std::string::npos);
+  RawSocket observer = socket(eve);
+  EXPECT_EQ(observer.text_with("\"hello\"").find("heat_map"), std::string::npos);
+  const std::string path = "/components/0/heat_map.js";
+  const std::string served = ask("GET", path, ben);
+  EXPECT_EQ(status_of(served), "200");
+  EXPECT_NE(served.find("text/javascript"), std::string::npos);
+  EXPECT_NE(served.find("export const component"), std::string::npos);
+  EXPECT_EQ(status_of(ask("GET", path, eve)), "404");
+  EXPECT_EQ(status_of(ask("GET", path)), "401");
+  EXPECT_EQ(status_of(ask("GET", "/components/1/heat_map.js", ben)), "404");
+  EXPECT_EQ(status_of(ask("GET", "/components/0/../accounts/accounts", ben)), "400");
+}
+
+}  // namespace
+}  // namespace rave::gui_server::testing

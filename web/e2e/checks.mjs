@@ -6,7 +6,12 @@ export const app = 'document.querySelector("rave-app")';
 /** Waits until an expression of the page is true. Asked from outside: the page's policy forbids eval. */
 export async function until(page, expression, timeout_ms = 20000) {
   const end = Date.now() + timeout_ms;
-  while (!(await page.evaluate(`Boolean(${expression})`))) {
+  // A page that loads again, as it does when its server is another one, is asked once it is there.
+  const holds = () => page.evaluate(`Boolean(${expression})`).catch((error) => {
+    if (/Execution context was destroyed/.test(error.message)) return false;
+    throw error;
+  });
+  while (!(await holds())) {
     if (Date.now() > end) throw new Error(`never true: ${expression}`);
     await page.waitForTimeout(25);
   }

@@ -46,13 +46,7 @@ step_kills() {
     RAVE_OVERLOAD_ROUNDS="${RAVE_OVERLOAD_ROUNDS:-3}" step_ctest release -L '^kills$'
 }
 
-# The hash of a run does not depend on optimisation, and checks of the debug library run here. Only
-# what these tests start is built.
-step_debug() {
-  step_build debug rave_tests_unit rave_tests_hash rave-schemas || return 0
-  step_ctest debug -L '^(unit|hash)$'
-}
-
+# Assertions are on here, and the hash of a run does not depend on optimisation.
 # Checks of the source do not depend on the preset: release has run them.
 step_asan_ubsan() {
   step_build asan-ubsan || return 0

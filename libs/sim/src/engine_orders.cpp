@@ -37,7 +37,7 @@ std::optional<std::uint32_t> controller_for(const RobotGroup& group, std::size_t
 bool takes_by_program(const RobotGroup& group, std::size_t m, OrderKind kind) {
   const ProgramSlots& program = group.program;
   return program.spec != nullptr && program.failed[m] == 0 &&
-         has_order(program.spec->ops->takes, kind);
+         has_order(program.spec->takes(), kind);
 }
 
 double tolerance_of(const ControllerSlots& slots, std::size_t m) {

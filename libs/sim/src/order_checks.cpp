@@ -156,7 +156,7 @@ OrderSet declared_orders(const RobotType& type) noexcept {
     if (controller.accepts == CommandKind::kVelocity) set |= order_bit(OrderKind::kDrive);
     if (controller.accepts == CommandKind::kGoal) set |= order_bit(OrderKind::kGoal);
   }
-  if (type.program && type.program->ops != nullptr) set |= type.program->ops->takes;
+  if (type.program) set |= type.program->takes();
   return set;
 }
 

@@ -377,7 +377,7 @@ void lay_out_program(const GroupContext& context, RobotGroup& group) {
     item.seed = context.spec.seed;
     item.communicators = context.radio->views_of(group.members[m]);
     if (slots.spec == nullptr) continue;
-    if (slots.spec->ops->takes != 0) item.answers = context.answers;
+    if (slots.spec->takes() != 0) item.answers = context.answers;
     ProgramSetup& setup = slots.setups[m];
     setup.robot = info_of(context, group.members[m]);
     setup.host = services_of(context.logs[group.members[m].value()]);

@@ -126,13 +126,16 @@ struct ActuatorSpec {
 
 struct ProgramSpec {
   std::string driver;
-  const ProgramOps* ops = nullptr;
+  const ProgramOps* ops = nullptr;  ///< May be null if `isolate` is set.
   plugin::ParamSet params;
   std::uint32_t period_steps = 1;
   std::uint32_t phase_steps = 0;
   ProgramProcessFactory isolate;  ///< Set: each robot's program gets a process of its own.
   /// What may be changed while the run goes; lives as long as `ops`.
   std::span<const ParamSpec> param_specs;
+
+  /// The orders that the program accepts.
+  [[nodiscard]] OrderSet takes() const { return ops == nullptr ? 0 : ops->takes; }
 };
 
 /// Robots that came from one file with the same variables: they share drivers and parameters.

@@ -42,6 +42,10 @@ void OrderPost::give(Line line, std::vector<runtime::RunRequest> requests, Answe
 
 void OrderPost::drive(Line line, runtime::RunRequest request, bool echo, Answer answer) {
   Drive& drive = drives_[{line, request.robot}];
+  // Whoever asked for an answer gets one, though the run never sees that drive.
+  if (auto replaced = std::exchange(drive.next, std::nullopt); replaced && replaced->first) {
+    replaced->second(true, "replaced by a newer drive");
+  }
   drive.moves = request.v_mps != 0 || request.w_radps != 0;
   drive.newest = std::move(request);
   if (drive.under_way && !is_ready(*drive.under_way)) {

@@ -29,7 +29,8 @@ class OrderPost {
 
   /// One order to one or several robots, with one answer.
   void give(Line line, std::vector<runtime::RunRequest> requests, Answer answer);
-  /// The newest drive of a robot. Refusals are answered, and with `echo` also what was accepted.
+  /// The newest drive of a robot. Refusals are answered; with `echo` each drive is, one that a
+  /// newer drive replaced before the run took it as accepted.
   void drive(Line line, runtime::RunRequest request, bool echo, Answer answer);
   /// A line is gone: what it drives stands, and its answers are for nobody.
   void forget(Line line);

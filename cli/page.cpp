@@ -27,8 +27,9 @@ void open_browser(const std::string& link) {
   if (std::system(command.c_str()) != 0) return;  // The link was told; nothing is lost.
 }
 
-std::string how_to_reach(const std::string& link, std::uint16_t port) {
+std::string how_to_reach(const std::string& link, const std::string& foxglove, std::uint16_t port) {
   std::string text = fmt::format("open  {}\n", link);
+  if (!foxglove.empty()) text += fmt::format("foxglove  {}\n", foxglove);
   if (is_set("SSH_CONNECTION")) {
     text += fmt::format("from your machine, first:  ssh -L {0}:127.0.0.1:{0} THIS_MACHINE\n", port);
   }
@@ -47,12 +48,14 @@ Result<std::unique_ptr<gui_server::GuiServer>> serve_page(
   gui_options.certificate = options.certificate;
   gui_options.key = options.key;
   gui_options.accounts = options.accounts;
+  gui_options.foxglove = options.foxglove;
+  gui_options.foxglove_origins = options.foxglove_origins;
   if (options.accounts.empty() && options.listen != gui_server::GuiOptions().listen) {
     gui_options.accounts = gui_server::Accounts::usual_folder();
   }
   RAVE_TRY_ASSIGN(auto server, gui_server::GuiServer::start(gui_options, std::move(source)));
   const std::string link = server->entry();
-  put(stdout, how_to_reach(link, server->port()));
+  put(stdout, how_to_reach(link, server->foxglove_address(), server->port()));
   std::fflush(stdout);
   if (!options.no_open) open_browser(link);
   return server;

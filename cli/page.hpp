@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "rave/control/run_control.hpp"
 #include "rave/gui_server/gui_server.hpp"
@@ -21,6 +22,8 @@ struct PageOptions {
   std::string key;
   std::string line_key;  ///< The file of the key that hosts believe; empty: none.
   std::string accounts;  ///< Folder; empty: the user's, if it listens elsewhere than on loopback.
+  bool foxglove = false;  ///< Foxglove may connect.
+  std::vector<std::string> foxglove_origins;
 };
 
 /// Serves the page, prints its link and opens it where there is a desktop. Without a source it

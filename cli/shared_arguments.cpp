@@ -45,6 +45,14 @@ void add_page_options(CLI::App& app, PageOptions& page) {
   add_value(app, "--line-key", page.line_key,
             "Signing key of direct lines, made by `rave keys line FILE`", "FILE");
   add_value(app, "--accounts", page.accounts, "Folder of accounts, made by `rave people`", "DIR");
+  auto* const foxglove = app.add_flag("--foxglove", page.foxglove,
+                                      "Let Foxglove and Lichtblick connect, to look only");
+  add_values(
+      app, "--foxglove-origin", page.foxglove_origins,
+      "Origin of a page that may connect so, such as https://app.foxglove.dev, or file:// for "
+      "a desktop program; repeatable",
+      "ORIGIN")
+      ->needs(foxglove);
 }
 
 void add_line_options(CLI::App& app, LineWish& line) {

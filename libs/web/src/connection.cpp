@@ -28,6 +28,9 @@ const std::string& policy() {
   return kPolicy;
 }
 
+/// Where pages find their WebSocket; others are for upgrade().
+constexpr std::string_view kUsualSocket = "/ws";
+
 /// Of a file that is sent at a time.
 constexpr std::size_t kPiece = std::size_t{256} << 10U;
 
@@ -190,7 +193,8 @@ std::optional<Response> Connection::refusal(Request& request) {
     return text_response(421, "this server does not have that name\n");
   }
   const std::string_view origin = request.header("origin");
-  const bool writes = request.method == "POST" || beast::websocket::is_upgrade(message_);
+  const bool socket = beast::websocket::is_upgrade(message_) && request.path == kUsualSocket;
+  const bool writes = request.method == "POST" || socket;
   if (core_.options().own_origin_only && writes && !origin.empty() &&
       origin != fmt::format("{}{}", core_.scheme(), request.header("host"))) {
     return text_response(403, "requests of other origins are refused\n");
@@ -199,10 +203,16 @@ std::optional<Response> Connection::refusal(Request& request) {
 }
 
 void Connection::upgrade(Request request) {
-  if (request.path != "/ws") return refuse(text_response(404, "not found\n"));
+  std::string subprotocol = core_.options().subprotocol;
+  if (request.path != kUsualSocket) {
+    Handler::Upgrade answer = core_.handler().upgrade(request);
+    if (answer.refusal) return refuse(*answer.refusal);
+    subprotocol = std::move(answer.subprotocol);
+  }
   stream_.set_send_buffer(core_.options().send_buffer_bytes);
   handed_over_ = true;
-  serve_websocket(core_, std::move(stream_), std::move(seat_), std::move(request), message_);
+  serve_websocket(core_, std::move(stream_), std::move(seat_), std::move(request),
+                  std::move(subprotocol), message_);
 }
 
 void Connection::refuse(const Response& response) {

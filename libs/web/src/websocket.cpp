@@ -20,11 +20,13 @@ constexpr std::uint16_t kTooMany = 4429;
 /// A WebSocket with a queue of its own. Lives as long as an operation of it is under way.
 class WebSocket final : public SocketLink, public std::enable_shared_from_this<WebSocket> {
  public:
-  WebSocket(Core& core, Stream stream, std::shared_ptr<Seat> seat, Request request)
+  WebSocket(Core& core, Stream stream, std::shared_ptr<Seat> seat, Request request,
+            std::string subprotocol)
       : core_(core),
         stream_(std::move(stream)),
         seat_(std::move(seat)),
         request_(std::move(request)),
+        subprotocol_(std::move(subprotocol)),
         rate_(core.options().messages_per_s, core.options().message_burst) {}
   ~WebSocket() override { core_.sockets.erase(this); }
   WebSocket(const WebSocket&) = delete;
@@ -54,6 +56,7 @@ class WebSocket final : public SocketLink, public std::enable_shared_from_this<W
   websocket::stream<Stream> stream_;
   std::shared_ptr<Seat> seat_;  ///< Handed over by the connection that this was.
   Request request_;
+  std::string subprotocol_;
   RateLimit rate_;
   beast::flat_buffer buffer_;
   std::deque<Out> out_;
@@ -70,10 +73,10 @@ void WebSocket::accept(const http::request<http::string_body>& upgrade) {
   stream_.set_option(websocket::stream_base::timeout{options.idle, options.idle, true});
   stream_.read_message_max(options.message_bytes);
   stream_.auto_fragment(false);
-  if (!options.subprotocol.empty()) {
+  if (!subprotocol_.empty()) {
     stream_.set_option(
         websocket::stream_base::decorator([this](websocket::response_type& response) {
-          response.set(http::field::sec_websocket_protocol, core_.options().subprotocol);
+          response.set(http::field::sec_websocket_protocol, subprotocol_);
         }));
   }
   stream_.async_accept(upgrade, [self = shared_from_this()](Error error) {
@@ -136,14 +139,18 @@ void WebSocket::read() {
 }
 
 void WebSocket::take(std::string_view message) {
-  // Pages send text alone; anything else is nobody we know.
-  if (!stream_.got_text()) return close(1003, "text messages only");
-  if (closing_ || id_ == 0) return;
+  const bool text = stream_.got_text();
+  if (closing_ || id_ == 0) {
+    if (!text) close(1003, "text messages only");
+    return;
+  }
   if (!rate_.take("", RateLimit::Clock::now())) {
     ++core_.counts.sockets_closed_for_rate;
     return close(kTooMany, "too many messages");
   }
-  core_.handler().received(id_, message);
+  if (text) return core_.handler().received(id_, message);
+  // Pages send text alone; anything else is nobody we know.
+  if (!core_.handler().received_binary(id_, message)) close(1003, "text messages only");
 }
 
 void WebSocket::close(std::uint16_t code, std::string_view reason) {
@@ -173,8 +180,9 @@ void WebSocket::end() {
 }  // namespace
 
 void serve_websocket(Core& core, Stream stream, std::shared_ptr<Seat> seat, Request request,
-                     const http::request<http::string_body>& upgrade) {
-  std::make_shared<WebSocket>(core, std::move(stream), std::move(seat), std::move(request))
+                     std::string subprotocol, const http::request<http::string_body>& upgrade) {
+  std::make_shared<WebSocket>(core, std::move(stream), std::move(seat), std::move(request),
+                              std::move(subprotocol))
       ->accept(upgrade);
 }
 

@@ -36,7 +36,13 @@ class Echo final : public Handler {
     ++open;
     socket.send_text(std::make_shared<const std::string>("welcome"));
   }
+  Upgrade upgrade(const Request& request) override {
+    if (request.path != "/other") return {text_response(404, "not found\n"), {}};
+    if (!request.query.contains("pass")) return {text_response(401, "no pass\n"), {}};
+    return {std::nullopt, "other.1"};
+  }
   void received(std::uint64_t, std::string_view) override { ++messages; }
+  bool received_binary(std::uint64_t, std::string_view) override { return false; }
   void closed(std::uint64_t) override { --open; }
 
   std::filesystem::path file;  ///< Set before it is asked for.
@@ -84,11 +90,12 @@ class WebServer : public testing::Test {
     return ask(fmt::format("GET {} HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nConnection: close\r\n{}\r\n",
                            target, server_->port(), more));
   }
-  [[nodiscard]] std::string upgrade(const std::string& more, std::string_view end) const {
-    return ask(fmt::format("GET /ws HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nConnection: Upgrade\r\n"
+  [[nodiscard]] std::string upgrade(const std::string& more, std::string_view end,
+                                    const char* path = "/ws") const {
+    return ask(fmt::format("GET {} HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nConnection: Upgrade\r\n"
                            "Upgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
                            "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n{}\r\n",
-                           server_->port(), more),
+                           path, server_->port(), more),
                end);
   }
 
@@ -167,6 +174,22 @@ TEST_F(WebServer, LetsInWhoIsAdmittedAlone) {
   const std::string out = upgrade("", "not signed in");
   EXPECT_NE(out.find("\x11\x31not signed in"), std::string::npos);
   EXPECT_EQ(out.find("welcome"), std::string::npos);
+}
+
+TEST_F(WebServer, AsksItsHandlerOfOtherPathsForSockets) {
+  EXPECT_TRUE(upgrade("", "not found", "/nowhere").starts_with("HTTP/1.1 404"));
+  EXPECT_TRUE(upgrade("", "no pass", "/other").starts_with("HTTP/1.1 401"));
+  // Whose origin is welcome there, the handler says.
+  const std::string in =
+      upgrade("Origin: http://friend.example\r\nCookie: key=good\r\n", "welcome", "/other?pass=1");
+  EXPECT_TRUE(in.starts_with("HTTP/1.1 101")) << in;
+  EXPECT_NE(in.find("Sec-WebSocket-Protocol: other.1\r\n"), std::string::npos) << in;
+  // Nor can a request that writes take that way.
+  const std::string post =
+      ask(fmt::format("POST /other?pass=1 HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nConnection: close\r\n"
+                      "Origin: http://friend.example\r\nContent-Length: 0\r\n\r\n",
+                      server_->port()));
+  EXPECT_TRUE(post.starts_with("HTTP/1.1 403")) << post;
 }
 
 TEST_F(WebServer, EndsWithConnectionsThatSayNothing) {

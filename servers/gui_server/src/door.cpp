@@ -64,6 +64,8 @@ void Door::set_port(std::uint16_t port) {
   cookie_ = fmt::format("{}rave_{}", options_.tls ? "__Host-" : "", port);
 }
 
+std::string Door::new_session() { return entrance_.enter(entrance_.new_key()).value_or(""); }
+
 std::string Door::session_of(const web::Request& request) const { return request.cookie(cookie_); }
 
 std::optional<Person> Door::whose(std::string_view session) const {

@@ -33,6 +33,9 @@ class Door {
   /// For a link that lets a super-user in, once. Any thread.
   [[nodiscard]] std::string new_key() { return entrance_.new_key(); }
 
+  /// The secret of a session of a super-user, which nobody has entered by a link. Any thread.
+  [[nodiscard]] std::string new_session();
+
   /// Answers what is about coming in and going; nothing: it is for somebody else.
   [[nodiscard]] std::optional<web::Response> serve(const web::Request& request);
   /// The same of what takes time. False: it takes none.

@@ -7,6 +7,8 @@
 
 #include "components.hpp"
 #include "door.hpp"
+#include "foxglove_door.hpp"
+#include "foxglove_guests.hpp"
 #include "metrics.hpp"
 #include "rave/base/file.hpp"
 #include "rave/gui_server/source.hpp"
@@ -67,7 +69,15 @@ class GuiServer::Impl final : public web::Handler {
         metrics_token_(std::move(parts.metrics_token)),
         door_({parts.accounts, parts.audit, !options.certificate.empty()}),
         visitors_(door_, std::move(parts.desk), parts.accounts, parts.audit),
-        tickets_(parts.audit) {}
+        tickets_(parts.audit),
+        foxglove_(options.foxglove),
+        foxglove_door_(door_, parts.audit, options.foxglove_origins),
+        guests_(door_, visitors_) {
+    // Elsewhere the address would be that of a super-user on everybody's network.
+    if (foxglove_ && web::is_loopback(options.listen)) {
+      foxglove_token_ = foxglove_door_.token_of(door_.new_session());
+    }
+  }
   ~Impl() override {
     if (server_) server_->stop();
     // What it still works at answers through the server, which is there until then.
@@ -87,16 +97,24 @@ class GuiServer::Impl final : public web::Handler {
     RAVE_TRY_ASSIGN(server_, web::Server::start(web_options, *this));
     server_->post([this, port = server_->port()] { door_.set_port(port); });
     if (source) show(std::move(source));
-    server_->every(kTick, [this] { visitors_.tick(); });
+    server_->every(kTick, [this] {
+      visitors_.tick(guests_.audience());
+      guests_.tick();
+    });
     server_->every(kCheck, [this] {
       visitors_.check();
+      guests_.check();
+      foxglove_door_.check();
       tickets_.check([this](const std::string& session) { return rights_of(session); });
     });
     return {};
   }
 
   void show(std::shared_ptr<Source> source) {
-    server_->post([this, source = std::move(source)] { visitors_.show(source); });
+    server_->post([this, source = std::move(source)] {
+      visitors_.show(source);
+      guests_.show();
+    });
   }
 
   void offer_lines(std::shared_ptr<direct_line::Lines> lines, const direct_line::SigningKey& key) {
@@ -107,6 +125,12 @@ class GuiServer::Impl final : public web::Handler {
   [[nodiscard]] std::string origin() const { return server_->origin(); }
   [[nodiscard]] std::string entry() {
     return fmt::format("{}/enter?key={}", server_->origin(), door_.new_key());
+  }
+
+  [[nodiscard]] std::string foxglove_address() const {
+    if (!foxglove_) return {};
+    if (foxglove_token_.empty()) return server_->origin() + "/foxglove";
+    return socket_address(foxglove_token_);
   }
 
   bool serve_later(const web::Request& request, const web::Reply& reply) override {
@@ -120,6 +144,7 @@ class GuiServer::Impl final : public web::Handler {
     if (request.path == "/ticket") return ticket(request);
     if (request.method == "POST") return web::text_response(405, "method not allowed\n");
     if (request.path == "/recording") return recording(request);
+    if (request.path == "/foxglove" && foxglove_) return foxglove_page(request);
     if (request.path.starts_with("/components/")) return component(request);
     web::Response file = files_.serve(request);
     if (request.path == "/" || request.path == "/index.html") {
@@ -128,25 +153,72 @@ class GuiServer::Impl final : public web::Handler {
     return file;
   }
 
+  Upgrade upgrade(const web::Request& request) override {
+    if (foxglove_ && request.path == "/foxglove") return foxglove_door_.upgrade(request);
+    return Handler::upgrade(request);
+  }
+
   Admission admit(const web::Request& request) override {
-    if (door_.who(request)) return {};
+    const auto person =
+        is_guest(request) ? door_.whose(foxglove_door_.session_of(request)) : door_.who(request);
+    if (person) return {};
     return {kNotSignedIn, "You are not signed in"};
   }
 
   void opened(std::uint64_t id, web::Socket& socket, const web::Request& request) override {
-    visitors_.opened(id, socket, door_.session_of(request));
+    if (is_guest(request)) {
+      guests_.opened(id, socket, foxglove_door_.session_of(request));
+    } else {
+      visitors_.opened(id, socket, door_.session_of(request));
+    }
   }
-  void received(std::uint64_t id, std::string_view text) override { visitors_.received(id, text); }
-  void closed(std::uint64_t id) override { visitors_.closed(id); }
+  void received(std::uint64_t id, std::string_view text) override {
+    if (guests_.has(id)) return guests_.received(id, text);
+    visitors_.received(id, text);
+  }
+  bool received_binary(std::uint64_t id, std::string_view /*bytes*/) override {
+    if (!guests_.has(id)) return false;
+    guests_.received_binary(id);
+    return true;
+  }
+  void closed(std::uint64_t id) override {
+    if (guests_.has(id)) return guests_.closed(id);
+    visitors_.closed(id);
+  }
 
  private:
+  /// Other paths than that of pages were let through by upgrade().
+  [[nodiscard]] static bool is_guest(const web::Request& request) {
+    return request.path == "/foxglove";
+  }
+
+  [[nodiscard]] std::string socket_address(const std::string& token) const {
+    // `http://...` becomes `ws://...`, and `https://...` `wss://...`.
+    const std::string origin = server_->origin();
+    return "ws" + origin.substr(std::string_view("http").size()) + "/foxglove?token=" + token;
+  }
+
+  /// Where somebody who is signed in gets their address.
+  web::Response foxglove_page(const web::Request& request) {
+    const auto person = door_.who(request);
+    if (!person) return web::text_response(401, "sign in at / first\n");
+    const std::string token = foxglove_door_.token_of(door_.session_of(request));
+    web::Response response = web::text_response(
+        200, fmt::format("In Foxglove or Lichtblick: open a connection, Foxglove WebSocket, to\n\n"
+                         "    {}\n\n"
+                         "It shows what {} may see, and ends when you sign out. Keep it secret.\n",
+                         socket_address(token), person->name));
+    response.headers.emplace_back("Cache-Control", "no-store");
+    return response;
+  }
+
   web::Response metrics(const web::Request& request) {
     if (!may_read_metrics(request, metrics_token_)) {
       audit_->note("refused", {{"why", "metrics"}, {"from", request.peer}});
       return web::text_response(401, "the token of the server is missing\n");
     }
-    web::Response response =
-        web::text_response(200, metrics_text(server_->counts(), visitors_.count(), audit_->lost()));
+    web::Response response = web::text_response(
+        200, metrics_text(server_->counts(), visitors_.count() + guests_.count(), audit_->lost()));
     response.type = "text/plain; version=0.0.4; charset=utf-8";
     return response;
   }
@@ -222,6 +294,10 @@ class GuiServer::Impl final : public web::Handler {
   Door door_;
   Visitors visitors_;
   TicketDesk tickets_;
+  bool foxglove_;
+  FoxgloveDoor foxglove_door_;
+  FoxgloveGuests guests_;
+  std::string foxglove_token_;  ///< Of a super-user; empty: there is none.
   std::unique_ptr<web::Server> server_;
 };
 
@@ -244,6 +320,9 @@ Result<std::unique_ptr<GuiServer>> GuiServer::start(const GuiOptions& options,
     RAVE_TRY_ASSIGN(token, metrics_token(options.accounts));
   }
   RAVE_TRY(check_listen(options, accounts.get()));
+  for (const std::string& listed : options.foxglove_origins) {
+    RAVE_TRY(check_foxglove_origin(listed));
+  }
   RAVE_TRY_ASSIGN(RightsDesk desk, RightsDesk::open(options.accounts));
   auto impl = std::make_unique<Impl>(
       Impl::Parts{*std::move(files), accounts, std::make_shared<AuditLog>(options.accounts),
@@ -264,5 +343,6 @@ void GuiServer::offer_lines(std::shared_ptr<direct_line::Lines> lines,
 }
 std::uint16_t GuiServer::port() const noexcept { return impl_->port(); }
 std::string GuiServer::entry() { return impl_->entry(); }
+std::string GuiServer::foxglove_address() const { return impl_->foxglove_address(); }
 
 }  // namespace rave::gui_server

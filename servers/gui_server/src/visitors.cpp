@@ -135,10 +135,9 @@ void Visitors::tell_rights() {
   }
 }
 
-void Visitors::tick() {
+void Visitors::tick(Audience audience) {
   if (!source_) return;
   const auto now = Session::Clock::now();
-  Audience audience;
   for (const auto& [id, visitor] : visitors_) {
     const LookMessage& look = visitor.page->look();
     audience.any = audience.any || look.poses;

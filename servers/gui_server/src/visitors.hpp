@@ -33,14 +33,16 @@ class Visitors {
     visitors_.erase(id);
     told_people_.clear();
   }
-  /// Some 60 times a second.
-  void tick();
+  /// Some 60 times a second. `audience`: what others than pages look at, in robots of the run.
+  void tick(Audience audience = {});
   /// Once a second: who was removed or signed out elsewhere is out, who got another role has its
   /// rights.
   void check();
 
   /// What somebody gets, as for the recording; null: there is no run.
   [[nodiscard]] std::shared_ptr<const View> view_of(const Person& person);
+  /// The run as a view has it; one for all who have that view.
+  [[nodiscard]] std::shared_ptr<Source> source_for(const std::shared_ptr<const View>& view);
   [[nodiscard]] const std::shared_ptr<Source>& source() const noexcept { return source_; }
   /// As the run and other people call somebody.
   [[nodiscard]] static Person known(const Person& person);
@@ -62,7 +64,6 @@ class Visitors {
   void show_to(Visitor& visitor, bool same_run);
   void show_again_if_other();
   void tell_rights();
-  [[nodiscard]] std::shared_ptr<Source> source_for(const std::shared_ptr<const View>& view);
   [[nodiscard]] SessionCalls calls_of(std::uint64_t id);
   [[nodiscard]] Result<std::string> set_right(std::uint64_t id, const RightChange& change);
   [[nodiscard]] Result<std::string> see_as(std::uint64_t id, const SeeAsMessage& see);

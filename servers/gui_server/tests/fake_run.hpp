@@ -30,8 +30,10 @@ class FakeRun : public Source {
       robots_ += robots_.empty() ? "[" : ",";
       robots_ += std::string(R"({"name":")") + name + R"(","team":")" + team +
                  R"(","kind":"simulated","word":"","recorded":false,"program":"","drivers":[],)" +
-                 R"("shapes":[],"sensors":[{"name":"scan","kind":"ranges","origin":"hybrid",)" +
-                 R"("driver":"","mount":[0,0,0],"z":0,"period_s":0.1,"fields":["range [m]"]}]})";
+                 R"("shapes":[{"disc":[0,0,0.2],"z":[0,0.3]}],)" +
+                 R"("sensors":[{"name":"scan","kind":"ranges","origin":"hybrid","driver":"",)" +
+                 R"("mount":[0.1,0,0],"z":0.15,"period_s":0.1,"fields":["range [m]"],)" +
+                 R"("range":[0,10],"bearings":[0],"cone":0}]})";
     }
     robots_ += "]";
     events_.push_back({1, 1, 1, "stopped", LogEvent::Level::kWarn, "spy-2: stopped", {1}});
@@ -137,8 +139,9 @@ class FakeRun : public Source {
   std::vector<std::pair<CommandMessage, Author>> commands_;
   std::string robots_;
   std::string bodies_ =
-      R"([{"id":0,"name":"secret-pond","kind":"virtual","pose":[0,0,0],"shapes":[]},)"
-      R"({"id":1,"name":"hall","kind":"wall","pose":[0,0,0],"shapes":[]}])";
+      R"([{"id":0,"name":"secret-pond","kind":"virtual","pose":[4321.5,0,0],"shapes":[{"disc":[0,0,1],"z":[0,1]}]},)"
+      R"({"id":1,"name":"hall","kind":"wall","pose":[2,3,0],)"
+      R"("shapes":[{"polygon":[[-1,-0.1],[1,-0.1],[1,0.1],[-1,0.1]],"z":[0,2]}]}])";
   std::vector<LogEvent> events_;
   PosesAt poses_;
 };

@@ -101,13 +101,14 @@ class RawSocket {
     std::string payload;
   };
 
-  RawSocket(std::uint16_t port, const std::filesystem::path& authority, std::string_view headers)
+  RawSocket(std::uint16_t port, const std::filesystem::path& authority, std::string_view headers,
+            std::string_view target = "/ws")
       : client_(port, authority) {
     client_.send(
-        fmt::format("GET /ws HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nConnection: Upgrade\r\nUpgrade: "
+        fmt::format("GET {} HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nConnection: Upgrade\r\nUpgrade: "
                     "websocket\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: "
                     "dGhlIHNhbXBsZSBub25jZQ==\r\n{}\r\n",
-                    port, headers));
+                    target, port, headers));
     while (buffer_.find("\r\n\r\n") == std::string::npos && client_.read(buffer_)) {
     }
     const std::size_t end = std::min(buffer_.size(), buffer_.find("\r\n\r\n") + 4);

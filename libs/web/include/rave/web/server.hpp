@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,6 +45,16 @@ class Handler {
     return false;
   }
   [[nodiscard]] virtual Response serve(const Request& request) = 0;
+  /// What becomes of a request for a WebSocket at another path than `/ws`.
+  struct Upgrade {
+    std::optional<Response> refusal;  ///< The answer; nothing: it becomes a WebSocket.
+    std::string subprotocol;          ///< One that the client named; empty: none.
+  };
+  /// Asked before anything is accepted. Such a path has rules of its own: the handler looks at
+  /// `origin` itself.
+  [[nodiscard]] virtual Upgrade upgrade(const Request& /*request*/) {
+    return {text_response(404, "not found\n"), {}};
+  }
   /// Whether a WebSocket is let in. Not: `reason` is told to the browser with a code from 4000 on.
   struct Admission {
     std::uint16_t refusal = 0;  ///< 0: welcome.
@@ -52,6 +63,10 @@ class Handler {
   [[nodiscard]] virtual Admission admit(const Request& request) = 0;
   virtual void opened(std::uint64_t id, Socket& socket, const Request& request) = 0;
   virtual void received(std::uint64_t id, std::string_view text) = 0;
+  /// A binary message. False: nobody takes those here, and the socket is closed with 1003.
+  [[nodiscard]] virtual bool received_binary(std::uint64_t /*id*/, std::string_view /*bytes*/) {
+    return false;
+  }
   /// The socket is gone; it must not be used any more.
   virtual void closed(std::uint64_t id) = 0;
 };
@@ -75,9 +90,9 @@ struct ServerOptions {
   std::size_t waiting_bytes = std::size_t{16} << 20U;  ///< More waiting: the socket is closed.
   int send_buffer_bytes = 64 << 10;  ///< Small, so that a slow line shows at once.
   std::chrono::seconds idle{15};     ///< Without an answer to a ping: gone. And for a request.
-  std::string subprotocol;           ///< Asked for by the page; empty: none.
-  /// Pages of other origins may neither write nor open a WebSocket. False: the handler looks at
-  /// `origin` itself.
+  std::string subprotocol;           ///< Of `/ws`, asked for by the page; empty: none.
+  /// Pages of other origins may neither write nor open the WebSocket `/ws`. False: the handler
+  /// looks at `origin` itself.
   bool own_origin_only = true;
 };
 

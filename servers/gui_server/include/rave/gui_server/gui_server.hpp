@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "rave/base/result.hpp"
 #include "rave/direct_line/lines.hpp"
@@ -20,6 +21,10 @@ struct GuiOptions {
   std::filesystem::path certificate;  ///< With `key`: TLS. See `rave keys web`.
   std::filesystem::path key;
   std::filesystem::path accounts;  ///< Folder; empty: nobody but who has the link comes in.
+  /// Foxglove clients may connect to `/foxglove`, with a token; they only look.
+  bool foxglove = false;
+  /// Pages that may do so, such as `https://app.foxglove.dev`, beside programs without an origin.
+  std::vector<std::string> foxglove_origins;
 };
 
 /// The GUI Server: serves the page and, over WebSockets, what its source knows, to each what their
@@ -28,7 +33,7 @@ struct GuiOptions {
 class GuiServer {
  public:
   /// Without a source pages wait for show(). Errors: kNotFound (the page was not built),
-  /// kInvalidArgument (to listen elsewhere needs TLS and accounts), kIo (no port), those of
+  /// kInvalidArgument (to listen elsewhere needs TLS and accounts; an origin is none), kIo (no port), those of
   /// web::Server::start() of the certificate and of Accounts::open().
   [[nodiscard]] static Result<std::unique_ptr<GuiServer>> start(
       const GuiOptions& options, std::shared_ptr<Source> source = nullptr);
@@ -45,6 +50,10 @@ class GuiServer {
   [[nodiscard]] std::uint16_t port() const noexcept;
   /// A link that signs a browser in, once. Each call makes another one. Any thread.
   [[nodiscard]] std::string entry();
+  /// Where Foxglove connects: on loopback `ws://...` with the token of a super-user, which is good
+  /// for a week or until the server ends; elsewhere the address of the page that gives people who
+  /// are signed in their own. Empty: it is not offered. Any thread.
+  [[nodiscard]] std::string foxglove_address() const;
 
  private:
   class Impl;

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// A Foxglove client at a run in progress: it sees robots and obstacles where they are.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <thread>
+
+#include "foxglove_client.hpp"
+#include "process.hpp"
+
+namespace rave::cli_test {
+namespace {
+
+using gui_server::testing::FoxgloveClient;
+using Json = nlohmann::ordered_json;
+
+class FoxgloveRun : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::ofstream(folder_.path() / "index.html") << "<!doctype html><title>page</title>\n";
+  }
+  void TearDown() override {
+    if (process_ <= 0) return;
+    ::kill(process_, SIGKILL);
+    static_cast<void>(wait_for(process_));
+  }
+  [[nodiscard]] std::string said() const { return content_of(folder_.path() / "said"); }
+  [[nodiscard]] std::string setting() const { return "XDG_RUNTIME_DIR=" + folder_.path().string(); }
+  /// Starts a process with a page, and waits until it says where Foxglove connects.
+  void start(std::vector<std::string> words) {
+    const std::string folder = folder_.path();
+    words.insert(words.end(), {"--page", folder, "--port", "0", "--no-open", "--foxglove"});
+    process_ = start_rave(words, {setting()}, folder + "/said");
+    ASSERT_GT(process_, 0);
+    for (int i = 0; i < 3000 && said().find("Ctrl-C ends") == std::string::npos; ++i) {
+      ASSERT_EQ(::waitpid(process_, nullptr, WNOHANG), 0) << said();
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    const std::string begin = "foxglove  ws://127.0.0.1:";
+    const std::size_t at = said().find(begin);
+    ASSERT_NE(at, std::string::npos) << said();
+    const std::string place = said().substr(at + begin.size());
+    port_ = static_cast<std::uint16_t>(std::stoi(place));
+    target_ = place.substr(place.find('/'), place.find('\n') - place.find('/'));
+  }
+  /// Where a robot is by the messages of a subscription to `/tf`; waits until it is there.
+  static bool comes_to(FoxgloveClient& client, std::uint32_t id, const std::string& robot, double x,
+                       double y) {
+    for (int i = 0; i < 1000; ++i) {
+      const Json message = client.data(id);
+      if (!message.is_object()) return false;
+      for (const Json& transform : message.at("transforms")) {
+        if (transform.at("child_frame_id") != "robot/" + robot) continue;
+        const Json& place = transform.at("translation");
+        if (std::abs(place.at("x").get<double>() - x) < 1e-3 &&
+            std::abs(place.at("y").get<double>() - y) < 1e-3) {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  TemporaryFolder folder_;
+  pid_t process_ = -1;
+  std::uint16_t port_ = 0;
+  std::string target_;
+};
+
+TEST_F(FoxgloveRun, ShowsRobotsAndObstaclesWhereTheyAre) {
+  start({"run", "orders.yaml", "--output", folder_.path() / "results", "--gui", "--duration",
+         "100000"});
+  FoxgloveClient client(port_, {}, target_);
+  ASSERT_EQ(client.status(), "101") << client.socket().answer();
+  ASSERT_TRUE(client.subscribe("/scene", 1));
+  ASSERT_TRUE(client.subscribe("/robots", 2));
+  const Json scene = client.data(1);
+  ASSERT_EQ(scene.at("entities").size(), 3U) << scene.dump();
+  // The wall of good_world.yaml: 4 m by 0.1 m by 1 m, at (0, 2).
+  const Json& wall = scene["entities"][0].at("cubes")[0];
+  EXPECT_EQ(wall.at("pose").at("position").dump(), R"({"x":0.0,"y":2.0,"z":0.5})");
+  EXPECT_EQ(wall.at("size").dump(), R"({"x":4.0,"y":0.1,"z":1.0})");
+  EXPECT_EQ(client.data(2).at("entities").size(), 3U);
+  ASSERT_TRUE(client.subscribe("/tf", 3));
+  EXPECT_TRUE(comes_to(client, 3, "bert", -3, -3));
+  EXPECT_TRUE(comes_to(client, 3, "carl", 3, -3));
+  const Ended placed = run_rave({"place", "bert", "2.5", "0.5", "90"}, {setting()});
+  EXPECT_EQ(placed.exit_code, 0) << placed.err;
+  EXPECT_TRUE(comes_to(client, 3, "bert", 2.5, 0.5));
+  // The clock of the run is that of the client.
+  const std::uint64_t before = client.time_ns;
+  ASSERT_TRUE(client.subscribe("/poses", 4));
+  const Json poses = client.data(4);
+  EXPECT_GT(client.time_ns, before);
+  EXPECT_EQ(poses.at("robots")[1].at("name"), "bert");
+  EXPECT_NEAR(poses.at("robots")[1].at("y_m").get<double>(), 0.5, 1e-3);
+  // An obstacle that is added comes, and goes again.
+  const Ended added =
+      run_rave({"edit", "add", "name: box, box_m: [1, 1], x_m: 4, y_m: 4"}, {setting()});
+  EXPECT_EQ(added.exit_code, 0) << added.err;
+  const Json more = client.data(1);
+  ASSERT_EQ(more.at("entities").size(), 1U) << more.dump();
+  EXPECT_EQ(more["entities"][0].at("metadata")[0].at("value"), "box");
+  EXPECT_EQ(run_rave({"edit", "remove", "box"}, {setting()}).exit_code, 0);
+  const Json less = client.data(1);
+  EXPECT_EQ(less.at("deletions")[0].at("id"), more["entities"][0].at("id"));
+  EXPECT_EQ(less.at("entities").size(), 0U);
+}
+
+TEST_F(FoxgloveRun, PlaysARecordingAndLeavesTheHashAlone) {
+  const std::string results = folder_.path() / "results";
+  const Ended ran = run_rave(
+      {"run", "orders.yaml", "--output", results, "--pace", "max", "--duration", "3"}, {setting()});
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  start({"gui", results});
+  FoxgloveClient client(port_, {}, target_);
+  ASSERT_TRUE(client.subscribe("/run", 1));
+  ASSERT_TRUE(client.subscribe("/tf", 2));
+  EXPECT_TRUE(comes_to(client, 2, "carl", 3, -3));
+  Json state = client.data(1);
+  while (state.is_object() && state.at("state") != "ended") state = client.data(1);
+  ASSERT_TRUE(state.is_object());
+  EXPECT_NEAR(state.at("time_s").get<double>(), 3, 0.1);
+}
+
+TEST_F(FoxgloveRun, NeedsItsOption) {
+  const Ended alone = run_rave({"gui", "x", "--foxglove-origin", "https://app.foxglove.dev"});
+  EXPECT_EQ(alone.exit_code, 2);
+  EXPECT_NE(alone.err.find("--foxglove-origin requires --foxglove"), std::string::npos)
+      << alone.err;
+  const Ended odd =
+      run_rave({"run", "orders.yaml", "--gui", "--no-open", "--foxglove", "--page", folder_.path(),
+                "--foxglove-origin", "app.foxglove.dev", "--output", folder_.path() / "results"});
+  EXPECT_EQ(odd.exit_code, 2);
+  EXPECT_NE(odd.err.find("`app.foxglove.dev` is no origin: expected scheme and host"),
+            std::string::npos)
+      << odd.err;
+}
+
+}  // namespace
+}  // namespace rave::cli_test

@@ -10,8 +10,10 @@ import check from 'lucide-static/icons/check.svg?raw';
 import chevronDown from 'lucide-static/icons/chevron-down.svg?raw';
 import circleX from 'lucide-static/icons/circle-x.svg?raw';
 import compass from 'lucide-static/icons/compass.svg?raw';
+import copy from 'lucide-static/icons/copy.svg?raw';
 import crosshair from 'lucide-static/icons/locate.svg?raw';
 import download from 'lucide-static/icons/download.svg?raw';
+import ellipsis from 'lucide-static/icons/ellipsis.svg?raw';
 import eye from 'lucide-static/icons/eye.svg?raw';
 import fileText from 'lucide-static/icons/file-text.svg?raw';
 import filter from 'lucide-static/icons/funnel.svg?raw';
@@ -47,6 +49,7 @@ import cornerDownLeft from 'lucide-static/icons/corner-down-left.svg?raw';
 import gamepad from 'lucide-static/icons/gamepad-2.svg?raw';
 import hand from 'lucide-static/icons/hand.svg?raw';
 import joystick from 'lucide-static/icons/joystick.svg?raw';
+import keyRound from 'lucide-static/icons/key-round.svg?raw';
 import keyboard from 'lucide-static/icons/keyboard.svg?raw';
 import message from 'lucide-static/icons/message-square.svg?raw';
 import packageX from 'lucide-static/icons/package-x.svg?raw';
@@ -54,6 +57,7 @@ import pointer from 'lucide-static/icons/mouse-pointer-2.svg?raw';
 import move from 'lucide-static/icons/move.svg?raw';
 import route from 'lucide-static/icons/route.svg?raw';
 import trash from 'lucide-static/icons/trash-2.svg?raw';
+import userPlus from 'lucide-static/icons/user-plus.svg?raw';
 import x from 'lucide-static/icons/x.svg?raw';
 import zap from 'lucide-static/icons/zap.svg?raw';
 
@@ -62,6 +66,7 @@ const kIcons = {
   layers, link, list, lock, maximize, maximize2, minimize2, moon, octagonX, pause, play, radar, rotateCcw, ruler, search, server, shield, skipBack, skipForward,
   stepBack, stepForward, sun, target, triangleAlert, wifiOff, x, zap,
   boxSelect, cornerDownLeft, gamepad, hand, joystick, keyboard, message, packageX, pointer, move, route, trash,
+  copy, ellipsis, keyRound, userPlus,
 };
 
 export type IconName = keyof typeof kIcons;

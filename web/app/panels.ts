@@ -12,7 +12,7 @@ export const kPanels: readonly PanelKind[] = [
   {id: 'chat', title: 'Chat', icon: 'message', tag: 'rave-chat', short: 'Chat', live: true},
   {id: 'log', title: 'Log & alerts', icon: 'list', tag: 'rave-log', short: 'Log'},
   {id: 'hosts', title: 'Hosts', icon: 'server', tag: 'rave-hosts', count: ({model}) => model.hosts.length},
-  {id: 'rights', title: 'Rights', icon: 'shield', tag: 'rave-rights', needs: 'rights'},
+  {id: 'rights', title: 'Super-User', icon: 'shield', tag: 'rave-super-user', needs: 'rights', short: 'People'},
 ];
 
 /** Panels that the run brings along. */

@@ -76,10 +76,19 @@ try {
         await page.keyboard.press('4');
         await page.waitForTimeout(300);
         await look(page, 'log');
-        if (name !== 'phone' && name !== 'pen') {
-          await page.keyboard.press('6');
-          await page.waitForTimeout(300);
-          await look(page, 'rights');
+        await page.keyboard.press('6');
+        for (const part of ['Rights', 'People', 'Invitations', 'Audit log']) {
+          const tab = page.getByRole('tab', {name: part}).last();
+          if (!(await tab.isVisible())) continue;
+          await tab.click();
+          if (part === 'People') await page.getByRole('button', {name: 'Change fatima'}).click();
+          if (part === 'Invitations') {
+            await page.getByRole('button', {name: 'Make a link'}).click();
+            await page.getByText('The link is shown once').waitFor();
+          }
+          await page.waitForTimeout(200);
+          await look(page, part);
+          await page.screenshot({path: join(folder, `${part.split(' ')[0].toLowerCase()}-${name}-${theme}.png`)});
         }
         await page.context().close();
         assert.deepEqual(found.splice(0), []);

@@ -40,6 +40,22 @@ export function makeBodies(half_m) {
   ];
 }
 
+/** Who may come in, with everything that is shown of it. */
+function fakeAccounts() {
+  const now_s = Math.floor(Date.now() / 1000);
+  const person = (name, role, teams, pages, more = {}) => ({name, role, teams, guest: false, disabled: false, pages, sessions: pages === 0 ? 0 : 1, seen_s: now_s - 26 * 3600, ...more});
+  return {type: 'accounts', kept: true, why_not: '', links: 1,
+    people: [person('Ada N', 'super_user', '*', 2), person('ben', 'commander', '*', 1), person('carla', 'observer', 'north', 1, {guest: true}),
+      person('fatima', 'observer', 'south,west', 0), person('gil', 'commander', '-', 0, {disabled: true, seen_s: 0})],
+    invitations: [{id: 'a1', role: 'observer', teams: '*', uses: 7, until_s: now_s + 23 * 3600 + 60, by: 'Ada N'}, {id: 'a2', role: 'commander', teams: 'east', uses: 1, until_s: now_s + 5 * 86400 + 60, by: 'operator'}]};
+}
+
+function fakeAudit() {
+  const at = (ago_s) => new Date(Date.now() - 1000 * ago_s).toISOString().slice(0, 19) + 'Z';
+  return [{time: at(5), what: 'right', user: 'Ada N', detail: 'obstacles of carla: none'}, {time: at(30), what: 'refused', user: 'carla', why: 'order', detail: 'goal, 1 robots: Your rights do not include this.'},
+    {time: at(60), what: 'stop', user: 'ben', detail: '1 robots'}, {time: at(90), what: 'login', user: 'ben', by: 'password', from: '192.168.1.20'}, {time: at(90000), what: 'invitation', user: 'Ada N', detail: 'made: observer, teams *, 10 uses, 1 days'}];
+}
+
 /** Robots on circles of their own about the middle of their team. */
 export class FakeRun {
   constructor(count, options = {}) {
@@ -67,6 +83,8 @@ export class FakeRun {
       rows: ['observer', 'commander', 'super_user'].map((role, i) => ({role, cells: Object.fromEntries(
         ['pose', 'true_pose', 'readings', 'hybrid_parts', 'obstacles', 'log', 'recording', 'stop'].map((what, k) => [what, i === 2 || k % 3 === 0 ? 'all' : i === 1 ? 'own' : 'none']))})),
       people: [{name: 'carla', role: 'observer', teams: 'north'}, {name: 'ben', role: 'commander', teams: '*'}]};
+    this.accounts = fakeAccounts();
+    this.audit = fakeAudit();
     this.events = [{t: 0, until: 0, count: 1, kind: 'begin', level: 'info', text: `Run begins: ${count} robots`, slots: []}];
     this.travelled = this.robots.map(() => 0);
   }
@@ -91,7 +109,7 @@ export class FakeRun {
     return [this.hello(), {type: 'scene', bodies, hidden: all ? [] : ['virtual']},
       {type: 'roster', revision: 1, robots: this.robots},
       {type: 'events', reset: true, first: 0, events: this.events}, this.time(),
-      ...(this.hosts ? [{type: 'hosts', hosts: this.hosts}] : []), ...(this.may.includes('rights') ? [this.rights] : []),
+      ...(this.hosts ? [{type: 'hosts', hosts: this.hosts}] : []), ...(this.may.includes('rights') ? [this.rights, this.accounts] : []),
       ...(this.source === 'live' ? [this.leases([...this.drives.keys()], true), {type: 'chat', reset: true, lines: this.lines}] : []),
       {type: 'people', people: [{name: 'Ada N', role: this.role}, {name: 'Ben K', role: 'observer'}]}];
   }
@@ -158,6 +176,25 @@ export class FakeRun {
     if (!row) this.rights.rows.push((row = {user, cells: {}}));
     if (reach === null) delete row.cells[what];
     else row.cells[what] = reach;
+  }
+
+  /** What an account or an invitation becomes; the messages for the page that asked. */
+  people(message) {
+    const {type, do: what, name, request} = message;
+    const {people, invitations} = this.accounts;
+    if (type === 'audit') {
+      const text = (message.contains ?? '').toLowerCase();
+      const lines = this.audit.filter((line) => (!message.what || line.what === message.what) && JSON.stringify(line).toLowerCase().includes(text));
+      return [{type: 'audit_lines', request, more: lines.length > message.most, lines: lines.slice(0, message.most)}, {type: 'answer', to: 'audit', good: true, text: '', request}];
+    }
+    const answer = {type: 'answer', to: what, good: true, text: `${name ?? 'invitation'}: ${what}`, request};
+    const known = people.find((person) => person.name === name);
+    if (what === 'change') Object.assign(known, {role: message.role, teams: message.teams});
+    else if (what === 'disable' || what === 'enable') Object.assign(known, {disabled: what === 'disable', pages: 0, sessions: 0});
+    else if (what === 'end_sessions') Object.assign(known, {pages: 0, sessions: 0});
+    else if (what === 'withdraw') invitations.splice(invitations.findIndex(({id}) => id === message.id), 1);
+    else invitations.push({id: `b${request}`, role: message.role, teams: message.teams, uses: message.uses, until_s: Math.floor(Date.now() / 1000) + message.days * 86400, by: 'Ada N'});
+    return [this.accounts, ...(what === 'make' ? [{type: 'invited', request, link: '/join?invite=0123456789abcdef'}] : []), answer];
   }
 
   /** What a super-user is shown as another one; without `as` everything again. */

@@ -54,6 +54,7 @@ class Viewer {
       this.server.run.setRight(message);
       this.say(this.server.run.rights);
     }
+    if (['account', 'invitation', 'audit'].includes(message.type)) for (const told of this.server.run.people(message)) this.say(told);
     if (message.type === 'see_as') {
       this.server.run.seeAs(message.role || message.user ? {name: message.user ?? message.role, role: message.role ?? 'observer'} : null);
       this.server.turnInto({});

@@ -2,7 +2,7 @@
 // People share a page over TLS, each with their rights: node share_test.mjs RAVE SCENARIO FOLDER
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
-import {mkdirSync, rmSync, writeFileSync} from 'node:fs';
+import {mkdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {launch, startServer} from './browser.mjs';
 import {app, check, report, showFailures, until, untilHere, watch} from './checks.mjs';
@@ -87,10 +87,10 @@ try {
     const link = call(['people', 'invite', '--teams', 'green', '--accounts', accounts]).split('\n')[0];
     assert.ok(link.startsWith(origin), link);
     await guest.page.goto(link);
-    await guest.page.fill('#name', 'eve');
+    await guest.page.fill('#name', 'eva');
     await guest.page.click('button');
     await untilHere(guest.page, () => guest.last('roster'), 'a roster');
-    assert.deepEqual(guest.last('hello').user, {name: 'eve', role: 'observer'});
+    assert.deepEqual(guest.last('hello').user, {name: 'eva', role: 'observer'});
     assert.equal(guest.last('rights'), undefined);
     for (const robot of guest.last('roster').robots) {
       assert.equal(robot.sensors.length > 0, robot.team === 'green', robot.name);
@@ -110,6 +110,81 @@ try {
     }
   });
 
+  /** The part of the Super-User panel with this name. */
+  async function part(name) {
+    await boss.page.getByRole('tab', {name, exact: false}).last().click();
+  }
+
+  await check('a super-user makes an invitation in the page; its link is shown once and lets somebody in', async () => {
+    await boss.page.setViewportSize({width: 1500, height: 950});
+    await boss.page.keyboard.press('Control+k');
+    await boss.page.keyboard.type('super-user');
+    await boss.page.keyboard.press('Enter');
+    await part('Invitations');
+    await boss.page.getByText('No invitation is out').waitFor();
+    await boss.page.getByLabel('Role').selectOption('commander');
+    await boss.page.getByLabel('People', {exact: true}).fill('2');
+    await boss.page.getByRole('button', {name: 'Make a link'}).click();
+    const link = await boss.page.locator('rave-invitations code').textContent();
+    assert.ok(link.startsWith(`${origin}/join?invite=`), link);
+    await boss.page.getByText('2 uses left').waitFor();
+    await boss.page.getByRole('button', {name: 'Put the link away'}).click();
+    const secret = link.split('=')[1];
+    assert.equal(boss.messages.filter((message) => JSON.stringify(message).includes(secret)).length, 1);
+    await guest.page.goto(link);
+    await guest.page.fill('#name', 'ben');
+    await guest.page.click('button');
+    await untilHere(guest.page, () => guest.last('hello')?.user.name === 'ben', 'a commander');
+    await boss.page.getByText('for one person').waitFor();
+    await boss.page.getByRole('button', {name: /Withdraw/}).click();
+    await boss.page.getByText('No invitation is out').waitFor();
+    assert.doesNotMatch(readFileSync(join(accounts, 'audit.jsonl'), 'utf8'), new RegExp(secret));
+  });
+
+  await check('people are listed with who is here, and another role is on their page within a second', async () => {
+    await part('People');
+    await boss.page.locator('rave-people tr', {hasText: 'ben'}).getByText('now').waitFor();
+    await boss.page.screenshot({path: join(folder, 'people.png')});
+    await boss.page.getByRole('button', {name: 'Change ben'}).click();
+    await boss.page.locator('rave-people').getByLabel('Role').selectOption('observer');
+    await boss.page.evaluate('window.mark = 1');
+    await guest.page.evaluate('window.mark = 2');
+    const before = Date.now();
+    await boss.page.getByRole('button', {name: 'Change', exact: true}).click();
+    await untilHere(guest.page, () => guest.last('hello').user.role === 'observer', 'an observer');
+    assert.ok(Date.now() - before < 1000, `after ${Date.now() - before} ms`);
+    await until(guest.page, `${app}.model.hello.user.role === 'observer'`);
+    assert.equal(await guest.page.evaluate('window.mark'), 2);
+    await boss.page.locator('rave-people tr', {hasText: 'ben'}).getByText('observer', {exact: true}).waitFor();
+  });
+
+  await check('the audit log tells it, and can be filtered', async () => {
+    await part('Audit log');
+    await boss.page.getByText('changed ben: observer').waitFor();
+    await boss.page.getByLabel('Kind').selectOption('invitation');
+    await boss.page.getByText('invitation made: commander').waitFor();
+    await until(boss.page, '![...document.querySelectorAll("rave-super-user")].some((panel) => panel.shadowRoot.querySelector("rave-audit").shadowRoot.textContent.includes("changed ben"))');
+    await boss.page.getByLabel('Filter the audit log').fill('withdrawn');
+    await until(boss.page, 'document.querySelector("rave-super-user").shadowRoot.querySelector("rave-audit").shadowRoot.querySelectorAll(".line").length === 1');
+    await boss.page.screenshot({path: join(folder, 'audit.png')});
+  });
+
+  await check('who is disabled is out, and keeps the name', async () => {
+    await part('People');
+    await boss.page.getByRole('button', {name: 'Change ben'}).click();
+    await boss.page.getByRole('button', {name: 'Disable'}).click();
+    await until(guest.page, `${app}.shadowRoot.textContent.includes("signed out")`);
+    await boss.page.locator('rave-people tr', {hasText: 'ben'}).getByText('disabled').waitFor();
+    const link = call(['people', 'invite', '--teams', 'green', '--accounts', accounts]).split('\n')[0];
+    await guest.page.goto(link);
+    await guest.page.fill('#name', 'ben');
+    await guest.page.click('button');
+    await guest.page.getByText('is taken').waitFor();
+    await guest.page.fill('#name', 'eve');
+    await guest.page.click('button');
+    await untilHere(guest.page, () => guest.last('hello')?.user.name === 'eve', 'eve');
+  });
+
   await check('who is removed is out', async () => {
     call(['people', 'remove', 'eve', '--accounts', accounts]);
     await until(guest.page, `${app}.shadowRoot.textContent.includes("signed out")`);
@@ -117,7 +192,7 @@ try {
 
   await check('every message is as the schema describes it', async () => {
     const types = new Set(said.map(({type}) => type));
-    for (const type of ['hello', 'rights', 'set_right', 'answer']) assert.ok(types.has(type), type);
+    for (const type of ['hello', 'rights', 'set_right', 'accounts', 'account', 'invitation', 'invited', 'audit', 'audit_lines', 'audit_written', 'answer']) assert.ok(types.has(type), type);
     const file = join(folder, 'messages.json');
     writeFileSync(file, JSON.stringify(said));
     execFileSync('python3', [new URL('check_messages.py', import.meta.url).pathname, file], {stdio: 'inherit'});

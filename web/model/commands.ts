@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type {Answer, Edit, Lease, Order, PageMessage, Point, Robot, Say, SetParameter} from '../protocol/messages';
+import type {Answer, AskAudit, ChangeAccount, ChangeInvitation, Edit, Lease, Order, PageMessage, Point, Robot, Say, SetParameter} from '../protocol/messages';
 import type {Link} from './link';
 import type {RunModel} from './run_model';
 import {Signal} from './signal';
@@ -20,7 +20,7 @@ export interface Pending {
 }
 
 type Unnumbered<T> = Omit<T, 'request'>;
-type Request = Unnumbered<Order> | Unnumbered<Lease> | Unnumbered<SetParameter> | Unnumbered<Edit> | Unnumbered<Say>;
+type Request = Unnumbered<Order> | Unnumbered<Lease> | Unnumbered<SetParameter> | Unnumbered<Edit> | Unnumbered<Say> | Unnumbered<ChangeAccount> | Unnumbered<ChangeInvitation> | Unnumbered<AskAudit>;
 
 /** A taken order that no robot says it follows is over after so long. */
 const kTold_ms = 1200;

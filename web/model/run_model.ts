@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import {decodeFrame, isPoseFrame, isVariances, type Variance} from '../protocol/frames';
-import type {Answer, Body, DriveState, Event, Hello, Host, Line, Person, Rights, Robot, ServerMessage, Time} from '../protocol/messages';
+import type {Accounts, Answer, AuditLines, Body, DriveState, Event, Hello, Host, Invited, Line, Person, Rights, Robot, ServerMessage, Time} from '../protocol/messages';
 import {PoseHistory} from './pose_history';
 import {Readings} from './readings';
 import {Signal} from './signal';
@@ -21,6 +21,12 @@ export class RunModel {
   lines: Line[] = [];
   /** Who gets what; of super-users alone. */
   rights: Rights | null = null;
+  /** Who may come in and who is here; of super-users alone. */
+  accounts: Accounts | null = null;
+  /** Lines of the audit log that were asked for last. */
+  audit: AuditLines | null = null;
+  /** A link that was told and that nobody has taken yet. */
+  private invited: Invited | null = null;
   readonly poses = new PoseHistory();
   readonly readings = new Readings();
   /** By slot, of robots that are looked at and say it. */
@@ -34,6 +40,9 @@ export class RunModel {
   readonly hostsChanged = new Signal();
   readonly peopleChanged = new Signal();
   readonly rightsChanged = new Signal();
+  readonly accountsChanged = new Signal();
+  /** The audit log has lines that were not told. */
+  readonly auditChanged = new Signal();
   readonly drivesChanged = new Signal();
   readonly linesChanged = new Signal();
   /** A frame or reading came: there is something new to draw. */
@@ -116,6 +125,19 @@ export class RunModel {
         this.rights = message;
         this.rightsChanged.emit();
         break;
+      case 'accounts':
+        this.accounts = message;
+        this.accountsChanged.emit();
+        break;
+      case 'invited':
+        this.invited = message;
+        break;
+      case 'audit_lines':
+        this.audit = message;
+        break;
+      case 'audit_written':
+        this.auditChanged.emit();
+        break;
       case 'leases':
         if (message.reset) this.drives.clear();
         for (const state of message.robots) this.drives.set(state.slot, state);
@@ -129,6 +151,13 @@ export class RunModel {
         this.answered.emit(message);
         break;
     }
+  }
+
+  /** The link that a request was answered with, once; null: there is none. */
+  takeInvited(request: number | undefined): string | null {
+    const told = this.invited !== null && this.invited.request === request ? this.invited.link : null;
+    this.invited = null;
+    return told;
   }
 
   /** Returns the sequence number to acknowledge, or null. Throws RangeError for a broken frame. */
@@ -158,6 +187,8 @@ export class RunModel {
     this.events = [];
     this.hosts = [];
     this.rights = null;
+    this.accounts = null;
+    this.audit = null;
     this.drives.clear();
     this.poses.clear();
     this.readings.clear();

@@ -15,7 +15,6 @@
 #include <utility>
 
 #include "rave/base/file.hpp"
-#include "rave/base/names.hpp"
 #include "secrets.hpp"
 
 namespace rave::gui_server {
@@ -84,7 +83,7 @@ void tidy(AccountsFile& file, std::int64_t now_s) {
     return invitation.until_s <= now_s || invitation.uses <= 0;
   });
   std::erase_if(file.accounts, [&](const Account& account) {
-    return account.password.empty() &&
+    return account.password.empty() && !account.disabled &&
            std::ranges::none_of(file.sessions, [&](const SessionEntry& session) {
              return session.user == account.person.name;
            });
@@ -159,6 +158,7 @@ Status Accounts::read_if_changed() {
   stamp_ = std::move(stamp);
   const std::lock_guard lock(mutex_);
   state_ = std::move(known);
+  ++revision_;
   return {};
 }
 
@@ -194,29 +194,18 @@ AccountsFile Accounts::state() const {
   return state;
 }
 
+std::uint64_t Accounts::revision() const {
+  const std::lock_guard lock(mutex_);
+  return revision_;
+}
+
 Status Accounts::add(const Person& person, std::string_view password) {
   RAVE_TRY(check_user_name(person.name));
   RAVE_TRY(check_password(password));
   RAVE_TRY_ASSIGN(const std::string hash, hashed(password));
   return change([&](AccountsFile& file) -> Status {
     RAVE_TRY(check_free(file, person.name));
-    file.accounts.push_back({person, hash});
-    return {};
-  });
-}
-
-Status Accounts::remove(std::string_view name) {
-  return change([&](AccountsFile& file) -> Status {
-    const auto found = account_of(file, name);
-    if (found == file.accounts.end()) {
-      std::vector<std::string_view> names;
-      for (const Account& account : file.accounts) names.emplace_back(account.person.name);
-      const std::string_view near = nearest_name(name, names);
-      return fail(ErrorCode::kNotFound, "nobody is called `{}`{}", name,
-                  near.empty() ? "" : fmt::format("; did you mean `{}`?", near));
-    }
-    file.accounts.erase(found);
-    std::erase_if(file.sessions, [&](const auto& session) { return session.user == name; });
+    file.accounts.push_back({person, hash, false, 0});
     return {};
   });
 }
@@ -242,16 +231,6 @@ Result<std::string> Accounts::invite(Role role, const Teams& teams, int uses, in
   return secret;
 }
 
-Result<std::size_t> Accounts::revoke_invitations() {
-  std::size_t count = 0;
-  RAVE_TRY(change([&](AccountsFile& file) -> Status {
-    count = file.invitations.size();
-    file.invitations.clear();
-    return {};
-  }));
-  return count;
-}
-
 Result<std::string> Accounts::join(std::string_view secret, const std::string& name,
                                    std::string_view password) {
   constexpr const char* kUnknown =
@@ -269,7 +248,7 @@ Result<std::string> Accounts::join(std::string_view secret, const std::string& n
     const auto found = std::ranges::find(file.invitations, hash_of(secret), &Invitation::hash);
     if (found == file.invitations.end()) return fail(ErrorCode::kState, "{}", kUnknown);
     RAVE_TRY(check_free(file, name));
-    file.accounts.push_back({{name, found->role, found->teams}, hash});
+    file.accounts.push_back({{name, found->role, found->teams}, hash, false, clock_()});
     --found->uses;
     session = begin_session(file, name, clock_() + kSessionLife_s);
     return {};
@@ -293,6 +272,10 @@ Result<std::string> Accounts::sign_in(std::string_view name, std::string_view pa
     const auto found = account_of(file, name);
     // It may have been removed or given another password meanwhile.
     if (found == file.accounts.end() || found->password != hash) return wrong;
+    if (found->disabled) {
+      return fail(ErrorCode::kState, "this account is disabled; a super-user can enable it");
+    }
+    found->seen_s = clock_();
     session = begin_session(file, found->person.name, clock_() + kSessionLife_s);
     return {};
   }));
@@ -314,7 +297,7 @@ std::optional<Person> Accounts::who(std::string_view session) const {
   const auto found = std::ranges::find(state_.sessions, hash, &SessionEntry::hash);
   if (found == state_.sessions.end() || found->until_s <= clock_()) return std::nullopt;
   const auto account = account_of(state_, found->user);
-  if (account == state_.accounts.end()) return std::nullopt;
+  if (account == state_.accounts.end() || account->disabled) return std::nullopt;
   return account->person;
 }
 

@@ -98,7 +98,8 @@ class Reader {
   }
 
   Status user(const Columns& columns) {
-    RAVE_TRY(count(columns, 5));
+    // Later columns came later; a file without them is as good.
+    if (columns.size() != 7) RAVE_TRY(count(columns, 5));
     Account account;
     RAVE_TRY_ASSIGN(account.person.name, name(columns[1]));
     RAVE_TRY_ASSIGN(account.person.role, role(columns[2]));
@@ -107,12 +108,22 @@ class Reader {
       if (!is_password_hash(columns[4])) return wrong("expected a hash by Argon2id, or - for none");
       account.password = columns[4];
     }
+    if (columns.size() == 7) RAVE_TRY(state(columns, account));
     for (const Account& other : file_.accounts) {
       if (other.person.name == account.person.name) {
         return wrong("`{}` has an account already", account.person.name);
       }
     }
     file_.accounts.push_back(std::move(account));
+    return {};
+  }
+
+  Status state(const Columns& columns, Account& account) {
+    account.disabled = columns[5] == "disabled";
+    if (!account.disabled && columns[5] != "enabled") {
+      return wrong("expected enabled or disabled, found `{}`", columns[5].substr(0, 40));
+    }
+    RAVE_TRY_ASSIGN(account.seen_s, number<std::int64_t>(columns[6], 99'999'999'999));
     return {};
   }
 
@@ -160,8 +171,12 @@ std::string write_accounts(const AccountsFile& accounts) {
   std::string text = std::string(kFirstLine) + "\n";
   for (const Account& account : accounts.accounts) {
     text +=
-        fmt::format("user\t{}\t{}\t{}\t{}\n", account.person.name, to_string(account.person.role),
+        fmt::format("user\t{}\t{}\t{}\t{}", account.person.name, to_string(account.person.role),
                     account.person.teams.text(), account.password.empty() ? "-" : account.password);
+    if (account.disabled || account.seen_s > 0) {
+      text += fmt::format("\t{}\t{}", account.disabled ? "disabled" : "enabled", account.seen_s);
+    }
+    text += "\n";
   }
   for (const Invitation& invitation : accounts.invitations) {
     text += fmt::format("invitation\t{}\t{}\t{}\t{}\t{}\t{}\n", invitation.hash,

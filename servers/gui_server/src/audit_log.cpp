@@ -9,12 +9,16 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "rave/base/file.hpp"
+
 namespace rave::gui_server {
 namespace {
 
 namespace fs = std::filesystem;
 constexpr const char* kFile = "audit.jsonl";
 constexpr std::size_t kLongestField = 200;
+/// By the last line a file is longer than its limit.
+constexpr std::uintmax_t kMostOver = 65'536;
 
 }  // namespace
 
@@ -38,7 +42,25 @@ void AuditLog::note(std::string_view what, Fields fields) {
   const bool written =
       file >= 0 && ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
   if (file >= 0) ::close(file);
-  if (!written) ++lost_;
+  ++(written ? written_ : lost_);
+}
+
+std::uint64_t AuditLog::written() const {
+  const std::lock_guard lock(mutex_);
+  return written_;
+}
+
+AuditPage AuditLog::read(const AuditFilter& filter) const {
+  AuditPage page;
+  // Without the lock, which the server's thread may need: a file that is turned over meanwhile has
+  // its lines once more or not at all.
+  for (int n = 0; keeps() && n <= kOlderOnes && !page.more; ++n) {
+    const auto file = folder_ / (n == 0 ? std::string(kFile) : fmt::format("audit.{}.jsonl", n));
+    if (const auto text = read_file(file, most_bytes_ + kMostOver)) {
+      add_audit_lines(*text, filter, page);
+    }
+  }
+  return page;
 }
 
 std::uint64_t AuditLog::lost() const {
@@ -48,11 +70,13 @@ std::uint64_t AuditLog::lost() const {
 
 bool AuditLog::is_too_many(std::string_view what, Fields fields) {
   if (what != "refused") return false;
+  // Strangers by their network, others by their name, which no network looks like.
+  std::string who;
   for (const auto& [name, value] : fields) {
-    if (name != "from") continue;
-    return !refusals_.take(web::network_of(std::string(value)), web::RateLimit::Clock::now());
+    if (name == "from") who = web::network_of(std::string(value));
+    if (name == "user" && who.empty()) who = fmt::format("user {}", value);
   }
-  return false;
+  return !who.empty() && !refusals_.take(who, web::RateLimit::Clock::now());
 }
 
 void AuditLog::turn_over() {

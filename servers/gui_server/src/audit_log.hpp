@@ -8,7 +8,9 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
+#include "audit_lines.hpp"
 #include "rave/web/rate_limit.hpp"
 
 namespace rave::gui_server {
@@ -29,6 +31,13 @@ class AuditLog {
   /// cannot be written, as on a full disk, is lost: a server goes on without it, and counts it.
   void note(std::string_view what, Fields fields);
   [[nodiscard]] std::uint64_t lost() const;
+  /// Lines that this process has written.
+  [[nodiscard]] std::uint64_t written() const;
+  /// Those of all files that fit the filter, newest first. Waits for the disk; reads 20 MiB at
+  /// most.
+  [[nodiscard]] AuditPage read(const AuditFilter& filter) const;
+  /// Whether lines are kept at all.
+  [[nodiscard]] bool keeps() const noexcept { return !folder_.empty(); }
 
  private:
   void turn_over();
@@ -38,6 +47,7 @@ class AuditLog {
   std::uintmax_t most_bytes_;
   mutable std::mutex mutex_;
   std::uint64_t lost_ = 0;
+  std::uint64_t written_ = 0;
   web::RateLimit refusals_{0.1, 50};
 };
 

@@ -47,6 +47,8 @@ class Door {
   [[nodiscard]] std::optional<Person> whose(std::string_view session) const;
   /// Takes in what others have written to the accounts; once a second. Error: see Accounts.
   [[nodiscard]] Status refresh();
+  /// Does something that waits for a disk, where passwords are checked. False: too many wait.
+  [[nodiscard]] bool later(std::function<void()> call) { return work_.post(std::move(call)); }
   /// Before the server ends: no reply comes any more.
   void stop() { work_.stop(); }
 

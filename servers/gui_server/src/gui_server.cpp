@@ -43,7 +43,7 @@ Status check_listen(const GuiOptions& options, const Accounts* accounts) {
   }
   const AccountsFile state = accounts->state();
   const bool has_super_user = std::ranges::any_of(state.accounts, [](const Account& account) {
-    return account.person.role == Role::kSuperUser;
+    return account.person.role == Role::kSuperUser && !account.disabled;
   });
   if (has_super_user) return {};
   return fail(ErrorCode::kInvalidArgument,
@@ -68,7 +68,8 @@ class GuiServer::Impl final : public web::Handler {
         audit_(parts.audit),
         metrics_token_(std::move(parts.metrics_token)),
         door_({parts.accounts, parts.audit, !options.certificate.empty()}),
-        visitors_(door_, std::move(parts.desk), parts.accounts, parts.audit),
+        visitors_(door_, std::move(parts.desk), parts.accounts, parts.audit,
+                  [this](std::function<void()> call) { server_->post(std::move(call)); }),
         tickets_(parts.audit),
         foxglove_(options.foxglove),
         foxglove_door_(door_, parts.audit, options.foxglove_origins),

@@ -193,6 +193,9 @@ Result<PageMessage> parse_page_message(std::string_view text) {
   } else if (auto command = command_of(type, members)) {
     if (!*command) return tl::unexpected(command->error());
     message = PageMessage(**std::move(command));
+  } else if (auto people = people_message_of(type, members)) {
+    if (!*people) return tl::unexpected(people->error());
+    message = PageMessage(**std::move(people));
   }
   if (!message) return message;
   RAVE_TRY(members.finish());

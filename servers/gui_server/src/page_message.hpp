@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "people_message.hpp"
 #include "rave/base/result.hpp"
 #include "rave/gui_server/rights.hpp"
 #include "rave/gui_server/source.hpp"
@@ -46,8 +47,9 @@ struct ChatMessage {
   std::uint32_t request = 0;
 };
 
-using PageMessage = std::variant<LookMessage, AckMessage, TransportMessage, HaltMessage,
-                                 SetRightMessage, SeeAsMessage, CommandMessage, ChatMessage>;
+using PageMessage =
+    std::variant<LookMessage, AckMessage, TransportMessage, HaltMessage, SetRightMessage,
+                 SeeAsMessage, CommandMessage, ChatMessage, PeopleMessage>;
 
 /// Errors: kParse with what was expected.
 [[nodiscard]] Result<PageMessage> parse_page_message(std::string_view text);

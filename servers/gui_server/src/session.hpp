@@ -34,6 +34,8 @@ struct SessionCalls {
   /// Once it is known what became of it.
   PageCommands::Told commanded;
   std::function<Result<std::string>(const ChatMessage&)> chat;
+  /// Answers by itself.
+  std::function<void(const PeopleMessage&)> people;
 };
 
 /// One page that is connected: what it looks at, its place in time, what is on its way to it. The
@@ -71,6 +73,7 @@ class Session {
   void take(const SeeAsMessage& see);
   void take(const CommandMessage& command) { commands_.take(command); }
   void take(const ChatMessage& chat);
+  void take(const PeopleMessage& people) { calls_.people(people); }
   void keep_place(const PlayState& before);
   void forget_foreign_sensors();
   void send_past(double now_s);

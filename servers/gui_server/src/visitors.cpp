@@ -49,11 +49,14 @@ std::string halt_text(const HaltMessage& halt, bool good) {
 }  // namespace
 
 Visitors::Visitors(Door& door, RightsDesk desk, std::shared_ptr<Accounts> accounts,
-                   std::shared_ptr<AuditLog> audit)
+                   std::shared_ptr<AuditLog> audit, PeopleDesk::Post post)
     : door_(door),
       desk_(std::move(desk)),
       accounts_(std::move(accounts)),
-      audit_(std::move(audit)) {}
+      audit_(std::move(audit)),
+      people_desk_({accounts_, audit_,
+                    [&door](std::function<void()> call) { return door.later(std::move(call)); },
+                    std::move(post)}) {}
 
 void Visitors::show(std::shared_ptr<Source> source) {
   source_ = std::move(source);
@@ -82,6 +85,21 @@ void Visitors::opened(std::uint64_t id, web::Socket& socket, const std::string& 
   if (kept.person.role == Role::kSuperUser) {
     kept.page->send(std::make_shared<const std::string>(desk_.message(people())));
   }
+  ++accounts_news_;
+  tell_accounts();
+}
+
+void Visitors::closed(std::uint64_t id) {
+  const auto found = visitors_.find(id);
+  if (found == visitors_.end()) return;
+  const Visitor gone = std::move(found->second);
+  visitors_.erase(found);
+  told_people_.clear();
+  ++accounts_news_;
+  const bool more = std::any_of(visitors_.begin(), visitors_.end(), [&gone](const auto& entry) {
+    return entry.second.person.name == gone.person.name;
+  });
+  if (!more && !is_operator(gone)) people_desk_.note_gone(gone.person.name);
 }
 
 void Visitors::received(std::uint64_t id, std::string_view text) {
@@ -111,6 +129,8 @@ void Visitors::show_to(Visitor& visitor, bool same_run) {
   visitor.page->send(payload(
       room_.text_for({known_as(visitor.eyes.value_or(visitor.person)), *visitor.view}, 0, true)));
   visitor.told_chat = room_.newest();
+  // The page has forgotten them.
+  visitor.told_accounts = visitor.told_audit = 0;
   told_people_.clear();
 }
 
@@ -129,7 +149,7 @@ void Visitors::show_again_if_other() {
 void Visitors::tell_rights() {
   web::Payload message;
   for (const auto& [id, visitor] : visitors_) {
-    if (visitor.person.role != Role::kSuperUser || visitor.eyes) continue;
+    if (!visitor.conducts()) continue;
     if (!message) message = std::make_shared<const std::string>(desk_.message(people()));
     visitor.page->send(message);
   }
@@ -205,8 +225,22 @@ void Visitors::check() {
     if (person->role != Role::kSuperUser) visitor.eyes.reset();
     visitor.page->set_author(author_of(visitor));
     changed = true;
+    if (!source_) continue;
+    // Also if the rights are the same: the page shows the role.
+    visitor.view = desk_.view_of(visitor.eyes.value_or(visitor.person));
+    show_to(visitor, true);
   }
-  if (changed) show_again_if_other();
+  if (changed) {
+    std::erase_if(restricted_, [](const auto& entry) { return entry.second.expired(); });
+    ++accounts_news_;
+  }
+  if (accounts_revision_ != people_desk_.revision()) {
+    accounts_revision_ = people_desk_.revision();
+    ++accounts_news_;
+    changed = true;
+  }
+  if (source_ && changed) tell_rights();
+  tell_accounts();
 }
 
 std::shared_ptr<const View> Visitors::view_of(const Person& person) {
@@ -228,6 +262,7 @@ SessionCalls Visitors::calls_of(std::uint64_t id) {
   calls.commanded = [this, id](const CommandMessage& command, const PageAnswer& answer) {
     note_command(id, command, answer);
   };
+  calls.people = [this, id](const PeopleMessage& asked) { take_people(id, asked); };
   calls.chat = [this, id](const ChatMessage& said) { return chat(id, said); };
   calls.halted = [this, id](const HaltMessage& halt, bool good) {
     const auto found = visitors_.find(id);
@@ -302,7 +337,7 @@ bool Visitors::is_there(const std::string& name) const {
 
 Result<std::string> Visitors::set_right(std::uint64_t id, const RightChange& change) {
   const Visitor& visitor = visitors_.at(id);
-  if (visitor.person.role != Role::kSuperUser || visitor.eyes) {
+  if (!visitor.conducts()) {
     audit_->note("refused", {{"why", "right"}, {"user", visitor.person.name}});
     return fail(ErrorCode::kState, "{}", kSuperUsersOnly);
   }
@@ -335,6 +370,7 @@ Result<std::string> Visitors::see_as(std::uint64_t id, const SeeAsMessage& see) 
   visitor.view = desk_.view_of(visitor.eyes.value_or(visitor.person));
   show_to(visitor, true);
   if (!visitor.eyes) tell_rights();
+  tell_accounts();
   return std::string();
 }
 

@@ -11,6 +11,7 @@
 #include "audit_log.hpp"
 #include "chat_room.hpp"
 #include "door.hpp"
+#include "people_desk.hpp"
 #include "restricted_source.hpp"
 #include "rights_desk.hpp"
 #include "session.hpp"
@@ -20,23 +21,21 @@ namespace rave::gui_server {
 /// All pages that are connected, each with what its user gets of the run. The thread of the server.
 class Visitors {
  public:
-  /// `door` outlives it. `accounts`: null without any; shared with the door.
+  /// `door` outlives it. `accounts`: null without any; shared with the door. `post`: calls
+  /// something on the thread of the server.
   Visitors(Door& door, RightsDesk desk, std::shared_ptr<Accounts> accounts,
-           std::shared_ptr<AuditLog> audit);
+           std::shared_ptr<AuditLog> audit, PeopleDesk::Post post);
 
   /// All see this run from now on.
   void show(std::shared_ptr<Source> source);
   /// Somebody came whose session the door knows.
   void opened(std::uint64_t id, web::Socket& socket, const std::string& session);
   void received(std::uint64_t id, std::string_view text);
-  void closed(std::uint64_t id) {
-    visitors_.erase(id);
-    told_people_.clear();
-  }
+  void closed(std::uint64_t id);
   /// Some 60 times a second. `audience`: what others than pages look at, in robots of the run.
   void tick(Audience audience = {});
-  /// Once a second: who was removed or signed out elsewhere is out, who got another role has its
-  /// rights.
+  /// Twice a second: who was removed or signed out elsewhere is out, who got another role has its
+  /// rights, and super-users know of it.
   void check();
 
   /// What somebody gets, as for the recording; null: there is no run.
@@ -59,6 +58,12 @@ class Visitors {
     std::shared_ptr<const View> view;
     std::unique_ptr<Session> page;
     std::uint64_t told_chat = 0;
+    std::uint64_t told_accounts = 0;  ///< Revision; 0: nothing yet.
+    std::uint64_t told_audit = 0;     ///< Lines, and one.
+
+    [[nodiscard]] bool conducts() const {
+      return person.role == Role::kSuperUser && !eyes.has_value();
+    }
   };
   [[nodiscard]] static Author author_of(const Visitor& visitor);
   void show_to(Visitor& visitor, bool same_run);
@@ -68,6 +73,10 @@ class Visitors {
   [[nodiscard]] Result<std::string> set_right(std::uint64_t id, const RightChange& change);
   [[nodiscard]] Result<std::string> see_as(std::uint64_t id, const SeeAsMessage& see);
   [[nodiscard]] Result<std::string> chat(std::uint64_t id, const ChatMessage& chat);
+  void take_people(std::uint64_t id, const PeopleMessage& message);
+  void told_of_people(std::uint64_t id, const PeopleDesk::Outcome& outcome);
+  void tell_accounts();
+  [[nodiscard]] static bool is_operator(const Visitor& visitor);
   void note_command(std::uint64_t id, const CommandMessage& command, const PageAnswer& answer);
   [[nodiscard]] bool is_there(const std::string& name) const;
   void tell_chat();
@@ -82,6 +91,9 @@ class Visitors {
   std::map<const View*, std::weak_ptr<RestrictedSource>> restricted_;
   std::map<std::uint64_t, Visitor> visitors_;
   ChatRoom room_;
+  PeopleDesk people_desk_;
+  std::uint64_t accounts_revision_ = 0;  ///< Of the file.
+  std::uint64_t accounts_news_ = 1;      ///< Of the file and of who is there.
   std::string told_people_;
   std::string trouble_;  ///< With the accounts; told once.
 };

@@ -140,6 +140,76 @@ TEST_F(AccountsTest, WhoIsRemovedOrSignsOutIsOut) {
   EXPECT_FALSE(accounts->who(two));
 }
 
+TEST_F(AccountsTest, AnotherRoleIsInForceAtOnceAndOfOpenSessions) {
+  const auto accounts = opened();
+  ASSERT_TRUE(accounts->add({"ada", Role::kSuperUser, {}}, "correct horse"));
+  ASSERT_TRUE(accounts->add({"ben", Role::kSuperUser, {}}, "correct horse"));
+  const std::string session = *accounts->sign_in("ben", "correct horse");
+  ASSERT_TRUE(accounts->change_person({"ben", Role::kObserver, {false, {"green"}}}));
+  EXPECT_EQ(*accounts->who(session), (Person{"ben", Role::kObserver, {false, {"green"}}}));
+  EXPECT_EQ(error_of(accounts->change_person({"Ben", Role::kObserver, {}})),
+            "nobody is called `Ben`; did you mean `ben`?");
+  // Who could mend it is never taken away; ben may go.
+  EXPECT_EQ(error_of(accounts->change_person({"ada", Role::kCommander, {}})),
+            "`ada` is the last super-user who can sign in");
+  EXPECT_EQ(error_of(accounts->set_disabled("ada", true)),
+            "`ada` is the last super-user who can sign in");
+  EXPECT_EQ(accounts->state().accounts[0].person.role, Role::kSuperUser);
+  EXPECT_TRUE(accounts->set_disabled("ben", true));
+}
+
+TEST_F(AccountsTest, WhoIsDisabledKeepsTheNameAndIsOut) {
+  const auto accounts = opened();
+  ASSERT_TRUE(accounts->add({"ada", Role::kObserver, {}}, "correct horse"));
+  const auto link = accounts->invite(Role::kObserver, {}, 5, 30, "ada");
+  const std::string ada = *accounts->sign_in("ada", "correct horse");
+  const std::string ben = *accounts->join(*link, "ben", "");
+  for (const char* const name : {"ada", "ben"}) ASSERT_TRUE(accounts->set_disabled(name, true));
+  EXPECT_FALSE(accounts->who(ada));
+  EXPECT_FALSE(accounts->who(ben));
+  EXPECT_EQ(error_of(accounts->sign_in("ada", "wrong horse")), "the name or the password is wrong");
+  EXPECT_EQ(error_of(accounts->sign_in("ada", "correct horse")),
+            "this account is disabled; a super-user can enable it");
+  EXPECT_EQ(error_of(accounts->join(*link, "Ben", "")), "the name `ben` is taken");
+  ASSERT_TRUE(opened()->set_disabled("ada", false));
+  EXPECT_TRUE(accounts->sign_in("ada", "correct horse"));
+}
+
+TEST_F(AccountsTest, SessionsEndAndPeopleWereSeen) {
+  const auto accounts = opened();
+  ASSERT_TRUE(accounts->add({"ada", Role::kObserver, {}}, "correct horse"));
+  EXPECT_EQ(accounts->state().accounts[0].seen_s, 0);
+  const std::string one = *accounts->sign_in("ada", "correct horse");
+  ASSERT_TRUE(accounts->sign_in("ada", "correct horse"));
+  EXPECT_EQ(accounts->state().accounts[0].seen_s, now_s_);
+  now_s_ += 5;
+  const auto revision = accounts->revision();
+  ASSERT_TRUE(accounts->note_seen("ada"));
+  EXPECT_EQ(accounts->revision(), revision);
+  now_s_ += 60;
+  ASSERT_TRUE(accounts->note_seen("ada"));
+  EXPECT_NE(accounts->revision(), revision);
+  EXPECT_EQ(accounts->state().accounts[0].seen_s, now_s_);
+  EXPECT_EQ(accounts->end_sessions("ada").value_or(0), 2U);
+  EXPECT_FALSE(accounts->who(one));
+  EXPECT_EQ(error_of(accounts->end_sessions("eve")), "nobody is called `eve`");
+}
+
+TEST_F(AccountsTest, AnInvitationIsWithdrawnByItsId) {
+  const auto accounts = opened();
+  const std::string kept = *accounts->invite(Role::kObserver, {}, 1, 7, "ada");
+  const std::string secret = *accounts->invite(Role::kCommander, {}, 1, 7, "ada");
+  const std::string id = accounts->state().invitations[1].id();
+  EXPECT_EQ(secret.find(id), std::string::npos);
+  const auto withdrawn = accounts->withdraw(id);
+  ASSERT_TRUE(withdrawn) << withdrawn.error().text();
+  EXPECT_EQ(withdrawn->role, Role::kCommander);
+  EXPECT_FALSE(accounts->knows_invitation(secret));
+  EXPECT_TRUE(accounts->knows_invitation(kept));
+  EXPECT_EQ(error_of(accounts->withdraw(id)),
+            "this invitation is used up, has ended or was withdrawn");
+}
+
 TEST_F(AccountsTest, NamesAndPasswordsAreChecked) {
   const auto accounts = opened();
   const Person ada{"ada", Role::kObserver, {}};
@@ -193,6 +263,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "accounts:2: expected a hash by Argon2id, or - for none"},
         BadFile{"rave-accounts 1\nuser\tada\tobserver\t*\t-\nuser\tada\tobserver\t*\t-\n",
                 "accounts:3: `ada` has an account already"},
+        BadFile{"rave-accounts 1\nuser\tada\tobserver\t*\t-\tasleep\t0\n",
+                "accounts:2: expected enabled or disabled, found `asleep`"},
+        BadFile{"rave-accounts 1\nuser\tada\tobserver\t*\t-\tenabled\t-1\n",
+                "accounts:2: expected a number up to 99999999999"},
         BadFile{"rave-accounts 1\nsession\tshort\tada\t1\n",
                 "accounts:2: expected a hash of 64 digits"},
         BadFile{"rave-accounts 1\nsession\t" HASH "\tada\t1e9\n",
@@ -203,7 +277,8 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(AccountsFileTest, IsReadAsItWasWritten) {
   const std::string text =
       "rave-accounts 1\nuser\tada\tsuper_user\t*\t$argon2id$v=19$m=65536,t=2,p=1$c2FsdA$aGFzaA\n"
-      "user\tben\tobserver\tblue,green\t-\ninvitation\t" HASH
+      "user\tben\tobserver\tblue,green\t-\nuser\tcleo\tobserver\t*\t-\tdisabled\t1800000000\n"
+      "invitation\t" HASH
       "\tcommander\t-\t3\t1800000000\tada\n"
       "session\t" HASH "\tben\t1800000001\n";
   const auto file = parse_accounts(text, "accounts");
@@ -247,6 +322,39 @@ TEST_F(AccountsTest, StrangersCannotPushOthersOutOfTheAuditLog) {
   EXPECT_LT(std::count(text.begin(), text.end(), '\n'), 60);
   EXPECT_NE(text.find("ada"), std::string::npos);
   EXPECT_NE(text.find("10.0.0.2"), std::string::npos);
+}
+
+TEST_F(AccountsTest, TheAuditLogIsReadNewestFirst) {
+  AuditLog log(folder_, 2000);
+  EXPECT_TRUE(log.read({}).lines.empty());
+  for (int i = 0; i < 100; ++i) {
+    log.note(i % 2 == 0 ? "login" : "stop", {{"user", i == 90 ? "Ada" : "ben"}, {"from", "::1"}});
+  }
+  log.note("refused", {{"why", "order"}, {"user", "eve"}, {"detail", "goal: not yours"}});
+  EXPECT_EQ(log.written(), 101U);
+  std::ofstream(folder_ / "audit.jsonl", std::ios::app) << "no line\n{\"time\":3}\n{\"time\":\"2";
+  const AuditPage newest = log.read({{}, {}, 3});
+  ASSERT_EQ(newest.lines.size(), 3U);
+  EXPECT_TRUE(newest.more);
+  EXPECT_EQ(newest.lines[0].what, "refused");
+  EXPECT_EQ(newest.lines[0].detail, "goal: not yours");
+  EXPECT_EQ(newest.lines[1].what, "stop");
+  // Over the borders of files.
+  const AuditPage logins = log.read({"login", {}, 1000});
+  EXPECT_GT(logins.lines.size(), 30U);
+  EXPECT_FALSE(logins.more);
+  const AuditPage of_ada = log.read({{}, "aDA", 1000});
+  ASSERT_EQ(of_ada.lines.size(), 1U);
+  EXPECT_EQ(of_ada.lines[0].from, "::1");
+  EXPECT_TRUE(AuditLog("").read({}).lines.empty());
+}
+
+TEST_F(AccountsTest, WhoIsSignedInCannotFloodTheAuditLogEither) {
+  AuditLog log(folder_);
+  for (int i = 0; i < 500; ++i) log.note("refused", {{"why", "order"}, {"user", "eve"}});
+  log.note("refused", {{"why", "order"}, {"user", "ben"}});
+  EXPECT_LT(log.read({{}, "eve", 1000}).lines.size(), 60U);
+  EXPECT_EQ(log.read({{}, "ben", 1000}).lines.size(), 1U);
 }
 
 TEST(Metrics, AreForThisMachineOrWhoHasTheToken) {

@@ -36,6 +36,44 @@ CommandMessage command_in(const char* text) {
   return message ? std::get<CommandMessage>(*message) : CommandMessage{};
 }
 
+TEST(PageMessage, RequestsAboutPeopleAreRead) {
+  const auto people = [](const char* text) {
+    const auto message = parse_page_message(text);
+    EXPECT_TRUE(message) << message.error().text();
+    return message ? std::get<PeopleMessage>(*message) : PeopleMessage();
+  };
+  const auto change = std::get<AccountMessage>(people(
+      R"({"type":"account","request":3,"do":"change","name":"ben","role":"commander","teams":"blue,green"})"));
+  EXPECT_EQ(change.name, "ben");
+  EXPECT_EQ(change.role, Role::kCommander);
+  EXPECT_EQ(change.teams.text(), "blue,green");
+  const auto made = std::get<InvitationMessage>(people(
+      R"({"type":"invitation","request":4,"do":"make","role":"observer","teams":"*","uses":20,"days":2})"));
+  EXPECT_TRUE(made.make);
+  EXPECT_EQ(made.uses, 20U);
+  const auto audit =
+      std::get<AuditMessage>(people(R"({"type":"audit","request":5,"most":100,"what":"stop"})"));
+  EXPECT_EQ(audit.filter.what, "stop");
+  for (const auto& [text, expected] :
+       {std::pair(R"({"type":"account","request":1,"do":"remove","name":"ben"})",
+                  "`do`: expected change, disable, enable or end_sessions"),
+        std::pair(R"({"type":"account","request":1,"do":"change","name":"ben","role":"root"})",
+                  "`role`: expected observer, commander or super_user"),
+        std::pair(R"({"type":"account","request":1,"do":"disable","name":"ben","role":"observer"})",
+                  "the message has unknown members"),
+        std::pair(R"({"type":"invitation","request":1,"do":"make","role":"observer","teams":",",)"
+                  R"("uses":1,"days":1})",
+                  "`teams`: expected teams such as green,blue, or * for all, or - for none"),
+        std::pair(R"({"type":"invitation","request":1,"do":"make","role":"observer","teams":"*",)"
+                  R"("uses":0,"days":1})",
+                  "`uses`: expected 1 to 1000"),
+        std::pair(R"({"type":"audit","request":1,"most":1001})", "`most`: expected 1 to 1000")}) {
+    const auto message = parse_page_message(text);
+    ASSERT_FALSE(message) << text;
+    EXPECT_EQ(message.error().message, expected);
+  }
+}
+
 TEST(PageMessage, OrdersAreRead) {
   const CommandMessage drive =
       command_in(R"({"type":"order","request":7,"kind":"drive","slots":[3],"v":0.2,"w":-1})");

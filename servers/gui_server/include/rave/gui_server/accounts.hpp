@@ -20,7 +20,9 @@ namespace rave::gui_server {
 
 struct Account {
   Person person;
-  std::string password;  ///< As libsodium writes it; empty: came in by a link and has none.
+  std::string password;     ///< As libsodium writes it; empty: came in by a link and has none.
+  bool disabled = false;    ///< Keeps the name and cannot come in.
+  std::int64_t seen_s = 0;  ///< When their last page went, or they came in; 0: never.
 };
 
 struct Invitation {
@@ -30,6 +32,9 @@ struct Invitation {
   int uses = 1;  ///< That are left.
   std::int64_t until_s = 0;
   std::string by;  ///< Who made it.
+
+  /// Names it to people. Nobody can reckon the secret from it.
+  [[nodiscard]] std::string id() const { return hash.substr(0, 16); }
 };
 
 struct SessionEntry {
@@ -76,6 +81,8 @@ class Accounts {
   /// what was known stays.
   [[nodiscard]] Status refresh();
   [[nodiscard]] AccountsFile state() const;
+  /// Another number whenever the file is another. Quick.
+  [[nodiscard]] std::uint64_t revision() const;
 
   // Each is in the file when it returns. Errors of all: kIo, kParse (the file), and as named.
 
@@ -86,6 +93,17 @@ class Accounts {
   /// The secret of a link. `uses` 1 to 1000, `days` 1 to 365; else error kInvalidArgument.
   [[nodiscard]] Result<std::string> invite(Role role, const Teams& teams, int uses, int days,
                                            std::string_view by);
+  /// Gives somebody another role and other teams. Errors: kNotFound; kState: no super-user who can
+  /// sign in would be left.
+  [[nodiscard]] Status change_person(const Person& person);
+  /// Disables an account, which ends its sessions, or enables it again. Errors: as change_person().
+  [[nodiscard]] Status set_disabled(std::string_view name, bool disabled);
+  /// How many there were. A guest without a password goes with them. Error kNotFound.
+  [[nodiscard]] Result<std::size_t> end_sessions(std::string_view name);
+  /// Takes back the invitation of an id and returns what it was. Error kNotFound.
+  [[nodiscard]] Result<Invitation> withdraw(std::string_view id);
+  /// Somebody was here until now. Writes nothing if that was told within ten seconds.
+  [[nodiscard]] Status note_seen(std::string_view name);
   /// Takes back all invitations; how many there were.
   [[nodiscard]] Result<std::size_t> revoke_invitations();
   /// Makes an account by an invitation and begins a session, whose secret it returns. Without a
@@ -94,7 +112,8 @@ class Accounts {
   [[nodiscard]] Result<std::string> join(std::string_view secret, const std::string& name,
                                          std::string_view password);
   /// Begins a session and returns its secret. Error kState: the name or the password is wrong;
-  /// which of them, neither the text nor the time says.
+  /// which of them, neither the text nor the time says; or both are right and the account is
+  /// disabled.
   [[nodiscard]] Result<std::string> sign_in(std::string_view name, std::string_view password);
   [[nodiscard]] Status sign_out(std::string_view session);
   /// Whose session it is. Quick.
@@ -117,6 +136,7 @@ class Accounts {
   std::string stamp_;         ///< Of the file that was read: it is never written in place.
   mutable std::mutex mutex_;  ///< Of `state_`; never held for long.
   AccountsFile state_;
+  std::uint64_t revision_ = 0;  ///< Guarded by `mutex_`.
 };
 
 }  // namespace rave::gui_server

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
+import {icon} from '../../app/icons';
+import {controls} from '../../app/styles';
+import {roleText} from '../../app/words';
+import type {PanelContext} from '../../panel_api';
+import type {KnownInvitation} from '../../protocol/messages';
+import {endsText, teamsText, usesText} from './people';
+import {RoleDraft} from './role_form';
+import {peopleStyles} from './styles';
+
+/** Links that let others in: made, told once, listed, withdrawn; for super-users. */
+export class Invitations extends LitElement {
+  declare context: PanelContext;
+  private draft = new RoleDraft('observer', '*', []);
+  private uses = 1;
+  private days = 7;
+  /** The address that was told, until it is put away. */
+  private link = '';
+  private copied = false;
+  private note = '';
+  private readonly ends: (() => void)[] = [];
+
+  override connectedCallback(): void {
+    super.connectedCallback();
+    this.requestUpdate();
+    const {model} = this.context;
+    const update = () => this.requestUpdate();
+    this.ends.push(model.accountsChanged.on(update), model.runChanged.on(update));
+  }
+
+  override disconnectedCallback(): void {
+    super.disconnectedCallback();
+    for (const end of this.ends.splice(0)) end();
+  }
+
+  override render(): TemplateResult {
+    const {accounts, rights} = this.context.model;
+    if (accounts === null) return html`<p>The server has not told the invitations yet.</p>`;
+    if (!accounts.kept) return html`<p>${accounts.why_not}</p>`;
+    const now_s = Date.now() / 1000;
+    const number = (event: Event) => Number((event.target as HTMLInputElement).value);
+    return html`<form @submit=${(event: Event) => { event.preventDefault(); void this.make(); }}>
+        ${this.draft.render(rights?.teams.filter((team) => team !== '') ?? [], () => this.requestUpdate())}
+        <label>People<input type="number" name="uses" min="1" max="1000" required .value=${String(this.uses)} @input=${(event: Event) => { this.uses = number(event); }}></label>
+        <label>Days<input type="number" name="days" min="1" max="365" required .value=${String(this.days)} @input=${(event: Event) => { this.days = number(event); }}></label>
+        <button class="main">${icon('userPlus', 15)} Make a link</button></form>
+      ${this.note === '' ? nothing : html`<p class="note bad" role="alert">${this.note}</p>`}
+      ${this.renderLink()}
+      <div class="scroll" tabindex="0" role="region" aria-label="Invitations">
+        ${accounts.invitations.map((invitation) => this.renderInvitation(invitation, now_s))}
+        ${accounts.invitations.length === 0 ? html`<p>No invitation is out.</p>` : nothing}</div>`;
+  }
+
+  private renderLink(): TemplateResult | typeof nothing {
+    if (this.link === '') return nothing;
+    return html`<section class="link" role="status">${icon('keyRound', 17)}<div><b>The link is shown once. Copy it now.</b><code>${this.link}</code></div>
+      <button class="plain" @click=${() => void this.copy()}>${icon(this.copied ? 'check' : 'copy', 14)} ${this.copied ? 'Copied' : 'Copy'}</button>
+      <button class="icon-button" aria-label="Put the link away" @click=${() => { this.link = ''; this.requestUpdate(); }}>${icon('x', 15)}</button></section>`;
+  }
+
+  private renderInvitation(invitation: KnownInvitation, now_s: number): TemplateResult {
+    const {role, teams, by, until_s, id} = invitation;
+    const name = `${roleText(role)} link`;
+    return html`<article>${icon('link', 15)}<div><b>${name}</b><small>${teamsText(teams)} · by ${by}</small></div>
+      <span class="chip">${endsText(until_s, now_s)}</span><span class="chip">${usesText(invitation)}</span>
+      <button class="plain" aria-label="Withdraw ${name} by ${by}, ${usesText(invitation)}" @click=${() => void this.withdraw(id)}>Withdraw</button></article>`;
+  }
+
+  private async make(): Promise<void> {
+    const {model, commands} = this.context;
+    const answer = await commands.ask({type: 'invitation', do: 'make', role: this.draft.role, teams: this.draft.teams, uses: this.uses, days: this.days});
+    this.note = answer.good ? '' : answer.text;
+    const told = model.takeInvited(answer.request);
+    this.link = told === null ? '' : new URL(told, location.origin).href;
+    this.copied = false;
+    this.requestUpdate();
+  }
+
+  private async withdraw(id: string): Promise<void> {
+    const answer = await this.context.commands.ask({type: 'invitation', do: 'withdraw', id});
+    this.note = answer.good ? '' : answer.text;
+    this.requestUpdate();
+  }
+
+  private async copy(): Promise<void> {
+    try {
+      await navigator.clipboard.writeText(this.link);
+      this.copied = true;
+    } catch {
+      this.note = 'The browser did not allow to copy. Select the link and copy it by hand.';
+    }
+    this.requestUpdate();
+  }
+
+  static override styles = [
+    controls,
+    peopleStyles,
+    css`
+      .link, article { display: flex; flex-wrap: wrap; align-items: center; gap: 8px 10px; padding: 8px 14px; }
+      .link { flex: none; margin: 10px 14px; border-radius: var(--r-4); background: var(--intent-soft); border: 1px solid var(--intent-line); }
+      .link div, article div { flex: 1 1 180px; min-width: 0; }
+      .link b { display: block; }
+      code { font: var(--fs-12) var(--font-code); overflow-wrap: anywhere; user-select: all; }
+      article { border-top: 1px solid var(--line-1); }
+      article > svg { color: var(--text-2); }
+      article b { font-weight: var(--fw-medium); }
+    `,
+  ];
+}
+
+customElements.define('rave-invitations', Invitations);

@@ -22,6 +22,13 @@ struct LookMessage {
   std::vector<LookedAt> readings;  ///< At most 256, without repetitions.
 };
 
+/// Which maps a page shows at present: instead of those of before.
+struct LookMapsMessage {
+  /// By slot or by the name of a global map; at most kMostLookedAtMaps, without repetitions.
+  std::vector<MapName> maps;
+};
+inline constexpr std::size_t kMostLookedAtMaps = 4;
+
 struct AckMessage {
   std::uint32_t sequence = 0;
 };
@@ -46,8 +53,9 @@ struct ChatMessage {
   std::uint32_t request = 0;
 };
 
-using PageMessage = std::variant<LookMessage, AckMessage, TransportMessage, HaltMessage,
-                                 SetRightMessage, SeeAsMessage, CommandMessage, ChatMessage>;
+using PageMessage =
+    std::variant<LookMessage, AckMessage, TransportMessage, HaltMessage, SetRightMessage,
+                 SeeAsMessage, CommandMessage, ChatMessage, LookMapsMessage>;
 
 /// Errors: kParse with what was expected.
 [[nodiscard]] Result<PageMessage> parse_page_message(std::string_view text);

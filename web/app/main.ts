@@ -5,6 +5,7 @@ import '../panels/robots/robots_panel';
 import '../panels/sensors/sensors_panel';
 import '../panels/log/log_panel';
 import '../panels/hosts/hosts_panel';
+import '../panels/map/map_panel';
 import '../panels/rights/rights_panel';
 import '../panels/robot/robot_panel';
 import '../panels/joystick/joystick_panel';

@@ -41,8 +41,8 @@ class LocalMapTest : public ::testing::Test {
  protected:
   void start(const std::string& robots) {
     const std::string post =
-        "world:\n  obstacles:\n    - {name: post, disc_radius_m: 0.2, x_m: 2, y_m: 0, "
-        "z_m: [0, 1], layer: mapped_real}\n";
+        "obstacles: [{name: post, disc_radius_m: 0.2, x_m: 2, y_m: 0, z_m: [0, 1], "
+        "layer: mapped_real}]\n";
     engine_ = host_.engine_of(scenario_text(robots, post));
     ASSERT_NE(engine_, nullptr);
     for (int k = 0; k < 3; ++k) step();

@@ -50,7 +50,7 @@ class FakeRun : public Source {
           {"", robot, {0.1, {}, 4, 2}, 0, 0, 1, {}, robot % 2 == 0 ? kOpenCells : kSecretCells});
     }
     maps_.add({"all", maps::kNoRobot, {0.5, {}, 4, 2}, 0, 0, 1, {}, kGlobalCells});
-    maps_.add({"spy-map", maps::kNoRobot, {0.5, {}, 4, 2}, 0, 0, 1, {}, kSecretCells});
+    maps_.add({"of spy-2", maps::kNoRobot, {0.5, {}, 4, 2}, 0, 0, 1, {}, kSecretCells});
     for (int i = 0; i < 4; ++i) {
       poses_.robots.push_back({i % 2 == 0 ? 1.0 : kSecretX_m, 0, 0, 0, kKnown});
     }

@@ -103,7 +103,7 @@ void look_at_maps_until(RawSocket& socket, int tiles, int frames) {
     socket.send(fmt::format(R"({{"type":"ack","sequence":{}}})", sequence));
     if (frames == 4) {
       globals = true;
-      socket.send(R"({"type":"look_maps","maps":["all","spy-map","world file",4294967294]})");
+      socket.send(R"({"type":"look_maps","maps":["all","of spy-2","world file",4294967294]})");
     }
   }
 }

@@ -23,13 +23,16 @@ import layers from 'lucide-static/icons/layers.svg?raw';
 import link from 'lucide-static/icons/link.svg?raw';
 import list from 'lucide-static/icons/list.svg?raw';
 import lock from 'lucide-static/icons/lock.svg?raw';
+import map from 'lucide-static/icons/map.svg?raw';
 import maximize from 'lucide-static/icons/maximize.svg?raw';
 import maximize2 from 'lucide-static/icons/maximize-2.svg?raw';
 import minimize2 from 'lucide-static/icons/minimize-2.svg?raw';
+import minus from 'lucide-static/icons/minus.svg?raw';
 import moon from 'lucide-static/icons/moon.svg?raw';
 import octagonX from 'lucide-static/icons/octagon-x.svg?raw';
 import pause from 'lucide-static/icons/pause.svg?raw';
 import play from 'lucide-static/icons/play.svg?raw';
+import plus from 'lucide-static/icons/plus.svg?raw';
 import radar from 'lucide-static/icons/radar.svg?raw';
 import rotateCcw from 'lucide-static/icons/rotate-ccw.svg?raw';
 import ruler from 'lucide-static/icons/ruler.svg?raw';
@@ -63,7 +66,7 @@ import zap from 'lucide-static/icons/zap.svg?raw';
 
 const kIcons = {
   activity, bell, bot, camera, check, chevronDown, circleX, compass, crosshair, download, eye, fileText, filter, hourglass, info,
-  layers, link, list, lock, maximize, maximize2, minimize2, moon, octagonX, pause, play, radar, rotateCcw, ruler, search, server, shield, skipBack, skipForward,
+  layers, link, list, lock, map, maximize, maximize2, minimize2, minus, moon, octagonX, pause, play, plus, radar, rotateCcw, ruler, search, server, shield, skipBack, skipForward,
   stepBack, stepForward, sun, target, triangleAlert, wifiOff, x, zap,
   boxSelect, cornerDownLeft, gamepad, hand, joystick, keyboard, message, packageX, pointer, move, route, trash,
   copy, ellipsis, keyRound, userPlus,

@@ -204,7 +204,7 @@ export class RaveApp extends LitElement {
       {keys: ['M'], what: 'measure', act: () => this.world?.toggleMeasure()},
       {keys: ['P'], what: 'save a picture', act: () => this.world?.picture()},
       ...this.orderKeys(),
-      ...panelsFor(this.model).map((kind, i) => ({keys: [String(i + 1)], what: kind.title, act: () => this.showPanel(kind.id)})),
+      ...panelsFor(this.model).slice(0, 9).map((kind, i) => ({keys: [String(i + 1)], what: kind.title, act: () => this.showPanel(kind.id)})),
       {keys: ['?'], what: 'this list', act: () => this.open('showingKeys')},
       {keys: ['Escape'], what: 'drop what is begun', act: () => this.escape()},
     ];

@@ -3,6 +3,7 @@ import type {Look, PageMessage, ServerMessage} from '../protocol/messages';
 import type {DirectLines} from './direct_lines';
 import {OrderRouter} from './order_router';
 import type {RunModel} from './run_model';
+import type {MapKey} from './maps';
 import {Signal} from './signal';
 
 const kFirstRetry_ms = 500;
@@ -38,6 +39,8 @@ export class Link {
   private readonly interests = new Map<object, Interest>();
   private lastLook = '';
   private lookQueued = false;
+  private readonly mapInterests = new Map<object, MapKey>();
+  private lastMaps = '[]';
   private frames = 0;
   private bytes = 0;
   truePoses = false;
@@ -52,6 +55,10 @@ export class Link {
     this.router = direct === null ? null : new OrderRouter(model, direct);
     if (this.router) this.router.serverIsThere = () => this.state === 'open';
     setInterval(() => this.measure(), 1000);
+    // The server has forgotten which maps: they may be others now.
+    model.runChanged.on(() => (this.lastMaps = '[]'));
+    model.maps.namesChanged.on(() => this.lookAtMaps());
+    model.maps.overlayChanged.on(() => this.lookAtMap(model.maps, model.maps.overlay?.key ?? null));
   }
 
   open(): void {
@@ -62,6 +69,7 @@ export class Link {
     this.socket = socket;
     socket.onopen = () => {
       this.lastLook = '';
+      this.lastMaps = '[]';
       this.queueLook();
     };
     socket.onmessage = (message: MessageEvent<string | ArrayBuffer>) => this.take(socket, message.data);
@@ -95,6 +103,24 @@ export class Link {
     if (sensors.length === 0) this.interests.delete(owner);
     else this.interests.set(owner, sensors);
     this.queueLook();
+  }
+
+  /** `owner` shows this map; null ends that. */
+  lookAtMap(owner: object, key: MapKey | null): void {
+    if (key === null) this.mapInterests.delete(owner);
+    else this.mapInterests.set(owner, key);
+    this.lookAtMaps();
+  }
+
+  private lookAtMaps(): void {
+    const {maps} = this.model;
+    const known = new Set<MapKey>(maps.names.map((name) => name.slot ?? name.name));
+    const keys = [...new Set(this.mapInterests.values())].filter((key) => known.has(key)).slice(0, 4);
+    const text = JSON.stringify(keys);
+    if (text === this.lastMaps || this.socket?.readyState !== WebSocket.OPEN) return;
+    this.lastMaps = text;
+    maps.keep(keys);
+    this.sendToServer({type: 'look_maps', maps: keys});
   }
 
   /** Says again what the page looks at, if it changed. */

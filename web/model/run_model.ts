@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-import {decodeFrame, isPoseFrame, isVariances, type Variance} from '../protocol/frames';
+import {decodeFrame, isMapTile, isPoseFrame, isVariances, type Variance} from '../protocol/frames';
 import type {Accounts, Answer, AuditLines, Body, DriveState, Event, Hello, Host, Invited, Line, Person, Rights, Robot, ServerMessage, Time} from '../protocol/messages';
+import {Maps} from './maps';
 import {PoseHistory} from './pose_history';
 import {Readings} from './readings';
 import {Signal} from './signal';
@@ -29,6 +30,7 @@ export class RunModel {
   private invited: Invited | null = null;
   readonly poses = new PoseHistory();
   readonly readings = new Readings();
+  readonly maps = new Maps();
   /** By slot, of robots that are looked at and say it. */
   variances: ReadonlyMap<number, Variance> = new Map();
 
@@ -147,6 +149,9 @@ export class RunModel {
         this.lines = message.reset ? message.lines : [...this.lines, ...message.lines];
         this.linesChanged.emit();
         break;
+      case 'maps':
+        this.maps.take(message.maps);
+        break;
       case 'answer':
         this.answered.emit(message);
         break;
@@ -165,6 +170,11 @@ export class RunModel {
     const frame = decodeFrame(buffer);
     if (isVariances(frame)) {
       this.variances = frame.bySlot;
+      this.pictureChanged.emit();
+      return null;
+    }
+    if (isMapTile(frame)) {
+      this.maps.add(frame);
       this.pictureChanged.emit();
       return null;
     }
@@ -193,6 +203,7 @@ export class RunModel {
     this.poses.clear();
     this.readings.clear();
     this.variances = new Map();
+    this.maps.clear();
     this.runChanged.emit();
   }
 }

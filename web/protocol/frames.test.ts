@@ -2,12 +2,13 @@
 import {readFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {describe, expect, it} from 'vitest';
-import {decodeFrame, isPoseFrame, isVariances, type PoseFrame, type Reading, type Variances} from './frames';
+import {decodeFrame, isMapTile, isPoseFrame, isVariances, type MapTile, type PoseFrame, type Reading, type Variances} from './frames';
 
 /** Frames that the server made, with what they mean: tests/data of the server writes them. */
 interface Conformance {
   poses: {hex: string; sequence: number; time_s: number; step: number; past: boolean; x: number[]; y: number[]; yaw: number[]; speed: number[]; flags: number[]}[];
   readings: {hex: string; slot: number; sensor: number; part: number; stamp_s: number; rows: number; fields: number; values: (number | null)[]}[];
+  tiles: {hex: string; name: string; slot: number; stamp_s: number; origin: [number, number]; resolution_m: number; size: [number, number]; column: number; row: number; width: number; height: number; cells: number[]}[];
   variances: {hex: string; time_s: number; robots: [number, number, number][]}[];
 }
 
@@ -73,5 +74,32 @@ describe('variances', () => {
     for (let size = 0; size < whole.byteLength; ++size) {
       expect(() => decodeFrame(whole.slice(0, size))).toThrow(RangeError);
     }
+  });
+});
+
+describe('tiles of maps', () => {
+  it('read what the server wrote', () => {
+    expect(kData.tiles.length).toBeGreaterThan(1);
+    for (const known of kData.tiles) {
+      const tile = decodeFrame(bytesOf(known.hex)) as MapTile;
+      expect(isMapTile(tile)).toBe(true);
+      expect(tile.slot).toBe(known.slot === 0xffffffff ? null : known.slot);
+      expect([tile.name, tile.stamp_s, tile.column, tile.row, tile.width, tile.height]).toEqual(
+        [known.name, known.stamp_s, known.column, known.row, known.width, known.height]);
+      expect(tile.frame).toEqual({x0: known.origin[0], y0: known.origin[1], resolution_m: known.resolution_m, columns: known.size[0], rows: known.size[1]});
+      expect([...tile.cells]).toEqual(known.cells);
+    }
+  });
+
+  it('are refused if they are cut, at any byte, or larger than a tile', () => {
+    const whole = bytesOf(kData.tiles[1].hex);
+    for (let size = 0; size < whole.byteLength; ++size) {
+      expect(() => decodeFrame(whole.slice(0, size))).toThrow(RangeError);
+    }
+    const large = new ArrayBuffer(64 + 65);
+    new DataView(large).setUint8(0, 4);
+    new DataView(large).setUint32(56, 65, true);
+    new DataView(large).setUint32(60, 1, true);
+    expect(() => decodeFrame(large)).toThrow(RangeError);
   });
 });

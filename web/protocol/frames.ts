@@ -51,14 +51,37 @@ export interface Variance {
   yaw_rad2: number;
 }
 
+/** A piece of a map, which takes the place of an earlier one of the same place. */
+export interface MapTile {
+  /** Of the robot whose local map it is; null: of the global map `name`. */
+  slot: number | null;
+  name: string;
+  /** Time of the run of the newest reading in it. */
+  stamp_s: number;
+  /** Of the whole map: lower left corner, size of a cell in metres, cells along both sides. */
+  frame: {x0: number; y0: number; resolution_m: number; columns: number; rows: number};
+  /** Which tile of the map it is, and how many cells it has along both sides. */
+  column: number;
+  row: number;
+  width: number;
+  height: number;
+  /** Row by row from below, in percent, 255: unknown. */
+  cells: Uint8Array;
+}
+
+export type Frame = PoseFrame | Reading | Variances | MapTile;
+
 const kPoseHeader = 48;
 const kPoseBytes = 14;
 const kReadingHeader = 32;
 const kVarianceHeader = 16;
 const kVarianceBytes = 12;
+const kTileHeader = 64;
+const kMostTileCells = 64;
+const kNoSlot = 0xffffffff;
 
 /** Decodes a binary frame. Throws RangeError with the reason if the frame is not as described. */
-export function decodeFrame(buffer: ArrayBuffer): PoseFrame | Reading | Variances {
+export function decodeFrame(buffer: ArrayBuffer): Frame {
   if (buffer.byteLength < 1) throw new RangeError('empty frame');
   const view = new DataView(buffer);
   switch (view.getUint8(0)) {
@@ -68,17 +91,23 @@ export function decodeFrame(buffer: ArrayBuffer): PoseFrame | Reading | Variance
       return decodeReading(buffer, view);
     case 3:
       return decodeVariances(buffer, view);
+    case 4:
+      return decodeTile(buffer, view);
     default:
       throw new RangeError(`frame of unknown kind ${view.getUint8(0)}`);
   }
 }
 
-export function isPoseFrame(frame: PoseFrame | Reading | Variances): frame is PoseFrame {
+export function isPoseFrame(frame: Frame): frame is PoseFrame {
   return 'flags' in frame;
 }
 
-export function isVariances(frame: PoseFrame | Reading | Variances): frame is Variances {
+export function isVariances(frame: Frame): frame is Variances {
   return 'bySlot' in frame;
+}
+
+export function isMapTile(frame: Frame): frame is MapTile {
+  return 'cells' in frame;
 }
 
 function decodePoses(buffer: ArrayBuffer, view: DataView): PoseFrame {
@@ -147,4 +176,28 @@ function decodeVariances(buffer: ArrayBuffer, view: DataView): Variances {
     bySlot.set(view.getUint32(at, true), {xy_m2: view.getFloat32(at + 4, true), yaw_rad2: view.getFloat32(at + 8, true)});
   }
   return {time_s: view.getFloat64(8, true), bySlot};
+}
+
+function decodeTile(buffer: ArrayBuffer, view: DataView): MapTile {
+  if (buffer.byteLength < kTileHeader) throw new RangeError('tile without a whole header');
+  const slot = view.getUint32(4, true);
+  const letters = view.getUint16(2, true);
+  const [width, height] = [view.getUint32(56, true), view.getUint32(60, true)];
+  if (width > kMostTileCells || height > kMostTileCells || buffer.byteLength !== kTileHeader + width * height + letters) {
+    throw new RangeError(`tile of ${width} x ${height} cells has ${buffer.byteLength} bytes`);
+  }
+  return {
+    slot: slot === kNoSlot ? null : slot,
+    name: new TextDecoder().decode(new Uint8Array(buffer, kTileHeader + width * height, letters)),
+    stamp_s: view.getFloat64(8, true),
+    frame: {
+      x0: view.getFloat64(16, true), y0: view.getFloat64(24, true), resolution_m: view.getFloat64(32, true),
+      columns: view.getUint32(40, true), rows: view.getUint32(44, true),
+    },
+    column: view.getUint32(48, true),
+    row: view.getUint32(52, true),
+    width,
+    height,
+    cells: new Uint8Array(buffer, kTileHeader, width * height),
+  };
 }

@@ -32,6 +32,7 @@ Status validate(const Look& sample) {
   for (const rave_wire_LookedAt& looked : elements(sample.sensors)) {
     RAVE_TRY(check_id("sensors.robot", looked.robot));
   }
+  for (const std::uint32_t robot : elements(sample.maps)) RAVE_TRY(check_id("maps", robot));
   return {};
 }
 

@@ -63,7 +63,8 @@ constexpr Receive kTopics[] = {receive<HostState>,
                                receive<LineWithdrawal>,
                                receive<Look>,
                                receive<Readings>,
-                               receive<RunEvents>};
+                               receive<RunEvents>,
+                               receive<MapTile>};
 
 }  // namespace
 

@@ -26,6 +26,10 @@ TEST(ValidateLook, ASensorBelongsToARobot) {
   EXPECT_EQ(judged(look), "accepted");
   sensors[0].robot = rave_wire_kNone;
   EXPECT_EQ(judged(look), "sensors.robot is none");
+  sensors[0].robot = 0;
+  std::vector<std::uint32_t> maps{3, rave_wire_kNone};
+  borrow(look.maps, maps);
+  EXPECT_EQ(judged(look), "maps is none");
 }
 
 TEST(ValidateLook, ReadingsHaveAsManyValuesAsTheySay) {

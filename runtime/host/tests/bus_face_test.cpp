@@ -131,6 +131,31 @@ TEST_F(BusFaceTest, ReadingsComeWhileSomebodyLooksAtThem) {
   EXPECT_EQ(listener_->readings().size(), 1U);
 }
 
+TEST_F(BusFaceTest, TilesOfALocalMapComeOnceSomebodyAskedAndStayForOthers) {
+  start(scenario_text(robot_at("a", 0, kLaser) + robot_at("b", 1, kLaser)));
+  look_on();
+  asked_.robots = true;
+  std::vector<maps::MapTile> tiles;
+  const auto some = [&] {
+    for (auto& tile : listener_->take_tiles()) tiles.push_back(std::move(tile));
+    return !tiles.empty();
+  };
+  ASSERT_TRUE(until([&] { return face_->robots_asked(); }));
+  EXPECT_FALSE(some());
+  asked_.maps = {1, 9};
+  ASSERT_TRUE(until(some));
+  EXPECT_EQ(tiles.front().source, "b");
+  EXPECT_EQ(tiles.front().robot, 1U);
+  // Somebody else, who comes later and asks for nothing.
+  listener_.reset();
+  other_bus_.reset();
+  tiles.clear();
+  look_on();
+  asked_ = {};
+  ASSERT_TRUE(until(some, false));
+  EXPECT_EQ(tiles.front().source, "b");
+}
+
 TEST_F(BusFaceTest, AReadingComesOfARunThatIsHeld) {
   start(scenario_text(robot_at("a", 0, kLaser) + robot_at("b", 1, kLaser)));
   for (int k = 0; k < 5; ++k) step();

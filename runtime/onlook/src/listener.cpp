@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "rave/bus/sequence.hpp"
+#include "rave/maps/map_messages.hpp"
 #include "rave/protocol/obstacle_messages.hpp"
 
 namespace rave::onlook {
@@ -19,6 +20,7 @@ constexpr double kSameEvent_s = 2;
 /// Somebody who makes things up gets no further.
 constexpr std::size_t kMostTold = 4096;
 constexpr std::size_t kMostEvents = 100'000;
+constexpr std::size_t kMostTiles = 16'384;
 constexpr std::size_t kMostReadings = 3 * rave_wire_kMaxLookedAt;
 
 /// Asks no writer to send again what got lost; room for what several hosts say between two looks.
@@ -31,7 +33,9 @@ Result<Listener> Listener::create(bus::Bus& bus) {
   RAVE_TRY_ASSIGN(auto readings, bus::Reader<bus::Readings>::create(bus, kHeard));
   RAVE_TRY_ASSIGN(auto events, bus::Reader<bus::RunEvents>::create(bus));
   RAVE_TRY_ASSIGN(auto obstacles, bus::Reader<bus::LastObstacle>::create(bus));
-  return Listener(std::move(looks), std::move(readings), std::move(events), std::move(obstacles));
+  RAVE_TRY_ASSIGN(auto tiles, bus::Reader<bus::MapTile>::create(bus));
+  return Listener(std::move(looks), std::move(readings), std::move(events), std::move(obstacles),
+                  std::move(tiles));
 }
 
 void Listener::look(const Asked& asked) {
@@ -53,12 +57,15 @@ void Listener::look(const Asked& asked) {
   }
   next_look_ = now + kSayAgain;
   // Who looks at nothing says so once, and is forgotten then.
-  if (!changed && !asked_.robots && sensors_.empty()) return;
+  if (!changed && !asked_.robots && sensors_.empty() && asked_.maps.empty()) return;
   bus::Look message{};
   message.number = number_;
   message.robots = asked_.robots;
   message.parts = asked_.parts;
   bus::borrow(message.sensors, sensors_);
+  std::vector<std::uint32_t> maps = asked_.maps;
+  if (maps.size() > rave_wire_kMaxLookedAtMaps) maps.resize(rave_wire_kMaxLookedAtMaps);
+  bus::borrow(message.maps, maps);
   static_cast<void>(looks_.write(message));
 }
 
@@ -66,6 +73,9 @@ void Listener::hear() {
   readings_in_.take([this](const bus::Readings& sample) { hear(sample); });
   events_in_.take([this](const bus::RunEvents& sample) { hear(sample); });
   obstacles_in_.take([this](const bus::LastObstacle& sample) { hear(sample); });
+  tiles_in_.take([this](const bus::MapTile& sample) {
+    if (tiles_.size() < kMostTiles) tiles_.push_back(maps::tile_of(sample));
+  });
 }
 
 void Listener::hear(const bus::Readings& sample) {
@@ -145,6 +155,7 @@ void Listener::forget() {
   told_.clear();
   obstacles_.clear();
   readings_.clear();
+  tiles_.clear();
 }
 
 }  // namespace rave::onlook

@@ -5,6 +5,7 @@
 
 #include "rave/base/control_characters.hpp"
 #include "rave/bus/sequence.hpp"
+#include "rave/maps/map_messages.hpp"
 
 namespace rave::onlook {
 namespace {
@@ -27,6 +28,7 @@ Result<Teller> Teller::create(bus::Bus& bus, Options options) {
   RAVE_TRY_ASSIGN(auto looks, bus::Reader<bus::Look>::create(bus));
   RAVE_TRY_ASSIGN(auto events, bus::Writer<bus::RunEvents>::create(bus));
   RAVE_TRY_ASSIGN(auto readings, bus::Writer<bus::Readings>::create(bus));
+  RAVE_TRY_ASSIGN(auto tiles, bus::Writer<bus::MapTile>::create(bus));
   std::optional<ObstacleTeller> obstacles;
   if (options.obstacles) {
     RAVE_TRY_ASSIGN(auto writer, bus::Writer<bus::LastObstacle>::create(bus));
@@ -34,7 +36,7 @@ Result<Teller> Teller::create(bus::Bus& bus, Options options) {
   }
   ReadingTeller teller(std::move(readings), options.host);
   return Teller(std::move(options), std::move(looks), std::move(events), std::move(teller),
-                std::move(obstacles));
+                std::move(tiles), std::move(obstacles));
 }
 
 void Teller::hear(Clock::time_point now) {
@@ -48,7 +50,9 @@ void Teller::hear(Clock::time_point now) {
     heard.heard = now;
     if (heard.number == look.number) return;
     heard.number = look.number;
-    heard.asked = {look.robots, look.parts, {}};
+    heard.asked = {look.robots, look.parts, {}, {}};
+    const auto maps = bus::elements(look.maps);
+    heard.asked.maps.assign(maps.begin(), maps.end());
     for (const rave_wire_LookedAt& sensor : bus::elements(look.sensors)) {
       heard.asked.sensors.push_back({sensor.robot, sensor.sensor});
     }
@@ -64,6 +68,7 @@ void Teller::hear(Clock::time_point now) {
     asked_.parts |= look.asked.parts;
     asked_.sensors.insert(asked_.sensors.end(), look.asked.sensors.begin(),
                           look.asked.sensors.end());
+    asked_.maps.insert(asked_.maps.end(), look.asked.maps.begin(), look.asked.maps.end());
   }
   std::ranges::sort(asked_.sensors);
   const auto twice = std::ranges::unique(asked_.sensors);
@@ -103,18 +108,31 @@ void Teller::tell_events(const sim::Engine& engine, std::span<const sim::Event> 
   static_cast<void>(events_.write(message));
 }
 
+/// Also once nobody asks any more: who comes later finds the map whole.
+void Teller::tell_maps(const sim::Engine& engine, Clock::time_point now, int slower) {
+  if (!asked_.maps.empty()) maps_.ask(engine, asked_.maps);
+  for (maps::MapTile& tile : maps_.changed(now, slower)) {
+    bus::MapTile message = maps::message_of(tile);
+    // Who looks on and does not keep up gets the next one of this place.
+    static_cast<void>(tiles_.write(message));
+  }
+}
+
 void Teller::after_step(const sim::Engine& engine, std::span<const sim::Event> beside, bool late) {
   const auto now = Clock::now();
   hear(now);
   if (obstacles_) obstacles_->after_step(engine, beside);
   tell_events(engine, beside);
   if (!asked_.sensors.empty()) readings_.tell(engine, asked_, now, late ? kLateFactor : 1);
+  if (!maps_.empty()) maps_.after_step(engine);
+  tell_maps(engine, now, late ? kLateFactor : 1);
 }
 
 void Teller::held(const sim::Engine& engine) {
   const auto now = Clock::now();
   hear(now);
   if (!asked_.sensors.empty()) readings_.tell(engine, asked_, now, 1);
+  tell_maps(engine, now, 1);
 }
 
 }  // namespace rave::onlook

@@ -150,6 +150,7 @@ void BusFeed::ask() {
   asked.parts = wants.parts;
   for (const LookedAt& looked : wants.sensors)
     asked.sensors.push_back({looked.slot, looked.sensor});
+  asked.maps = wants.maps;
   listener_.look(asked);
 }
 
@@ -164,7 +165,10 @@ void BusFeed::tell_news(const watch::RunView& view) {
     tell_obstacle(heard, *news);
   }
   tell_processes(view, *news);
-  if (news->events.empty() && news->set.empty() && news->gone.empty()) return;
+  news->tiles = listener_.take_tiles();
+  if (news->events.empty() && news->set.empty() && news->gone.empty() && news->tiles.empty()) {
+    return;
+  }
   box_->news.push(std::move(news));
 }
 

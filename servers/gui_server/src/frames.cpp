@@ -18,6 +18,7 @@ constexpr std::size_t kPoseHeader = 48;
 constexpr std::size_t kReadingHeader = 32;
 constexpr std::size_t kVarianceHeader = 16;
 constexpr std::size_t kVarianceBytes = 12;
+constexpr std::size_t kTileHeader = 64;
 constexpr double kFinest_m = 1e-4;
 
 template <class T>
@@ -105,6 +106,30 @@ std::string encode_reading(const ReadingAt& reading, double time_s) {
   if (!reading.values.empty()) {
     std::memcpy(frame.data() + kReadingHeader, reading.values.data(), 4 * reading.values.size());
   }
+  return frame;
+}
+
+std::string encode_tile(const MapName& name, const MapShown& map, std::uint32_t row,
+                        std::uint32_t column) {
+  const TileShown& tile = map.tiles.at({row, column});
+  const std::string_view title = name.global() ? std::string_view(name.name) : std::string_view();
+  std::string frame(kTileHeader + tile.cells.size() + title.size(), '\0');
+  put(frame, 0, std::uint8_t{4});
+  put(frame, 2, static_cast<std::uint16_t>(title.size()));
+  put(frame, 4, name.slot);
+  put(frame, 8, tile.stamp.seconds());
+  put(frame, 16, map.frame.origin_W.x);
+  put(frame, 24, map.frame.origin_W.y);
+  put(frame, 32, map.frame.resolution_m);
+  put(frame, 40, map.frame.columns);
+  put(frame, 44, map.frame.rows);
+  put(frame, 48, column);
+  put(frame, 52, row);
+  put(frame, 56, maps::MapFrame::side(map.frame.columns, column));
+  put(frame, 60, maps::MapFrame::side(map.frame.rows, row));
+  std::copy(tile.cells.begin(), tile.cells.end(), frame.begin() + kTileHeader);
+  std::copy(title.begin(), title.end(),
+            frame.begin() + static_cast<std::ptrdiff_t>(kTileHeader + tile.cells.size()));
   return frame;
 }
 

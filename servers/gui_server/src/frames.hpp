@@ -22,6 +22,10 @@ struct PoseFrameHead {
 /// `time_s`: of the picture that the reading belongs to.
 [[nodiscard]] std::string encode_reading(const ReadingAt& reading, double time_s);
 
+/// A tile of the map that a page knows by `name`; `map` holds the tile.
+[[nodiscard]] std::string encode_tile(const MapName& name, const MapShown& map, std::uint32_t row,
+                                      std::uint32_t column);
+
 /// How sure a robot is of its reported pose.
 struct VarianceAt {
   std::uint32_t slot = 0;

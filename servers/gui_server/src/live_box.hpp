@@ -30,6 +30,7 @@ struct LivePicture {
 struct LiveWants {
   std::vector<LookedAt> sensors;
   bool parts = false;
+  std::vector<std::uint32_t> maps;
 };
 
 /// Something that happened, as the engine says it.
@@ -46,6 +47,7 @@ struct LiveNews {
   /// Bodies that came or moved, as JSON, and the numbers of those that went.
   std::vector<std::pair<std::uint32_t, std::string>> set;
   std::vector<std::uint32_t> gone;
+  std::vector<maps::MapTile> tiles;
   LiveNews* next = nullptr;
 };
 

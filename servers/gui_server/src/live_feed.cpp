@@ -34,18 +34,19 @@ Status LiveFeed::run_begins(const runtime::RunView& run) {
 
 void LiveFeed::after_step(const runtime::StepView& step) {
   take_news(step);
+  if (!maps_.empty()) maps_.after_step(step.engine);
   const auto now = Clock::now();
   const bool watched = box_->watched.load(std::memory_order_relaxed);
   const auto since = now - drawn_;
-  const auto interval = (watched ? Clock::duration(kWatchedInterval) : kUnwatchedInterval) *
-                        (step.late ? kLateFactor : 1);
+  const int slower = step.late ? kLateFactor : 1;
+  const auto interval = (watched ? Clock::duration(kWatchedInterval) : kUnwatchedInterval) * slower;
   if (since < interval) return;
-  draw(step.engine);
+  draw(step.engine, slower);
 }
 
 void LiveFeed::held(const sim::Engine& engine) {
   // The last step before a hold may have been left out, and somebody may look elsewhere now.
-  draw(engine);
+  draw(engine, 1);
 }
 
 void LiveFeed::take_news(const runtime::StepView& step) {
@@ -83,7 +84,16 @@ void LiveFeed::take_news(const runtime::StepView& step) {
   box_->news.push(std::move(news));
 }
 
-void LiveFeed::draw(const sim::Engine& engine) {
+void LiveFeed::draw_maps(const sim::Engine& engine, int slower) {
+  maps_.ask(engine, box_->wants.value().maps);
+  auto tiles = maps_.changed(Clock::now(), slower);
+  if (tiles.empty()) return;
+  auto news = std::make_unique<LiveNews>();
+  news->tiles = std::move(tiles);
+  box_->news.push(std::move(news));
+}
+
+void LiveFeed::draw(const sim::Engine& engine, int slower) {
   drawn_ = Clock::now();
   static_cast<void>(box_->wants.take());
   LivePicture& picture = box_->pictures.draft();
@@ -92,6 +102,7 @@ void LiveFeed::draw(const sim::Engine& engine) {
   if (++serial_ == 0) ++serial_;
   picture.poses.serial = serial_;
   draw_readings(engine, box_->wants.value(), picture);
+  draw_maps(engine, slower);
   box_->pictures.publish();
 }
 

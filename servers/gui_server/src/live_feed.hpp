@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "live_box.hpp"
+#include "rave/maps/local_maps.hpp"
 #include "rave/observe/run_observer.hpp"
 
 namespace rave::gui_server {
@@ -30,7 +31,8 @@ class LiveFeed final : public runtime::RunObserver {
   using Clock = std::chrono::steady_clock;
 
   void take_news(const runtime::StepView& step);
-  void draw(const sim::Engine& engine);
+  void draw(const sim::Engine& engine, int slower);
+  void draw_maps(const sim::Engine& engine, int slower);
   void draw_poses(const sim::Engine& engine, PosesAt& poses) const;
   static void draw_readings(const sim::Engine& engine, const LiveWants& wants,
                             LivePicture& picture);
@@ -40,6 +42,7 @@ class LiveFeed final : public runtime::RunObserver {
   const runtime::BodyKinds* kinds_ = nullptr;
   std::vector<double> touching_until_s_;  ///< By robot.
   Clock::time_point drawn_{};
+  maps::LocalMaps maps_;
   std::uint32_t serial_ = 0;
 };
 

@@ -16,6 +16,16 @@ constexpr auto kMeasure = std::chrono::milliseconds(500);
 constexpr double kFastestRun = 1000;
 constexpr double kSlowestRun = 1.0 / 64;
 
+/// Bodies as an array of JSON.
+std::string joined(const std::vector<std::pair<std::uint32_t, std::string>>& bodies) {
+  std::string json(1, '[');
+  for (const auto& [id, body] : bodies) {
+    if (json.size() > 1) json += ',';
+    json += body;
+  }
+  return json + ']';
+}
+
 const char* const kSeekLater = "The time line opens when the run is over.";
 
 class LiveCursor final : public Cursor {
@@ -77,7 +87,11 @@ class LivePlayhead final : public Playhead {
 }  // namespace
 
 LiveSource::LiveSource(Start start, std::shared_ptr<LiveBox> box, std::unique_ptr<RunPort> port)
-    : start_(std::move(start)), box_(std::move(box)), port_(std::move(port)), fold_(start_.robots) {
+    : start_(std::move(start)),
+      box_(std::move(box)),
+      port_(std::move(port)),
+      fold_(start_.robots),
+      maps_(start_.robots_json, joined(start_.bodies)) {
   write_bodies();
   state_.duration_s = start_.about.duration_s;
   for (std::uint32_t slot = 0; slot < start_.robots.size(); ++slot) {
@@ -89,7 +103,7 @@ LiveSource::LiveSource(Start start, std::shared_ptr<LiveBox> box, std::unique_pt
 
 Powers LiveSource::powers() const {
   Powers powers{{"stop", "release", "readings", "hybrid_parts", "obstacles", "log", "command",
-                 "edit", "chat"},
+                 "edit", "chat", "maps"},
                 {{"seek", kSeekLater},
                  {"recording", "The recording can be downloaded when the run is over."},
                  {"true_pose", "This view shows reported poses."}}};
@@ -111,8 +125,9 @@ std::unique_ptr<Playhead> LiveSource::open_playhead() {
 
 void LiveSource::tick(Playhead::Clock::time_point now, const Audience& audience) {
   box_->watched.store(audience.any, std::memory_order_relaxed);
-  if (audience.looked_at != wants_.sensors || audience.parts != wants_.parts) {
-    wants_ = {audience.looked_at, audience.parts};
+  if (audience.looked_at != wants_.sensors || audience.parts != wants_.parts ||
+      audience.maps != wants_.maps) {
+    wants_ = {audience.looked_at, audience.parts, audience.maps};
     box_->wants.draft() = wants_;
     box_->wants.publish();
   }
@@ -147,6 +162,7 @@ void LiveSource::take_news() {
       body_changes_.push_back({++bodies_revision_, id, ""});
     }
     if (!news->set.empty() || !news->gone.empty()) write_bodies();
+    for (const maps::MapTile& tile : news->tiles) maps_.add(tile);
   }
 }
 
@@ -188,12 +204,7 @@ void LiveSource::write_bodies() {
       bodies.emplace_back(change.id, change.json);
     }
   }
-  bodies_json_.assign(1, '[');
-  for (const auto& [id, json] : start_.bodies) {
-    if (bodies_json_.size() > 1) bodies_json_ += ',';
-    bodies_json_ += json;
-  }
-  bodies_json_ += ']';
+  bodies_json_ = joined(start_.bodies);
   // Pages that are there get the last ones; older changes are in the scene of who comes.
   constexpr std::size_t kKept = 1000;
   if (body_changes_.size() > kKept) {

@@ -12,6 +12,7 @@
 
 #include "event_fold.hpp"
 #include "live_box.hpp"
+#include "map_book.hpp"
 #include "run_port.hpp"
 
 namespace rave::gui_server {
@@ -52,6 +53,12 @@ class LiveSource : public Source {
     return picture().hosts_revision;
   }
   [[nodiscard]] const std::string& hosts_json() const noexcept override { return picture().hosts; }
+  [[nodiscard]] std::vector<MapName> map_names() const override { return maps_.names(); }
+  [[nodiscard]] std::uint64_t map_names_revision() const noexcept override {
+    return maps_.names_revision();
+  }
+  [[nodiscard]] std::uint64_t maps_revision() const noexcept override { return maps_.revision(); }
+  [[nodiscard]] const MapShown* map(const MapName& name) const override { return maps_.find(name); }
   void halt(const HaltMessage& halt, const Author& author, Reply reply) override;
   void command(const CommandMessage& command, const Author& author,
                const SlotReply& reply) override;
@@ -94,6 +101,7 @@ class LiveSource : public Source {
   std::vector<BodyChange> body_changes_;
   std::uint64_t bodies_revision_ = 0;
   EventFold fold_;
+  MapBook maps_;
   PosesAt poses_;
   std::map<std::string, std::uint32_t, std::less<>> slots_;
   std::vector<std::uint16_t> flags_;  ///< By robot: what the port knows beside the picture.

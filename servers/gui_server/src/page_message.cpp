@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t kMostSensors = 256;
 constexpr std::size_t kMostSlots = 100'000;
+constexpr std::size_t kLongestName = 64;
 
 Result<PageMessage> look_of(Members& members) {
   LookMessage look;
@@ -36,6 +37,27 @@ Result<PageMessage> look_of(Members& members) {
   }
   std::sort(look.readings.begin(), look.readings.end());
   look.readings.erase(std::unique(look.readings.begin(), look.readings.end()), look.readings.end());
+  return PageMessage(std::move(look));
+}
+
+Result<PageMessage> look_maps_of(Members& members) {
+  LookMapsMessage look;
+  RAVE_TRY_ASSIGN(const PageJson* const maps, members.array("maps", kMostLookedAtMaps));
+  for (const PageJson& map : *maps) {
+    MapName name;
+    if (map.is_string()) {
+      name.name = map.get<std::string>();
+      if (name.name.empty() || name.name.size() > kLongestName) {
+        return fail(ErrorCode::kParse, "`maps`: expected names of 1 to {} bytes", kLongestName);
+      }
+    } else {
+      RAVE_TRY_ASSIGN(name.slot, Members::index_of(map, "maps"));
+      if (name.global()) return fail(ErrorCode::kParse, "`maps`: there is no such slot");
+    }
+    look.maps.push_back(std::move(name));
+  }
+  std::sort(look.maps.begin(), look.maps.end());
+  look.maps.erase(std::unique(look.maps.begin(), look.maps.end()), look.maps.end());
   return PageMessage(std::move(look));
 }
 
@@ -77,7 +99,6 @@ Result<PageMessage> halt_of(Members& members) {
 }
 
 constexpr std::size_t kMostTeams = 1000;
-constexpr std::size_t kLongestName = 64;
 
 /// `role` or `user`; with neither both stay empty.
 Status whose(Members& members, std::optional<Role>& role, std::string& user) {
@@ -176,6 +197,8 @@ Result<PageMessage> parse_page_message(std::string_view text) {
   Result<PageMessage> message = fail(ErrorCode::kParse, "unknown type of message");
   if (type == "look") {
     message = look_of(members);
+  } else if (type == "look_maps") {
+    message = look_maps_of(members);
   } else if (type == "ack") {
     auto sequence = members.index("sequence");
     if (!sequence) return tl::unexpected(sequence.error());

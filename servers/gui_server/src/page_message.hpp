@@ -23,6 +23,13 @@ struct LookMessage {
   std::vector<LookedAt> readings;  ///< At most 256, without repetitions.
 };
 
+/// Which maps a page shows at present: instead of those of before.
+struct LookMapsMessage {
+  /// By slot or by the name of a global map; at most kMostLookedAtMaps, without repetitions.
+  std::vector<MapName> maps;
+};
+inline constexpr std::size_t kMostLookedAtMaps = 4;
+
 struct AckMessage {
   std::uint32_t sequence = 0;
 };
@@ -49,7 +56,7 @@ struct ChatMessage {
 
 using PageMessage =
     std::variant<LookMessage, AckMessage, TransportMessage, HaltMessage, SetRightMessage,
-                 SeeAsMessage, CommandMessage, ChatMessage, PeopleMessage>;
+                 SeeAsMessage, CommandMessage, ChatMessage, PeopleMessage, LookMapsMessage>;
 
 /// Errors: kParse with what was expected.
 [[nodiscard]] Result<PageMessage> parse_page_message(std::string_view text);

@@ -124,6 +124,16 @@ std::string leases_text(std::span<const DriveState> states, const std::string& m
   return text_of(message);
 }
 
+std::string maps_text(std::span<const MapName> names) {
+  Json message = {{"type", "maps"}, {"maps", Json::array()}};
+  for (const MapName& name : names) {
+    Json map = {{"name", name.name}};
+    if (!name.global()) map["slot"] = name.slot;
+    message["maps"].push_back(std::move(map));
+  }
+  return text_of(message);
+}
+
 std::string answer_text(const PageAnswer& answer) {
   Json message = {
       {"type", "answer"}, {"to", answer.to}, {"good", answer.good}, {"text", answer.text}};

@@ -44,6 +44,8 @@ struct PageAnswer {
 /// Who drives what; `me` marks those that the page's own person drives.
 [[nodiscard]] std::string leases_text(std::span<const DriveState> states, const std::string& me,
                                       bool all);
+/// Which maps the page can look at.
+[[nodiscard]] std::string maps_text(std::span<const MapName> names);
 /// What a page sent may stand in the text; what is no UTF-8 is replaced.
 [[nodiscard]] std::string answer_text(const PageAnswer& answer);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "event_fold.hpp"
+#include "map_book.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/gui_server/source.hpp"
 #include "rave/record/run_reader.hpp"
@@ -40,12 +41,19 @@ class Recording final : public Source {
   }
   [[nodiscard]] Powers powers() const override {
     return {{"play", "seek", "pace", "step", "readings", "hybrid_parts", "obstacles", "log",
-             "recording", "chat"},
+             "recording", "chat", "maps"},
             {{"stop", kNoStop},
              {"release", kNoStop},
              {"command", kNoOrders},
              {"edit", kNoOrders},
              {"true_pose", "This view shows reported poses."}}};
+  }
+  // Maps that robots made are not recorded; the one of the world file is known all the same.
+  [[nodiscard]] std::vector<MapName> map_names() const override { return maps_->names(); }
+  [[nodiscard]] std::uint64_t map_names_revision() const noexcept override { return 1; }
+  [[nodiscard]] std::uint64_t maps_revision() const noexcept override { return 1; }
+  [[nodiscard]] const MapShown* map(const MapName& name) const override {
+    return maps_->find(name);
   }
   void halt(const HaltMessage& /*halt*/, const Author& /*author*/, Reply reply) override {
     reply(false, kNoStop);
@@ -64,6 +72,7 @@ class Recording final : public Source {
   std::vector<std::uint8_t> real_;
   FlagHistory flags_;
   BodyHistory history_;
+  std::optional<MapBook> maps_;
   double longest_period_s_ = 0;
 };
 
@@ -107,6 +116,7 @@ Status Recording::read(const std::filesystem::path& file) {
   RAVE_TRY_ASSIGN(bodies_, bodies_of(scenario));
   RAVE_TRY(history_.read(reader_, scenario, bodies_));
   robots_ = robots_of(scenario, run, hybrids());
+  maps_.emplace("[]", bodies_);
   return read_events(run);
 }
 

@@ -77,6 +77,7 @@ bool allowed(const View& view, bool live, const std::string& power) {
       {"command", InfoClass::kCommand},
       {"edit", InfoClass::kEdit},
       {"chat", InfoClass::kChat},
+      {"maps", InfoClass::kMaps},
   };
   if (const auto found = kOfSome.find(power); found != kOfSome.end()) {
     return view.may_any(found->second);
@@ -210,6 +211,28 @@ std::uint64_t RestrictedSource::hosts_revision() const noexcept {
 
 const std::string& RestrictedSource::hosts_json() const noexcept {
   return view_->may_all(InfoClass::kPose) ? all_->hosts_json() : Source::hosts_json();
+}
+
+std::vector<MapName> RestrictedSource::map_names() const {
+  std::vector<MapName> mine;
+  for (MapName& name : all_->map_names()) {
+    if (name.global()) {
+      if (view_->may_some(InfoClass::kMaps) && view_->may_read(name.name)) mine.push_back(name);
+    } else if (view_->may(InfoClass::kMaps, name.slot)) {
+      mine.push_back({*view_->slot_of(name.slot), std::move(name.name)});
+    }
+  }
+  return mine;
+}
+
+const MapShown* RestrictedSource::map(const MapName& name) const {
+  if (name.global()) {
+    const bool mine = view_->may_some(InfoClass::kMaps) && view_->may_read(name.name);
+    return mine ? all_->map(name) : nullptr;
+  }
+  const auto robot = view_->robot_of(name.slot);
+  if (!robot || !view_->may(InfoClass::kMaps, *robot)) return nullptr;
+  return all_->map({*robot, view_->cast().names[*robot]});
 }
 
 void RestrictedSource::halt(const HaltMessage& halt, const Author& author, Reply reply) {

@@ -36,6 +36,15 @@ class RestrictedSource final : public Source {
   /// Hosts say how many robots they have, so they are shown to who sees all robots.
   [[nodiscard]] std::uint64_t hosts_revision() const noexcept override;
   [[nodiscard]] const std::string& hosts_json() const noexcept override;
+  /// Global maps go to whoever gets the map of some robot.
+  [[nodiscard]] std::vector<MapName> map_names() const override;
+  [[nodiscard]] std::uint64_t map_names_revision() const noexcept override {
+    return all_->map_names_revision();
+  }
+  [[nodiscard]] std::uint64_t maps_revision() const noexcept override {
+    return all_->maps_revision();
+  }
+  [[nodiscard]] const MapShown* map(const MapName& name) const override;
   void halt(const HaltMessage& halt, const Author& author, Reply reply) override;
   void command(const CommandMessage& command, const Author& author,
                const SlotReply& reply) override;

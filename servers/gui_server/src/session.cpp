@@ -51,6 +51,8 @@ void Session::show(std::shared_ptr<Source> source, const Greeting& greeting, boo
   told_variances_.clear();
   // The slots are others now; the page says again what it looks at.
   look_.readings.clear();
+  map_stream_.look({});
+  told_map_names_ = 0;
   changed_ = true;
   past_due_ = true;
   broken_ = false;
@@ -87,6 +89,11 @@ void Session::take(const LookMessage& look) {
   forget_foreign_sensors();
   told_.clear();
   told_variances_.clear();
+  changed_ = true;
+}
+
+void Session::take(const LookMapsMessage& look) {
+  map_stream_.look(look.maps);
   changed_ = true;
 }
 
@@ -156,6 +163,8 @@ void Session::tick(Clock::time_point now, SharedFrames& frames) {
     send_news();
   }
   if (!look_.poses || broken_ || on_their_way_.size() >= kMostOnTheirWay) return;
+  // Tiles are confirmed by the picture behind them.
+  if (map_stream_.due(*source_)) changed_ = true;
   if (state.picture == picture_ && !changed_) return;
   const auto spacing = std::chrono::duration<double>(0.9 / look_.max_hz);
   if (now - last_frame_ < spacing && !changed_) return;
@@ -171,6 +180,8 @@ void Session::tick(Clock::time_point now, SharedFrames& frames) {
   }
   send_readings();
   send_variances();
+  map_stream_.send(*source_,
+                   [this](std::string tile) { socket_.send_binary(payload(std::move(tile))); });
   send_frame(frames);
   picture_ = state.picture;
   changed_ = false;
@@ -253,6 +264,10 @@ void Session::send_news() {
     told_hosts_ = revision;
   }
   if (source_->leases_revision() != told_leases_) send_leases(false);
+  if (const std::uint64_t revision = source_->map_names_revision(); revision != told_map_names_) {
+    told_map_names_ = revision;
+    socket_.send_text(payload(maps_text(source_->map_names())));
+  }
 }
 
 void Session::send_leases(bool all) {

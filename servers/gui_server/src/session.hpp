@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "frames.hpp"
+#include "map_stream.hpp"
 #include "page_commands.hpp"
 #include "page_message.hpp"
 #include "page_text.hpp"
@@ -63,9 +64,15 @@ class Session {
   /// pages were sent.
   void tick(Clock::time_point now, SharedFrames& frames);
   [[nodiscard]] const LookMessage& look() const noexcept { return look_; }
+  /// Maps that the page shows, by its slots; empty while it shows no run.
+  [[nodiscard]] std::span<const MapName> looked_at_maps() const noexcept {
+    return look_.poses ? std::span<const MapName>(map_stream_.looked_at())
+                       : std::span<const MapName>();
+  }
 
  private:
   void take(const LookMessage& look);
+  void take(const LookMapsMessage& look);
   void take(const AckMessage& ack);
   void take(const TransportMessage& transport);
   void take(const HaltMessage& halt);
@@ -100,6 +107,8 @@ class Session {
   std::deque<std::uint32_t> on_their_way_;
   std::map<std::pair<LookedAt, std::uint8_t>, double> told_;  ///< Stamp of what was sent last.
   std::vector<VarianceAt> told_variances_;
+  MapStream map_stream_;
+  std::uint64_t told_map_names_ = 0;
   std::uint64_t told_events_ = 0;
   std::uint64_t told_bodies_ = 0;
   std::uint64_t told_hosts_ = 0;

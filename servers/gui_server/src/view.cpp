@@ -103,6 +103,10 @@ bool View::may(InfoClass what, std::uint32_t robot) const {
 }
 
 bool View::may_any(InfoClass what) const { return any_[column(what)]; }
+bool View::may_some(InfoClass what) const {
+  return may_all(what) || std::any_of(shown_.begin(), shown_.end(),
+                                      [&](std::uint32_t robot) { return may(what, robot); });
+}
 bool View::may_all(InfoClass what) const { return all_[column(what)]; }
 
 PosesAt View::poses(const PosesAt& all, bool truth) const {

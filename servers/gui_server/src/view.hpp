@@ -54,6 +54,8 @@ class View {
   [[nodiscard]] bool may(InfoClass what, std::uint32_t robot) const;
   /// Of any robot; of what belongs to no robot at all.
   [[nodiscard]] bool may_any(InfoClass what) const;
+  /// Of one robot at least.
+  [[nodiscard]] bool may_some(InfoClass what) const;
   /// Of every robot, as the recording and run control need it.
   [[nodiscard]] bool may_all(InfoClass what) const;
 

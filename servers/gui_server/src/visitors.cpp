@@ -169,7 +169,13 @@ void Visitors::tick(Audience audience) {
         audience.looked_at.push_back({*robot, looked.sensor});
       }
     }
+    for (const MapName& map : visitor.page->looked_at_maps()) {
+      const auto robot = visitor.view->robot_of(map.slot);
+      if (robot && visitor.view->may(InfoClass::kMaps, *robot)) audience.maps.push_back(*robot);
+    }
   }
+  std::sort(audience.maps.begin(), audience.maps.end());
+  audience.maps.erase(std::unique(audience.maps.begin(), audience.maps.end()), audience.maps.end());
   auto& looked_at = audience.looked_at;
   std::sort(looked_at.begin(), looked_at.end());
   looked_at.erase(std::unique(looked_at.begin(), looked_at.end()), looked_at.end());

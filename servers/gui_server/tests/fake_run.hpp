@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "map_book.hpp"
 #include "rave/gui_server/source.hpp"
 
 namespace rave::gui_server::testing {
@@ -19,6 +20,9 @@ class FakeRun : public Source {
   static constexpr float kSecretRange_m = 1234.5F;
   static constexpr float kOpenRange_m = 2.5F;
   static constexpr float kHalfRange_m = 987.5F;
+  inline static const std::vector<std::uint8_t> kOpenCells{1, 2, 3, 4, 5, 6, 7, 8};
+  inline static const std::vector<std::uint8_t> kGlobalCells{11, 12, 13, 14, 15, 16, 17, 18};
+  inline static const std::vector<std::uint8_t> kSecretCells{91, 92, 93, 94, 95, 96, 97, 98};
 
   FakeRun() {
     about_.live = true;
@@ -41,6 +45,14 @@ class FakeRun : public Source {
         {2, 2, 1, "contact", LogEvent::Level::kInfo, "walker-1 and spy-2 touch", {0, 1}});
     events_.push_back({3, 3, 1, "hint", LogEvent::Level::kInfo, "walker-1: saw spy-4", {0}});
     events_.push_back({4, 4, 1, "hint", LogEvent::Level::kInfo, "walker-1: at home", {0}});
+    maps_ = MapBook(robots_, "[]");
+    // Local maps, of which one has a pattern that can be searched for, and a global one.
+    for (std::uint32_t robot = 0; robot < 4; ++robot) {
+      maps_.add(
+          {"", robot, {0.1, {}, 4, 2}, 0, 0, 1, {}, robot % 2 == 0 ? kOpenCells : kSecretCells});
+    }
+    maps_.add({"all", maps::kNoRobot, {0.5, {}, 4, 2}, 0, 0, 1, {}, kGlobalCells});
+    maps_.add({"of spy-2", maps::kNoRobot, {0.5, {}, 4, 2}, 0, 0, 1, {}, kSecretCells});
     for (int i = 0; i < 4; ++i) {
       poses_.robots.push_back({i % 2 == 0 ? 1.0 : kSecretX_m, 0, 0, 0, kKnown});
     }
@@ -49,7 +61,7 @@ class FakeRun : public Source {
   [[nodiscard]] const RunAbout& about() const noexcept override { return about_; }
   [[nodiscard]] Powers powers() const override {
     return {{"play", "pace", "step", "stop", "release", "true_pose", "readings", "hybrid_parts",
-             "obstacles", "log", "recording", "command", "edit", "chat"},
+             "obstacles", "log", "recording", "command", "edit", "chat", "maps"},
             {}};
   }
   [[nodiscard]] const std::string& bodies_json() const noexcept override { return bodies_; }
@@ -62,7 +74,12 @@ class FakeRun : public Source {
   [[nodiscard]] std::unique_ptr<Playhead> open_playhead() override {
     return std::make_unique<FakePlayhead>(*this);
   }
-  void tick(Playhead::Clock::time_point /*now*/, const Audience& /*audience*/) override {
+  [[nodiscard]] std::vector<MapName> map_names() const override { return maps_.names(); }
+  [[nodiscard]] std::uint64_t map_names_revision() const noexcept override { return 1; }
+  [[nodiscard]] std::uint64_t maps_revision() const noexcept override { return 1; }
+  [[nodiscard]] const MapShown* map(const MapName& name) const override { return maps_.find(name); }
+  void tick(Playhead::Clock::time_point /*now*/, const Audience& audience) override {
+    for (const std::uint32_t robot : audience.maps) asked_maps_ |= 1 << robot;
     ++poses_.serial;
     poses_.time_s = 0.01 * poses_.serial;
   }
@@ -94,7 +111,8 @@ class FakeRun : public Source {
 
   RunAbout about_;
   std::atomic<int> halted_robots = 0;
-  std::atomic<int> moved = 0;  ///< How often somebody moved the time of the run.
+  std::atomic<int> asked_maps_ = 0;  ///< A bit of each robot whose local map was asked for.
+  std::atomic<int> moved = 0;        ///< How often somebody moved the time of the run.
 
  private:
   class FakeCursor final : public Cursor {
@@ -144,6 +162,7 @@ class FakeRun : public Source {
       R"("shapes":[{"polygon":[[-1,-0.1],[1,-0.1],[1,0.1],[-1,0.1]],"z":[0,2]}]}])";
   std::vector<LogEvent> events_;
   PosesAt poses_;
+  MapBook maps_{"[]", "[]"};
 };
 
 }  // namespace rave::gui_server::testing

@@ -76,6 +76,25 @@ Json reading_json(const ReadingAt& reading) {
   return json;
 }
 
+/// The upper right tile of a map of 66 x 65 cells.
+Json tile_json(const MapName& name) {
+  MapShown map{{0.05, {-1.25, 500000.5}, 66, 65}, SimTime{2'500'000'000}, {}};
+  map.tiles[{1, 1}] = {9, SimTime{2'500'000'000}, {100, maps::kUnknown}};
+  Json json = {{"hex", hex_of(encode_tile(name, map, 1, 1))},
+               {"name", name.global() ? name.name : ""},
+               {"slot", name.slot},
+               {"stamp_s", 2.5},
+               {"origin", Json::array({-1.25, 500000.5})},
+               {"resolution_m", 0.05},
+               {"size", Json::array({66, 65})},
+               {"column", 1},
+               {"row", 1},
+               {"width", 2},
+               {"height", 1},
+               {"cells", Json::array({100, 255})}};
+  return json;
+}
+
 /// The page's tests read the same file. RAVE_WRITE_FRAMES=1 writes it anew after a change.
 TEST(Frames, AreThoseThatThePageIsTestedWith) {
   Json json = {{"poses", Json::array()}, {"readings", Json::array()}};
@@ -92,6 +111,7 @@ TEST(Frames, AreThoseThatThePageIsTestedWith) {
        {"time_s", 17.5},
        {"robots", Json::array({Json::array({0, 0.25, 0.0625}), Json::array({70000, 4, 0})})}},
       {{"hex", hex_of(encode_variances({}, 0, 1))}, {"time_s", 0}, {"robots", Json::array()}}};
+  json["tiles"] = {tile_json({3, "walker"}), tile_json({maps::kNoRobot, "höhle"})};
   const std::string text = json.dump(1) + "\n";
   if (std::getenv("RAVE_WRITE_FRAMES") != nullptr) {
     ASSERT_TRUE(write_file_atomically(RAVE_FRAMES, text));

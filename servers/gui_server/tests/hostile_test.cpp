@@ -86,6 +86,72 @@ TEST_F(Hostile, AnObserverGetsNothingThatIsWithheldWhateverTheyAsk) {
   EXPECT_EQ(run_->moved, 0);
 }
 
+/// Looks at all maps until so many tiles came; acknowledges frames as a page does.
+void look_at_maps_until(RawSocket& socket, int tiles, int frames) {
+  socket.send(R"({"type":"look_maps","maps":[0,1,2,3]})");
+  socket.send(kLookAtAll);
+  bool globals = false;
+  while (tiles > 0 || frames > 0 || !globals) {
+    const auto frame = socket.next();
+    ASSERT_TRUE(frame) << "the connection ended";
+    if (frame->opcode != 2 || frame->payload.size() < 8) continue;
+    if (frame->payload[0] == 4) --tiles;
+    if (frame->payload[0] != 1) continue;
+    --frames;
+    std::uint32_t sequence = 0;
+    std::memcpy(&sequence, frame->payload.data() + 4, sizeof sequence);
+    socket.send(fmt::format(R"({{"type":"ack","sequence":{}}})", sequence));
+    if (frames == 4) {
+      globals = true;
+      socket.send(R"({"type":"look_maps","maps":["all","of spy-2","world file",4294967294]})");
+    }
+  }
+}
+
+std::string text_of_cells(const std::vector<std::uint8_t>& cells) {
+  return {cells.begin(), cells.end()};
+}
+
+TEST_F(Hostile, MapsOfOthersAreNotEncodedWhateverIsAskedFor) {
+  RawSocket boss = super_user();
+  look_at_maps_until(boss, 6, 12);
+  for (const auto& cells : {FakeRun::kOpenCells, FakeRun::kGlobalCells, FakeRun::kSecretCells}) {
+    EXPECT_NE(boss.heard().find(text_of_cells(cells)), std::string::npos);
+  }
+  run_->asked_maps_ = 0;
+  boss.send(R"({"type":"look_maps","maps":[]})");
+  // Team green is theirs: their own maps and the global one, nothing of team blue.
+  RawSocket eve = socket(guest(Role::kObserver, "eve"));
+  look_at_maps_until(eve, 3, 12);
+  const std::string& heard = eve.heard();
+  EXPECT_NE(heard.find(text_of_cells(FakeRun::kOpenCells)), std::string::npos);
+  EXPECT_NE(heard.find(text_of_cells(FakeRun::kGlobalCells)), std::string::npos);
+  EXPECT_EQ(heard.find(text_of_cells(FakeRun::kSecretCells)), std::string::npos);
+  EXPECT_EQ(heard.find("spy-"), std::string::npos);
+  // Nobody even makes the maps of the others for them.
+  EXPECT_EQ(run_->asked_maps_ & 0b1010, 0);
+  EXPECT_EQ(run_->asked_maps_ & 0b0101, 0b0101);
+}
+
+TEST_F(Hostile, WhoGetsNoMapsGetsNoneAndNoNameOfOne) {
+  RawSocket boss = super_user();
+  set_right(boss, "observer", "maps", "\"none\"");
+  RawSocket eve = socket(guest(Role::kObserver, "eve"));
+  EXPECT_NE(eve.text_with("\"why_not\"").find("\"maps\":\"Your rights"), std::string::npos);
+  look_at_maps_until(eve, 0, 12);
+  const std::string& heard = eve.heard();
+  for (const auto& cells : {FakeRun::kOpenCells, FakeRun::kGlobalCells, FakeRun::kSecretCells}) {
+    EXPECT_EQ(heard.find(text_of_cells(cells)), std::string::npos);
+  }
+  EXPECT_NE(heard.find(R"({"type":"maps","maps":[]})"), std::string::npos);
+  EXPECT_EQ(run_->asked_maps_, 0);
+  // A right that is given counts on the open connection.
+  set_right(boss, "observer", "maps", "[\"green\"]");
+  EXPECT_NE(eve.text_with("\"type\":\"maps\"").find("walker-3"), std::string::npos);
+  look_at_maps_until(eve, 3, 12);
+  EXPECT_EQ(eve.heard().find(text_of_cells(FakeRun::kSecretCells)), std::string::npos);
+}
+
 TEST_F(Hostile, RightsThatChangeAreInForceOnOpenConnections) {
   RawSocket eve = socket(guest(Role::kObserver, "eve"));
   EXPECT_NE(eve.text_with("\"roster\"").find("walker-1"), std::string::npos);

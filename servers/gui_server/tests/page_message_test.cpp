@@ -210,6 +210,23 @@ INSTANTIATE_TEST_SUITE_P(
             R"({"type":"look","poses":true,"true_poses":false,"parts":true,"max_hz":9,"readings":[[1]]})",
             "pairs"}));
 
+TEST(PageMessage, MapsAreLookedAtBySlotOrName) {
+  const auto message = parse_page_message(R"({"type":"look_maps","maps":["world file",7,0,7]})");
+  ASSERT_TRUE(message) << message.error().message;
+  EXPECT_EQ(std::get<LookMapsMessage>(*message).maps,
+            (std::vector<MapName>{{0, ""}, {7, ""}, {maps::kNoRobot, "world file"}}));
+  const auto error_of = [](const char* maps) {
+    const auto refused =
+        parse_page_message(std::string(R"({"type":"look_maps","maps":)") + maps + "}");
+    return refused ? "accepted" : refused.error().message;
+  };
+  EXPECT_EQ(error_of("[0,1,2,3,4]"), "`maps`: expected an array of at most 4");
+  EXPECT_EQ(error_of("[-1]"), "`maps`: expected a whole number from 0 to 4294967295");
+  EXPECT_EQ(error_of("[4294967295]"), "`maps`: there is no such slot");
+  EXPECT_EQ(error_of("[\"\"]"), "`maps`: expected names of 1 to 64 bytes");
+  EXPECT_EQ(error_of("3"), "`maps`: expected an array of at most 4");
+}
+
 TEST(PageMessage, APathHasAThousandPointsAndNoMore) {
   const auto path = [](int points) {
     std::string text = R"({"type":"order","request":1,"kind":"path","slots":[0],"points":[)";

@@ -118,7 +118,8 @@ export class TopStage implements Stage {
     const {camera, context} = this;
     const layers = context.layers();
     const crowd = this.view.crowded(camera, context.placed, layers) ? Math.floor(now_ms / kDensity_ms) : 0;
-    const key = [camera.x, camera.y, camera.scale, camera.width, camera.height, this.revision, crowd, layers.grid, layers.hidden.join()].join(' ');
+    const key = [camera.x, camera.y, camera.scale, camera.width, camera.height, this.revision, crowd, layers.grid, layers.hidden.join(),
+      context.model.maps.overlay === null ? '' : context.model.maps.revision].join(' ');
     if (key === this.baseKey) return;
     this.baseKey = key;
     const ctx = this.base.getContext('2d', {alpha: false});

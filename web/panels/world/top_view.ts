@@ -15,6 +15,7 @@ import {bodyLabels, namesFit, robotLabels} from './name_layer';
 import {drawPlates, teamsOf, type Team} from './plates';
 import {bytesOf, rampBytes, rampColour} from './ramp';
 import {drawReadings} from './reading_layer';
+import {drawMap} from '../map/draw_map';
 import {RobotLayer} from './robot_layer';
 import {Surface} from './surface';
 import {kTailParts, type Swarm, type Tone} from './swarm';
@@ -70,13 +71,16 @@ export class TopView {
     this.surface = new Surface(bodies.values(), robots, this.palette);
   }
 
-  /** Floor, grid, crowd and bodies: what stands still as long as the camera does. */
+  /** Floor, grid, crowd, bodies and the map that is shown over them: what stands still as long as the camera does. */
   drawBase(ctx: CanvasRenderingContext2D, camera: Camera, placed: Placed, layers: Layers): void {
     ctx.fillStyle = this.palette.token('floor');
     ctx.fillRect(0, 0, camera.width, camera.height);
     if (layers.grid) drawGrid(ctx, camera, this.palette);
     if (this.crowded(camera, placed, layers)) this.density.draw(ctx, camera, placed, this.palette.token('text-2'));
     this.bodies.draw(ctx, camera, layers);
+    const {overlay} = this.model.maps;
+    const grid = overlay === null ? null : this.model.maps.of(overlay.key);
+    if (overlay !== null && grid !== null) drawMap(ctx, camera, grid, this.palette, overlay.opacity);
     if (layers.grid) drawTicks(ctx, camera, this.palette);
     drawScale(ctx, camera, this.palette);
   }

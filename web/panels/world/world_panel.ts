@@ -78,6 +78,7 @@ export class WorldPanel extends LitElement {
       model.sceneChanged.on(refresh),
       palette.changed.on(refresh),
       model.pictureChanged.on(() => this.draw()),
+      model.maps.overlayChanged.on(() => this.draw()),
       selection.changed.on(() => {
         this.lookAround();
         this.requestUpdate();

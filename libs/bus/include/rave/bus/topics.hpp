@@ -7,6 +7,7 @@
 #include "idl/rave/line.h"
 #include "idl/rave/lock_step.h"
 #include "idl/rave/look.h"
+#include "idl/rave/map.h"
 #include "idl/rave/obstacle.h"
 #include "idl/rave/roster.h"
 #include "idl/rave/wish.h"
@@ -41,6 +42,7 @@ using FindingsPart = rave_wire_FindingsPart;
 using Look = rave_wire_Look;
 using Readings = rave_wire_Readings;
 using RunEvents = rave_wire_RunEvents;
+using MapTile = rave_wire_MapTile;
 using Wish = rave_wire_Wish;
 using WishAnswer = rave_wire_WishAnswer;
 
@@ -150,6 +152,10 @@ inline TopicSpec topic_of<Readings>() {
 template <>
 inline TopicSpec topic_of<RunEvents>() {
   return {"rave/events", &rave_wire_RunEvents_desc, kPast};
+}
+template <>
+inline TopicSpec topic_of<MapTile>() {
+  return {"rave/map", &rave_wire_MapTile_desc, kDescription};
 }
 template <>
 inline TopicSpec topic_of<Wish>() {

@@ -20,9 +20,10 @@ struct LookedAt {
 
 /// What somebody who looks on asks for.
 struct Asked {
-  bool robots = false;            ///< What robots report of themselves, and contacts.
-  bool parts = false;             ///< Also the halves of hybrid sensors.
-  std::vector<LookedAt> sensors;  ///< Ascending, without repetitions.
+  bool robots = false;                ///< What robots report of themselves, and contacts.
+  bool parts = false;                 ///< Also the halves of hybrid sensors.
+  std::vector<LookedAt> sensors;      ///< Ascending, without repetitions.
+  std::vector<std::uint32_t> maps{};  ///< Robots whose local maps; the same.
   friend bool operator==(const Asked&, const Asked&) = default;
 };
 

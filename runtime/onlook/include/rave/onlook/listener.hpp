@@ -7,10 +7,12 @@
 #include <span>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "rave/bus/reader.hpp"
 #include "rave/bus/writer.hpp"
+#include "rave/maps/map_tile.hpp"
 #include "rave/onlook/asked.hpp"
 #include "rave/sim/event.hpp"
 #include "rave/sim/obstacle_change.hpp"
@@ -68,6 +70,8 @@ class Listener {
   [[nodiscard]] std::vector<HeardEvent> take_events();
   /// Obstacles that changed since the last call, each as it stands now.
   [[nodiscard]] std::vector<HeardObstacle> take_obstacles();
+  /// Tiles of maps that came since the last call, also of global maps, for which nobody asks.
+  [[nodiscard]] std::vector<maps::MapTile> take_tiles() { return std::exchange(tiles_, {}); }
   /// A run begins anew in which obstacles are as at the start.
   void forget();
 
@@ -77,11 +81,13 @@ class Listener {
     std::uint64_t writer = 0;
   };
   Listener(bus::Writer<bus::Look> looks, bus::Reader<bus::Readings> readings,
-           bus::Reader<bus::RunEvents> events, bus::Reader<bus::LastObstacle> obstacles)
+           bus::Reader<bus::RunEvents> events, bus::Reader<bus::LastObstacle> obstacles,
+           bus::Reader<bus::MapTile> tiles)
       : looks_(std::move(looks)),
         readings_in_(std::move(readings)),
         events_in_(std::move(events)),
-        obstacles_in_(std::move(obstacles)) {}
+        obstacles_in_(std::move(obstacles)),
+        tiles_in_(std::move(tiles)) {}
 
   void hear(const bus::Readings& sample);
   void hear(const bus::RunEvents& sample);
@@ -92,6 +98,7 @@ class Listener {
   bus::Reader<bus::Readings> readings_in_;
   bus::Reader<bus::RunEvents> events_in_;
   bus::Reader<bus::LastObstacle> obstacles_in_;
+  bus::Reader<bus::MapTile> tiles_in_;
   Asked asked_;
   std::uint64_t number_ = 0;
   Clock::time_point next_look_{};
@@ -101,6 +108,7 @@ class Listener {
   std::map<std::string, Told> told_;                  ///< Of the world, by what was said.
   std::map<std::uint32_t, std::uint64_t> revisions_;  ///< By obstacle.
   std::vector<HeardObstacle> obstacles_;
+  std::vector<maps::MapTile> tiles_;
 };
 
 }  // namespace rave::onlook

@@ -12,6 +12,7 @@
 
 #include "rave/bus/reader.hpp"
 #include "rave/bus/writer.hpp"
+#include "rave/maps/local_maps.hpp"
 #include "rave/onlook/asked.hpp"
 #include "rave/onlook/obstacle_teller.hpp"
 #include "rave/onlook/reading_teller.hpp"
@@ -20,9 +21,9 @@
 namespace rave::onlook {
 
 /// A host's end of what those who look on get: it hears what they look at, and tells readings,
-/// events and obstacles. What robots and programs do does not depend on it, and it waits for
-/// nobody. While nobody looks it tells of rare events and of obstacles, for those who come later.
-/// Must be gone before its bus; thread: that of the bus.
+/// events, obstacles and local maps. What robots and programs do does not depend on it, and it
+/// waits for nobody. While nobody looks it tells of rare events and of obstacles, for those who
+/// come later. Must be gone before its bus; thread: that of the bus.
 class Teller {
  public:
   using Clock = std::chrono::steady_clock;
@@ -59,21 +60,26 @@ class Teller {
     Clock::time_point heard;
   };
   Teller(Options options, bus::Reader<bus::Look> looks, bus::Writer<bus::RunEvents> events,
-         ReadingTeller readings, std::optional<ObstacleTeller> obstacles)
+         ReadingTeller readings, bus::Writer<bus::MapTile> tiles,
+         std::optional<ObstacleTeller> obstacles)
       : options_(std::move(options)),
         looks_(std::move(looks)),
         events_(std::move(events)),
         readings_(std::move(readings)),
+        tiles_(std::move(tiles)),
         obstacles_(std::move(obstacles)) {}
 
   void hear(Clock::time_point now);
   void put(const sim::Event& event, SimTime time);
   void tell_events(const sim::Engine& engine, std::span<const sim::Event> beside);
+  void tell_maps(const sim::Engine& engine, Clock::time_point now, int slower);
 
   Options options_;
   bus::Reader<bus::Look> looks_;
   bus::Writer<bus::RunEvents> events_;
   ReadingTeller readings_;
+  bus::Writer<bus::MapTile> tiles_;
+  maps::LocalMaps maps_;
   std::optional<ObstacleTeller> obstacles_;
   std::map<std::uint64_t, Look> heard_;  ///< By who looks.
   Asked asked_;                          ///< By all together.

@@ -16,6 +16,7 @@
 #include "rave/base/result.hpp"
 #include "rave/gui_server/command.hpp"
 #include "rave/gui_server/rights.hpp"
+#include "rave/maps/map_tile.hpp"
 
 // What the GUI Server shows comes from a source: a recording, or a run. Plain values; SI units,
 // frame W, angles in radians, times in seconds of the run.
@@ -177,11 +178,36 @@ struct HaltMessage {
   std::vector<std::uint32_t> slots;  ///< Empty: all robots.
 };
 
+/// A map that can be looked at: the local one of a robot, or a global one.
+struct MapName {
+  std::uint32_t slot = maps::kNoRobot;  ///< Of the robot.
+  std::string name;                     ///< Of the robot, or of the global map.
+
+  [[nodiscard]] bool global() const noexcept { return slot == maps::kNoRobot; }
+  friend auto operator<=>(const MapName&, const MapName&) = default;
+};
+
+/// A piece of a map.
+struct TileShown {
+  std::uint64_t revision = 0;  ///< Another number whenever it changed, of all tiles of a source.
+  SimTime stamp;
+  std::vector<std::uint8_t> cells;  ///< As in maps::MapTile.
+};
+
+/// A map as it is known at present.
+struct MapShown {
+  maps::MapFrame frame;
+  SimTime stamp;  ///< Of the newest reading in it.
+  /// By row and column of the tile; where nothing is known there is none.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, TileShown> tiles;
+};
+
 /// What all pages together look at.
 struct Audience {
   bool any = false;                 ///< A page wants poses.
   std::vector<LookedAt> looked_at;  ///< Ascending, without repetitions.
   bool parts = false;               ///< Also the halves of hybrid sensors.
+  std::vector<std::uint32_t> maps;  ///< Robots whose local maps; the same.
 };
 
 /// One thread, which is that of the server.
@@ -225,6 +251,16 @@ class Source {
     static const std::string kNone = "[]";
     return kNone;
   }
+  // Maps. They are those of the present, wherever a page is in time.
+  /// What can be looked at, and another number whenever that changed; 0: there are none.
+  [[nodiscard]] virtual std::vector<MapName> map_names() const { return {}; }
+  [[nodiscard]] virtual std::uint64_t map_names_revision() const noexcept { return 0; }
+  /// Another number whenever a tile of any map came.
+  [[nodiscard]] virtual std::uint64_t maps_revision() const noexcept { return 0; }
+  /// A local map is found by its slot alone. Null: there is no such map, or nothing is known of it
+  /// yet. Holds until the next tick().
+  [[nodiscard]] virtual const MapShown* map(const MapName& /*name*/) const { return nullptr; }
+
   /// Stops and releases robots, at once and without a lease to stop.
   virtual void halt(const HaltMessage& halt, const Author& author, Reply reply) = 0;
 

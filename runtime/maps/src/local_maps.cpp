@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/maps/local_maps.hpp"
+
+#include <algorithm>
+
+namespace rave::maps {
+
+void LocalMaps::ask(const sim::Engine& engine, std::span<const std::uint32_t> robots) {
+  for (const std::uint32_t robot : robots) {
+    if (maps_.size() >= kMost) return;
+    const bool begun = std::ranges::any_of(
+        maps_, [robot](const auto& map) { return map->robot().value() == robot; });
+    if (begun || !LocalMap::possible(engine, RobotId(robot))) continue;
+    maps_.push_back(std::make_unique<LocalMap>(engine, RobotId(robot)));
+    // The first picture of it comes at once.
+    maps_.back()->follow(engine);
+    next_ = {};
+  }
+}
+
+void LocalMaps::after_step(const sim::Engine& engine) {
+  for (const auto& map : maps_) map->follow(engine);
+}
+
+std::vector<MapTile> LocalMaps::changed(Clock::time_point now, int slower) {
+  std::vector<MapTile> tiles;
+  if (maps_.empty() || now < next_) return tiles;
+  next_ = now + kInterval * slower;
+  for (const auto& map : maps_) map->put_changed(tiles);
+  return tiles;
+}
+
+}  // namespace rave::maps

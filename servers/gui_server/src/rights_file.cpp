@@ -19,7 +19,7 @@ std::string reach_text(const std::optional<Reach>& reach) {
 
 /// Nothing: it is no reach.
 std::optional<std::optional<Reach>> reach_of(std::string_view text) {
-  if (text == "usual") return std::optional<Reach>();
+  if (text == "usual") return std::optional<std::optional<Reach>>(std::in_place, std::nullopt);
   if (text.starts_with(kTeamsWord)) {
     auto teams = parse_teams(text.substr(kTeamsWord.size()));
     if (!teams || teams->all) return std::nullopt;

@@ -17,6 +17,8 @@ import {withAlpha} from './scan_layer';
 const kDensity_ms = 500;
 const kMinimapBelow_px = 30;
 const kMinimapFrom = 40;
+/** What is shown around the middle of the robots at least, in radii of the largest. */
+const kAround = 14;
 const kFinger_px = 22;
 const kMouse_px = 8;
 
@@ -176,7 +178,13 @@ export class TopStage implements Stage {
     };
     if (slots !== undefined) slots.forEach(robot);
     else {
-      for (let slot = 0; slot < placed.count; ++slot) robot(slot);
+      let largest = 0;
+      for (let slot = 0; slot < placed.count; ++slot) {
+        robot(slot);
+        largest = Math.max(largest, this.view.robots.radius(slot));
+      }
+      // One robot alone would fill the picture: what is around it belongs to it.
+      if (bounds.x0 <= bounds.x1) add((bounds.x0 + bounds.x1) / 2, (bounds.y0 + bounds.y1) / 2, kAround * largest);
       for (const body of model.bodies.values()) {
         // A building is larger than what goes on in it.
         if (body.kind !== 'wall' || placed.count === 0) add(body.pose[0], body.pose[1], radiusOf(body.shapes));

@@ -20,8 +20,8 @@ struct PageOptions {
   std::string listen = "127.0.0.1";
   std::string certificate;  ///< With `key`: TLS.
   std::string key;
-  std::string line_key;  ///< The file of the key that hosts believe; empty: none.
-  std::string accounts;  ///< Folder; empty: the user's, if it listens elsewhere than on loopback.
+  std::string line_key;   ///< The file of the key that hosts believe; empty: none.
+  std::string accounts;   ///< Folder; empty: the user's, if it listens elsewhere than on loopback.
   bool foxglove = false;  ///< Foxglove may connect.
   std::vector<std::string> foxglove_origins;
 };

@@ -33,8 +33,8 @@ struct GuiOptions {
 class GuiServer {
  public:
   /// Without a source pages wait for show(). Errors: kNotFound (the page was not built),
-  /// kInvalidArgument (to listen elsewhere needs TLS and accounts; an origin is none), kIo (no port), those of
-  /// web::Server::start() of the certificate and of Accounts::open().
+  /// kInvalidArgument (to listen elsewhere needs TLS and accounts; an origin is none), kIo (no
+  /// port), those of web::Server::start() of the certificate and of Accounts::open().
   [[nodiscard]] static Result<std::unique_ptr<GuiServer>> start(
       const GuiOptions& options, std::shared_ptr<Source> source = nullptr);
   GuiServer(const GuiServer&) = delete;

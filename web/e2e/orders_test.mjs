@@ -77,6 +77,20 @@ try {
     assert.ok(points.every(([px, py]) => Math.hypot(px - x, py - y) < 2));
   });
 
+  await check('the team of the selected robot is stopped with one press', async () => {
+    const halts = heard('halt').length;
+    const {team} = server.run.robots[6];
+    const members = server.run.robots.flatMap((robot, slot) => (robot.team === team ? [slot] : []));
+    const button = page.locator('rave-robots').getByRole('button', {name: 'Stop team'});
+    assert.equal(await button.count(), 1);
+    await button.click();
+    await untilHere(page, () => heard('halt').length === halts + 1, 'a stop');
+    assert.deepEqual(last('halt'), {type: 'halt', do: 'stop', slots: members});
+    await page.locator('rave-robots').getByRole('button', {name: 'Team stopped'}).waitFor();
+    server.run.stopped.clear();
+    await button.waitFor();
+  });
+
   await check('a drag with the tool is a path, which Enter sends and Escape drops', async () => {
     await choose(page, 6);
     await page.keyboard.press('w');
@@ -91,6 +105,8 @@ try {
     await untilHere(page, () => heard('order', 'path').length === 1, 'a path');
     const {points} = last('order', 'path');
     assert.ok(points.length > 8 && points.length <= 400);
+    await page.waitForTimeout(200);
+    await page.screenshot({path: join(folder, 'path.png')});
     assert.ok(Math.hypot(points.at(-1)[0] - 2, points.at(-1)[1] - 1) < 0.15);
   });
 
@@ -204,6 +220,15 @@ try {
     await page.screenshot({path: join(folder, 'drive.png')});
     await page.mouse.up();
     await stands('the mouse');
+  });
+
+  await check('the Robot panel shows what was asked beside what was driven', async () => {
+    await page.evaluate(() => document.querySelector('rave-app').context.show('robot'));
+    const plot = page.locator('rave-robot .trace');
+    await plot.first().waitFor();
+    assert.equal(await plot.count(), 2);
+    await page.locator('rave-robot .trace').first().locator('polyline.asked').first().waitFor({state: 'attached'});
+    await page.screenshot({path: join(folder, 'asked.png')});
   });
 
   await check('keys drive, and a page that is left stops', async () => {

@@ -9,7 +9,7 @@ import {launch} from './browser.mjs';
 import {app, check, report, showFailures, until, untilHere, watch} from './checks.mjs';
 import {FakeRun} from './fake_run.mjs';
 import {serveFake} from './fake_server.mjs';
-import {clickAt, dragThrough, freePlace, Hand, placeOf, setPad, stubPad} from './hands.mjs';
+import {clickAt, dragThrough, freePlace, Hand, placeOf, pressPad, setPad, stubPad} from './hands.mjs';
 
 const [pageFolder, folder] = process.argv.slice(2);
 const kFirstLoad = 300_000;
@@ -260,6 +260,45 @@ try {
     await untilHere(page, () => drive()?.[1] > 0.2 && drive()[2] > 0.2, 'it drives');
     await setPad(page, 0, 0.05);
     await stands('the gamepad');
+  });
+
+  await check('pedals drive: gear, throttle, steering and brake, by mouse, keys and triggers', async () => {
+    await page.evaluate(() => { window.padAxes = null; });
+    await page.getByRole('radio', {name: 'Pedals'}).click();
+    const car = page.locator('rave-joystick .car');
+    const throttle = await car.locator('[data-control=throttle]').boundingBox();
+    const half = [throttle.x + throttle.width / 2, throttle.y + throttle.height / 2];
+    const count = server.run.driven.length;
+    await page.mouse.move(...half);
+    await page.mouse.down();
+    await page.waitForTimeout(150);
+    await page.mouse.up();
+    assert.equal(server.run.driven.length, count, 'neutral moves nothing');
+    await car.getByRole('radio', {name: 'Forward'}).click();
+    await page.mouse.move(...half);
+    await page.mouse.down();
+    await untilHere(page, () => Math.abs((drive()?.[1] ?? 0) - 0.2) < 0.05 && server.run.driven.length > count, 'half throttle');
+    await page.keyboard.down('d');
+    await untilHere(page, () => drive()[2] < -0.5, 'it turns right');
+    await page.screenshot({path: join(folder, 'pedals.png')});
+    await page.keyboard.down('s');
+    await untilHere(page, () => drive()[1] === 0, 'the brake goes before the throttle');
+    await page.keyboard.up('s');
+    await page.keyboard.up('d');
+    await page.mouse.up();
+    await stands('the pedals');
+    await car.getByRole('radio', {name: 'Reverse'}).click();
+    await pressPad(page, {7: 1});
+    await untilHere(page, () => drive()[1] < -0.3, 'the trigger drives backwards');
+    await page.evaluate(() => window.dispatchEvent(new Event('blur')));
+    await stands('a blur, with the trigger pressed');
+    await pressPad(page, {});
+    await page.waitForTimeout(100);
+    await pressPad(page, {5: 1});
+    await page.locator('rave-joystick').getByRole('radio', {name: 'Forward', checked: true}).waitFor();
+    await page.evaluate(() => { window.padAxes = null; });
+    await page.getByRole('radio', {name: 'Stick'}).click();
+    await page.locator('rave-joystick .stick').waitFor();
   });
 
   await check('whoever drives is shown, and is asked before it is taken', async () => {

@@ -52,7 +52,9 @@ export class CarDesk {
     if (shoulder !== 0 && this.shoulder === 0) this.shiftBy(shoulder);
     this.shoulder = shoulder;
     const hands = this.ofHands;
-    const source = this.car.held(hands) ? (this.keys.held ? 'keys' : 'touch') : this.car.held(this.ofPad) ? 'pad' : null;
+    // Keys and fingers are of the same person, who may go from one to the other.
+    const now = this.loop.held === 'keys' || this.loop.held === 'touch' ? this.loop.held : this.keys.held ? 'keys' : 'touch';
+    const source = this.car.held(hands) ? now : this.car.held(this.ofPad) ? 'pad' : null;
     if (source === null || (this.loop.held !== null && this.loop.held !== source)) {
       // Another hand takes over only after this one has let go.
       this.car.release();

@@ -46,15 +46,15 @@ function pad(control: keyof Pedals, name: string, share: number, view: CarView, 
 }
 
 export const carStyles = css`
-  .car { position: absolute; inset: 44px 14px 6px; display: grid; grid-template: 1fr / auto 1.6fr 1fr 1fr; gap: 10px; border-radius: var(--r-4); }
+  .car { position: absolute; inset: 42px 14px 6px; display: grid; grid-template: minmax(0, 1fr) / auto 1.6fr 1fr 1fr; gap: 10px; border-radius: var(--r-4); }
   .car[aria-disabled='true'] { opacity: .45; pointer-events: none; }
-  .gears { display: grid; align-content: center; gap: 4px; }
-  .gears button { width: 36px; height: 36px; border-radius: var(--r-3); background: var(--bg-3); color: var(--text-2); font-weight: var(--fw-strong); }
+  .gears { display: grid; grid-template-rows: repeat(3, minmax(20px, 40px)); align-content: center; gap: 4px; min-height: 0; }
+  .gears button { width: 36px; border-radius: var(--r-3); background: var(--bg-3); color: var(--text-2); font-weight: var(--fw-strong); }
   .gears button[aria-checked='true'] { background: var(--intent-fill); color: #fff; }
-  .pad { position: relative; overflow: hidden; min-height: 84px; border: 1px solid var(--line-3); border-radius: var(--r-4); background: var(--bg-2); touch-action: none; user-select: none; cursor: grab; }
+  .pad { position: relative; overflow: hidden; min-height: 0; border: 1px solid var(--line-3); border-radius: var(--r-4); background: var(--bg-2); touch-action: none; user-select: none; cursor: grab; }
   .pad span { position: absolute; left: 0; right: 0; bottom: 6px; text-align: center; color: var(--text-1); font-size: var(--fs-12); pointer-events: none; }
   .pad i { position: absolute; left: 0; right: 0; bottom: 0; background: var(--intent-soft); border-top: 2px solid var(--intent); pointer-events: none; }
   .pad.brake i { background: var(--warn-soft); border-top-color: var(--warn); }
-  .pad.steering { align-self: center; height: 84px; }
+  .pad.steering { align-self: center; height: min(84px, 100%); }
   .pad.steering i { right: auto; top: 10px; bottom: 30px; width: 28px; border: 0; border-radius: var(--r-3); background: var(--intent-fill); }
 `;

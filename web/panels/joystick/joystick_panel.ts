@@ -168,7 +168,7 @@ export class JoystickPanel extends LitElement {
           @blur=${() => { this.keys.clear(); this.loop.release('keys'); }} @contextmenu=${(event: Event) => event.preventDefault()}>
           ${renderDial({x: this.loop.x, y: this.loop.y, held: this.loop.held !== null, disabled: why !== '', guard: guard === null ? null : guard.limit_mps / this.loop.v_mps})}</div>`}</div>
       ${this.renderValues(slot, guard)}
-      <footer>${this.renderWay(robot.name)}${this.renderDelay()}</footer>`;
+      <footer>${this.renderLayouts()}${this.renderWay(robot.name)}${this.renderDelay()}</footer>`;
   }
 
   private renderPedals(robot: string, disabled: boolean): TemplateResult {
@@ -182,13 +182,16 @@ export class JoystickPanel extends LitElement {
     });
   }
 
+  private renderLayouts(): TemplateResult {
+    const layout = (pedals: boolean, text: string, title: string) => html`<button role="radio" aria-checked=${this.pedals === pedals} title=${title} @click=${() => this.setLayout(pedals)}>${text}</button>`;
+    return html`<div class="segments" role="radiogroup" aria-label="Controls">${layout(false, 'Stick', 'One stick for both velocities')}${layout(true, 'Pedals', 'Steering, throttle, brake and gear')}</div>`;
+  }
+
   private renderSources(): TemplateResult {
     const {held} = this.loop;
     const source = (on: boolean, there: boolean, name: 'gamepad' | 'keyboard' | 'hand', text: string, title: string) =>
       html`<span class="source ${on ? 'on' : ''} ${there ? '' : 'off'}" title=${title}>${icon(name, 14)} ${text}</span>`;
-    const layout = (pedals: boolean, text: string, title: string) => html`<button role="radio" aria-checked=${this.pedals === pedals} title=${title} @click=${() => this.setLayout(pedals)}>${text}</button>`;
-    return html`<div class="segments" role="radiogroup" aria-label="Controls">${layout(false, 'Stick', 'One stick for both velocities')}${layout(true, 'Pedals', 'Steering, throttle, brake and gear')}</div>
-      <div class="segments sources">
+    return html`<div class="segments sources">
       ${source(held === 'pad', this.pad !== '', 'gamepad', 'Pad', this.pad === '' ? 'No gamepad: connect one and press a button' : this.pad)}
       ${source(held === 'keys', true, 'keyboard', 'Keys', 'W A S D or arrows on the stick; Shift and arrows anywhere')}
       ${source(held === 'touch', true, 'hand', 'Touch', 'Hold the stick')}</div>`;
@@ -234,7 +237,7 @@ export class JoystickPanel extends LitElement {
     carStyles,
     css`
       :host { display: flex; flex-direction: column; height: 100%; background: var(--bg-1); overflow: auto; }
-      header { display: flex; flex-wrap: wrap; align-items: center; gap: 8px; padding: 10px 12px 8px; }
+      header { display: flex; align-items: center; gap: 8px; padding: 10px 12px 8px; }
       header b { font-size: var(--fs-15); overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
       .space { flex: 1; }
       rave-lease { margin: 0 12px 4px; flex: none; }
@@ -259,7 +262,7 @@ export class JoystickPanel extends LitElement {
       .track { position: relative; display: block; height: 6px; margin: 6px 0; border-radius: 3px; background: var(--bg-4); }
       .track i { position: absolute; top: 0; height: 6px; border-radius: 3px; background: var(--intent); }
       .track u { position: absolute; top: -3px; width: 2px; height: 12px; background: var(--warn); }
-      footer { display: flex; align-items: center; gap: 10px; padding: 8px 12px; border-top: 1px solid var(--line-1); font-size: var(--fs-12); flex: none; }
+      footer { display: flex; flex-wrap: wrap; align-items: center; gap: 6px 10px; padding: 8px 12px; border-top: 1px solid var(--line-1); font-size: var(--fs-12); flex: none; }
       .chip.direct { background: linear-gradient(var(--ok-soft) 0 0), var(--bg-1); color: var(--ok); }
       polyline { fill: none; stroke: var(--ok); stroke-width: 1.25; }
       .empty { display: grid; place-content: center; justify-items: center; gap: 4px; height: 100%; color: var(--text-3); font-size: var(--fs-12); }

@@ -41,6 +41,14 @@ async function findings(page) {
     .map(({id, nodes}) => `${id}: ${nodes.slice(0, 4).map(({target, any}) => `${target.flat().join(' > ')} ${any[0]?.message ?? ''}`).join(' | ')}`);
 }
 
+/** Brings a panel to the front. */
+async function show(page, id) {
+  await page.evaluate((panel) => document.querySelector('rave-app').context.show(panel), id);
+  await page.waitForTimeout(300);
+  await until(page, `document.querySelector('rave-app').shadowRoot.querySelector('${kTags[id]}') ?? document.querySelector('${kTags[id]}')`);
+}
+const kTags = {hosts: 'rave-hosts', log: 'rave-log', robot: 'rave-robot', chat: 'rave-chat', rights: 'rave-super-user'};
+
 const found = [];
 
 async function look(page, what) {
@@ -70,17 +78,13 @@ try {
         await page.getByText('Hold to release').waitFor();
         await look(page, 'stopped');
         run.stopped.clear();
-        await page.keyboard.press('5');
-        await page.waitForTimeout(300);
-        await look(page, 'hosts');
-        await page.keyboard.press('4');
-        await page.waitForTimeout(300);
-        await look(page, 'log');
-        await page.keyboard.press('6');
+        for (const panel of ['hosts', 'log', 'robot', 'chat']) {
+          await show(page, panel);
+          await look(page, panel);
+        }
+        await show(page, 'rights');
         for (const part of ['Rights', 'People', 'Invitations', 'Audit log']) {
-          const tab = page.getByRole('tab', {name: part}).last();
-          if (!(await tab.isVisible())) continue;
-          await tab.click();
+          await page.getByRole('tab', {name: part}).last().click();
           if (part === 'People') await page.getByRole('button', {name: 'Change fatima'}).click();
           if (part === 'Invitations') {
             await page.getByRole('button', {name: 'Make a link'}).click();

@@ -84,7 +84,12 @@ export class Hand {
 export async function stubPad(context) {
   await context.addInitScript(() => {
     window.padAxes = null;
-    navigator.getGamepads = () => (window.padAxes === null ? [] : [{id: 'Test pad', connected: true, axes: window.padAxes, buttons: []}]);
+    navigator.getGamepads = () => (window.padAxes === null ? [] : [{id: 'Test pad', connected: true, axes: window.padAxes, buttons: window.padButtons ?? []}]);
   });
 }
+/** Presses buttons of it, by number, to a share from 0 to 1. */
+export const pressPad = (page, shares) => page.evaluate((by) => {
+  window.padAxes ??= [0, 0];
+  window.padButtons = Array.from({length: 16}, (_, i) => ({pressed: (by[i] ?? 0) > 0.5, value: by[i] ?? 0}));
+}, shares);
 export const setPad = (page, x, y) => page.evaluate(([ax, ay]) => { window.padAxes = [ax, ay]; }, [x, y]);

@@ -9,7 +9,7 @@ import {launch} from './browser.mjs';
 import {app, check, report, showFailures, until, untilHere, watch} from './checks.mjs';
 import {FakeRun} from './fake_run.mjs';
 import {serveFake} from './fake_server.mjs';
-import {clickAt, dragThrough, freePlace, Hand, placeOf, setPad, stubPad} from './hands.mjs';
+import {clickAt, dragThrough, freePlace, Hand, placeOf, pressPad, setPad, stubPad} from './hands.mjs';
 
 const [pageFolder, folder] = process.argv.slice(2);
 const kFirstLoad = 300_000;
@@ -77,6 +77,20 @@ try {
     assert.ok(points.every(([px, py]) => Math.hypot(px - x, py - y) < 2));
   });
 
+  await check('the team of the selected robot is stopped with one press', async () => {
+    const halts = heard('halt').length;
+    const {team} = server.run.robots[6];
+    const members = server.run.robots.flatMap((robot, slot) => (robot.team === team ? [slot] : []));
+    const button = page.locator('rave-robots').getByRole('button', {name: 'Stop team'});
+    assert.equal(await button.count(), 1);
+    await button.click();
+    await untilHere(page, () => heard('halt').length === halts + 1, 'a stop');
+    assert.deepEqual(last('halt'), {type: 'halt', do: 'stop', slots: members});
+    await page.locator('rave-robots').getByRole('button', {name: 'Team stopped'}).waitFor();
+    server.run.stopped.clear();
+    await button.waitFor();
+  });
+
   await check('a drag with the tool is a path, which Enter sends and Escape drops', async () => {
     await choose(page, 6);
     await page.keyboard.press('w');
@@ -91,6 +105,8 @@ try {
     await untilHere(page, () => heard('order', 'path').length === 1, 'a path');
     const {points} = last('order', 'path');
     assert.ok(points.length > 8 && points.length <= 400);
+    await page.waitForTimeout(200);
+    await page.screenshot({path: join(folder, 'path.png')});
     assert.ok(Math.hypot(points.at(-1)[0] - 2, points.at(-1)[1] - 1) < 0.15);
   });
 
@@ -206,6 +222,15 @@ try {
     await stands('the mouse');
   });
 
+  await check('the Robot panel shows what was asked beside what was driven', async () => {
+    await page.evaluate(() => document.querySelector('rave-app').context.show('robot'));
+    const plot = page.locator('rave-robot .trace');
+    await plot.first().waitFor();
+    assert.equal(await plot.count(), 2);
+    await page.locator('rave-robot .trace').first().locator('polyline.asked').first().waitFor({state: 'attached'});
+    await page.screenshot({path: join(folder, 'asked.png')});
+  });
+
   await check('keys drive, and a page that is left stops', async () => {
     await stick.focus();
     await page.keyboard.down('w');
@@ -235,6 +260,45 @@ try {
     await untilHere(page, () => drive()?.[1] > 0.2 && drive()[2] > 0.2, 'it drives');
     await setPad(page, 0, 0.05);
     await stands('the gamepad');
+  });
+
+  await check('pedals drive: gear, throttle, steering and brake, by mouse, keys and triggers', async () => {
+    await page.evaluate(() => { window.padAxes = null; });
+    await page.getByRole('radio', {name: 'Pedals'}).click();
+    const car = page.locator('rave-joystick .car');
+    const throttle = await car.locator('[data-control=throttle]').boundingBox();
+    const half = [throttle.x + throttle.width / 2, throttle.y + throttle.height / 2];
+    const count = server.run.driven.length;
+    await page.mouse.move(...half);
+    await page.mouse.down();
+    await page.waitForTimeout(150);
+    await page.mouse.up();
+    assert.equal(server.run.driven.length, count, 'neutral moves nothing');
+    await car.getByRole('radio', {name: 'Forward'}).click();
+    await page.mouse.move(...half);
+    await page.mouse.down();
+    await untilHere(page, () => Math.abs((drive()?.[1] ?? 0) - 0.2) < 0.05 && server.run.driven.length > count, 'half throttle');
+    await page.keyboard.down('d');
+    await untilHere(page, () => drive()[2] < -0.5, 'it turns right');
+    await page.screenshot({path: join(folder, 'pedals.png')});
+    await page.keyboard.down('s');
+    await untilHere(page, () => drive()[1] === 0, 'the brake goes before the throttle');
+    await page.keyboard.up('s');
+    await page.keyboard.up('d');
+    await page.mouse.up();
+    await stands('the pedals');
+    await car.getByRole('radio', {name: 'Reverse'}).click();
+    await pressPad(page, {7: 1});
+    await untilHere(page, () => drive()[1] < -0.3, 'the trigger drives backwards');
+    await page.evaluate(() => window.dispatchEvent(new Event('blur')));
+    await stands('a blur, with the trigger pressed');
+    await pressPad(page, {});
+    await page.waitForTimeout(100);
+    await pressPad(page, {5: 1});
+    await page.locator('rave-joystick').getByRole('radio', {name: 'Forward', checked: true}).waitFor();
+    await page.evaluate(() => { window.padAxes = null; });
+    await page.getByRole('radio', {name: 'Stick'}).click();
+    await page.locator('rave-joystick .stick').waitFor();
   });
 
   await check('whoever drives is shown, and is asked before it is taken', async () => {

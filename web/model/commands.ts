@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type {Answer, AskAudit, ChangeAccount, ChangeInvitation, Edit, Lease, Order, PageMessage, Point, Robot, Say, SetParameter} from '../protocol/messages';
+import {Asked} from './asked';
 import type {Link} from './link';
 import type {RunModel} from './run_model';
 import {Signal} from './signal';
@@ -32,6 +33,8 @@ export class Commands {
   /** Orders that are drawn. */
   pending: Pending[] = [];
   readonly changed = new Signal();
+  /** Velocities that this page asked for. */
+  readonly asked = new Asked();
   private number = 0;
   private readonly open = new Map<number, (answer: Answer) => void>();
   private roster: readonly Robot[] = [];
@@ -41,7 +44,10 @@ export class Commands {
     model.drivesChanged.on(() => this.prune());
     model.rosterChanged.on(() => {
       // Slots are others now.
-      if (this.roster !== model.robots) this.pending = [];
+      if (this.roster !== model.robots) {
+        this.pending = [];
+        this.asked.clear();
+      }
       this.roster = model.robots;
       this.changed.emit();
     });
@@ -56,6 +62,7 @@ export class Commands {
   ask(request: Request): Promise<Answer> {
     const number = ++this.number;
     if (!this.link.reaches) return Promise.resolve({type: 'answer', to: request.type, good: false, text: 'There is no link to the server.', request: number});
+    if (request.type === 'order' && request.kind === 'drive') this.asked.note(request.slots, request.v ?? 0, request.w ?? 0, this.model.poses.newest?.time_s ?? 0);
     return new Promise((done) => {
       this.open.set(number, done);
       this.link.send({...request, request: number} as PageMessage);

@@ -40,10 +40,15 @@ export class DriveLoop {
   }
 
   hold(source: StickSource, x: number, y: number): void {
-    if (this.slot === null || (this.held !== null && this.held !== source)) return;
     const length = Math.hypot(x, y);
     const scale = length > 1 ? 1 / length : 1;
-    [this.x, this.y] = [x * scale, y * scale];
+    this.holdBoth(source, x * scale, y * scale);
+  }
+
+  /** As hold(), of two controls that do not limit each other; each from -1 to 1. */
+  holdBoth(source: StickSource, x: number, y: number): void {
+    if (this.slot === null || (this.held !== null && this.held !== source)) return;
+    [this.x, this.y] = [Math.max(-1, Math.min(1, x)), Math.max(-1, Math.min(1, y))];
     if (this.held === null) {
       this.held = source;
       this.refusal = '';

@@ -5,6 +5,8 @@ import {controls, glyphs} from '../../app/styles';
 import type {PanelContext} from '../../panel_api';
 import '../lease_bar';
 import {guardOf, type GuardAct} from '../robot/guard_act';
+import {CarDesk} from './car_desk';
+import {carStyles, renderCar} from './car_view';
 import {dialStyles, kReach, renderDial} from './dial';
 import {DriveLoop} from './drive_loop';
 import {DriveKeys} from './keys';
@@ -12,6 +14,8 @@ import {readPad} from './pad';
 
 const kRefresh_ms = 100;
 const kPad_ms = 1000 / 60;
+/** Where the browser keeps the layout. */
+const kLayout = 'rave.joystick';
 const kTop_mps = [0.1, 0.2, 0.4, 0.8, 1.6];
 
 /** A stick for the selected robot: pointer, finger, pen, keys or gamepad; it drives only while held. */
@@ -20,6 +24,8 @@ export class JoystickPanel extends LitElement {
   private loop!: DriveLoop;
   private readonly keys = new DriveKeys();
   private pad = '';
+  private car!: CarDesk;
+  private pedals = localStorage.getItem(kLayout) === 'pedals';
   private timers: number[] = [];
   private readonly ends: (() => void)[] = [];
 
@@ -28,8 +34,13 @@ export class JoystickPanel extends LitElement {
     this.requestUpdate();
     const {model, selection, commands, link} = this.context;
     this.loop ??= new DriveLoop(commands, () => this.requestUpdate());
+    this.car ??= new CarDesk(this.loop, this.keys);
+    let chosen = this.driven;
     const choose = () => {
-      this.loop.choose(this.driven);
+      // A gear that was put in for one robot is not that of the next.
+      if (this.driven !== chosen) this.car.letGo();
+      chosen = this.driven;
+      this.loop.choose(chosen);
       this.requestUpdate();
     };
     choose();
@@ -71,10 +82,24 @@ export class JoystickPanel extends LitElement {
 
   private letGo(): void {
     this.keys.clear();
+    this.car.letGo();
     this.loop.release();
   }
 
+  private setLayout(pedals: boolean): void {
+    if (pedals === this.pedals) return;
+    this.letGo();
+    this.pedals = pedals;
+    localStorage.setItem(kLayout, pedals ? 'pedals' : 'stick');
+    this.requestUpdate();
+  }
+
   private readPad(): void {
+    if (this.pedals) {
+      this.car.tick(performance.now());
+      this.pad = this.car.pad;
+      return;
+    }
     const pad = readPad();
     this.pad = pad?.name ?? '';
     if (pad?.held === true) this.loop.hold('pad', pad.x, pad.y);
@@ -97,16 +122,24 @@ export class JoystickPanel extends LitElement {
 
   private key(event: KeyboardEvent, down: boolean): void {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const gear = {e: 1, q: -1}[event.key.toLowerCase()];
+    if (this.pedals && gear !== undefined) {
+      event.preventDefault();
+      event.stopPropagation();
+      if (down && !event.repeat) this.car.shiftBy(gear);
+      return;
+    }
     if (!(down ? this.keys.press(event.key) : this.keys.lift(event.key))) return;
     event.preventDefault();
     event.stopPropagation();
+    if (this.pedals) return;
     if (this.keys.held) this.loop.hold('keys', ...this.keys.place);
     else this.loop.release('keys');
   }
 
   /** Shift and arrows from anywhere on the page. */
   drive(key: string, down: boolean): void {
-    if (!(down ? this.keys.press(key) : this.keys.lift(key))) return;
+    if (!(down ? this.keys.press(key) : this.keys.lift(key)) || this.pedals) return;
     if (this.keys.held) this.loop.hold('keys', ...this.keys.place);
     else this.loop.release('keys');
   }
@@ -126,15 +159,32 @@ export class JoystickPanel extends LitElement {
       <rave-lease .context=${this.context} .robot=${slot}></rave-lease>
       ${why !== '' ? html`<p class="why">${why}</p>` : nothing}
       ${this.loop.refusal !== '' ? html`<p class="why bad" role="alert">${this.loop.refusal}</p>` : nothing}
+      ${this.pedals && this.car.car.refusal !== '' ? html`<p class="why" role="status">${this.car.car.refusal}</p>` : nothing}
       <div class="middle">${this.renderNotes(guard)}
-        <div class="stick" tabindex="0" role="application" aria-label="Stick of ${robot.name}: hold and move, or hold W A S D or the arrows" aria-disabled=${why !== ''}
+        ${this.pedals ? this.renderPedals(robot.name, why !== '') : html`<div class="stick" tabindex="0" role="application" aria-label="Stick of ${robot.name}: hold and move, or hold W A S D or the arrows" aria-disabled=${why !== ''}
           @pointerdown=${this.press} @pointermove=${(event: PointerEvent) => this.loop.held === 'touch' && this.point(event)}
           @pointerup=${() => this.loop.release('touch')} @pointercancel=${() => this.loop.release('touch')} @lostpointercapture=${() => this.loop.release('touch')}
           @keydown=${(event: KeyboardEvent) => this.key(event, true)} @keyup=${(event: KeyboardEvent) => this.key(event, false)}
           @blur=${() => { this.keys.clear(); this.loop.release('keys'); }} @contextmenu=${(event: Event) => event.preventDefault()}>
-          ${renderDial({x: this.loop.x, y: this.loop.y, held: this.loop.held !== null, disabled: why !== '', guard: guard === null ? null : guard.limit_mps / this.loop.v_mps})}</div></div>
+          ${renderDial({x: this.loop.x, y: this.loop.y, held: this.loop.held !== null, disabled: why !== '', guard: guard === null ? null : guard.limit_mps / this.loop.v_mps})}</div>`}</div>
       ${this.renderValues(slot, guard)}
-      <footer>${this.renderWay(robot.name)}${this.renderDelay()}</footer>`;
+      <footer>${this.renderLayouts()}${this.renderWay(robot.name)}${this.renderDelay()}</footer>`;
+  }
+
+  private renderPedals(robot: string, disabled: boolean): TemplateResult {
+    const {car} = this;
+    return renderCar({
+      pedals: car.pedals, gear: car.car.gear, disabled, robot,
+      touch: (control, value) => car.touch(control, value),
+      shift: (gear) => { car.shift(gear); this.requestUpdate(); },
+      key: (event, down) => this.key(event, down),
+      blur: () => this.keys.clear(),
+    });
+  }
+
+  private renderLayouts(): TemplateResult {
+    const layout = (pedals: boolean, text: string, title: string) => html`<button role="radio" aria-checked=${this.pedals === pedals} title=${title} @click=${() => this.setLayout(pedals)}>${text}</button>`;
+    return html`<div class="segments" role="radiogroup" aria-label="Controls">${layout(false, 'Stick', 'One stick for both velocities')}${layout(true, 'Pedals', 'Steering, throttle, brake and gear')}</div>`;
   }
 
   private renderSources(): TemplateResult {
@@ -184,6 +234,7 @@ export class JoystickPanel extends LitElement {
     controls,
     glyphs,
     dialStyles,
+    carStyles,
     css`
       :host { display: flex; flex-direction: column; height: 100%; background: var(--bg-1); overflow: auto; }
       header { display: flex; align-items: center; gap: 8px; padding: 10px 12px 8px; }
@@ -211,7 +262,7 @@ export class JoystickPanel extends LitElement {
       .track { position: relative; display: block; height: 6px; margin: 6px 0; border-radius: 3px; background: var(--bg-4); }
       .track i { position: absolute; top: 0; height: 6px; border-radius: 3px; background: var(--intent); }
       .track u { position: absolute; top: -3px; width: 2px; height: 12px; background: var(--warn); }
-      footer { display: flex; align-items: center; gap: 10px; padding: 8px 12px; border-top: 1px solid var(--line-1); font-size: var(--fs-12); flex: none; }
+      footer { display: flex; flex-wrap: wrap; align-items: center; gap: 6px 10px; padding: 8px 12px; border-top: 1px solid var(--line-1); font-size: var(--fs-12); flex: none; }
       .chip.direct { background: linear-gradient(var(--ok-soft) 0 0), var(--bg-1); color: var(--ok); }
       polyline { fill: none; stroke: var(--ok); stroke-width: 1.25; }
       .empty { display: grid; place-content: center; justify-items: center; gap: 4px; height: 100%; color: var(--text-3); font-size: var(--fs-12); }

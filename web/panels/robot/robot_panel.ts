@@ -2,12 +2,12 @@
 import {LitElement, css, html, nothing, svg, type TemplateResult} from 'lit';
 import {icon} from '../../app/icons';
 import {controls, glyphs} from '../../app/styles';
-import {kHistory_s} from '../../model/pose_history';
 import type {PanelContext} from '../../panel_api';
 import {RobotFlag} from '../../protocol/frames';
 import type {Parameter} from '../../protocol/messages';
 import '../lease_bar';
 import {guardOf} from './guard_act';
+import {SpeedTrace, askedLines, kTrace_s, type DrivenVelocity} from './speed_trace';
 
 const kRefresh_ms = 250;
 const kTakes = ['goal', 'path', 'drive', 'text', 'place'];
@@ -18,6 +18,7 @@ export class RobotPanel extends LitElement {
   /** Values that were set here, by robot and key; a run does not tell them back. */
   private readonly values = new Map<string, string | number | boolean>();
   private readonly notes = new Map<string, string>();
+  private readonly trace = new SpeedTrace();
   private timer = 0;
   private readonly ends: (() => void)[] = [];
 
@@ -124,15 +125,33 @@ export class RobotPanel extends LitElement {
   }
 
   private renderSpeed(slot: number): TemplateResult | typeof nothing {
-    const {past, newest} = this.context.model.poses;
-    if (newest === null || past.length < 2) return nothing;
-    const frames = past.filter((frame) => frame.speed.length > slot);
-    const top = Math.max(0.25, ...frames.map((frame) => Math.abs(frame.speed[slot])));
-    const points = frames.map((frame) => `${(240 * (1 - (newest.time_s - frame.time_s) / kHistory_s)).toFixed(1)},${(52 - (48 * Math.abs(frame.speed[slot])) / top).toFixed(1)}`);
-    return html`<h4>Speed <em>${kHistory_s} s</em><span class="space"></span><em>driven</em></h4>
-      <svg class="plot" viewBox="0 0 240 56" preserveAspectRatio="none" role="img" aria-label="Speed of the last ${kHistory_s} seconds">
-        ${svg`<line x1="0" y1="52" x2="240" y2="52" /><polyline points=${points.join(' ')} />`}</svg>
-      <p class="now"><b>${Math.abs(newest.speed[slot]).toFixed(2)}</b> m/s now, at most ${top.toFixed(2)}</p>`;
+    const {model, commands} = this.context;
+    const {past, newest} = model.poses;
+    if (newest === null) return nothing;
+    this.trace.take(slot, newest, past);
+    const {points} = this.trace;
+    if (points.length < 2) return nothing;
+    const asked = (of: 'v' | 'w') => askedLines(commands.asked.of(slot), of, newest.time_s);
+    const last = points[points.length - 1];
+    return html`<h4>Speed <em>${kTrace_s} s</em><span class="space"></span><em class="asked">asked here</em><em class="driven">driven</em></h4>
+      ${this.renderPlot('forward', 'm/s', 0.25, points, (point) => point.v, asked('v'), newest.time_s)}
+      ${this.renderPlot('turn left', 'rad/s', 0.5, points, (point) => point.w, asked('w'), newest.time_s)}
+      <p class="now"><b>${signed(last.v)}</b> m/s and <b>${signed(last.w ?? 0)}</b> rad/s now</p>`;
+  }
+
+  /** One velocity: what this page asked for, dashed, and what was driven. */
+  private renderPlot(name: string, unit: string, least: number, driven: readonly DrivenVelocity[], of: (point: DrivenVelocity) => number | null, asked: [number, number][][], now_s: number): TemplateResult {
+    const values = [...driven.map(of), ...asked.flat().map(([, value]) => value)].filter((value): value is number => value !== null);
+    const top = Math.max(least, ...values);
+    const low = Math.min(0, ...values);
+    const at = (t: number, value: number) => `${(240 * (1 - (now_s - t) / kTrace_s)).toFixed(1)},${(3 + (38 * (top - value)) / (top - low)).toFixed(1)}`;
+    const line = driven.flatMap((point) => {
+      const value = of(point);
+      return value === null ? [] : [at(point.t, value)];
+    });
+    return html`<div class="trace"><span>${signed(top)}<br>${name}<br>${signed(low)}</span>
+      <svg class="plot" viewBox="0 0 240 44" preserveAspectRatio="none" role="img" aria-label="${name}, asked and driven, of the last ${kTrace_s} seconds, from ${signed(low)} to ${signed(top)} ${unit}">
+        ${svg`<line x1="0" y1=${at(0, 0).split(',')[1]} x2="240" y2=${at(0, 0).split(',')[1]} />${asked.map((part) => svg`<polyline class="asked" points=${part.map(([t, value]) => at(t, value)).join(' ')} />`)}<polyline points=${line.join(' ')} />`}</svg></div>`;
   }
 
   static override styles = [
@@ -170,9 +189,14 @@ export class RobotPanel extends LitElement {
       dt { color: var(--text-3); overflow: hidden; text-overflow: ellipsis; }
       dd { margin: 0; }
       .tag { padding: 0 5px; border-radius: var(--r-2); background: var(--virtual-fill); color: var(--virtual-ink); font-size: var(--fs-11); }
-      .plot { display: block; width: 100%; height: 56px; }
+      h4 .asked::before, h4 .driven::before { content: ''; display: inline-block; width: 16px; margin: 0 4px 3px 6px; border-top: 1.5px solid var(--text-1); }
+      h4 .asked::before { border-top: 1.5px dashed var(--intent); }
+      .trace { display: grid; grid-template-columns: 62px 1fr; gap: 6px; margin-bottom: 4px; }
+      .trace span { color: var(--text-3); font-size: var(--fs-11); line-height: 15px; text-align: right; }
+      .plot { display: block; width: 100%; height: 44px; }
       .plot line { stroke: var(--line-2); }
       .plot polyline { fill: none; stroke: var(--text-1); stroke-width: 1.5; vector-effect: non-scaling-stroke; }
+      .plot polyline.asked { stroke: var(--intent); stroke-dasharray: 4 3; }
       .now { margin: 2px 0 0; color: var(--text-2); }
       .now b { color: var(--text-1); }
       .empty { display: grid; place-content: center; justify-items: center; gap: 4px; height: 100%; color: var(--text-3); }
@@ -185,6 +209,11 @@ function usefulRange(parameter: Parameter, value: number): [number, number] {
   const [low, high] = parameter.range ?? [0, Infinity];
   const about = Math.max(1, Math.abs(value));
   return [Math.max(low, -4 * about), Math.min(high, 4 * about)];
+}
+
+/** Two digits, without the sign of a zero. */
+function signed(value: number): string {
+  return (Math.abs(value) < 0.005 ? 0 : value).toFixed(2).replace('-', '−');
 }
 
 customElements.define('rave-robot', RobotPanel);

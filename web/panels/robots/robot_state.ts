@@ -11,3 +11,8 @@ export function stateOf(robot: Robot, flags: number): string {
   if ((flags & RobotFlag.unarmed) !== 0 && robot.kind === 'real') return 'arm';
   return '';
 }
+
+/** Robots of a team that obey a stop: recorded ones obey nobody. */
+export function stoppable(robots: readonly Robot[], team: string): number[] {
+  return robots.flatMap((robot, slot) => (robot.team === team && !robot.recorded ? [slot] : []));
+}

@@ -7,13 +7,15 @@ import {kHistory_s} from '../../model/pose_history';
 import type {PanelContext} from '../../panel_api';
 import {RobotFlag} from '../../protocol/frames';
 import {parseFilter, type Filter} from './filter';
-import {stateOf} from './robot_state';
+import {stateOf, stoppable} from './robot_state';
 
 /** Beyond so many robots a team is a histogram, and its rows come on demand. */
 const kMany = 200;
 const kRefresh_ms = 250;
 const kRows = 400;
 const kBins = 12;
+/** Robots of one message, which has 64 KiB at most. */
+const kMostStopped = 5000;
 const kStands_mps = 0.02;
 
 /** All robots by team: what they are, how fast they go, and what is not normal about them. */
@@ -98,15 +100,29 @@ export class RobotsPanel extends LitElement {
       if (!set.delete(team)) set.add(team);
       this.requestUpdate();
     };
-    return html`
+    return html`<div class="head">
       <button class="team ${many ? 'many' : ''}" aria-expanded=${open} @click=${toggle}>
         <span class="turn ${open ? 'open' : ''}">${icon('chevronDown', 13)}</span>
         <span class="who"><span>${team === '' ? 'no team' : team} <em>${slots.length}</em></span>
           ${many ? html`<small>${this.standText(slots)}</small>` : nothing}</span>
         ${many ? this.renderHistogram(slots) : nothing}
-      </button>
+      </button>${this.renderStopTeam(team)}</div>
       ${open ? slots.slice(0, kRows).map((slot) => this.renderRow(slot)) : nothing}
       ${open && slots.length > kRows ? html`<p class="none">${slots.length - kRows} more: filter to see them.</p>` : nothing}`;
+  }
+
+  /** Stops all robots of the team in which one is selected, whether the filter shows them or not. */
+  private renderStopTeam(team: string): TemplateResult | typeof nothing {
+    const {model, selection} = this.context;
+    if (team === '' || !model.live || !model.may('stop') || ![...selection.slots].some((slot) => model.robots[slot]?.team === team)) return nothing;
+    const members = stoppable(model.robots, team);
+    if (members.length === 0) return nothing;
+    const stand = members.every((slot) => (this.flags(slot) & RobotFlag.stopped) !== 0);
+    return html`<button class="halt" ?disabled=${stand} title="Stops ${members.length} robots of ${team} at once" @click=${() => this.stopTeam(members)}>${icon('octagonX', 13)} ${stand ? 'Team stopped' : 'Stop team'}</button>`;
+  }
+
+  private stopTeam(members: readonly number[]): void {
+    for (let i = 0; i < members.length; i += kMostStopped) this.context.link.send({type: 'halt', do: 'stop', slots: members.slice(i, i + kMostStopped)});
   }
 
   /** The same scale for all teams, so that they can be compared. */
@@ -225,6 +241,11 @@ export class RobotsPanel extends LitElement {
       .rows { flex: 1; overflow: auto; padding: 4px 0; }
       .team { display: flex; align-items: center; gap: 6px; width: 100%; height: 26px; padding: 0 12px; color: var(--text-2); font-size: var(--fs-12); text-align: left; }
       .team.many { height: 40px; }
+      .head { display: flex; align-items: center; }
+      .head .team { flex: 1; min-width: 0; }
+      .halt { display: inline-flex; align-items: center; gap: 5px; flex: none; height: 22px; margin-right: 12px; padding: 0 8px; border-radius: var(--r-2); background: linear-gradient(var(--danger-soft) 0 0), var(--bg-1); color: var(--danger); font-size: var(--fs-12); }
+      .halt:disabled { opacity: 1; background: none; color: var(--text-2); }
+      @media (pointer: coarse) { .halt { height: 40px; } }
       .who { display: flex; flex-direction: column; line-height: 1.3; }
       .who small { color: var(--text-3); font-size: var(--fs-11); }
       .heads { display: flex; justify-content: space-between; padding: 6px 12px 0; color: var(--text-3); font-size: var(--fs-11); }

@@ -9,8 +9,12 @@ import type {Camera} from '../camera';
 import {kFont} from '../labels';
 import {radiusOf} from '../outlines';
 import {withAlpha} from '../scan_layer';
+import {arrowsAlong} from './arrows';
 import type {Draft, OrderDesk} from './order_desk';
 import {outlineOf} from './outline';
+
+const kArrows_px = 64;
+const kArrowFree_px = 14;
 
 /** Violet is people: what they draw, where robots are sent, and who drives them. */
 export class OrderLayer {
@@ -56,6 +60,24 @@ export class OrderLayer {
     ctx.setLineDash([]);
   }
 
+  /** Which way a path goes. */
+  private arrows(points: readonly Point[], colour: string): void {
+    const {ctx} = this;
+    ctx.fillStyle = colour;
+    for (const {x, y, angle} of arrowsAlong(points.map((point) => this.screen(point)), kArrows_px, kArrowFree_px)) {
+      ctx.save();
+      ctx.translate(x, y);
+      ctx.rotate(angle);
+      ctx.beginPath();
+      ctx.moveTo(6, 0);
+      ctx.lineTo(-4, 4.5);
+      ctx.lineTo(-1.5, 0);
+      ctx.lineTo(-4, -4.5);
+      ctx.fill();
+      ctx.restore();
+    }
+  }
+
   private ring(point: readonly [number, number], colour: string, filled: boolean): void {
     const {ctx} = this;
     const [x, y] = this.screen(point);
@@ -86,6 +108,7 @@ export class OrderLayer {
       const points = order.kind === 'path' ? order.points : [order.points[order.points.length > 1 ? i : 0]];
       const colour = refused ? this.token('danger') : order.state === 'sent' ? withAlpha(intent, 0.45) : intent;
       this.line([this.robot(slot), ...points], colour, 2, refused || order.state === 'taken' ? [7, 5] : []);
+      if (order.kind === 'path') this.arrows(points, colour);
       const end = points[points.length - 1];
       this.ring(end, colour, !refused);
       if (refused) this.cross(end, colour);
@@ -167,6 +190,7 @@ export class OrderLayer {
     if (draft.kind === 'outline') return this.drawOutline(draft);
     if (draft.kind === 'path') {
       this.line(draft.points, intent, 2.5);
+      this.arrows(draft.points, intent);
       const every = Math.max(1, Math.ceil(draft.points.length / 6));
       draft.points.forEach((point, i) => {
         if (i > 0 && i % every === 0 && i < draft.points.length - 1) this.knot(point);

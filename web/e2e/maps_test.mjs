@@ -78,7 +78,7 @@ async function switches(page) {
     await page.waitForTimeout(1500);
     places[name] = await occupied(page, slot);
     pictures[name] = await drawn(page);
-    assert.ok(places[name].length > 20 && pictures[name].walls > 100, `${name}: ${places[name].length} cells, ${pictures[name].walls} pixels`);
+    assert.ok(places[name].length > 20 && pictures[name].walls > 30, `${name}: ${places[name].length} cells, ${pictures[name].walls} pixels`);
     assert.ok(shareNear(places[name], world) > 0.9, `${name}: ${shareNear(places[name], world)} of its cells are walls`);
     assert.match(await page.locator('rave-map .about').textContent(), /^0\.05 m cells · [0-9.]+ s old$/);
   }

@@ -60,7 +60,8 @@ export class Dock {
       return;
     }
     const kind = this.kinds().find((known) => known.id === id);
-    if (kind) this.view.addPanel({id, component: id, title: kind.title});
+    const beside = this.view.panels.find((open) => open.id === kind?.beside);
+    if (kind) this.add(id, beside && {referencePanel: beside.id, direction: 'within'});
   }
 
   /** A panel that came while the page was open, beside the Sensor Display; not where it was closed or kept. */
@@ -127,6 +128,7 @@ export class Dock {
       this.add('robots', {referencePanel: 'world', direction: 'below'});
     }
     this.add('hosts', {referencePanel: 'robots', direction: 'within'});
+    this.add('map', {referencePanel: 'sensors', direction: 'within'}, {inactive: true});
   }
 
   private add(id: string, position?: object, size?: object): void {

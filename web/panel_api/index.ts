@@ -51,6 +51,8 @@ export interface PanelKind {
   short?: string;
   /** Only who has this power sees the panel. */
   needs?: Power;
+  /** Panel that it is opened beside, as another tab, if that is open; otherwise where the person is. */
+  beside?: string;
   /** Of a run that goes on; a replay does not show it. */
   live?: boolean;
   /** Number beside the title; none if undefined. */

@@ -8,6 +8,7 @@
 
 #include "rave/bus/sequence.hpp"
 #include "rave/bus/validate.hpp"
+#include "rave/bus_testing/messages.hpp"
 
 namespace rave::bus::testing {
 namespace {
@@ -42,6 +43,18 @@ TEST_F(ValidateMap, ATileHasTheCellsOfItsPlace) {
   EXPECT_EQ(judged(), "a map of 70 x 66 cells has no tile (2, 1)");
   tile_.column = 0xffffffff;
   EXPECT_EQ(judged(), "a map of 70 x 66 cells has no tile (4294967295, 1)");
+}
+
+TEST_F(ValidateMap, NoStartOfATileIsTakenForAWhole) {
+  const auto bytes = encode(tile_);
+  Decoded<MapTile> whole;
+  ASSERT_TRUE(whole.decode(bytes));
+  EXPECT_TRUE(validate(whole.sample()));
+  EXPECT_STREQ(whole.sample().source, "walker-1");
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    Decoded<MapTile> cut;
+    EXPECT_FALSE(cut.decode(std::span(bytes).first(size))) << size;
+  }
 }
 
 TEST_F(ValidateMap, CellsArePercentOrUnknown) {

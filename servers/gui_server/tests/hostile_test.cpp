@@ -148,6 +148,8 @@ TEST_F(Hostile, WhoGetsNoMapsGetsNoneAndNoNameOfOne) {
   // A right that is given counts on the open connection.
   set_right(boss, "observer", "maps", "[\"green\"]");
   EXPECT_NE(eve.text_with("\"type\":\"maps\"").find("walker-3"), std::string::npos);
+  // Pictures that were on their way meanwhile.
+  eve.send(R"({"type":"ack","sequence":1000000})");
   look_at_maps_until(eve, 3, 12);
   EXPECT_EQ(eve.heard().find(text_of_cells(FakeRun::kSecretCells)), std::string::npos);
 }

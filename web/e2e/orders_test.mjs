@@ -144,6 +144,9 @@ try {
     await untilHere(page, () => heard('edit', 'add').length === 1, 'a box');
     assert.equal(last('edit').polygon.length, 4);
     assert.ok(Math.hypot(last('edit').pose[0] - x, last('edit').pose[1] - y) < 0.05);
+    // It is the run that puts it there.
+    await until(page, `[...${app}.model.bodies.values()].some(({name}) => name === ${JSON.stringify(last('edit').name)})`);
+    await page.waitForTimeout(200);
     await page.keyboard.press('v');
     await clickAt(page, x, y);
     await page.getByRole('button', {name: 'Turn left'}).click();

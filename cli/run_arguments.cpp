@@ -12,11 +12,12 @@ void add_run(CLI::App& root, RunCommand& c) {
   add_scenario(app, c.scenario);
   add_run_options(app, c);
   add_processes(app, c.processes, "Divide the robots evenly among N processes", 1);
-  app.add_flag(
+  auto* const gui = app.add_flag(
       "--gui", c.gui,
       "Show the run in the browser (at --pace realtime unless set), then its recording, until "
       "Ctrl-C");
   add_page_options(app, c.page);
+  app.get_option("--foxglove")->needs(gui);
   add_line_options(app, c.line);
   add_bus_options(app, c.bus);
   app.footer(

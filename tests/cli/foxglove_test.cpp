@@ -181,6 +181,9 @@ TEST_F(FoxgloveRun, NeedsItsOption) {
   EXPECT_EQ(alone.exit_code, 2);
   EXPECT_NE(alone.err.find("--foxglove-origin requires --foxglove"), std::string::npos)
       << alone.err;
+  const Ended unseen = run_rave({"run", "foxglove.yaml", "--foxglove", "--output", results()});
+  EXPECT_EQ(unseen.exit_code, 2);
+  EXPECT_NE(unseen.err.find("--foxglove requires --gui"), std::string::npos) << unseen.err;
   const Ended odd =
       run_rave({"run", "foxglove.yaml", "--gui", "--no-open", "--foxglove", "--page",
                 folder_.path(), "--foxglove-origin", "app.foxglove.dev", "--output", results()});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "foxglove_topics.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sodium.h>
 
@@ -64,7 +65,7 @@ void expect_described(const Json& value, const Json& schema, const std::string& 
     ASSERT_TRUE(value.is_object()) << where;
     for (const auto& [name, member] : value.items()) {
       ASSERT_TRUE(schema.at("properties").contains(name)) << where << "." << name;
-      expect_described(member, schema["properties"][name], where + "." + name);
+      expect_described(member, schema["properties"][name], fmt::format("{}.{}", where, name));
     }
   } else if (type == "array") {
     ASSERT_TRUE(value.is_array()) << where;

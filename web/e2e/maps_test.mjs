@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Maps of two robots and of the world, in one process and over two hosts: node maps_test.mjs RAVE SCENARIO FOLDER
 import assert from 'node:assert/strict';
-import {mkdirSync, rmSync} from 'node:fs';
+import {execFileSync, spawnSync} from 'node:child_process';
+import {mkdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {launch, startServer} from './browser.mjs';
 import {app, check, report, showFailures, until} from './checks.mjs';
@@ -97,7 +98,14 @@ try {
   const errors = [];
   let tiles = 0;
   page.on('pageerror', (error) => errors.push(String(error)));
-  page.on('websocket', (socket) => socket.on('framereceived', ({payload}) => typeof payload !== 'string' && payload[0] === kTile && ++tiles));
+  const said = [];
+  page.on('websocket', (socket) => {
+    socket.on('framereceived', ({payload}) => {
+      if (typeof payload === 'string') said.push(JSON.parse(payload));
+      else if (payload[0] === kTile) ++tiles;
+    });
+    socket.on('framesent', ({payload}) => typeof payload === 'string' && said.push(JSON.parse(payload)));
+  });
   showFailures(page, join(folder, 'failed.png'));
   const shared = ['--gui', '--quiet', '--no-picture', '--no-record', '--pace', 'realtime'];
 
@@ -194,7 +202,30 @@ try {
     await until(page, `${newest} != null && ${newest}.time_s > 1 && ${app}.model.hosts.length >= 3`, 60000);
     await openPanel(page);
     await switches(page);
+  });
+
+  await check('a map that is looked at changes nothing of the run; its replay has the map of the world file alone', async () => {
+    const seconds = ['--quiet', '--no-picture', '--duration', '12'];
+    const alone = join(folder, 'alone');
+    spawnSync(rave, ['run', scenario, ...seconds, '--pace', 'max', '--no-record', '--output', alone], {stdio: 'ignore'});
+    servers.push(await startServer(rave, ['run', scenario, '--gui', ...seconds, '--output', join(folder, 'watched')]));
+    await page.goto(servers.at(-1).link);
+    await until(page, `${newest} != null`);
+    await openPanel(page);
+    await choose(page, 'local: ben');
+    await until(page, `${maps}.of(1)?.tiles.size > 0`);
+    await until(page, `${app}.model.hello.run.source === 'replay' && ${maps}.names.length > 0`, 40000);
+    assert.equal(await page.evaluate(`${app}.model.hello.run.hash`), JSON.parse(readFileSync(join(alone, 'result.json'))).hash);
+    assert.deepEqual(await page.evaluate(`${maps}.names`), [{name: 'world file'}]);
+    await until(page, `${maps}.of('world file')?.tiles.size > 1`);
     assert.deepEqual(errors, []);
+  });
+
+  await check('every message is as the schema describes it', async () => {
+    const file = join(folder, 'messages.json');
+    writeFileSync(file, JSON.stringify(said));
+    for (const type of ['maps', 'look_maps']) assert.ok(said.some((message) => message.type === type), type);
+    execFileSync('python3', [new URL('check_messages.py', import.meta.url).pathname, file], {stdio: 'inherit'});
   });
   report();
 } finally {

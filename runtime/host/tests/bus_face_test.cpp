@@ -10,6 +10,8 @@
 #include <thread>
 
 #include "rave/assemble_testing/host_fixture.hpp"
+#include "rave/bus/writer.hpp"
+#include "rave/maps/map_messages.hpp"
 #include "rave/onlook/listener.hpp"
 #include "rave/recording/describe_run.hpp"
 #include "rave/recording/record_keeper.hpp"
@@ -154,6 +156,25 @@ TEST_F(BusFaceTest, TilesOfALocalMapComeOnceSomebodyAskedAndStayForOthers) {
   asked_ = {};
   ASSERT_TRUE(until(some, false));
   EXPECT_EQ(tiles.front().source, "b");
+}
+
+TEST_F(BusFaceTest, AGlobalMapOfAnyProcessIsHeardWithoutAsking) {
+  start(scenario_text(robot_at("a", 0)));
+  auto writer = bus::Writer<bus::MapTile>::create(*bus_);
+  ASSERT_TRUE(writer.has_value()) << writer.error().text();
+  maps::MapTile tile{"fused", maps::kNoRobot, {0.1, {}, 2, 1}, 0, 0, 1, SimTime{5}, {0, 100}};
+  bus::MapTile message = maps::message_of(tile);
+  ASSERT_TRUE(writer->write(message).has_value());
+  // Also by who comes later.
+  look_on();
+  std::vector<maps::MapTile> tiles;
+  ASSERT_TRUE(until([&] {
+    tiles = listener_->take_tiles();
+    return !tiles.empty();
+  }));
+  EXPECT_EQ(tiles.front().source, "fused");
+  EXPECT_EQ(tiles.front().robot, maps::kNoRobot);
+  EXPECT_EQ(tiles.front().cells, tile.cells);
 }
 
 TEST_F(BusFaceTest, AReadingComesOfARunThatIsHeld) {

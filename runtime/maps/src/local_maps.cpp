@@ -7,10 +7,17 @@ namespace rave::maps {
 
 void LocalMaps::ask(const sim::Engine& engine, std::span<const std::uint32_t> robots) {
   for (const std::uint32_t robot : robots) {
-    if (maps_.size() >= kMost) return;
     const bool begun = std::ranges::any_of(
         maps_, [robot](const auto& map) { return map->robot().value() == robot; });
     if (begun || !LocalMap::possible(engine, RobotId(robot))) continue;
+    if (maps_.size() >= kMost) {
+      // One that nobody looks at any more makes room.
+      const auto idle = std::ranges::find_if(maps_, [robots](const auto& map) {
+        return std::ranges::find(robots, map->robot().value()) == robots.end();
+      });
+      if (idle == maps_.end()) return;
+      maps_.erase(idle);
+    }
     maps_.push_back(std::make_unique<LocalMap>(engine, RobotId(robot)));
     // The first picture of it comes at once.
     maps_.back()->follow(engine);

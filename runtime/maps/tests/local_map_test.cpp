@@ -131,5 +131,26 @@ TEST_F(LocalMapTest, MapsAreMadeOfWhatIsAskedForAlone) {
   EXPECT_FALSE(maps.changed(now + LocalMaps::kInterval, 1).empty());
 }
 
+TEST_F(LocalMapTest, AMapThatNobodyAsksForMakesRoomForAnother) {
+  std::string robots;
+  for (int i = 0; i <= static_cast<int>(LocalMaps::kMost); ++i) {
+    robots += robot_at("r" + std::to_string(i), -5.0 * i, kLaser);
+  }
+  start(robots);
+  LocalMaps maps;
+  std::vector<std::uint32_t> asked;
+  for (std::uint32_t i = 0; i <= LocalMaps::kMost; ++i) asked.push_back(i);
+  maps.ask(*engine_, asked);
+  EXPECT_EQ(maps.count(), LocalMaps::kMost);
+  const auto now = LocalMaps::Clock::now();
+  for (const MapTile& tile : maps.changed(now, 1)) EXPECT_LT(tile.robot, LocalMaps::kMost);
+  const std::vector<std::uint32_t> last{LocalMaps::kMost};
+  maps.ask(*engine_, last);
+  EXPECT_EQ(maps.count(), LocalMaps::kMost);
+  const auto tiles = maps.changed(now + LocalMaps::kInterval, 1);
+  ASSERT_FALSE(tiles.empty());
+  EXPECT_EQ(tiles.front().robot, LocalMaps::kMost);
+}
+
 }  // namespace
 }  // namespace rave::maps

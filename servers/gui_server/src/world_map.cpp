@@ -59,7 +59,7 @@ std::vector<Piece> pieces_of(const std::string& bodies_json) {
   return pieces;
 }
 
-/// How far a place is from the inside of a piece, for cells of half a size `half_m` around it.
+/// Whether a piece covers a cell about `p`, or a part of it; `half_m`: half of its side.
 bool covers(const Piece& piece, Vec2 p, double half_m) {
   if (piece.corners.size() == 1) {
     return std::hypot(p.x - piece.corners[0].x, p.y - piece.corners[0].y) <=
@@ -87,8 +87,8 @@ struct Raster {
     box.hold(piece);
     const double cell_m = frame.resolution_m;
     const auto index = [cell_m](double at, double origin, std::uint32_t cells_along) {
-      return static_cast<std::uint32_t>(
-          std::clamp(std::floor((at - origin) / cell_m), 0.0, double(cells_along - 1)));
+      return static_cast<std::uint32_t>(std::clamp(std::floor((at - origin) / cell_m), 0.0,
+                                                   static_cast<double>(cells_along - 1)));
     };
     const std::uint32_t x1 = index(box.high.x, frame.origin_W.x, frame.columns);
     const std::uint32_t y1 = index(box.high.y, frame.origin_W.y, frame.rows);

@@ -117,6 +117,8 @@ try {
     assert.equal(tiles, 0, 'no tile before somebody looks');
     await openPanel(page);
     await switches(page);
+    await page.evaluate(`${app}.palette.set('dark')`);
+    await page.waitForTimeout(300);
     await page.screenshot({path: join(folder, 'map-dark.png')});
   });
 

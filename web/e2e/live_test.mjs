@@ -64,11 +64,12 @@ try {
     await until(page, `${newest}.step === ${step} + 1`);
   });
 
+  const scanIsThere = `(() => { const a = ${app}; const slot = a.selection.primary;
+      const laser = a.model.robots[slot]?.sensors.findIndex((sensor) => sensor.kind === 'ranges');
+      return a.model.readings.of(slot, laser)?.rows === 121; })()`;
   await check('readings of a robot that is looked at while the run is held', async () => {
     await page.locator('rave-robots .row', {hasText: 'real-3'}).click();
-    await until(page, `(() => { const a = ${app}; const slot = a.selection.primary;
-      const laser = a.model.robots[slot].sensors.findIndex((sensor) => sensor.kind === 'ranges');
-      return a.model.readings.of(slot, laser)?.rows === 121; })()`);
+    await until(page, scanIsThere);
   });
 
   await check('it goes on, faster', async () => {
@@ -133,6 +134,8 @@ try {
     await say(page, {type: 'transport', do: 'pause'});
     await say(page, {type: 'transport', do: 'seek', value: 12.5});
     await until(page, `Math.abs(${newest}?.time_s - 12.5) < 0.011`);
+    // What was looked at still is, though nobody has clicked.
+    await until(page, scanIsThere);
     await live.end();
   });
 

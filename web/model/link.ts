@@ -55,8 +55,12 @@ export class Link {
     this.router = direct === null ? null : new OrderRouter(model, direct);
     if (this.router) this.router.serverIsThere = () => this.state === 'open';
     setInterval(() => this.measure(), 1000);
-    // The server has forgotten which maps: they may be others now.
-    model.runChanged.on(() => (this.lastMaps = '[]'));
+    // The server has forgotten what is looked at: robots and maps may be others now.
+    model.runChanged.on(() => {
+      this.lastLook = '';
+      this.lastMaps = '[]';
+      this.queueLook();
+    });
     model.maps.namesChanged.on(() => this.lookAtMaps());
     model.maps.overlayChanged.on(() => this.lookAtMap(model.maps, model.maps.overlay?.key ?? null));
   }

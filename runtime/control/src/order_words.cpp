@@ -115,16 +115,16 @@ RunRequest order_request(const sim::EngineSpec& spec, const sim::WorldInput& inp
 
 void write_takes(OrderSet set, std::vector<std::string>& words) {
   OrderSet written = 0;
-  constexpr std::array kKinds = {OrderKind::kDrive, OrderKind::kGoal, OrderKind::kPath,
-                                 OrderKind::kText, OrderKind::kPlace};
+  constexpr std::array kOrderKinds = {OrderKind::kDrive, OrderKind::kGoal, OrderKind::kPath,
+                                      OrderKind::kText, OrderKind::kPlace};
   for (const std::string& word : words) {
-    for (const OrderKind kind : kKinds) {
+    for (const OrderKind kind : kOrderKinds) {
       if (word == to_string(kind)) written |= order_bit(kind);
     }
   }
   if (written == set) return;
   words.clear();
-  for (const OrderKind kind : kKinds) {
+  for (const OrderKind kind : kOrderKinds) {
     if (has_order(set, kind)) words.emplace_back(to_string(kind));
   }
 }

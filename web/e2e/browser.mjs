@@ -13,6 +13,16 @@ export function launch() {
   });
 }
 
+/** Waits until the policy of the page lists `hosts` hosts of a run in real time. A page that comes earlier is refused their lines, and loads again. */
+export async function knowsHosts(link, hosts, timeout_ms = 30000) {
+  const policy = async () => (await (await fetch(new URL('/', link), {redirect: 'manual'})).headers.get('content-security-policy')) ?? '';
+  const end = Date.now() + timeout_ms;
+  for (let last = ''; (last.match(/wss?:\/\/127/g) ?? []).length < hosts; last = await policy()) {
+    if (Date.now() > end) throw new Error(`never ${hosts} hosts in the policy: ${last}`);
+    await new Promise((resolve) => setTimeout(resolve, 25));
+  }
+}
+
 /**
  * Starts a process that serves the page (`gui RECORDING`, `run SCENARIO --gui`) and waits for its link.
  * `end()` stops it and gives its exit code.

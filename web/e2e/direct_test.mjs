@@ -5,7 +5,7 @@ import assert from 'node:assert/strict';
 import {execFileSync, spawn} from 'node:child_process';
 import {mkdirSync, readFileSync, rmSync} from 'node:fs';
 import {join} from 'node:path';
-import {launch, startServer} from './browser.mjs';
+import {knowsHosts, launch, startServer} from './browser.mjs';
 import {app, check, report, showFailures, until, untilHere, watch} from './checks.mjs';
 
 const [rave, scenario, folder] = process.argv.slice(2);
@@ -30,13 +30,6 @@ const startGui = async (port) => {
   return gui;
 };
 
-/** Waits until the policy of the page lists both hosts. A page that comes earlier is refused their lines, and loads again. */
-async function knowsHosts(gui) {
-  const policy = async () => (await (await fetch(new URL('/', gui.link), {redirect: 'manual'})).headers.get('content-security-policy')) ?? '';
-  const end = Date.now() + 30000;
-  while (((await policy()).match(/ws:\/\/127/g) ?? []).length < 2) assert.ok(Date.now() < end, await policy());
-}
-
 hosts.push(spawn(rave, ['env', scenario, '--quiet', '--no-picture', '--no-record', '--output', join(folder, 'env'), ...bus], {stdio: ['ignore', 'ignore', 'inherit']}));
 for (const host of ['left', 'right']) startHost(host);
 const browser = await launch();
@@ -53,7 +46,7 @@ try {
 
   let seen = null;
   await check('the page has a line to each host, and says so with its latency', async () => {
-    await knowsHosts(gui);
+    await knowsHosts(gui.link, 2);
     seen = watch(page, new URL(gui.link).origin);
     await page.goto(gui.link);
     await until(page, `${newest} != null && ${newest}.time_s > 1`, 60000);
@@ -94,7 +87,7 @@ try {
 
   await check('the server comes back and so does the page, with its lines', async () => {
     gui = await startGui(port);
-    await knowsHosts(gui);
+    await knowsHosts(gui.link, 2);
     // The link is of the server that is gone, whose sessions are gone with it.
     await page.goto(gui.link);
     await until(page, `${newest} != null && ${lines}.open.length === 2`, 60000);

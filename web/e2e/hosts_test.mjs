@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import {execFileSync, spawn} from 'node:child_process';
 import {mkdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
-import {launch, startServer} from './browser.mjs';
+import {knowsHosts, launch, startServer} from './browser.mjs';
 import {app, check, report, until} from './checks.mjs';
 
 const [rave, scenario, folder] = process.argv.slice(2);
@@ -148,6 +148,7 @@ try {
       writeFileSync(join(room, 'scenario.yaml'), text);
       const live = await startServer(rave, ['run', room, '--gui', '--processes', '2', '--quiet', '--no-picture', '--no-record', '--output', join(folder, 'live'), '--run', `live-${process.pid}`]);
       servers.push(live);
+      await knowsHosts(live.link, 2);
       const real = await context.newPage();
       await real.goto(live.link);
       await until(real, `${app}?.model?.hello?.run.clock === 'real_time' && ${newest} != null && [...${newest}.flags].every((flags) => flags & 1)`, 60000);

@@ -40,11 +40,11 @@ export class DirectLines {
     });
   }
 
-  /** A page that was opened just before its hosts is loaded anew by itself, once. */
+  /** A page that was opened just before its hosts is loaded anew by itself, once, while nobody has touched it. */
   private block(line: DirectLine): void {
     line.block();
     const last_ms = Number(sessionStorage.getItem(kReloaded) ?? 0);
-    if (performance.now() > kYoung_ms || Date.now() - last_ms < kRarely_ms) return;
+    if (navigator.userActivation.hasBeenActive || performance.now() > kYoung_ms || Date.now() - last_ms < kRarely_ms) return;
     sessionStorage.setItem(kReloaded, String(Date.now()));
     location.reload();
   }

@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/host/host_run.hpp"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "bus_face.hpp"
-#include "rave/assemble/build.hpp"
+#include "host_session.hpp"
 #include "rave/base/file.hpp"
 #include "rave/control/world_request.hpp"
-#include "rave/host/host_journey.hpp"
-#include "rave/pace/wall_pace.hpp"
 #include "rave/protocol/host_port.hpp"
-#include "rave/recording/console_tee.hpp"
-#include "rave/results/event_log.hpp"
 #include "rave/results/radio_report.hpp"
-#include "waiting_robots.hpp"
 #include "world_account.hpp"
 
 namespace rave::runtime {
@@ -25,133 +18,151 @@ using lock_step::HostPort;
 /// For another manager of a run that lost its own while this process stood still.
 constexpr Duration kAfterStandstill = from_seconds(10);
 
-/// A host on its way through a run in lock-step.
-struct Journey : HostJourney {
-  Journey(HostJourney host, HostPort& to, const config::ExpandedScenario& scenario)
-      : HostJourney(std::move(host)), port(to), account(scenario, engine.spec()) {}
+/// The environment manager has the world: a report goes there, and the world of the next step comes
+/// back.
+class SteppedExchange final : public HostExchange {
+ public:
+  SteppedExchange(RunSession& run, HostPort& port, const HostSetup& host)
+      : run_(run), port_(port), host_(host), account_(host.scenario, run.engine.spec()) {
+    report_.host = host.slot.number;
+  }
 
-  HostPort& port;
-  WorldAccount account;
-  sim::HostReport report;
-  sim::WorldStep world;
-  bool came_to_end = false;
-  std::uint64_t joined_at = 0;  ///< After the last gap, if there was one.
+  Result<bool> begin() override {
+    RAVE_TRY(propose());
+    return true;
+  }
+  Result<bool> await_turn() override;
+  Status step() override {
+    RAVE_TRY(run_.engine.join(world_, port_.authority()));
+    return propose();
+  }
+  void step_done() override {
+    look_back(run_, obstacle_events(world_));
+    keep_roster(port_.roster(), run_.engine, world_.resized, run_.console);
+    account_.after_step(run_.engine);
+    port_.show(run_.engine, host_.slot.robots);
+  }
+  Ending ending() const override { return {port_.ending().good, port_.ending().text}; }
+  void complete(RunFacts& facts) override;
+  void describe(nlohmann::ordered_json& json, const HostOutcome& outcome,
+                const RunFacts& /*facts*/) const override {
+    json["steps"] = outcome.steps;
+    json["hash_part"] = fmt::format("{:016x}", run_.engine.hash().value());
+  }
+  Status deliver(std::span<const std::byte> findings) override { return port_.deliver(findings); }
+
+ private:
+  Status propose();
+  Result<HostPort::Answer> exchange();
+  void note_gap();
+
+  RunSession& run_;
+  HostPort& port_;
+  const HostSetup& host_;
+  WorldAccount account_;
+  sim::HostReport report_;
+  sim::WorldStep world_;
+  bool came_to_end_ = false;
+  std::uint64_t joined_at_ = 0;  ///< After the last gap, if there was one.
 };
 
-Status propose(Journey& journey) {
-  Status status = journey.engine.propose(journey.report);
+Status SteppedExchange::propose() {
+  Status status = run_.engine.propose(report_);
   // The others shall know why.
-  if (!status) journey.port.farewell(journey.report, journey.engine.hash().value());
+  if (!status) port_.farewell(report_, run_.engine.hash().value());
   return status;
 }
 
-/// What was asked of the world by hand counts from the step that comes now on.
-void keep_requests(Journey& journey) {
-  for (const RunRequest& request : requests_in(journey.engine.spec(), journey.world)) {
-    journey.observers.keep(request, journey.world.step);
-  }
+Result<HostPort::Answer> SteppedExchange::exchange() {
+  return port_.exchange(report_, run_.engine.hash().value(), world_, [this] {
+    serve_requests(run_);
+    // Somebody may look elsewhere while the run is held.
+    run_.observers.held(run_.engine);
+    return run_.stopping();
+  });
 }
 
-/// Takes the next step of the world in; false: there is none for this host.
-Result<bool> take_step(Journey& journey) {
-  if (journey.stopping()) {
-    journey.stopped = true;
-    return false;
-  }
-  RAVE_TRY_ASSIGN(
-      const HostPort::Answer answer,
-      journey.port.exchange(journey.report, journey.engine.hash().value(), journey.world, [&] {
-        serve_requests(journey);
-        // Somebody may look elsewhere while the run is held.
-        journey.observers.held(journey.engine);
-        return journey.stopping();
-      }));
-  journey.stopped = answer == HostPort::Answer::kStopped;
-  journey.ended = answer == HostPort::Answer::kEnded;
+/// The run went on without this host.
+void SteppedExchange::note_gap() {
+  std::string text =
+      fmt::format("was not there from step {} to step {}", report_.step, world_.step);
+  run_.console.warn("host", "{}; its robots go on where they stand", text);
+  run_.problems.push_back(std::move(text));
+  joined_at_ = world_.step;
+}
+
+Result<bool> SteppedExchange::await_turn() {
+  serve_requests(run_);
+  run_.stopped = run_.stopping();
+  if (run_.stopped) return false;
+  RAVE_TRY_ASSIGN(const HostPort::Answer answer, exchange());
+  run_.stopped = answer == HostPort::Answer::kStopped;
+  run_.ended = answer == HostPort::Answer::kEnded;
   if (answer != HostPort::Answer::kWorld) return false;
-  journey.account.take(journey.world, journey.port.authority());
-  const std::uint64_t next = journey.report.step;
-  if (journey.world.step > next) {
-    std::string text =
-        fmt::format("was not there from step {} to step {}", next, journey.world.step);
-    journey.console.warn("host", "{}; its robots go on where they stand", text);
-    journey.problems.push_back(std::move(text));
-    journey.joined_at = journey.world.step;
+  account_.take(world_, port_.authority());
+  if (world_.step > report_.step) note_gap();
+  came_to_end_ = world_.last;
+  if (came_to_end_) return false;
+  // What was asked of the world by hand counts from this step on.
+  for (const RunRequest& request : requests_in(run_.engine.spec(), world_)) {
+    run_.observers.keep(request, world_.step);
   }
-  if (journey.world.last) {
-    journey.came_to_end = true;
-    return false;
-  }
-  keep_requests(journey);
-  RAVE_TRY(journey.engine.join(journey.world, journey.port.authority()));
+  run_.step = world_.step;
   return true;
 }
 
-Status go_through(Journey& journey) {
-  RAVE_TRY(propose(journey));
-  for (;;) {
-    serve_requests(journey);
-    RAVE_TRY_ASSIGN(const bool goes_on, take_step(journey));
-    if (!goes_on) return {};
-    RAVE_TRY(propose(journey));
-  }
-}
-
-Status write_results(const Journey& journey, const HostOutcome& outcome) {
-  const std::filesystem::path& folder = journey.options.run.output;
-  nlohmann::ordered_json json;
-  json["host"] = journey.options.host;
-  json["whole"] = outcome.whole;
-  json["steps"] = outcome.steps;
-  json["hash_part"] = fmt::format("{:016x}", journey.engine.hash().value());
-  json["events"] = journey.events.size();
-  json["ending"] = outcome.ending;
-  json["problems"] = outcome.problems;
-  RAVE_TRY(write_file_atomically(
-      folder / "events.log",
-      events_log(journey.engine.spec(), journey.observers.results().kinds, journey.events)));
-  return write_file_atomically(
-      folder / "result.json",
-      json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-}
-
-HostOutcome judge(const Journey& journey) {
-  HostOutcome outcome;
-  outcome.steps = journey.engine.steps_done();
-  note_end(journey, journey.port.ending().text, journey.port.ending().good, outcome);
-  return outcome;
-}
-
-/// What this host knows when all is over. Changes what the engine shows of robots.
-RunFacts facts_of(Journey& journey, const std::string& record_problem) {
-  RunFacts facts = gather(journey.observers.results(), journey.engine);
-  if (!record_problem.empty()) facts.problems.push_back(record_problem);
-  // A manager that took over does not know it.
-  facts.problems.insert(facts.problems.end(), journey.problems.begin(), journey.problems.end());
-  facts.first_step = journey.joined_at;
-  if (journey.port.changed_hands()) {
-    WorldFacts told = journey.account.facts();
+/// Changes what the engine shows of robots.
+void SteppedExchange::complete(RunFacts& facts) {
+  facts.first_step = joined_at_;
+  // A manager that took over does not know what was before.
+  if (port_.changed_hands()) {
+    WorldFacts told = account_.facts();
     // Who was not there all along cannot fill the gap of a manager.
     if (told.first_step == 0) facts.world = std::move(told);
   }
-  if (!journey.came_to_end || !has_radio(journey.engine.spec())) return facts;
+  if (!came_to_end_ || !has_radio(run_.engine.spec())) return;
   // Who hears what was sent in the last step is decided with the world after it.
-  const bool heard = journey.engine.join(journey.world, journey.port.authority()).has_value();
-  if (heard) facts.radio = journey.engine.radio_counts();
-  return facts;
+  const bool heard = run_.engine.join(world_, port_.authority()).has_value();
+  if (heard) facts.radio = run_.engine.radio_counts();
+}
+
+Result<HostOutcome> run_stepped_host(const HostSetup& host, BuiltScenario& built) {
+  built.spec.live_clock = nullptr;
+  host.pace.set_factor(0);
+  for (const std::string& note : built.notes) host.console.warn("scenario", "{}", note);
+  const HostOptions& options = host.options;
+  lock_step::Identity self{host.slot.number, options.host,
+                           static_cast<std::uint32_t>(host.slot.robots.size()),
+                           shared_number(host.scenario), interface_stamp()};
+  self.real_robots = real_robots(built.spec, host.slot.robots);
+  std::function<void()> on_step_done;
+  built.spec.on_step_done = [&on_step_done] { on_step_done(); };
+  RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(built.spec)));
+  const config::ScenarioFile& file = host.scenario.scenario;
+  HostPort::Patience patience{options.manager_patience, {}};
+  // Under the others a run may have gone on, and ended, while this process stood still.
+  if (file.on_lost_host != config::LostHost::kWait) patience.after_standstill = kAfterStandstill;
+  RAVE_TRY_ASSIGN(const auto port, HostPort::open(options.bus, std::move(self), &host.console,
+                                                  patience, options.begin_wish));
+  port->word().describe(file.name.value, steps_of(file), file.step_s.value);
+  introduce_robots(port->roster(), engine->spec(), host.slot.robots, host.console);
+  const auto make = [&](RunSession& run, const BusFace& /*face*/) {
+    return std::make_unique<SteppedExchange>(run, *port, host);
+  };
+  return run_session(host, *engine, port->bus(), make, on_step_done);
 }
 
 }  // namespace
 
 Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::Catalogue& catalogue,
                              HostOptions options) {
-  RAVE_TRY_ASSIGN(Seat seat, find_seat(scenario, options.host));
+  RAVE_TRY_ASSIGN(const HostSlot slot, find_slot(scenario, options.host));
   const RunOptions& run = options.run;
   const std::string expanded = config::write_expanded(scenario);
   RAVE_TRY(write_file_atomically(run.output / "scenario.yaml", expanded));
   ConsoleTee console(run.log);
   BuildOptions how{run.program_runner, &console};
-  how.local = seat.robots;
+  how.local = slot.robots;
   how.others = options.others.get();
   WallPace pace(1);
   how.live_clock = &pace;
@@ -159,58 +170,8 @@ Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::C
   keep_history_for_observers(adjusted.scenario);
   RAVE_TRY_ASSIGN(BuiltScenario built, build(adjusted, catalogue, how));
   options.others.reset();
-  if (!built.live_reason.empty()) {
-    return run_live_host({scenario, expanded, catalogue, options, seat, console, pace},
-                         std::move(built));
-  }
-  built.spec.live_clock = nullptr;
-  for (const std::string& note : built.notes) console.warn("scenario", "{}", note);
-  lock_step::Identity self{seat.number, options.host,
-                           static_cast<std::uint32_t>(seat.robots.size()), shared_number(scenario),
-                           interface_stamp()};
-  self.real_robots = real_robots(built.spec, seat.robots);
-  std::function<void()> look;
-  built.spec.on_step_done = [&look] { look(); };
-  RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(built.spec)));
-  HostPort::Patience patience{options.manager_patience, {}};
-  // Under the others a run may have gone on, and ended, while this process stood still.
-  if (scenario.scenario.on_lost_host != config::LostHost::kWait) {
-    patience.after_standstill = kAfterStandstill;
-  }
-  RAVE_TRY_ASSIGN(const auto port, HostPort::open(options.bus, std::move(self), &console, patience,
-                                                  options.begin_wish));
-  port->word().describe(scenario.scenario.name.value, steps_of(scenario.scenario),
-                        scenario.scenario.step_s.value);
-  introduce_robots(port->roster(), engine->spec(), seat.robots, console);
-  RAVE_TRY_ASSIGN(const auto face, BusFace::open(port->bus(), seat.number, true));
-  options.run.observers.push_back(face.get());
-  RAVE_TRY_ASSIGN(const auto observers,
-                  ObserverList::open({scenario, expanded, built.robot_kinds, *engine, catalogue,
-                                      run, console, options.host}));
-  Journey journey({*engine, *observers, port->roster(), options, console, shared_number(scenario)},
-                  *port, scenario);
-  journey.report.host = seat.number;
-  journey.world_tells = true;
-  look = [&journey, &seat] {
-    look_back(journey, obstacle_events(journey.world), journey.world.resized, false);
-    journey.account.after_step(journey.engine);
-    journey.port.show(journey.engine, seat.robots);
-  };
-  const ControlledHost controlled(*engine, scenario.scenario, run.control, false);
-  tell_who_waits(*engine, run, console);
-  const Status went = go_through(journey);
-  engine->halt();
-  const std::string record_problem = observers->end_record(engine->hash().value());
-  HostOutcome outcome = judge(journey);
-  if (!record_problem.empty()) outcome.problems.push_back(record_problem);
-  outcome.whole = outcome.whole && outcome.problems.empty();
-  // A full disk here is no reason to keep from others what this host knows.
-  const Status written = write_results(journey, outcome);
-  RAVE_TRY(leave_facts(journey, encode_facts(journey, facts_of(journey, record_problem)),
-                       [&port](std::span<const std::byte> facts) { return port->deliver(facts); }));
-  RAVE_TRY(written);
-  if (!went) return tl::unexpected(went.error());
-  return outcome;
+  const HostSetup host{scenario, expanded, catalogue, options, slot, console, pace, built};
+  return built.live_reason.empty() ? run_stepped_host(host, built) : run_live_host(host, built);
 }
 
 }  // namespace rave::runtime

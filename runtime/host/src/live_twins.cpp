@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "rave/host/host_journey.hpp"
+#include "host_session.hpp"
 
 namespace rave::runtime {
 

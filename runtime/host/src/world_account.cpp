@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <variant>
 
-#include "rave/host/host_journey.hpp"
+#include "rave/host/host_slot.hpp"
 
 namespace rave::runtime {
 namespace {

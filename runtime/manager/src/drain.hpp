@@ -20,27 +20,27 @@ struct DrainLimits {
 };
 
 /// The end of a run: hosts hear of it before the manager goes, and what they know of the run
-/// reaches it. Until all are gone, or the limits are over. `seats`: by host, each with `name` and
+/// reaches it. Until all are gone, or the limits are over. `slots`: by host, each with `name` and
 /// `writer`. `owes_findings`: whether a process has yet to send what it knows, and is waited for.
 /// `turn` waits a little and takes in what has come; false: the bus is of no use any more.
-template <class Seats, class Owes, class Turn>
-void drain(const Seats& seats, LogSink* log, Owes&& owes_findings, Turn&& turn,
+template <class Slots, class Owes, class Turn>
+void drain(const Slots& slots, LogSink* log, Owes&& owes_findings, Turn&& turn,
            const DrainLimits& limits = {}) {
   using Clock = std::chrono::steady_clock;
   const auto began = Clock::now();
-  const auto here = [](const auto& seat) { return seat.writer != 0; };
-  const auto owes = [&](const auto& seat) {
-    return seat.writer != 0 && owes_findings(seat.writer);
+  const auto here = [](const auto& slot) { return slot.writer != 0; };
+  const auto owes = [&](const auto& slot) {
+    return slot.writer != 0 && owes_findings(slot.writer);
   };
   bool told = false;
-  while (std::ranges::any_of(seats, here)) {
-    const bool any_owes = std::ranges::any_of(seats, owes);
+  while (std::ranges::any_of(slots, here)) {
+    const bool any_owes = std::ranges::any_of(slots, owes);
     const auto waited = Clock::now() - began;
     if (waited >= (any_owes ? limits.owing : limits.usual)) break;
     if (waited >= limits.usual && !std::exchange(told, true) && log != nullptr) {
       std::vector<std::string_view> names;
-      for (const auto& seat : seats) {
-        if (owes(seat)) names.emplace_back(seat.name);
+      for (const auto& slot : slots) {
+        if (owes(slot)) names.emplace_back(slot.name);
       }
       log->warn(kSource, "waits up to {:.0f} s for what {} know of the run", seconds(limits.owing),
                 join_names(names));

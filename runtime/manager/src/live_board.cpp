@@ -25,25 +25,11 @@ std::int64_t steady_ns() {
 
 }  // namespace
 
-struct LiveBoard::Parts {
-  std::unique_ptr<ManagerEndpoint> endpoint;
-  bus::Writer<bus::World> worlds;
-  bus::Writer<bus::ClockPong> pongs;
-  bus::Writer<bus::Obstacle> obstacles;
-  bus::Reader<bus::ClockPing> pings;
-  bus::Reader<bus::HostState> states;
-};
-
-LiveBoard::LiveBoard(const LiveManagerOptions& options, Parts parts)
+LiveBoard::LiveBoard(const LiveManagerOptions& options, std::unique_ptr<LiveEndpoint> endpoint)
     : options_(options),
-      endpoint_(std::move(parts.endpoint)),
-      worlds_(std::move(parts.worlds)),
-      pongs_(std::move(parts.pongs)),
-      obstacles_(std::move(parts.obstacles)),
-      pings_(std::move(parts.pings)),
-      states_(std::move(parts.states)),
+      endpoint_(std::move(endpoint)),
       claims_(static_cast<std::uint32_t>(options.hosts.size())),
-      seat_of_(options.robots.size()),
+      slot_of_(options.robots.size()),
       robots_(options.robots.size()),
       known_(options.robots.size()),
       said_by_(options.robots.size()),
@@ -54,130 +40,114 @@ LiveBoard::LiveBoard(const LiveManagerOptions& options, Parts parts)
   }
   for (std::uint32_t h = 0; h < options.hosts.size(); ++h) {
     const config::PlannedHost& host = options.hosts[h];
-    LiveSeat& seat = seats_.emplace_back();
-    seat.name = host.name;
-    if (h < options.commands.size()) seat.command = options.commands[h];
-    seat.robots = static_cast<std::uint32_t>(host.robots.size());
+    LiveSlot& slot = slots_.emplace_back();
+    slot.name = host.name;
+    if (h < options.commands.size()) slot.command = options.commands[h];
+    slot.robots = static_cast<std::uint32_t>(host.robots.size());
     for (const std::size_t robot : host.robots) {
-      seat_of_[robot] = h;
-      seat.real += options.robots[robot].simulated ? 0U : 1U;
+      slot_of_[robot] = h;
+      slot.real += options.robots[robot].simulated ? 0U : 1U;
     }
   }
 }
 
 Result<std::unique_ptr<LiveBoard>> LiveBoard::open(const LiveManagerOptions& options) {
-  RAVE_TRY_ASSIGN(auto endpoint, ManagerEndpoint::open(options.bus, options.identity, options.log,
-                                                       options.begin_wish, {}));
-  bus::Bus& bus = endpoint->bus();
-  RAVE_TRY_ASSIGN(auto worlds, bus::Writer<bus::World>::create(bus));
-  RAVE_TRY_ASSIGN(auto pongs, bus::Writer<bus::ClockPong>::create(bus));
-  RAVE_TRY_ASSIGN(auto obstacles, bus::Writer<bus::Obstacle>::create(bus));
-  RAVE_TRY_ASSIGN(auto pings, bus::Reader<bus::ClockPing>::create(bus));
-  RAVE_TRY_ASSIGN(auto states, bus::Reader<bus::HostState>::create(bus));
-  std::unique_ptr<LiveBoard> board(
-      new LiveBoard(options, {std::move(endpoint), std::move(worlds), std::move(pongs),
-                              std::move(obstacles), std::move(pings), std::move(states)}));
-  RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(bus));
-  RAVE_TRY(waits.add(board->pings_));
-  RAVE_TRY(waits.add(board->states_));
-  RAVE_TRY(board->endpoint_->wake(waits));
-  board->waits_.emplace(std::move(waits));
-  RAVE_TRY(board->endpoint_->introduce());
-  return board;
+  RAVE_TRY_ASSIGN(auto endpoint, LiveEndpoint::open(options));
+  return std::make_unique<LiveBoard>(options, std::move(endpoint));
 }
 
 Status LiveBoard::look_at_processes(bool goes) {
-  RAVE_TRY_ASSIGN(const auto gone, endpoint_->look_at_processes(goes));
+  RAVE_TRY_ASSIGN(const auto gone, endpoint().look_at_processes(goes));
   for (const std::uint64_t writer : gone) lose(writer, goes);
   return {};
 }
 
 void LiveBoard::lose(std::uint64_t writer, bool goes) {
-  endpoint_->forget(writer);
+  endpoint().forget(writer);
   refused_.erase(writer);
   wrong_hands_.erase(writer);
   claims_.release(writer);
   book_.lose(writer);
-  for (LiveSeat& seat : seats_) {
-    if (seat.writer != writer) continue;
-    seat.writer = 0;
-    seat.bound_ns = -1;
-    seat.steps = {};
-    seat.obstacle_revision = 0;
+  for (LiveSlot& slot : slots_) {
+    if (slot.writer != writer) continue;
+    slot.writer = 0;
+    slot.bound_ns = -1;
+    slot.steps = {};
+    slot.obstacle_revision = 0;
     news_ = true;
     if (!goes) continue;
-    ++seat.losses;
+    ++slot.losses;
     if (options_.log != nullptr) {
-      options_.log->error(kSource, "host `{}` is gone; the others go on{}{}", seat.name,
-                          seat.command.empty() ? "" : "; start it again with: ", seat.command);
+      options_.log->error(kSource, "host `{}` is gone; the others go on{}{}", slot.name,
+                          slot.command.empty() ? "" : "; start it again with: ", slot.command);
     }
   }
 }
 
-bool LiveBoard::sit_down(const bus::ClockPing& ping) {
-  if (ping.target != endpoint_->writer()) return false;
-  const auto host = endpoint_->host_of(ping.writer);
-  if (!host || *host >= seats_.size()) return false;
-  LiveSeat& seat = seats_[*host];
-  if (seat.writer != ping.writer) {
+bool LiveBoard::claim_slot(const bus::ClockPing& ping) {
+  if (ping.target != endpoint().writer()) return false;
+  const auto host = endpoint().host_of(ping.writer);
+  if (!host || *host >= slots_.size()) return false;
+  LiveSlot& slot = slots_[*host];
+  if (slot.writer != ping.writer) {
     const Status claimed = claims_.claim(*host, ping.writer);
     if (!claimed) {
       if (refused_.insert(ping.writer).second)
-        endpoint_->log_fault("refused: " + claimed.error().message);
+        endpoint().log_fault("refused: " + claimed.error().message);
       return false;
     }
-    seat.writer = ping.writer;
+    slot.writer = ping.writer;
     book_.stir();
-    note_sitting(seat.sat, ping.writer);
+    note_sitting(slot.sat, ping.writer);
     news_ = true;
     all_asked_ = false;
     if (options_.log != nullptr) {
       options_.log->info(kSource, "host `{}` is {}, with {} real and {} simulated robots",
-                         seat.name, seat.heard ? "back" : "here", seat.real,
-                         seat.robots - seat.real);
+                         slot.name, slot.heard ? "back" : "here", slot.real,
+                         slot.robots - slot.real);
     }
-    seat.heard = true;
+    slot.heard = true;
   }
-  seat.offset_ns = ping.offset_ns;
-  seat.bound_ns = ping.bound_ns;
-  seat.obstacle_revision =
+  slot.offset_ns = ping.offset_ns;
+  slot.bound_ns = ping.bound_ns;
+  slot.obstacle_revision =
       std::min(ping.obstacle_revision, real_time::ObstacleSight::kMostRevision);
-  seat.obstacles_ns = ping.obstacles_ns;
+  slot.obstacles_ns = ping.obstacles_ns;
   return true;
 }
 
 void LiveBoard::take_roster(runtime::RunControl* control) {
   const auto serving = [this](std::uint32_t host) {
-    return host < seats_.size() ? seats_[host].writer : 0;
+    return host < slots_.size() ? slots_[host].writer : 0;
   };
-  endpoint_->take_roster(book_, serving);
+  endpoint().take_roster(book_, serving);
   show_kinds(book_, serving, control);
 }
 
 void LiveBoard::take_findings() {
-  endpoint_->findings().take(
-      [this](std::uint64_t writer, std::uint32_t host) { return has_sat(seats_, writer, host); });
+  endpoint().take_findings(
+      [this](std::uint64_t writer, std::uint32_t host) { return has_sat(slots_, writer, host); });
 }
 
 void LiveBoard::take_states() {
-  states_.take([this](const bus::HostState& state) { take_in(state); });
+  endpoint_->take_states([this](const bus::HostState& state) { take_in(state); });
 }
 
 void LiveBoard::take_in(const bus::HostState& state) {
-  if (state.host >= seats_.size() || !endpoint_->host_of(state.writer)) return;
-  LiveSeat& seat = seats_[state.host];
-  if (seat.writer != 0 && seat.writer != state.writer) {
-    states_.refuse(state, fmt::format("host `{}` is served by another process", seat.name));
+  if (state.host >= slots_.size() || !endpoint().host_of(state.writer)) return;
+  LiveSlot& slot = slots_[state.host];
+  if (slot.writer != 0 && slot.writer != state.writer) {
+    endpoint_->refuse(state, fmt::format("host `{}` is served by another process", slot.name));
     return;
   }
-  seat.last_step = state.step;
-  seat.steps.note(state.step, steady_ns());
+  slot.last_step = state.step;
+  slot.steps.note(state.step, steady_ns());
   ++states_taken_;
   for (std::size_t i = 0; i < state.resolved.id._length; ++i) {
     const real_time::RobotSight sight = real_time::read_robot(state.resolved, i, {});
     const std::uint32_t robot = sight.robot.value();
-    if (robot >= robots_.size() || seat_of_[robot] != state.host) {
-      states_.refuse(state, fmt::format("robot {} does not run on host `{}`", robot, seat.name));
+    if (robot >= robots_.size() || slot_of_[robot] != state.host) {
+      endpoint_->refuse(state, fmt::format("robot {} does not run on host `{}`", robot, slot.name));
       return;
     }
     // A host that was started anew may be a little behind the one before.
@@ -192,8 +162,8 @@ void LiveBoard::take_in(const bus::HostState& state) {
 double LiveBoard::slowest_speed() const {
   const std::int64_t now_ns = steady_ns();
   std::optional<double> slowest;
-  for (const LiveSeat& seat : seats_) {
-    const auto rate = seat.writer != 0 ? seat.steps.at(now_ns) : std::nullopt;
+  for (const LiveSlot& slot : slots_) {
+    const auto rate = slot.writer != 0 ? slot.steps.at(now_ns) : std::nullopt;
     if (rate) slowest = std::min(slowest.value_or(*rate), *rate);
   }
   return slowest.value_or(0) * options_.step.seconds();
@@ -203,7 +173,7 @@ std::vector<real_time::RobotReality> LiveBoard::take_realities() {
   std::vector<real_time::RobotReality> changed;
   for (real_time::RobotReality& twin : twins_) {
     const std::uint32_t r = twin.robot.value();
-    const bool simulated = book_.simulated(r, seats_[seat_of_[r]].writer);
+    const bool simulated = book_.simulated(r, slots_[slot_of_[r]].writer);
     if (std::exchange(twin.simulated, simulated) == simulated) continue;
     const LiveManagerOptions::Robot& robot = options_.robots[r];
     staleness_[r] = simulated == robot.simulated ? robot.staleness : robot.other_staleness;
@@ -221,13 +191,12 @@ void LiveBoard::send_world(std::uint64_t number, SimTime now, std::span<const st
     if (stale[r] != 0) stale_.push_back(r);
   }
   bus::World world{};
-  world.epoch = endpoint_->writer();
+  world.epoch = endpoint().writer();
   world.step = number;
   world.time_ns = now.ns;
   columns_.lend(world.robots);
   bus::borrow(world.stale, stale_);
-  static_cast<void>(worlds_.write(world));
-  worlds_sent_ = number;
+  endpoint_->send(world);
 }
 
 Status LiveBoard::publish(const real_time::ObstacleSight& sight) {
@@ -238,22 +207,17 @@ Status LiveBoard::publish(const real_time::ObstacleSight& sight) {
   message.scheduled = sight.scheduled;
   message.removed = sight.removed;
   message.stands = parts_.changes().front();
-  return obstacles_.write(message);
+  return endpoint_->send(message);
 }
 
 Status LiveBoard::ask_for_handed() {
   if (std::exchange(all_asked_, true)) return {};
-  // A new reader is told all that hosts keep, also what came before they were known.
-  handed_in_.reset();
-  RAVE_TRY_ASSIGN(auto reader, bus::Reader<bus::LastObstacle>::create(endpoint_->bus()));
-  handed_in_.emplace(std::move(reader));
-  return {};
+  return endpoint_->ask_for_handed();
 }
 
 void LiveBoard::take_handed(const std::function<Status(const real_time::ObstacleSight&)>& check) {
-  if (!handed_in_) return;
   const auto hear = [this, &check](const bus::LastObstacle& sample) {
-    if (!endpoint_->host_of(sample.writer)) return;
+    if (!endpoint().host_of(sample.writer)) return;
     auto sight = real_time::read_obstacle(sample);
     const Status fits = sight ? check(*sight) : Status(tl::unexpected(sight.error()));
     if (!fits) {
@@ -265,40 +229,39 @@ void LiveBoard::take_handed(const std::function<Status(const real_time::Obstacle
   };
   // Enough for all that a run may have; who sends without end is heard of again at the next look.
   constexpr int kMostRounds = 32;
-  for (int round = 0; round < kMostRounds && handed_in_->take(hear) > 0; ++round) continue;
+  for (int round = 0; round < kMostRounds && endpoint_->take_handed(hear) > 0; ++round) continue;
 }
 
 void LiveBoard::refuse_handed(std::uint64_t writer, std::string_view why) {
   if (!wrong_hands_.insert(writer).second) return;
-  endpoint_->log_fault(fmt::format("refused what the process {:016x} hands over: {}", writer, why));
+  endpoint().log_fault(fmt::format("refused what the process {:016x} hands over: {}", writer, why));
 }
 
 void LiveBoard::end_handing() {
-  handed_in_.reset();
+  endpoint_->end_handing();
   handed_.clear();
 }
 
 std::uint64_t LiveBoard::shown_revision() const noexcept {
   std::uint64_t revision = 0;
-  for (const LiveSeat& seat : seats_) revision = std::max(revision, seat.obstacle_revision);
+  for (const LiveSlot& slot : slots_) revision = std::max(revision, slot.obstacle_revision);
   return revision;
 }
 
-void LiveBoard::publish(bus::RunState& state) {
-  std::vector<rave_wire_HostSight> hosts(seats_.size());
-  for (std::size_t i = 0; i < seats_.size(); ++i) {
-    const LiveSeat& seat = seats_[i];
-    hosts[i].host = static_cast<std::uint32_t>(i);
-    bus::put_text(hosts[i].name, seat.name);
-    hosts[i].phase = seat.writer != 0 ? rave_wire_HOST_RUNS
-                                      : (seat.heard ? rave_wire_HOST_LOST : rave_wire_HOST_MISSING);
-    hosts[i].robots = seat.robots;
-    hosts[i].step = seat.last_step;
-    hosts[i].offset_s = static_cast<double>(seat.offset_ns) * 1e-9;
-    hosts[i].bound_s = seat.bound_ns < 0 ? -1 : static_cast<double>(seat.bound_ns) * 1e-9;
+void LiveBoard::publish(const lock_step::RunReport& report) {
+  std::vector<rave_wire_HostSight> hosts;
+  for (const LiveSlot& slot : slots_) {
+    const auto phase = slot.writer != 0
+                           ? rave_wire_HOST_RUNS
+                           : (slot.heard ? rave_wire_HOST_LOST : rave_wire_HOST_MISSING);
+    rave_wire_HostSight& host = hosts.emplace_back(lock_step::process_sight(
+        static_cast<std::uint32_t>(hosts.size()), slot.name, phase, slot.last_step, slot.robots));
+    host.offset_s = static_cast<double>(slot.offset_ns) * 1e-9;
+    if (slot.bound_ns >= 0) host.bound_s = static_cast<double>(slot.bound_ns) * 1e-9;
   }
-  bus::borrow(state.hosts, hosts);
-  endpoint_->publish(state);
+  bus::RunState state{};
+  lock_step::fill(state, report, hosts);
+  endpoint().publish(state);
 }
 
 }  // namespace rave::manager

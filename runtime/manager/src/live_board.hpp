@@ -11,18 +11,19 @@
 #include <string>
 #include <vector>
 
-#include "manager_endpoint.hpp"
+#include "live_endpoint.hpp"
 #include "rave/bus/host_claims.hpp"
 #include "rave/manager/live_manager.hpp"
 #include "rave/protocol/live_messages.hpp"
 #include "rave/protocol/obstacle_messages.hpp"
 #include "rave/protocol/realities.hpp"
+#include "rave/protocol/run_state.hpp"
 #include "step_rate.hpp"
 
 namespace rave::manager {
 
 /// The place of one host of a run in real time, whoever sits in it.
-struct LiveSeat {
+struct LiveSlot {
   std::string name;
   std::string command{};  ///< That starts it again; empty: nobody has to.
   std::uint32_t robots = 0;
@@ -46,25 +47,23 @@ class LiveBoard {
  public:
   /// `options` must outlive it. Errors: those of bus::Bus::open().
   [[nodiscard]] static Result<std::unique_ptr<LiveBoard>> open(const LiveManagerOptions& options);
+  /// The same with an end of the bus that is there.
+  LiveBoard(const LiveManagerOptions& options, std::unique_ptr<LiveEndpoint> endpoint);
 
   /// Sleeps until something has come, the time is over or `stop` is set.
-  void wait(Duration timeout, const std::stop_token& stop = {}) {
-    endpoint_->wait(*waits_, worlds_sent_, timeout, stop);
-  }
+  void wait(Duration timeout, const std::stop_token& stop = {}) { endpoint_->wait(timeout, stop); }
   /// What it has in common with the managers of other runs.
-  [[nodiscard]] ManagerEndpoint& endpoint() noexcept { return *endpoint_; }
-  [[nodiscard]] const ManagerEndpoint& endpoint() const noexcept { return *endpoint_; }
+  [[nodiscard]] ManagerEndpoint& endpoint() noexcept { return endpoint_->common(); }
   /// Learns who is there and who is gone; that counts as a loss if the run `goes`. Errors: kState
   /// (another manager).
   Status look_at_processes(bool goes);
-  template <class Visit>
-  void take_pings(Visit&& visit) {
-    pings_.take(std::forward<Visit>(visit));
+  void take_pings(const std::function<void(const bus::ClockPing&)>& visit) {
+    endpoint_->take_pings(visit);
   }
   /// Whether a process that asks for the time sits in its host's place, as it does now if that was
   /// free.
-  bool sit_down(const bus::ClockPing& ping);
-  void answer(bus::ClockPong& pong) { static_cast<void>(pongs_.write(pong)); }
+  bool claim_slot(const bus::ClockPing& ping);
+  void answer(bus::ClockPong& pong) { endpoint_->answer(pong); }
   /// Takes in where hosts say that their robots are.
   void take_states();
   /// Simulated seconds per second of the slowest host that is there; 0: none is, or nobody knows.
@@ -78,10 +77,10 @@ class LiveBoard {
   [[nodiscard]] Duration staleness(std::size_t robot) const { return staleness_[robot]; }
   /// Sends where all robots are that were heard of. `stale`: by robot.
   void send_world(std::uint64_t number, SimTime now, std::span<const std::uint8_t> stale);
-  /// Fills in how it stands with the hosts, and sends it.
-  void publish(bus::RunState& state);
+  /// Tells all processes how the run goes, and how it stands with the hosts.
+  void publish(const lock_step::RunReport& report);
 
-  [[nodiscard]] const std::vector<LiveSeat>& seats() const noexcept { return seats_; }
+  [[nodiscard]] const std::vector<LiveSlot>& slots() const noexcept { return slots_; }
   /// When a robot was where it was said to be last; nothing before it was heard of.
   [[nodiscard]] std::optional<SimTime> stamp_of(std::size_t robot) const noexcept {
     if (!known_[robot]) return std::nullopt;
@@ -116,25 +115,16 @@ class LiveBoard {
   [[nodiscard]] bool take_news() noexcept { return std::exchange(news_, false); }
 
  private:
-  struct Parts;
-  LiveBoard(const LiveManagerOptions& options, Parts parts);
   void lose(std::uint64_t writer, bool goes);
   void take_in(const bus::HostState& state);
   void refuse_handed(std::uint64_t writer, std::string_view why);
 
   const LiveManagerOptions& options_;
-  std::unique_ptr<ManagerEndpoint> endpoint_;
-  bus::Writer<bus::World> worlds_;
-  bus::Writer<bus::ClockPong> pongs_;
-  bus::Writer<bus::Obstacle> obstacles_;
-  bus::Reader<bus::ClockPing> pings_;
-  bus::Reader<bus::HostState> states_;
-  std::optional<bus::Reader<bus::LastObstacle>> handed_in_;  ///< While something is handed over.
-  std::optional<bus::WaitSet> waits_;                        ///< Behind all that it waits for.
-  std::vector<LiveSeat> seats_;
+  std::unique_ptr<LiveEndpoint> endpoint_;
+  std::vector<LiveSlot> slots_;
   bus::HostClaims claims_;
   std::set<std::uint64_t> refused_;            ///< Processes whose place is taken; told once.
-  std::vector<std::uint32_t> seat_of_;         ///< By robot.
+  std::vector<std::uint32_t> slot_of_;         ///< By robot.
   std::vector<real_time::RobotSight> robots_;  ///< By robot, as heard last.
   std::vector<bool> known_;
   std::vector<std::uint64_t> said_by_;  ///< By robot: the process that spoke of it last.
@@ -148,7 +138,6 @@ class LiveBoard {
   bool all_asked_ = false;               ///< Who sits here, what it has to hand over.
   std::set<std::uint64_t> wrong_hands_;  ///< Processes that handed over what cannot be.
   std::uint64_t states_taken_ = 0;
-  std::uint64_t worlds_sent_ = 0;
   bool news_ = false;
 };
 

@@ -80,8 +80,8 @@ void LiveEdits::end() {
 }
 
 bool LiveEdits::all_may_be_there() const {
-  const bool all = std::all_of(board_.seats().begin(), board_.seats().end(),
-                               [](const LiveSeat& seat) { return seat.writer != 0; });
+  const bool all = std::all_of(board_.slots().begin(), board_.slots().end(),
+                               [](const LiveSlot& slot) { return slot.writer != 0; });
   return all || std::chrono::steady_clock::now() - began_ >= kComing;
 }
 
@@ -284,8 +284,8 @@ void LiveEdits::serve(runtime::RunControl::Asked asked, SimTime now) {
 
 std::vector<std::string_view> LiveEdits::hosts_without(std::uint64_t revision) const {
   std::vector<std::string_view> names;
-  for (const LiveSeat& seat : board_.seats()) {
-    if (seat.writer != 0 && seat.obstacle_revision < revision) names.emplace_back(seat.name);
+  for (const LiveSlot& slot : board_.slots()) {
+    if (slot.writer != 0 && slot.obstacle_revision < revision) names.emplace_back(slot.name);
   }
   return names;
 }
@@ -296,10 +296,10 @@ void LiveEdits::answer_waiting(SimTime now) {
     if (!missing.empty() && now - one.since < kConfirmation) return false;
     std::int64_t last_ns = one.since.ns;
     std::size_t hosts = 0;
-    for (const LiveSeat& seat : board_.seats()) {
-      if (seat.writer == 0) continue;
+    for (const LiveSlot& slot : board_.slots()) {
+      if (slot.writer == 0) continue;
       ++hosts;
-      last_ns = std::max(last_ns, seat.obstacles_ns);
+      last_ns = std::max(last_ns, slot.obstacles_ns);
     }
     std::string reach;
     if (missing.empty()) {

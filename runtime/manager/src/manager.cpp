@@ -5,15 +5,15 @@
 
 namespace rave::manager {
 
-std::vector<Seat> make_seats(const std::vector<config::PlannedHost>& hosts) {
-  std::vector<Seat> seats;
+std::vector<HostSlot> make_slots(const std::vector<config::PlannedHost>& hosts) {
+  std::vector<HostSlot> slots;
   for (const config::PlannedHost& host : hosts) {
-    Seat seat;
-    seat.name = host.name;
-    seat.robots = static_cast<std::uint32_t>(host.robots.size());
-    seats.push_back(std::move(seat));
+    HostSlot slot;
+    slot.name = host.name;
+    slot.robots = static_cast<std::uint32_t>(host.robots.size());
+    slots.push_back(std::move(slot));
   }
-  return seats;
+  return slots;
 }
 
 Result<ManagerOutcome> manage(sim::EngineSpec spec, const ManagerOptions& options) {

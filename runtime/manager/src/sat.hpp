@@ -9,23 +9,23 @@
 
 namespace rave::manager {
 
-/// Notes that a process sits in a seat now.
+/// Notes that a process sits in a slot now.
 inline void note_sitting(std::vector<std::uint64_t>& sat, std::uint64_t writer) {
   if (std::ranges::find(sat, writer) == sat.end()) sat.push_back(writer);
 }
 
-/// Whether a process has ever served a host. `seats`: by host, each with `sat`.
-template <class Seats>
-bool has_sat(const Seats& seats, std::uint64_t writer, std::uint32_t host) {
-  return host < seats.size() && std::ranges::find(seats[host].sat, writer) != seats[host].sat.end();
+/// Whether a process has ever served a host. `slots`: by host, each with `sat`.
+template <class Slots>
+bool has_sat(const Slots& slots, std::uint64_t writer, std::uint32_t host) {
+  return host < slots.size() && std::ranges::find(slots[host].sat, writer) != slots[host].sat.end();
 }
 
 /// Findings of one host in the order in which its processes served it, since the last one knows
 /// best. All of them are of processes that have sat.
-template <class Seats>
-void order_by_sitting(const Seats& seats, std::vector<lock_step::Findings>& findings) {
-  std::ranges::stable_sort(findings, {}, [&seats](const lock_step::Findings& one) {
-    const auto& sat = seats[one.host].sat;
+template <class Slots>
+void order_by_sitting(const Slots& slots, std::vector<lock_step::Findings>& findings) {
+  std::ranges::stable_sort(findings, {}, [&slots](const lock_step::Findings& one) {
+    const auto& sat = slots[one.host].sat;
     return std::ranges::find(sat, one.writer) - sat.begin();
   });
 }

@@ -1,35 +1,95 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stepped_endpoint.hpp"
 
+#include "bus_endpoint.hpp"
 #include "rave/bus/run_id.hpp"
-#include "rave/bus/sequence.hpp"
+#include "rave/protocol/step_messages.hpp"
 
 namespace rave::manager {
 
-struct SteppedEndpoint::Parts {
-  std::unique_ptr<ManagerEndpoint> endpoint;
+namespace {
+
+struct SteppedParts {
+  std::unique_ptr<BusEndpoint> endpoint;
   bus::Writer<bus::WorldStep> worlds;
   bus::Reader<bus::HostReport> reports;
   bus::Reader<bus::LastWorld> last_worlds;
-  bus::WaitSet waits;
+  bus::WaitSet waits;  ///< Behind all that it waits for.
 };
 
-SteppedEndpoint::SteppedEndpoint(Parts parts)
-    : endpoint_(std::move(parts.endpoint)),
-      worlds_(std::move(parts.worlds)),
-      reports_(std::move(parts.reports)),
-      last_worlds_(std::move(parts.last_worlds)),
-      waits_(std::move(parts.waits)),
-      epoch_(bus::random_writer_id()) {}
+class SteppedOnBus final : public SteppedEndpoint {
+ public:
+  explicit SteppedOnBus(SteppedParts parts) : parts_(std::move(parts)) {}
+
+  void wait(Duration timeout, const std::stop_token& stop) override {
+    parts_.endpoint->wait(parts_.waits, step_, timeout, stop);
+  }
+  ManagerEndpoint& endpoint() noexcept override { return *parts_.endpoint; }
+  void take_reports(const Visit& visit) override { parts_.reports.take(visit); }
+  bool take_last_world(sim::WorldStep& world, sim::AuthorityState& authority,
+                       bool has_one) override;
+  void refuse(const bus::HostReport& report, std::string_view why) override {
+    parts_.reports.refuse(report, why);
+  }
+  Status send(const sim::WorldStep& world, const sim::AuthorityState& authority,
+              const std::vector<HostSlot>& slots) override;
+  void resend(const std::vector<HostSlot>& slots) override {
+    if (sent_ != nullptr) static_cast<void>(write(slots));
+  }
+
+ private:
+  Status write(const std::vector<HostSlot>& slots);
+
+  SteppedParts parts_;
+  lock_step::WorldMessage message_;
+  bus::LastWorld* sent_ = nullptr;  ///< In `message_`.
+  std::vector<std::uint64_t> writers_;
+  std::uint64_t epoch_ = bus::random_writer_id();
+  std::uint64_t step_ = 0;  ///< That was sent last.
+};
+
+bool SteppedOnBus::take_last_world(sim::WorldStep& world, sim::AuthorityState& authority,
+                                   bool has_one) {
+  bool newer = false;
+  parts_.last_worlds.take([&](const bus::LastWorld& sample) {
+    if (!knows(sample.writer) || ((has_one || newer) && sample.step <= world.step)) return;
+    sim::WorldStep handed;
+    sim::AuthorityState state;
+    if (auto status = lock_step::read(sample, handed, state); !status) {
+      parts_.last_worlds.refuse(sample, status.error().message);
+      return;
+    }
+    world = std::move(handed);
+    authority = std::move(state);
+    newer = true;
+  });
+  return newer;
+}
+
+Status SteppedOnBus::send(const sim::WorldStep& world, const sim::AuthorityState& authority,
+                          const std::vector<HostSlot>& slots) {
+  sent_ = nullptr;
+  RAVE_TRY_ASSIGN(sent_, message_.fill(world, authority, epoch_));
+  step_ = world.step;
+  return write(slots);
+}
+
+Status SteppedOnBus::write(const std::vector<HostSlot>& slots) {
+  writers_.clear();
+  for (const HostSlot& slot : slots) writers_.push_back(slot.writer);
+  message_.address(writers_);
+  return parts_.worlds.write(*sent_);
+}
+
+}  // namespace
 
 Result<std::unique_ptr<SteppedEndpoint>> SteppedEndpoint::open(const bus::BusConfig& config,
                                                                lock_step::Identity identity,
                                                                LogSink* log,
                                                                bus::BeginWish begin_wish,
                                                                bus::OnCommand on_command) {
-  RAVE_TRY_ASSIGN(auto endpoint,
-                  ManagerEndpoint::open(config, std::move(identity), log, std::move(begin_wish),
-                                        std::move(on_command)));
+  RAVE_TRY_ASSIGN(auto endpoint, BusEndpoint::open(config, std::move(identity), log,
+                                                   std::move(begin_wish), std::move(on_command)));
   bus::Bus& bus = endpoint->bus();
   RAVE_TRY_ASSIGN(auto worlds, bus::Writer<bus::WorldStep>::create(bus));
   RAVE_TRY_ASSIGN(auto reports, bus::Reader<bus::HostReport>::create(bus));
@@ -40,46 +100,9 @@ Result<std::unique_ptr<SteppedEndpoint>> SteppedEndpoint::open(const bus::BusCon
   RAVE_TRY(endpoint->wake(waits));
   RAVE_TRY(endpoint->wake_for_processes(waits));
   RAVE_TRY(endpoint->introduce());
-  return std::unique_ptr<SteppedEndpoint>(
-      new SteppedEndpoint({std::move(endpoint), std::move(worlds), std::move(reports),
-                           std::move(last_worlds), std::move(waits)}));
-}
-
-bool SteppedEndpoint::take_last_world(sim::WorldStep& world, sim::AuthorityState& authority,
-                                      bool has_one) {
-  bool newer = false;
-  last_worlds_.take([&](const bus::LastWorld& sample) {
-    if (!knows(sample.writer) || ((has_one || newer) && sample.step <= world.step)) return;
-    sim::WorldStep handed;
-    sim::AuthorityState state;
-    if (auto status = lock_step::read(sample, handed, state); !status) {
-      last_worlds_.refuse(sample, status.error().message);
-      return;
-    }
-    world = std::move(handed);
-    authority = std::move(state);
-    newer = true;
-  });
-  return newer;
-}
-
-Status SteppedEndpoint::send(const sim::WorldStep& world, const sim::AuthorityState& authority,
-                             const std::vector<Seat>& seats) {
-  sent_ = nullptr;
-  RAVE_TRY_ASSIGN(sent_, message_.fill(world, authority, epoch_));
-  step_ = world.step;
-  return write(seats);
-}
-
-Status SteppedEndpoint::write(const std::vector<Seat>& seats) {
-  writers_.clear();
-  for (const Seat& seat : seats) writers_.push_back(seat.writer);
-  message_.address(writers_);
-  return worlds_.write(*sent_);
-}
-
-void SteppedEndpoint::resend(const std::vector<Seat>& seats) {
-  if (sent_ != nullptr) static_cast<void>(write(seats));
+  return std::make_unique<SteppedOnBus>(SteppedParts{std::move(endpoint), std::move(worlds),
+                                                     std::move(reports), std::move(last_worlds),
+                                                     std::move(waits)});
 }
 
 }  // namespace rave::manager

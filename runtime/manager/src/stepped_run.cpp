@@ -35,13 +35,13 @@ SteppedRun::SteppedRun(const ManagerOptions& options,
     : options_(options),
       authority_(std::move(authority)),
       board_(std::move(board)),
-      seats_(make_seats(options.hosts)),
+      slots_(make_slots(options.hosts)),
       wishes_(options.control, options.log),
       claims_(static_cast<std::uint32_t>(options.hosts.size())),
       roster_(planned_robots(authority_->spec()), options.hosts),
       lateness_(period_of(authority_->spec(), options.pace)) {
-  for (std::size_t h = 0; h < std::min(seats_.size(), options.commands.size()); ++h) {
-    seats_[h].command = options.commands[h];
+  for (std::size_t h = 0; h < std::min(slots_.size(), options.commands.size()); ++h) {
+    slots_[h].command = options.commands[h];
   }
 }
 
@@ -51,8 +51,8 @@ bool SteppedRun::complete() const {
   if (!begun_ && newest_report_ > 0 && (!handed_over_ || world_.step + 1 < newest_report_)) {
     return false;
   }
-  return std::all_of(seats_.begin(), seats_.end(),
-                     [all](const Seat& seat) { return seat.reported || !seat.needed(all); });
+  return std::all_of(slots_.begin(), slots_.end(),
+                     [all](const HostSlot& slot) { return slot.reported || !slot.needed(all); });
 }
 
 Result<SteppedRun::Gathered> SteppedRun::gather() {
@@ -102,29 +102,29 @@ Status SteppedRun::take_over() {
   step_ = world_.step + 1;
   RAVE_TRY(authority_->resume(world_, state_));
   log(LogLevel::kWarning, "takes over from a manager that is gone, at step {}", step_);
-  for (Seat& seat : seats_) {
+  for (HostSlot& slot : slots_) {
     // A new process begins anew where the one before it was in the run.
-    if (seat.last_step + 1 < step_) {
-      seat.loss = fmt::format("host `{}` was not there from step {} to step {}", seat.name,
-                              seat.last_step, step_ - 1);
-      miss_steps(seat);
+    if (slot.last_step + 1 < step_) {
+      slot.loss = fmt::format("host `{}` was not there from step {} to step {}", slot.name,
+                              slot.last_step, step_ - 1);
+      miss_steps(slot);
     }
-    if (!seat.reported || authority_->check(seat.report)) continue;
-    seat.reported = false;
-    seat.report = {};
+    if (!slot.reported || authority_->check(slot.report)) continue;
+    slot.reported = false;
+    slot.report = {};
   }
-  return board_->send(world_, state_, seats_);
+  return board_->send(world_, state_, slots_);
 }
 
 Status SteppedRun::make_step() {
   std::vector<const sim::HostReport*> reports;
-  for (std::size_t h = 0; h < seats_.size(); ++h) {
-    Seat& seat = seats_[h];
-    if (!seat.reported) {
-      authority_->speak_for(static_cast<std::uint32_t>(h), seat.report);
-      miss_steps(seat);
+  for (std::size_t h = 0; h < slots_.size(); ++h) {
+    HostSlot& slot = slots_[h];
+    if (!slot.reported) {
+      authority_->speak_for(static_cast<std::uint32_t>(h), slot.report);
+      miss_steps(slot);
     }
-    reports.push_back(&seat.report);
+    reports.push_back(&slot.report);
   }
   const auto begin = Clock::now();
   RAVE_TRY(authority_->step(reports, world_));
@@ -137,9 +137,9 @@ Status SteppedRun::make_step() {
   }
   world_.last = world_.last || ending_ || step_ >= options_.steps;
   if (options_.on_world && options_.on_world(*authority_)) ending_ = true;
-  RAVE_TRY(board_->send(world_, authority_->state(std::exchange(newcomer_, false)), seats_));
+  RAVE_TRY(board_->send(world_, authority_->state(std::exchange(newcomer_, false)), slots_));
   wishes_.after_step(*authority_, world_);
-  for (Seat& seat : seats_) seat.reported = false;
+  for (HostSlot& slot : slots_) slot.reported = false;
   ++step_;
   return {};
 }
@@ -172,7 +172,7 @@ void SteppedRun::hold() {
   constexpr std::chrono::milliseconds kHeld{20};
   const auto since = Clock::now();
   while (!wishes_.may_step() && !stopping()) {
-    board_->wait(Duration{std::chrono::nanoseconds(kHeld).count()});
+    board_->wait(Duration{std::chrono::nanoseconds(kHeld).count()}, {});
     auto status = listen();
     if (status) status = look();
     if (!status) failure_ = std::move(status).error();
@@ -180,9 +180,9 @@ void SteppedRun::hold() {
     wishes_.listen(*authority_);
     wishes_.put_off("the run is paused");
     // The next step is made without a host that is gone now, and the one after it is not.
-    note_waiting(join_names(names_of(seats_, [this](const Seat& seat) {
-      return seat.state == SeatState::kLost &&
-             seat.needed(options_.on_lost_host == LostHost::kWait);
+    note_waiting(join_names(names_of(slots_, [this](const HostSlot& slot) {
+      return slot.state == SlotState::kLost &&
+             slot.needed(options_.on_lost_host == LostHost::kWait);
     })));
     if (Clock::now() >= next_tell_) tell_state(rave_wire_RUN_WAITS, "paused");
     tell_progress("somebody who has paused it");
@@ -193,10 +193,10 @@ void SteppedRun::hold() {
 /// The last world again, for whoever has not got it.
 Status SteppedRun::resend() {
   if (!std::exchange(newcomer_, false)) {
-    board_->resend(seats_);
+    board_->resend(slots_);
     return {};
   }
-  return board_->send(world_, authority_->state(true), seats_);
+  return board_->send(world_, authority_->state(true), slots_);
 }
 
 runtime::RunStatus SteppedRun::first_status() const {
@@ -259,8 +259,8 @@ ManagerOutcome SteppedRun::outcome() {
   outcome.steps = authority_->steps_done();
   outcome.contacts = contacts_;
   outcome.wall_s = begun_ ? seconds(ended_ - began_) : 0;
-  for (Seat& seat : seats_) {
-    if (seat.state == SeatState::kLost && begun_) miss_steps(seat);
+  for (HostSlot& slot : slots_) {
+    if (slot.state == SlotState::kLost && begun_) miss_steps(slot);
   }
   if (begun_ && options_.pace > 0) lateness_.end(due_of(options_.steps), ended_);
   outcome.lateness = lateness_.facts();
@@ -271,15 +271,15 @@ ManagerOutcome SteppedRun::outcome() {
   outcome.whole = begun_ && world_.last && problems_.empty();
   if (begun_ && world_.last && !lost_any_) {
     RunHash hash = authority_->hash();
-    for (const Seat& seat : seats_) hash.merge(RunHash::of_value(seat.hash));
+    for (const HostSlot& slot : slots_) hash.merge(RunHash::of_value(slot.hash));
     outcome.hash = hash.value();
   }
   over_ = true;
   tell_state(outcome.whole ? rave_wire_RUN_ENDED : rave_wire_RUN_FAILED,
              problems_.empty() ? std::string() : problems_.back());
   drain_hosts(begun_);
-  outcome.findings = board_->endpoint().findings().hand_out();
-  order_by_sitting(seats_, outcome.findings);
+  outcome.findings = board_->endpoint().hand_out_findings();
+  order_by_sitting(slots_, outcome.findings);
   return outcome;
 }
 

@@ -11,12 +11,12 @@
 #include <utility>
 #include <vector>
 
+#include "host_slots.hpp"
 #include "manager_habits.hpp"
 #include "rave/manager/manager.hpp"
 #include "rave/pace/lateness.hpp"
 #include "rave/sim/world_authority.hpp"
 #include "roster_book.hpp"
-#include "seats.hpp"
 #include "stepped_endpoint.hpp"
 #include "wishes.hpp"
 
@@ -44,11 +44,11 @@ class SteppedRun {
   void drain_hosts(bool awaits_findings);
   void take_findings();
   Status hear(const bus::HostReport& message);
-  Status refuse_ahead(const Seat& seat, const bus::HostReport& message);
+  Status refuse_ahead(const HostSlot& slot, const bus::HostReport& message);
   void count_newest();
-  Status sit_down(Seat& seat, const bus::HostReport& message);
-  void lose(Seat& seat, std::string_view why);
-  void miss_steps(Seat& seat);
+  Status claim_slot(HostSlot& slot, const bus::HostReport& message);
+  void lose(HostSlot& slot, std::string_view why);
+  void miss_steps(HostSlot& slot);
   void look_at_clock(std::chrono::steady_clock::time_point since);
   Status leave_alone(const bus::HostReport& message);
   Status take_over();
@@ -79,7 +79,7 @@ class SteppedRun {
   const ManagerOptions& options_;
   std::unique_ptr<sim::WorldAuthority> authority_;
   std::unique_ptr<SteppedEndpoint> board_;
-  std::vector<Seat> seats_;
+  std::vector<HostSlot> slots_;
   sim::HostReport heard_;  ///< Before it is known whether it can be used.
   Wishes wishes_;
   bus::HostClaims claims_;

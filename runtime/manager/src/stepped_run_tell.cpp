@@ -2,7 +2,7 @@
 // What a run tells of itself.
 
 #include "rave/base/names.hpp"
-#include "rave/bus/sequence.hpp"
+#include "rave/protocol/run_state.hpp"
 #include "stepped_run.hpp"
 
 namespace rave::manager {
@@ -16,32 +16,25 @@ using config::LostHost;
 std::string SteppedRun::waited_for() const {
   const bool all = options_.on_lost_host == LostHost::kWait;
   const auto names =
-      names_of(seats_, [all](const Seat& seat) { return seat.needed(all) && !seat.reported; });
+      names_of(slots_, [all](const HostSlot& slot) { return slot.needed(all) && !slot.reported; });
   if (!names.empty() || complete()) return join_names(names);
   return fmt::format("somebody who knows the world of step {}", newest_report_ - 1);
 }
 
 void SteppedRun::tell_state(rave_wire_RunPhase phase, std::string_view text) {
-  bus::RunState state{};
-  bus::put_text(state.scenario, options_.scenario);
-  state.phase = phase;
-  state.step = step_;
-  state.steps = options_.steps;
-  state.step_s = authority_->spec().step.seconds();
+  const double step_s = authority_->spec().step.seconds();
   const double wall_s = begun_ ? seconds(Clock::now() - began_) : 0;
-  const auto done = static_cast<double>(step_ - first_step_);
-  state.speed = wall_s > 0 ? done * state.step_s / wall_s : 0;
-  bus::put_text(state.text, text);
-  std::vector<rave_wire_HostSight> hosts(seats_.size());
-  for (std::size_t i = 0; i < seats_.size(); ++i) {
-    hosts[i].host = static_cast<std::uint32_t>(i);
-    bus::put_text(hosts[i].name, seats_[i].name);
-    hosts[i].phase = static_cast<rave_wire_HostPhase>(seats_[i].state);
-    hosts[i].robots = seats_[i].robots;
-    hosts[i].step = seats_[i].last_step;
-    hosts[i].bound_s = -1;  // nobody asks for the time here
+  const double speed = wall_s > 0 ? static_cast<double>(step_ - first_step_) * step_s / wall_s : 0;
+  std::vector<rave_wire_HostSight> hosts;
+  for (const HostSlot& slot : slots_) {
+    // Nobody asks for the time here.
+    hosts.push_back(lock_step::process_sight(static_cast<std::uint32_t>(hosts.size()), slot.name,
+                                             static_cast<rave_wire_HostPhase>(slot.state),
+                                             slot.last_step, slot.robots));
   }
-  bus::borrow(state.hosts, hosts);
+  bus::RunState state{};
+  lock_step::fill(state, {options_.scenario, phase, step_, options_.steps, step_s, speed, text},
+                  hosts);
   board_->endpoint().publish(state);
   next_tell_ = Clock::now() + kTell;
 }

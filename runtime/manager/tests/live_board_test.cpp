@@ -36,13 +36,13 @@ class LiveBoardTest : public ::testing::Test {
       meanwhile();
       board_->wait(Duration{10'000'000});
       ASSERT_TRUE(board_->look_at_processes(true));
-      board_->take_pings([this](const bus::ClockPing& ping) { board_->sit_down(ping); });
+      board_->take_pings([this](const bus::ClockPing& ping) { board_->claim_slot(ping); });
       board_->take_states();
     }
     EXPECT_TRUE(so()) << what << "\n" << ears_.heard;
   }
-  void seat(SpeakingHost& host, std::size_t number) {
-    go_until([&] { return board_->seats()[number].writer == host.writer(); },
+  void slot(SpeakingHost& host, std::size_t number) {
+    go_until([&] { return board_->slots()[number].writer == host.writer(); },
              [&] { host.ping(board_->endpoint().writer()); }, "the host is here");
   }
   [[nodiscard]] bool has_heard(std::string_view words) const {
@@ -61,7 +61,7 @@ class LiveBoardTest : public ::testing::Test {
 
 TEST_F(LiveBoardTest, AHostSpeaksForItsOwnRobotsAlone) {
   SpeakingHost one(options_.bus, 0, "one");
-  seat(one, 0);
+  slot(one, 0);
   go_until([&] { return x_m(0) == 3; }, [&] { one.say(3, {0}); }, "it is believed of its own");
   go_until([&] { return has_heard("robot 1 does not run on host `one`"); },
            [&] {
@@ -74,7 +74,7 @@ TEST_F(LiveBoardTest, AHostSpeaksForItsOwnRobotsAlone) {
 
 TEST_F(LiveBoardTest, OfTwoProcessesOfAHostTheOneThatSitsSpeaks) {
   SpeakingHost first(options_.bus, 0, "one");
-  seat(first, 0);
+  slot(first, 0);
   go_until([&] { return x_m(0) == 3; }, [&] { first.say(3, {0}); }, "the first is believed");
   SpeakingHost second(options_.bus, 0, "one");
   go_until([&] { return has_heard("host `one` is served by another process"); },
@@ -84,12 +84,12 @@ TEST_F(LiveBoardTest, OfTwoProcessesOfAHostTheOneThatSitsSpeaks) {
            },
            "the second is named");
   EXPECT_EQ(x_m(0), 3);
-  EXPECT_EQ(board_->seats()[0].writer, first.writer());
+  EXPECT_EQ(board_->slots()[0].writer, first.writer());
 }
 
 TEST_F(LiveBoardTest, WhatWasOvertakenOnTheWayIsOld) {
   SpeakingHost one(options_.bus, 0, "one");
-  seat(one, 0);
+  slot(one, 0);
   go_until([&] { return x_m(0) == 3; }, [&] { one.say(3, {0}, 2); }, "it is believed");
   const std::uint64_t states = board_->states();
   go_until([&] { return board_->states() > states + 5; }, [&] { one.say(4, {0}, 1.5); }, "it came");

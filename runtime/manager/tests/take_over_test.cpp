@@ -94,7 +94,7 @@ class TakeOver : public ::testing::Test {
       host_->ping(board_writer_, shown_);
       board_->wait(Duration{10'000'000});
       ASSERT_TRUE(board_->look_at_processes(true));
-      board_->take_pings([this](const bus::ClockPing& ping) { board_->sit_down(ping); });
+      board_->take_pings([this](const bus::ClockPing& ping) { board_->claim_slot(ping); });
       ASSERT_TRUE(edits_->look(SimTime{}));
     }
     EXPECT_TRUE(so()) << what << "\n" << ears_.heard;
@@ -103,7 +103,7 @@ class TakeOver : public ::testing::Test {
   void take_over(std::uint64_t shown, std::uint64_t published) {
     shown_ = shown;
     board_writer_ = board_->endpoint().writer();
-    go_until([this] { return board_->seats()[0].writer != 0; }, "the host is here");
+    go_until([this] { return board_->slots()[0].writer != 0; }, "the host is here");
     go_until([this] { return board_->shown_revision() == shown_; }, "it says what it has");
     edits_->begin(true);
     EXPECT_EQ(edits_->revision(), shown) << "until it is known who knows what";

@@ -2,9 +2,10 @@
 #include "rave/protocol/host_word.hpp"
 
 #include <array>
+#include <span>
 
 #include "rave/base/control_characters.hpp"
-#include "rave/bus/sequence.hpp"
+#include "rave/protocol/run_state.hpp"
 
 namespace rave::lock_step {
 
@@ -46,26 +47,13 @@ void HostWord::tell_end(bool good, std::uint64_t step, std::string_view text) {
 }
 
 void HostWord::write(const Facts& facts) {
+  const std::string text = without_control_characters(facts.text, " ");
+  std::array seen{process_sight(host_, name_, rave_wire_HOST_RUNS, facts.step),
+                  process_sight(rave_wire_kNone, "environment manager",
+                                facts.manager_here ? rave_wire_HOST_RUNS : rave_wire_HOST_LOST, 0)};
   bus::HostRun message{};
-  bus::put_text(message.scenario, scenario_);
-  message.phase = facts.phase;
-  message.step = facts.step;
-  message.steps = steps_;
-  message.step_s = step_s_;
-  message.speed = speed_;
-  bus::put_text(message.text, without_control_characters(facts.text, " "));
-  std::array<rave_wire_HostSight, 2> seen{};
-  seen[0].host = host_;
-  bus::put_text(seen[0].name, name_);
-  seen[0].phase = rave_wire_HOST_RUNS;
-  seen[0].step = facts.step;
-  seen[0].bound_s = -1;
-  seen[1].host = rave_wire_kNone;
-  bus::put_text(seen[1].name, "environment manager");
-  seen[1].phase = facts.manager_here ? rave_wire_HOST_RUNS : rave_wire_HOST_LOST;
-  seen[1].bound_s = -1;
-  bus::borrow(message.hosts, seen);
-  if (!facts.managed) message.hosts._length = 1;
+  fill(message, {scenario_, facts.phase, facts.step, steps_, step_s_, speed_, text},
+       std::span(seen).first(facts.managed ? 2 : 1));
   // Who looks on and does not keep up misses some.
   static_cast<void>(writer_.write(message));
 }

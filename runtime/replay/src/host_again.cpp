@@ -5,7 +5,7 @@
 
 #include "rave/control/requests.hpp"
 #include "rave/control/world_request.hpp"
-#include "rave/host/host_journey.hpp"
+#include "rave/host/host_slot.hpp"
 
 namespace rave::runtime {
 namespace {
@@ -19,9 +19,9 @@ Result<std::unique_ptr<HostAgain>> HostAgain::create(const config::ExpandedScena
                                                      const std::string& host,
                                                      plugin::Catalogue& catalogue,
                                                      const BuildOptions& options) {
-  RAVE_TRY_ASSIGN(const Seat seat, find_seat(scenario, host));
+  RAVE_TRY_ASSIGN(const HostSlot slot, find_slot(scenario, host));
   std::vector<std::uint32_t> host_of(scenario.robots.size(), kRest);
-  for (const RobotId robot : seat.robots) host_of[robot.value()] = kOwn;
+  for (const RobotId robot : slot.robots) host_of[robot.value()] = kOwn;
   std::vector<RobotId> rest;
   for (std::uint32_t r = 0; r < host_of.size(); ++r) {
     if (host_of[r] == kRest) rest.emplace_back(r);
@@ -36,7 +36,7 @@ Result<std::unique_ptr<HostAgain>> HostAgain::create(const config::ExpandedScena
   std::unique_ptr<HostAgain> again(new HostAgain());
   again->own_report_.host = kOwn;
   again->rest_report_.host = kRest;
-  RAVE_TRY_ASSIGN(sim::EngineSpec own, spec_of(seat.robots));
+  RAVE_TRY_ASSIGN(sim::EngineSpec own, spec_of(slot.robots));
   own.on_step_done = [raw = again.get()] {
     if (raw->look) raw->look();
   };
@@ -45,7 +45,7 @@ Result<std::unique_ptr<HostAgain>> HostAgain::create(const config::ExpandedScena
     RAVE_TRY_ASSIGN(sim::EngineSpec others, spec_of(rest));
     RAVE_TRY_ASSIGN(again->rest_, sim::Engine::create(std::move(others)));
   }
-  RAVE_TRY_ASSIGN(sim::EngineSpec world, spec_of(seat.robots));
+  RAVE_TRY_ASSIGN(sim::EngineSpec world, spec_of(slot.robots));
   RAVE_TRY_ASSIGN(again->authority_,
                   sim::WorldAuthority::create(std::move(world), std::move(host_of)));
   return again;

@@ -20,7 +20,7 @@ namespace rave::runtime {
 
 /// How a process runs the robots of one host of a scenario.
 struct HostOptions {
-  RunOptions run;  ///< `picture`: leave what it needs. `on_progress` does not count.
+  RunOptions run;  ///< `picture`: leave what it needs.
   bus::BusConfig bus;
   std::string host;  ///< Its name in the scenario.
   /// How long it waits for an environment manager that is not there, before the run and, in

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who sits in the seats of the hosts, and what they say.
+// Who sits in the slots of the hosts, and what they say.
 
 #include <algorithm>
 
@@ -18,71 +18,71 @@ constexpr std::chrono::milliseconds kAgain{20};
 
 }  // namespace
 
-void SteppedRun::lose(Seat& seat, std::string_view why) {
+void SteppedRun::lose(HostSlot& slot, std::string_view why) {
   const bool for_good = options_.on_lost_host == LostHost::kDrop;
-  seat.state = for_good ? SeatState::kDropped : SeatState::kLost;
-  claims_.release(seat.writer);
-  seat.last_writer = seat.writer;
-  seat.writer = 0;
+  slot.state = for_good ? SlotState::kDropped : SlotState::kLost;
+  claims_.release(slot.writer);
+  slot.last_writer = slot.writer;
+  slot.writer = 0;
   roster_.stir();
   constexpr std::string_view kThen[] = {"all wait until it is back",
                                         "its robots stand from this step on",
                                         "its robots stand until it is back"};
-  std::string text = fmt::format("host `{}` {} in step {}; {}", seat.name, why, step_,
+  std::string text = fmt::format("host `{}` {} in step {}; {}", slot.name, why, step_,
                                  kThen[static_cast<std::size_t>(options_.on_lost_host)]);
-  const bool again = !for_good && !seat.command.empty();
+  const bool again = !for_good && !slot.command.empty();
   log(LogLevel::kError, "{}{}{}", text, again ? "; start it again with: " : "",
-      again ? seat.command : "");
-  seat.loss = std::move(text);
+      again ? slot.command : "");
+  slot.loss = std::move(text);
   next_tell_ = {};
 }
 
 /// The run is not what it would have been with this host all the time.
-void SteppedRun::miss_steps(Seat& seat) {
+void SteppedRun::miss_steps(HostSlot& slot) {
   lost_any_ = true;
-  if (!seat.loss.empty()) problems_.push_back(std::exchange(seat.loss, {}));
+  if (!slot.loss.empty()) problems_.push_back(std::exchange(slot.loss, {}));
 }
 
-/// A report of one who sits in this seat, or wants to.
-Status SteppedRun::sit_down(Seat& seat, const bus::HostReport& message) {
-  if (seat.writer == message.writer && seat.state != SeatState::kLost) {
-    if (seat.state == SeatState::kLate) {
-      log(LogLevel::kInfo, "host `{}` answers again, in step {}", seat.name, step_);
-      seat.state = SeatState::kRuns;
+/// A report of one who sits in this slot, or wants to.
+Status SteppedRun::claim_slot(HostSlot& slot, const bus::HostReport& message) {
+  if (slot.writer == message.writer && slot.state != SlotState::kLost) {
+    if (slot.state == SlotState::kLate) {
+      log(LogLevel::kInfo, "host `{}` answers again, in step {}", slot.name, step_);
+      slot.state = SlotState::kRuns;
       next_tell_ = {};
     }
     return {};
   }
-  if (seat.state == SeatState::kDropped) {
-    return fail(ErrorCode::kState, "host `{}` was dropped from this run", seat.name);
+  if (slot.state == SlotState::kDropped) {
+    return fail(ErrorCode::kState, "host `{}` was dropped from this run", slot.name);
   }
   RAVE_TRY(claims_.claim(message.host, message.writer));
   // A process that was cut off and is in its step still has missed nothing.
-  const bool same = seat.last_writer == message.writer && message.step + 1 >= step_;
-  if (begun_ && !same) miss_steps(seat);
+  const bool same = slot.last_writer == message.writer && message.step + 1 >= step_;
+  if (begun_ && !same) miss_steps(slot);
   newcomer_ = newcomer_ || (begun_ && !same);
-  log(LogLevel::kInfo, "host `{}` is {}, with {} robots", seat.name,
-      seat.state == SeatState::kLost ? fmt::format("back in step {}", step_) : "here", seat.robots);
-  seat.writer = message.writer;
-  seat.last_step = 0;
+  log(LogLevel::kInfo, "host `{}` is {}, with {} robots", slot.name,
+      slot.state == SlotState::kLost ? fmt::format("back in step {}", step_) : "here", slot.robots);
+  slot.writer = message.writer;
+  slot.last_step = 0;
   roster_.stir();
-  note_sitting(seat.sat, message.writer);
-  seat.state = SeatState::kRuns;
-  seat.reported = false;
+  note_sitting(slot.sat, message.writer);
+  slot.state = SlotState::kRuns;
+  slot.reported = false;
   next_tell_ = {};
   return {};
 }
 
 /// A report of a step that no host can be in. It must not count as the last one of its host, or all
 /// that this one says would seem to be overtaken by it.
-Status SteppedRun::refuse_ahead(const Seat& seat, const bus::HostReport& message) {
+Status SteppedRun::refuse_ahead(const HostSlot& slot, const bus::HostReport& message) {
   std::string why = fmt::format("it is of step {}, but step {} comes next", message.step, step_);
   if (!over_ && options_.on_lost_host == LostHost::kWait) {
     // Nobody would answer it, and so all would wait for ever.
     return fail(ErrorCode::kState,
                 "a report of host `{}` cannot be: {}; the host was told a world that this manager "
                 "has not sent, or somebody else spoke in its name",
-                seat.name, why);
+                slot.name, why);
   }
   // The others go on without it when it has been silent for long enough.
   board_->refuse(message, why);
@@ -99,39 +99,39 @@ Status SteppedRun::leave_alone(const bus::HostReport& message) {
       "host `{}` is in step {} of a run that has lost its environment manager: --resume goes "
       "on with that run, `rave end {}` ends it, and --run with a name begins another one "
       "beside it",
-      seats_[message.host].name, message.step, options_.scenario);
+      slots_[message.host].name, message.step, options_.scenario);
 }
 
 Status SteppedRun::hear(const bus::HostReport& message) {
-  if (message.host >= seats_.size() || !board_->knows(message.writer)) return {};
+  if (message.host >= slots_.size() || !board_->knows(message.writer)) return {};
   RAVE_TRY(leave_alone(message));
-  Seat& seat = seats_[message.host];
-  if (const Status sits = sit_down(seat, message); !sits) {
+  HostSlot& slot = slots_[message.host];
+  if (const Status sits = claim_slot(slot, message); !sits) {
     board_->refuse(message, sits.error().message);
     return {};
   }
-  if (begun_ && message.writer == seat.writer && message.step < seat.last_step) {
+  if (begun_ && message.writer == slot.writer && message.step < slot.last_step) {
     return {};  // a later one has overtaken it
   }
-  if (message.step > step_ && begun_) return refuse_ahead(seat, message);
-  seat.last_step = message.step;
+  if (message.step > step_ && begun_) return refuse_ahead(slot, message);
+  slot.last_step = message.step;
   if (!begun_) count_newest();
   if (message.state == rave_wire_REPORT_FAILED) {
     if (over_) return {};  // nothing depends on it any more, and it still says what it knows
     if (options_.on_lost_host == LostHost::kWait) {
-      return fail(ErrorCode::kState, "host `{}` cannot go on: {}", seat.name, message.text);
+      return fail(ErrorCode::kState, "host `{}` cannot go on: {}", slot.name, message.text);
     }
-    lose(seat, fmt::format("cannot go on ({})", message.text));
+    lose(slot, fmt::format("cannot go on ({})", message.text));
     return {};
   }
   if (message.step < step_) {
-    if (begun_ && !seat.reported) {
+    if (begun_ && !slot.reported) {
       asked_again_ = true;  // it has not got the step that it needs
       newcomer_ = newcomer_ || message.step + 1 < step_;
     }
     return {};
   }
-  if (seat.reported && begun_) return {};  // it was sent twice
+  if (slot.reported && begun_) return {};  // it was sent twice
   lock_step::read(message, heard_);
   // What the authority cannot use is no reason to end the run of the others. Before the run begins
   // it does not know yet which step comes next.
@@ -140,9 +140,9 @@ Status SteppedRun::hear(const bus::HostReport& message) {
     board_->refuse(message, usable.error().text());
     return {};
   }
-  std::swap(seat.report, heard_);
-  seat.hash = message.hash;
-  seat.reported = true;
+  std::swap(slot.report, heard_);
+  slot.hash = message.hash;
+  slot.reported = true;
   return {};
 }
 
@@ -157,21 +157,21 @@ Status SteppedRun::listen() {
 
 /// A process is gone.
 void SteppedRun::miss(std::uint64_t writer) {
-  for (Seat& seat : seats_) {
-    if (seat.writer != writer) continue;
+  for (HostSlot& slot : slots_) {
+    if (slot.writer != writer) continue;
     if (begun_ && !over_) {
-      lose(seat, "is gone");
+      lose(slot, "is gone");
       continue;
     }
     if (!begun_) {
-      log(LogLevel::kWarning, "host `{}` is gone before the run began{}{}", seat.name,
-          seat.command.empty() ? "" : "; start it again with: ", seat.command);
+      log(LogLevel::kWarning, "host `{}` is gone before the run began{}{}", slot.name,
+          slot.command.empty() ? "" : "; start it again with: ", slot.command);
     }
     claims_.release(writer);
-    seat.writer = 0;
-    seat.state = SeatState::kMissing;
-    seat.reported = false;
-    seat.last_step = 0;
+    slot.writer = 0;
+    slot.state = SlotState::kMissing;
+    slot.reported = false;
+    slot.last_step = 0;
   }
   if (!begun_) count_newest();
 }
@@ -179,12 +179,12 @@ void SteppedRun::miss(std::uint64_t writer) {
 /// Of what hosts say now: nobody waits for a step that one has said before and does not any more.
 void SteppedRun::count_newest() {
   newest_report_ = 0;
-  for (const Seat& seat : seats_) newest_report_ = std::max(newest_report_, seat.last_step);
+  for (const HostSlot& slot : slots_) newest_report_ = std::max(newest_report_, slot.last_step);
 }
 
 void SteppedRun::take_findings() {
-  board_->endpoint().findings().take(
-      [this](std::uint64_t writer, std::uint32_t host) { return has_sat(seats_, writer, host); });
+  board_->endpoint().take_findings(
+      [this](std::uint64_t writer, std::uint32_t host) { return has_sat(slots_, writer, host); });
 }
 
 /// What can wait until nothing else is to be done.
@@ -210,7 +210,7 @@ void SteppedRun::look_at_roster() {
   if (now < next_roster_) return;
   next_roster_ = now + kLook;
   const auto serving = [this](std::uint32_t host) {
-    return host < seats_.size() ? seats_[host].writer : 0;
+    return host < slots_.size() ? slots_[host].writer : 0;
   };
   board_->endpoint().take_roster(roster_, serving);
   if (begun_ && !over_) show_kinds(roster_, serving, options_.control);
@@ -220,28 +220,28 @@ void SteppedRun::look_at_roster() {
 void SteppedRun::look_at_clock(Clock::time_point since) {
   const auto patience = std::chrono::nanoseconds(options_.host_timeout.ns);
   // They may have answered while this process stood still.
-  since = std::max(since, board_->endpoint().standstill().silence_counts_from());
+  since = std::max(since, board_->endpoint().silence_counts_from());
   if (!begun_ || Clock::now() - since < patience) return;
-  for (Seat& seat : seats_) {
-    if (seat.reported || seat.state != SeatState::kRuns) continue;
+  for (HostSlot& slot : slots_) {
+    if (slot.reported || slot.state != SlotState::kRuns) continue;
     if (options_.on_lost_host != LostHost::kWait) {
-      lose(seat, fmt::format("has not answered for {:.1f} s", options_.host_timeout.seconds()));
+      lose(slot, fmt::format("has not answered for {:.1f} s", options_.host_timeout.seconds()));
       continue;
     }
-    seat.state = SeatState::kLate;
+    slot.state = SlotState::kLate;
     next_tell_ = {};
     log(LogLevel::kWarning, "host `{}` has not answered for {:.1f} s in step {}; all wait for it",
-        seat.name, options_.host_timeout.seconds(), step_);
+        slot.name, options_.host_timeout.seconds(), step_);
   }
 }
 
 /// The last step reaches everybody before this process goes.
 void SteppedRun::drain_hosts(bool awaits_findings) {
   const auto owes = [&](std::uint64_t writer) {
-    return awaits_findings && !board_->endpoint().findings().done_with(writer);
+    return awaits_findings && board_->endpoint().owes_findings(writer);
   };
-  drain(seats_, options_.log, owes, [this] {
-    board_->wait(Duration{std::chrono::nanoseconds(kLook).count()});
+  drain(slots_, options_.log, owes, [this] {
+    board_->wait(Duration{std::chrono::nanoseconds(kLook).count()}, {});
     return listen() && look();
   });
   // What a process sent before it went is here.

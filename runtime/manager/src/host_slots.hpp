@@ -12,7 +12,7 @@
 namespace rave::manager {
 
 /// How it stands with a host.
-enum class SeatState : std::uint8_t {
+enum class SlotState : std::uint8_t {
   kMissing,  ///< Not heard of yet.
   kRuns,
   kLate,     ///< It has not answered in time, but is not gone.
@@ -21,10 +21,10 @@ enum class SeatState : std::uint8_t {
 };
 
 /// The place of one host of the scenario, whoever sits in it.
-struct Seat {
+struct HostSlot {
   std::string name;
   std::uint32_t robots = 0;
-  SeatState state = SeatState::kMissing;
+  SlotState state = SlotState::kMissing;
   std::uint64_t writer = 0;        ///< The process; 0: nobody.
   std::uint64_t last_writer = 0;   ///< Of a lost one.
   std::vector<std::uint64_t> sat;  ///< All that have sat here, in the order of their first times.
@@ -37,19 +37,20 @@ struct Seat {
 
   /// The run does not go on without it.
   [[nodiscard]] bool needed(bool all) const noexcept {
-    return state == SeatState::kMissing || state == SeatState::kRuns || state == SeatState::kLate ||
-           (all && state == SeatState::kLost);
+    return state == SlotState::kMissing || state == SlotState::kRuns || state == SlotState::kLate ||
+           (all && state == SlotState::kLost);
   }
 };
 
-[[nodiscard]] std::vector<Seat> make_seats(const std::vector<config::PlannedHost>& hosts);
+[[nodiscard]] std::vector<HostSlot> make_slots(const std::vector<config::PlannedHost>& hosts);
 
 /// "`a`, `b` and `c`", of those for which `holds`.
 template <class Holds>
-[[nodiscard]] std::vector<std::string_view> names_of(const std::vector<Seat>& seats, Holds holds) {
+[[nodiscard]] std::vector<std::string_view> names_of(const std::vector<HostSlot>& slots,
+                                                     Holds holds) {
   std::vector<std::string_view> names;
-  for (const Seat& seat : seats) {
-    if (holds(seat)) names.emplace_back(seat.name);
+  for (const HostSlot& slot : slots) {
+    if (holds(slot)) names.emplace_back(slot.name);
   }
   return names;
 }

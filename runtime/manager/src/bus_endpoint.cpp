@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "manager_endpoint.hpp"
+#include "bus_endpoint.hpp"
 
 namespace rave::manager {
 
-struct ManagerEndpoint::Parts {
+struct BusEndpoint::Parts {
   lock_step::Identity identity;
   LogSink* log;
   std::unique_ptr<bus::Bus> bus;
@@ -17,7 +17,7 @@ struct ManagerEndpoint::Parts {
   lock_step::FindingsCollector findings;
 };
 
-ManagerEndpoint::ManagerEndpoint(Parts parts)
+BusEndpoint::BusEndpoint(Parts parts)
     : identity_(std::move(parts.identity)),
       foreign_(parts.log),
       bus_(std::move(parts.bus)),
@@ -31,11 +31,10 @@ ManagerEndpoint::ManagerEndpoint(Parts parts)
       findings_(std::move(parts.findings)),
       introduced_(lock_step::introduction(identity_)) {}
 
-Result<std::unique_ptr<ManagerEndpoint>> ManagerEndpoint::open(const bus::BusConfig& config,
-                                                               lock_step::Identity identity,
-                                                               LogSink* log,
-                                                               bus::BeginWish begin_wish,
-                                                               bus::OnCommand on_command) {
+Result<std::unique_ptr<BusEndpoint>> BusEndpoint::open(const bus::BusConfig& config,
+                                                       lock_step::Identity identity, LogSink* log,
+                                                       bus::BeginWish begin_wish,
+                                                       bus::OnCommand on_command) {
   bus::BusConfig own = config;
   own.side = bus::Side::kManager;
   RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(own));
@@ -47,27 +46,27 @@ Result<std::unique_ptr<ManagerEndpoint>> ManagerEndpoint::open(const bus::BusCon
   RAVE_TRY_ASSIGN(auto commands, bus::CommandBox::create(*bus, std::move(on_command)));
   RAVE_TRY_ASSIGN(auto pulse, lock_step::Pulse::create(*bus, identity));
   RAVE_TRY_ASSIGN(auto findings, lock_step::FindingsCollector::create(*bus));
-  return std::unique_ptr<ManagerEndpoint>(new ManagerEndpoint(
-      {std::move(identity), log, std::move(bus), std::move(states), std::move(own_info),
-       std::move(infos), std::move(roster), std::move(wishes), std::move(commands),
-       std::move(pulse), std::move(findings)}));
+  return std::unique_ptr<BusEndpoint>(
+      new BusEndpoint({std::move(identity), log, std::move(bus), std::move(states),
+                       std::move(own_info), std::move(infos), std::move(roster), std::move(wishes),
+                       std::move(commands), std::move(pulse), std::move(findings)}));
 }
 
-Status ManagerEndpoint::wake(bus::WaitSet& waits) {
+Status BusEndpoint::wake(bus::WaitSet& waits) {
   RAVE_TRY(findings_.wake(waits));
   if (commands_) RAVE_TRY(commands_->wake(waits));
   return wishes_ ? wishes_->wake(waits) : Status();
 }
 
-Status ManagerEndpoint::wake_for_processes(bus::WaitSet& waits) {
+Status BusEndpoint::wake_for_processes(bus::WaitSet& waits) {
   RAVE_TRY(waits.add(infos_));
   return waits.add_events();
 }
 
-Status ManagerEndpoint::introduce() { return own_info_.write(introduced_); }
+Status BusEndpoint::introduce() { return own_info_.write(introduced_); }
 
 /// A process says who it is.
-void ManagerEndpoint::meet(const bus::HostInfo& info, bool begun) {
+void BusEndpoint::meet(const bus::HostInfo& info, bool begun) {
   if (info.host == rave_wire_kNone) {
     const bool goes = !begun && lock_step::gives_way(introduced_, info);
     second_ = second_ || goes;
@@ -81,7 +80,7 @@ void ManagerEndpoint::meet(const bus::HostInfo& info, bool begun) {
   host_of_[info.writer] = info.host;
 }
 
-Result<std::vector<std::uint64_t>> ManagerEndpoint::look_at_processes(bool begun) {
+Result<std::vector<std::uint64_t>> BusEndpoint::look_at_processes(bool begun) {
   infos_.take([&](const bus::HostInfo& info) { meet(info, begun); });
   if (second_) {
     return fail(ErrorCode::kState,
@@ -101,7 +100,7 @@ Result<std::vector<std::uint64_t>> ManagerEndpoint::look_at_processes(bool begun
   return gone;
 }
 
-std::optional<std::uint32_t> ManagerEndpoint::host_of(std::uint64_t writer) const {
+std::optional<std::uint32_t> BusEndpoint::host_of(std::uint64_t writer) const {
   const auto found = host_of_.find(writer);
   if (found == host_of_.end()) return std::nullopt;
   return found->second;

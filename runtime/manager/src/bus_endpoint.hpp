@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include "manager_endpoint.hpp"
+#include "manager_habits.hpp"
+#include "rave/base/log.hpp"
+#include "rave/base/result.hpp"
+#include "rave/bus/command_box.hpp"
+#include "rave/bus/event_log.hpp"
+#include "rave/bus/standstill.hpp"
+#include "rave/bus/wait_set.hpp"
+#include "rave/bus/wish_box.hpp"
+#include "rave/bus/writer.hpp"
+#include "rave/protocol/findings.hpp"
+#include "rave/protocol/introduction.hpp"
+#include "rave/protocol/pulse.hpp"
+
+namespace rave::manager {
+
+/// The end of a manager of which the run is on the bus. Belongs to one thread.
+class BusEndpoint final : public ManagerEndpoint {
+ public:
+  /// `begin_wish` and `on_command` may be empty: nobody on the bus can ask anything, or drive.
+  /// `log` is not owned and may be null. Errors: those of bus::Bus::open().
+  [[nodiscard]] static Result<std::unique_ptr<BusEndpoint>> open(const bus::BusConfig& config,
+                                                                 lock_step::Identity identity,
+                                                                 LogSink* log,
+                                                                 bus::BeginWish begin_wish,
+                                                                 bus::OnCommand on_command);
+
+  /// For the topics that only one kind of run has.
+  [[nodiscard]] bus::Bus& bus() noexcept { return *bus_; }
+  /// Wakes `waits` when findings or requests come.
+  Status wake(bus::WaitSet& waits);
+  /// ... and when processes come or go; then look_at_processes() is due after each wait.
+  Status wake_for_processes(bus::WaitSet& waits);
+  /// Tells the others that this manager is here: when it can hear what they answer.
+  Status introduce();
+  /// Sleeps until something has come, the time is over or `stop` is set. `step`: of the run.
+  void wait(bus::WaitSet& waits, std::uint64_t step, Duration timeout,
+            const std::stop_token& stop) {
+    pulse_.beat({step});
+    static_cast<void>(waits.wait(timeout, stop));
+  }
+
+  void serve_requests() override {
+    if (wishes_) wishes_->serve();
+    if (commands_) commands_->serve();
+  }
+  Result<std::vector<std::uint64_t>> look_at_processes(bool begun) override;
+  bool is_second() const override { return second_; }
+  std::optional<std::uint32_t> host_of(std::uint64_t writer) const override;
+  void forget(std::uint64_t writer) override { host_of_.erase(writer); }
+  void take_roster(RosterBook& book, const Serving& serving) override {
+    read_roster(roster_, book, serving);
+  }
+  void take_findings(const std::function<bool(std::uint64_t, std::uint32_t)>& sat) override {
+    findings_.take(sat);
+  }
+  bool owes_findings(std::uint64_t writer) const override { return !findings_.done_with(writer); }
+  std::vector<lock_step::Findings> hand_out_findings() override { return findings_.hand_out(); }
+  void publish(bus::RunState& state) override { static_cast<void>(states_.write(state)); }
+  std::uint64_t writer() const override { return bus_->writer(); }
+  std::chrono::steady_clock::time_point silence_counts_from() const override {
+    return bus_->standstill().silence_counts_from();
+  }
+  std::uint64_t standstills() const override { return standstills_; }
+  void log_fault(std::string_view text) override {
+    foreign_.write(LogLevel::kError, kSource, text);
+  }
+
+ private:
+  struct Parts;
+  explicit BusEndpoint(Parts parts);
+  void meet(const bus::HostInfo& info, bool begun);
+
+  lock_step::Identity identity_;
+  bus::EventLog foreign_;
+  std::unique_ptr<bus::Bus> bus_;
+  bus::Writer<bus::RunState> states_;
+  bus::Writer<bus::HostInfo> own_info_;
+  bus::Reader<bus::HostInfo> infos_;
+  bus::Reader<bus::RosterEntry> roster_;
+  std::unique_ptr<bus::WishBox> wishes_;       ///< May be null.
+  std::unique_ptr<bus::CommandBox> commands_;  ///< May be null.
+  lock_step::Pulse pulse_;
+  lock_step::FindingsCollector findings_;
+  bus::HostInfo introduced_;                        ///< What the others are told of this process.
+  std::map<std::uint64_t, std::uint32_t> host_of_;  ///< Of processes that fit.
+  std::uint64_t standstills_ = 0;
+  bool second_ = false;
+};
+
+}  // namespace rave::manager

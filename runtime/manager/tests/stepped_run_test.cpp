@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+// A manager in lock-step with hosts that are late, go, come back, or say what they should not; on a
+// bus that the test plays, so that all happens in the step in which it should.
+#include "../src/stepped_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "fake_stepped_endpoint.hpp"
+#include "own_corner.hpp"
+
+namespace rave::manager {
+namespace {
+
+using namespace sim::testing;
+
+constexpr std::uint64_t kAll = 30;    ///< Steps of the run.
+constexpr std::uint64_t kMoment = 7;  ///< When something happens.
+
+sim::EngineSpec driving_pair() {
+  sim::EngineSpec spec;
+  sim::RobotType type = simulated_type();
+  type.program = program<Drive>({{"v", 0.5}});
+  add_robot(spec, std::move(type));
+  add_twin(spec, {0, 3, 0});
+  return spec;
+}
+
+std::unique_ptr<sim::WorldAuthority> authority_of_pair() {
+  return sim::WorldAuthority::create(driving_pair(), {0, 1}).value();
+}
+
+class SteppedRunTest : public ::testing::Test {
+ protected:
+  SteppedRunTest() {
+    options_.scenario = "pair";
+    options_.hosts = {{"one", {0}}, {"two", {1}}};
+    options_.steps = kAll;
+    options_.host_timeout = from_seconds(0.05);
+    options_.log = &lines_;
+    options_.stopping = [this] { return stop_ || std::chrono::steady_clock::now() > end_; };
+    for (std::uint32_t h = 0; h < 2; ++h) hosts_.emplace_back(driving_pair(), h);
+    auto endpoint = std::make_unique<FakeSteppedEndpoint>(hosts_);
+    bus_ = endpoint.get();
+    run_.emplace(options_, authority_of_pair(), std::move(endpoint));
+  }
+  ManagerOutcome go() {
+    auto outcome = run_->go();
+    EXPECT_TRUE(outcome) << outcome.error().text();
+    return outcome ? *std::move(outcome) : ManagerOutcome();
+  }
+  void expect_that_of_one_process(const ManagerOutcome& outcome) {
+    EXPECT_TRUE(outcome.whole) << lines_.said();
+    EXPECT_EQ(outcome.steps, kAll);
+    const auto alone = make_engine(driving_pair());
+    sim::testing::run(*alone, static_cast<int>(kAll));
+    ASSERT_TRUE(outcome.hash);
+    EXPECT_EQ(*outcome.hash, alone->hash().value());
+  }
+  /// Both hosts come to step kMoment of a run that then loses its manager.
+  void begin_with_another_manager() {
+    const auto authority = authority_of_pair();
+    sim::WorldStep world;
+    for (std::uint64_t step = 0; step < kMoment; ++step) {
+      const sim::HostReport* const reports[] = {&hosts_[0].report(), &hosts_[1].report()};
+      ASSERT_TRUE(authority->step(reports, world));
+      for (EngineHost& host : hosts_) host.take(world, authority->state(true));
+    }
+    bus_->handed.emplace(world, authority->state(true));
+    for (EngineHost& host : hosts_) host.lose_manager();
+  }
+
+  ManagerOptions options_;
+  Lines lines_;
+  bool stop_ = false;
+  std::vector<EngineHost> hosts_;
+  FakeSteppedEndpoint* bus_ = nullptr;
+  std::optional<SteppedRun> run_;
+
+ private:
+  const std::chrono::steady_clock::time_point end_ =
+      std::chrono::steady_clock::now() + std::chrono::seconds(60);
+};
+
+TEST_F(SteppedRunTest, EndsWithItsLastStepAndTellsEverybody) {
+  expect_that_of_one_process(go());
+  EXPECT_TRUE(hosts_[0].done && hosts_[1].done);
+  EXPECT_EQ(bus_->common.phases.back(), rave_wire_RUN_ENDED);
+  EXPECT_TRUE(bus_->refused.empty());
+}
+
+TEST_F(SteppedRunTest, ALateHostIsWaitedForAndNamed) {
+  hosts_[1].says = [this](std::uint64_t step) {
+    return step != kMoment || lines_.has("all wait for it");
+  };
+  expect_that_of_one_process(go());
+  EXPECT_TRUE(lines_.has("host `two` answers again, in step 7")) << lines_.said();
+  EXPECT_TRUE(bus_->common.saw(1, rave_wire_HOST_LATE));
+  EXPECT_FALSE(bus_->common.saw(0, rave_wire_HOST_LATE));
+}
+
+TEST_F(SteppedRunTest, WithoutALostHostItIsAnotherRun) {
+  options_.on_lost_host = config::LostHost::kDrop;
+  hosts_[1].says = [](std::uint64_t step) { return step < kMoment; };
+  bus_->meanwhile = [this] { bus_->leave(hosts_[1]); };
+  const ManagerOutcome outcome = go();
+  EXPECT_EQ(outcome.steps, kAll) << "the other goes on";
+  EXPECT_FALSE(outcome.whole);
+  EXPECT_FALSE(outcome.hash);
+  ASSERT_EQ(outcome.problems.size(), 1U) << lines_.said();
+  EXPECT_EQ(outcome.problems[0],
+            "host `two` is gone in step 7; its robots stand from this step on");
+}
+
+TEST_F(SteppedRunTest, GoesOnWhereAnotherManagerEnded) {
+  begin_with_another_manager();
+  options_.resume = true;
+  expect_that_of_one_process(go());
+  EXPECT_TRUE(lines_.has("takes over from a manager that is gone, at step 7")) << lines_.said();
+}
+
+TEST_F(SteppedRunTest, LeavesARunAloneThatItIsNotToResume) {
+  begin_with_another_manager();
+  const auto outcome = run_->go();
+  ASSERT_FALSE(outcome);
+  EXPECT_NE(outcome.error().message.find("is in step 7 of a run that has lost"), std::string::npos)
+      << outcome.error().message;
+  run_->give_up(outcome.error());
+  EXPECT_FALSE(bus_->common.over()) << "nobody is told to end";
+}
+
+TEST_F(SteppedRunTest, SomebodyStopsItAndHostsGetALastWorld) {
+  options_.on_world = [this](const sim::WorldAuthority& authority) {
+    stop_ = authority.steps_done() >= kMoment;
+    return false;
+  };
+  const ManagerOutcome outcome = go();
+  EXPECT_FALSE(outcome.whole);
+  EXPECT_LT(outcome.steps, kMoment + 3);
+  ASSERT_EQ(outcome.problems.size(), 1U);
+  EXPECT_EQ(outcome.problems[0].rfind("stopped in step ", 0), 0U) << outcome.problems[0];
+  EXPECT_TRUE(hosts_[0].done && hosts_[1].done);
+  EXPECT_EQ(bus_->common.phases.back(), rave_wire_RUN_FAILED);
+}
+
+TEST_F(SteppedRunTest, SomebodyStopsItBeforeAHostHasCome) {
+  hosts_[1].says = [](std::uint64_t) { return false; };
+  bus_->meanwhile = [this] { stop_ = true; };
+  const ManagerOutcome outcome = go();
+  ASSERT_EQ(outcome.problems.size(), 1U);
+  EXPECT_EQ(outcome.problems[0], "stopped while waiting for two");
+  EXPECT_FALSE(outcome.hash);
+}
+
+TEST_F(SteppedRunTest, ACheckEndsItAndThatIsWhole) {
+  options_.on_world = [](const sim::WorldAuthority& authority) {
+    return authority.steps_done() >= kMoment;
+  };
+  const ManagerOutcome outcome = go();
+  EXPECT_TRUE(outcome.whole) << lines_.said();
+  EXPECT_EQ(outcome.steps, kMoment + 1) << "the step of that world is done";
+  EXPECT_TRUE(hosts_[0].done && hosts_[1].done);
+}
+
+TEST_F(SteppedRunTest, AWorldThatWasLostIsSentAgain) {
+  bool lost = false;
+  bus_->loses = [this, &lost](const EngineHost& host, std::uint64_t step) {
+    return &host == &hosts_[1] && step == kMoment && !std::exchange(lost, true);
+  };
+  expect_that_of_one_process(go());
+  EXPECT_TRUE(lost);
+  EXPECT_GT(bus_->resent, 0);
+}
+
+TEST_F(SteppedRunTest, OfTwoAnswersOfAHostTheFirstCounts) {
+  hosts_[1].twice = true;
+  expect_that_of_one_process(go());
+}
+
+TEST_F(SteppedRunTest, WhoStoodStillItselfGivesNobodyUp) {
+  options_.on_lost_host = config::LostHost::kDrop;
+  bus_->common.stands_still = true;
+  hosts_[1].says = [this](std::uint64_t step) {
+    return step != kMoment || bus_->common.silence_asked > 3;
+  };
+  expect_that_of_one_process(go());
+  EXPECT_FALSE(lines_.has("has not answered")) << lines_.said();
+}
+
+}  // namespace
+}  // namespace rave::manager

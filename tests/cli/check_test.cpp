@@ -42,6 +42,16 @@ TEST(Check, ANamedPipeInThePlaceOfAFileIsRefused) {
   EXPECT_EQ(run_rave({"info", pipe}).exit_code, 2);
 }
 
+/// Not taken for a damaged recording.
+TEST(Check, TheGuiServerTakesAScenarioByItsFile) {
+  const TemporaryFolder folder;
+  const std::string scenario = folder.path() / "scenario.yaml";
+  std::ofstream(scenario) << "name: a\nrobots:\n  - {name: r, file: robot.yaml}\n";
+  const Ended ended = run_rave({"gui", scenario, "--no-open"});
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_NE(ended.err.find("scenario.yaml:3:21: "), std::string::npos) << ended.err;
+}
+
 TEST(Check, GoodFilesOfEachKind) {
   const Ended ended =
       run_rave({"check", "good_robot.yaml", "good_world.yaml", "good_scenario.yaml"});

@@ -201,7 +201,6 @@ Status WorldTruth::resize(RobotId robot, double scale) {
 }
 
 Status WorldTruth::check_room(RobotId robot, const world::Body& body, double scale) const {
-  constexpr double kApart_m = 1e-4;  // the skin that the resolver keeps
   const std::uint32_t r = robot.value();
   const auto own = static_cast<std::uint32_t>(spec.world.obstacles.size()) + r;
   for (std::uint32_t other = 0; other < spec.world.body_count(); ++other) {

@@ -11,8 +11,6 @@ namespace {
 
 using Kind = ObstacleChange::Kind;
 
-constexpr double kApart_m = 1e-4;  // the skin that the resolver keeps
-
 /// Calls `visit(id, obstacle)` for each obstacle that stands.
 template <class Visit>
 void for_each_standing(const world::WorldModel& world, Visit&& visit) {

@@ -27,8 +27,9 @@ Result<std::unique_ptr<gui_server::GuiServer>> serve(const GuiCommand& options) 
   run.scenario = options.file;
   run.page = options.page;
   const auto scenario = read_scenario(run);
-  // There is no scenario of this name either.
-  if (!scenario && scenario.error().code == ErrorCode::kNotFound) {
+  // A scenario that names a missing file is another error.
+  const bool missing = !std::filesystem::exists(options.file, error);
+  if (!scenario && missing && scenario.error().code == ErrorCode::kNotFound) {
     return fail(ErrorCode::kNotFound, "`{}` is not a recording, the folder of a run, or a scenario",
                 options.file);
   }

@@ -13,7 +13,7 @@ const [rave, mixed, twoRobots, robots, folder] = process.argv.slice(2);
 const kFirst = 0xf000;
 rmSync(folder, {recursive: true, force: true});
 mkdirSync(folder, {recursive: true});
-const drivers = JSON.parse(execFileSync(rave, ['drivers', '--kind', 'virtual_sensor', '--json'], {encoding: 'utf8'}));
+const {drivers} = JSON.parse(execFileSync(rave, ['drivers', '--kind', 'virtual_sensor', '--json'], {encoding: 'utf8'}));
 
 const browser = await launch();
 const servers = [];
@@ -41,8 +41,8 @@ try {
   };
   const choosesDriver = (name) => panel.getByLabel('Virtual sensor').selectOption(name);
   const fill = async (field, value) => {
-    await panel.getByLabel(`${field}, value`).fill(String(value));
-    await panel.getByLabel(`${field}, value`).press('Enter');
+    await panel.getByLabel(`${field}, value`, {exact: true}).fill(String(value));
+    await panel.getByLabel(`${field}, value`, {exact: true}).press('Enter');
   };
   const start = async (words) => {
     servers.push(await startServer(rave, words));
@@ -83,7 +83,9 @@ try {
       return {nearest, robot: Math.min(...distances), finite: values.filter(Number.isFinite).length};
     }, real);
     assert.ok(met.finite > 3 && met.nearest > 0 && met.nearest < met.robot, JSON.stringify(met));
-    assert.equal(await page.evaluate(`${app}.model.robots[${real}].sensors.some(({driver}) => driver === 'virtual_laser')`), false);
+    const [kind, known] = await page.evaluate(`[${app}.model.robots[${real}].kind, ${app}.model.robots[${real}].sensors.map(({name}) => name)]`);
+    assert.equal(kind, 'real');
+    assert.ok(!known.includes(await page.evaluate(`${app}.model.probes.sensor(${kFirst}).name`)), 'the robot has the sensor itself');
     await page.evaluate(`${app}.palette.set('dark')`);
     await page.waitForTimeout(500);
     await page.screenshot({path: join(folder, 'probe-dark.png')});

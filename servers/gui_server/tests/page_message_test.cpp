@@ -238,7 +238,7 @@ INSTANTIATE_TEST_SUITE_P(
             "plain names"},
         Refused{
             R"({"type":"look_probes","request":1,"probes":[{"slot":0,"name":"a","driver":"d","mount":[0,0,0],"z":0,"params":{},"device":"base"}]})",
-            "device"},
+            "unknown members"},
         Refused{R"({"type":"twin","request":1,"do":"swap","slots":[0]})",
                 "hand_over or reset_shadow"},
         Refused{R"({"type":"twin","request":1,"do":"hand_over","slots":[0],"to":"here"})",

@@ -41,6 +41,7 @@ try {
   children.push(server.child);
   const twin = `${app}.model.drives.get(0)?.twin`;
   const shadow = `${app}.model.drives.get(0)?.shadow`;
+  const told = (slot) => `${app}.model.readings.of(${slot}, 0xefff)`;
   const panel = page.locator('rave-robot');
   const handOver = async (to) => {
     await panel.getByRole('button', {name: `Hand over to ${to}`}).click();
@@ -56,6 +57,12 @@ try {
     await panel.getByText('simulated drivers serve').waitFor();
     await panel.getByText('virtual_laser').waitFor();
     assert.equal(await panel.getByLabel('program.cruise_mps', {exact: true}).getAttribute('type'), 'range');
+  });
+
+  await check('what its program asks for is drawn beside what is driven, although nobody here asked for it', async () => {
+    await until(page, `${told(0)}?.values[0] > 0.05 && Math.abs(${told(0)}.values[2] - ${told(0)}.values[0]) < 0.02`);
+    await until(page, `document.querySelector('rave-app').model.readings.course(0, 0xefff).length > 20`);
+    await panel.locator('polyline.asked').first().waitFor({state: 'attached'});
   });
 
   await check('a parameter that is set there counts, and one outside of its range is refused with the range', async () => {
@@ -145,6 +152,7 @@ try {
     await handOver('the second set');
     await until(page, `${twin}.made === 1`, 40000);
     await panel.getByText('second set serves').waitFor();
+    await until(page, `${told(await slotOf(page, 'left'))}?.values.length === 4`);
     await run.end();
   });
 

@@ -243,7 +243,10 @@ Result<std::unique_ptr<gui_server::GuiServer>> show_run(const RunCommand& option
                                                         runtime::RunControl* control,
                                                         LogSink& log) {
   RAVE_TRY_ASSIGN(const auto built, build_world(scenario, options.plugins, log));
-  RAVE_TRY_ASSIGN(auto source, gui_server::watch_run(scenario, built, bus, control));
+  auto described = std::make_unique<plugin::Catalogue>(runtime::host_stamp());
+  RAVE_TRY(add_plugin_folders(options.plugins, *described));
+  RAVE_TRY_ASSIGN(auto source,
+                  gui_server::watch_run(scenario, built, bus, std::move(described), control));
   RAVE_TRY_ASSIGN(auto page, serve_page(options.page, std::move(source)));
   if (!options.page.line_key.empty()) {
     RAVE_TRY_ASSIGN(const auto key, direct_line::read_signing_key(options.page.line_key));

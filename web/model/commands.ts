@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type {Answer, AskAudit, ChangeAccount, ChangeInvitation, Edit, Lease, Order, PageMessage, Point, Robot, Say, SetParameter} from '../protocol/messages';
+import type {Answer, AskAudit, ChangeAccount, ChangeInvitation, Edit, HandOver, Lease, Order, PageMessage, Point, Robot, Say, SetParameter} from '../protocol/messages';
 import {Asked} from './asked';
 import type {Link} from './link';
 import type {RunModel} from './run_model';
@@ -21,7 +21,7 @@ export interface Pending {
 }
 
 type Unnumbered<T> = Omit<T, 'request'>;
-type Request = Unnumbered<Order> | Unnumbered<Lease> | Unnumbered<SetParameter> | Unnumbered<Edit> | Unnumbered<Say> | Unnumbered<ChangeAccount> | Unnumbered<ChangeInvitation> | Unnumbered<AskAudit>;
+type Request = Unnumbered<Order> | Unnumbered<Lease> | Unnumbered<HandOver> | Unnumbered<SetParameter> | Unnumbered<Edit> | Unnumbered<Say> | Unnumbered<ChangeAccount> | Unnumbered<ChangeInvitation> | Unnumbered<AskAudit>;
 
 /** A taken order that no robot says it follows is over after so long. */
 const kTold_ms = 1200;

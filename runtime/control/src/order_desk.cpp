@@ -26,7 +26,7 @@ HostLeases::Person person_of(const RunRequest& request) { return {request.by, re
 
 bool OrderDesk::is_for(RunRequest::Kind kind) noexcept {
   return is_order(kind) || kind == RunRequest::Kind::kTake || kind == RunRequest::Kind::kGive ||
-         kind == RunRequest::Kind::kRelease;
+         kind == RunRequest::Kind::kRelease || kind == RunRequest::Kind::kHandOver;
 }
 
 Status OrderDesk::check_rate(const std::string& robot, Time now) {
@@ -65,6 +65,11 @@ Result<std::string> OrderDesk::serve(const RunRequest& request, const Give& give
     return fail(ErrorCode::kInvalidArgument, "`{}` is no name of a person", HostLeases::kTerminal);
   }
   if (request.kind == RunRequest::Kind::kRelease) {
+    RAVE_TRY(check_release(request));
+    return give(request);
+  }
+  // Who drives a robot must not find another one in its place.
+  if (request.kind == RunRequest::Kind::kHandOver && !request.robot.empty()) {
     RAVE_TRY(check_release(request));
     return give(request);
   }

@@ -289,8 +289,8 @@ Result<HostOutcome> go(const LiveHost& host, sim::Engine& engine, HostLink& link
                        const BuiltScenario& built, bool begun, std::function<void()>& look) {
   RunOptions run = host.options.run;
   // With a manager the link hands on what that says of obstacles.
-  RAVE_TRY_ASSIGN(const auto face,
-                  BusFace::open(link.bus(), host.seat.number, !needs_manager(built)));
+  RAVE_TRY_ASSIGN(const auto face, BusFace::open(link.bus(), host.seat.number,
+                                                 !needs_manager(built), &host.catalogue));
   run.observers.push_back(face.get());
   RAVE_TRY_ASSIGN(
       const auto observers,

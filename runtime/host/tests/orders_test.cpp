@@ -144,6 +144,18 @@ TEST(OrderDesk, TwoCommandersDoNotFight) {
   EXPECT_EQ(changes[1].after, "bert");
 }
 
+TEST(OrderDesk, WhoDrivesARobotAloneHandsItOver) {
+  Office office;
+  EXPECT_EQ(office.serve(request(Kind::kHandOver, "bert")), "done") << "nobody drives it";
+  EXPECT_EQ(office.serve(goal("anna")), "done");
+  EXPECT_EQ(office.serve(request(Kind::kHandOver, "bert")), "`anna` drives r1");
+  EXPECT_EQ(office.serve(request(Kind::kHandOver, "anna")), "done");
+  RunRequest root = request(Kind::kHandOver, "root");
+  root.overrides = true;
+  EXPECT_EQ(office.serve(root), "done");
+  EXPECT_EQ(office.serve(request(Kind::kHandOver, "")), "done") << "the terminal";
+}
+
 TEST(OrderDesk, ALeaseThatIsGivenBackGivesTheRobotToItsProgram) {
   Office office;
   office.serve(goal("anna"));

@@ -151,6 +151,7 @@ void BusFeed::ask() {
   for (const LookedAt& looked : wants.sensors)
     asked.sensors.push_back({looked.slot, looked.sensor});
   asked.maps = wants.maps;
+  asked.probes = wants.probes;
   listener_.look(asked);
 }
 

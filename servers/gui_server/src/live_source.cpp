@@ -107,6 +107,7 @@ Powers LiveSource::powers() const {
                 {{"seek", kSeekLater},
                  {"recording", "The recording can be downloaded when the run is over."},
                  {"true_pose", "This view shows reported poses."}}};
+  if (start_.probes) powers.may.emplace_back("probe");
   for (const char* const word : {"play", "pace", "step"}) {
     if (const std::string why_not = port_->why_not_held(); !why_not.empty()) {
       powers.why_not[word] = why_not;
@@ -115,6 +116,14 @@ Powers LiveSource::powers() const {
     }
   }
   return powers;
+}
+
+Result<ProbeMade> LiveSource::probe(const ProbeWish& wish) {
+  if (!start_.probes) return fail(ErrorCode::kState, "No virtual sensors can be tried here.");
+  if (wish.slot >= start_.robots.size()) {
+    return fail(ErrorCode::kNotFound, "There is no such robot.");
+  }
+  return start_.probes->make(wish, wish.slot);
 }
 
 std::unique_ptr<Cursor> LiveSource::open_cursor() { return std::make_unique<LiveCursor>(*this); }
@@ -126,8 +135,8 @@ std::unique_ptr<Playhead> LiveSource::open_playhead() {
 void LiveSource::tick(Playhead::Clock::time_point now, const Audience& audience) {
   box_->watched.store(audience.any, std::memory_order_relaxed);
   if (audience.looked_at != wants_.sensors || audience.parts != wants_.parts ||
-      audience.maps != wants_.maps) {
-    wants_ = {audience.looked_at, audience.parts, audience.maps};
+      audience.maps != wants_.maps || audience.probes != wants_.probes) {
+    wants_ = {audience.looked_at, audience.parts, audience.maps, audience.probes};
     box_->wants.draft() = wants_;
     box_->wants.publish();
   }

@@ -199,6 +199,14 @@ Result<PageMessage> parse_page_message(std::string_view text) {
     message = look_of(members);
   } else if (type == "look_maps") {
     message = look_maps_of(members);
+  } else if (type == "look_probes") {
+    auto look = look_probes_of(members);
+    if (!look) return tl::unexpected(look.error());
+    message = PageMessage(*std::move(look));
+  } else if (type == "ask_catalogue") {
+    auto request = members.index("request");
+    if (!request) return tl::unexpected(request.error());
+    message = PageMessage(AskCatalogueMessage{*request});
   } else if (type == "ack") {
     auto sequence = members.index("sequence");
     if (!sequence) return tl::unexpected(sequence.error());

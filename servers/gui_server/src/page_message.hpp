@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "people_message.hpp"
+#include "probe_message.hpp"
 #include "rave/base/result.hpp"
 #include "rave/gui_server/rights.hpp"
 #include "rave/gui_server/source.hpp"
@@ -56,7 +57,8 @@ struct ChatMessage {
 
 using PageMessage =
     std::variant<LookMessage, AckMessage, TransportMessage, HaltMessage, SetRightMessage,
-                 SeeAsMessage, CommandMessage, ChatMessage, PeopleMessage, LookMapsMessage>;
+                 SeeAsMessage, CommandMessage, ChatMessage, PeopleMessage, LookMapsMessage,
+                 LookProbesMessage, AskCatalogueMessage>;
 
 /// Errors: kParse with what was expected.
 [[nodiscard]] Result<PageMessage> parse_page_message(std::string_view text);

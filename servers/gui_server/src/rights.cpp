@@ -42,6 +42,8 @@ constexpr std::array<Line, kInfoClasses> kLines = {{
      "driving it, sending it somewhere, telling it something, changing its parameters"},
     {InfoClass::kEdit, "edit", Kind::kNone, Kind::kNone,
      "virtual obstacles come, move and go; placing it, if it is simulated"},
+    {InfoClass::kProbe, "probe", Kind::kNone, Kind::kOwn,
+     "trying virtual sensors on it; with `readings` alone"},
 }};
 
 const Line& line_of(InfoClass what) { return kLines[static_cast<std::size_t>(what)]; }

@@ -165,7 +165,7 @@ void Visitors::tick(Audience audience) {
     for (const LookedAt& looked : look.readings) {
       // What is withheld is not even gathered.
       const auto robot = visitor.view->robot_of(looked.slot);
-      if (robot && visitor.view->may(InfoClass::kReadings, *robot)) {
+      if (robot && visitor.view->may_read_sensor(*robot, looked.sensor)) {
         audience.looked_at.push_back({*robot, looked.sensor});
       }
     }
@@ -173,7 +173,13 @@ void Visitors::tick(Audience audience) {
       const auto robot = visitor.view->robot_of(map.slot);
       if (robot && visitor.view->may(InfoClass::kMaps, *robot)) audience.maps.push_back(*robot);
     }
+    for (const ProbeShown& probe : visitor.page->looked_at_probes()) {
+      if (visitor.view->may(InfoClass::kProbe, probe.asked.robot)) {
+        audience.probes.push_back(probe.asked);
+      }
+    }
   }
+  std::sort(audience.probes.begin(), audience.probes.end());
   std::sort(audience.maps.begin(), audience.maps.end());
   audience.maps.erase(std::unique(audience.maps.begin(), audience.maps.end()), audience.maps.end());
   auto& looked_at = audience.looked_at;

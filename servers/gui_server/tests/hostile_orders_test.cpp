@@ -19,6 +19,8 @@ TEST_F(Hostile, OrdersOfAnObserverAreRefusedAndLogged) {
         R"({"type":"set","request":7,"slots":[0],"key":"program.v","value":9})",
         R"({"type":"edit","request":8,"do":"remove","name":"secret-pond"})",
         R"({"type":"edit","request":9,"do":"add","name":"a","pose":[0,0,0],"disc":1})",
+        R"({"type":"twin","request":12,"do":"hand_over","slots":[0],"to":"real"})",
+        R"({"type":"twin","request":13,"do":"reset_shadow","slots":[0]})",
         R"({"type":"order","request":10,"kind":"cancel","slots":[3]})",
         R"({"type":"order","request":11,"kind":"cancel","slots":[4294967295]})"}) {
     eve.send(request);
@@ -58,6 +60,22 @@ TEST_F(Hostile, ACommanderCommandsTheirOwnTeamAlone) {
   boss.send(R"({"type":"edit","request":1,"do":"add","name":"a","pose":[0,0,0],"disc":1})");
   EXPECT_NE(boss.text_with("\"to\":\"add\"").find("\"good\":true"), std::string::npos);
   EXPECT_TRUE(run_->commands().back().second.overrides);
+}
+
+TEST_F(Hostile, HowHandOversAndShadowsStandIsToldToWhoMayKnowIt) {
+  const std::string gap = "0.3125";
+  RawSocket eve = socket(guest(Role::kObserver, "eve"));
+  EXPECT_NE(eve.text_with("\"leases\"").find(gap), std::string::npos) << "readings of her team";
+  RawSocket ben = socket(guest(Role::kCommander, "ben"));
+  const std::string leases = ben.text_with("\"leases\"");
+  EXPECT_NE(leases.find(FakeRun::kTwinText), std::string::npos) << leases;
+  EXPECT_NE(leases.find(gap), std::string::npos) << leases;
+  for (const RawSocket* const client : {&eve, &ben}) {
+    EXPECT_EQ(client->heard().find("4711.5"), std::string::npos) << "the shadow of another team";
+  }
+  EXPECT_EQ(eve.heard().find(FakeRun::kTwinText), std::string::npos);
+  RawSocket boss = super_user();
+  EXPECT_NE(boss.text_with("\"leases\"").find("4711.5"), std::string::npos);
 }
 
 TEST_F(Hostile, MalformedOrdersNeverReachARun) {

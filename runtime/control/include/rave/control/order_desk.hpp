@@ -28,7 +28,8 @@ class OrderDesk {
   /// Whether somebody drives a robot now, as far as the run knows: a stop ends that.
   using IsDriven = std::function<bool(const std::string& robot)>;
 
-  /// Whether a request concerns the desk: orders and leases, and a release, which needs the lease.
+  /// Whether a request concerns the desk: orders and leases, and a release and a
+  /// hand-over, which need the lease.
   [[nodiscard]] static bool is_for(RunRequest::Kind kind) noexcept;
   /// Does such a request, or refuses it. The robot that it names exists.
   Result<std::string> serve(const RunRequest& request, const Give& give, const IsDriven& is_driven,

@@ -17,6 +17,7 @@
 #include "rave/gui_server/command.hpp"
 #include "rave/gui_server/rights.hpp"
 #include "rave/maps/map_tile.hpp"
+#include "rave/probe/probes.hpp"
 
 // What the GUI Server shows comes from a source: a recording, or a run. Plain values; SI units,
 // frame W, angles in radians, times in seconds of the run.
@@ -202,12 +203,31 @@ struct MapShown {
   std::map<std::pair<std::uint32_t, std::uint32_t>, TileShown> tiles;
 };
 
+/// A virtual sensor that somebody wants to try on a robot.
+struct ProbeWish {
+  std::uint32_t slot = 0;
+  std::string name;
+  std::string driver;
+  Pose2 X_RS;
+  double z_m = 0;
+  std::vector<std::pair<std::string, std::string>> params;  ///< Values as a file has them.
+  bool without_obstacles = false;  ///< Who wishes it must not learn of virtual obstacles.
+};
+
+/// What became of it: what hosts are asked for, with the number of the robot in the run.
+struct ProbeMade {
+  probe::Asked asked;
+  std::string text;         ///< The entry for `sensors:` of a robot file.
+  std::string sensor_json;  ///< As in a roster.
+};
+
 /// What all pages together look at.
 struct Audience {
-  bool any = false;                 ///< A page wants poses.
-  std::vector<LookedAt> looked_at;  ///< Ascending, without repetitions.
-  bool parts = false;               ///< Also the halves of hybrid sensors.
-  std::vector<std::uint32_t> maps;  ///< Robots whose local maps; the same.
+  bool any = false;                  ///< A page wants poses.
+  std::vector<LookedAt> looked_at;   ///< Ascending, without repetitions.
+  bool parts = false;                ///< Also the halves of hybrid sensors.
+  std::vector<std::uint32_t> maps;   ///< Robots whose local maps; the same.
+  std::vector<probe::Asked> probes;  ///< The same.
 };
 
 /// One thread, which is that of the server.
@@ -260,6 +280,13 @@ class Source {
   /// A local map is found by its slot alone. Null: there is no such map, or nothing is known of it
   /// yet. Holds until the next tick().
   [[nodiscard]] virtual const MapShown* map(const MapName& /*name*/) const { return nullptr; }
+
+  // Virtual sensors that are tried. Their readings come with those of the cursor, by their number.
+  /// Which there are: the array `drivers` of a message `catalogue`.
+  [[nodiscard]] virtual std::string virtual_sensors_json() { return "[]"; }
+  /// Nothing senses yet: that begins when the audience of tick() has it. Errors: kState (nobody
+  /// can), kNotFound, kInvalidArgument.
+  [[nodiscard]] virtual Result<ProbeMade> probe(const ProbeWish& wish);
 
   /// Stops and releases robots, at once and without a lease to stop.
   virtual void halt(const HaltMessage& halt, const Author& author, Reply reply) = 0;

@@ -176,13 +176,13 @@ TEST_F(LiveHosts, AManagerThatIsKilledIsMissedAndReplaced) {
   signal("env", SIGKILL);
   EXPECT_EQ(end_of("env"), -1);
   wait_for_line("one", "no world has come for");
-  wait_for_line("one", "the environment manager is gone");
+  wait_for_line("one", "the environment manager is lost");
   // The guard of the robot does what its file says.
   wait_for_line("one", "world lost");
 
   begin("env", "second");
   wait_for_line("second", "takes over at");
-  for (const char* const host : {"one", "two"}) wait_for_line(host, "worlds come again");
+  for (const char* const host : {"one", "two"}) wait_for_line(host, "worlds arrive again");
   hear_until([&] { return listener_->worlds.back().manager != before.manager; }, "a new world");
   EXPECT_GT(listener_->worlds.back().time_ns, before.time_ns) << "the time of the run goes on";
   hear_until([&] { return listener_->places[kLeft].stamp_ns > before.time_ns; }, "`left` is there");
@@ -195,7 +195,7 @@ TEST_F(LiveHosts, AManagerThatIsKilledIsMissedAndReplaced) {
 TEST_F(LiveHosts, AHostThatIsInterruptedLeavesInOrder) {
   begin_all();
   end_all({"one"});
-  EXPECT_EQ(result("one")["problems"].back(), "stopped before the run was over");
+  EXPECT_EQ(result("one")["problems"].back(), "stopped before the end of the run");
   wait_for_line("env", "host `one` is gone");
   wait_until_it_moves(kRight);
   end_all({"two", "env"});

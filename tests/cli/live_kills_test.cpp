@@ -109,7 +109,7 @@ TEST_P(ALiveManagerIsKilled, TheHostsGoOnAndTheNextOneKnowsTheTime) {
   const bool noticed = goes && chance_.one_in(2);
   if (noticed) {
     for (const char* const host : {"one", "two"}) {
-      wait_for_line(host, "the environment manager is gone");
+      wait_for_line(host, "the environment manager is lost");
       wait_for_line(host, "no world has come for");
     }
   }

@@ -68,7 +68,7 @@ TEST_F(People, TheirCertificateIsMadeAndRenewed) {
   EXPECT_EQ((made.out + again.out).find("PRIVATE KEY"), std::string::npos);
   const Ended wrong = run_rave({"keys", "web", web, "bank.example", "--days", "500"});
   EXPECT_EQ(wrong.exit_code, 2);
-  EXPECT_NE(wrong.err.find("500 days are not in 1 to 397"), std::string::npos) << wrong.err;
+  EXPECT_NE(wrong.err.find("500 days: expected 1 to 397"), std::string::npos) << wrong.err;
 }
 
 }  // namespace

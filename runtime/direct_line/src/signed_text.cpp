@@ -78,7 +78,7 @@ Result<std::string> verify_text(std::string_view what, std::string_view text,
   const std::string message = message_of(what, *content);
   if (crypto_sign_verify_detached(bytes_at(*signature), bytes_at(message), message.size(),
                                   key.data()) != 0) {
-    return fail(ErrorCode::kState, "the GUI Server of this run has not signed the {}", what);
+    return fail(ErrorCode::kState, "the {} is not signed by the GUI Server of this run", what);
   }
   return *std::move(content);
 }

@@ -113,7 +113,7 @@ TEST(OrderedRun, IsRecordedAndVerified) {
       "carl was told",
       "refused: `lisa` drives anna",
       "refused: robot `bert`, path: its program takes no paths",
-      "anna: no order of people counts any more",
+      "anna: the orders of people are cancelled",
       "anna is sent to 2.50, 1.50",
       "stopped bert"};
   EXPECT_EQ(commander.answers(), expected);

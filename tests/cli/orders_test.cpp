@@ -83,7 +83,7 @@ TEST_F(Orders, AreDoneAndDoneAgainByVerify) {
   end();
   EXPECT_TRUE(happened("goal -2.50, -3.00 (by hand)")) << events();
   EXPECT_TRUE(happened("goal -2.50, -3.00: reached")) << events();
-  EXPECT_TRUE(happened("I obey goals and paths, no words.")) << events();
+  EXPECT_TRUE(happened("I obey goals and paths, not texts.")) << events();
   EXPECT_TRUE(happened("I am at the end of the path.")) << events();
   EXPECT_TRUE(happened("drive -0.10 m/s, 0.50 rad/s (by hand)")) << events();
   EXPECT_TRUE(happened("place 2.50, 0.50, yaw 90 deg (by hand)")) << events();

@@ -83,7 +83,7 @@ TEST_F(Wishes, ARunInRealTimeDoesWhatIsAskedFromElsewhere) {
   EXPECT_NE(added.out.find("in effect at all 2 hosts "), std::string::npos) << added.out;
   EXPECT_NE(near({"edit", "live_twins@two", "list"}).out.find("bale"), std::string::npos);
   EXPECT_NE(console("env").find(R"(over the bus: {"rave":1,"do":"add")"), std::string::npos);
-  refused({"pause", "live_twins"}, "a live run cannot be held");
+  refused({"pause", "live_twins"}, "a live run cannot be paused");
   const Ended stopped = far({"stop", "live_twins@one"});
   EXPECT_EQ(stopped.exit_code, 0) << stopped.err;
   EXPECT_TRUE(logged("one", R"({"rave":1,"do":"stop"})")) << console("one");

@@ -61,7 +61,7 @@ TEST(Ros2TfTree, SaysWhereTheChainEnds) {
             "no transform leads from `map` to `base_link`: `odom` has no parent");
   ASSERT_TRUE(tf.put("base_link", "odom", {}, 1));
   EXPECT_EQ(tree.find("map", "base_link").error().message,
-            "the transforms above `base_link` go round in a circle");
+            "the transforms above `base_link` form a cycle");
 }
 
 TEST(Ros2TfTree, WhatLeansMattersToItsUsersOnly) {

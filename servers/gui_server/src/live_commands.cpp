@@ -59,9 +59,8 @@ RunRequest request_of(const CommandMessage& command, const Author& author) {
 }
 
 constexpr const char* kNoRelay =
-    "Orders go by the direct line to the host of the robot, and there is none; `gui: {relay: "
-    "true}` "
-    "in the scenario lets the server pass them on.";
+    "Orders need a direct line to the host of the robot, and there is none; with `gui: {relay: "
+    "true}` in the scenario the server forwards them.";
 
 }  // namespace
 

@@ -187,7 +187,7 @@ TEST_F(Control, EditsThatCannotBeDoneSayWhy) {
       rave({"edit", "add", "disc", "--name", "tube", "--at", "30,0", "--size", "1"}).exit_code, 0);
   refused({"remove", "tub"}, 1, "there is no obstacle `tub`; did you mean `tube`?");
   refused({"add", "disc", "--name", "tube", "--at", "30,9", "--size", "1"}, 1,
-          "there is an obstacle `tube` already");
+          "there already is an obstacle `tube`");
   refused({"add", "disc", "--name", "lid", "--at", "0,0", "--size", "90"}, 1,
           "would overlap the robot `anna`");
   refused({"add", "box", "--name", "flat", "--at", "30,9", "--size", "0x1"}, 1, "box_m");

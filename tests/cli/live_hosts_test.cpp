@@ -291,7 +291,7 @@ TEST_F(LiveHosts, ASecondProcessForAHostIsNotLetIn) {
   wait_until(
       [&] {
         return has_ended() ||
-               console("env").find("host 0 is served by process") != std::string::npos;
+               console("env").find("host 0 is already served by process") != std::string::npos;
       },
       "the second one is refused");
   wait_until_it_moves(kLeft);

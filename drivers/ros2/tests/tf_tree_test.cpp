@@ -72,7 +72,7 @@ TEST(Ros2TfTree, WhatLeansMattersToItsUsersOnly) {
   ASSERT_TRUE(tf.put("base_link", "camera", {}, 1));
   EXPECT_TRUE(tree.find("map", "base_link"));
   EXPECT_EQ(tree.find("map", "camera").error().message,
-            "camera leans by 90 degrees; RAVE's robots stay level");
+            "camera is tilted by 90 degrees; robots in RAVE stay level");
 }
 
 TEST(Ros2TfTree, MadeUpFramesDoNotFillTheMemory) {

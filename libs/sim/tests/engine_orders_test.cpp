@@ -217,7 +217,7 @@ TEST(EngineOrders, ARefusedOrderLeavesEverythingAsItWas) {
   refused("1001 bytes; expected 1 to 1000", words(kListener, std::string(1001, 'a')));
   refused("control characters", words(kListener, "a\x1b[2J"));
   refused("a velocity that an actuator obeys", drive(RobotId(3), 0.1, 0));
-  refused("a real robot is where it is", place(RobotId(3), {1, 1}));
+  refused("a real robot cannot be placed", place(RobotId(3), {1, 1}));
 }
 
 TEST(EngineOrders, ARobotSaysWhatItTakes) {

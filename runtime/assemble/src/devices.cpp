@@ -254,8 +254,8 @@ Status set_pose_source(const config::RobotGroup& group, sim::RobotType& type) {
   if (!group.robot.pose_from) {
     if (type.simulated) return {};
     return fail_at(group.robot.body.where, ErrorCode::kInvalidArgument,
-                   "robot `{}` is real, so others can sense it only if something says where it is: "
-                   "expected `pose_from:` with the name of a sensor that gives a pose or odometry",
+                   "robot `{}` is real, so others can sense it only if its pose is known: expected "
+                   "`pose_from:` with the name of a sensor that gives a pose or odometry",
                    group.name.value);
   }
   const config::Located<std::string>& name = *group.robot.pose_from;

@@ -243,8 +243,8 @@ TEST(BuildErrors, ARealRobotMustSayWhereItIs) {
       "velocity, actuator: wheels}]";
   const std::string silent = host.error_of(one(deaf));
   EXPECT_EQ(silent.find("s.yaml:6:"), 0U) << silent;
-  EXPECT_NE(silent.find("robot `anna` is real, so others can sense it only if something says where "
-                        "it is: expected `pose_from:` with the name of a sensor that gives a pose "
+  EXPECT_NE(silent.find("robot `anna` is real, so others can sense it only if its pose is known: "
+                        "expected `pose_from:` with the name of a sensor that gives a pose "
                         "or odometry"),
             std::string::npos)
       << silent;

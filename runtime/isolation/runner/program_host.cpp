@@ -119,7 +119,7 @@ bool ProgramHost::update(std::string_view bytes) {
   const ProgramSetup& setup = setup_->setup();
   const ProgramOps& ops = file_->ops();
   ErrorText error;
-  error.set("its parameters cannot change during a run");
+  error.set("it takes no new parameters while it runs");
   const bool taken = ops.update != nullptr &&
                      ops.update(instance_.get(), setup.params, setup.param_count, &error) == 0;
   if (!taken) setup_->revert();

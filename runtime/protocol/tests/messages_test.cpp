@@ -241,7 +241,7 @@ TEST(Messages, AWorldThatNobodyCouldUseIsRefusedWithItsField) {
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.sent.packets._buffer[1].size = 99; }),
             "sent.packets[1] has 99 bytes from 3 on, of 7");
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.poses._buffer[0].variance_xy_m2 = -1; }),
-            "poses[0] has a variance that is none");
+            "poses[0] has an invalid variance");
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.inputs._buffer[0].kind = 17; }),
             "an input of an unknown kind or author");
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.inputs._buffer[1].changes._buffer[0].part = 9; }),

@@ -80,8 +80,8 @@ TEST(Ros2Drive, AKilledRobotIsReportedAndOneThatSpeaksAgainIsTakenBack) {
   bench.peer->tell("mute");
   const std::string why = bench.poses->await_failure();
   EXPECT_EQ(why,
-            "no message has come on `/cart/odom` for 0.3 s: somebody writes `/cart/odom`, but "
-            "nothing came");
+            "no message has come on `/cart/odom` for 0.3 s: another participant writes "
+            "`/cart/odom`, but no message came");
   // One silent sensor may be dead by itself: the robot is when all of them are.
   (void)bench.scans->await_failure();
   EXPECT_EQ(bench.drive.write(velocity_command(0.1, 0)),

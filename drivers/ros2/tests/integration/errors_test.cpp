@@ -14,8 +14,8 @@ TEST(Ros2Errors, WhoIsNotThereIsLookedForAndNamed) {
   ASSERT_EQ(bench.odometry.configure({}, bench.device.base()), "") << "now all is known of it";
   LiveSensor laser(bench.plugin, "ros2_laser");
   EXPECT_EQ(laser.configure({{"topic", "front"}}, bench.device.base()),
-            "no message came on `/cart/front` within 2 s: nobody writes `/cart/front`; the type "
-            "sensor_msgs/msg/LaserScan is at /cart/scan");
+            "no message came on `/cart/front` within 2 s: no participant writes `/cart/front`; the "
+            "type sensor_msgs/msg/LaserScan is at /cart/scan");
   EXPECT_EQ(laser.configure({{"topic", "imu"}}, bench.device.base()),
             "no message came on `/cart/imu` within 2 s: `/cart/imu` is there with the type "
             "sensor_msgs/msg/Imu instead of sensor_msgs/msg/LaserScan");
@@ -54,7 +54,7 @@ TEST(Ros2Errors, AMismatchIsToldWithItsRemedy) {
   poses.await_more(3);
   EXPECT_EQ(
       tf.report()["trouble"],
-      "`/tf_static`: a writer gets nothing through to us: durability does not match; make the "
+      "`/tf_static`: a writer exchanges nothing through to us: durability does not match; make the "
       "writer transient-local, or the reader volatile");
   EXPECT_NE(bench.said().find("durability does not match"), std::string::npos);
   tf.close();

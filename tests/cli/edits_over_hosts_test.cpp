@@ -166,7 +166,7 @@ TEST_F(EditsOverHosts, ARunIsHeldAndGoesOnStepByStep) {
   wait_until([&] { return rave({"ps"}).out.find("paused") != std::string::npos; }, "it is paused");
   const Ended added = add_box("bale", "40,2,30");
   EXPECT_EQ(added.exit_code, 0) << added.err;
-  EXPECT_NE(added.out.find("asked for; the run is paused"), std::string::npos) << added.out;
+  EXPECT_NE(added.out.find("requested; the run is paused"), std::string::npos) << added.out;
   EXPECT_EQ(rave({"edit", "list"}).out.find("bale"), std::string::npos);
   EXPECT_EQ(rave({"step"}).exit_code, 0);
   wait_for_line("run", "added `bale` at (40, 2)");
@@ -240,7 +240,7 @@ TEST_F(EditsOverHosts, AHostThatIsKilledAndComesBackHasWhatWasEdited) {
   // Nothing is made while all wait, and who asks is told.
   const Ended later = add_box("crate", "40,3");
   EXPECT_EQ(later.exit_code, 0) << later.err;
-  EXPECT_NE(later.out.find("asked for; the run waits for one"), std::string::npos) << later.out;
+  EXPECT_NE(later.out.find("requested; the run waits for one"), std::string::npos) << later.out;
   start("again", "robot", "crowd.yaml", {"--host", "one", "--duration", "100000"});
   wait_for_line("env", "host `one` is back");
   wait_for_size("again");
@@ -325,7 +325,7 @@ class LiveEdits : public Garbage {
   }
   void begin_all() {
     for (const char* const who : {"env", "one", "two"}) begin(who, who);
-    wait_for_line("env", "all hosts are there");
+    wait_for_line("env", "all hosts have joined");
     wait_until_it_runs();
   }
   [[nodiscard]] bool host_has(const std::string& host, const std::string& text) const {
@@ -436,7 +436,7 @@ TEST_F(LiveEdits, ARobotIsHandedOverByTheHostThatRunsIt) {
   start("env", "env", "live_twins.yaml", words);
   start_host("one", "live_twins.yaml", words);
   start_host("two", "live_twins.yaml", words);
-  wait_for_line("env", "all hosts are there");
+  wait_for_line("env", "all hosts have joined");
   wait_until_it_runs();
   wait_for_line("two", "handed over: simulated -> simulated");
   // The run has three processes here; nobody needs to know which of them it is.
@@ -447,7 +447,7 @@ TEST_F(LiveEdits, ARobotIsHandedOverByTheHostThatRunsIt) {
   EXPECT_NE(console("one").find("handed over"), std::string::npos);
   const Ended again = rave({"hand-over", "left", "twin"});
   EXPECT_EQ(again.exit_code, 1) << again.out;
-  EXPECT_NE(again.err.find("drivers already"), std::string::npos) << again.err;
+  EXPECT_NE(again.err.find("already has its"), std::string::npos) << again.err;
   end_by_hand("env");
 }
 

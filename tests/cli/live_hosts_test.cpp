@@ -175,7 +175,7 @@ TEST_F(LiveHosts, AManagerThatIsKilledIsMissedAndReplaced) {
   const LiveListener::WorldTime before = listener_->worlds.back();
   signal("env", SIGKILL);
   EXPECT_EQ(end_of("env"), -1);
-  wait_for_line("one", "no world has come for");
+  wait_for_line("one", "no world has arrived for");
   wait_for_line("one", "the environment manager is lost");
   // The guard of the robot does what its file says.
   wait_for_line("one", "world lost");
@@ -207,7 +207,7 @@ TEST_F(LiveHosts, HostsWaitForTheManagerAndForEachOther) {
   begin("env");
   wait_for_line("one", "waiting for two");
   begin("two");
-  wait_for_line("env", "all hosts are there");
+  wait_for_line("env", "all hosts have joined");
   hear_until([this] { return listener_->places.size() == 2; }, "both robots are in the world");
   EXPECT_EQ(console("one").find("begins at"), std::string::npos) << "both begin with the run";
   end_all({"one", "two", "env"});
@@ -240,7 +240,7 @@ TEST_F(LiveHosts, RunStartsAllAndEndsInTime) {
 
 TEST_F(LiveHosts, ARunThatIsInterruptedEndsItsHosts) {
   start("run", "run", "live.yaml");
-  wait_for_line("run", "all hosts are there");
+  wait_for_line("run", "all hosts have joined");
   signal("run", SIGINT);
   EXPECT_EQ(end_of("run"), 1);
   for (const char* const host : {"one", "two"}) {

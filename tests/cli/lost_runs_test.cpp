@@ -128,8 +128,8 @@ TEST_F(LostRuns, AForgottenHostIsNotTakenIntoANewRun) {
 TEST_F(LostRuns, AForgottenHostInRealTimeIsNotTakenIntoANewRun) {
   start("env", "env", "live.yaml", of_run());
   for (const char* const host : {"one", "two"}) start_host(host, "live.yaml", of_run());
-  wait_for_line("env", "all hosts are there");
-  wait_for_line("one", "the clock of the environment manager is");
+  wait_for_line("env", "all hosts have joined");
+  wait_for_line("one", "the clock of the environment manager differs");
   kill_process("env");
   wait_for_line("one", "the environment manager is lost");
   const Ended refused = rave(of_run({"env", "live.yaml", "--output", folder("refused")}));

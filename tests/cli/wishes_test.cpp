@@ -76,7 +76,7 @@ TEST_F(Wishes, ARunInLockStepDoesWhatIsAskedFromElsewhere) {
 
 TEST_F(Wishes, ARunInRealTimeDoesWhatIsAskedFromElsewhere) {
   start_all("live_twins.yaml", {"--no-record"});
-  wait_for_line("env", "all hosts are there");
+  wait_for_line("env", "all hosts have joined");
   const Ended added =
       far({"edit", "add", "box", "--name", "bale", "--at", "0,5", "--size", "0.5x0.3"});
   EXPECT_EQ(added.exit_code, 0) << added.err;
@@ -98,7 +98,7 @@ TEST_F(Wishes, ARobotIsHandedOverByItsHostWhoeverAsks) {
   EXPECT_NE(made.out.find("@one: left: "), std::string::npos) << made.out;
   EXPECT_NE(made.out.find("simulated -> simulated"), std::string::npos) << made.out;
   EXPECT_NE(console("one").find("handed over"), std::string::npos);
-  refused({"hand-over", "left", "twin"}, "drivers already");
+  refused({"hand-over", "left", "twin"}, "already has its");
   refused({"shadow", "--robot", "left"}, "has no shadow");
   end_by_hand("env");
 }
@@ -227,7 +227,7 @@ TEST_F(SecretWishes, AMemberOfTheSetAloneReachesTheRun) {
 
 TEST_F(SecretWishes, AHostInRealTimeHearsAMemberToo) {
   start_secretly("live_twins.yaml", {"--no-record"});
-  wait_for_line("env", "all hosts are there");
+  wait_for_line("env", "all hosts have joined");
   const Ended stopped = as_member({"stop", "live_twins@one"});
   EXPECT_EQ(stopped.exit_code, 0) << stopped.err;
   EXPECT_TRUE(logged("one", R"({"rave":1,"do":"stop"})")) << console("one");

@@ -103,8 +103,8 @@ class Doctor(unittest.TestCase):
             lab.filter("here", "input priority 0", "udp dport 7400-7649 drop")
             code, findings = lab.ask()
             self.assertEqual(code, 1)
-            self.expect(findings, "way", "problem", "nothing comes back")
-            self.expect(findings, "self", "problem", "does not arrive",
+            self.expect(findings, "way", "problem", "no answer")
+            self.expect(findings, "self", "problem", "do not arrive",
                         "sudo nft list ruleset    # shows the rules; accept UDP 7400 to 7649")
             subprocess.run(["ip", "netns", "exec", lab.space("here"), "nft", "delete", "table",
                             "inet", "t"], check=True)

@@ -39,7 +39,7 @@ std::optional<RadioPacket> read(const std::string& bytes) {
 
 std::string payload_of(const std::string& bytes) {
   const auto packet = read(bytes);
-  if (!packet) return "no packet";
+  if (!packet) return "not a packet";
   return {reinterpret_cast<const char*>(packet->payload.data()), packet->payload.size()};
 }
 

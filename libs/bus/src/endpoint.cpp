@@ -44,9 +44,8 @@ std::optional<std::string> take_mismatch(dds_entity_t entity, bool reads) {
   }
   if (fresh == 0) return std::nullopt;
   const PolicyAdvice advice = advice_for_policy(policy);
-  return fmt::format("a {} exchanges nothing {} us: {} does not match; {}",
-                     reads ? "writer" : "reader", reads ? "through to" : "from", advice.name,
-                     advice.remedy);
+  return fmt::format("a {} gets nothing {} us: {} does not match; {}", reads ? "writer" : "reader",
+                     reads ? "through to" : "from", advice.name, advice.remedy);
 }
 
 }  // namespace rave::bus

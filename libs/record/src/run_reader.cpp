@@ -59,7 +59,7 @@ Result<const RecordedRobot*> find_robot(const RunInfo& run, std::string_view nam
   if (found != run.robots.end()) return &*found;
   std::vector<std::string_view> names;
   for (const RecordedRobot& robot : run.robots) names.push_back(robot.name);
-  return unknown("robot", name, "the record", names);
+  return unknown("robot", name, "the recording", names);
 }
 
 Result<const RecordedSensor*> find_sensor(const RunInfo& run, const RecordedRobot& robot,

@@ -91,7 +91,7 @@ TEST(Ros2Participant, AMismatchNamesThePolicyAndTheRemedy) {
   std::optional<std::string> said;
   ASSERT_TRUE(eventually(*waiter, [&] { return (said = reader->take_mismatch()).has_value(); }));
   EXPECT_EQ(*said,
-            "a writer exchanges nothing through to us: durability does not match; make the writer "
+            "a writer gets nothing through to us: durability does not match; make the writer "
             "transient-local, or the reader volatile");
   ASSERT_TRUE(eventually(*waiter, [&] { return (said = writer->take_mismatch()).has_value(); }));
   EXPECT_EQ(said->substr(0, 31), "a reader gets nothing from us: ");

@@ -189,11 +189,11 @@ TEST(EngineOrders, ARefusedOrderLeavesEverythingAsItWas) {
   refused("expected at most 100 m/s", drive(kDriver, nan, 0));
   refused("expected at most 100 m/s", drive(kDriver, 0, std::numeric_limits<double>::infinity()));
   refused("expected at most 100 m/s", drive(kDriver, 101, 0));
-  refused("is no point", goal(kListener, {nan, 0}));
+  refused("is not a point", goal(kListener, {nan, 0}));
   refused("is outside the world", goal(kListener, {1e6, 0}));
   refused("is inside the obstacle `wall`", goal(kListener, {4, 1}));
   refused("is outside the fence", goal(kListener, {3.5, 0}));
-  refused("is no yaw", place(kListener, {1, 1}, nan));
+  refused("is not a yaw", place(kListener, {1, 1}, nan));
   refused("`path` needs a robot", order(Kind::kPath, RobotId()));
   refused("`goal` needs a robot", goal(RobotId(99), {0, 0}));
   refused("1 points; expected 2 to 1000", [] {

@@ -402,7 +402,7 @@ TEST(SplitHost, AFailedDriverStandsInTheReport) {
   EXPECT_EQ(host->propose(report).error().code, ErrorCode::kTimeout);
   EXPECT_EQ(report.host, 5U);
   EXPECT_EQ(report.state, HostState::kFailed);
-  EXPECT_NE(report.text.find("has not said"), std::string::npos);
+  EXPECT_NE(report.text.find("has not declared"), std::string::npos);
 }
 
 }  // namespace

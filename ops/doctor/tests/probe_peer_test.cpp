@@ -226,8 +226,7 @@ TEST(Judge, FragmentsThatGetLost) {
 TEST(Judge, SilenceAndNoWay) {
   ProbeResult result;
   result.peer = "10.0.0.2";
-  EXPECT_TRUE(trouble(result).starts_with("problem 10.0.0.2: nothing comes back"))
-      << trouble(result);
+  EXPECT_TRUE(trouble(result).starts_with("problem 10.0.0.2: no answer")) << trouble(result);
   result.port = ProbeResult::PortState::kNoWay;
   result.why = "send: Network is unreachable";
   EXPECT_TRUE(trouble(result).starts_with(

@@ -136,7 +136,7 @@ TEST(KeyFiles, AreMadeOnceAndReadByHalves) {
   EXPECT_EQ(*open, key->open);
   EXPECT_EQ(why_not(sign_ticket(sample_ticket(), *key), *key), "");
   const auto message = [](const auto& result) { return result ? "" : result.error().message; };
-  EXPECT_NE(message(make_key_files(file)).find("is there already"), std::string::npos);
+  EXPECT_NE(message(make_key_files(file)).find("already exists"), std::string::npos);
   EXPECT_NE(message(read_public_key(file)).find("is the secret half of the key"),
             std::string::npos);
   EXPECT_NE(message(read_signing_key(name + "/line.pub")).find("is the public half"),
@@ -145,7 +145,7 @@ TEST(KeyFiles, AreMadeOnceAndReadByHalves) {
   EXPECT_NE(message(read_public_key(name + "/text")).find("is not a key of direct lines"),
             std::string::npos);
   fs::permissions(file, fs::perms::group_read, fs::perm_options::add);
-  EXPECT_NE(message(read_signing_key(file)).find("others can read"), std::string::npos);
+  EXPECT_NE(message(read_signing_key(file)).find("other users can read"), std::string::npos);
   fs::remove_all(name);
 }
 

@@ -117,7 +117,7 @@ TEST_F(LiveManagerTest, NamesRobotsThatAreNotHeardOfAndHostsThatWereLost) {
   {
     SpeakingHost one(options_.bus, 0, "one");
     std::optional<SpeakingHost> two(std::in_place, options_.bus, 1, "two");
-    go_until({&one, &*two}, [this] { return lines_.has("all hosts are there"); });
+    go_until({&one, &*two}, [this] { return lines_.has("all hosts have joined"); });
     EXPECT_FALSE(lines_.has("is stale"));
     one.say(0, {0}, 0);
     go_until({&one, &*two}, [this] { return lines_.has("robot `anna` is stale"); });

@@ -54,7 +54,7 @@ TEST(Ros2Errors, AMismatchIsToldWithItsRemedy) {
   poses.await_more(3);
   EXPECT_EQ(
       tf.report()["trouble"],
-      "`/tf_static`: a writer exchanges nothing through to us: durability does not match; make the "
+      "`/tf_static`: a writer gets nothing through to us: durability does not match; make the "
       "writer transient-local, or the reader volatile");
   EXPECT_NE(bench.said().find("durability does not match"), std::string::npos);
   tf.close();

@@ -90,7 +90,7 @@ Status Engine::Impl::ingest_sensor(RobotGroup& group, SensorSlots& slots, std::s
                   "robot `{}`, sensor `{}` (driver `{}`) has not declared its samples complete up "
                   "to {:.3f} s for {} ms; the run cannot continue",
                   spec.robots[robot.value()].name, slots.spec->name, slots.spec->hardware_driver(),
-                  spec.host_timeout.count(), now.seconds());
+                  now.seconds(), spec.host_timeout.count());
     }
     // A stepped driver runs ahead: what it says of its device counts when its samples have been
     // taken in, not when its thread happened to say it.

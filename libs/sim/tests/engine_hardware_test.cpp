@@ -17,7 +17,7 @@ TEST(EngineHardware, ADriverThatNeverAnswersEndsTheRun) {
   EXPECT_EQ(status.error().code, ErrorCode::kTimeout);
   EXPECT_EQ(status.error().text(),
             "robot `r0`, sensor `mocap` (driver `mocap`) has not declared its samples complete up "
-            "to 20 s for 0.000 ms; the run cannot continue");
+            "to 0.000 s for 20 ms; the run cannot continue");
 }
 
 TEST(EngineHardware, ALostDeviceIsToldInTheStepThatMissesItAndTheRunGoesOn) {

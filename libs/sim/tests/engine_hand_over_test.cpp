@@ -323,7 +323,7 @@ TEST(HandOver, ToDriversThatNeverOpenDoesNotHoldUpTheEndOfTheRun) {
   EXPECT_NE(again.error().text().find("cannot restart"), std::string::npos);
   engine.reset();
   const std::string expected = fmt::format(
-      "robot {}: its real drivers, which do not serve, are still opening: sensor `mocap` "
+      "robot {}: its real drivers, which do not serve, are still being opened: sensor `mocap` "
       "(driver `mocap`) has not returned; the run ends without it",
       name);
   EXPECT_NE(ears->heard.find(expected), std::string::npos) << ears->heard;

@@ -219,7 +219,7 @@ TEST(Judge, FragmentsThatGetLost) {
   ProbeResult result = open_result();
   result.sizes = {{1400, true, true}, {1472, true, true}, {4000, false, false}};
   EXPECT_TRUE(trouble(result).starts_with(
-      "problem 10.0.0.2: datagrams of 4000 bytes and more do not arrive: fragments"))
+      "problem 10.0.0.2: datagrams of 4000 bytes and more do not arrive: packet fragments"))
       << trouble(result);
 }
 

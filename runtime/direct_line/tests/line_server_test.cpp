@@ -306,7 +306,8 @@ TEST_F(DirectLine, OrdersBeyondTheTicketAreRefusedAndLogged) {
     EXPECT_NE(answer.find("your rights do not include"), std::string::npos) << answer;
   }
   EXPECT_TRUE(run_.asked().empty());
-  EXPECT_TRUE(journal_.has("refused drive of anna (127.0.0.1): `drive` of `blue-1`"))
+  EXPECT_TRUE(journal_.has(
+      "refused drive of anna (127.0.0.1): your rights do not include `drive` of `blue-1`"))
       << journal_.text();
   anna.send(drive(9, "green-1", R"("v":NaN,"w":0)"));
   EXPECT_NE(anna.text_with("\"answer\"").find("\"good\":false"), std::string::npos);

@@ -11,7 +11,7 @@ inline FactsOf sample_whose() { return {7, "left"}; }
 inline RunFacts sample_facts(std::uint32_t robot) {
   RunFacts facts;
   facts.steps = 300;
-  facts.problems = {"the recording is incomplete: no room"};
+  facts.problems = {"the record is not whole: no room"};
   facts.events = {{3, RobotId(robot), sim::EventKind::kContact, BodyId(1), "", 0},
                   {9, RobotId(robot), sim::EventKind::kGuardSlowed, BodyId(), "fence", 8}};
   facts.robots = {{robot, "wander", 30, true, true, false, 1.5, -0.0, 3.1, 2'990'000'000, 1.25}};

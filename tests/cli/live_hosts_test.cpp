@@ -163,7 +163,7 @@ TEST_F(LiveHosts, RobotsOfAKilledHostAreStaleUntilItIsBackWhereTheyWere) {
   EXPECT_LT(way_from(kLeft, last), 0.3) << "it goes on where it was";
   hear_until([this] { return listener_->stale.empty(); }, "nobody is stale");
   wait_until_it_moves(kLeft);
-  EXPECT_NE(console("again").find("begins at"), std::string::npos);
+  EXPECT_NE(console("again").find("joins at"), std::string::npos);
   end_all({"env", "again", "two"});
   EXPECT_EQ(result("env")["hosts"][0]["losses"], 1);
   EXPECT_EQ(result("env")["hosts"][1]["losses"], 0);

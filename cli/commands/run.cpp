@@ -86,7 +86,7 @@ int run(const RunCommand& options) {
   console.clear();
   if (outcome) {
     const int code = report_outcome(options, *outcome, folder->path());
-    live.end("The run is over.");
+    live.end("The run has ended.");
     if (page) replay_on_page(*page, options.quiet, folder->path(), control);
     return code;
   }

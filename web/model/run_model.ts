@@ -88,10 +88,10 @@ export class RunModel {
   whyNotTaken(slot: number, what: string): string {
     const robot = this.robots[slot];
     if (robot === undefined) return 'No robot is selected.';
-    if (!this.live) return 'This is a recording: nobody takes orders.';
+    if (!this.live) return 'This is a recording: it takes no orders.';
     if (!this.may('command')) return this.whyNot('command');
-    if (robot.yours === false) return `${robot.name} is not yours to command.`;
-    if (robot.recorded) return `${robot.name} is recorded: it obeys nobody.`;
+    if (robot.yours === false) return `You may not command ${robot.name}.`;
+    if (robot.recorded) return `${robot.name} is recorded: it takes no orders.`;
     const takes = this.drives.get(slot)?.takes ?? [];
     if (takes.includes(what)) return '';
     return takes.length === 0 ? `${robot.name} takes no orders.` : `${robot.name} takes no ${what}; it takes ${takes.join(', ')}.`;

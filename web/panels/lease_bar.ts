@@ -67,8 +67,8 @@ export class LeaseBar extends LitElement {
   private about(mine: boolean, other: boolean): string {
     const {model} = this.context;
     if (mine) return 'ends 3 s after driving, 10 min after another order';
-    if (!model.commands(this.robot)) return model.may('command') ? 'not yours to command' : 'you look on';
-    return other ? 'others ask first' : 'your first order takes it';
+    if (!model.commands(this.robot)) return model.may('command') ? 'you may not command it' : 'you can only watch';
+    return other ? 'others must ask you' : 'your first order takes the lease';
   }
 
   private renderButtons(mine: boolean, other: boolean, driver: string): TemplateResult {

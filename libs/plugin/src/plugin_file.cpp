@@ -139,7 +139,7 @@ Status PluginFile::register_drivers() {
   void* entry = ::dlsym(handle_, kEntryName);
   if (entry == nullptr) {
     return fail(ErrorCode::kPlugin,
-                "entry point `{}` is missing ({}); RAVE_PLUGIN(...) defines it, keep it visible",
+                "entry point `{}` is missing ({}); RAVE_PLUGIN(...) defines it; do not hide it",
                 kEntryName, loader_reason(path_));
   }
   Collector collector(path_);

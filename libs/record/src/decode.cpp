@@ -11,13 +11,14 @@ namespace {
 using Message = std::span<const std::byte>;
 
 tl::unexpected<Error> malformed(const char* topic) {
-  return fail(ErrorCode::kParse, "a message of `{}` is not as RAVE writes it", topic);
+  return fail(ErrorCode::kParse, "a message of `{}` does not have the format that RAVE writes",
+              topic);
 }
 
 tl::unexpected<Error> other_version(const char* topic, std::uint32_t version) {
   return fail(ErrorCode::kParse,
-              "a message of `{}` has layout {}; this RAVE reads layout {}, so the record is of "
-              "another version of RAVE",
+              "a message of `{}` has layout {}; this RAVE reads layout {}, so another version of "
+              "RAVE wrote the recording",
               topic, version, kLayoutVersion);
 }
 

@@ -65,7 +65,7 @@ Result<std::unique_ptr<Part>> open_part(const fs::path& path) {
   std::string host = host_of(reader);
   auto part = std::make_unique<Part>(
       Part{path, std::move(host), std::move(reader), *std::move(info), end, std::move(cursor)});
-  if (!part->end) part->torn = "it has no end";
+  if (!part->end) part->torn = "its end is missing";
   if (!part->reader.damages().empty()) part->torn = part->reader.damages().front();
   return part;
 }
@@ -124,14 +124,14 @@ class Merger {
 Status Merger::check() const {
   const Part& first = *parts_.front();
   if (!(first.info.step_s >= 1e-9 && first.info.step_s < 1e9)) {
-    return fail(ErrorCode::kParse, "`{}` gives no step", first.path.string());
+    return fail(ErrorCode::kParse, "`{}` does not state the step", first.path.string());
   }
   for (const auto& part : parts_) {
     if (part->info.scenario == first.info.scenario && part->info.seed == first.info.seed &&
         part->info.step_s == first.info.step_s && part->info.robots == first.info.robots) {
       continue;
     }
-    return fail(ErrorCode::kParse, "`{}` and `{}` are records of different runs",
+    return fail(ErrorCode::kParse, "`{}` and `{}` are recordings of different runs",
                 first.path.string(), part->path.string());
   }
   return {};
@@ -183,7 +183,7 @@ std::vector<std::string> Merger::notes() const {
   for (const std::string& host : hosts_) {
     const bool there =
         std::ranges::any_of(parts_, [&](const auto& part) { return part->host == host; });
-    if (!there) notes.push_back(fmt::format("there is no record of host `{}`", host));
+    if (!there) notes.push_back(fmt::format("there is no recording of host `{}`", host));
   }
   return notes;
 }
@@ -351,7 +351,7 @@ Result<std::vector<std::string>> merge_records(const std::vector<fs::path>& part
     }
   }
   if (opened.empty()) {
-    return fail(ErrorCode::kParse, "no record of the run can be read{}{}",
+    return fail(ErrorCode::kParse, "no recording of the run can be read{}{}",
                 unreadable.empty() ? "" : ": ", unreadable.empty() ? "" : unreadable.front().why);
   }
   fs::path draft = output;

@@ -159,7 +159,7 @@ TEST_F(Merged, IsMadeAgainOnlyIfAPartHasChanged) {
 TEST_F(Merged, WhatIsMissingOrTornIsNamed) {
   write_host("a", 200, 5);
   write_world(200);
-  EXPECT_EQ(open().notes, std::vector<std::string>{"there is no record of host `b`"});
+  EXPECT_EQ(open().notes, std::vector<std::string>{"there is no recording of host `b`"});
   write_host("b", 200, 7);
   EXPECT_TRUE(open().notes.empty());
   const fs::path torn = folder_ / "hosts/b/run.mcap";
@@ -191,7 +191,7 @@ TEST_F(Merged, ARecordThatWasNotEndedIsTornThoughItIsReadable) {
   }
   const OpenedRun run = open();
   ASSERT_EQ(run.notes.size(), 1U);
-  EXPECT_NE(run.notes[0].find("hosts/b/run.mcap` is torn: it has no end"), std::string::npos)
+  EXPECT_NE(run.notes[0].find("hosts/b/run.mcap` is torn: its end is missing"), std::string::npos)
       << run.notes[0];
   const auto reader = McapReader::open(run.file);
   ASSERT_TRUE(reader);
@@ -227,7 +227,7 @@ TEST_F(Merged, RecordsOfDifferentRunsAreRefused) {
   ASSERT_TRUE(other->end(1));
   const auto run = open_run(folder_);
   ASSERT_FALSE(run);
-  EXPECT_NE(run.error().message.find("are records of different runs"), std::string::npos);
+  EXPECT_NE(run.error().message.find("are recordings of different runs"), std::string::npos);
 }
 
 TEST(RobotRanges, ThereAndBack) {

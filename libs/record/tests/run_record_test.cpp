@@ -387,17 +387,17 @@ std::string error_of_percepts(std::uint32_t version, std::uint32_t robots, std::
 }
 
 TEST(RunRecordDecode, RowsWithoutEqualPartsAndOtherLayoutsAreErrors) {
-  const std::string malformed = "a message of `/rave/percepts` is not as RAVE writes it";
+  const std::string malformed =
+      "a message of `/rave/percepts` does not have the format that RAVE writes";
   EXPECT_EQ(error_of_percepts(kLayoutVersion, 3, 12), "3 percepts");
   EXPECT_EQ(error_of_percepts(kLayoutVersion, 1, 0), "1 percepts");
   EXPECT_EQ(error_of_percepts(kLayoutVersion, 5, 12), malformed);
   EXPECT_EQ(error_of_percepts(kLayoutVersion, 0, 12), malformed);
   EXPECT_EQ(error_of_percepts(kLayoutVersion, 0xffff'ffffU, 0), malformed);
   EXPECT_EQ(error_of_percepts(kLayoutVersion, 1, 13), malformed);
-  EXPECT_EQ(
-      error_of_percepts(1, 3, 12),
-      "a message of `/rave/percepts` has layout 1; this RAVE reads layout 2, so the record is "
-      "of another version of RAVE");
+  EXPECT_EQ(error_of_percepts(1, 3, 12),
+            "a message of `/rave/percepts` has layout 1; this RAVE reads layout 2, so another "
+            "version of RAVE wrote the recording");
 }
 
 TEST(RunRecordShadows, HaveAChannelOfTheirOwn) {
@@ -458,7 +458,8 @@ TEST(RunRecordDecode, ACutMessageIsAnErrorWithItsTopic) {
     }
   }
   EXPECT_EQ(try_all({}), 0);
-  EXPECT_EQ(decode_poses({}).error().text(), "a message of `/rave/poses` is not as RAVE writes it");
+  EXPECT_EQ(decode_poses({}).error().text(),
+            "a message of `/rave/poses` does not have the format that RAVE writes");
 }
 
 }  // namespace

@@ -101,7 +101,8 @@ tl::unexpected<Error> wrong(const EngineSpec& spec, const WorldInput& input,
 
 Status check_point(const EngineSpec& spec, const WorldInput& input, const Box& box, Vec2 p_W) {
   if (!std::isfinite(p_W.x) || !std::isfinite(p_W.y)) {
-    return wrong(spec, input, fmt::format("({}, {}) is no point; expected metres", p_W.x, p_W.y));
+    return wrong(spec, input,
+                 fmt::format("({}, {}) is not a point; expected metres", p_W.x, p_W.y));
   }
   if (p_W.x < box.low.x || p_W.x > box.high.x || p_W.y < box.low.y || p_W.y > box.high.y) {
     return wrong(spec, input,
@@ -138,12 +139,12 @@ Status check_points(const EngineSpec& spec, const WorldInput& input) {
   for (const Vec2 p_W : input.order.points_W) RAVE_TRY(check_point(spec, input, box, p_W));
   const double yaw_rad = input.order.yaw_rad.value_or(0);
   if (!(std::abs(yaw_rad) <= kMostTurn_rad)) {
-    return wrong(spec, input, fmt::format("{} is no yaw; expected radians", yaw_rad));
+    return wrong(spec, input, fmt::format("{} is not a yaw; expected radians", yaw_rad));
   }
   const double speed_mps = input.order.speed_mps;
   if (!(speed_mps >= 0 && speed_mps <= kFastest_mps)) {
     return wrong(spec, input,
-                 fmt::format("{} is no speed; expected 0 to {} m/s", speed_mps, kFastest_mps));
+                 fmt::format("{} is not a speed; expected 0 to {} m/s", speed_mps, kFastest_mps));
   }
   return {};
 }
@@ -201,7 +202,7 @@ Status check_order(const EngineSpec& spec, const WorldInput& input) {
   const std::string& name = input.author.name;
   if (name.size() > kMostOrderAuthor || has_control_characters(name)) {
     return fail(ErrorCode::kInvalidArgument,
-                "the name of who asks has {} bytes, or control characters; expected at most {}",
+                "the name of the author has {} bytes, or control characters; expected at most {}",
                 name.size(), kMostOrderAuthor);
   }
   const bool for_all = input.kind == InputKind::kCancel && !input.robot.valid();
@@ -233,7 +234,7 @@ Status check_order(const EngineSpec& spec, const WorldInput& input) {
     case InputKind::kCancel:
       return {};
     default:
-      return fail(ErrorCode::kInvalidArgument, "the input is no order");
+      return fail(ErrorCode::kInvalidArgument, "the input is not an order");
   }
 }
 

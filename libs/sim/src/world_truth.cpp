@@ -193,7 +193,7 @@ Result<world::Body> WorldTruth::body_at(RobotId robot, double scale) const {
 
 Status WorldTruth::resize(RobotId robot, double scale) {
   if (!movers[robot.value()].simulated) {
-    return fail(ErrorCode::kInvalidArgument, "a real body has the size that it has");
+    return fail(ErrorCode::kInvalidArgument, "a real body cannot change its size");
   }
   RAVE_TRY_ASSIGN(const world::Body body, body_at(robot, scale));
   RAVE_TRY(check_room(robot, body, scale));

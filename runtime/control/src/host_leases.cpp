@@ -18,11 +18,11 @@ std::string_view name_of(const HostLeases::Person& person) {
 
 std::string lease_text(const HostLeases::Change& change) {
   if (change.after.empty()) {
-    return fmt::format("`{}` drives no more{}", change.before,
-                       change.expired ? ": nothing was heard of them" : "");
+    return fmt::format("`{}` no longer drives{}", change.before,
+                       change.expired ? ": no message came from them" : "");
   }
   if (change.before.empty()) return fmt::format("`{}` drives", change.after);
-  return fmt::format("`{}` drives, no more `{}`", change.after, change.before);
+  return fmt::format("`{}` drives now, instead of `{}`", change.after, change.before);
 }
 
 const HostLeases::Lease* HostLeases::find(const std::string& robot) const noexcept {
@@ -70,7 +70,7 @@ Result<std::string> HostLeases::take(const std::string& robot, const Person& per
   const std::string before = lease != nullptr && !own ? lease->holder : "";
   set(robot, name, own && lease->driven, now);
   if (before.empty()) return fmt::format("{} is yours", robot);
-  return fmt::format("{} is yours; `{}` had it", robot, before);
+  return fmt::format("{} is yours; it was taken from `{}`", robot, before);
 }
 
 Result<std::string> HostLeases::give(const std::string& robot, const Person& person,

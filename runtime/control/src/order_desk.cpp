@@ -52,7 +52,7 @@ Status OrderDesk::check_release(const RunRequest& request) const {
     return fail(ErrorCode::kState, "`{}` drives {}", holder, request.robot);
   }
   return fail(ErrorCode::kState,
-              "all robots are released by a super-user; release those that you drive one by one");
+              "only a super-user can release all robots; release those that you drive one by one");
 }
 
 Result<std::string> OrderDesk::serve(const RunRequest& request, const Give& give,
@@ -62,7 +62,8 @@ Result<std::string> OrderDesk::serve(const RunRequest& request, const Give& give
   const bool gives_to_it =
       request.kind == RunRequest::Kind::kGive && request.value == HostLeases::kTerminal;
   if (request.by == HostLeases::kTerminal || gives_to_it) {
-    return fail(ErrorCode::kInvalidArgument, "`{}` is no name of a person", HostLeases::kTerminal);
+    return fail(ErrorCode::kInvalidArgument, "`{}` is not a valid name of a person",
+                HostLeases::kTerminal);
   }
   if (request.kind == RunRequest::Kind::kRelease) {
     RAVE_TRY(check_release(request));
@@ -78,14 +79,13 @@ Result<std::string> OrderDesk::serve(const RunRequest& request, const Give& give
     return fail(ErrorCode::kInvalidArgument, "`{}` needs a robot", to_string(request.kind));
   }
   if (for_all && !request.by.empty() && !request.overrides) {
-    return fail(ErrorCode::kState, "only a super-user cancels the orders of all robots");
+    return fail(ErrorCode::kState, "only a super-user can cancel the orders of all robots");
   }
   RAVE_TRY(check_rate(request.robot, now));
   Result<std::string> answer;
   if (request.kind == RunRequest::Kind::kTake) {
     if (!request.value.empty() && request.value != "force") {
-      return fail(ErrorCode::kInvalidArgument, "`{}` is no way to take a robot; expected `force`",
-                  request.value);
+      return fail(ErrorCode::kInvalidArgument, "`{}`: expected `force` or nothing", request.value);
     }
     answer = leases_.take(request.robot, person_of(request), request.value == "force", now);
   } else if (request.kind == RunRequest::Kind::kGive) {

@@ -422,10 +422,10 @@ Result<Request> parse_request(std::string_view line) {
   if (line.size() > kMaxLineBytes) return fail(ErrorCode::kParse, "the line is too long");
   Json json = parse_object(line);
   if (json.is_discarded()) {
-    return fail(ErrorCode::kParse, "expected a JSON object in which no key comes twice");
+    return fail(ErrorCode::kParse, "expected a JSON object without duplicate keys");
   }
   if (!json.contains("rave") || json.at("rave") != 1) {
-    return fail(ErrorCode::kParse, "expected `\"rave\": 1`, the version of what is spoken here");
+    return fail(ErrorCode::kParse, "expected `\"rave\": 1`, the version of this protocol");
   }
   json.erase("rave");
   Request request;
@@ -437,10 +437,10 @@ Result<Request> parse_request(std::string_view line) {
   }
   request.what = *what;
   if (!take_details(json, request)) {
-    return fail(ErrorCode::kInvalidArgument, "something is missing or of the wrong type");
+    return fail(ErrorCode::kInvalidArgument, "a key is missing or has the wrong type");
   }
   if (!json.empty()) {
-    return fail(ErrorCode::kInvalidArgument, "`{}` does not belong here", json.begin().key());
+    return fail(ErrorCode::kInvalidArgument, "unexpected key `{}`", json.begin().key());
   }
   return request;
 }
@@ -472,7 +472,7 @@ Result<Answer> parse_answer(std::string_view line) {
   if (json.is_discarded() || !read_bool(json, "good", answer.good) ||
       !read_text(json, "text", answer.text) ||
       (json.contains("status") && !read_status(json.at("status"), answer.status))) {
-    return fail(ErrorCode::kParse, "the run gave an answer that nobody understands");
+    return fail(ErrorCode::kParse, "the answer of the run is malformed");
   }
   return answer;
 }

@@ -92,7 +92,7 @@ Result<std::future<Result<std::string>>> RunControl::post(RunRequest request) {
   std::stop_source wake(std::nostopstate);
   {
     const std::lock_guard lock(mutex_);
-    if (!running_) return fail(ErrorCode::kState, "no run is under way");
+    if (!running_) return fail(ErrorCode::kState, "no run is in progress");
     Pending& pending = pending_.emplace_back();
     pending.request = std::move(request);
     pending.since = std::chrono::steady_clock::now();
@@ -109,8 +109,8 @@ Result<std::string> RunControl::ask(RunRequest request, std::chrono::millisecond
   RAVE_TRY_ASSIGN(auto answer, post(std::move(request)));
   if (answer.wait_for(patience) == std::future_status::ready) return answer.get();
   return fail(ErrorCode::kTimeout,
-              "the run has not come to it for {} ms: a step does not end; it is done before the "
-              "next one",
+              "the run has not handled the request for {} ms, because a step does not end; it will "
+              "be handled before the next step",
               patience.count());
 }
 

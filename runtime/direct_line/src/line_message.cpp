@@ -29,7 +29,7 @@ Result<double> number_within(JsonMembers& members, const char* name, double most
 Result<std::vector<Vec2>> points_of(JsonMembers& members, std::size_t least, std::size_t most) {
   RAVE_TRY_ASSIGN(const nlohmann::json* const value, members.any("points"));
   if (!value->is_array() || value->size() < least || value->size() > most) {
-    return fail(ErrorCode::kParse, "`points`: expected {} to {} of them", least, most);
+    return fail(ErrorCode::kParse, "`points`: expected {} to {} points", least, most);
   }
   std::vector<Vec2> points;
   for (const nlohmann::json& pair : *value) {
@@ -72,7 +72,7 @@ Status read_kind(JsonMembers& members, RunRequest& request) {
       return read_place(members, request);
     case Kind::kText: {
       RAVE_TRY_ASSIGN(request.value, members.text("text", kLongestText));
-      if (request.value.empty()) return fail(ErrorCode::kParse, "`text`: expected words");
+      if (request.value.empty()) return fail(ErrorCode::kParse, "`text`: expected text");
       return {};
     }
     case Kind::kTake: {

@@ -35,7 +35,7 @@ Result<RobotSet> robots_of(JsonMembers& members, const char* name) {
 Status check_version(JsonMembers& members) {
   RAVE_TRY_ASSIGN(const std::uint64_t version, members.whole("v"));
   if (version == 1) return {};
-  return fail(ErrorCode::kParse, "version {} is not known here: expected 1", version);
+  return fail(ErrorCode::kParse, "unknown version {}: expected 1", version);
 }
 
 Result<Ticket> ticket_of(const nlohmann::json& object) {
@@ -98,8 +98,8 @@ Result<Ticket> verify_ticket(std::string_view text, const PublicKey& key, std::i
   }
   if (ticket.expires_s > now_s + kTicketLife_s + kClockSlack_s) {
     return fail(ErrorCode::kState,
-                "the ticket is good for {} s, longer than any: the clocks of this host and the GUI "
-                "Server differ",
+                "the ticket is valid for {} s, longer than permitted: the clocks of this host and "
+                "the GUI Server differ",
                 ticket.expires_s - now_s);
   }
   return ticket;

@@ -74,7 +74,7 @@ Result<bool> take_step(Journey& journey) {
   if (journey.world.step > next) {
     std::string text =
         fmt::format("was not there from step {} to step {}", next, journey.world.step);
-    journey.console.warn("host", "{}; its robots go on where they stand", text);
+    journey.console.warn("host", "{}; its robots continue where they stand", text);
     journey.problems.push_back(std::move(text));
     journey.joined_at = journey.world.step;
   }

@@ -122,7 +122,7 @@ Result<std::string> ObserverList::serve(sim::Engine& engine, const RunRequest& r
   if (!OrderDesk::is_for(request.kind)) return make_input(engine, request);
   if (follows_ && request.kind != RunRequest::Kind::kRelease) {
     return fail(ErrorCode::kState,
-                "hosts in lock-step get orders from their environment manager: ask that one");
+                "hosts in lock-step get orders from their environment manager: send orders there");
   }
   if (!request.robot.empty()) RAVE_TRY(check_here(engine, request.robot));
   had_orders_ = true;
@@ -163,7 +163,7 @@ std::string ObserverList::end_record(std::optional<std::uint64_t> hash) {
   console_.attach(nullptr);
   if (!record_) return {};
   const Status written = record_->end(hash);
-  return written ? std::string() : "the record is not whole: " + written.error().text();
+  return written ? std::string() : "the recording is incomplete: " + written.error().text();
 }
 
 }  // namespace rave::runtime

@@ -73,9 +73,12 @@ TEST(HostLeases, IsTakenByForceOrRights) {
   const auto refused = leases.take("r1", kBert, false, kStart);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().message, "`anna` drives r1");
-  EXPECT_EQ(leases.take("r1", kBert, true, kStart).value(), "r1 is yours; `anna` had it");
-  EXPECT_EQ(leases.take("r1", kRoot, false, kStart).value(), "r1 is yours; `bert` had it");
-  EXPECT_EQ(leases.take("r1", kTerminal, false, kStart).value(), "r1 is yours; `root` had it");
+  EXPECT_EQ(leases.take("r1", kBert, true, kStart).value(),
+            "r1 is yours; it was taken from `anna`");
+  EXPECT_EQ(leases.take("r1", kRoot, false, kStart).value(),
+            "r1 is yours; it was taken from `bert`");
+  EXPECT_EQ(leases.take("r1", kTerminal, false, kStart).value(),
+            "r1 is yours; it was taken from `root`");
   EXPECT_EQ(leases.holder("r1"), "terminal");
   EXPECT_EQ(leases.take("r1", kTerminal, false, kStart).value(), "r1 is yours");
 }

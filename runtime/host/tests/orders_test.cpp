@@ -135,7 +135,7 @@ TEST(OrderDesk, TwoCommandersDoNotFight) {
   office.serve(drive("anna", 0.3));
   office.take();
   take.value = "force";
-  EXPECT_EQ(office.serve(take), "r1 is yours; `anna` had it");
+  EXPECT_EQ(office.serve(take), "r1 is yours; it was taken from `anna`");
   EXPECT_EQ(office.take(), Lines{"drive r1 anna 0"}) << "it stands until bert says something";
   EXPECT_EQ(office.serve(drive("anna", 0.3)), "`bert` drives r1");
   const auto changes = office.desk.take_changes();
@@ -195,9 +195,9 @@ TEST(OrderDesk, RefusesWordsThatAreNone) {
   Office office;
   RunRequest take = request(Kind::kTake, "anna");
   take.value = "please";
-  EXPECT_EQ(office.serve(take), "`please` is no way to take a robot; expected `force`");
+  EXPECT_EQ(office.serve(take), "`please`: expected `force` or nothing");
   EXPECT_EQ(office.serve(request(Kind::kGoal, "anna", "")), "`goal` needs a robot");
-  EXPECT_EQ(office.serve(goal("terminal")), "`terminal` is no name of a person");
+  EXPECT_EQ(office.serve(goal("terminal")), "`terminal` is not a valid name of a person");
 }
 
 TEST(OrderWords, ComeBackBitByBit) {

@@ -92,7 +92,7 @@ Result<std::uint64_t> Wishes::pass_on(const RunRequest& request, sim::WorldAutho
   if (input.obstacle) {
     RAVE_TRY(limits_.take(*input.obstacle, EditLimits::Clock::now()));
   } else if (wishes_.size() >= EditLimits::kMostOpen) {
-    return fail(ErrorCode::kState, "too much waits for the next step; ask again later");
+    return fail(ErrorCode::kState, "too many requests wait for the next step; try again later");
   } else {
     RAVE_TRY(lock_step::check_fits(input));
   }
@@ -181,9 +181,10 @@ void Wishes::put_off(std::string_view why) {
   const auto now = std::chrono::steady_clock::now();
   for (Wish& wish : wishes_) {
     if (now - wish.since < kWishPatience) continue;
-    wish.asked.answer(fmt::format(
-        "asked for; {}, so it is done, or refused, in step {}: the log of this process will say",
-        why, next_step_));
+    wish.asked.answer(
+        fmt::format("requested; {}, so it is carried out or refused in step {}; the log of this "
+                    "process tells the result",
+                    why, next_step_));
   }
 }
 

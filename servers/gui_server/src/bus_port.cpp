@@ -97,7 +97,7 @@ void BusPort::work(const std::stop_token& stop) {
     promise.set_value(ask(request));
   }
   for (auto& [request, promise] : waiting_) {
-    promise.set_value(fail(ErrorCode::kState, "the server ends"));
+    promise.set_value(fail(ErrorCode::kState, "the server is shutting down"));
   }
 }
 

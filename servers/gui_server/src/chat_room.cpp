@@ -27,7 +27,7 @@ const char* to_word(ChatMessage::To to) {
 
 Status ChatRoom::say(Line line, std::chrono::steady_clock::time_point now) {
   if (!limit_.take(line.from.name, now)) {
-    return fail(ErrorCode::kState, "Too much at once: wait a moment.");
+    return fail(ErrorCode::kState, "Too many messages at once: wait a moment.");
   }
   line.number = ++numbered_;
   lines_.push_back(std::move(line));

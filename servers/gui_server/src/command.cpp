@@ -41,7 +41,7 @@ std::string_view to_string(CommandMessage::Kind kind) noexcept {
 
 void Source::command(const CommandMessage& command, const Author& /*author*/,
                      const SlotReply& reply) {
-  const char* const why_not = "This is a recording: nobody takes orders.";
+  const char* const why_not = "This is a recording: it takes no orders.";
   if (command.slots.empty()) reply(kNoSlot, false, why_not);
   for (const std::uint32_t slot : command.slots) reply(slot, false, why_not);
 }

@@ -79,9 +79,8 @@ runtime::RunStatus::Shadow rounded(runtime::RunStatus::Shadow shadow) {
 }
 
 constexpr const char* kNoRelay =
-    "Orders go by the direct line to the host of the robot, and there is none; `gui: {relay: "
-    "true}` "
-    "in the scenario lets the server pass them on.";
+    "Orders need a direct line to the host of the robot, and there is none; with `gui: {relay: "
+    "true}` in the scenario the server forwards them.";
 
 }  // namespace
 

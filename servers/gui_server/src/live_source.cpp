@@ -26,7 +26,7 @@ std::string joined(const std::vector<std::pair<std::uint32_t, std::string>>& bod
   return json + ']';
 }
 
-const char* const kSeekLater = "The time line opens when the run is over.";
+const char* const kSeekLater = "The timeline is available when the run has ended.";
 
 class LiveCursor final : public Cursor {
  public:
@@ -105,7 +105,7 @@ Powers LiveSource::powers() const {
   Powers powers{{"stop", "release", "readings", "hybrid_parts", "obstacles", "log", "command",
                  "edit", "chat", "maps"},
                 {{"seek", kSeekLater},
-                 {"recording", "The recording can be downloaded when the run is over."},
+                 {"recording", "The recording can be downloaded when the run has ended."},
                  {"true_pose", "This view shows reported poses."}}};
   if (start_.probes) powers.may.emplace_back("probe");
   for (const char* const word : {"play", "pace", "step"}) {
@@ -240,7 +240,7 @@ std::string LiveSource::take(const TransportMessage& transport) {
   using Do = TransportMessage::Do;
   if (transport.what == Do::kSeek) return kSeekLater;
   if (std::string why_not = port_->why_not_held(); !why_not.empty()) return why_not;
-  if (state_.kind == PlayState::Kind::kEnded) return "The run is over.";
+  if (state_.kind == PlayState::Kind::kEnded) return "The run has ended.";
   switch (transport.what) {
     case Do::kPlay:
       port_->resume();
@@ -249,7 +249,7 @@ std::string LiveSource::take(const TransportMessage& transport) {
       port_->pause();
       break;
     case Do::kStep:
-      if (transport.value < 1) return "A run cannot go backwards.";
+      if (transport.value < 1) return "A run cannot go back in time.";
       port_->pause();
       port_->step(static_cast<std::uint64_t>(std::min(std::round(transport.value), 1e6)));
       break;

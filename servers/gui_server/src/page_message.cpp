@@ -164,7 +164,7 @@ Result<PageMessage> chat_of(Members& members) {
   RAVE_TRY_ASSIGN(chat.request, members.index("request"));
   RAVE_TRY_ASSIGN(chat.text, members.text("text", kLongestText, true));
   if (chat.text.find_first_not_of(" \n") == std::string::npos) {
-    return fail(ErrorCode::kParse, "`text`: expected something to say");
+    return fail(ErrorCode::kParse, "`text`: expected a text that is not empty");
   }
   RAVE_TRY_ASSIGN(const std::string to, members.word("to"));
   if (to == "all") {

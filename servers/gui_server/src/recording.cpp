@@ -17,7 +17,7 @@ namespace rave::gui_server {
 namespace {
 
 constexpr const char* kNoStop = "A recording cannot be stopped.";
-constexpr const char* kNoOrders = "This is a recording: nobody takes orders.";
+constexpr const char* kNoOrders = "This is a recording: it takes no orders.";
 
 class Recording final : public Source {
  public:

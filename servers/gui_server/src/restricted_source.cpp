@@ -270,7 +270,7 @@ void RestrictedSource::halt(const HaltMessage& halt, const Author& author, Reply
   }
   all_->halt(mine, author, [reply = std::move(reply), view = view_](bool good, std::string text) {
     // The answer of a host may name robots that are not seen.
-    if (!view->may_read(text)) text = good ? "Done." : "It could not be done.";
+    if (!view->may_read(text)) text = good ? "Done." : "The request failed.";
     reply(good, std::move(text));
   });
 }
@@ -298,7 +298,7 @@ void RestrictedSource::command(const CommandMessage& command, const Author& auth
                                const SlotReply& reply) {
   const auto read = [view = view_](bool good, std::string text) {
     if (view->may_read(text)) return text;
-    return std::string(good ? "Done." : "It could not be done.");
+    return std::string(good ? "Done." : "The request failed.");
   };
   if (command.of_obstacle()) {
     if (!may_edit(*view_)) return reply(kNoSlot, false, kNotYours);

@@ -301,7 +301,8 @@ void Visitors::note_command(std::uint64_t id, const CommandMessage& command,
 Result<std::string> Visitors::chat(std::uint64_t id, const ChatMessage& chat) {
   using To = ChatMessage::To;
   Visitor& visitor = visitors_.at(id);
-  if (visitor.eyes) return fail(ErrorCode::kState, "With the eyes of another one only looks.");
+  if (visitor.eyes)
+    return fail(ErrorCode::kState, "While you view the page as another user, you can only watch.");
   if (!source_) return fail(ErrorCode::kState, "No run is in progress.");
   if (!visitor.view->may_any(InfoClass::kChat)) {
     return fail(ErrorCode::kState, "Your rights do not include this.");
@@ -331,14 +332,14 @@ Result<std::string> Visitors::chat(std::uint64_t id, const ChatMessage& chat) {
     return fail(ErrorCode::kNotFound, "There is no such robot or team.");
   }
   if (chat.to == To::kUser && !is_there(chat.name)) {
-    return fail(ErrorCode::kNotFound, "`{}` is not here.", chat.name);
+    return fail(ErrorCode::kNotFound, "`{}` is not connected.", chat.name);
   }
   const std::size_t robots = std::min(told.slots.size(), kMostCommanded);
   told.slots.resize(robots);
   told.request = chat.request;
   RAVE_TRY(room_.say(std::move(line), Session::Clock::now()));
   if (robots > 0) visitor.page->command(told);
-  return robots > 0 ? fmt::format("Said, and given to {} robots.", robots) : std::string("Said.");
+  return robots > 0 ? fmt::format("Sent to {} robots.", robots) : std::string("Said.");
 }
 
 bool Visitors::is_there(const std::string& name) const {
@@ -374,7 +375,7 @@ Result<std::string> Visitors::see_as(std::uint64_t id, const SeeAsMessage& see) 
     for (const Person& person : people()) {
       if (person.name == see.user) eyes = person;
     }
-    if (!eyes) return fail(ErrorCode::kNotFound, "Nobody is called `{}`.", see.user);
+    if (!eyes) return fail(ErrorCode::kNotFound, "There is no user `{}`.", see.user);
   }
   audit_->note("see_as", {{"user", visitor.person.name}, {"detail", eyes ? eyes->name : "self"}});
   visitor.eyes = std::move(eyes);

@@ -141,7 +141,7 @@ TEST_F(Hostile, WhatIsSaidReachesWhoMayHearItAlone) {
   EXPECT_NE(ben.text_with("and me"), "");
   EXPECT_EQ(run_->commands().size(), 1U);
   eve.send(R"({"type":"say","request":2,"to":"user","name":"nobody","text":"psst"})");
-  EXPECT_NE(eve.text_with("\"request\":2").find("is not here"), std::string::npos);
+  EXPECT_NE(eve.text_with("\"request\":2").find("is not connected"), std::string::npos);
 }
 
 TEST_F(Hostile, ComponentsAreServedToTheirRolesAlone) {

@@ -218,7 +218,7 @@ INSTANTIATE_TEST_SUITE_P(
             R"({"type":"edit","request":1,"do":"add","name":"a","pose":[0,0,0],"polygon":[[0,0],[1,1]]})",
             "3 to 64 corners"},
         Refused{R"({"type":"say","request":1,"to":"everybody","text":"a"})", "expected all"},
-        Refused{R"({"type":"say","request":1,"to":"all","text":" "})", "something to say"},
+        Refused{R"({"type":"say","request":1,"to":"all","text":" "})", "a text that is not empty"},
         Refused{R"({"type":"say","request":1,"to":"role","name":"king","text":"a"})", "observer"},
         Refused{R"({"type":"look_probes","request":1,"probes":[1]})", "expected objects"},
         Refused{

@@ -145,7 +145,7 @@ export class MapPanel extends LookingPanel {
   private whyNone(): string {
     const {model} = this.context;
     if (!model.live) return 'Local maps are not recorded, and the world of this run has nothing to map.';
-    return 'No map that you may see: no robot has a range sensor, and there is no global map.';
+    return 'There is no map that you may see: no robot has a range sensor, and there is no global map.';
   }
 
   private waits(source: MapName): string {

@@ -17,7 +17,9 @@ namespace {
 Result<std::unique_ptr<gui_server::GuiServer>> serve(const GuiCommand& options) {
   const auto file = record_file(options.file);
   std::error_code error;
-  if (file && std::filesystem::exists(*file, error)) {
+  // A scenario may be given by its file, as to other commands.
+  const bool scenario_file = std::filesystem::path(options.file).extension() == ".yaml";
+  if (!scenario_file && file && std::filesystem::exists(*file, error)) {
     RAVE_TRY_ASSIGN(auto source, gui_server::open_recording(*file));
     return serve_page(options.page, std::move(source));
   }

@@ -5,7 +5,7 @@
 export type ServerMessage = Hello | Scene | SceneChange | Roster | Time | Events | Hosts | People | Rights | Accounts | Invited | AuditLines | AuditWritten | Leases | Chat | Maps | Answer;
 
 /** What a page sends. */
-export type PageMessage = Look | Ack | Transport | Halt | SetRight | SeeAs | ChangeAccount | ChangeInvitation | AskAudit | Order | Lease | SetParameter | Edit | Say | LookMaps;
+export type PageMessage = Look | Ack | Transport | Halt | SetRight | SeeAs | ChangeAccount | ChangeInvitation | AskAudit | Order | Lease | SetParameter | Edit | Say | LookMaps | PageKey;
 
 /** First message of a connection: the run, the user, and what both may do. */
 export interface Hello {
@@ -237,6 +237,13 @@ export interface LookMaps {
   type: "look_maps";
   /** Slot of a robot, or name of a global map. */
   maps: (number | string)[];
+}
+
+/** Which page it is, by the key of its tickets: what it asks over direct lines and through the server is of one page, and so are its leases. */
+export interface PageKey {
+  type: "page";
+  /** Public key, a point of P-256 in base64url. */
+  key: string;
 }
 
 export interface People {

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "live_source.hpp"
+#include "rave/control/chat_line.hpp"
 
 namespace rave::gui_server {
 namespace {
@@ -50,6 +51,7 @@ RunRequest request_of(const CommandMessage& command, const Author& author) {
   request.value = command.value;
   request.by = author.name;
   request.overrides = author.overrides;
+  request.page = author.page;
   request.yaw_rad = command.yaw_rad;
   request.v_mps = command.v_mps;
   request.w_radps = command.w_radps;
@@ -78,10 +80,17 @@ void LiveSource::halt(const HaltMessage& halt, const Author& author, Reply reply
     request.robot = std::move(robot);
     request.by = author.name;
     request.overrides = author.overrides;
+    request.page = author.page;
     auto answer = port_->post(std::move(request));
     if (!answer) return reply(false, answer.error().message);
     asked_.push_back({*std::move(answer), reply});
   }
+}
+
+void LiveSource::keep_chat(const ChatText& said) {
+  // Nobody is told whether there is a record; its writer says if it has trouble.
+  static_cast<void>(port_->post(
+      runtime::chat_request({said.number, said.from, said.role, said.to, said.name, said.text})));
 }
 
 void LiveSource::command(const CommandMessage& command, const Author& author,
@@ -148,10 +157,11 @@ void LiveSource::learn_status(Playhead::Clock::time_point now) {
 
 void LiveSource::learn_leases(const runtime::RunStatus::Robot& robot, std::uint32_t slot) {
   DriveState& known = leases_[slot];
-  if (known.lease == robot.lease && known.order == robot.order && known.takes == robot.takes) {
+  if (known.lease == robot.lease && known.page == robot.lease_page && known.order == robot.order &&
+      known.takes == robot.takes) {
     return;
   }
-  known = {slot, robot.lease, robot.takes, robot.order};
+  known = {slot, robot.lease, robot.takes, robot.order, robot.lease_page};
   leases_changed_[slot] = ++leases_revision_;
 }
 

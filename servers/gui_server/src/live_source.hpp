@@ -59,6 +59,7 @@ class LiveSource : public Source {
   }
   [[nodiscard]] std::uint64_t maps_revision() const noexcept override { return maps_.revision(); }
   [[nodiscard]] const MapShown* map(const MapName& name) const override { return maps_.find(name); }
+  void keep_chat(const ChatText& said) override;
   void halt(const HaltMessage& halt, const Author& author, Reply reply) override;
   void command(const CommandMessage& command, const Author& author,
                const SlotReply& reply) override;

@@ -112,12 +112,12 @@ std::string time_text(const PlayState& state, const RunAbout& about) {
   return text_of(time);
 }
 
-std::string leases_text(std::span<const DriveState> states, const std::string& me, bool all) {
+std::string leases_text(std::span<const DriveState> states, const Author& me, bool all) {
   Json message = {{"type", "leases"}, {"reset", all}, {"robots", Json::array()}};
   for (const DriveState& state : states) {
     message["robots"].push_back({{"slot", state.slot},
                                  {"lease", state.lease},
-                                 {"yours", !state.lease.empty() && state.lease == me},
+                                 {"yours", state.is_of(me)},
                                  {"takes", state.takes},
                                  {"order", state.order}});
   }

@@ -28,6 +28,9 @@ const kTold_ms = 1200;
 /** An answer that a person did not drop goes by itself. */
 const kRefused_ms = 12000;
 
+/** As runs take it, wherever orders come in. */
+const kMostPathPoints = 1000;
+
 /** What this page asks of robots and obstacles: numbered, each with its answer. */
 export class Commands {
   /** Orders that are drawn. */
@@ -75,6 +78,9 @@ export class Commands {
   }
 
   path(slots: readonly number[], points: Point[]): Promise<Answer> {
+    if (points.length < 2 || points.length > kMostPathPoints) {
+      return Promise.resolve({type: 'answer', to: 'path', good: false, text: `a path has ${points.length} points; expected 2 to ${kMostPathPoints}`});
+    }
     return this.track('path', slots, points, {type: 'order', kind: 'path', slots: [...slots], points});
   }
 

@@ -42,6 +42,7 @@ export class Link {
   private lookQueued = false;
   private readonly mapInterests = new Map<object, MapKey>();
   private lastMaps = '[]';
+  private toldKey = '';
   private frames = 0;
   private bytes = 0;
   private probeTimer = 0;
@@ -59,6 +60,7 @@ export class Link {
   ) {
     this.router = direct === null ? null : new OrderRouter(model, direct);
     if (this.router) this.router.serverIsThere = () => this.state === 'open';
+    direct?.changed.on(() => this.tellPage());
     setInterval(() => this.measure(), 1000);
     // The server has forgotten what is looked at: robots and maps may be others now.
     model.runChanged.on(() => {
@@ -81,6 +83,8 @@ export class Link {
     socket.onopen = () => {
       this.lastLook = '';
       this.lastMaps = '[]';
+      this.toldKey = '';
+      this.tellPage();
       this.queueLook();
     };
     socket.onmessage = (message: MessageEvent<string | ArrayBuffer>) => this.take(socket, message.data);
@@ -103,6 +107,14 @@ export class Link {
   send(message: PageMessage): void {
     const rest = this.router === null ? message : this.router.route(message);
     if (rest !== null) this.sendToServer(rest);
+  }
+
+  /** What goes through the server is of the same page as what goes over direct lines. */
+  private tellPage(): void {
+    const key = this.direct?.point ?? '';
+    if (key === '' || key === this.toldKey || this.socket?.readyState !== WebSocket.OPEN) return;
+    this.toldKey = key;
+    this.sendToServer({type: 'page', key});
   }
 
   private sendToServer(message: PageMessage): void {

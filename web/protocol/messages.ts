@@ -5,7 +5,7 @@
 export type ServerMessage = Hello | Scene | SceneChange | Roster | Time | Events | Hosts | People | Rights | Accounts | Invited | AuditLines | AuditWritten | Leases | Chat | Maps | Catalogue | Probes | Answer;
 
 /** What a page sends. */
-export type PageMessage = Look | Ack | Transport | Halt | SetRight | SeeAs | ChangeAccount | ChangeInvitation | AskAudit | Order | Lease | HandOver | SetParameter | Edit | Say | LookMaps | LookProbes | AskCatalogue;
+export type PageMessage = Look | Ack | Transport | Halt | SetRight | SeeAs | ChangeAccount | ChangeInvitation | AskAudit | Order | Lease | HandOver | SetParameter | Edit | Say | LookMaps | LookProbes | AskCatalogue | PageKey;
 
 /** First message of a connection: the run, the user, and what both may do. */
 export interface Hello {
@@ -306,6 +306,13 @@ export interface Probes {
   type: "probes";
   request: number;
   probes: ProbeMade[];
+}
+
+/** Which page it is, by the key of its tickets: what it asks over direct lines and through the server is of one page, and so are its leases. */
+export interface PageKey {
+  type: "page";
+  /** Public key, a point of P-256 in base64url. */
+  key: string;
 }
 
 export interface People {

@@ -382,7 +382,7 @@ TEST(Validate, RefusesWishesThatAreForNobodyOrNoLine) {
   std::string endless(rave_wire_kMaxWishBytes + 1, 'x');
   auto much = wish_with<Wish>(endless);
   put_text(much.from, "anna");
-  EXPECT_EQ(reason(much), "text has 16385 bytes, more than 16384");
+  EXPECT_EQ(reason(much), "text has 65537 bytes, more than 65536");
   EXPECT_EQ(reason(wish_with<WishAnswer>(endless)), "accepted");
   std::string none;
   EXPECT_EQ(reason(wish_with<WishAnswer>(none)), "text is empty");

@@ -189,6 +189,20 @@ Result<RunInput> decode_input(Message message) {
   return input;
 }
 
+Result<std::pair<SimTime, RunChat>> decode_chat(Message message) {
+  CdrReader reader(message);
+  std::pair<SimTime, RunChat> said;
+  auto& [time, chat] = said;
+  time = get_time(reader);
+  chat.step = reader.get<std::uint64_t>();
+  chat.number = reader.get<std::uint64_t>();
+  for (std::string* const word : {&chat.from, &chat.role, &chat.to, &chat.name, &chat.text}) {
+    *word = reader.get_string();
+  }
+  if (!reader.ok()) return malformed(topic::kChat);
+  return said;
+}
+
 Result<ConsoleLine> decode_console(Message message) {
   CdrReader reader(message);
   ConsoleLine line;

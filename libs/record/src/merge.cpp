@@ -6,6 +6,8 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <set>
+#include <tuple>
 
 #include "once.hpp"
 #include "rave/base/hash.hpp"
@@ -23,7 +25,7 @@ namespace fs = std::filesystem;
 const std::vector<std::string_view>& merged_topics() {
   static const std::vector<std::string_view> kTopics = {
       topic::kPoses,  topic::kPercepts, topic::kCommands, topic::kActuators, topic::kRadio,
-      topic::kEvents, topic::kInputs,   topic::kHash,     topic::kConsole};
+      topic::kEvents, topic::kInputs,   topic::kHash,     topic::kConsole,   topic::kChat};
   return kTopics;
 }
 
@@ -107,9 +109,12 @@ class Merger {
   void write_poses(RunRecorder& recorder);
   void write_hash(RunRecorder& recorder);
   void write_inputs(RunRecorder& recorder, bool before_first);
+  void write_chat(RunRecorder& recorder);
   [[nodiscard]] bool was_told(const Part& part, const RunEvent& event);
   [[nodiscard]] std::vector<std::string> notes() const;
 
+  /// Lines of the chat that were written: number, from, to, name, text.
+  std::set<std::tuple<std::uint64_t, std::string, std::string, std::string, std::string>> chats_;
   std::vector<std::unique_ptr<Part>> parts_;
   std::vector<Unreadable> unreadable_;
   std::vector<std::string> hosts_;               ///< All that the run has.
@@ -247,6 +252,15 @@ void Merger::write_inputs(RunRecorder& recorder, bool before_first) {
   for (const RunInput& input : once.items()) static_cast<void>(recorder.input(input));
 }
 
+/// Several hosts may have a line, each when it came to it: the first one tells of it.
+void Merger::write_chat(RunRecorder& recorder) {
+  each_item(parts_, topic::kChat, decode_chat, [&](const Part&, const auto& said) {
+    const RunChat& chat = said.second;
+    if (!chats_.emplace(chat.number, chat.from, chat.to, chat.name, chat.text).second) return;
+    static_cast<void>(recorder.chat(chat));
+  });
+}
+
 /// In real time each host has a change of an obstacle when it comes: the first one tells of it. The
 /// event then says which obstacle it is, and which change.
 bool Merger::was_told(const Part& part, const RunEvent& event) {
@@ -296,6 +310,7 @@ Status Merger::write_moment(RunRecorder& recorder) {
   }
   RAVE_TRY(recorder.end_step());
   write_inputs(recorder, false);
+  write_chat(recorder);
   return {};
 }
 

@@ -141,6 +141,28 @@ TEST_F(Merged, AnObstacleThatHostsHadAtDifferentStepsCameOnce) {
                                               "3 obstacle moved 3", "4 obstacle removed 4"}));
 }
 
+TEST_F(Merged, ALineOfTheChatThatSeveralHostsHaveIsThereOnce) {
+  for (const std::string host : {"a", "b"}) {
+    write(fs::path("hosts") / host / "run.mcap", host, 4,
+          [&](RunRecorder& recorder, std::uint64_t step) {
+            static_cast<void>(recorder.hash(step));
+            // Each comes to it in its own step; what is said twice is said twice.
+            if (step != (host == "a" ? 1U : 2U)) return;
+            static_cast<void>(recorder.chat({step, 1, "ada", "commander", "all", "", "hello"}));
+            static_cast<void>(recorder.chat({step, 2, "ada", "commander", "all", "", "hello"}));
+          });
+  }
+  write_world(4);
+  const auto reader = McapReader::open(open().file);
+  ASSERT_TRUE(reader);
+  std::vector<std::uint64_t> numbers;
+  ASSERT_TRUE(for_each_message(*reader, topic::kChat, [&](const MessageView& message) -> Status {
+    numbers.push_back(decode_chat(message.bytes).value().second.number);
+    return {};
+  }));
+  EXPECT_EQ(numbers, (std::vector<std::uint64_t>{1, 2}));
+}
+
 TEST_F(Merged, IsMadeAgainOnlyIfAPartHasChanged) {
   write_host("a", 2, 5);
   write_host("b", 2, 7);

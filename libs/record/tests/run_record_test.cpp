@@ -149,6 +149,30 @@ TEST(RunRecordInputs, ComeBackInTheirOrder) {
   EXPECT_FALSE(decode_input({}));
 }
 
+TEST(RunRecordChat, ComesBackWithAuthorAndAddressee) {
+  const TemporaryFile file;
+  auto recorder = RunRecorder::open(file.path(), sample_info());
+  ASSERT_TRUE(recorder);
+  record_sample(*recorder, 1);
+  ASSERT_TRUE(recorder->chat({2, 7, "ada", "commander", "robot", "anna", "gr\u00fc\u00dfe"}));
+  ASSERT_TRUE(recorder->end(1));
+  const auto reader = McapReader::open(file.path());
+  ASSERT_TRUE(reader);
+  std::vector<std::pair<SimTime, RunChat>> read;
+  ASSERT_TRUE(for_each_message(*reader, topic::kChat, [&](const MessageView& message) -> Status {
+    EXPECT_FALSE(decode_chat(message.bytes.first(message.bytes.size() - 1)));
+    read.push_back(decode_chat(message.bytes).value());
+    return {};
+  }));
+  ASSERT_EQ(read.size(), 1U);
+  const RunChat& chat = read[0].second;
+  EXPECT_EQ(chat.step, 2U);
+  EXPECT_EQ(chat.number, 7U);
+  EXPECT_EQ(chat.from + chat.role + chat.to + chat.name, "adacommanderrobotanna");
+  EXPECT_EQ(chat.text, "gr\u00fc\u00dfe");
+  EXPECT_FALSE(decode_chat({}));
+}
+
 TEST_F(RunRecord, OneSensorAndOneRobotAreReadAtATime) {
   const auto run = read_run_info(*reader_);
   ASSERT_TRUE(run) << run.error().text();

@@ -132,8 +132,7 @@ Status check_points(const EngineSpec& spec, const WorldInput& input) {
   const std::size_t count = input.order.points_W.size();
   if (count < least || count > most) {
     return wrong(spec, input,
-                 path ? fmt::format("{} points; expected {} to {}", count, least, most)
-                      : fmt::format("{} points; expected one", count));
+                 path ? path_size_text(count) : fmt::format("{} points; expected one", count));
   }
   const Box box = world_box(spec);
   for (const Vec2 p_W : input.order.points_W) RAVE_TRY(check_point(spec, input, box, p_W));
@@ -236,6 +235,10 @@ Status check_order(const EngineSpec& spec, const WorldInput& input) {
     default:
       return fail(ErrorCode::kInvalidArgument, "the input is not an order");
   }
+}
+
+std::string path_size_text(std::size_t points) {
+  return fmt::format("a path has {} points; expected 2 to {}", points, kMostOrderPoints);
 }
 
 std::string order_text(const WorldInput& input) {

@@ -20,7 +20,9 @@ RunRequest ended_by(RunRequest::Kind kind, const std::string& robot, const std::
   return request;
 }
 
-HostLeases::Person person_of(const RunRequest& request) { return {request.by, request.overrides}; }
+HostLeases::Person person_of(const RunRequest& request) {
+  return {request.by, request.overrides, request.page};
+}
 
 }  // namespace
 
@@ -44,12 +46,10 @@ Status OrderDesk::check_rate(const std::string& robot, Time now) {
   return {};
 }
 
-Status OrderDesk::check_release(const RunRequest& request) const {
+Status OrderDesk::check_release(const RunRequest& request, Time now) {
   if (request.by.empty() || request.overrides) return {};
   if (!request.robot.empty()) {
-    const std::string& holder = leases_.holder(request.robot);
-    if (holder.empty() || holder == request.by) return {};
-    return fail(ErrorCode::kState, "`{}` drives {}", holder, request.robot);
+    return leases_.use(request.robot, person_of(request), HostLeases::Use::kLook, now);
   }
   return fail(ErrorCode::kState,
               "only a super-user can release all robots; release those that you drive one by one");
@@ -66,12 +66,12 @@ Result<std::string> OrderDesk::serve(const RunRequest& request, const Give& give
                 HostLeases::kTerminal);
   }
   if (request.kind == RunRequest::Kind::kRelease) {
-    RAVE_TRY(check_release(request));
+    RAVE_TRY(check_release(request, now));
     return give(request);
   }
   // Who drives a robot must not find another one in its place.
   if (request.kind == RunRequest::Kind::kHandOver && !request.robot.empty()) {
-    RAVE_TRY(check_release(request));
+    RAVE_TRY(check_release(request, now));
     return give(request);
   }
   const bool for_all = request.kind == RunRequest::Kind::kCancel && request.robot.empty();

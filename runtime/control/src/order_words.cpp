@@ -10,6 +10,7 @@
 
 #include "rave/assemble/parameter_key.hpp"
 #include "rave/robot/order.hpp"
+#include "rave/sim/orders.hpp"
 
 namespace rave::runtime {
 namespace {
@@ -76,6 +77,11 @@ bool read_word(Words& words, RunRequest& request) {
 }
 
 }  // namespace
+
+Status check_path_size(std::size_t points) {
+  if (points >= 2 && points <= kMostOrderPoints) return {};
+  return fail(ErrorCode::kInvalidArgument, "{}", sim::path_size_text(points));
+}
 
 Result<sim::WorldInput> order_input(const sim::EngineSpec& spec, const RunRequest& request) {
   sim::WorldInput input;

@@ -151,6 +151,8 @@ Result<std::string> serve_request(sim::Engine& engine, const RunRequest& request
     case RunRequest::Kind::kTake:
     case RunRequest::Kind::kGive:
       return fail(ErrorCode::kState, "this process keeps no leases");
+    case RunRequest::Kind::kChat:
+      return fail(ErrorCode::kState, "this process keeps no chat");
   }
   return fail(ErrorCode::kInvalidArgument, "unknown request");
 }
@@ -166,6 +168,7 @@ void refresh_status(const sim::Engine& engine, RunStatus& status) {
     robot.hand_over.reset();
     robot.shadow.reset();
     robot.lease.clear();
+    robot.lease_page = 0;
     robot.order = engine.order_of(RobotId(r));
     write_takes(engine.takes(RobotId(r)), robot.takes);
     robot.name = spec.robots[r].name;

@@ -25,7 +25,8 @@ constexpr std::pair<Kind, std::string_view> kWords[] = {{Kind::kStop, "stop"},
                                                         {Kind::kText, "text"},
                                                         {Kind::kPlace, "place"},
                                                         {Kind::kTake, "take"},
-                                                        {Kind::kGive, "give"}};
+                                                        {Kind::kGive, "give"},
+                                                        {Kind::kChat, "chat"}};
 
 }  // namespace
 
@@ -112,6 +113,19 @@ Result<std::string> RunControl::ask(RunRequest request, std::chrono::millisecond
               "the run has not handled the request for {} ms, because a step does not end; it will "
               "be handled before the next step",
               patience.count());
+}
+
+void RunControl::keep_said(RunRequest chat) {
+  const std::lock_guard lock(mutex_);
+  said_.push_back(std::move(chat));
+  said_something_.store(true);
+}
+
+std::vector<RunRequest> RunControl::take_said() {
+  if (!said_something_.load()) return {};
+  const std::lock_guard lock(mutex_);
+  said_something_.store(false);
+  return std::exchange(said_, {});
 }
 
 RunStatus RunControl::status() const {

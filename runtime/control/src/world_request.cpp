@@ -109,6 +109,7 @@ Result<sim::WorldInput> input_of(const sim::EngineSpec& spec, const RunRequest& 
     case RunRequest::Kind::kGive:
       return fail(ErrorCode::kState, "the lease of a robot is kept by its host");
     case RunRequest::Kind::kList:
+    case RunRequest::Kind::kChat:
       break;
   }
   return fail(ErrorCode::kInvalidArgument, "a request that changes nothing");

@@ -94,10 +94,26 @@ void LineBook::closed(std::uint64_t id) {
   if (found == lines_.end()) return;
   // Who drives stops driving with the line, whatever ended it.
   post_.forget(id);
+  if (found->second.ticket) leave_leases(*found->second.ticket);
   if (found->second.ticket && options_.log != nullptr) {
     options_.log->info("line", "{} is gone", found->second.who());
   }
   lines_.erase(found);
+}
+
+/// A page that is loaded anew, or dials again, need not take anything from itself.
+void LineBook::leave_leases(const Ticket& ticket) {
+  const std::uint64_t page = page_number(ticket.page_key);
+  for (const runtime::RunStatus::Robot& robot : control_.status().robots) {
+    if (robot.lease != ticket.user || robot.lease_page != page) continue;
+    Request leave;
+    leave.kind = Kind::kGive;
+    leave.robot = robot.name;
+    leave.value = leave.by = ticket.user;
+    leave.page = page;
+    // Nobody is there to be told.
+    static_cast<void>(control_.post(std::move(leave)));
+  }
 }
 
 void LineBook::end() {
@@ -182,6 +198,7 @@ Result<std::vector<runtime::RunRequest>> LineBook::covered(const Ticket& ticket,
   Request signed_one = request;
   signed_one.by = ticket.user;
   signed_one.overrides = ticket.role == "super_user";
+  signed_one.page = page_number(ticket.page_key);
   std::vector<Request> requests;
   if (!request.robot.empty() || reach.all) {
     requests.push_back(std::move(signed_one));

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/direct_line/ticket.hpp"
 
+#include <algorithm>
+#include <span>
+
 #include "json_members.hpp"
+#include "rave/base/hash.hpp"
 #include "signed_text.hpp"
 
 namespace rave::direct_line {
@@ -70,6 +74,10 @@ Result<Ticket> ticket_of(const nlohmann::json& object) {
 }
 
 }  // namespace
+
+std::uint64_t page_number(std::string_view key) {
+  return std::max<std::uint64_t>(1, content_hash(std::as_bytes(std::span(key))));
+}
 
 std::string sign_ticket(const Ticket& ticket, const SigningKey& key) {
   const nlohmann::json object = {{"v", 1},

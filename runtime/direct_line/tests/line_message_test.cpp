@@ -66,11 +66,12 @@ TEST(LineMessage, RefusesWhatIsNoOrder) {
   EXPECT_EQ(refused(R"("kind":"drive","v":1e999,"w":0)"), "not a valid message");
   EXPECT_EQ(refused(R"("kind":"drive","v":101,"w":0)"), "`v`: expected -100 to 100");
   EXPECT_EQ(refused(R"("kind":"drive","v":1)"), "`w` is missing");
-  EXPECT_EQ(refused(R"("kind":"goal","points":[])"), "`points`: expected 1 to 1 points");
+  EXPECT_EQ(refused(R"("kind":"goal","points":[])"), "`points`: expected one point");
   EXPECT_EQ(refused(R"("kind":"goal","points":[[1]])"),
             "`points`: expected pairs of x and y in metres");
   EXPECT_EQ(refused(R"("kind":"goal","points":[[1,1e7]])"), "`points`: expected at most 1000000 m");
-  EXPECT_EQ(refused(R"("kind":"path","points":[[1,1]])"), "`points`: expected 2 to 1000 points");
+  EXPECT_EQ(refused(R"("kind":"path","points":[[1,1]])"),
+            "a path has 1 points; expected 2 to 1000");
   EXPECT_EQ(refused(R"("kind":"text","text":"")"), "`text`: expected text");
   EXPECT_EQ(refused(R"("kind":"stop","by":"ben")"), "unknown members");
   for (const char* const other : {"set", "add", "arm", "hand_over", "remove", "list"}) {
@@ -80,7 +81,7 @@ TEST(LineMessage, RefusesWhatIsNoOrder) {
   }
   std::string many = R"("kind":"path","points":[[0,0])";
   for (int i = 0; i < 10'000; ++i) many += ",[0,0]";
-  EXPECT_EQ(refused((many + "]").c_str()), "`points`: expected 2 to 1000 points");
+  EXPECT_EQ(refused((many + "]").c_str()), "a path has 10001 points; expected 2 to 1000");
   EXPECT_EQ(why_refused(R"({"type":"order","id":1,"kind":"drive","v":0,"w":0})"),
             "`robot`: expected a name");
   EXPECT_EQ(why_refused("[]"), "not a valid message");

@@ -156,6 +156,29 @@ TEST(OrderDesk, WhoDrivesARobotAloneHandsItOver) {
   EXPECT_EQ(office.serve(request(Kind::kHandOver, "")), "done") << "the terminal";
 }
 
+TEST(OrderDesk, ASecondPageOfTheSamePersonTakesItAndTheRobotStands) {
+  Office office;
+  RunRequest first = drive("anna", 0.3);
+  first.page = 1;
+  RunRequest second = drive("anna", 0.1);
+  second.page = 2;
+  EXPECT_EQ(office.serve(first), "done");
+  EXPECT_NE(office.serve(second).find("you drive r1 on another page"), std::string::npos);
+  RunRequest release = request(Kind::kRelease, "anna");
+  release.page = 2;
+  EXPECT_NE(office.serve(release).find("you drive r1 on another page"), std::string::npos);
+  EXPECT_EQ(office.take(), Lines{"drive r1 anna 0.3"});
+  RunRequest take = request(Kind::kTake, "anna");
+  take.page = 2;
+  take.value = "force";
+  EXPECT_EQ(office.serve(take), "r1 is yours; it was taken from another page of yours");
+  EXPECT_EQ(office.take(), Lines{"drive r1 anna 0"});
+  EXPECT_EQ(office.desk.page("r1"), 2U);
+  EXPECT_NE(office.serve(first).find("you drive r1 on another page"), std::string::npos);
+  EXPECT_EQ(office.serve(second), "done");
+  EXPECT_EQ(office.take(), Lines{"drive r1 anna 0.1"});
+}
+
 TEST(OrderDesk, ALeaseThatIsGivenBackGivesTheRobotToItsProgram) {
   Office office;
   office.serve(goal("anna"));

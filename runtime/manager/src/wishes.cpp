@@ -117,6 +117,10 @@ void Wishes::take(runtime::RunControl::Asked asked, sim::WorldAuthority& authori
   if (asked.request().kind == RunRequest::Kind::kList) {
     return asked.answer(runtime::obstacle_list(authority.world()));
   }
+  if (asked.request().kind == RunRequest::Kind::kChat) {
+    control_->keep_said(asked.request());
+    return asked.answer(std::string("it is for the record"));
+  }
   if (runtime::OrderDesk::is_for(asked.request().kind)) {
     return take_order(std::move(asked), authority);
   }
@@ -173,6 +177,7 @@ void Wishes::show_orders(runtime::RunStatus& status) const {
   for (std::size_t r = 0; r < status.robots.size(); ++r) {
     runtime::RunStatus::Robot& robot = status.robots[r];
     robot.lease = desk_.holder(robot.name);
+    robot.lease_page = desk_.page(robot.name);
     robot.order = orders_[r];
   }
 }

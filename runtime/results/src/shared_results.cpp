@@ -220,6 +220,10 @@ bool SharedResults::after_step(const sim::WorldAuthority& authority) {
   return impl_->capture->ends_run();
 }
 
+void SharedResults::say(const RunRequest& chat) {
+  if (impl_->record) impl_->record->say(chat, impl_->noted);
+}
+
 void SharedResults::learn(const world::WorldModel& world) {
   impl_->spec.world = world;
   impl_->kinds.learn(world);

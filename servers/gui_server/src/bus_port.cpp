@@ -76,6 +76,7 @@ Result<std::future<Result<std::string>>> BusPort::drive(const runtime::RunReques
   take.kind = runtime::RunRequest::Kind::kTake;
   take.robot = request.robot;
   take.by = request.by;
+  take.page = request.page;
   return queue(std::move(take));
 }
 

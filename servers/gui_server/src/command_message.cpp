@@ -7,6 +7,8 @@
 #include <array>
 #include <numbers>
 
+#include "rave/control/order_words.hpp"
+
 namespace rave::gui_server {
 namespace {
 
@@ -84,10 +86,10 @@ Status take_speed(Members& members, CommandMessage& command) {
 }
 
 Status take_path(Members& members, CommandMessage& command) {
-  RAVE_TRY_ASSIGN(command.points, points_of(members, "points", kMostPathPoints));
-  if (command.points.size() < 2) {
-    return fail(ErrorCode::kParse, "`points`: expected 2 to {} points", kMostPathPoints);
-  }
+  // What is too long for any run is told so in the words of the run.
+  constexpr std::size_t kMostRead = 100'000;
+  RAVE_TRY_ASSIGN(command.points, points_of(members, "points", kMostRead));
+  RAVE_TRY(runtime::check_path_size(command.points.size()));
   return take_speed(members, command);
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "live_source.hpp"
+#include "rave/control/chat_line.hpp"
 
 namespace rave::gui_server {
 namespace {
@@ -55,6 +56,7 @@ RunRequest request_of(const CommandMessage& command, const Author& author) {
   request.value = command.value;
   request.by = author.name;
   request.overrides = author.overrides;
+  request.page = author.page;
   request.yaw_rad = command.yaw_rad;
   request.v_mps = command.v_mps;
   request.w_radps = command.w_radps;
@@ -97,10 +99,17 @@ void LiveSource::halt(const HaltMessage& halt, const Author& author, Reply reply
     request.robot = std::move(robot);
     request.by = author.name;
     request.overrides = author.overrides;
+    request.page = author.page;
     auto answer = port_->post(std::move(request));
     if (!answer) return reply(false, answer.error().message);
     asked_.push_back({*std::move(answer), reply});
   }
+}
+
+void LiveSource::keep_chat(const ChatText& said) {
+  // Nobody is told whether there is a record; its writer says if it has trouble.
+  static_cast<void>(port_->post(
+      runtime::chat_request({said.number, said.from, said.role, said.to, said.name, said.text})));
 }
 
 void LiveSource::command(const CommandMessage& command, const Author& author,
@@ -167,7 +176,9 @@ void LiveSource::learn_status(Playhead::Clock::time_point now) {
 }
 
 void LiveSource::learn_leases(const runtime::RunStatus::Robot& robot, std::uint32_t slot) {
-  DriveState now{slot, robot.lease, robot.takes, robot.order, robot.hand_over, robot.simulated};
+  DriveState now{slot,           robot.lease,      robot.takes,
+                 robot.order,    robot.lease_page, robot.hand_over,
+                 robot.simulated};
   // Where it is is in the pictures.
   if (now.hand_over) now.hand_over->x_m = now.hand_over->y_m = now.hand_over->yaw_rad = 0;
   if (robot.shadow) now.shadow = rounded(*robot.shadow);

@@ -65,6 +65,7 @@ class LiveSource : public Source {
     return start_.probes ? start_.probes->catalogue_json() : "[]";
   }
   [[nodiscard]] Result<ProbeMade> probe(const ProbeWish& wish) override;
+  void keep_chat(const ChatText& said) override;
   void halt(const HaltMessage& halt, const Author& author, Reply reply) override;
   void command(const CommandMessage& command, const Author& author,
                const SlotReply& reply) override;

@@ -8,6 +8,7 @@
 #include "command_message.hpp"
 #include "members.hpp"
 #include "rave/base/names.hpp"
+#include "ticket_request.hpp"
 
 namespace rave::gui_server {
 namespace {
@@ -187,6 +188,12 @@ Result<PageMessage> chat_of(Members& members) {
   return PageMessage(std::move(chat));
 }
 
+Result<PageMessage> page_key_message_of(Members& members) {
+  RAVE_TRY_ASSIGN(const std::string text, members.word("key"));
+  RAVE_TRY_ASSIGN(std::string key, page_key_of(text));
+  return PageMessage(PageKeyMessage{std::move(key)});
+}
+
 }  // namespace
 
 Result<PageMessage> parse_page_message(std::string_view text) {
@@ -207,6 +214,8 @@ Result<PageMessage> parse_page_message(std::string_view text) {
     auto request = members.index("request");
     if (!request) return tl::unexpected(request.error());
     message = PageMessage(AskCatalogueMessage{*request});
+  } else if (type == "page") {
+    message = page_key_message_of(members);
   } else if (type == "ack") {
     auto sequence = members.index("sequence");
     if (!sequence) return tl::unexpected(sequence.error());

@@ -130,12 +130,12 @@ Json shadow_json(const runtime::RunStatus::Shadow& shadow) {
 
 }  // namespace
 
-std::string leases_text(std::span<const DriveState> states, const std::string& me, bool all) {
+std::string leases_text(std::span<const DriveState> states, const Author& me, bool all) {
   Json message = {{"type", "leases"}, {"reset", all}, {"robots", Json::array()}};
   for (const DriveState& state : states) {
     message["robots"].push_back({{"slot", state.slot},
                                  {"lease", state.lease},
-                                 {"yours", !state.lease.empty() && state.lease == me},
+                                 {"yours", state.is_of(me)},
                                  {"takes", state.takes},
                                  {"order", state.order}});
     Json& robot = message["robots"].back();

@@ -41,8 +41,8 @@ struct PageAnswer {
 /// Events from `first` on; with 0 the page forgets those that it had.
 [[nodiscard]] std::string events_text(std::span<const LogEvent> events, std::size_t first);
 [[nodiscard]] std::string time_text(const PlayState& state, const RunAbout& about);
-/// Who drives what; `me` marks those that the page's own person drives.
-[[nodiscard]] std::string leases_text(std::span<const DriveState> states, const std::string& me,
+/// Who drives what; `me` marks those that this page drives.
+[[nodiscard]] std::string leases_text(std::span<const DriveState> states, const Author& me,
                                       bool all);
 /// Which maps the page can look at.
 [[nodiscard]] std::string maps_text(std::span<const MapName> names);

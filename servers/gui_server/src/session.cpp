@@ -62,6 +62,13 @@ void Session::show(std::shared_ptr<Source> source, const Greeting& greeting, boo
   send_time(playhead_->look(Clock::now()));
 }
 
+void Session::set_author(Author author) {
+  if (author == commands_.author()) return;
+  commands_.set_author(std::move(author));
+  // Which leases are those of this page depends on it.
+  if (source_) send_leases(true);
+}
+
 void Session::keep_place(const PlayState& before) {
   using Do = TransportMessage::Do;
   if (source_->about().live) return;
@@ -322,7 +329,7 @@ void Session::send_leases(bool all) {
   told_leases_ = source_->leases_revision();
   const std::vector<DriveState> changed = source_->leases_changed_since(since);
   if (!all && changed.empty()) return;
-  socket_.send_text(payload(leases_text(changed, commands_.author().name, all)));
+  socket_.send_text(payload(leases_text(changed, commands_.author(), all)));
 }
 
 void Session::send_time(const PlayState& state) {

@@ -36,6 +36,8 @@ struct SessionCalls {
   /// Once it is known what became of it.
   PageCommands::Told commanded;
   std::function<Result<std::string>(const ChatMessage&)> chat;
+  /// The page has a key, so it is known from now on by that.
+  std::function<void(const PageKeyMessage&)> page_key;
   /// Answers by itself.
   std::function<void(const PeopleMessage&)> people;
 };
@@ -65,7 +67,7 @@ class Session {
   void show(std::shared_ptr<Source> source, const Greeting& greeting, bool same_run);
   void send(web::Payload text) { socket_.send_text(std::move(text)); }
   /// The same person has other rights.
-  void set_author(Author author) { commands_.set_author(std::move(author)); }
+  void set_author(Author author);
   /// Asks of robots as if the page had, as what is said to a robot does.
   void command(const CommandMessage& command) { commands_.take(command); }
   Session(const Session&) = delete;
@@ -99,6 +101,7 @@ class Session {
   void take(const CommandMessage& command) { commands_.take(command); }
   void take(const ChatMessage& chat);
   void take(const PeopleMessage& people) { calls_.people(people); }
+  void take(const PageKeyMessage& page) { calls_.page_key(page); }
   void keep_place(const PlayState& before);
   void forget_foreign_sensors();
   void send_past(double now_s);

@@ -124,7 +124,7 @@ class FakeRun : public Source {
   [[nodiscard]] std::vector<DriveState> leases_changed_since(
       std::uint64_t revision) const override {
     if (revision > 0) return {};
-    DriveState open{0, "ben", {"drive", "goal"}, "goal 1.00, 2.00"};
+    DriveState open{0, "ben", {"drive", "goal"}, "goal 1.00, 2.00", lease_page};
     open.hand_over.emplace();
     open.hand_over->last = kTwinText;
     open.shadow.emplace();
@@ -135,6 +135,16 @@ class FakeRun : public Source {
     secret.shadow->m = kSecretGap_m;
     return {open, secret};
   }
+  [[nodiscard]] std::span<const ChatText> chat() const noexcept override { return recorded; }
+  void keep_chat(const ChatText& said) override {
+    const std::lock_guard lock(mutex_);
+    kept_.push_back(said);
+  }
+  /// What was said, for the record.
+  [[nodiscard]] std::vector<ChatText> kept() {
+    const std::lock_guard lock(mutex_);
+    return kept_;
+  }
   /// What robots and obstacles were asked, with who asked.
   [[nodiscard]] std::vector<std::pair<CommandMessage, Author>> commands() {
     const std::lock_guard lock(mutex_);
@@ -142,10 +152,12 @@ class FakeRun : public Source {
   }
 
   RunAbout about_;
+  std::vector<ChatText> recorded;  ///< Of the record that this is, if it is one.
   std::atomic<int> halted_robots = 0;
   std::atomic<int> asked_maps_ = 0;  ///< A bit of each robot whose local map was asked for.
   std::atomic<int> probed_ = 0;      ///< A bit of each robot that something is tried on now.
-  std::atomic<int> moved = 0;        ///< How often somebody moved the time of the run.
+  std::atomic<std::uint64_t> lease_page = 0;  ///< On which page ben drives.
+  std::atomic<int> moved = 0;                 ///< How often somebody moved the time of the run.
 
  private:
   class FakeCursor final : public Cursor {
@@ -188,6 +200,7 @@ class FakeRun : public Source {
 
   std::mutex mutex_;
   std::vector<ProbeWish> wishes_;
+  std::vector<ChatText> kept_;
   std::vector<std::pair<CommandMessage, Author>> commands_;
   std::string robots_;
   std::string bodies_ =

@@ -15,8 +15,6 @@ namespace rave::gui_server {
 
 /// So many robots are meant by one message, at most.
 inline constexpr std::size_t kMostCommanded = 2000;
-/// So many points a path has, at most.
-inline constexpr std::size_t kMostPathPoints = 1000;
 /// So long a text to a robot or a person is, bytes of UTF-8.
 inline constexpr std::size_t kLongestText = 1000;
 
@@ -24,6 +22,7 @@ inline constexpr std::size_t kLongestText = 1000;
 struct Author {
   std::string name;
   bool overrides = false;  ///< A super-user, who needs no lease.
+  std::uint64_t page = 0;  ///< Which of their pages: these do not share leases. Not 0 for a page.
   friend bool operator==(const Author&, const Author&) = default;
 };
 
@@ -74,12 +73,18 @@ struct DriveState {
   std::uint32_t slot = 0;
   std::string lease;               ///< Who drives it; empty: nobody.
   std::vector<std::string> takes;  ///< Of drive, goal, path, text, place.
-  std::string order;  ///< What is under way, such as `goal 1.20, 3.40`; empty: nothing.
+  std::string order;       ///< What is under way, such as `goal 1.20, 3.40`; empty: nothing.
+  std::uint64_t page = 0;  ///< On which of their pages it is driven; 0: on none in particular.
   /// Of a robot with two sets of drivers: how hand-overs stand, without its place, and whether the
   /// simulated one serves.
   std::optional<runtime::RunStatus::HandOver> hand_over = std::nullopt;
   bool simulated = true;
   std::optional<runtime::RunStatus::Shadow> shadow = std::nullopt;  ///< Rounded.
+
+  /// Whether it is this page that drives it.
+  [[nodiscard]] bool is_of(const Author& author) const {
+    return !lease.empty() && lease == author.name && (page == 0 || page == author.page);
+  }
   friend bool operator==(const DriveState&, const DriveState&) = default;
 };
 

@@ -109,6 +109,17 @@ struct LookedAt {
   friend auto operator<=>(const LookedAt&, const LookedAt&) = default;
 };
 
+/// Something that a person said, as a record has it.
+struct ChatText {
+  std::uint64_t number = 0;  ///< From 1 on.
+  double t_s = 0;            ///< Of the run.
+  std::string from;
+  std::string role;  ///< `observer`, `commander` or `super_user`.
+  std::string to;    ///< `all`, `role`, `user`, `team` or `robot`.
+  std::string name;  ///< Of whom `to` says.
+  std::string text;
+};
+
 /// Something that happened, as the log shows it; repetitions folded.
 struct LogEvent {
   double t_s = 0;
@@ -287,6 +298,10 @@ class Source {
   /// Nothing senses yet: that begins when the audience of tick() has it. Errors: kState (nobody
   /// can), kNotFound, kInvalidArgument.
   [[nodiscard]] virtual Result<ProbeMade> probe(const ProbeWish& wish);
+  /// What people said in the run that this is the record of, oldest first; slots are robots.
+  [[nodiscard]] virtual std::span<const ChatText> chat() const noexcept { return {}; }
+  /// Puts what was said into the record of the run.
+  virtual void keep_chat(const ChatText& /*said*/) {}
 
   /// Stops and releases robots, at once and without a lease to stop.
   virtual void halt(const HaltMessage& halt, const Author& author, Reply reply) = 0;

@@ -95,7 +95,7 @@ TEST(Log, CountsWhatItDropsIfAllStampsRepeat) {
 TEST(Log, CountsWhatItDropsInTheWindowOnly) {
   std::string text;
   for (int i = 0; i < 100; ++i) {
-    const double stamp_s = i < 50 ? 0.01 * (i / 2) : 0.01 * i;
+    const double stamp_s = i < 50 ? 0.01 * static_cast<double>(i / 2) : 0.01 * i;
     text += fmt::format("FLASER 1 1 0 0 0 0 0 0 {0:.2f} nohost {0:.2f}\n", stamp_s);
   }
   LoadOptions options;
@@ -107,8 +107,7 @@ TEST(Log, CountsWhatItDropsInTheWindowOnly) {
 TEST(Log, RefusesWhatItCannotUse) {
   const auto none = load_text({"ODOM 0 0 0 0 0 0 1 h 1\n", false}, "f", std::nullopt, {});
   ASSERT_FALSE(none);
-  EXPECT_EQ(none.error().text(),
-            "f: the log has no FLASER row; scans of other messages are not read");
+  EXPECT_EQ(none.error().text(), "f: the log has no FLASER row; other messages are not read");
   LoadOptions options;
   options.window.end_s = 5;
   EXPECT_EQ(load_small(options).error().text(),

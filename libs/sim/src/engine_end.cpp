@@ -73,8 +73,8 @@ bool Engine::Impl::close_all(std::vector<ToClose> drivers) {
     if (const Twin* const twin = find_twin(driver.robot)) keep_loaded(spec, *twin->other.type);
     if (spec.log == nullptr) continue;
     spec.log->error(logs[r].source,
-                    "{} `{}` (driver `{}`) is still being closed; nobody waits for it any more",
-                    driver.kind, driver.name, driver.driver);
+                    "{} `{}` (driver `{}`) is still closing; the run ends without it", driver.kind,
+                    driver.name, driver.driver);
   }
   return !is_in_use;
 }
@@ -88,7 +88,7 @@ bool Engine::Impl::close_twins() noexcept {
     if (!twin.work.ready_by(end)) {
       all = false;
       if (spec.log == nullptr) continue;
-      spec.log->error(logs[twin.robot.value()].source, "{}; nobody waits for it any more",
+      spec.log->error(logs[twin.robot.value()].source, "{}; the run ends without it",
                       still_busy(twin));
       continue;
     }

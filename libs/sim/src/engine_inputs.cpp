@@ -59,7 +59,7 @@ template <class Slots>
 Result<Target> device_target(std::vector<Slots>& devices, std::string_view part,
                              std::uint32_t index, std::size_t m) {
   if (index >= devices.size()) {
-    return fail(ErrorCode::kNotFound, "the robot has no {} of this number", part);
+    return fail(ErrorCode::kNotFound, "the robot has no {} with this number", part);
   }
   Slots& slots = devices[index];
   if (slots.failed[m] != 0) {
@@ -87,7 +87,7 @@ Result<Target> actuator_target(RobotGroup& group, std::uint32_t index, std::size
   ActuatorSlots& slots = group.actuators[index];
   target.update = [&slots, m](std::span<const ParamValue> values) -> Status {
     if (slots.spec->virtual_ops == nullptr) {
-      return fail(ErrorCode::kInvalidArgument, "a real actuator takes no new parameters");
+      return fail(ErrorCode::kInvalidArgument, "the parameters of a real actuator cannot change");
     }
     return updated(slots.spec->virtual_ops->update, slots.instances.at(m), values);
   };
@@ -105,7 +105,7 @@ Result<Target> target_of(RobotGroup& group, std::size_t m, Part part, std::uint3
     case Part::kBody:
       break;
   }
-  return fail(ErrorCode::kInvalidArgument, "the body is no device");
+  return fail(ErrorCode::kInvalidArgument, "the body is not a device");
 }
 
 /// What was done so far, to be undone if something later is refused.
@@ -327,7 +327,7 @@ Status Engine::Impl::check_own(RobotId robot, std::span<const ParameterChange> c
   }
   const auto is_of_body = [](const ParameterChange& one) { return one.part == Part::kBody; };
   if (std::none_of(changes.begin(), changes.end(), is_of_body)) return {};
-  return fail(ErrorCode::kState, "the body of robot `{}` is the authority's to change", name);
+  return fail(ErrorCode::kState, "only the authority can change the body of robot `{}`", name);
 }
 
 Status Engine::set_parameters(RobotId robot, std::span<const ParameterChange> changes,
@@ -341,7 +341,7 @@ Status Engine::set_parameters(RobotId robot, std::span<const ParameterChange> ch
 Result<ChangedObstacle> Engine::change_obstacle(const ObstacleChange& change,
                                                 const Author& author) {
   if (impl_->host) {
-    return fail(ErrorCode::kState, "obstacles are the authority's to change");
+    return fail(ErrorCode::kState, "only the authority can change obstacles");
   }
   return impl_->change_obstacle(change, author);
 }

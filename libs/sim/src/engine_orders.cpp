@@ -106,8 +106,7 @@ Status Engine::Impl::order(const WorldInput& input) {
 Status Engine::Impl::order_text_for(const WorldInput& input) {
   const RobotGroup& group = groups[group_index[input.robot.value()]];
   if (!takes_by_program(group, member_index[input.robot.value()], OrderKind::kText)) {
-    return refused(spec, input, ErrorCode::kInvalidArgument,
-                   "nobody listens: its program takes no texts");
+    return refused(spec, input, ErrorCode::kInvalidArgument, "its program takes no texts");
   }
   orders_of(input.robot).wait_for_program(input);
   note_order(input, EventKind::kOrdered);
@@ -223,7 +222,8 @@ OrderedRobot& Engine::Impl::orders_of(RobotId robot) {
 
 Status Engine::Impl::place(const WorldInput& input) {
   if (host) {
-    return refused(spec, input, ErrorCode::kState, "only the authority of the world places robots");
+    return refused(spec, input, ErrorCode::kState,
+                   "only the authority of the world can place robots");
   }
   const Vec2 p_WR = input.order.points_W.front();
   const double yaw_rad = input.order.yaw_rad.value_or(truth.movers[input.robot.value()].X_WR.yaw);

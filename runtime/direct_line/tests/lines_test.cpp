@@ -29,7 +29,7 @@ bool comes_true(const std::function<bool()>& what) {
 }
 
 class LinesOnBus : public ::testing::Test {
- protected:
+ public:
   LinesOnBus() {
     bus_.participant = "test";
     bus_.run = bus::RunId::random();
@@ -42,6 +42,7 @@ class LinesOnBus : public ::testing::Test {
   }
   ~LinesOnBus() override { control_.end(); }
 
+ protected:
   [[nodiscard]] std::unique_ptr<LineServer> line(const std::string& host) {
     LineOptions options;
     options.run = bus_.run.text();
@@ -176,7 +177,7 @@ TEST_F(LinesOnBus, InLockStepTheManagerHasTheLineAndAHostRefusesOrders) {
   RawSocket anna = page_at(*server, 5);
   ASSERT_NE(anna.text_with("\"welcome\""), "");
   anna.send(R"({"type":"order","id":1,"kind":"stop","robot":"r1"})");
-  EXPECT_NE(anna.text_with("\"answer\"").find("orders go to the environment manager"),
+  EXPECT_NE(anna.text_with("\"answer\"").find("send orders to the environment manager"),
             std::string::npos);
   of_manager.end();
 }

@@ -86,7 +86,7 @@ Result<HostPort::Answer> SteppedExchange::exchange() {
 void SteppedExchange::note_gap() {
   std::string text =
       fmt::format("was not there from step {} to step {}", report_.step, world_.step);
-  run_.console.warn("host", "{}; its robots go on where they stand", text);
+  run_.console.warn("host", "{}; its robots continue where they stand", text);
   run_.problems.push_back(std::move(text));
   joined_at_ = world_.step;
 }

@@ -25,7 +25,7 @@ HostOutcome judge(const RunSession& run, const HostSetup& host, const HostExchan
   outcome.steps = run.engine.steps_done() - std::min(run.first, run.engine.steps_done());
   outcome.problems = run.losses;
   outcome.problems.insert(outcome.problems.end(), run.problems.begin(), run.problems.end());
-  if (run.stopped) outcome.problems.emplace_back("stopped before the run was over");
+  if (run.stopped) outcome.problems.emplace_back("stopped before the end of the run");
   if (run.ended) {
     const HostExchange::Ending ending = exchange.ending();
     outcome.ending = ending.text;
@@ -70,7 +70,7 @@ Status leave_facts(const RunSession& run, const HostSetup& host, HostExchange& e
   Status written = write_file_atomically(
       run.options.output / kFactsFile, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   if (const Status sent = exchange.deliver(bytes); !sent) {
-    run.console.warn("host", "the environment manager has not got its findings: {}",
+    run.console.warn("host", "the environment manager did not receive its results: {}",
                      sent.error().message);
   }
   return written;
@@ -145,7 +145,7 @@ Result<HostOutcome> run_session(const HostSetup& host, sim::Engine& engine, bus:
   RunOptions options = host.options.run;
   // In real time a manager tells of obstacles itself.
   RAVE_TRY_ASSIGN(const auto face,
-                  BusFace::open(bus, host.slot.number, !live || !needs_manager(host.built)));
+                  BusFace::open(bus, host.slot.number, !live || !needs_manager(host.built), &host.catalogue));
   options.observers.push_back(face.get());
   RAVE_TRY_ASSIGN(
       const auto observers,

@@ -106,13 +106,13 @@ Result<bool> LiveExchange::begin() {
   const std::int64_t now_ns = std::max<std::int64_t>(0, run_.pace.now().ns);
   run_.first = static_cast<std::uint64_t>((now_ns + step_ns - 1) / step_ns);
   if (run_.first >= run_.steps) {
-    run_.problems.emplace_back("came when the run was over");
+    run_.problems.emplace_back("arrived after the end of the run");
     return false;
   }
   RAVE_TRY(live_.begin_at(run_.first, link_.starts(), report_));
   if (now_ns > kInTime_ns) {
     std::string text =
-        fmt::format("begins at {:.2f} s of the run", static_cast<double>(now_ns) * 1e-9);
+        fmt::format("joins at {:.2f} s of the run", static_cast<double>(now_ns) * 1e-9);
     run_.console.info("host", "{}", text);
     run_.problems.push_back("it " + std::move(text));
   }
@@ -177,8 +177,8 @@ void LiveExchange::tell_places() {
 void LiveExchange::name_flooders(const std::vector<RobotId>& robots) {
   for (const RobotId robot : robots) {
     run_.console.warn("radio",
-                      "robot `{}` says more than {} messages or {} bytes in a step to other hosts; "
-                      "what is beyond that is dropped",
+                      "robot `{}` sends more than {} messages or {} bytes per step to other hosts; "
+                      "the rest is dropped",
                       run_.engine.spec().robots[robot.value()].name,
                       real_time::TalkLimit::kMessagesPerStep, real_time::TalkLimit::kBytesPerStep);
   }

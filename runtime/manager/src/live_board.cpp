@@ -78,7 +78,7 @@ void LiveBoard::lose(std::uint64_t writer, bool goes) {
     if (!goes) continue;
     ++slot.losses;
     if (options_.log != nullptr) {
-      options_.log->error(kSource, "host `{}` is gone; the others go on{}{}", slot.name,
+      options_.log->error(kSource, "host `{}` is gone; the others continue{}{}", slot.name,
                           slot.command.empty() ? "" : "; start it again with: ", slot.command);
     }
   }
@@ -163,8 +163,11 @@ double LiveBoard::slowest_speed() const {
   const std::int64_t now_ns = steady_ns();
   std::optional<double> slowest;
   for (const LiveSlot& slot : slots_) {
-    const auto rate = slot.writer != 0 ? slot.steps.at(now_ns) : std::nullopt;
-    if (rate) slowest = std::min(slowest.value_or(*rate), *rate);
+    if (slot.writer == 0) continue;
+    const auto rate = slot.steps.at(now_ns);
+    // The speed of the others would be too fast.
+    if (!rate) return 0;
+    slowest = std::min(slowest.value_or(*rate), *rate);
   }
   return slowest.value_or(0) * options_.step.seconds();
 }
@@ -234,7 +237,8 @@ void LiveBoard::take_handed(const std::function<Status(const real_time::Obstacle
 
 void LiveBoard::refuse_handed(std::uint64_t writer, std::string_view why) {
   if (!wrong_hands_.insert(writer).second) return;
-  endpoint().log_fault(fmt::format("refused what the process {:016x} hands over: {}", writer, why));
+  endpoint().log_fault(
+      fmt::format("refused the hand-over of obstacles by process {:016x}: {}", writer, why));
 }
 
 void LiveBoard::end_handing() {

@@ -23,7 +23,7 @@ using namespace sim::testing;
 
 /// Robot `anna` runs on host `one`, `bob` on `two`.
 class LiveManagerTest : public ::testing::Test {
- protected:
+ public:
   LiveManagerTest() {
     options_.bus = own_corner();
     options_.identity = {rave_wire_kNone, "environment manager", 0, 7, 9, true};
@@ -42,6 +42,8 @@ class LiveManagerTest : public ::testing::Test {
   ~LiveManagerTest() override {
     if (thread_.joinable()) thread_.join();
   }
+
+ protected:
   void start() {
     thread_ = std::thread([this] {
       sim::EngineSpec spec;
@@ -90,8 +92,8 @@ TEST_F(LiveManagerTest, LeavesHostsAloneThatAreInTheMiddleOfARun) {
   finish();
   ASSERT_FALSE(*outcome_);
   EXPECT_EQ(outcome_->error().code, ErrorCode::kState);
-  EXPECT_NE(outcome_->error().message.find("hosts are at 60.0 s of a run that has lost its "
-                                           "environment manager: --resume goes on with that run"),
+  EXPECT_NE(outcome_->error().message.find("hosts are at 60.0 s of a run that lost its "
+                                           "environment manager: --resume continues that run"),
             std::string::npos)
       << outcome_->error().message;
 }
@@ -107,7 +109,7 @@ TEST_F(LiveManagerTest, BeginsWithoutAHostThatNeverComesAndSaysSo) {
   finish();
   ASSERT_TRUE(*outcome_) << outcome_->error().text();
   EXPECT_FALSE((*outcome_)->whole);
-  EXPECT_TRUE(says("host `two` never came")) << lines_.said();
+  EXPECT_TRUE(says("host `two` never joined")) << lines_.said();
   EXPECT_TRUE((*outcome_)->hosts[0].heard);
 }
 
@@ -117,7 +119,7 @@ TEST_F(LiveManagerTest, NamesRobotsThatAreNotHeardOfAndHostsThatWereLost) {
   {
     SpeakingHost one(options_.bus, 0, "one");
     std::optional<SpeakingHost> two(std::in_place, options_.bus, 1, "two");
-    go_until({&one, &*two}, [this] { return lines_.has("all hosts are there"); });
+    go_until({&one, &*two}, [this] { return lines_.has("all hosts have joined"); });
     EXPECT_FALSE(lines_.has("is stale"));
     one.say(0, {0}, 0);
     go_until({&one, &*two}, [this] { return lines_.has("robot `anna` is stale"); });

@@ -100,7 +100,7 @@ TEST_F(LiveRunTest, ALostHostCountsAndItsPlaceIsFree) {
   };
   options_.duration = from_seconds(1);
   const LiveManagerOutcome outcome = go();
-  EXPECT_TRUE(lines_.has("host `two` is gone; the others go on")) << lines_.said();
+  EXPECT_TRUE(lines_.has("host `two` is gone; the others continue")) << lines_.said();
   EXPECT_TRUE(lines_.has("host `two` is back")) << lines_.said();
   ASSERT_EQ(outcome.problems.size(), 1U) << lines_.said();
   EXPECT_EQ(outcome.problems[0], "host `two` was lost once");
@@ -125,7 +125,7 @@ TEST_F(LiveRunTest, LeavesARunAloneThatItIsNotToResume) {
   bus_->meanwhile = [this] { bus_->ping(kOne, 0, kLater_ns); };
   const auto outcome = try_to_go();
   ASSERT_FALSE(outcome);
-  EXPECT_NE(outcome.error().message.find("hosts are at 60.0 s of a run that has lost"),
+  EXPECT_NE(outcome.error().message.find("hosts are at 60.0 s of a run that lost"),
             std::string::npos)
       << outcome.error().message;
   EXPECT_TRUE(bus_->pongs.empty()) << "nobody is told another time";
@@ -196,13 +196,13 @@ TEST_F(LiveRunTest, WhoStoodStillItselfWaitsOnAndSaysSo) {
     if (common.silence_asked > 10) bus_->ping(kTwo, 1);
   };
   const LiveManagerOutcome outcome = go();
-  EXPECT_TRUE(lines_.has("all hosts are there")) << lines_.said();
+  EXPECT_TRUE(lines_.has("all hosts have joined")) << lines_.said();
   EXPECT_FALSE(lines_.has("begins without"));
   EXPECT_FALSE(outcome.whole);
   ASSERT_EQ(outcome.problems.size(), 1U) << lines_.said();
   EXPECT_EQ(outcome.problems[0],
-            "the environment manager stood still for so long that hosts may have missed it (2 "
-            "times): no worlds were sent meanwhile");
+            "the environment manager stood still for so long that hosts may have considered it "
+            "lost (2 times): it sent no worlds meanwhile");
 }
 
 }  // namespace

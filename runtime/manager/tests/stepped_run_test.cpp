@@ -92,7 +92,7 @@ TEST_F(SteppedRunTest, EndsWithItsLastStepAndTellsEverybody) {
 
 TEST_F(SteppedRunTest, ALateHostIsWaitedForAndNamed) {
   hosts_[1].says = [this](std::uint64_t step) {
-    return step != kMoment || lines_.has("all wait for it");
+    return step != kMoment || lines_.has("all hosts wait for it");
   };
   expect_that_of_one_process(go());
   EXPECT_TRUE(lines_.has("host `two` answers again, in step 7")) << lines_.said();
@@ -110,21 +110,21 @@ TEST_F(SteppedRunTest, WithoutALostHostItIsAnotherRun) {
   EXPECT_FALSE(outcome.hash);
   ASSERT_EQ(outcome.problems.size(), 1U) << lines_.said();
   EXPECT_EQ(outcome.problems[0],
-            "host `two` is gone in step 7; its robots stand from this step on");
+            "host `two` is gone in step 7; its robots stop from this step on");
 }
 
 TEST_F(SteppedRunTest, GoesOnWhereAnotherManagerEnded) {
   begin_with_another_manager();
   options_.resume = true;
   expect_that_of_one_process(go());
-  EXPECT_TRUE(lines_.has("takes over from a manager that is gone, at step 7")) << lines_.said();
+  EXPECT_TRUE(lines_.has("takes over from a lost manager at step 7")) << lines_.said();
 }
 
 TEST_F(SteppedRunTest, LeavesARunAloneThatItIsNotToResume) {
   begin_with_another_manager();
   const auto outcome = run_->go();
   ASSERT_FALSE(outcome);
-  EXPECT_NE(outcome.error().message.find("is in step 7 of a run that has lost"), std::string::npos)
+  EXPECT_NE(outcome.error().message.find("is in step 7 of a run that lost"), std::string::npos)
       << outcome.error().message;
   run_->give_up(outcome.error());
   EXPECT_FALSE(bus_->common.over()) << "nobody is told to end";

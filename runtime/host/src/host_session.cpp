@@ -144,8 +144,9 @@ Result<HostOutcome> run_session(const HostSetup& host, sim::Engine& engine, bus:
   const bool live = !host.built.live_reason.empty();
   RunOptions options = host.options.run;
   // In real time a manager tells of obstacles itself.
-  RAVE_TRY_ASSIGN(const auto face,
-                  BusFace::open(bus, host.slot.number, !live || !needs_manager(host.built), &host.catalogue));
+  RAVE_TRY_ASSIGN(
+      const auto face,
+      BusFace::open(bus, host.slot.number, !live || !needs_manager(host.built), &host.catalogue));
   options.observers.push_back(face.get());
   RAVE_TRY_ASSIGN(
       const auto observers,

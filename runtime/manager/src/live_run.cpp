@@ -224,7 +224,8 @@ LiveManagerOutcome LiveRun::outcome() {
     outcome.hosts.push_back({slot.name, slot.heard, static_cast<double>(slot.offset_ns) * 1e-9,
                              slot.bound_ns < 0 ? -1 : static_cast<double>(slot.bound_ns) * 1e-9,
                              slot.losses});
-    if (!slot.heard && begun_) problems_.push_back(fmt::format("host `{}` never joined", slot.name));
+    if (!slot.heard && begun_)
+      problems_.push_back(fmt::format("host `{}` never joined", slot.name));
     if (slot.losses > 0) {
       problems_.push_back(
           fmt::format("host `{}` was lost {}", slot.name,

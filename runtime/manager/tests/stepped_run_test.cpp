@@ -109,8 +109,7 @@ TEST_F(SteppedRunTest, WithoutALostHostItIsAnotherRun) {
   EXPECT_FALSE(outcome.whole);
   EXPECT_FALSE(outcome.hash);
   ASSERT_EQ(outcome.problems.size(), 1U) << lines_.said();
-  EXPECT_EQ(outcome.problems[0],
-            "host `two` is gone in step 7; its robots stop from this step on");
+  EXPECT_EQ(outcome.problems[0], "host `two` is gone in step 7; its robots stop from this step on");
 }
 
 TEST_F(SteppedRunTest, GoesOnWhereAnotherManagerEnded) {

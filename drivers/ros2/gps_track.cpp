@@ -36,7 +36,7 @@ Result<GeoFrame> read_geo_origin(std::span<const double> numbers) {
   if (numbers.size() < 2 || numbers.size() > all.size()) {
     return fail(ErrorCode::kInvalidArgument,
                 "`geo_origin` has {} numbers; expected that of the scenario, or latitude and "
-                "longitude in degrees, and if need be altitude in metres and the yaw of the "
+                "longitude in degrees, and optionally altitude in metres and the yaw of the "
                 "world's x axis from east in degrees",
                 numbers.size());
   }

@@ -97,7 +97,7 @@ std::string describe_status(std::string_view status) {
     if (code == 10) meaning = "the laser is off";
     if (code >= 21 && code <= 49) meaning = "measuring stopped to check an error";
     if (code >= 50 && code <= 97) meaning = "hardware trouble";
-    if (code == 98) meaning = "measuring goes on after a check of the laser";
+    if (code == 98) meaning = "measurement continues after a check of the laser";
   }
   return fmt::format("status {} ({})", status, meaning);
 }

@@ -13,7 +13,7 @@
 namespace rave::plugin {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "the reader takes bytes as they lie");
+static_assert(std::endian::native == std::endian::little, "the stamp is read as little-endian");
 
 #if defined(__x86_64__)
 constexpr Elf64_Half kHostMachine = EM_X86_64;

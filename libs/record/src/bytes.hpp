@@ -14,7 +14,7 @@
 
 namespace rave::record {
 
-static_assert(std::endian::native == std::endian::little, "MCAP and CDR are written as they lie");
+static_assert(std::endian::native == std::endian::little, "MCAP and CDR are written little-endian");
 
 using Bytes = std::vector<std::byte>;
 using ByteSpan = std::span<const std::byte>;

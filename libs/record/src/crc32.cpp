@@ -8,7 +8,7 @@
 namespace rave::record {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "words are taken as they lie");
+static_assert(std::endian::native == std::endian::little, "words are read as little-endian");
 
 constexpr std::uint32_t kPolynomial = 0xEDB88320U;  // bits reversed
 constexpr std::size_t kSlices = 16;

@@ -183,7 +183,7 @@ std::vector<std::string> Merger::notes() const {
   for (const Unreadable& part : unreadable_) notes.push_back(part.why);
   for (const auto& part : parts_) {
     if (part->torn.empty()) continue;
-    notes.push_back(fmt::format("`{}` is torn: {}", part->path.string(), part->torn));
+    notes.push_back(fmt::format("`{}` is incomplete: {}", part->path.string(), part->torn));
   }
   for (const std::string& host : hosts_) {
     const bool there =

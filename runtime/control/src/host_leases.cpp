@@ -101,11 +101,11 @@ Result<std::string> HostLeases::give(const std::string& robot, const Person& per
   if (lease != nullptr && !owns(*lease, person) && !rights) return refusal(robot, *lease, person);
   if (lease != nullptr && to == lease->holder && to == name_of(person)) {
     leases_.at(robot).page = 0;
-    return fmt::format("{} is any page's of yours", robot);
+    return fmt::format("any of your pages can drive {} now", robot);
   }
   if (!to.empty()) {
     set(robot, Person{to}, false, now);
-    return fmt::format("{} is now `{}`'s", robot, to);
+    return fmt::format("{} is given to `{}`", robot, to);
   }
   changes_.push_back({robot, lease->holder, "", lease->driven, false});
   leases_.erase(robot);

@@ -150,9 +150,9 @@ std::string order_answer(const RunRequest& request) {
     case RunRequest::Kind::kCancel:
       return fmt::format("{}: the orders of people are cancelled", whom);
     case RunRequest::Kind::kText:
-      return fmt::format("{} was told", whom);
+      return fmt::format("the text was sent to {}", whom);
     case RunRequest::Kind::kPlace:
-      return fmt::format("{} is put at {}", whom, last());
+      return fmt::format("{} is placed at {}", whom, last());
     default:
       return whom;
   }
@@ -183,7 +183,7 @@ Status read_order_words(std::string_view text, RunRequest& request) {
   Words words(text);
   while (!words.empty()) {
     if (read_word(words, request)) continue;
-    return fail(ErrorCode::kParse, "`{}` are not the details of a `{}`", text,
+    return fail(ErrorCode::kParse, "the details `{}` do not fit an order of kind `{}`", text,
                 to_string(request.kind));
   }
   return {};

@@ -96,7 +96,7 @@ void LineBook::closed(std::uint64_t id) {
   post_.forget(id);
   if (found->second.ticket) leave_leases(*found->second.ticket);
   if (found->second.ticket && options_.log != nullptr) {
-    options_.log->info("line", "{} is gone", found->second.who());
+    options_.log->info("line", "{} has disconnected", found->second.who());
   }
   lines_.erase(found);
 }
@@ -161,7 +161,7 @@ void LineBook::welcome(std::uint64_t id, Line& line, Ticket ticket) {
   follows_ = control_.status().follows;
   ++counts_.welcomed;
   if (options_.log != nullptr) {
-    options_.log->info("line", "{} is here, as {}", line.who(), line.ticket->role);
+    options_.log->info("line", "{} has connected as {}", line.who(), line.ticket->role);
   }
   line.send(dumped({{"type", "welcome"},
                     {"host", options_.host},

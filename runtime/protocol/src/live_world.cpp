@@ -89,9 +89,8 @@ Status check_sight(const ObstacleSight& sight, const world::WorldModel& start) {
   }
   if (sight.revision == 0 || sight.revision > ObstacleSight::kMostRevision) {
     return fail(ErrorCode::kInvalidArgument,
-                "obstacle {} as it stands since change {}; expected 1 "
-                "to {}",
-                id, sight.revision, ObstacleSight::kMostRevision);
+                "obstacle {} has the change number {}; expected 1 to {}", id, sight.revision,
+                ObstacleSight::kMostRevision);
   }
   return sim::check_obstacle_change(sight.stands);
 }

@@ -443,7 +443,7 @@ Status read_done(const rave_wire_NotedEvent& event, std::uint64_t step,
   const bool told = pinned || kind == sim::EventKind::kContact;
   if (!told || event.robot == rave_wire_kNone || step == 0) {
     return fail(ErrorCode::kInvalidArgument,
-                "an event of kind {} of the step before {}, which nobody needs",
+                "an event of kind {} of the step before {}; expected a contact or pin of a robot",
                 event.kind & ~kOfStepBefore, step);
   }
   done.push_back({step - 1, RobotId(event.robot), kind, BodyId(event.other),
@@ -464,8 +464,8 @@ Status read_authority(const rave_wire_AuthorityState& message, std::uint64_t ste
     const auto kind = static_cast<sim::EventKind>(event.kind);
     const bool of_obstacle = sim::is_of_obstacle(kind);
     if (event.robot == rave_wire_kNone ? !concerns_world(kind) : of_obstacle) {
-      return fail(ErrorCode::kInvalidArgument, "an event of kind {} that is of {} robot",
-                  event.kind, of_obstacle ? "a" : "no");
+      return fail(ErrorCode::kInvalidArgument, "an event of kind {} with {} robot", event.kind,
+                  of_obstacle ? "a" : "no");
     }
     authority.events.push_back({step, RobotId(event.robot), static_cast<sim::EventKind>(event.kind),
                                 BodyId(event.other), "", 0});

@@ -25,7 +25,7 @@ class OrderedWay {
   };
 
   /// Takes the orders of this decision and advances past points that are nearer than `tolerance_m`.
-  /// Sends answers on arrival and on a cancel. Returns true if the path, its state or the next
+  /// Sends an answer on arrival. Returns true if the path, its state or the next
   /// point has changed.
   bool update(const Percepts& percepts, Commands& commands, double tolerance_m) {
     const State before = state_;

@@ -149,7 +149,7 @@ class Engine {
   [[nodiscard]] std::string transmitter_report(RobotId robot, std::uint32_t index) const;
   /// Counts of all messages so far.
   [[nodiscard]] const RadioCounts& radio_counts() const noexcept;
-  /// Messages sent or delivered in the last step, in that order of events.
+  /// Messages sent or delivered in the last step, in order of occurrence.
   [[nodiscard]] std::span<const RadioTrace> radio() const noexcept;
   /// Events of the last step, ordered by robot. One of several hosts has the events of its own
   /// robots; the authority has contacts, pins, and changes of bodies and obstacles.

@@ -70,7 +70,7 @@ Status HostLeases::use(const std::string& robot, const Person& person, Use how, 
   const Lease* const lease = find(robot);
   const bool own = lease != nullptr && owns(*lease, person);
   if (lease != nullptr && !own) return refusal(robot, *lease, person);
-  // What a terminal says once shall not keep people from the robot for minutes.
+  // A single order from the terminal must not keep other people from the robot for minutes.
   const bool takes = how == Use::kDrive || (how == Use::kOrder && (own || !person.name.empty()));
   if (takes) set(robot, person, how == Use::kDrive, now);
   return {};

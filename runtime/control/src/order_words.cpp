@@ -22,7 +22,7 @@ constexpr std::pair<RunRequest::Kind, InputKind> kKinds[] = {
     {RunRequest::Kind::kPath, InputKind::kPath},   {RunRequest::Kind::kCancel, InputKind::kCancel},
     {RunRequest::Kind::kText, InputKind::kText},   {RunRequest::Kind::kPlace, InputKind::kPlace}};
 
-/// Takes the words of a line one by one.
+/// Reads the words of a line one after the other.
 class Words {
  public:
   explicit Words(std::string_view text) : left_(text) {}
@@ -33,7 +33,7 @@ class Words {
     left_.remove_prefix(std::min(end + 1, left_.size()));
     return word;
   }
-  /// A number, if one comes next.
+  /// The next word as a number, if it is one.
   std::optional<double> number() {
     const std::string_view before = left_;
     const std::string_view word = next();

@@ -14,7 +14,7 @@ namespace {
 
 using config::RawNode;
 
-/// No robot is as large.
+/// Larger than any robot.
 constexpr double kFarthest_m = 100;
 constexpr double kWholeTurn_deg = 360;
 

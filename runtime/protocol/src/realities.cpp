@@ -9,7 +9,7 @@
 namespace rave::real_time {
 namespace {
 
-/// Whoever makes up processes gets no further.
+/// Limits the memory that a sender with invented processes can use.
 constexpr std::size_t kMostBooks = 1024;
 
 }  // namespace

@@ -8,14 +8,14 @@
 namespace rave::record {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "words are taken as they lie");
+static_assert(std::endian::native == std::endian::little, "words are read as little-endian");
 
 constexpr std::uint32_t kPolynomial = 0xEDB88320U;  // bits reversed
 constexpr std::size_t kSlices = 16;
 using Tables = std::array<std::array<std::uint32_t, 256>, kSlices>;
 
-// Several bytes at a time: M. Kounavis and F. Berry, "A systematic approach to building high
-// performance software-based CRC generators", 2005. Table s holds the sum of a byte followed by s
+// Slicing by several bytes: M. Kounavis and F. Berry, "A systematic approach to building high
+// performance software-based CRC generators", 2005. Table s has the CRC of a byte followed by s
 // zero bytes.
 constexpr Tables make_tables() {
   Tables tables{};

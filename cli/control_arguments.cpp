@@ -143,7 +143,7 @@ void add_orders(CLI::App& root, ControlCommands& commands) {
             "X Y [X Y ...]");
   add_value(goal, "--speed", commands.goal.speed_mps, "Largest speed in m/s [that of the robot]",
             "V");
-  goal.add_flag("--cancel", commands.goal.cancel, "Cancel the present order");
+  goal.add_flag("--cancel", commands.goal.cancel, "Cancel the current order");
   add_order(goal, commands.goal);
   goal.footer(
       "Examples:\n"

@@ -66,12 +66,12 @@ Result<HostLineEnds> open_host_line(const LineWish& wish, const std::string& hos
   HostLineEnds ends;
   if (!wish.web) {
     if (wish.web_key.empty()) return ends;
-    return fail(ErrorCode::kInvalidArgument, "--web-key counts with --web alone");
+    return fail(ErrorCode::kInvalidArgument, "--web-key needs --web");
   }
   if (wish.web_key.empty()) {
     return fail(ErrorCode::kInvalidArgument,
                 "--web needs --web-key FILE, the public key of the GUI Server: `rave keys line "
-                "FILE` makes FILE for `rave gui --line-key` and FILE.pub for hosts");
+                "FILE` creates FILE for `rave gui --line-key` and FILE.pub for hosts");
   }
   RAVE_TRY_ASSIGN(auto options, options_of(wish, log));
   RAVE_TRY_ASSIGN(options.signer, direct_line::read_public_key(wish.web_key));

@@ -61,7 +61,7 @@ void add_web(CLI::App& parent, KeysWebCommand& c) {
 
 void add_line(CLI::App& parent, KeysLineCommand& c) {
   CLI::App& app =
-      *parent.add_subcommand("line", "Make the key with which a GUI Server signs tickets");
+      *parent.add_subcommand("line", "Create the key that a GUI Server signs tickets with");
   add_word(app, "file", c.file, "For the GUI Server; FILE.pub is for hosts", "FILE");
   app.footer(
       "Example:\n"

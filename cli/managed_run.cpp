@@ -100,10 +100,17 @@ Result<ManagedEnd> manage_steps(const ManagedRun& run, runtime::BuiltScenario bu
          run.scenario.robots.size(),
          progress.waiting.empty() ? std::string() : "waiting for " + progress.waiting});
   };
-  how.on_world = [&end](const sim::WorldAuthority& authority) {
+  const auto keep_said = [&run, &end] {
+    for (const runtime::RunRequest& chat : run.control.take_said()) end.results->say(chat);
+  };
+  how.on_world = [&end, keep_said](const sim::WorldAuthority& authority) {
+    keep_said();
     return end.results->after_step(authority);
   };
-  how.on_end = [&end](const sim::WorldAuthority& authority) { end.results->at_end(authority); };
+  how.on_end = [&end, keep_said](const sim::WorldAuthority& authority) {
+    keep_said();
+    end.results->at_end(authority);
+  };
   RAVE_TRY_ASSIGN(auto outcome, manager::manage(std::move(built.spec), how));
   end.end.hash = outcome.hash;
   end.end.steps = outcome.steps;
@@ -243,7 +250,10 @@ Result<std::unique_ptr<gui_server::GuiServer>> show_run(const RunCommand& option
                                                         runtime::RunControl* control,
                                                         LogSink& log) {
   RAVE_TRY_ASSIGN(const auto built, build_world(scenario, options.plugins, log));
-  RAVE_TRY_ASSIGN(auto source, gui_server::watch_run(scenario, built, bus, control));
+  auto described = std::make_unique<plugin::Catalogue>(runtime::host_stamp());
+  RAVE_TRY(add_plugin_folders(options.plugins, *described));
+  RAVE_TRY_ASSIGN(auto source,
+                  gui_server::watch_run(scenario, built, bus, std::move(described), control));
   RAVE_TRY_ASSIGN(auto page, serve_page(options.page, std::move(source)));
   if (!options.page.line_key.empty()) {
     RAVE_TRY_ASSIGN(const auto key, direct_line::read_signing_key(options.page.line_key));

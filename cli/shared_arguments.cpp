@@ -45,27 +45,28 @@ void add_page_options(CLI::App& app, PageOptions& page) {
   add_value(app, "--line-key", page.line_key,
             "Signing key of direct lines, made by `rave keys line FILE`", "FILE");
   add_value(app, "--accounts", page.accounts, "Folder of accounts, made by `rave people`", "DIR");
-  auto* const foxglove = app.add_flag("--foxglove", page.foxglove,
-                                      "Let Foxglove and Lichtblick connect, to look only");
-  add_values(
-      app, "--foxglove-origin", page.foxglove_origins,
-      "Origin of a page that may connect so, such as https://app.foxglove.dev, or file:// for "
-      "a desktop program; repeatable",
-      "ORIGIN")
+  auto* const foxglove =
+      app.add_flag("--foxglove", page.foxglove, "Let Foxglove and Lichtblick connect, read-only");
+  add_values(app, "--foxglove-origin", page.foxglove_origins,
+             "Origin of a page that may connect to Foxglove's endpoint, such as "
+             "https://app.foxglove.dev, or file:// for "
+             "a desktop program; repeatable",
+             "ORIGIN")
       ->needs(foxglove);
 }
 
 void add_line_options(CLI::App& app, LineWish& line) {
   add_value(app, "--web", line.web,
-            "Let pages reach the host without the GUI Server, at this place [127.0.0.1, any port]",
+            "Address of the direct line, on which pages reach this host without the GUI Server "
+            "[127.0.0.1, any port]",
             "ADDRESS:PORT")
       ->expected(0, 1)
       ->default_str("");
   add_value(app, "--web-key", line.web_key,
-            "The public key of the GUI Server, FILE.pub of `rave keys line FILE`", "FILE");
-  add_value(app, "--web-certificate", line.certificate, "For TLS, as `rave keys web` makes it",
-            "FILE");
-  add_value(app, "--web-certificate-key", line.key, "The private key of that certificate", "FILE");
+            "Public key of the GUI Server: FILE.pub of `rave keys line FILE`", "FILE");
+  add_value(app, "--web-certificate", line.certificate,
+            "Certificate for TLS, made by `rave keys web`", "FILE");
+  add_value(app, "--web-certificate-key", line.key, "Private key of the certificate", "FILE");
 }
 
 void add_record(CLI::App& app, std::string& file) {

@@ -137,7 +137,7 @@ int edit_world(const EditCommand& options) {
   }
   const std::string done = options.what == What::kList
                                ? ""
-                               : fmt::format(" ({:.1f} ms after it was asked)", took.count());
+                               : fmt::format(" ({:.1f} ms after the request)", took.count());
   put(stdout, fmt::format("{}: {}{}\n", run->name(), answer->text, done));
   return kGood;
 }

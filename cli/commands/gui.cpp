@@ -17,7 +17,9 @@ namespace {
 Result<std::unique_ptr<gui_server::GuiServer>> serve(const GuiCommand& options) {
   const auto file = record_file(options.file);
   std::error_code error;
-  if (file && std::filesystem::exists(*file, error)) {
+  // A scenario may be given by its file, as `rave run` takes it.
+  const bool yaml = std::filesystem::path(options.file).extension() == ".yaml";
+  if (!yaml && file && std::filesystem::exists(*file, error)) {
     RAVE_TRY_ASSIGN(auto source, gui_server::open_recording(*file));
     return serve_page(options.page, std::move(source));
   }
@@ -25,8 +27,9 @@ Result<std::unique_ptr<gui_server::GuiServer>> serve(const GuiCommand& options) 
   run.scenario = options.file;
   run.page = options.page;
   const auto scenario = read_scenario(run);
-  // There is no scenario of this name either.
-  if (!scenario && scenario.error().code == ErrorCode::kNotFound) {
+  // A scenario that names a missing file is another error.
+  const bool missing = !std::filesystem::exists(options.file, error);
+  if (!scenario && missing && scenario.error().code == ErrorCode::kNotFound) {
     return fail(ErrorCode::kNotFound, "`{}` is not a recording, the folder of a run, or a scenario",
                 options.file);
   }

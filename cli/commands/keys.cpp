@@ -124,10 +124,10 @@ int web_keys(const KeysWebCommand& options) {
 int line_keys(const KeysLineCommand& options) {
   const Status made = direct_line::make_key_files(options.file);
   if (!made) return complain(made.error());
-  put(stdout, fmt::format("made {0} and {0}.pub\n"
+  put(stdout, fmt::format("created {0} and {0}.pub\n"
                           "next: rave gui SCENARIO --line-key {0}\n"
                           "      rave robot SCENARIO --host NAME --web --web-key {0}.pub\n"
-                          "Who has {0} can order every robot about: keep it to yourself.\n",
+                          "Whoever has {0} can command every robot: keep it secret.\n",
                           options.file));
   return kGood;
 }

@@ -35,7 +35,7 @@ int new_project(const NewCommand& options) {
   const auto created = create_project(*kind, options.name, share_folder() / "templates", folder);
   if (!created) return complain(created.error());
   if (*kind == ProjectKind::kPanel) {
-    put(stdout, fmt::format("made {0}; the code to fill in is {0}/{1}.mjs\n\nnext:\n"
+    put(stdout, fmt::format("created {0}; edit {0}/{1}.mjs\n\nnext:\n"
                             "  node --test {2}\n\n"
                             "then name it in a scenario, and run that with --gui:\n"
                             "  gui:\n    components:\n"

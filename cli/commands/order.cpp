@@ -10,6 +10,7 @@
 
 #include "asked_run.hpp"
 #include "error_text.hpp"
+#include "rave/control/order_words.hpp"
 #include "rave/math/scalar.hpp"
 
 namespace rave::cli {
@@ -54,6 +55,7 @@ Result<Request> read_request(const OrderCommand& options) {
       RAVE_TRY_ASSIGN(auto points, points_of(options));
       Request request = request_of(points.size() == 1 ? Request::What::kGoal : Request::What::kPath,
                                    options.robot);
+      if (points.size() > 1) RAVE_TRY(runtime::check_path_size(points.size()));
       request.points = std::move(points);
       request.speed_mps = options.speed_mps;
       return request;

@@ -59,7 +59,14 @@ int run(const RunCommand& options) {
                  server.error().message);
   }
   std::unique_ptr<gui_server::GuiServer> page;
-  gui_server::LiveRun live(*scenario, control,
+  std::unique_ptr<plugin::Catalogue> described;
+  if (options.gui) {
+    described = std::make_unique<plugin::Catalogue>(runtime::host_stamp());
+    if (auto added = add_plugin_folders(options.plugins, *described); !added) {
+      return complain(added.error());
+    }
+  }
+  gui_server::LiveRun live(*scenario, control, catalogue, std::move(described),
                            [&page](auto source) { page->show(std::move(source)); });
   if (options.gui) {
     auto served = serve_page(options.page);
@@ -79,7 +86,7 @@ int run(const RunCommand& options) {
   console.clear();
   if (outcome) {
     const int code = report_outcome(options, *outcome, folder->path());
-    live.end("The run is over.");
+    live.end("The run has ended.");
     if (page) replay_on_page(*page, options.quiet, folder->path(), control);
     return code;
   }

@@ -143,7 +143,7 @@ Result<Log> load_text(const recording::UnpackedText& text, const std::string& fi
   RAVE_TRY_ASSIGN(ParsedLog parsed, parse_log(text, file, options.accept_cut));
   if (parsed.scans.empty()) {
     return fail_at({file, 0, 0}, ErrorCode::kParse,
-                   "the log has no FLASER row; scans of other messages are not read");
+                   "the log has no FLASER row; other messages are not read");
   }
   // The origin of a stretch is an `ipc_timestamp`.
   const bool by_logger = !stretch && is_better_by_logger(parsed);
@@ -186,9 +186,10 @@ Result<Log> load(const std::filesystem::path& path, const LoadOptions& options) 
     const bool cut = log.scan_report.repaired(recording::RepairKind::kCutLine) > 0;
     // Last, so that a log with a fault is refused with the place of the fault.
     if (file.unchanged == false && options.require_unchanged && !cut) {
-      return fail_at({path.string(), 0, 0}, ErrorCode::kParse,
-                     "the file is not the one that {} lists (SHA-256 {}, listed {}); restore it",
-                     kStretchFile, file.sha256, listed->second);
+      return fail_at(
+          {path.string(), 0, 0}, ErrorCode::kParse,
+          "the file differs from the one that {} lists (SHA-256 {}, listed {}); restore it",
+          kStretchFile, file.sha256, listed->second);
     }
   }
   for (StreamReport* report : {&log.scan_report, &log.odometry_report}) {

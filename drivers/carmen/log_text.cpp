@@ -56,7 +56,7 @@ class LogParser {
     if (log.cut && !cut_reported_) {
       ++line_;
       line_text_ = {};
-      RAVE_TRY(take_cut("the gzip stream ends before its time, after the previous line"));
+      RAVE_TRY(take_cut("the gzip stream is truncated after the previous line"));
     }
     return std::move(log_);
   }

@@ -26,10 +26,10 @@ constexpr std::array kAlways{Packet::kBumpsAndDrops,   Packet::kCliffLeft,  Pack
                              Packet::kCliffFrontRight, Packet::kCliffRight, Packet::kMode};
 
 std::string reason(const OiState& robot) {
-  if (robot.any_drop()) return "a wheel hangs in the air";
-  if (robot.any_cliff()) return "there is a cliff";
-  if (robot.charging_state != 0) return "it is being charged";
-  return "it does not say why; a button, the charger, or a cliff that it has left";
+  if (robot.any_drop()) return "a wheel has dropped";
+  if (robot.any_cliff()) return "a cliff sensor is active";
+  if (robot.charging_state != 0) return "it is charging";
+  return "the reason is unknown; a button, the charger, or an earlier cliff";
 }
 
 }  // namespace
@@ -116,7 +116,8 @@ Status CreateDevice::drive(WheelSpeeds speeds, double keep_s) {
     order_ = {speeds, line::after_seconds(line::host_now(), keep_s), true};
   }
   if (ringing_) wake_.ring();
-  if (lost_) return fail(ErrorCode::kIo, "{} is away; its wheels cannot be told anything", name());
+  if (lost_)
+    return fail(ErrorCode::kIo, "{} is disconnected; its wheels cannot be commanded", name());
   return {};
 }
 
@@ -160,7 +161,7 @@ void CreateDevice::lost(const Error& why) {
   if (lost_ || line::host_now() < line::after_seconds(last_frame_, options_.timing.lost_after_s)) {
     return;
   }
-  const std::string text = fmt::format("{} has been away for more than {} s: {}", name(),
+  const std::string text = fmt::format("{} has been disconnected for more than {} s: {}", name(),
                                        options_.timing.lost_after_s, why.message);
   const std::lock_guard lock(listeners_mutex_);
   lost_ = true;
@@ -219,7 +220,7 @@ Status CreateDevice::converse(OiSession& session, const std::stop_token& stop) {
       heard = true;
       take(*next.frame, session);
     } else if (line::host_now() >= line::after_seconds(good, kSilence_s)) {
-      return fail(ErrorCode::kTimeout, "no good frame for {:.1f} s", kSilence_s);
+      return fail(ErrorCode::kTimeout, "no valid frame for {:.1f} s", kSilence_s);
     }
   }
 }
@@ -277,7 +278,7 @@ Status CreateDevice::keep_driving(OiSession& session) {
   const WheelSpeeds speeds = in_force ? order.speeds : WheelSpeeds{};
   if (order_kept_ && !in_force && order.speeds != WheelSpeeds{}) {
     note([](DeviceState& state) { ++state.watchdog_stops; });
-    log(LogLevel::kWarning, name() + " was told nothing for too long; its wheels are stopped");
+    log(LogLevel::kWarning, name() + " received no command for too long; its wheels are stopped");
   }
   order_kept_ = in_force;
   if (speeds != told_ || now >= drive_at_) {
@@ -290,7 +291,7 @@ Status CreateDevice::keep_driving(OiSession& session) {
   return {};
 }
 
-/// Says when the robot leaves its mode, and takes it back: not while a wheel hangs in the air, and
+/// Says when the robot leaves its mode, and takes it back: not while a wheel has dropped, and
 /// at a cliff only to drive away from it, or the robot would creep over the edge.
 Status CreateDevice::keep_mode(OiSession& session) {
   const HostTime now = line::host_now();

@@ -13,7 +13,7 @@ constexpr double kForGood_s = 1e6;
 
 Status CreateDrive::open(const DeviceSetup& setup) {
   device_ = static_cast<CreateDevice*>(setup.device);
-  if (device_ == nullptr) return fail(ErrorCode::kState, "belongs to no device");
+  if (device_ == nullptr) return fail(ErrorCode::kState, "has no `device`");
   const Params params = setup.parameters();
   watchdog_s_ = params.number("watchdog_s");
   max_mmps_ = 1e3 * std::min(params.number("max_wheel_mps"), device_->geometry().max_wheel_mps);
@@ -22,7 +22,8 @@ Status CreateDrive::open(const DeviceSetup& setup) {
 
 Status CreateDrive::write(const Command& command, SimTime /*now*/) {
   if (command.kind != CommandKind::kVelocity) {
-    return fail(ErrorCode::kInvalidArgument, "takes velocities, not {}", to_string(command.kind));
+    return fail(ErrorCode::kInvalidArgument, "expected velocities, found {}",
+                to_string(command.kind));
   }
   // A command without values is a stop.
   const double v_mps = command.count >= 1 ? command.value[0] : 0;

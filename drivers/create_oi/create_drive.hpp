@@ -10,10 +10,10 @@ namespace rave::oi {
 
 inline constexpr std::array<ParamSpec, 3> kDriveParams{
     number_param("watchdog_s", "s", 0.25, 0.02, 10,
-                 "The wheels stop when no command came for so long."),
+                 "Time without a command after which the wheels stop."),
     number_param("device_watchdog_s", "s", 0, 0, 60,
-                 "What stands between host and robot stops the wheels when it is told nothing for "
-                 "so long; 0: nothing does."),
+                 "Timeout of an adapter between host and robot that stops the wheels by itself; 0: "
+                 "there is none."),
     number_param("max_wheel_mps", "m/s", 0.5, 0.01, 0.5,
                  "Largest speed of a wheel; never more than the device's."),
 };

@@ -22,13 +22,14 @@ inline constexpr std::array<ParamSpec, 12> kDeviceParams{
     number_param("wheel_base_m", "m", 0.235, 0.05, 1,
                  "Distance between the points where the wheels meet the floor."),
     number_param("wheel_diameter_m", "m", 0.072, 0.01, 1, "Diameter of a wheel."),
-    number_param("counts_per_turn", "", 508.8, 1, 100000, "Encoder counts of one turn of a wheel."),
+    number_param("counts_per_turn", "", 508.8, 1, 100000, "Encoder counts per turn of a wheel."),
     number_param("max_wheel_mps", "m/s", 0.5, 0.01, 0.5, "Largest speed of a wheel."),
     number_param("refresh_s", "s", 0.05, 0.015, 1,
-                 "How often the drive command is repeated: what a watchdog on the robot lives on."),
-    line::latency_param("Known smallest time from a frame's values to its first byte here."),
-    line::start_timeout_param("How long the start of a run waits for the robot."),
-    line::lost_after_param(1, "A robot that is away for longer is reported as gone."),
+                 "Time between repetitions of the drive command, which keep a watchdog on the "
+                 "robot satisfied."),
+    line::latency_param("Smallest delay from the measurement to the first byte of its frame."),
+    line::start_timeout_param("Time that the start of a run waits for the robot."),
+    line::lost_after_param(1, "Time after which a disconnected robot is reported as lost."),
 };
 
 /// What is to be known of the body for driving and for odometry.

@@ -18,7 +18,7 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 Status DeviceSensor::configure(const HardwareSetup& setup, HardwareDeclaration& declaration) {
   device_ = static_cast<CreateDevice*>(setup.device);
-  if (device_ == nullptr) return fail(ErrorCode::kState, "belongs to no device");
+  if (device_ == nullptr) return fail(ErrorCode::kState, "has no `device`");
   declaration.clock = DriverClock::kLive;
   declaration.period_s = kStreamPeriod_s;
   return prepare(setup.parameters(), declaration);

@@ -43,7 +43,7 @@ inline constexpr std::array<ParamSpec, 2> kOdometryParams{
                  "Standard deviation of the travel of one wheel after one metre; it grows with the "
                  "square root of the distance."),
     number_param("velocity_window_s", "s", 0.1, 0.02, 2,
-                 "The velocity is the mean over this long: one count in 15 ms is 0.03 m/s."),
+                 "Window of the mean velocity: one count in 15 ms is 0.03 m/s."),
 };
 
 class CreateOdometry final : public DeviceSensor {

@@ -88,7 +88,7 @@ void Air::detach(const AirPlace& place) {
 Status Air::send(std::span<const std::byte> bytes, const AirPlace& from) {
   const auto packet = decode_radio_packet(bytes);
   if (!packet || bytes.size() > options_.max_packet_bytes) {
-    return fail(ErrorCode::kInvalidArgument, "{} bytes that are no packet of at most {}",
+    return fail(ErrorCode::kInvalidArgument, "{} bytes are not a packet of at most {}",
                 bytes.size(), options_.max_packet_bytes);
   }
   {

@@ -39,8 +39,9 @@ Result<RadioPacket> packet_of(const bus::Packet& sample, std::uint32_t network,
   }
   const std::size_t size = kRadioPacketOverhead + sample.payload._length;
   if (size > max_packet_bytes) {
-    return fail(ErrorCode::kInvalidArgument, "a packet of {} bytes with its head, more than {}",
-                size, max_packet_bytes);
+    return fail(ErrorCode::kInvalidArgument,
+                "a packet of {} bytes with its header; expected at most {}", size,
+                max_packet_bytes);
   }
   RadioPacket packet;
   packet.network = network;

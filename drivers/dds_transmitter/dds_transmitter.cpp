@@ -11,20 +11,20 @@ namespace {
 
 constexpr ParamSpec kParams[] = {
     text_param("network", "rave",
-               "Robots whose transmitters name the same network are in one air."),
-    text_param("run", "", "32 hexadecimal digits in place of those made of `network`."),
+               "Name of the network; transmitters with the same name hear each other."),
+    text_param("run", "", "32 hexadecimal digits that replace those derived from `network`."),
     dds_network::domain_param("Domain of DDS: chooses the UDP ports."),
     text_param("interface", "127.0.0.1",
                "Network interface, by address or name; the default is this machine."),
-    text_param("peers", "", "Addresses to look for other machines at, between commas."),
+    text_param("peers", "", "Addresses of other machines, separated by commas."),
     choice_param("multicast", "none", dds_network::kMulticasts,
-                 "What is sent by multicast: nothing, what finds others, or data as well."),
-    text_param("security", "", "Folder with certificates; switches DDS Security on."),
+                 "Use of multicast: off, for discovery only, or also for data."),
+    text_param("security", "", "Folder with certificates; enables DDS Security."),
     number_param("byte_rate", "B/s", 0, 0, 1e12,
-                 "Bytes a second of all communicators that share it; 0: no limit."),
-    integer_param("max_packet_bytes", 1400, 64, 65000, "Longest packet, head included."),
+                 "Byte rate that all its communicators share; 0: no limit."),
+    integer_param("max_packet_bytes", 1400, 64, 65000, "Longest packet, with its header."),
     integer_param("queue_bytes", 1'048'576, 65'536, 1'000'000'000,
-                  "Bytes of packets of this process that may wait; newer ones are lost."),
+                  "Bytes of packets that may wait to be sent; further packets are lost."),
 };
 
 /// Packets as samples of `rave/radio`, through the air that all robots of the process share.

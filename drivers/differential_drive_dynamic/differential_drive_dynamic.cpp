@@ -20,10 +20,10 @@ constexpr ParamSpec kParams[] = {
     number_param("max_wheel_acceleration_mps2", "m/s^2", 5.0, 0.001, 10'000,
                  "Largest acceleration of each wheel, both ways."),
     number_param("slip_probability_per_s", "1/s", 0, 0, 1000,
-                 "How often a wheel that grips begins to slip, as a rate; 0: never."),
+                 "Rate at which a gripping wheel begins to slip; 0: never."),
     number_param("slip_factor", "", 0.3, 0, 1,
-                 "Part of its speed that a slipping wheel brings onto the floor."),
-    number_param("slip_duration_s", "s", 0.2, 0.001, 60, "How long one slip lasts."),
+                 "Fraction of its speed that a slipping wheel transfers to the floor."),
+    number_param("slip_duration_s", "s", 0.2, 0.001, 60, "Duration of one slip."),
 };
 
 /// One wheel with its motor, speed control and grip.

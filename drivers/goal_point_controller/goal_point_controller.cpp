@@ -11,15 +11,18 @@ namespace {
 constexpr ParamSpec kParams[] = {
     number_param("max_speed_mps", "m/s", 0.5, 0.001, 100, "Largest speed."),
     number_param("max_turn_rate_radps", "rad/s", 2.0, 0.001, 100, "Largest turning rate."),
-    number_param("max_deceleration_mps2", "m/s^2", 0.5, 0.001, 100,
-                 "What the robot can surely brake with; sets where it begins to slow down."),
-    number_param("tolerance_m", "m", 0.05, 0.001, 100, "Nearer than this is there."),
+    number_param(
+        "max_deceleration_mps2", "m/s^2", 0.5, 0.001, 100,
+        "Deceleration that the robot always reaches; determines where it begins to slow down."),
+    number_param("tolerance_m", "m", 0.05, 0.001, 100,
+                 "Distance at which the goal counts as reached."),
     number_param("distance_gain_per_s", "1/s", 1.0, 0.01, 100, "Speed per metre of distance."),
-    number_param("heading_gain_per_s", "1/s", 3.0, 0.01, 100, "Turning rate per radian of error."),
+    number_param("heading_gain_per_s", "1/s", 3.0, 0.01, 100,
+                 "Turning rate per radian of heading error."),
     number_param("turn_in_place_rad", "rad", 1.0, 0.1, 1.5,
                  "With a larger heading error it turns without driving."),
     number_param("watchdog_s", "s", 1.0, 0.001, 3600,
-                 "A command older than this is answered by a stop."),
+                 "Age of the last command after which the robot stops."),
 };
 
 /// Drives to a point of the world by the reported pose.

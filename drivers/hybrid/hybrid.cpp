@@ -11,7 +11,7 @@ RAVE_PLUGIN("hybrid_ranges hybrid_contact hybrid_pose") {
                  .params = rave::HybridRanges::kParams});
   rave::add_hybrid_sensor<rave::HybridContact>(
       registry, {.name = "hybrid_contact",
-                 .summary = "Touches if the real or the virtual bumper does.",
+                 .summary = "Reports contact if the real or the virtual bumper does.",
                  .params = rave::HybridContact::kParams});
   rave::add_hybrid_sensor<rave::HybridPose>(
       registry, {.name = "hybrid_pose",

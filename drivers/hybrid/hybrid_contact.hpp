@@ -11,7 +11,8 @@ class HybridContact final : public HybridSensor {
   static constexpr ReadingKind kReading = ReadingKind::kContact;
   static constexpr const char* kRules[] = {"either"};
   static constexpr ParamSpec kParams[] = {
-      choice_param("rule", "either", kRules, "either: it touches if one of the halves does."),
+      choice_param("rule", "either", kRules,
+                   "either: contact if one of the halves reports contact."),
   };
 
   Status start(const HybridSetup& setup) override;

@@ -14,15 +14,15 @@ class HybridPose final : public HybridSensor {
       choice_param("rule", "weighted", kRules, "weighted: by inverse variance."),
       number_param(
           "real_sigma_xy_m", "m", 0, 0, 1e6,
-          "Standard deviation of x and of y of the real half; 0: what its readings state."),
+          "Standard deviation of x and of y of the real half; 0: the value of each reading."),
       number_param("real_sigma_yaw_deg", "deg", 0, 0, 1e6,
-                   "Standard deviation of the yaw of the real half; 0: what its readings state."),
+                   "Standard deviation of the yaw of the real half; 0: the value of each reading."),
       number_param(
           "virtual_sigma_xy_m", "m", 0, 0, 1e6,
-          "Standard deviation of x and of y of the virtual half; 0: what its readings state."),
+          "Standard deviation of x and of y of the virtual half; 0: the value of each reading."),
       number_param(
           "virtual_sigma_yaw_deg", "deg", 0, 0, 1e6,
-          "Standard deviation of the yaw of the virtual half; 0: what its readings state."),
+          "Standard deviation of the yaw of the virtual half; 0: the value of each reading."),
   };
 
   Status start(const HybridSetup& setup) override;

@@ -14,11 +14,11 @@ class HybridRanges final : public HybridSensor {
   static constexpr const char* kTooNear[] = {"range_min", "no_return", "invalid"};
   static constexpr ParamSpec kParams[] = {
       choice_param("rule", "nearest", kRules,
-                   "nearest: the smaller of both; occlusion: a virtual body counts where the real "
-                   "sensor would have seen it before what it saw."),
+                   "nearest: the smaller range; occlusion: a virtual body counts only where it "
+                   "would hide what the real sensor measured."),
       choice_param("too_near", "range_min", kTooNear,
-                   "Occlusion: what the real sensor reads of a body nearer than its range_min: "
-                   "range_min, no_return (+infinity) or invalid (NaN)."),
+                   "For occlusion: reading of the real sensor for a body nearer than its "
+                   "range_min: range_min, no_return (+infinity) or invalid (NaN)."),
   };
 
   /// Error: kInvalidArgument if the halves do not have the same number of rays, or if the rule

@@ -6,7 +6,7 @@ namespace {
 
 constexpr ParamSpec kParams[] = {
     number_param("byte_rate", "B/s", 0, 0, 1e12,
-                 "Bytes a second of all communicators that share it; 0: no limit."),
+                 "Byte rate that all its communicators share; 0: no limit."),
 };
 
 /// Says that the host carries the messages itself.

@@ -12,7 +12,7 @@ namespace {
 constexpr ParamSpec kParams[] = {
     number_param("sigma_xy_m", "m", 0.02, 0, 100, "Standard deviation of x and of y."),
     number_param("sigma_yaw_deg", "deg", 0.5, 0, 180, "Standard deviation of the heading."),
-    number_param("dropout_probability", "", 0, 0, 1, "Chance that a sample gives no pose."),
+    number_param("dropout_probability", "", 0, 0, 1, "Probability that a sample has no pose."),
     numbers_param("dropout_zones_m", "m", -1e6, 1e6,
                   "Rectangles without reception, four numbers each: x_min, y_min, x_max, y_max."),
 };

@@ -11,11 +11,13 @@ namespace rave {
 namespace {
 
 constexpr ParamSpec kParams[] = {
-    number_param("range_m", "m", 5, 0.001, 1000, "Robots whose origin is farther are not sensed."),
+    number_param("range_m", "m", 5, 0.001, 1000,
+                 "Largest distance to the origin of a sensed robot."),
     number_param("sigma_velocity_mps", "m/s", 0, 0, 100,
                  "Standard deviation of each component of the velocity."),
-    bool_param("needs_line_of_sight", false, "Whether bodies in between hide a robot."),
-    integer_param("max_neighbours", 32, 1, 1024, "Robots reported at most, lowest ids first."),
+    bool_param("needs_line_of_sight", false, "Whether bodies between hide a robot."),
+    integer_param("max_neighbours", 32, 1, 1024,
+                  "Largest number of reported robots, lowest ids first."),
 };
 
 /// Robots within range that one sample can look at before layers and sight sort them out. On the

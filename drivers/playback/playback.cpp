@@ -24,9 +24,9 @@ constexpr std::array<ParamSpec, 6> params_with(ParamSpec sensor) noexcept {
       sensor,
       choice_param("part", "result", kParts,
                    "What is played of a hybrid sensor: what the program was given, or one half."),
-      number_param("start_s", "s", 0, 0, 1e9, "Time of the recording that is run time 0."),
+      number_param("start_s", "s", 0, 0, 1e9, "Time in the recording at which the run starts."),
       choice_param("clock", "stepped", kClocks,
-                   "Whether samples come by simulation time or by the clock on the wall."),
+                   "Whether samples follow simulation time or the wall clock."),
   };
 }
 constexpr auto kParams = params_with(required(text_param("sensor", "", kSensorDoc)));
@@ -38,10 +38,10 @@ constexpr auto kSightingParams = [] {
                           "with a real camera; false: the newest reading counts.");
   return all;
 }();
-constexpr auto kPoseParams = params_with(text_param(
-    "sensor", "",
-    "The sensor of that robot whose readings are played; empty: the pose that was reported of the "
-    "robot, in the world frame."));
+constexpr auto kPoseParams =
+    params_with(text_param("sensor", "",
+                           "The sensor of that robot whose readings are played; empty: the "
+                           "reported pose of the robot, in the world frame."));
 
 /// Plays the readings of one recorded sensor as its hardware delivered them: from a thread of its
 /// own, with the recorded stamps. Opened again it starts over and gives the same samples.
@@ -136,12 +136,11 @@ RAVE_PLUGIN(
                                       kSightingParams);
   add_player<ReadingKind::kPose>(
       registry, "playback_pose",
-      "Plays the poses of a sensor, or those reported of a robot, in a recording.", kPoseParams);
+      "Plays the poses of a sensor in a recording, or the reported poses of a robot.", kPoseParams);
   add_player<ReadingKind::kOdometry>(registry, "playback_odometry",
                                      "Plays the odometry of a sensor in a recording.", kParams);
   add_player<ReadingKind::kNeighbours>(registry, "playback_neighbours",
-                                       "Plays what a sensor in a recording saw of other "
-                                       "robots.",
+                                       "Plays the neighbours that a sensor in a recording saw.",
                                        kParams);
   add_player<ReadingKind::kContact>(registry, "playback_contact",
                                     "Plays the contacts of a sensor in a recording.", kParams);

@@ -7,22 +7,24 @@ namespace rave {
 namespace {
 
 constexpr ParamSpec kParams[] = {
-    number_param("range_m", "m", 0, 0, 1e6,
-                 "How far it reaches, between reported poses; 0: no limit."),
-    bool_param("line_of_sight", false, "Bodies in between weaken or stop a message."),
+    number_param("range_m", "m", 0, 0, 1e6, "Range, between reported poses; 0: no limit."),
+    bool_param("line_of_sight", false, "Whether bodies between shorten or block the range."),
     number_param("obstructed_range_m", "m", 0, 0, 1e6,
-                 "How far it reaches through bodies, with line_of_sight; 0: not at all."),
+                 "Range through bodies, with line_of_sight; 0: blocked."),
     number_param("loss_probability", "", 0, 0, 1, "Share of messages that each receiver loses."),
-    number_param("latency_s", "s", 0, 0, 60, "From the end of sending to the arrival."),
-    number_param("jitter_s", "s", 0, 0, 60, "Up to so much later, evenly distributed."),
-    number_param("byte_rate", "B/s", 0, 0, 1e12, "Bytes a second that it sends; 0: no limit."),
-    integer_param("overhead_bytes", 0, 0, 65535, "Sent with each message besides its own bytes."),
+    number_param("latency_s", "s", 0, 0, 60, "Time from the end of sending to arrival."),
+    number_param("jitter_s", "s", 0, 0, 60, "Largest additional latency, uniformly distributed."),
+    number_param("byte_rate", "B/s", 0, 0, 1e12, "Byte rate; 0: no limit."),
+    integer_param("overhead_bytes", 0, 0, 65535,
+                  "Bytes sent with each message in addition to its own."),
     integer_param("queue_bytes", 65536, 0, 1'000'000'000,
                   "Bytes that may wait to be sent, overhead included; 0: no limit."),
     integer_param("max_message_bytes", 256, 1, 65535, "Longest message."),
-    integer_param("mailbox_messages", 64, 1, 65535,
-                  "Messages of one decision, in and out alike; those too many are lost."),
-    integer_param("mailbox_bytes", 8192, 1, 16'777'216, "Bytes of those messages together."),
+    integer_param(
+        "mailbox_messages", 64, 1, 65535,
+        "Largest number of messages per decision, sent and received alike; further ones are lost."),
+    integer_param("mailbox_bytes", 8192, 1, 16'777'216,
+                  "Largest number of bytes of these messages together."),
     number_param("antenna_z_m", "m", 0.1, -100, 1000, "Height of the antenna above the floor."),
 };
 

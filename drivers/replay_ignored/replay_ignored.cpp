@@ -21,7 +21,7 @@ class ReplayIgnored final : public HardwareActuator {
     if (ignored_ == 1) {
       next_report_ = now + kReportPeriod;
       host_.write(LogLevel::kInfo,
-                  fmt::format("the robot is a recording and does not obey: the first command "
+                  fmt::format("the robot is recorded and ignores commands: the first command "
                               "(v = {} m/s, w = {} rad/s) at {:.3f} s is ignored",
                               command.value[0], command.value[1], now.seconds()));
     } else if (now >= next_report_) {
@@ -48,7 +48,8 @@ class ReplayIgnored final : public HardwareActuator {
 
 RAVE_PLUGIN("replay_ignored") {
   rave::add_actuator<rave::ReplayIgnored>(
-      registry, {.name = "replay_ignored",
-                 .summary = "The actuator of a recorded robot: takes velocities and says that they "
-                            "are ignored."});
+      registry,
+      {.name = "replay_ignored",
+       .summary =
+           "The actuator of a recorded robot: accepts velocities, ignores them, and logs this."});
 }

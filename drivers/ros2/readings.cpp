@@ -61,16 +61,15 @@ bool says_something(std::span<const float> ranges) noexcept {
 Status ranges_of(const ros2::LaserScan& scan, const Fan& fan, std::span<float> ranges_m) {
   const Fan here = fan_of(scan);
   if (!(here == fan)) {
-    return fail(
-        ErrorCode::kInvalidArgument,
-        "the scanner has changed: {} rays from {:.4f} rad each {:.5f} rad instead of {} from "
-        "{:.4f} rad each {:.5f} rad; start the run anew",
-        here.rays, here.first_rad, here.step_rad, fan.rays, fan.first_rad, fan.step_rad);
+    return fail(ErrorCode::kInvalidArgument,
+                "the scanner has changed: {} rays from {:.4f} rad with spacing {:.5f} rad, instead "
+                "of {} from {:.4f} rad with spacing {:.5f} rad; restart the run",
+                here.rays, here.first_rad, here.step_rad, fan.rays, fan.first_rad, fan.step_rad);
   }
   if (!says_something(bus::elements(scan.ranges))) {
     return fail(ErrorCode::kInvalidArgument,
-                "no ray has a reading: each is NaN, 0 or negative, as of a scanner that does not "
-                "turn; nothing there is +infinity (REP-117)");
+                "no ray has a valid reading: all are NaN, 0 or negative, as if the scanner did not "
+                "turn; no return is +infinity (REP-117)");
   }
   std::ranges::transform(bus::elements(scan.ranges), ranges_m.begin(), [&](float range) {
     return range_of(range, fan.range_min_m, fan.range_max_m);

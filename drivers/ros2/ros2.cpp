@@ -48,39 +48,36 @@ RAVE_PLUGIN(
       registry,
       describe(
           "ros2_pose",
-          "The pose that a motion capture or a localisation gives (geometry_msgs/PoseStamped).",
+          "The pose of a robot from motion capture or localisation (geometry_msgs/PoseStamped).",
           kPoseParams));
   rave::add_sensor<Ros2TfPose>(
       registry,
       describe("ros2_tf_pose",
-               "The pose of a robot out of its transforms (tf2_msgs/TFMessage), map to base.",
+               "The pose of a robot from its transforms (tf2_msgs/TFMessage), map to base.",
                kTfPoseParams));
   rave::add_sensor<Ros2OdometryPose>(
       registry,
-      describe("ros2_odometry_pose", "The pose of a robot out of its odometry (nav_msgs/Odometry).",
+      describe("ros2_odometry_pose", "The pose of a robot from its odometry (nav_msgs/Odometry).",
                kOdometryParams));
   rave::add_sensor<Ros2Gps>(
       registry,
-      describe("ros2_gps",
-               "The pose of a robot out of its satellite navigation (sensor_msgs/NavSatFix).",
+      describe("ros2_gps", "The pose of a robot from satellite navigation (sensor_msgs/NavSatFix).",
                kGpsParams));
   rave::add_sensor<Ros2Imu>(
-      registry, describe("ros2_imu",
-                         "Attitude, rates of turn and accelerations of a robot (sensor_msgs/Imu).",
-                         kImuParams));
+      registry,
+      describe("ros2_imu",
+               "Orientation, turning rates and accelerations of a robot (sensor_msgs/Imu).",
+               kImuParams));
   rave::add_sensor<Ros2Battery>(
       registry, describe("ros2_battery", "The battery of a robot (sensor_msgs/BatteryState).",
                          kBatteryParams));
   rave::add_sensor<Ros2Command>(
-      registry,
-      describe_wish(
-          "ros2_command",
-          "The velocity that others want of this robot (geometry_msgs/Twist or TwistStamped).",
-          kCommandParams));
+      registry, describe_wish("ros2_command",
+                              "Velocity commands from ROS 2 (geometry_msgs/Twist or TwistStamped).",
+                              kCommandParams));
   rave::add_sensor<Ros2Goal>(
       registry,
-      describe_wish("ros2_goal", "Where others send this robot (geometry_msgs/PoseStamped).",
-                    kGoalParams));
+      describe_wish("ros2_goal", "Goals from ROS 2 (geometry_msgs/PoseStamped).", kGoalParams));
   rave::add_actuator<Ros2Velocity>(
       registry,
       describe("ros2_velocity", "Drives a robot by velocity (geometry_msgs/Twist or TwistStamped).",

@@ -55,7 +55,7 @@ void Ros2Device::log(LogLevel level, std::string_view text) const { host_.write(
 Status Ros2Device::no_message(std::string_view topic, std::string_view why,
                               std::string_view refused) const {
   if (!refused.empty()) {
-    return fail(ErrorCode::kTimeout, "no message on `{}` within {} s could be used: {}", topic,
+    return fail(ErrorCode::kTimeout, "no usable message on `{}` within {} s: {}", topic,
                 options_.timing.start_timeout_s, refused);
   }
   return fail(ErrorCode::kTimeout, "no message came on `{}` within {} s: {}", topic,

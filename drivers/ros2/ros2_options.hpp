@@ -25,16 +25,16 @@ inline constexpr std::array<ParamSpec, 9> kDeviceParams{
     text_param("namespace", "", "Namespace of the robot's topics, such as `/cart`."),
     text_param("interface", "127.0.0.1",
                "Network interface to the robot, by address or name; the default is this machine."),
-    text_param("peers", "", "Addresses to look for the robot at, between commas."),
+    text_param("peers", "", "Addresses of the robot, separated by commas."),
     choice_param("multicast", "none", dds_network::kMulticasts,
-                 "What is sent by multicast: nothing, what finds the robot, or data as well."),
+                 "Use of multicast: off, for discovery only, or also for data."),
     choice_param("nodes", "iron", kNodeForms,
-                 "How nodes of ROS 2 learn of this one: as of Iron (2023) and later, as of Humble "
-                 "and before, or not at all."),
-    line::latency_param("Known smallest time from the stamp of a message to its arrival."),
+                 "Format in which ROS 2 sees this node: Iron (2023) and later, Humble and earlier, "
+                 "or none."),
+    line::latency_param("Smallest delay from the stamp of a message to its arrival."),
     line::start_timeout_param(
-        "How long the start of a run waits for the first message of each topic."),
-    line::lost_after_param(1, "A topic that is silent for longer is reported as gone."),
+        "Time that the start of a run waits for the first message of each topic."),
+    line::lost_after_param(1, "Time after which a silent topic is reported as lost."),
 };
 
 /// The parameter that every sensor has, with its own default.
@@ -65,18 +65,18 @@ inline constexpr std::array<ParamSpec, 3> kPoseParams{topic_param("pose"), kPosi
 inline constexpr std::array<ParamSpec, 8> kGpsParams{
     topic_param("fix"),
     text_param("imu_topic", "",
-               "Topic of an inertial unit whose orientation is the heading, 0 in the east; empty: "
-               "the heading is that of the way."),
-    numbers_param(
-        "geo_origin", "", -360, 1e5,
-        "Of the world: latitude, longitude (deg), altitude (m), yaw of x from east (deg); "
-        "without it that of the scenario."),
+               "Topic of an inertial unit with the heading, 0 in the east; empty: the heading "
+               "follows from the direction of travel."),
+    numbers_param("geo_origin", "", -360, 1e5,
+                  "Origin of the world: latitude, longitude (deg), altitude (m), yaw of x from "
+                  "east (deg); empty: that of the scenario."),
     pose_doubt::position_sigma(2.5, kPositionSigmaDoc, 1000),
     kHeadingSigma,
     number_param("course_distance_m", "m", 0.5, 0.01, 1000,
-                 "Without `imu_topic`: way between two fixes from which a heading follows."),
-    number_param("antenna_x_m", "m", 0, -100, 100, "Where the antenna is on the body, ahead."),
-    number_param("antenna_y_m", "m", 0, -100, 100, "The same, to the left."),
+                 "Without `imu_topic`: smallest distance between two fixes that gives a heading."),
+    number_param("antenna_x_m", "m", 0, -100, 100, "Position of the antenna on the body, forward."),
+    number_param("antenna_y_m", "m", 0, -100, 100,
+                 "Position of the antenna on the body, to the left."),
 };
 inline constexpr std::array<ParamSpec, 6> kTfPoseParams{
     text_param("topic", "/tf", "Topic of the transforms that change."),
@@ -92,13 +92,13 @@ inline constexpr std::array<ParamSpec, 7> kVelocityParams{
     choice_param("message", "auto", kVelocityMessages,
                  "Twist or TwistStamped; `auto`: whichever the robot reads."),
     number_param("watchdog_s", "s", 0.25, 0.02, 10,
-                 "The robot is told to stand when no command came for so long."),
+                 "Time without a command after which the robot is stopped."),
     number_param("device_watchdog_s", "s", 0, 0, 60,
-                 "The robot itself stands when it is told nothing for so long, as its maker says "
-                 "(`cmd_vel_timeout`); 0: it does not."),
-    number_param("refresh_s", "s", 0.05, 0.01, 1, "How often the command is repeated."),
+                 "Timeout after which the robot stops by itself, according to its manufacturer "
+                 "(`cmd_vel_timeout`); 0: none."),
+    number_param("refresh_s", "s", 0.05, 0.01, 1, "Time between repetitions of the command."),
     number_param("max_v_mps", "m/s", 1, 0.01, 50, "Largest speed, forward and backward."),
-    number_param("max_w_radps", "rad/s", 3, 0.01, 50, "Largest rate of turn."),
+    number_param("max_w_radps", "rad/s", 3, 0.01, 50, "Largest turning rate."),
 };
 
 /// The parameters of the device, read and checked.

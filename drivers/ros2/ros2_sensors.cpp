@@ -42,7 +42,7 @@ Status Ros2Range::prepare(const Params& params, HardwareDeclaration& declaration
 Status Ros2Range::take(const ros2::RangeReading& message) {
   if (!says_something({&message.range, 1})) {
     return fail(ErrorCode::kInvalidArgument,
-                "the range is {}, which is no reading; nothing there is +infinity (REP-117)",
+                "the range is {}, which is not a valid reading; no return is +infinity (REP-117)",
                 message.range);
   }
   const float range_m = range_of(message.range, message.min_range, message.max_range);

@@ -37,7 +37,7 @@ Ros2Velocity::~Ros2Velocity() { close(); }
 
 Status Ros2Velocity::open(const DeviceSetup& setup) {
   device_ = static_cast<Ros2Device*>(setup.device);
-  if (device_ == nullptr) return fail(ErrorCode::kState, "belongs to no device");
+  if (device_ == nullptr) return fail(ErrorCode::kState, "has no `device`");
   const Params params = setup.parameters();
   watchdog_s_ = params.number("watchdog_s");
   refresh_s_ = params.number("refresh_s");
@@ -90,7 +90,8 @@ Status Ros2Velocity::make_writer(const std::string& topic, bool stamped) {
 
 Status Ros2Velocity::write(const Command& command, SimTime /*now*/) {
   if (command.kind != CommandKind::kVelocity) {
-    return fail(ErrorCode::kInvalidArgument, "takes velocities, not {}", to_string(command.kind));
+    return fail(ErrorCode::kInvalidArgument, "expected velocities, found {}",
+                to_string(command.kind));
   }
   // A command without values is a stop.
   const double v_mps = command.count >= 1 ? held(command.value[0], max_v_mps_) : 0;
@@ -110,7 +111,8 @@ Status Ros2Velocity::write(const Command& command, SimTime /*now*/) {
                 topic_);
   }
   if (device_->away()) {
-    return fail(ErrorCode::kIo, "the robot behind `{}` is silent; it may not hear either", topic_);
+    return fail(ErrorCode::kIo,
+                "the robot behind `{}` is silent; it may not receive commands either", topic_);
   }
   return {};
 }
@@ -127,9 +129,9 @@ line::HostTime Ros2Velocity::attend(line::HostTime now) {
   }
   if (order_.given) {
     if (order_.v_mps != 0 || order_.w_radps != 0) {
-      device_->log(LogLevel::kWarning,
-                   fmt::format("`{}`: no command came for {} s; the robot is told to stand", topic_,
-                               watchdog_s_));
+      device_->log(
+          LogLevel::kWarning,
+          fmt::format("`{}`: no command for {} s; the robot is stopped", topic_, watchdog_s_));
     }
     order_ = {};
     due_ = now;

@@ -46,7 +46,7 @@ Result<TfTree::Found> TfTree::find(std::string_view root, std::string_view leaf)
                   root, leaf, at);
     }
     if (steps >= kLongestChain) {
-      return fail(ErrorCode::kNotFound, "the transforms above `{}` go round in a circle", leaf);
+      return fail(ErrorCode::kNotFound, "the transforms above `{}` form a cycle", leaf);
     }
     if (!link->second.X_PC) return tl::unexpected(link->second.X_PC.error());
     found.X_AB = steps == 0 ? *link->second.X_PC : compose(*link->second.X_PC, found.X_AB);

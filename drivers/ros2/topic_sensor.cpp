@@ -10,7 +10,7 @@ namespace rave::ros2_driver {
 
 Status TopicSensor::configure(const HardwareSetup& setup, HardwareDeclaration& declaration) {
   device_ = static_cast<Ros2Device*>(setup.device);
-  if (device_ == nullptr) return fail(ErrorCode::kState, "belongs to no device");
+  if (device_ == nullptr) return fail(ErrorCode::kState, "has no `device`");
   declaration.clock = DriverClock::kLive;
   RAVE_TRY(prepare(setup.parameters(), declaration));
   ready_ = true;

@@ -17,18 +17,19 @@ inline constexpr std::array<const char*, 2> kEncodings{"three", "two"};
 inline constexpr std::array<ParamSpec, 11> kLaserParams{
     text_param("device", "", "Serial device, such as /dev/ttyACM0; or give `address`."),
     integer_param("baud", 115200, 1200, 1000000,
-                  "Bit rate of a serial line after power-on; without meaning on USB."),
+                  "Bit rate of a serial line after power-on; ignored on USB."),
     line::kAddressParam,
     choice_param("mode", "continuous", kModes,
-                 "Whether the device sends by itself (MD, MS) or is asked for each scan (GD, GS)."),
+                 "Whether the device sends continuously (MD, MS) or on request (GD, GS)."),
     choice_param("characters", "three", kEncodings,
-                 "Characters of one range: two are quicker and reach 4.094 m."),
+                 "Characters per range: two are faster, but limited to 4.094 m."),
     integer_param("first_step", -1, -1, 9999, "First step to read; -1: the device's first."),
     integer_param("last_step", -1, -1, 9999, "Last step to read; -1: the device's last."),
-    integer_param("skip_scans", 0, 0, 9, "Scans left out between two, in continuous mode."),
-    line::latency_param("Known smallest time from the stamp of a scan to its first byte here."),
-    line::start_timeout_param("How long the start of a run waits for the device."),
-    line::lost_after_param(2, "A device that is away for longer is reported as gone."),
+    integer_param("skip_scans", 0, 0, 9,
+                  "Number of scans to skip between two, in continuous mode."),
+    line::latency_param("Smallest delay from the stamp of a scan to its first byte."),
+    line::start_timeout_param("Time that the start of a run waits for the device."),
+    line::lost_after_param(2, "Time after which a disconnected device is reported as lost."),
 };
 
 /// The parameters, read and checked.

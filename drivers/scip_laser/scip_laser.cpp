@@ -166,8 +166,8 @@ void ScipLaser::report_loss(SampleSink& sink, HostTime last_scan, const Error& w
   }
   loss_reported_ = true;
   const std::string text =
-      fmt::format("the laser at `{}` has been away for more than {} s: {}", options_.address.text(),
-                  options_.timing.lost_after_s, why.message);
+      fmt::format("the laser at `{}` has been disconnected for more than {} s: {}",
+                  options_.address.text(), options_.timing.lost_after_s, why.message);
   sink.fail(text.data(), text.size());
 }
 
@@ -176,7 +176,7 @@ Status ScipLaser::scan_until_lost(SampleSink& sink, HostTime& last_scan) {
   ScipSession session(std::move(opened), &wake_);
   RAVE_TRY_ASSIGN(const Identity identity, session.identify());
   if (!(identity.parameters == identity_.parameters)) {
-    return fail(ErrorCode::kState, "another device is there now: `{}` instead of `{}`",
+    return fail(ErrorCode::kState, "the device has changed: `{}` instead of `{}`",
                 identity.parameters.model, identity_.parameters.model);
   }
   RAVE_TRY(session.begin(request_));
@@ -217,7 +217,7 @@ Status ScipLaser::stream(ScipSession& session, SampleSink& sink, HostTime& last_
       if (loss_reported_) sink.recover();
       loss_reported_ = false;
     } else if (line::host_now() >= silent_at) {
-      return fail(ErrorCode::kTimeout, "no good scan for {:.1f} s", silence_s);
+      return fail(ErrorCode::kTimeout, "no valid scan for {:.1f} s", silence_s);
     }
   }
 }
@@ -268,7 +268,7 @@ bool ScipLaser::take(const ScipSession::Next& next, Stretch& stretch, SampleSink
 RAVE_PLUGIN("scip_laser") {
   rave::add_sensor<rave::scip::ScipLaser>(
       registry, {.name = "scip_laser",
-                 .summary = "Reads a laser scanner that speaks SCIP 2.0, such as Hokuyo's.",
+                 .summary = "Reads a SCIP 2.0 laser scanner, such as those of Hokuyo.",
                  .params = rave::scip::kLaserParams,
                  .clock = rave::DriverClock::kLive,
                  .timing = rave::SampleTiming::kPeriodic});

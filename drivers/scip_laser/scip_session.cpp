@@ -86,7 +86,8 @@ Status ScipSession::begin(const ScanRequest& request) {
   RAVE_TRY_ASSIGN(const Reply* const lit, ask("BM", kAnswer));
   // 02: it was on.
   if (lit->status != "00" && lit->status != "02") {
-    return fail(ErrorCode::kIo, "the laser cannot be lit: {}", describe_status(lit->status));
+    return fail(ErrorCode::kIo, "the laser cannot be switched on: {}",
+                describe_status(lit->status));
   }
   if (!request.continuous) return {};
   RAVE_TRY(ask_well(request.command()));

@@ -29,11 +29,11 @@ constexpr ParamSpec kParams[] = {
     integer_param("baud", 57600, 1, 4'000'000, "Bit rate of the serial line."),
     text_param("address", "", "host:port of a serial line behind TCP."),
     number_param("byte_rate", "B/s", 0, 0, 1e9,
-                 "What the radio behind the line can send; 0: what the line can, a tenth of baud."),
+                 "Byte rate of the radio behind the line; 0: that of the line, a tenth of `baud`."),
     integer_param("queue_bytes", 4096, 64, 100'000'000,
-                  "Bytes of frames that may wait; newer packets are lost."),
-    integer_param("max_packet_bytes", 512, 64, 65535, "Longest packet, head included."),
-    text_param("network", "rave", "Only packets of the same network are taken."),
+                  "Bytes of frames that may wait to be sent; further packets are lost."),
+    integer_param("max_packet_bytes", 512, 64, 65535, "Longest packet, with its header."),
+    text_param("network", "rave", "Name of the network; packets of other networks are ignored."),
 };
 
 /// Packets as frames on a serial line. configure(), open(), send(), close() and report() belong to
@@ -129,7 +129,7 @@ Status SerialTransmitter::send(std::span<const std::byte> packet) {
   append_frame(packet, frame);
   {
     const std::lock_guard lock(mutex_);
-    if (!connected_) return fail(ErrorCode::kIo, "the line {} is gone", address_.text());
+    if (!connected_) return fail(ErrorCode::kIo, "the line {} is lost", address_.text());
     if (queued_bytes_ + frame.size() > queue_bytes_) {
       ++state_.queue_full;
       return fail(ErrorCode::kIo, "the queue of the line {} is full", address_.text());

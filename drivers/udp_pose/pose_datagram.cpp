@@ -74,12 +74,12 @@ Status read_variance(const Json& object, PoseDatagram& datagram) {
 Status read_names(const Json& object, PoseDatagram& datagram) {
   for (const auto& [key, value] : object.items()) {
     if (std::find(kKeys.begin(), kKeys.end(), key) == kKeys.end()) {
-      return fail(ErrorCode::kParse, "unknown key; there are body, t, x, y, yaw, cov and seq");
+      return fail(ErrorCode::kParse, "unknown key; expected body, t, x, y, yaw, cov and seq");
     }
   }
   const auto body = object.find("body");
   if (body == object.end()) return fail(ErrorCode::kParse, "`body` is missing");
-  if (!body->is_string()) return fail(ErrorCode::kParse, "`body` is not a text");
+  if (!body->is_string()) return fail(ErrorCode::kParse, "`body` is not a string");
   datagram.body = body->get_ref<const std::string&>();
   if (datagram.body.empty() || datagram.body.size() > kLongestName) {
     return fail(ErrorCode::kParse, "`body` must have 1 to {} bytes", kLongestName);
@@ -106,8 +106,8 @@ Result<PoseDatagram> parse_datagram(std::string_view bytes) {
       },
       false);
   if (object.is_discarded()) return fail(ErrorCode::kParse, "not JSON");
-  if (!object.is_object()) return fail(ErrorCode::kParse, "no JSON object");
-  if (!guard.twice().empty()) return fail(ErrorCode::kParse, "`{}` is there twice", guard.twice());
+  if (!object.is_object()) return fail(ErrorCode::kParse, "not a JSON object");
+  if (!guard.twice().empty()) return fail(ErrorCode::kParse, "duplicate key `{}`", guard.twice());
   PoseDatagram datagram;
   RAVE_TRY(read_names(object, datagram));
   RAVE_TRY_ASSIGN(datagram.t_s, number_at(object, "t", kLatest_s));

@@ -20,18 +20,19 @@ namespace rave::udp_pose {
 namespace {
 
 constexpr std::array<ParamSpec, 8> kParams{
-    required(text_param("body", "", "Name of the body in the datagrams; others are passed over.")),
+    required(
+        text_param("body", "", "Name of the body in the datagrams; other bodies are ignored.")),
     required(integer_param("port", 0, 0, 65535, "UDP port to listen on; 0: a free one.")),
     text_param("listen", "127.0.0.1",
-               "Numeric address to listen on; 0.0.0.0 takes datagrams of other machines."),
+               "Numeric address to listen on; 0.0.0.0 accepts datagrams from other machines."),
     pose_doubt::position_sigma(0.001,
                                "Standard deviation of x and y where a datagram has no `cov`."),
     pose_doubt::heading_sigma(0.5,
                               "Standard deviation of the heading where a datagram has no `cov`."),
     number_param("max_delay_s", "s", 0.2, 0.001, 60,
-                 "A sample that took longer, beyond the smallest delay, is dropped."),
-    line::latency_param("Known smallest time from a pose to its arrival.", 10),
-    line::lost_after_param(2, "A stream that is silent for longer is reported as gone."),
+                 "Largest delay beyond the smallest; later samples are dropped."),
+    line::latency_param("Smallest delay from a pose to its arrival.", 10),
+    line::lost_after_param(2, "Time after which a silent stream is reported as lost."),
 };
 
 /// Poses that somebody else measures and sends. configure(), open(), close() and report() belong
@@ -155,8 +156,8 @@ bool UdpPose::publish(const PoseDatagram& datagram, double host_s, SampleSink& s
 }
 
 void UdpPose::report_silence(SampleSink& sink) const {
-  const std::string text = fmt::format("no pose of `{}` has come on UDP port {} for {} s", body_,
-                                       socket_->port(), lost_after_s_);
+  const std::string text =
+      fmt::format("no pose of `{}` on UDP port {} for {} s", body_, socket_->port(), lost_after_s_);
   sink.fail(text.data(), text.size());
 }
 
@@ -191,7 +192,7 @@ std::string UdpPose::report() const {
 RAVE_PLUGIN("udp_pose") {
   rave::add_sensor<rave::udp_pose::UdpPose>(
       registry, {.name = "udp_pose",
-                 .summary = "Takes poses from UDP datagrams, such as those of a motion capture.",
+                 .summary = "Receives poses in UDP datagrams, for example from motion capture.",
                  .params = rave::udp_pose::kParams,
                  .clock = rave::DriverClock::kLive});
 }

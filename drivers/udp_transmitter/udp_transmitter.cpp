@@ -19,11 +19,12 @@ constexpr std::uint32_t kMaxPacket = 1400;  // one frame of Ethernet, whatever s
 constexpr ParamSpec kParams[] = {
     text_param("listen", "127.0.0.1", "Numeric address of this machine to listen on."),
     integer_param("port", 0, 0, 65535, "UDP port to listen on; 0: a free one. Not with `group`."),
-    text_param("peers", "", "Whom to send to: `127.0.0.1:4711 10.0.0.2:4711`, numeric."),
-    text_param("group", "", "A multicast group to send to and to hear, such as 239.255.7.1:4711."),
-    text_param("network", "rave", "Only packets of the same network are taken."),
+    text_param("peers", "", "Numeric addresses to send to: `127.0.0.1:4711 10.0.0.2:4711`."),
+    text_param("group", "",
+               "Multicast group to send to and receive from, such as 239.255.7.1:4711."),
+    text_param("network", "rave", "Name of the network; packets of other networks are ignored."),
     number_param("byte_rate", "B/s", 0, 0, 1e12,
-                 "Bytes a second of all communicators that share it; 0: no limit."),
+                 "Byte rate that all its communicators share; 0: no limit."),
 };
 
 /// Packets as datagrams. configure(), open(), send(), close() and report() belong to the host's
@@ -41,14 +42,16 @@ class UdpTransmitter final : public Transmitter {
       auto parsed = line::parse_peer(params.text("group"));
       if (!parsed) return tl::unexpected(std::move(parsed).error().with_context("`group`"));
       if (port != 0) {
-        return fail(ErrorCode::kInvalidArgument, "`port` is that of `group`: give one of both");
+        return fail(ErrorCode::kInvalidArgument,
+                    "`group` already has a port: give either `port` or `group`");
       }
       group = *std::move(parsed);
       peers_.push_back(*group);
     }
     if (peers_.empty() && port == 0) {
-      return fail(ErrorCode::kInvalidArgument,
-                  "expected `peers`, `group` or `port`: it would neither send nor be found");
+      return fail(
+          ErrorCode::kInvalidArgument,
+          "expected `peers`, `group` or `port`: without them it can neither send nor receive");
     }
     RAVE_TRY(wake_.open());
     RAVE_TRY_ASSIGN(socket_, line::DatagramSocket::open(std::string(params.text("listen")), port,

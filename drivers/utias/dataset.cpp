@@ -32,10 +32,10 @@ Status check_options(const LoadOptions& options) {
   RAVE_TRY(check_seconds("pose_gap_limit_s", options.pose_gap_limit_s, 0, kLongest_s));
   RAVE_TRY(check_seconds("odometry_gap_limit_s", options.odometry_gap_limit_s, 0, kLongest_s));
   RAVE_TRY(check_seconds("sighting_gap_limit_s", options.sighting_gap_limit_s, 0, kLongest_s));
-  if (options.robots.empty()) return fail(ErrorCode::kInvalidArgument, "no robot was asked for");
+  if (options.robots.empty()) return fail(ErrorCode::kInvalidArgument, "no robot requested");
   for (auto robot = options.robots.begin(); robot != options.robots.end(); ++robot) {
     if (std::find(options.robots.begin(), robot, *robot) == robot) continue;
-    return fail(ErrorCode::kInvalidArgument, "robot {} was asked for twice", *robot);
+    return fail(ErrorCode::kInvalidArgument, "robot {} requested twice", *robot);
   }
   return {};
 }

@@ -95,8 +95,8 @@ Result<LogFile> Folder::read(std::string_view stem, std::span<const Column> colu
   // Last, so that a log with a fault is refused with the place of the fault.
   if (!*file.unchanged && options.require_unchanged && !accepted_as_cut(file.log)) {
     return fail_at({file.path, 0, 0}, ErrorCode::kParse,
-                   "the file is not the one that {} lists (SHA-256 {}, listed {}); restore it, or "
-                   "set require_unchanged to false",
+                   "the file differs from the one that {} lists (SHA-256 {}, listed {}); restore "
+                   "it, or set require_unchanged to false",
                    kStretchFile, file.sha256, expected->second);
   }
   return file;

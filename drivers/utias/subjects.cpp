@@ -35,10 +35,10 @@ Result<Subjects> Subjects::join(std::span<const LogRow> barcodes, const std::str
     const bool is_landmark = std::any_of(subjects.landmarks_.begin(), subjects.landmarks_.end(),
                                          [&](const Landmark& l) { return l.subject == subject; });
     if (is_landmark || std::find(robots.begin(), robots.end(), subject) != robots.end()) continue;
-    return refuse(barcode_file, row.line,
-                  fmt::format("subject {} is neither a robot with logs in this folder nor a "
-                              "landmark of {}",
-                              subject, landmark_file));
+    return refuse(
+        barcode_file, row.line,
+        fmt::format("subject {} is neither a robot with logs in this folder nor a landmark of {}",
+                    subject, landmark_file));
   }
   return subjects;
 }

@@ -137,7 +137,7 @@ class LogParser {
     }
     if (log.cut && !cut_reported_) {
       ++line_;
-      RAVE_TRY(take_cut(1, "the gzip stream ends before its time, after the previous line"));
+      RAVE_TRY(take_cut(1, "the gzip stream is truncated after the previous line"));
     }
     return std::move(parsed_);
   }

@@ -11,7 +11,7 @@ constexpr ParamSpec kParams[] = {
     number_param("max_speed_mps", "m/s", 0.5, 0, 100, "Largest speed, forward and backward."),
     number_param("max_turn_rate_radps", "rad/s", 2.0, 0, 100, "Largest turning rate, both ways."),
     number_param("watchdog_s", "s", 0.5, 0.001, 3600,
-                 "A command older than this is answered by a stop."),
+                 "Age of the last command after which the robot stops."),
 };
 
 /// Passes velocities on within limits; stops without a fresh and finite command.
@@ -71,6 +71,6 @@ class VelocityController final : public Controller {
 RAVE_PLUGIN("velocity") {
   rave::add_controller<rave::VelocityController>(
       registry, {.name = "velocity",
-                 .summary = "Passes velocities on within limits; stops when they stop coming.",
+                 .summary = "Passes velocities on within limits; stops without new commands.",
                  .params = rave::kParams});
 }

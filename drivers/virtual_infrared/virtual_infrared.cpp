@@ -6,8 +6,8 @@ namespace rave {
 namespace {
 
 constexpr ParamSpec kParams[] = {
-    number_param("range_min_m", "m", 0.1, 0, 1000, "Anything nearer is read as this range."),
-    number_param("range_max_m", "m", 0.8, 0, 1000, "Anything farther gives no return."),
+    number_param("range_min_m", "m", 0.1, 0, 1000, "Smallest range; nearer bodies read as this."),
+    number_param("range_max_m", "m", 0.8, 0, 1000, "Largest range; farther bodies give no return."),
 };
 
 /// Infra-red ranger: one beam along the sensor's x axis, cast by the engine.

@@ -10,12 +10,12 @@ namespace rave {
 namespace {
 
 constexpr ParamSpec kParams[] = {
-    number_param("range_min_m", "m", 0.9, 0, 1000, "Codes nearer than this are not read."),
-    number_param("range_max_m", "m", 8.7, 0, 1000, "Codes farther than this are not read."),
+    number_param("range_min_m", "m", 0.9, 0, 1000, "Smallest distance at which a code is read."),
+    number_param("range_max_m", "m", 8.7, 0, 1000, "Largest distance at which a code is read."),
     number_param("fov_min_deg", "deg", -34, -180, 180, "Right edge of the field of view."),
     number_param("fov_max_deg", "deg", 33, -180, 180, "Left edge of the field of view."),
-    bool_param("occlusion", true, "Whether bodies in between hide a code."),
-    integer_param("max_sightings", 32, 1, 4096, "Codes read in one picture at most."),
+    bool_param("occlusion", true, "Whether bodies between hide a code."),
+    integer_param("max_sightings", 32, 1, 4096, "Largest number of codes in one image."),
 };
 
 /// Camera that reads barcodes: range and bearing to the axis of every landmark in its field.
@@ -101,6 +101,6 @@ class VirtualLandmarkCamera final : public VirtualSensor {
 RAVE_VIRTUAL_PLUGIN("virtual_landmark_camera") {
   rave::add_virtual_sensor<rave::VirtualLandmarkCamera>(
       registry, {.name = "virtual_landmark_camera",
-                 .summary = "Range, bearing and code of every barcode that a camera can read.",
+                 .summary = "Range, bearing and code of each readable barcode.",
                  .params = rave::kParams});
 }

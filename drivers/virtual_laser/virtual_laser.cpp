@@ -11,12 +11,12 @@ namespace {
 constexpr ParamSpec kParams[] = {
     integer_param("rays", 180, 1, 100000, "Number of rays, spread evenly over the field."),
     number_param("fov_deg", "deg", 180, 0, 360,
-                 "Field of view, symmetric about the sensor's x axis; 360 is a closed ring."),
+                 "Field of view, symmetric about the x axis of the sensor; 360: all around."),
     bool_param("rays_of_real_half", false,
-               "In a hybrid sensor: the rays are those of the real half, and `rays` and `fov_deg` "
-               "are not looked at. Elsewhere without effect."),
-    number_param("range_min_m", "m", 0.02, 0, 1000, "Anything nearer is read as this range."),
-    number_param("range_max_m", "m", 8, 0, 1000, "Anything farther gives no return."),
+               "In a hybrid sensor: use the rays of the real half and ignore `rays` and `fov_deg`. "
+               "No effect elsewhere."),
+    number_param("range_min_m", "m", 0.02, 0, 1000, "Smallest range; nearer bodies read as this."),
+    number_param("range_max_m", "m", 8, 0, 1000, "Largest range; farther bodies give no return."),
 };
 
 /// Scanning laser: declares its rays, the engine casts them.

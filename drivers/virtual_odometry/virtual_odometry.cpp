@@ -13,9 +13,10 @@ constexpr ParamSpec kParams[] = {
     number_param("wheel_separation_m", "m", 0.25, 0.001, 100,
                  "Distance between the points where the wheels meet the floor."),
     number_param("wheel_scale_left", "", 1, 0.5, 2,
-                 "Measured over true travel of the left wheel; 1.01 counts one per cent too much."),
+                 "Measured travel of the left wheel divided by its true travel; 1.01: one per cent "
+                 "too much."),
     number_param("wheel_scale_right", "", 1, 0.5, 2,
-                 "Measured over true travel of the right wheel."),
+                 "Measured travel of the right wheel divided by its true travel."),
     number_param("noise_per_metre_m", "m", 0, 0, 1,
                  "Standard deviation of the travel of one wheel after one metre; it grows with the "
                  "square root of the distance."),

@@ -13,8 +13,8 @@ constexpr ParamSpec kParams[] = {
     number_param("cone_deg", "deg", 30, 0.1, 180, "Full opening angle of the cone."),
     number_param("resolution_deg", "deg", 1, 0.01, 180,
                  "Largest angle between neighbouring rays that sample the cone."),
-    number_param("range_min_m", "m", 0.15, 0, 1000, "Anything nearer is read as this range."),
-    number_param("range_max_m", "m", 6, 0, 1000, "Anything farther gives no return."),
+    number_param("range_min_m", "m", 0.15, 0, 1000, "Smallest range; nearer bodies read as this."),
+    number_param("range_max_m", "m", 6, 0, 1000, "Largest range; farther bodies give no return."),
 };
 
 /// One ultrasonic ranger: declares rays across its cone, the engine takes the nearest of them.

@@ -13,13 +13,13 @@ namespace {
 
 constexpr ParamSpec kParams[] = {
     number_param("cruise_mps", "m/s", 0.4, 0, 10, "Speed while nothing is near."),
-    number_param("avoid_m", "m", 0.7, 0, 100, "It turns when it sees anything nearer ahead."),
-    number_param("stop_m", "m", 0.35, 0, 100, "Nearer than this it only turns on the spot."),
+    number_param("avoid_m", "m", 0.7, 0, 100, "Distance ahead below which it turns."),
+    number_param("stop_m", "m", 0.35, 0, 100, "Distance ahead below which it turns on the spot."),
     number_param("creep_mps", "m/s", 0.05, 0, 10, "Speed while it turns."),
     number_param("turn_radps", "rad/s", 0.8, 0.01, 10, "Turning rate while avoiding."),
-    number_param("front_deg", "deg", 50, 1, 180, "What counts as ahead, to each side."),
-    integer_param("turn_decisions_min", 5, 1, 10'000, "A turn lasts at least so many decisions."),
-    integer_param("turn_decisions_max", 14, 1, 10'000, "A turn lasts at most so many decisions."),
+    number_param("front_deg", "deg", 50, 1, 180, "Half of the angle that counts as ahead."),
+    integer_param("turn_decisions_min", 5, 1, 10'000, "Shortest turn, in decisions."),
+    integer_param("turn_decisions_max", 14, 1, 10'000, "Longest turn, in decisions."),
 };
 
 /// The rays of a sensor that point ahead, as one row of ascending bearings: [first, right_end) to
@@ -161,6 +161,6 @@ class Cruise final : public DecisionProcess {
 RAVE_PLUGIN("cruise") {
   rave::add_program<rave::Cruise>(
       registry, {.name = "cruise",
-                 .summary = "Drives straight on and turns away when something is near ahead.",
+                 .summary = "Drives straight on and turns away from near obstacles ahead.",
                  .params = rave::kParams});
 }

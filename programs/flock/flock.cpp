@@ -13,20 +13,22 @@ namespace rave {
 namespace {
 
 constexpr ParamSpec kParams[] = {
-    text_param("communicator", "", "Through which it talks; empty: the robot's first one."),
+    text_param("communicator", "", "Communicator to use; empty: the first of the robot."),
     number_param("cruise_mps", "m/s", 0.25, 0.01, 10, "Speed of the flock."),
-    number_param("spacing_m", "m", 0.8, 0.01, 100, "Neighbours nearer than this push it away."),
+    number_param("spacing_m", "m", 0.8, 0.01, 100, "Distance below which neighbours push it away."),
     number_param("separation", "", 1.5, 0, 100, "Weight of keeping the distance."),
-    number_param("alignment", "", 1.0, 0, 100, "Weight of going where the neighbours go."),
-    number_param("cohesion", "1/m", 0.5, 0, 100, "Weight of staying in their middle."),
-    number_param("forget_s", "s", 0.5, 0.01, 60, "A neighbour that is silent for longer is gone."),
-    number_param("turn_gain_per_s", "1/s", 2.0, 0.1, 100, "Turning rate per radian of error."),
+    number_param("alignment", "", 1.0, 0, 100, "Weight of the direction of the neighbours."),
+    number_param("cohesion", "1/m", 0.5, 0, 100, "Weight of the centre of the neighbours."),
+    number_param("forget_s", "s", 0.5, 0.01, 60,
+                 "Time after which a silent neighbour is forgotten."),
+    number_param("turn_gain_per_s", "1/s", 2.0, 0.1, 100,
+                 "Turning rate per radian of heading error."),
     number_param("max_turn_radps", "rad/s", 1.5, 0.1, 10, "Largest turning rate."),
-    number_param("margin_m", "m", 0.08, 0, 10, "Kept free beside the body."),
-    number_param("look_m", "m", 0.5, 0.1, 100, "How far ahead the way must be free."),
+    number_param("margin_m", "m", 0.08, 0, 10, "Clearance beside the body."),
+    number_param("look_m", "m", 0.5, 0.1, 100, "Distance ahead that must be free."),
     number_param("centre_x_m", "m", 0, -1e6, 1e6, "Middle of the area to stay in, world frame."),
     number_param("centre_y_m", "m", 0, -1e6, 1e6, "Middle of the area to stay in, world frame."),
-    number_param("stay_within_m", "m", 0, 0, 1e6, "Radius of that area; 0: it may go anywhere."),
+    number_param("stay_within_m", "m", 0, 0, 1e6, "Radius of that area; 0: no limit."),
 };
 
 /// What each robot tells the others: where it is told to be, and its velocity, world frame.
@@ -178,6 +180,6 @@ class Flock final : public DecisionProcess {
 RAVE_PLUGIN("flock") {
   rave::add_program<rave::Flock>(
       registry, {.name = "flock",
-                 .summary = "Moves with its neighbours, of which it knows by their messages.",
+                 .summary = "Moves with its neighbours, which report their poses by radio.",
                  .params = rave::kParams});
 }

@@ -13,17 +13,19 @@ namespace rave {
 namespace {
 
 constexpr ParamSpec kParams[] = {
-    number_param("goal_x_m", "m", 0, -1e6, 1e6, "Goal in the world frame, unless `goals_m`."),
-    number_param("goal_y_m", "m", 0, -1e6, 1e6, "Goal in the world frame, unless `goals_m`."),
+    number_param("goal_x_m", "m", 0, -1e6, 1e6, "Goal in the world frame; ignored with `goals_m`."),
+    number_param("goal_y_m", "m", 0, -1e6, 1e6, "Goal in the world frame; ignored with `goals_m`."),
     numbers_param("goals_m", "m", -1e6, 1e6, "Several goals in order: x, y, x, y, ..."),
-    number_param("tolerance_m", "m", 0.15, 0.01, 100, "Nearer than this is there."),
+    number_param("tolerance_m", "m", 0.15, 0.01, 100,
+                 "Distance at which the goal counts as reached."),
     number_param("cruise_mps", "m/s", 0.4, 0.01, 10, "Largest speed."),
-    number_param("turn_gain_per_s", "1/s", 2.0, 0.1, 100, "Turning rate per radian of error."),
+    number_param("turn_gain_per_s", "1/s", 2.0, 0.1, 100,
+                 "Turning rate per radian of heading error."),
     number_param("max_turn_rate_radps", "rad/s", 1.5, 0.1, 10, "Largest turning rate."),
-    number_param("margin_m", "m", 0.1, 0, 10, "Kept free beside the body."),
-    number_param("look_m", "m", 1.0, 0.1, 2.5, "How far ahead the way must be free."),
+    number_param("margin_m", "m", 0.1, 0, 10, "Clearance beside the body."),
+    number_param("look_m", "m", 1.0, 0.1, 2.5, "Distance ahead that must be free."),
     number_param("patience_s", "s", 10, 0.1, 3600,
-                 "Without coming nearer for so long, it follows the wall."),
+                 "Time without progress after which it follows the wall."),
 };
 
 /// Drives to its goals around obstacles. Where heading for the goal leads no nearer, it follows the
@@ -170,11 +172,9 @@ class GoToGoal final : public DecisionProcess {
     } else if (went_round(X_WR)) {
       // Once around without a way: what it remembers may be wrong, or the world has changed.
       setup_->log(way_.asked()
-                      ? fmt::format("no way to the goal of people found so far at {:.2f} s; "
-                                    "trying anew",
+                      ? fmt::format("no path to the ordered goal found by {:.2f} s; trying again",
                                     now.seconds())
-                      : fmt::format("no way to goal {} found so far at {:.2f} s; trying "
-                                    "anew",
+                      : fmt::format("no path to goal {} found by {:.2f} s; trying again",
                                     current_ + 1, now.seconds()));
       memory_.forget();
       side_ = 0;
@@ -257,6 +257,6 @@ class GoToGoal final : public DecisionProcess {
 RAVE_PLUGIN("go_to_goal") {
   rave::add_program<rave::GoToGoal>(
       registry, {.name = "go_to_goal",
-                 .summary = "Drives to one or more goals around obstacles, out of traps too.",
+                 .summary = "Drives to one or more goals, around obstacles and out of dead ends.",
                  .params = rave::kParams});
 }

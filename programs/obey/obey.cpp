@@ -8,11 +8,11 @@ namespace rave {
 namespace {
 
 constexpr ParamSpec kParams[] = {
-    text_param("velocity_sensor", "cmd_vel", "The sensor that gives velocities, if there is one."),
-    text_param("goal_sensor", "goal_pose", "The sensor that gives goals, if there is one."),
-    number_param("timeout_s", "s", 0.5, 0.02, 60, "An older velocity is none."),
+    text_param("velocity_sensor", "cmd_vel", "Sensor that gives velocities; empty: none."),
+    text_param("goal_sensor", "goal_pose", "Sensor that gives goals; empty: none."),
+    number_param("timeout_s", "s", 0.5, 0.02, 60, "Age after which a velocity is ignored."),
     number_param("speed_mps", "m/s", 0, 0, 10,
-                 "Largest speed towards a goal; 0: the controller's own."),
+                 "Largest speed towards a goal; 0: that of the controller."),
 };
 
 /// Does what its sensors say that others want: velocities as long as they come, else the last goal.
@@ -75,7 +75,7 @@ class Obey final : public DecisionProcess {
   /// Goals and paths that people gave; false: there are none.
   bool follows_people(const Percepts& percepts, Commands& commands) {
     for (const Order order : percepts.orders()) {
-      if (order.kind == OrderKind::kText) commands.say("I obey goals and paths, no words.");
+      if (order.kind == OrderKind::kText) commands.say("I obey goals and paths, not texts.");
     }
     way_.update(percepts, commands, kTolerance_m);
     if (way_.state() == OrderedWay::State::kNone) return false;
@@ -112,8 +112,8 @@ class Obey final : public DecisionProcess {
 }  // namespace rave
 
 RAVE_PLUGIN("obey") {
-  rave::add_program<rave::Obey>(
-      registry, {.name = "obey",
-                 .summary = "Does what others want of the robot: velocities, or a goal.",
-                 .params = rave::kParams});
+  rave::add_program<rave::Obey>(registry,
+                                {.name = "obey",
+                                 .summary = "Obeys velocities, goals and paths from outside.",
+                                 .params = rave::kParams});
 }

@@ -15,13 +15,14 @@ namespace {
 constexpr ParamSpec kParams[] = {
     integer_param("prey", -1, -1, 4'294'967'295, "Id of the robot to hunt; -1: the nearest one."),
     number_param("max_speed_mps", "m/s", 0.5, 0.01, 10, "Speed of the hunt."),
-    number_param("turn_gain_per_s", "1/s", 3.0, 0.1, 100, "Turning rate per radian of error."),
+    number_param("turn_gain_per_s", "1/s", 3.0, 0.1, 100,
+                 "Turning rate per radian of heading error."),
     number_param("max_turn_rate_radps", "rad/s", 2.0, 0.1, 10, "Largest turning rate."),
-    number_param("capture_m", "m", 0.6, 0, 100, "The prey is captured when it is this near."),
+    number_param("capture_m", "m", 0.6, 0, 100, "Distance at which the prey is captured."),
     number_param("prey_radius_m", "m", 0.3, 0, 100,
-                 "Range readings within this of the prey are the prey itself."),
-    number_param("margin_m", "m", 0.1, 0, 10, "Kept free beside the body."),
-    number_param("look_m", "m", 1.0, 0.1, 100, "How far ahead the way must be free."),
+                 "Range readings within this distance of the prey count as the prey."),
+    number_param("margin_m", "m", 0.1, 0, 10, "Clearance beside the body."),
+    number_param("look_m", "m", 1.0, 0.1, 100, "Distance ahead that must be free."),
 };
 
 /// Hunts another robot by aiming at the point where it can meet it, around obstacles.
@@ -150,6 +151,6 @@ class Predator final : public DecisionProcess {
 RAVE_PLUGIN("predator") {
   rave::add_program<rave::Predator>(
       registry, {.name = "predator",
-                 .summary = "Hunts another robot by the point where it can meet it.",
+                 .summary = "Hunts another robot, aiming at the point of interception.",
                  .params = rave::kParams});
 }

@@ -15,13 +15,14 @@ namespace {
 constexpr ParamSpec kParams[] = {
     number_param("max_speed_mps", "m/s", 0.5, 0.01, 10, "Speed while fleeing."),
     number_param("calm_speed_mps", "m/s", 0.2, 0, 10, "Speed while no robot is near."),
-    number_param("fear_m", "m", 3.0, 0, 100, "It flees from robots nearer than this."),
-    number_param("turn_gain_per_s", "1/s", 3.0, 0.1, 100, "Turning rate per radian of error."),
+    number_param("fear_m", "m", 3.0, 0, 100, "Distance below which it flees from robots."),
+    number_param("turn_gain_per_s", "1/s", 3.0, 0.1, 100,
+                 "Turning rate per radian of heading error."),
     number_param("max_turn_rate_radps", "rad/s", 2.0, 0.1, 10, "Largest turning rate."),
     number_param("stroll_radps", "rad/s", 0.6, 0, 10,
-                 "Largest turning rate of its calm strolling."),
-    number_param("margin_m", "m", 0.1, 0, 10, "Kept free beside the body."),
-    number_param("look_m", "m", 1.0, 0.1, 100, "How far ahead the way must be free."),
+                 "Largest turning rate while no robot is near."),
+    number_param("margin_m", "m", 0.1, 0, 10, "Clearance beside the body."),
+    number_param("look_m", "m", 1.0, 0.1, 100, "Distance ahead that must be free."),
 };
 
 /// Flees from its neighbours, the nearer the more; strolls when nobody is near.
@@ -116,8 +117,8 @@ class Prey final : public DecisionProcess {
 }  // namespace rave
 
 RAVE_PLUGIN("prey") {
-  rave::add_program<rave::Prey>(
-      registry, {.name = "prey",
-                 .summary = "Flees from robots that come near; strolls when there are none.",
-                 .params = rave::kParams});
+  rave::add_program<rave::Prey>(registry,
+                                {.name = "prey",
+                                 .summary = "Flees from near robots; strolls while there are none.",
+                                 .params = rave::kParams});
 }

@@ -14,20 +14,19 @@ namespace {
 
 constexpr ParamSpec kParams[] = {
     number_param("cruise_mps", "m/s", 0.3, 0, 10, "Speed while nothing is near."),
-    number_param("avoid_m", "m", 0.6, 0, 100, "It turns when its body comes nearer than this."),
-    number_param("stop_m", "m", 0.15, 0, 100, "Nearer than this it only turns on the spot."),
+    number_param("avoid_m", "m", 0.6, 0, 100, "Distance from its body below which it turns."),
+    number_param("stop_m", "m", 0.15, 0, 100, "Distance below which it turns on the spot."),
     number_param("turn_radps", "rad/s", 1.0, 0.01, 10, "Turning rate while avoiding."),
-    number_param("front_deg", "deg", 70, 1, 180, "What counts as ahead, to each side."),
-    integer_param("turn_decisions_min", 3, 1, 10'000, "A turn lasts at least so many decisions."),
-    integer_param("turn_decisions_max", 15, 1, 10'000, "A turn lasts at most so many decisions."),
-    number_param("back_off_s", "s", 0, 0, 100,
-                 "How long it reverses before it turns away; 0: it never does."),
+    number_param("front_deg", "deg", 70, 1, 180, "Half of the angle that counts as ahead."),
+    integer_param("turn_decisions_min", 3, 1, 10'000, "Shortest turn, in decisions."),
+    integer_param("turn_decisions_max", 15, 1, 10'000, "Longest turn, in decisions."),
+    number_param("back_off_s", "s", 0, 0, 100, "Time to reverse before it turns away; 0: never."),
     number_param("rear_stop_m", "m", 0.25, 0, 100,
-                 "It stops reversing when its back comes nearer than this to what it sees there."),
-    number_param("rear_deg", "deg", 45, 1, 180, "What counts as behind, to each side."),
+                 "Distance behind it below which it stops reversing."),
+    number_param("rear_deg", "deg", 45, 1, 180, "Half of the angle that counts as behind."),
     number_param("centre_x_m", "m", 0, -1e6, 1e6, "Middle of the area to stay in, world frame."),
     number_param("centre_y_m", "m", 0, -1e6, 1e6, "Middle of the area to stay in, world frame."),
-    number_param("stay_within_m", "m", 0, 0, 1e6, "Radius of that area; 0: it may go anywhere."),
+    number_param("stay_within_m", "m", 0, 0, 1e6, "Radius of that area; 0: no limit."),
 };
 
 /// Drives ahead; turns away from whatever comes near, to the freer side, for a random time.
@@ -180,8 +179,8 @@ class Wander final : public DecisionProcess {
 }  // namespace rave
 
 RAVE_PLUGIN("wander") {
-  rave::add_program<rave::Wander>(
-      registry, {.name = "wander",
-                 .summary = "Drives about and turns away from whatever comes near.",
-                 .params = rave::kParams});
+  rave::add_program<rave::Wander>(registry,
+                                  {.name = "wander",
+                                   .summary = "Drives about and turns away from near obstacles.",
+                                   .params = rave::kParams});
 }

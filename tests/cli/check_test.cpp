@@ -33,13 +33,24 @@ TEST(Check, ANamedPipeInThePlaceOfAFileIsRefused) {
   std::ofstream(scenario) << "name: a\nrobots:\n  - {name: r, file: robot.yaml}\n";
   const Ended ended = run_rave({"check", scenario});
   EXPECT_EQ(ended.exit_code, 2);
-  EXPECT_NE(ended.err.find("scenario.yaml:3:21: cannot read `" + pipe + "`: it is no regular file"),
-            std::string::npos)
+  EXPECT_NE(
+      ended.err.find("scenario.yaml:3:21: cannot read `" + pipe + "`: it is not a regular file"),
+      std::string::npos)
       << ended.err;
   const Ended itself = run_rave({"check", pipe});
   EXPECT_EQ(itself.exit_code, 2);
-  EXPECT_NE(itself.err.find("it is no regular file"), std::string::npos) << itself.err;
+  EXPECT_NE(itself.err.find("it is not a regular file"), std::string::npos) << itself.err;
   EXPECT_EQ(run_rave({"info", pipe}).exit_code, 2);
+}
+
+/// Not taken for a damaged recording.
+TEST(Check, TheGuiServerTakesAScenarioByItsFile) {
+  const TemporaryFolder folder;
+  const std::string scenario = folder.path() / "scenario.yaml";
+  std::ofstream(scenario) << "name: a\nrobots:\n  - {name: r, file: robot.yaml}\n";
+  const Ended ended = run_rave({"gui", scenario, "--no-open"});
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_NE(ended.err.find("scenario.yaml:3:21: "), std::string::npos) << ended.err;
 }
 
 TEST(Check, GoodFilesOfEachKind) {
@@ -118,13 +129,12 @@ TEST(Check, EmptyScenario) {
 }
 
 TEST(Check, RealRobotWithoutPoseSource) {
-  EXPECT_EQ(
-      complaint("real_without_pose.yaml", kRobot),
-      "real_without_pose.yaml:2:7: robot `robot` is real, so others can sense it only if "
-      "something says where it is: expected `pose_from:` with the name of a sensor that gives "
-      "a pose or odometry\n"
-      "    2 | body: {shapes: [{disc_radius_m: 0.2, z_m: [0, 0.3]}]}\n"
-      "      |       ^\n");
+  EXPECT_EQ(complaint("real_without_pose.yaml", kRobot),
+            "real_without_pose.yaml:2:7: robot `robot` is real, so others can sense it only if its "
+            "pose is known: expected `pose_from:` with the name of a sensor that gives "
+            "a pose or odometry\n"
+            "    2 | body: {shapes: [{disc_radius_m: 0.2, z_m: [0, 0.3]}]}\n"
+            "      |       ^\n");
 }
 
 TEST(Check, FileOfNoKind) {

@@ -102,7 +102,7 @@ TEST_F(Control, StopsArmsAndSets) {
   EXPECT_EQ(rave({"set", "anna", "body.scale", "1.2"}).exit_code, 0);
   end();
   EXPECT_NE(events().find("program.cruise_mps: 0.3 -> 0.1 (by hand)"), std::string::npos);
-  EXPECT_NE(content_of(output() + "/summary.txt").find("changed by hand"), std::string::npos);
+  EXPECT_NE(content_of(output() + "/summary.txt").find("changed by people"), std::string::npos);
   EXPECT_EQ(rave({"ps"}).out, "no run is in progress\n");
 }
 
@@ -139,7 +139,7 @@ TEST_F(Control, EditsTheWorldAndVerifyDoesItAgain) {
   EXPECT_EQ(added.exit_code, 0) << added.err;
   EXPECT_NE(added.out.find("added `bale` at (40, 2)"), std::string::npos) << added.out;
   EXPECT_NE(added.out.find("counts from step "), std::string::npos) << added.out;
-  EXPECT_NE(added.out.find(" ms after it was asked)"), std::string::npos) << added.out;
+  EXPECT_NE(added.out.find(" ms after the request)"), std::string::npos) << added.out;
   const Ended listed = rave({"edit", "list"});
   EXPECT_NE(listed.out.find("bale"), std::string::npos) << listed.out;
   EXPECT_NE(listed.out.find("(40.000, 2.000) m, 30.0 deg"), std::string::npos) << listed.out;
@@ -187,7 +187,7 @@ TEST_F(Control, EditsThatCannotBeDoneSayWhy) {
       rave({"edit", "add", "disc", "--name", "tube", "--at", "30,0", "--size", "1"}).exit_code, 0);
   refused({"remove", "tub"}, 1, "there is no obstacle `tub`; did you mean `tube`?");
   refused({"add", "disc", "--name", "tube", "--at", "30,9", "--size", "1"}, 1,
-          "there is an obstacle `tube` already");
+          "there already is an obstacle `tube`");
   refused({"add", "disc", "--name", "lid", "--at", "0,0", "--size", "90"}, 1,
           "would overlap the robot `anna`");
   refused({"add", "box", "--name", "flat", "--at", "30,9", "--size", "0x1"}, 1, "box_m");
@@ -236,7 +236,7 @@ TEST_F(Control, OfTwoRunsOfOneScenarioOneIsChosenByItsProcess) {
     for (const pid_t process : {process_, other.process}) {
       EXPECT_NE(asked.err.find("twins-" + std::to_string(process)), std::string::npos) << asked.err;
     }
-    EXPECT_NE(asked.err.find("by its name or its process id, such as `--run "), std::string::npos)
+    EXPECT_NE(asked.err.find("by its name or process id, such as `--run "), std::string::npos)
         << asked.err;
   }
   const Ended chosen = rave({"hand-over", "left", "twin", "--run", std::to_string(other.process)});

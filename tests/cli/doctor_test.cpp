@@ -45,7 +45,7 @@ TEST(Doctor, EachProblemHasTheCommandThatMendsIt) {
 TEST(Doctor, LoopbackLeadsToNobody) {
   const Ended ended = run_rave({"doctor", "--peers", "192.0.2.1"});
   EXPECT_EQ(ended.exit_code, 1);
-  EXPECT_NE(ended.out.find("lo reaches this machine only"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("lo reaches only this machine"), std::string::npos) << ended.out;
 }
 
 TEST(Doctor, BadInput) {

@@ -150,7 +150,7 @@ TEST_F(EditsOverHosts, WhatCannotBeDoneIsRefusedWithASentence) {
   refused({"edit", "remove", "piller"}, "there is no obstacle `piller`; did you mean `pillar`?");
   refused({"edit", "add", "box", "--name", "lid", "--at", "0,0", "--size", "90000x90000"},
           "would overlap the robot `");
-  refused({"set", "left-1", "program.cruise_mps", "0.1"}, "are known where it runs");
+  refused({"set", "left-1", "program.cruise_mps", "0.1"}, "are set at its host");
   refused({"stop", "--robot", "left-99"}, "there is no robot `left-99`");
   // Where they are known, they can be set.
   const Ended there = rave({"set", "crowd@one", "left-1", "program.cruise_mps", "0.1"});
@@ -166,7 +166,7 @@ TEST_F(EditsOverHosts, ARunIsHeldAndGoesOnStepByStep) {
   wait_until([&] { return rave({"ps"}).out.find("paused") != std::string::npos; }, "it is paused");
   const Ended added = add_box("bale", "40,2,30");
   EXPECT_EQ(added.exit_code, 0) << added.err;
-  EXPECT_NE(added.out.find("asked for; the run is paused"), std::string::npos) << added.out;
+  EXPECT_NE(added.out.find("requested; the run is paused"), std::string::npos) << added.out;
   EXPECT_EQ(rave({"edit", "list"}).out.find("bale"), std::string::npos);
   EXPECT_EQ(rave({"step"}).exit_code, 0);
   wait_for_line("run", "added `bale` at (40, 2)");
@@ -188,7 +188,7 @@ TEST_F(EditsOverHosts, AManagerThatIsKilledIsReplacedByOneThatKnowsTheObstacles)
   for (const char* const host : {"one", "two"}) wait_for_line(host, "obstacle moved: `east`");
   signal("env", SIGKILL);
   EXPECT_EQ(end_of("env"), -1);
-  wait_for_line("one", "the environment manager is gone");
+  wait_for_line("one", "the environment manager is lost");
   Words goes_on = span;
   goes_on.emplace_back("--resume");
   start("second", "env", "edited.yaml", goes_on);
@@ -213,9 +213,9 @@ TEST_F(EditsOverHosts, ASuccessorGoesOnWithWhatWasEditedByHand) {
   ASSERT_EQ(rave({"edit", "remove", "pillar"}).exit_code, 0);
   signal("env", SIGKILL);
   EXPECT_EQ(end_of("env"), -1);
-  wait_for_line("one", "the environment manager is gone");
+  wait_for_line("one", "the environment manager is lost");
   start("second", "env", "crowd.yaml", {"--duration", "100000", "--resume"});
-  wait_for_line("second", "takes over from a manager that is gone");
+  wait_for_line("second", "takes over from a lost manager");
   wait_until_it_runs();
   const Ended listed = rave({"edit", "list"});
   EXPECT_NE(listed.out.find("bale"), std::string::npos) << listed.out;
@@ -240,7 +240,7 @@ TEST_F(EditsOverHosts, AHostThatIsKilledAndComesBackHasWhatWasEdited) {
   // Nothing is made while all wait, and who asks is told.
   const Ended later = add_box("crate", "40,3");
   EXPECT_EQ(later.exit_code, 0) << later.err;
-  EXPECT_NE(later.out.find("asked for; the run waits for one"), std::string::npos) << later.out;
+  EXPECT_NE(later.out.find("requested; the run waits for one"), std::string::npos) << later.out;
   start("again", "robot", "crowd.yaml", {"--host", "one", "--duration", "100000"});
   wait_for_line("env", "host `one` is back");
   wait_for_size("again");
@@ -325,7 +325,7 @@ class LiveEdits : public Garbage {
   }
   void begin_all() {
     for (const char* const who : {"env", "one", "two"}) begin(who, who);
-    wait_for_line("env", "all hosts are there");
+    wait_for_line("env", "all hosts have joined");
     wait_until_it_runs();
   }
   [[nodiscard]] bool host_has(const std::string& host, const std::string& text) const {
@@ -338,7 +338,7 @@ TEST_F(LiveEdits, AnEditIsAroundAllRobotsWithinAMeasuredTime) {
   const Ended added = add_box("bale", "0,5");
   EXPECT_EQ(added.exit_code, 0) << added.err;
   EXPECT_NE(added.out.find("added `bale` at (0, 5)"), std::string::npos) << added.out;
-  EXPECT_NE(added.out.find("around the robots of all 2 hosts "), std::string::npos) << added.out;
+  EXPECT_NE(added.out.find("in effect at all 2 hosts "), std::string::npos) << added.out;
   EXPECT_EQ(rave({"edit", "move", "bale", "--at", "0.2,5"}).exit_code, 0);
   for (const char* const host : {"one", "two"}) {
     EXPECT_TRUE(host_has(host, "(0.200, 5.000) m")) << host;
@@ -398,7 +398,7 @@ TEST_F(LiveEdits, AManagerThatTakesOverKnowsTheObstacles) {
   ASSERT_EQ(rave({"edit", "remove", "north"}).exit_code, 0);
   signal("env", SIGKILL);
   EXPECT_EQ(end_of("env"), -1);
-  wait_for_line("one", "the environment manager is gone");
+  wait_for_line("one", "the environment manager is lost");
   begin("env", "second");
   wait_for_line("second", "takes over at");
   wait_until(
@@ -436,7 +436,7 @@ TEST_F(LiveEdits, ARobotIsHandedOverByTheHostThatRunsIt) {
   start("env", "env", "live_twins.yaml", words);
   start_host("one", "live_twins.yaml", words);
   start_host("two", "live_twins.yaml", words);
-  wait_for_line("env", "all hosts are there");
+  wait_for_line("env", "all hosts have joined");
   wait_until_it_runs();
   wait_for_line("two", "handed over: simulated -> simulated");
   // The run has three processes here; nobody needs to know which of them it is.
@@ -447,7 +447,7 @@ TEST_F(LiveEdits, ARobotIsHandedOverByTheHostThatRunsIt) {
   EXPECT_NE(console("one").find("handed over"), std::string::npos);
   const Ended again = rave({"hand-over", "left", "twin"});
   EXPECT_EQ(again.exit_code, 1) << again.out;
-  EXPECT_NE(again.err.find("drivers already"), std::string::npos) << again.err;
+  EXPECT_NE(again.err.find("already has its"), std::string::npos) << again.err;
   end_by_hand("env");
 }
 

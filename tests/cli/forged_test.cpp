@@ -83,7 +83,7 @@ TEST_F(Forged, ReportsInTheNameOfAHostChangeNothing) {
   };
   say_until(
       [&] {
-        return console("env").find("sent in the name of this process by another") !=
+        return console("env").find("another process sent it in the name of this process") !=
                std::string::npos;
       },
       "it is refused");

@@ -188,7 +188,7 @@ TEST_F(FoxgloveRun, NeedsItsOption) {
       run_rave({"run", "foxglove.yaml", "--gui", "--no-open", "--foxglove", "--page",
                 folder_.path(), "--foxglove-origin", "app.foxglove.dev", "--output", results()});
   EXPECT_EQ(odd.exit_code, 2);
-  EXPECT_NE(odd.err.find("`app.foxglove.dev` is no origin: expected scheme and host"),
+  EXPECT_NE(odd.err.find("`app.foxglove.dev` is not an origin: expected scheme and host"),
             std::string::npos)
       << odd.err;
 }

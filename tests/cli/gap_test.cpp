@@ -126,7 +126,7 @@ TEST(GapOfARecording, ItsCommandsAreASensor) {
   const std::string twin = RAVE_SOURCE_DIR "/robots/wanderer.yaml";
   const Ended deaf = run_rave({"report", "gap", run, "--robot", "real-3", "--twin", twin});
   EXPECT_EQ(deaf.exit_code, 2);
-  EXPECT_NE(deaf.err.find("obeyed none of its commands; --commands takes one of its sensors: "
+  EXPECT_NE(deaf.err.find("which ignored its commands; --commands takes one of its sensors: "
                           "commanded"),
             std::string::npos)
       << deaf.err;

@@ -151,10 +151,10 @@ TEST_F(Hosts, AManagerThatIsKilledIsReplacedAndNothingIsLost) {
   wait_for_steps();
   signal("env", SIGKILL);
   EXPECT_EQ(end_of("env"), -1);
-  wait_for_line("one", "the environment manager is gone");
+  wait_for_line("one", "the environment manager is lost");
   start("second", "env", scenario, {"--duration", "40", "--no-picture", "--resume"});
   EXPECT_EQ(end_of("second"), 0) << console("second");
-  EXPECT_NE(console("second").find("takes over from a manager that is gone"), std::string::npos);
+  EXPECT_NE(console("second").find("takes over from a lost manager"), std::string::npos);
   EXPECT_EQ(end_of("one"), 0) << console("one");
   EXPECT_EQ(end_of("two"), 0) << console("two");
   // Contacts and captures of before it are known as well.
@@ -173,7 +173,7 @@ TEST_F(Hosts, AManagerOfAnotherScenarioIsNotBelieved) {
   signal("env", SIGKILL);
   EXPECT_EQ(end_of("env"), -1);
   for (const char* const host : {"one", "two"}) {
-    wait_for_line(host, "the environment manager is gone");
+    wait_for_line(host, "the environment manager is lost");
   }
   start("stranger", "env", scenario_,
         {"--run", "crowd", "--duration", "100000", "--seed", "3", "--no-record"});
@@ -184,7 +184,7 @@ TEST_F(Hosts, AManagerOfAnotherScenarioIsNotBelieved) {
   signal("stranger", SIGINT);
   EXPECT_EQ(end_of("stranger"), 1);
   start("second", "env", scenario_, {"--run", "crowd", "--duration", "100000", "--resume"});
-  wait_for_line("second", "takes over from a manager that is gone");
+  wait_for_line("second", "takes over from a lost manager");
   wait_for_more("one");
   wait_for_more("two");
   signal("second", SIGINT);
@@ -212,7 +212,7 @@ TEST_F(Hosts, AHostGivesUpWithoutAManagerIfItWasToldTo) {
   const Ended info = run_rave({"info", folder("one") + "/run.mcap"});
   EXPECT_EQ(info.exit_code, 0) << "its record is whole: " << info.err;
   // The other one goes on waiting.
-  wait_for_line("two", "the environment manager is gone");
+  wait_for_line("two", "the environment manager is lost");
   EXPECT_EQ(console("two").find("gives up"), std::string::npos);
   signal("two", SIGINT);
   EXPECT_EQ(end_of("two"), 1);
@@ -234,10 +234,10 @@ TEST_F(Hosts, HostsOfARunThatIsKilledWaitForAnotherManagerForAMinute) {
   }
   signal("run", SIGKILL);
   EXPECT_EQ(end_of("run"), -1);
-  wait_for_line("run/hosts/one", "the environment manager is gone");
+  wait_for_line("run/hosts/one", "the environment manager is lost");
   start("second", "env", scenario_,
         {"--duration", "100000", "--run", "crowd", "--no-picture", "--resume"});
-  wait_for_line("second", "takes over from a manager that is gone");
+  wait_for_line("second", "takes over from a lost manager");
   signal("second", SIGINT);
   EXPECT_EQ(end_of("second"), 1);
   // Of a process that has ended nothing is left but its number.
@@ -260,10 +260,10 @@ TEST_F(Hosts, AllWaitForAHostThatIsKilledUntilItIsBack) {
   EXPECT_EQ(end_of("env"), 1);
   EXPECT_EQ(result("env")["hash"], nullptr);
   const std::string why = result("env")["no_hash_because"].dump();
-  EXPECT_NE(why.find("the run was not whole: host `one` is gone in step "), std::string::npos)
+  EXPECT_NE(why.find("the run did not complete: host `one` is gone in step "), std::string::npos)
       << why;
   const std::string summary = content_of(folder("env") + "/summary.txt");
-  EXPECT_NE(summary.find("none: the run was not whole"), std::string::npos) << summary;
+  EXPECT_NE(summary.find("none: the run did not complete"), std::string::npos) << summary;
   EXPECT_EQ(end_of("two"), 0);
 }
 
@@ -273,7 +273,7 @@ TEST_F(Hosts, TheOthersGoOnWithoutAHostThatIsDropped) {
   signal("one", SIGKILL);
   EXPECT_EQ(end_of("one"), -1);
   wait_for_line("env", "host `one` is gone");
-  wait_for_line("env", "its robots stand from this step on");
+  wait_for_line("env", "its robots stop from this step on");
   wait_for_more("two");
   signal("env", SIGINT);
   EXPECT_EQ(end_of("env"), 1);
@@ -281,7 +281,7 @@ TEST_F(Hosts, TheOthersGoOnWithoutAHostThatIsDropped) {
   const auto json = result("env");
   EXPECT_EQ(json["hosts"][0]["found"], false) << json["hosts"];
   EXPECT_EQ(json["hosts"][1]["found"], true) << json["hosts"];
-  EXPECT_NE(json["problems"].dump().find("host `one` has not sent its findings"), std::string::npos)
+  EXPECT_NE(json["problems"].dump().find("host `one` did not send its results"), std::string::npos)
       << json["problems"];
 }
 
@@ -301,7 +301,7 @@ TEST_F(Hosts, ALostHostMayComeBackWhileTheOthersGoOn) {
   start_crowd({});
   signal("one", SIGKILL);
   EXPECT_EQ(end_of("one"), -1);
-  wait_for_line("env", "its robots stand until it is back");
+  wait_for_line("env", "its robots stop until it is back");
   wait_for_more("two");
   start("again", "robot", scenario_, {"--host", "one", "--duration", "100000"});
   wait_for_line("env", "host `one` is back");
@@ -383,7 +383,7 @@ TEST_F(Hosts, WhatNobodyCanUseIsRefusedAndTheRunDoesNotEnd) {
   start_host("one", "crowd.yaml", words);
   wait_for_line("env", "host `one` is here");
   wrong->reset();
-  wait_for_line("env", "host `two` is gone before the run began");
+  wait_for_line("env", "host `two` was lost before the run began");
   start_host("two", "crowd.yaml", words);
   EXPECT_EQ(end_of("env"), 0) << console("env");
   EXPECT_EQ(result("env")["hash"], alone);

@@ -51,8 +51,7 @@ TEST_F(Keys, BadInput) {
   ASSERT_EQ(run_rave({"keys", "new", path("set"), "left"}).exit_code, 0);
   const Ended again = run_rave({"keys", "new", path("set"), "right"});
   EXPECT_EQ(again.exit_code, 2);
-  EXPECT_NE(again.err.find("is there already, with keys of `left`"), std::string::npos)
-      << again.err;
+  EXPECT_NE(again.err.find("already exists, with keys for `left`"), std::string::npos) << again.err;
   const Ended near = run_rave({"keys", "show", path("sett")});
   EXPECT_EQ(near.exit_code, 2);
   EXPECT_NE(near.err.find("did you mean `set`?"), std::string::npos) << near.err;

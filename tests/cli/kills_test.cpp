@@ -77,9 +77,9 @@ struct Policy {
   const char* name;
   const char* then;
 };
-constexpr Policy kPolicies[] = {{"wait", "all wait until it is back"},
-                                {"drop", "its robots stand from this step on"},
-                                {"restart", "its robots stand until it is back"}};
+constexpr Policy kPolicies[] = {{"wait", "all hosts wait until it is back"},
+                                {"drop", "its robots stop from this step on"},
+                                {"restart", "its robots stop until it is back"}};
 
 TEST_P(AHostIsKilled, TheRestGoesOnAsThePolicySays) {
   const Policy& policy = kPolicies[GetParam() % 3];
@@ -144,7 +144,7 @@ TEST_P(AManagerIsKilled, AnotherTakesOverAndTheHashIsThatOfOneProcess) {
     kill_at(manager, when);
     // The next one may be there before anybody has missed the one before.
     if (when.step > 0 && chance_.one_in(2)) {
-      wait_for_line("one", "the environment manager is gone");
+      wait_for_line("one", "the environment manager is lost");
     }
     manager = "manager-" + std::to_string(kill + 2);
     Words goes_on = words;

@@ -52,7 +52,7 @@ TEST_F(LateRun, InPacedLockStepIsWholeAndSaysHowLateItWas) {
   EXPECT_TRUE(result["hash"].is_string());
   ASSERT_NO_FATAL_FAILURE(expect_late(result, "decide"));
   EXPECT_NE(content_of(folder("run") + "/summary.txt").find(" missed ("), std::string::npos);
-  EXPECT_NE(console("run").find("most of the time goes into `decide`"), std::string::npos)
+  EXPECT_NE(console("run").find("most of the time is spent in `decide`"), std::string::npos)
       << console("run");
   EXPECT_NE(console("run").find("deadlines of steps: "), std::string::npos) << console("run");
 }

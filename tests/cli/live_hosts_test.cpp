@@ -163,7 +163,7 @@ TEST_F(LiveHosts, RobotsOfAKilledHostAreStaleUntilItIsBackWhereTheyWere) {
   EXPECT_LT(way_from(kLeft, last), 0.3) << "it goes on where it was";
   hear_until([this] { return listener_->stale.empty(); }, "nobody is stale");
   wait_until_it_moves(kLeft);
-  EXPECT_NE(console("again").find("begins at"), std::string::npos);
+  EXPECT_NE(console("again").find("joins at"), std::string::npos);
   end_all({"env", "again", "two"});
   EXPECT_EQ(result("env")["hosts"][0]["losses"], 1);
   EXPECT_EQ(result("env")["hosts"][1]["losses"], 0);
@@ -175,14 +175,14 @@ TEST_F(LiveHosts, AManagerThatIsKilledIsMissedAndReplaced) {
   const LiveListener::WorldTime before = listener_->worlds.back();
   signal("env", SIGKILL);
   EXPECT_EQ(end_of("env"), -1);
-  wait_for_line("one", "no world has come for");
-  wait_for_line("one", "the environment manager is gone");
+  wait_for_line("one", "no world has arrived for");
+  wait_for_line("one", "the environment manager is lost");
   // The guard of the robot does what its file says.
   wait_for_line("one", "world lost");
 
   begin("env", "second");
   wait_for_line("second", "takes over at");
-  for (const char* const host : {"one", "two"}) wait_for_line(host, "worlds come again");
+  for (const char* const host : {"one", "two"}) wait_for_line(host, "worlds arrive again");
   hear_until([&] { return listener_->worlds.back().manager != before.manager; }, "a new world");
   EXPECT_GT(listener_->worlds.back().time_ns, before.time_ns) << "the time of the run goes on";
   hear_until([&] { return listener_->places[kLeft].stamp_ns > before.time_ns; }, "`left` is there");
@@ -195,7 +195,7 @@ TEST_F(LiveHosts, AManagerThatIsKilledIsMissedAndReplaced) {
 TEST_F(LiveHosts, AHostThatIsInterruptedLeavesInOrder) {
   begin_all();
   end_all({"one"});
-  EXPECT_EQ(result("one")["problems"].back(), "stopped before the run was over");
+  EXPECT_EQ(result("one")["problems"].back(), "stopped before the end of the run");
   wait_for_line("env", "host `one` is gone");
   wait_until_it_moves(kRight);
   end_all({"two", "env"});
@@ -207,7 +207,7 @@ TEST_F(LiveHosts, HostsWaitForTheManagerAndForEachOther) {
   begin("env");
   wait_for_line("one", "waiting for two");
   begin("two");
-  wait_for_line("env", "all hosts are there");
+  wait_for_line("env", "all hosts have joined");
   hear_until([this] { return listener_->places.size() == 2; }, "both robots are in the world");
   EXPECT_EQ(console("one").find("begins at"), std::string::npos) << "both begin with the run";
   end_all({"one", "two", "env"});
@@ -240,7 +240,7 @@ TEST_F(LiveHosts, RunStartsAllAndEndsInTime) {
 
 TEST_F(LiveHosts, ARunThatIsInterruptedEndsItsHosts) {
   start("run", "run", "live.yaml");
-  wait_for_line("run", "all hosts are there");
+  wait_for_line("run", "all hosts have joined");
   signal("run", SIGINT);
   EXPECT_EQ(end_of("run"), 1);
   for (const char* const host : {"one", "two"}) {
@@ -291,7 +291,7 @@ TEST_F(LiveHosts, ASecondProcessForAHostIsNotLetIn) {
   wait_until(
       [&] {
         return has_ended() ||
-               console("env").find("host 0 is served by process") != std::string::npos;
+               console("env").find("host 0 is already served by process") != std::string::npos;
       },
       "the second one is refused");
   wait_until_it_moves(kLeft);

@@ -80,7 +80,7 @@ TEST_P(ALiveHostIsKilled, TheOthersGoOnAndItComesBack) {
   const std::string other = robot == 0 ? "two" : "one";
   begin_all();
   kill_at_random(victim);
-  const bool goes = says("env", "all hosts are there");
+  const bool goes = says("env", "all hosts have joined");
   const bool known = listener_->places.contains(robot);
   std::cout << (goes ? "the run goes\n" : "the run has not begun\n");
   if (goes) wait_for_line("env", "host `" + victim + "` is gone");
@@ -109,8 +109,8 @@ TEST_P(ALiveManagerIsKilled, TheHostsGoOnAndTheNextOneKnowsTheTime) {
   const bool noticed = goes && chance_.one_in(2);
   if (noticed) {
     for (const char* const host : {"one", "two"}) {
-      wait_for_line(host, "the environment manager is gone");
-      wait_for_line(host, "no world has come for");
+      wait_for_line(host, "the environment manager is lost");
+      wait_for_line(host, "no world has arrived for");
     }
   }
   begin("env", "second");

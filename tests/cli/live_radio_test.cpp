@@ -165,9 +165,9 @@ constexpr std::size_t kLeastSaid = 300;
 TEST_F(LiveRadio, WhoFloodsIsLimitedAndNamedAndTheOthersHearEachOther) {
   begin("run", "flood.yaml");
   ASSERT_EQ(end_of("run"), 0) << console("run");
-  EXPECT_NE(console("run/hosts/one").find("robot `flooder` says more than"), std::string::npos)
+  EXPECT_NE(console("run/hosts/one").find("robot `flooder` sends more than"), std::string::npos)
       << console("run/hosts/one");
-  EXPECT_EQ(console("run/hosts/two").find("says more than"), std::string::npos);
+  EXPECT_EQ(console("run/hosts/two").find("sends more than"), std::string::npos);
   EXPECT_GT(result("run/hosts/one")["withheld_packets"], 10'000);
   const std::map<std::string, std::string> host_of = {
       {"a0", "one"}, {"b0", "two"}, {"c0", "three"}};

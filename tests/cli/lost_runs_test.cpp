@@ -73,7 +73,7 @@ TEST_F(LostRuns, AManagerAndAHostKilledTogetherLeaveARunWithoutAHash) {
   begin_to_be_ended();
   kill_process("env");
   kill_process("one");
-  wait_for_line("two", "the environment manager is gone");
+  wait_for_line("two", "the environment manager is lost");
   start("second", "env", scenario_, of_run({"--resume"}));
   start("again", "robot", scenario_, of_run({"--host", "one"}));
   EXPECT_EQ(end_of("second"), 1) << console("second");
@@ -90,12 +90,12 @@ TEST_F(LostRuns, AManagerAndAHostKilledTogetherLeaveARunWithoutAHash) {
 TEST_F(LostRuns, AManagerThatTakesOverHearsOfALossBeforeIt) {
   begin_to_be_ended(crowd_with_policy("restart", 5));
   kill_process("one");
-  wait_for_line("env", "its robots stand until it is back");
+  wait_for_line("env", "its robots stop until it is back");
   start("again", "robot", scenario_, of_run({"--host", "one"}));
   wait_for_line("env", "host `one` is back");
   wait_for_steps(50);
   kill_process("env");
-  wait_for_line("two", "the environment manager is gone");
+  wait_for_line("two", "the environment manager is lost");
   // The policy lets it go on without --resume.
   start("second", "env", scenario_, of_run());
   EXPECT_EQ(end_of("second"), 1) << console("second");
@@ -110,11 +110,11 @@ TEST_F(LostRuns, AForgottenHostIsNotTakenIntoANewRun) {
   begin();
   kill_process("env");
   kill_process("one");
-  wait_for_line("two", "the environment manager is gone");
+  wait_for_line("two", "the environment manager is lost");
   Words words = of_run({"env", scenario_, "--output", folder("refused")});
   const Ended refused = rave(words);
   EXPECT_EQ(refused.exit_code, 2) << refused.out;
-  EXPECT_NE(refused.err.find("of a run that has lost its environment manager: --resume goes on"),
+  EXPECT_NE(refused.err.find("of a run that lost its environment manager: --resume continues"),
             std::string::npos)
       << refused.err;
   EXPECT_NE(refused.err.find("`rave end crowd` ends it"), std::string::npos) << refused.err;
@@ -128,13 +128,13 @@ TEST_F(LostRuns, AForgottenHostIsNotTakenIntoANewRun) {
 TEST_F(LostRuns, AForgottenHostInRealTimeIsNotTakenIntoANewRun) {
   start("env", "env", "live.yaml", of_run());
   for (const char* const host : {"one", "two"}) start_host(host, "live.yaml", of_run());
-  wait_for_line("env", "all hosts are there");
-  wait_for_line("one", "the clock of the environment manager is");
+  wait_for_line("env", "all hosts have joined");
+  wait_for_line("one", "the clock of the environment manager differs");
   kill_process("env");
-  wait_for_line("one", "the environment manager is gone");
+  wait_for_line("one", "the environment manager is lost");
   const Ended refused = rave(of_run({"env", "live.yaml", "--output", folder("refused")}));
   EXPECT_EQ(refused.exit_code, 2) << refused.out;
-  EXPECT_NE(refused.err.find("of a run that has lost its environment manager: --resume goes on"),
+  EXPECT_NE(refused.err.find("of a run that lost its environment manager: --resume continues"),
             std::string::npos)
       << refused.err;
   EXPECT_TRUE(runs("one")) << console("one");
@@ -159,8 +159,8 @@ TEST_F(LostRuns, EndEndsARunWithItsHosts) {
 TEST_F(LostRuns, EndEndsForgottenHostsByTheirRunAndByTheirScenario) {
   begin();
   kill_process("env");
-  wait_for_line("one", "the environment manager is gone");
-  wait_for_line("two", "the environment manager is gone");
+  wait_for_line("one", "the environment manager is lost");
+  wait_for_line("two", "the environment manager is lost");
   const Ended by_run = rave({"end", run_.text()});
   EXPECT_EQ(by_run.exit_code, 0) << by_run.err;
   wait_for_end("one");
@@ -169,7 +169,7 @@ TEST_F(LostRuns, EndEndsForgottenHostsByTheirRunAndByTheirScenario) {
   run_ = bus::RunId::random();
   begin();
   kill_process("env");
-  wait_for_line("two", "the environment manager is gone");
+  wait_for_line("two", "the environment manager is lost");
   const Ended by_scenario = rave({"end", "crowd"});
   EXPECT_EQ(by_scenario.exit_code, 0) << by_scenario.err;
   wait_for_end("one");
@@ -195,18 +195,18 @@ TEST_F(LostRuns, AStepOfAPausedRunWithADeadHostIsNotSaidToBeDone) {
   begin();
   ASSERT_EQ(rave({"pause", "crowd"}).out.substr(0, 6), "crowd-");
   kill_process("one");
-  wait_for_line("env", "all wait until it is back");
+  wait_for_line("env", "all hosts wait until it is back");
   wait_until(
       [this] { return rave({"ps"}).out.find("paused, waiting for one") != std::string::npos; },
       "the status says for whom it waits");
   const Ended step = rave({"step", "crowd", "--count", "5"});
-  EXPECT_NE(step.out.find("5 steps asked for; the run waits for one, which is late or gone"),
+  EXPECT_NE(step.out.find("5 steps requested; the run waits for one, which is late or lost"),
             std::string::npos)
       << step.out << step.err;
   // A host alone cannot be held, and does not say so.
   const Ended host = rave({"pause", "crowd@two"});
   EXPECT_EQ(host.exit_code, 1);
-  EXPECT_NE(host.err.find("goes as its environment manager says"), std::string::npos) << host.err;
+  EXPECT_NE(host.err.find("follows its environment manager"), std::string::npos) << host.err;
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ class OrdersOverHosts : public ::testing::Test {
     words.insert(words.end(), more.begin(), more.end());
     process_ = start_rave(words, {"XDG_RUNTIME_DIR=" + folder_.path().string()}, output_ + ".log");
     ASSERT_GT(process_, 0);
-    // Until all hosts are there.
+    // Until all hosts have joined.
     wait_until([&] { return rave({"edit", "list"}).exit_code == 0; });
   }
   /// Gives up only when something is broken.

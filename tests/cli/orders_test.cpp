@@ -75,7 +75,7 @@ TEST_F(Orders, AreDoneAndDoneAgainByVerify) {
   EXPECT_EQ(rave({"goal", "anna", "--cancel"}).exit_code, 0);
   const Ended driven = rave({"drive", "anna", "-0.1", "0.5", "--for", "0.5"});
   EXPECT_EQ(driven.exit_code, 0) << driven.err;
-  EXPECT_NE(driven.out.find("no order of people counts any more"), std::string::npos) << driven.out;
+  EXPECT_NE(driven.out.find("the orders of people are cancelled"), std::string::npos) << driven.out;
   EXPECT_EQ(rave({"place", "anna", "2.5", "0.5", "90"}).exit_code, 0);
   std::this_thread::sleep_for(std::chrono::seconds(3));
   EXPECT_EQ(rave({"stop", "--robot", "bert"}).exit_code, 0);
@@ -83,7 +83,7 @@ TEST_F(Orders, AreDoneAndDoneAgainByVerify) {
   end();
   EXPECT_TRUE(happened("goal -2.50, -3.00 (by hand)")) << events();
   EXPECT_TRUE(happened("goal -2.50, -3.00: reached")) << events();
-  EXPECT_TRUE(happened("I obey goals and paths, no words.")) << events();
+  EXPECT_TRUE(happened("I obey goals and paths, not texts.")) << events();
   EXPECT_TRUE(happened("I am at the end of the path.")) << events();
   EXPECT_TRUE(happened("drive -0.10 m/s, 0.50 rad/s (by hand)")) << events();
   EXPECT_TRUE(happened("place 2.50, 0.50, yaw 90 deg (by hand)")) << events();
@@ -125,7 +125,7 @@ TEST_F(Orders, ADriverThatIsKilledLeavesARobotThatStandsAndThenItsProgram) {
   });
   end();
   EXPECT_TRUE(happened("cancel (by hand)")) << events();
-  EXPECT_TRUE(happened("`terminal` drives no more: nothing was heard of them")) << events();
+  EXPECT_TRUE(happened("`terminal` no longer drives: no message came from them")) << events();
 }
 
 }  // namespace

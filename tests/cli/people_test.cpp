@@ -47,8 +47,9 @@ TEST_F(People, BadInput) {
   };
   EXPECT_EQ(error({"invite", "--role", "root"}),
             "rave: there is no role `root`; there are observer, commander and super_user\n");
-  EXPECT_EQ(error({"invite", "--uses", "0"}), "rave: an invitation is good for 1 to 1000 people\n");
-  EXPECT_EQ(error({"remove", "ada"}), "rave: nobody is called `ada`\n");
+  EXPECT_EQ(error({"invite", "--uses", "0"}),
+            "rave: an invitation is valid for 1 to 1000 people\n");
+  EXPECT_EQ(error({"remove", "ada"}), "rave: there is no account `ada`\n");
   EXPECT_NE(error({"add", "a b"}).find("a name has 1 to 32 letters"), std::string::npos);
   fs::permissions(folder_.path() / "gui", fs::perms(0755));
   EXPECT_NE(error({"list"}).find("chmod 700"), std::string::npos);
@@ -68,7 +69,7 @@ TEST_F(People, TheirCertificateIsMadeAndRenewed) {
   EXPECT_EQ((made.out + again.out).find("PRIVATE KEY"), std::string::npos);
   const Ended wrong = run_rave({"keys", "web", web, "bank.example", "--days", "500"});
   EXPECT_EQ(wrong.exit_code, 2);
-  EXPECT_NE(wrong.err.find("500 days are not in 1 to 397"), std::string::npos) << wrong.err;
+  EXPECT_NE(wrong.err.find("500 days: expected 1 to 397"), std::string::npos) << wrong.err;
 }
 
 }  // namespace

@@ -140,7 +140,7 @@ TEST(Play, WhatIsNotThereIsNamedWithWhatIsNear) {
     return ended.err;
   };
   EXPECT_EQ(error({"--robot", "ana"}),
-            "rave: the record has no robot `ana`; did you mean `anna`?\n");
+            "rave: the recording has no robot `ana`; did you mean `anna`?\n");
   EXPECT_EQ(error({"--anew", "lazer"}),
             "rave: no played robot has a sensor `lazer`; did you mean `laser`?\n");
   EXPECT_NE(error({"--start", "9"}).find("the recording is 0.5 s long"), std::string::npos);

@@ -22,7 +22,7 @@ class Standstill : public SharedWorld {
   void let_manager_stand() {
     signal("env", SIGSTOP);
     for (const char* const host : {"one", "two"}) {
-      wait_for_line(host, "the environment manager is gone");
+      wait_for_line(host, "the environment manager is lost");
     }
     signal("env", SIGCONT);
     wait_for_line("env", "stood still: this process, for");
@@ -68,13 +68,14 @@ TEST_F(Standstill, AManagerInRealTimeCountsNoHostAsLostAndSaysThatItStood) {
   begin("live.yaml", {"--no-record"});
   // Worlds come again only to hosts to which they have come.
   for (const char* const host : {"one", "two"}) {
-    wait_for_line(host, "the clock of the environment manager is");
+    wait_for_line(host, "the clock of the environment manager differs");
   }
   let_manager_stand();
-  for (const char* const host : {"one", "two"}) wait_for_line(host, "worlds come again");
+  for (const char* const host : {"one", "two"}) wait_for_line(host, "worlds arrive again");
   for (const char* const who : {"env", "one", "two"}) signal(who, SIGINT);
   for (const char* const who : {"env", "one", "two"}) EXPECT_EQ(end_of(who), 1) << console(who);
-  EXPECT_EQ(console("env").find("is gone; the others go on"), std::string::npos) << console("env");
+  EXPECT_EQ(console("env").find("is gone; the others continue"), std::string::npos)
+      << console("env");
   const auto json = result("env");
   EXPECT_NE(json["problems"].dump().find("the environment manager stood still"), std::string::npos)
       << json["problems"];
@@ -92,7 +93,7 @@ TEST_F(Standstill, AHostThatStoodStillHasNotLostItsManager) {
   EXPECT_EQ(end_of("env"), 0) << console("env");
   EXPECT_EQ(result("env")["hash"], alone);
   EXPECT_EQ(end_of("one"), 0) << console("one");
-  EXPECT_EQ(console("one").find("the environment manager is gone"), std::string::npos)
+  EXPECT_EQ(console("one").find("the environment manager is lost"), std::string::npos)
       << console("one");
 }
 
@@ -110,7 +111,7 @@ TEST_F(Standstill, AHostThatWasDroppedAsleepEndsThoughTheRunIsOver) {
   // It may still hear what was told to it while it slept.
   const std::string why = result("one")["ending"].dump();
   EXPECT_TRUE(why.find("after this host stood still") != std::string::npos ||
-              why.find("it went on without this host") != std::string::npos)
+              why.find("the run continued without this host") != std::string::npos)
       << why;
 }
 

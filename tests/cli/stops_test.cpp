@@ -43,7 +43,7 @@ TEST_F(Stops, AReleaseReachesRobotsThatTheirHostsHaveStopped) {
 
 TEST_F(Stops, ALiveRunIsStoppedAndReleasedAtAllItsHosts) {
   start_all("live_twins.yaml", {"--no-record"});
-  wait_for_line("env", "all hosts are there");
+  wait_for_line("env", "all hosts have joined");
   for (const bool from_far : {false, true}) {
     const auto rave = [&](const Words& words) { return from_far ? far(words) : near(words); };
     for (const Words& stop : from_far ? std::vector<Words>{{"stop", "live_twins"}}
@@ -73,7 +73,7 @@ TEST_F(Stops, AHostThatIsNotHereIsNotSaidToBeStopped) {
   start("env", "env", "live_twins.yaml", {"--no-record"});
   start_host("one", "live_twins.yaml", {"--no-record"});
   start_elsewhere("two", "live_twins.yaml");
-  wait_for_line("env", "all hosts are there");
+  wait_for_line("env", "all hosts have joined");
   wait_until([this] { return near({"arm", "live_twins@one"}).exit_code == 0; }, "it serves");
   const Ended stopped = near({"stop"});
   EXPECT_EQ(stopped.exit_code, 1) << stopped.out;

@@ -56,13 +56,13 @@ TEST_F(Wishes, ARunInLockStepDoesWhatIsAskedFromElsewhere) {
 
   refused({"edit", "remove", "pillar"}, "there is no obstacle `pillar`");
   refused({"stop", "--robot", "left-99"}, "there is no robot `left-99`");
-  refused({"set", "left-1", "program.cruise_mps", "0.1"}, "are known where it runs");
+  refused({"set", "left-1", "program.cruise_mps", "0.1"}, "are set at its host");
   const Ended there = far({"set", "crowd@one", "left-1", "program.cruise_mps", "0.1"});
   EXPECT_EQ(there.exit_code, 0) << there.err;
   EXPECT_TRUE(logged("one", R"({"rave":1,"do":"set","robot":"left-1")")) << console("one");
   const Ended nobody = far({"stop", "crowd@three"});
   EXPECT_EQ(nobody.exit_code, 2);
-  EXPECT_NE(nobody.err.find("host `three` of the run is not there"), std::string::npos)
+  EXPECT_NE(nobody.err.find("host `three` of the run was not found"), std::string::npos)
       << nobody.err;
 
   EXPECT_EQ(far({"pause"}).exit_code, 0);
@@ -76,14 +76,14 @@ TEST_F(Wishes, ARunInLockStepDoesWhatIsAskedFromElsewhere) {
 
 TEST_F(Wishes, ARunInRealTimeDoesWhatIsAskedFromElsewhere) {
   start_all("live_twins.yaml", {"--no-record"});
-  wait_for_line("env", "all hosts are there");
+  wait_for_line("env", "all hosts have joined");
   const Ended added =
       far({"edit", "add", "box", "--name", "bale", "--at", "0,5", "--size", "0.5x0.3"});
   EXPECT_EQ(added.exit_code, 0) << added.err;
-  EXPECT_NE(added.out.find("around the robots of all 2 hosts "), std::string::npos) << added.out;
+  EXPECT_NE(added.out.find("in effect at all 2 hosts "), std::string::npos) << added.out;
   EXPECT_NE(near({"edit", "live_twins@two", "list"}).out.find("bale"), std::string::npos);
   EXPECT_NE(console("env").find(R"(over the bus: {"rave":1,"do":"add")"), std::string::npos);
-  refused({"pause", "live_twins"}, "a live run cannot be held");
+  refused({"pause", "live_twins"}, "a live run cannot be paused");
   const Ended stopped = far({"stop", "live_twins@one"});
   EXPECT_EQ(stopped.exit_code, 0) << stopped.err;
   EXPECT_TRUE(logged("one", R"({"rave":1,"do":"stop"})")) << console("one");
@@ -98,7 +98,7 @@ TEST_F(Wishes, ARobotIsHandedOverByItsHostWhoeverAsks) {
   EXPECT_NE(made.out.find("@one: left: "), std::string::npos) << made.out;
   EXPECT_NE(made.out.find("simulated -> simulated"), std::string::npos) << made.out;
   EXPECT_NE(console("one").find("handed over"), std::string::npos);
-  refused({"hand-over", "left", "twin"}, "drivers already");
+  refused({"hand-over", "left", "twin"}, "already has its");
   refused({"shadow", "--robot", "left"}, "has no shadow");
   end_by_hand("env");
 }
@@ -165,7 +165,7 @@ TEST_F(Wishes, OfSeveralRunsOneHasToBeNamed) {
         "both are asked to stop");
   }
   // It waits for its hosts still, and says what it would say to those beside it.
-  refused({"edit", "morning", "list"}, "morning: no run is under way");
+  refused({"edit", "morning", "list"}, "morning: no run is in progress");
   const Ended third = far_until({"edit", "night", "list"}, "there is no run `night`");
   EXPECT_EQ(third.exit_code, 2);
   EXPECT_NE(third.err.find("there is no run `night`"), std::string::npos) << third.err;
@@ -198,7 +198,7 @@ class SecretWishes : public Wishes {
     EXPECT_TRUE(ended.out.empty()) << ended.out;
     EXPECT_NE(ended.err.find("--security"), std::string::npos) << ended.err;
     EXPECT_TRUE(ended.err.find("no run of several processes is in progress") != std::string::npos ||
-                ended.err.find("heard by members of their set alone") != std::string::npos)
+                ended.err.find("talk only to members of their set") != std::string::npos)
         << ended.err;
   }
 };
@@ -227,7 +227,7 @@ TEST_F(SecretWishes, AMemberOfTheSetAloneReachesTheRun) {
 
 TEST_F(SecretWishes, AHostInRealTimeHearsAMemberToo) {
   start_secretly("live_twins.yaml", {"--no-record"});
-  wait_for_line("env", "all hosts are there");
+  wait_for_line("env", "all hosts have joined");
   const Ended stopped = as_member({"stop", "live_twins@one"});
   EXPECT_EQ(stopped.exit_code, 0) << stopped.err;
   EXPECT_TRUE(logged("one", R"({"rave":1,"do":"stop"})")) << console("one");
@@ -330,8 +330,8 @@ TEST_F(StrangeWishes, WhoAsksNonsenseWithoutEndKeepsNobodyFromBeingHeard) {
       },
       "nonsense is answered, and then is too much");
   EXPECT_NE(answered.find(R"("good":false)"), std::string::npos) << answered;
-  EXPECT_NE(refusal.find("ask again later"), std::string::npos) << refusal;
-  EXPECT_NE(console("env").find("from `a stranger` over the bus: something that is not understood"),
+  EXPECT_NE(refusal.find("try again later"), std::string::npos) << refusal;
+  EXPECT_NE(console("env").find("from `a stranger` over the bus: malformed request"),
             std::string::npos)
       << console("env");
   for (int i = 0; i < 200; ++i) send(*asker, manager, ++number, "utter nonsense");
@@ -376,7 +376,7 @@ TEST_F(StrangeWishes, AHostThatNeverAnswersMayBeTheOneThatHasIt) {
   start("env", "env", "crowd.yaml", {"--no-record", "--run", run_.text()});
   const auto pretender = pretend(1, "deaf host");
   ASSERT_TRUE(pretender) << pretender.error().text();
-  const std::string answer = run_.text().substr(0, 8) + ": no run is under way";
+  const std::string answer = run_.text().substr(0, 8) + ": no run is in progress";
   wait_until(
       [&] {
         return far({"edit", run_.text(), "list"}).err.find(answer) != std::string::npos;

@@ -230,7 +230,7 @@ TEST_F(HandOver, ToARobotThatIsNotThereIsRefusedAndTheRunGoesOn) {
   run.peer->tell("place " + std::to_string(stands.x_m > 2 ? 0.5 : 3.5) + " 0.5 0");
   const auto far = CreateRun::rave_says("hand-over rosie real");
   EXPECT_EQ(far.exit_code, 1);
-  EXPECT_NE(far.text.find("from where it is now"), std::string::npos) << far.text;
+  EXPECT_NE(far.text.find("from its present pose"), std::string::npos) << far.text;
   run.rave->interrupt();
   EXPECT_EQ(run.rave->wait(), 1);
   const Json result = run.result();
@@ -252,7 +252,7 @@ TEST_F(HandOver, ARobotThatVanishesAfterwardsIsALossAsAnyOther) {
   // Nobody can see whether it stands, so the simulated one does not begin elsewhere.
   const auto simulated = CreateRun::rave_says("hand-over rosie simulated");
   EXPECT_EQ(simulated.exit_code, 1);
-  EXPECT_NE(simulated.text.find("not seen to stand"), std::string::npos) << simulated.text;
+  EXPECT_NE(simulated.text.find("did not come to rest"), std::string::npos) << simulated.text;
   run.rave->interrupt();
   EXPECT_EQ(run.rave->wait(), 1);
   const Json result = run.result();

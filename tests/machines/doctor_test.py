@@ -95,7 +95,7 @@ class Doctor(unittest.TestCase):
         with TwoMachines() as lab:
             code, findings = lab.ask()
             self.assertEqual(code, 1)
-            self.expect(findings, "way", "problem", "no doctor listens", "rave doctor --listen")
+            self.expect(findings, "way", "problem", "`rave doctor --listen` does not run there", "rave doctor --listen")
 
     def test_a_firewall_here(self):
         with TwoMachines() as lab:
@@ -103,9 +103,9 @@ class Doctor(unittest.TestCase):
             lab.filter("here", "input priority 0", "udp dport 7400-7649 drop")
             code, findings = lab.ask()
             self.assertEqual(code, 1)
-            self.expect(findings, "way", "problem", "nothing comes back")
-            self.expect(findings, "self", "problem", "does not arrive",
-                        "sudo nft list ruleset    # shows its rules; let UDP 7400 to 7649 in")
+            self.expect(findings, "way", "problem", "no answer")
+            self.expect(findings, "self", "problem", "do not arrive",
+                        "sudo nft list ruleset    # shows the rules; accept UDP 7400 to 7649")
             subprocess.run(["ip", "netns", "exec", lab.space("here"), "nft", "delete", "table",
                             "inet", "t"], check=True)
             code, findings = lab.ask()
@@ -118,15 +118,15 @@ class Doctor(unittest.TestCase):
             code, findings = lab.ask()
             self.assertEqual(code, 1)
             self.expect_well(findings, "way", "self")
-            self.expect(findings, "ports", "problem", "is not reached, while 7402 is")
-            self.expect(findings, "bus", "problem", "is not seen on the bus")
+            self.expect(findings, "ports", "problem", "cannot be reached, but 7402 can")
+            self.expect(findings, "bus", "problem", "is not visible on the bus")
 
     def test_another_domain(self):
         with TwoMachines() as lab:
             lab.listen("--domain", "7")
             code, findings = lab.ask()
             self.assertEqual(code, 1)
-            self.expect(findings, "domain", "problem", "it is in domain 7, and this machine in 0",
+            self.expect(findings, "domain", "problem", "it uses domain 7, this machine 0",
                         "--domain 7")
 
     def test_multicast_is_dropped(self):
@@ -137,7 +137,7 @@ class Doctor(unittest.TestCase):
             lab.filter("there", "input priority 0", "ip daddr 224.0.0.0/4 drop")
             code, findings = lab.ask("--multicast", "on")
             self.assertEqual(code, 1)
-            self.expect(findings, "multicast", "problem", "what is sent here is not heard there",
+            self.expect(findings, "multicast", "problem", "multicast packets from here do not arrive there",
                         "--multicast off --peer")
 
     def test_fragments_are_dropped(self):

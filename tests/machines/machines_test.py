@@ -216,7 +216,7 @@ class Machines(unittest.TestCase):
             self.wait_for_line("env", "host `host-1` is here")
             lab.cable("host-1", "down")
             self.wait_for_line("env", "host `host-1` is gone")
-            self.wait_for_line("host-1", "the environment manager is gone")
+            self.wait_for_line("host-1", "the environment manager is lost")
             lab.cable("host-1", "up")
             self.wait_for_line("env", "host `host-1` is back")
             self.expect_the_same_run(processes)

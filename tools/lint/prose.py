@@ -4,18 +4,29 @@
 
     tools/lint/prose.py [--self-test] [--root DIR]
 
-A sentence of a page or example has at most MOST_WORDS words; code and tables do not count. Known
-misspellings are looked for by codespell, in pages and in the texts of cli/ and libs/config, where that
-is installed. The change log and pages that are generated are left out.
+A sentence of a page or example has at most MOST_WORDS words; code and tables do not count. The
+reading level of a page (Flesch-Kincaid grade: years of school that a reader needs) is at most
+MOST_GRADE. Where they are installed, codespell looks for misspellings in pages and messages, and
+proselint for clumsy phrases in pages. The change log and pages that are generated are left out.
 """
 import re
 import shutil
 import subprocess
+import tempfile
+from pathlib import Path
 
 import common
 import words
 
 MOST_WORDS = 42
+# Newspapers have 10 to 12. Shorter pages than LEAST_WORDS give no stable figure.
+MOST_GRADE = 10
+LEAST_WORDS = 150
+# Checks of proselint that do not fit: ASCII in Markdown, words that are meant literally here (a robot
+# turns on the spot, ??? in code), and dates in numbers.
+UNFIT = ("typography", "cliches", "hyperbolic", "needless_variants.misc", "dates_times",
+         "weasel_words", "after_the_deadline",
+         "garner.phrasal_adjectives")
 # Words of this project that codespell takes for others.
 ALLOWED = "crate,kown,ans,te,uint,hist,nd,fo,ot,ba,unter,ser,vor"
 HTML = re.compile(r"<!--.*?-->|<[^>\n]*>", re.DOTALL)
@@ -58,8 +69,54 @@ def check_spelling(tree):
     yield from done.stdout.splitlines()
 
 
+def syllables(word):
+    """An estimate: groups of vowels, without a silent e."""
+    word = word.lower()
+    if word.endswith("e") and not word.endswith("le"):
+        word = word[:-1]
+    return max(1, len(re.findall(r"[aeiouy]+", word)))
+
+
+def grade(text):
+    """The Flesch-Kincaid grade of a page (Kincaid et al. 1975); None for a page with little text."""
+    counts = []
+    for _, sentence in sentences(text):
+        found = re.findall(r"[A-Za-z][A-Za-z'’-]*", sentence)
+        if len(found) > 2:
+            counts.append((len(found), sum(map(syllables, found))))
+    words_, sounds = (sum(column) for column in zip(*counts)) if counts else (0, 0)
+    if words_ < LEAST_WORDS:
+        return None
+    return 0.39 * words_ / len(counts) + 11.8 * sounds / words_ - 15.59
+
+
+def check_level(tree):
+    for name in filter(words.is_page, tree.files):
+        level = grade(tree.read(name))
+        if level is not None and level > MOST_GRADE:
+            yield (f"{name}: reading level {level:.1f}; at most {MOST_GRADE}: shorter sentences, "
+                   "shorter words")
+
+
+def check_style(tree):
+    names = list(filter(words.is_page, tree.files))
+    if not shutil.which("proselint") or not names:
+        return
+    with tempfile.TemporaryDirectory() as scratch:
+        for name in names:
+            copy = Path(scratch, name)
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            copy.write_text(words.page_of(tree, name), encoding="utf-8")
+        done = subprocess.run(["proselint", *names], cwd=scratch, capture_output=True, text=True,
+                              check=False)
+    for line in done.stdout.splitlines():
+        what = line.partition(" ")[2]
+        if what and not what.startswith(UNFIT):
+            yield line
+
+
 def check(tree):
-    return [*check_lengths(tree), *check_spelling(tree)]
+    return [*check_lengths(tree), *check_level(tree), *check_spelling(tree), *check_style(tree)]
 
 
 LONG = "One " + "word " * MOST_WORDS + ".\n"
@@ -67,6 +124,11 @@ CLEAN = {"docs/a.md": "A sentence. Another one:\n`" + "code " * 60 + "`\n\n| " +
          "CHANGELOG.md": LONG}
 BREACHES = [("docs/a.md:3: a sentence of 43 words", {"docs/a.md": "# A\n\n" + LONG}),
             ("docs/a.md:2: a sentence", {"docs/a.md": "- short\n- " + LONG})]
+HARD = ("Intercontinental organisational responsibilities characteristically necessitate "
+        "extraordinary administrative considerations. ")
+BREACHES.append(("docs/a.md: reading level", {"docs/a.md": HARD * 20 + "\n"}))
+if shutil.which("proselint"):
+    BREACHES.append(("docs/a.md:1:", {"docs/a.md": "It was a robot which drove past the ATM machine.\n"}))
 if shutil.which("codespell"):
     BREACHES.append(("teh ==> the", {"docs/a.md": "It is teh end.\n"}))
 

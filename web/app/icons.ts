@@ -17,6 +17,7 @@ import ellipsis from 'lucide-static/icons/ellipsis.svg?raw';
 import eye from 'lucide-static/icons/eye.svg?raw';
 import fileText from 'lucide-static/icons/file-text.svg?raw';
 import filter from 'lucide-static/icons/funnel.svg?raw';
+import flask from 'lucide-static/icons/flask-conical.svg?raw';
 import hourglass from 'lucide-static/icons/hourglass.svg?raw';
 import info from 'lucide-static/icons/info.svg?raw';
 import layers from 'lucide-static/icons/layers.svg?raw';
@@ -34,6 +35,7 @@ import pause from 'lucide-static/icons/pause.svg?raw';
 import play from 'lucide-static/icons/play.svg?raw';
 import plus from 'lucide-static/icons/plus.svg?raw';
 import radar from 'lucide-static/icons/radar.svg?raw';
+import refresh from 'lucide-static/icons/refresh-cw.svg?raw';
 import rotateCcw from 'lucide-static/icons/rotate-ccw.svg?raw';
 import ruler from 'lucide-static/icons/ruler.svg?raw';
 import search from 'lucide-static/icons/search.svg?raw';
@@ -65,8 +67,8 @@ import x from 'lucide-static/icons/x.svg?raw';
 import zap from 'lucide-static/icons/zap.svg?raw';
 
 const kIcons = {
-  activity, bell, bot, camera, check, chevronDown, circleX, compass, crosshair, download, eye, fileText, filter, hourglass, info,
-  layers, link, list, lock, map, maximize, maximize2, minimize2, minus, moon, octagonX, pause, play, plus, radar, rotateCcw, ruler, search, server, shield, skipBack, skipForward,
+  activity, bell, bot, camera, check, chevronDown, circleX, compass, crosshair, download, eye, fileText, filter, flask, hourglass, info,
+  layers, link, list, lock, map, maximize, maximize2, minimize2, minus, moon, octagonX, pause, play, plus, radar, refresh, rotateCcw, ruler, search, server, shield, skipBack, skipForward,
   stepBack, stepForward, sun, target, triangleAlert, wifiOff, x, zap,
   boxSelect, cornerDownLeft, gamepad, hand, joystick, keyboard, message, packageX, pointer, move, route, trash,
   copy, ellipsis, keyRound, userPlus,

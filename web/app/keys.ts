@@ -14,6 +14,18 @@ function nameOf(event: KeyboardEvent): string {
   return (event.ctrlKey ? 'Ctrl ' : '') + (event.shiftKey && key.startsWith('Arrow') ? 'Shift ' : '') + key;
 }
 
+/** `Shift 1`, whatever the layout of the keyboard writes then. */
+function digitOf(event: KeyboardEvent): string {
+  const digit = /^Digit(\d)$/.exec(event.code)?.[1];
+  return event.shiftKey && digit !== undefined ? `Shift ${digit}` : '';
+}
+
+/** The keys of panels, in their order: 1 to 9, 0, Shift 1 to 9. */
+export function panelKey(index: number): string[] {
+  if (index < 10) return [String((index + 1) % 10)];
+  return index < 19 ? [`Shift ${index - 9}`] : [];
+}
+
 /** Calls the action of a key, but never while text is typed; Space on a control presses that. */
 export function bindKeys(actions: () => readonly KeyAction[]): void {
   document.addEventListener('keydown', (event) => {
@@ -22,7 +34,9 @@ export function bindKeys(actions: () => readonly KeyAction[]): void {
     if (event.defaultPrevented || event.altKey || event.metaKey || (typing && event.key !== 'Escape')) return;
     const name = nameOf(event);
     if (name === 'Space' && target.matches?.('button, a, input, [role=button], [role=option], [role=slider]')) return;
-    const action = actions().find((known) => known.keys.includes(name));
+    const all = actions();
+    const digit = digitOf(event);
+    const action = all.find((known) => known.keys.includes(name)) ?? all.find((known) => known.keys.includes(digit));
     if (action === undefined) return;
     event.preventDefault();
     action.act(event);

@@ -7,6 +7,7 @@ import '../panels/log/log_panel';
 import '../panels/hosts/hosts_panel';
 import '../panels/people/super_user_panel';
 import '../panels/map/map_panel';
+import '../panels/probe/probe_panel';
 import '../panels/robot/robot_panel';
 import '../panels/joystick/joystick_panel';
 import '../panels/chat/chat_panel';

@@ -13,6 +13,7 @@ export const kPanels: readonly PanelKind[] = [
   {id: 'log', title: 'Log & alerts', icon: 'list', tag: 'rave-log', short: 'Log'},
   {id: 'hosts', title: 'Hosts', icon: 'server', tag: 'rave-hosts', count: ({model}) => model.hosts.length},
   {id: 'rights', title: 'Super-User', icon: 'shield', tag: 'rave-super-user', needs: 'rights', short: 'People'},
+  {id: 'probe', title: 'Probe', icon: 'flask', tag: 'rave-probe', needs: 'probe', live: true, beside: 'sensors'},
   {id: 'map', title: 'Map', icon: 'map', tag: 'rave-map', needs: 'maps', beside: 'sensors'},
 ];
 

@@ -13,7 +13,7 @@ import {Dock, type LayoutName} from './dock';
 import './find_box';
 import {icon, type IconName} from './icons';
 import {keySheetStyles, renderKeys} from './key_sheet';
-import {bindKeys, type KeyAction} from './keys';
+import {bindKeys, panelKey, type KeyAction} from './keys';
 import {nowOf} from './moment';
 import {readMoment, writeMoment} from './moment_link';
 import {addPanelKind, allPanels, panelsFor} from './panels';
@@ -204,7 +204,7 @@ export class RaveApp extends LitElement {
       {keys: ['M'], what: 'measure', act: () => this.world?.toggleMeasure()},
       {keys: ['P'], what: 'save a picture', act: () => this.world?.picture()},
       ...this.orderKeys(),
-      ...panelsFor(this.model).slice(0, 9).map((kind, i) => ({keys: [String(i + 1)], what: kind.title, act: () => this.showPanel(kind.id)})),
+      ...panelsFor(this.model).slice(0, 19).map((kind, i) => ({keys: panelKey(i), what: kind.title, act: () => this.showPanel(kind.id)})),
       {keys: ['?'], what: 'this list', act: () => this.open('showingKeys')},
       {keys: ['Escape'], what: 'drop what is begun', act: () => this.escape()},
     ];

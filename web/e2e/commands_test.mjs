@@ -59,7 +59,7 @@ try {
 
     await check(`${what}: a robot is told something, and answers`, async () => {
       await page.evaluate((slot) => document.querySelector('rave-app').link.send({type: 'say', request: 900, to: 'robot', slot, text: 'hello'}), await slotOf(page, 'carl'));
-      await until(page, happened('said', 'no words'));
+      await until(page, happened('said', 'not texts'));
     });
 
     if (more.length === 0) {

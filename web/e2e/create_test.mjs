@@ -2,52 +2,18 @@
 // The same page drives a simulated robot and a Create behind its serial line:
 // node create_test.mjs RAVE PEER ROBOTS FOLDER
 import assert from 'node:assert/strict';
-import {spawn} from 'node:child_process';
-import {createSocket} from 'node:dgram';
 import {mkdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
-import {createInterface} from 'node:readline';
 import {launch, startServer} from './browser.mjs';
 import {app, check, report, showFailures, until} from './checks.mjs';
 import {driveByMouse, newest, sendByClick} from './commander.mjs';
+import {freePort, startPeer} from './peer_create.mjs';
 
 const [rave, peer, robots, folder] = process.argv.slice(2);
 const kStart = {x_m: 1, y_m: 1, yaw_rad: 0.4};
 const kGoal = [2.2, 0.8];
 rmSync(folder, {recursive: true, force: true});
 mkdirSync(folder, {recursive: true});
-
-const freePort = () =>
-  new Promise((resolve) => {
-    const probe = createSocket('udp4');
-    probe.bind(0, '127.0.0.1', () => {
-      const {port} = probe.address();
-      probe.close(() => resolve(port));
-    });
-  });
-
-/** The Create as a process with wheels, a laser and a motion capture, which is asked by lines of text. */
-async function startPeer(port) {
-  writeFileSync(join(folder, 'room'), '2 1.5 0 4 3\n');
-  const {x_m, y_m, yaw_rad} = kStart;
-  const child = spawn(peer, ['--link', join(folder, 'base'), '--laser-link', join(folder, 'laser'), '--mocap-port', String(port), '--mocap-body', 'create', '--room', join(folder, 'room'), '--pose', `${x_m},${y_m},${yaw_rad}`, '--mocap-noise-m', '0.001', '--slip', '0.01,0.015'], {stdio: ['pipe', 'pipe', 'inherit']});
-  const lines = createInterface({input: child.stdout})[Symbol.asyncIterator]();
-  const waitFor = async (beginning) => {
-    for (;;) {
-      const {value, done} = await lines.next();
-      if (done) throw new Error('the Create has ended');
-      if (value.startsWith(beginning)) return value.slice(beginning.length);
-    }
-  };
-  await waitFor('ready');
-  const state = async () => {
-    child.stdin.write('state\n');
-    const text = await waitFor('state ');
-    await waitFor('ok state');
-    return JSON.parse(text);
-  };
-  return {child, state};
-}
 
 /** One robot in an empty room, which takes orders by its program and by its controllers. */
 function scenarioOf(file, port) {
@@ -67,7 +33,7 @@ const children = [];
 try {
   for (const [what, file] of [['simulated', 'create-simulated'], ['real', 'create']]) {
     const port = await freePort();
-    const real = what === 'real' ? await startPeer(port) : null;
+    const real = what === 'real' ? await startPeer(peer, folder, port, kStart) : null;
     if (real) children.push(real.child);
     const context = await browser.newContext({viewport: {width: 1500, height: 950}});
     const page = await context.newPage();

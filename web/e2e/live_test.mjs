@@ -112,7 +112,7 @@ try {
     const refused = () => said.find((message) => message.type === 'answer' && message.to === 'transport');
     for (let i = 0; i < 200 && !refused(); ++i) await page.waitForTimeout(25);
     assert.equal(refused()?.good, false);
-    assert.match(refused().text, /when the run is over/);
+    assert.match(refused().text, /when the run has ended/);
   });
 
   await check('a second page sees the same, and a page that leaves holds nobody up', async () => {

@@ -22,6 +22,13 @@ it('numbers requests and gives each its answer', async () => {
   expect((await second).text).toBe('anna drives r1');
 });
 
+it('refuses a path that no run takes, in the words of runs', async () => {
+  const {link, commands} = made();
+  const answer = await commands.path([0], Array.from({length: 10_000}, (_, i) => [i, 0]));
+  expect(answer).toMatchObject({good: false, text: 'a path has 10000 points; expected 2 to 1000'});
+  expect(link.send).not.toHaveBeenCalled();
+});
+
 it('draws an order until its robot says that nothing is under way', async () => {
   vi.useFakeTimers();
   const {model, commands} = made();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type {Answer, AskAudit, ChangeAccount, ChangeInvitation, Edit, Lease, Order, PageMessage, Point, Robot, Say, SetParameter} from '../protocol/messages';
+import type {Answer, AskAudit, ChangeAccount, ChangeInvitation, Edit, HandOver, Lease, Order, PageMessage, Point, Robot, Say, SetParameter} from '../protocol/messages';
 import {Asked} from './asked';
 import type {Link} from './link';
 import type {RunModel} from './run_model';
@@ -21,12 +21,15 @@ export interface Pending {
 }
 
 type Unnumbered<T> = Omit<T, 'request'>;
-type Request = Unnumbered<Order> | Unnumbered<Lease> | Unnumbered<SetParameter> | Unnumbered<Edit> | Unnumbered<Say> | Unnumbered<ChangeAccount> | Unnumbered<ChangeInvitation> | Unnumbered<AskAudit>;
+type Request = Unnumbered<Order> | Unnumbered<Lease> | Unnumbered<HandOver> | Unnumbered<SetParameter> | Unnumbered<Edit> | Unnumbered<Say> | Unnumbered<ChangeAccount> | Unnumbered<ChangeInvitation> | Unnumbered<AskAudit>;
 
 /** A taken order that no robot says it follows is over after so long. */
 const kTold_ms = 1200;
 /** An answer that a person did not drop goes by itself. */
 const kRefused_ms = 12000;
+
+/** As runs take it, wherever orders come in. */
+const kMostPathPoints = 1000;
 
 /** What this page asks of robots and obstacles: numbered, each with its answer. */
 export class Commands {
@@ -75,6 +78,9 @@ export class Commands {
   }
 
   path(slots: readonly number[], points: Point[]): Promise<Answer> {
+    if (points.length < 2 || points.length > kMostPathPoints) {
+      return Promise.resolve({type: 'answer', to: 'path', good: false, text: `a path has ${points.length} points; expected 2 to ${kMostPathPoints}`});
+    }
     return this.track('path', slots, points, {type: 'order', kind: 'path', slots: [...slots], points});
   }
 

@@ -58,6 +58,11 @@ export class DirectLines {
     else this.end();
   }
 
+  /** Public key of the page, by which its leases are known over all ways; empty: it has none yet. */
+  get point(): string {
+    return this.key?.point ?? '';
+  }
+
   way(robot: string): Way {
     const line = this.lineOf(robot);
     if (line?.state === 'open') return 'direct';
@@ -98,7 +103,10 @@ export class DirectLines {
     if (this.asking || !this.wanted) return;
     this.asking = true;
     try {
-      this.key ??= await PageKey.make();
+      if (this.key === null) {
+        this.key = await PageKey.make();
+        this.changed.emit();
+      }
       const response = await fetch(this.url, {
         method: 'POST',
         headers: {'Content-Type': 'application/json'},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type {Look, PageMessage, ServerMessage} from '../protocol/messages';
+import type {Look, PageMessage, ProbeWish, ServerMessage} from '../protocol/messages';
 import type {DirectLines} from './direct_lines';
 import {OrderRouter} from './order_router';
 import type {RunModel} from './run_model';
@@ -8,6 +8,7 @@ import {Signal} from './signal';
 
 const kFirstRetry_ms = 500;
 const kLongestRetry_ms = 8000;
+const kProbeRest_ms = 120;
 
 /** `refused`: this person may not come in. `empty`: the server has no run. */
 export type LinkState = 'opening' | 'open' | 'lost' | 'refused' | 'empty';
@@ -41,8 +42,13 @@ export class Link {
   private lookQueued = false;
   private readonly mapInterests = new Map<object, MapKey>();
   private lastMaps = '[]';
+  private toldKey = '';
   private frames = 0;
   private bytes = 0;
+  private probeTimer = 0;
+  private probesSaid = false;
+  /** A panel shows which virtual sensors there are. */
+  wantsCatalogue = false;
   truePoses = false;
   parts = false;
 
@@ -54,12 +60,15 @@ export class Link {
   ) {
     this.router = direct === null ? null : new OrderRouter(model, direct);
     if (this.router) this.router.serverIsThere = () => this.state === 'open';
+    direct?.changed.on(() => this.tellPage());
     setInterval(() => this.measure(), 1000);
     // The server has forgotten what is looked at: robots and maps may be others now.
     model.runChanged.on(() => {
       this.lastLook = '';
       this.lastMaps = '[]';
       this.queueLook();
+      this.askCatalogue();
+      this.tryProbes();
     });
     model.maps.namesChanged.on(() => this.lookAtMaps());
     model.maps.overlayChanged.on(() => this.lookAtMap(model.maps, model.maps.overlay?.key ?? null));
@@ -74,6 +83,8 @@ export class Link {
     socket.onopen = () => {
       this.lastLook = '';
       this.lastMaps = '[]';
+      this.toldKey = '';
+      this.tellPage();
       this.queueLook();
     };
     socket.onmessage = (message: MessageEvent<string | ArrayBuffer>) => this.take(socket, message.data);
@@ -98,6 +109,14 @@ export class Link {
     if (rest !== null) this.sendToServer(rest);
   }
 
+  /** What goes through the server is of the same page as what goes over direct lines. */
+  private tellPage(): void {
+    const key = this.direct?.point ?? '';
+    if (key === '' || key === this.toldKey || this.socket?.readyState !== WebSocket.OPEN) return;
+    this.toldKey = key;
+    this.sendToServer({type: 'page', key});
+  }
+
   private sendToServer(message: PageMessage): void {
     if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
   }
@@ -114,6 +133,27 @@ export class Link {
     if (key === null) this.mapInterests.delete(owner);
     else this.mapInterests.set(owner, key);
     this.lookAtMaps();
+  }
+
+  /** `owner` tries this virtual sensor; null ends that. */
+  tryProbe(owner: object, wish: ProbeWish | null): void {
+    if (this.model.probes.wish(owner, wish)) this.tryProbes();
+  }
+
+  /** A slider that is pulled says so many things, of which the last counts. */
+  private tryProbes(): void {
+    clearTimeout(this.probeTimer);
+    this.probeTimer = window.setTimeout(() => {
+      const all = this.model.probes.next();
+      if (all.probes.length > 0 || this.probesSaid) this.sendToServer({type: 'look_probes', ...all});
+      this.probesSaid = all.probes.length > 0;
+    }, kProbeRest_ms);
+  }
+
+  /** Asks once in a run which virtual sensors there are, if this person may try any. */
+  askCatalogue(): void {
+    if (!this.wantsCatalogue || this.model.probes.drivers !== null || !this.model.may('probe')) return;
+    this.sendToServer({type: 'ask_catalogue', request: 0});
   }
 
   private lookAtMaps(): void {

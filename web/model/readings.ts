@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-import type {Reading} from '../protocol/frames';
+import {kCommandsOf, type Reading} from '../protocol/frames';
 
 /** How long the course of a sensor is kept, seconds of the run. */
 export const kCourse_s = 15;
+/** The same of the velocities that a robot is told. */
+export const kToldCourse_s = 30;
 
 /** One point of the course of a sensor. */
 export interface CoursePoint {
@@ -24,7 +26,8 @@ export class Readings {
     if (last !== undefined && reading.stamp_s < last.time_s) course.length = 0;
     if (last !== undefined && reading.stamp_s === last.time_s) return;
     course.push({time_s: reading.stamp_s, values: summary(reading)});
-    while (course.length > 1 && reading.stamp_s - course[0].time_s > kCourse_s) course.shift();
+    const kept_s = reading.sensor === kCommandsOf ? kToldCourse_s : kCourse_s;
+    while (course.length > 1 && reading.stamp_s - course[0].time_s > kept_s) course.shift();
   }
 
   of(slot: number, sensor: number, part = 0): Reading | null {
@@ -38,6 +41,15 @@ export class Readings {
 
   course(slot: number, sensor: number, part = 0): readonly CoursePoint[] {
     return this.courses.get(keyOf(slot, sensor, part)) ?? [];
+  }
+
+  /** Forgets the readings of sensors from this number on. */
+  forgetFrom(sensor: number): void {
+    for (const [key, reading] of this.newest) {
+      if (reading.sensor < sensor) continue;
+      this.newest.delete(key);
+      this.courses.delete(key);
+    }
   }
 
   /** Forgets everything, as after a jump in time. */

@@ -54,3 +54,26 @@ describe('bodies', () => {
     expect(told).toBe(2);
   });
 });
+
+it('shows a robot that was handed over as what it is now', () => {
+  const model = new RunModel();
+  const robot = {name: 'r', team: '', kind: 'simulated' as const, word: '', recorded: false, program: '', drivers: [], shapes: [], sensors: [],
+    twin: {kind: 'real' as const, drivers: ['create_drive'], sensors: []}};
+  model.takeMessage({type: 'roster', revision: 1, robots: [robot]});
+  let told = 0;
+  model.rosterChanged.on(() => ++told);
+  const frame = (flags: number): ArrayBuffer => {
+    const view = new DataView(new ArrayBuffer(48 + 14));
+    view.setUint8(0, 1);
+    view.setUint32(20, 1, true);
+    view.setUint16(48 + 12, flags, true);
+    return view.buffer;
+  };
+  model.takeFrame(frame(1), 0);
+  expect(model.robots[0]).toMatchObject({kind: 'simulated', mixed: true});
+  model.takeFrame(frame(1 | 16), 1);
+  expect(model.robots[0]).toMatchObject({kind: 'real', handedOver: true});
+  model.takeFrame(frame(1), 2);
+  expect(model.robots[0]).toMatchObject({kind: 'simulated', handedOver: false});
+  expect(told).toBe(2);
+});

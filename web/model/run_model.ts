@@ -1,16 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-import {decodeFrame, isMapTile, isPoseFrame, isVariances, type Variance} from '../protocol/frames';
-import type {Accounts, Answer, AuditLines, Body, DriveState, Event, Hello, Host, Invited, Line, Person, Rights, Robot, ServerMessage, Time} from '../protocol/messages';
+import {RobotFlag, decodeFrame, kFirstProbe, isMapTile, isPoseFrame, isVariances, type Variance} from '../protocol/frames';
+import type {Accounts, Answer, AuditLines, Body, DriveState, Event, Hello, Host, Invited, Line, Person, Rights, Robot, Sensor, ServerMessage, Time} from '../protocol/messages';
 import {Maps} from './maps';
 import {PoseHistory} from './pose_history';
+import {Probes} from './probes';
 import {Readings} from './readings';
 import {Signal} from './signal';
+
+/** A robot, with what has become of it since the run began. */
+export interface KnownRobot extends Robot {
+  /** Its second set of drivers serves: `kind` is of that. */
+  handedOver?: boolean;
+  /** One of its two sets of drivers is real, the other is not. */
+  mixed?: boolean;
+}
 
 /** What the page knows of the run: the one place that messages and frames go to. */
 export class RunModel {
   hello: Hello | null = null;
   time: Time | null = null;
-  robots: Robot[] = [];
+  robots: KnownRobot[] = [];
   bodies = new Map<number, Body>();
   hidden: string[] = [];
   events: Event[] = [];
@@ -31,8 +40,12 @@ export class RunModel {
   readonly poses = new PoseHistory();
   readonly readings = new Readings();
   readonly maps = new Maps();
+  readonly probes = new Probes();
   /** By slot, of robots that are looked at and say it. */
   variances: ReadonlyMap<number, Variance> = new Map();
+
+  /** Slots of robots whose kind may change. */
+  private mixed: number[] = [];
 
   readonly runChanged = new Signal();
   readonly timeChanged = new Signal();
@@ -66,14 +79,19 @@ export class RunModel {
     return robot !== undefined && this.live && this.may('command') && robot.yours !== false;
   }
 
+  /** The sensor that a reading is of: one of the robot, or one that is tried on it. */
+  sensorOf(slot: number, index: number): Sensor | undefined {
+    return this.robots[slot]?.sensors[index] ?? this.probes.sensor(index);
+  }
+
   /** Why a robot does not take something from this person, in words; empty if it does. */
   whyNotTaken(slot: number, what: string): string {
     const robot = this.robots[slot];
     if (robot === undefined) return 'No robot is selected.';
-    if (!this.live) return 'This is a recording: nobody takes orders.';
+    if (!this.live) return 'This is a recording: it takes no orders.';
     if (!this.may('command')) return this.whyNot('command');
-    if (robot.yours === false) return `${robot.name} is not yours to command.`;
-    if (robot.recorded) return `${robot.name} is recorded: it obeys nobody.`;
+    if (robot.yours === false) return `You may not command ${robot.name}.`;
+    if (robot.recorded) return `${robot.name} is recorded: it takes no orders.`;
     const takes = this.drives.get(slot)?.takes ?? [];
     if (takes.includes(what)) return '';
     return takes.length === 0 ? `${robot.name} takes no orders.` : `${robot.name} takes no ${what}; it takes ${takes.join(', ')}.`;
@@ -102,6 +120,8 @@ export class RunModel {
         break;
       case 'roster':
         this.robots = message.robots;
+        for (const robot of this.robots) if (robot.twin !== undefined) robot.mixed = robot.twin.kind !== robot.kind;
+        this.mixed = this.robots.flatMap((robot, slot) => (robot.mixed === true ? [slot] : []));
         this.poses.clear();
         this.readings.clear();
         this.rosterChanged.emit();
@@ -152,6 +172,14 @@ export class RunModel {
       case 'maps':
         this.maps.take(message.maps);
         break;
+      case 'catalogue':
+        this.probes.takeCatalogue(message);
+        break;
+      case 'probes':
+        // The numbers mean other sensors now.
+        this.readings.forgetFrom(kFirstProbe);
+        this.probes.take(message);
+        break;
       case 'answer':
         this.answered.emit(message);
         break;
@@ -183,11 +211,23 @@ export class RunModel {
       this.pictureChanged.emit();
       return null;
     }
+    if (this.mixed.length > 0 && !frame.past) this.followHandOvers(frame.flags);
     const before = this.poses.newest;
     this.poses.add(frame, now_ms);
     if (before !== null && frame.time_s < before.time_s - 1e-9) this.readings.clear();
     this.pictureChanged.emit();
     return frame.past ? null : frame.sequence;
+  }
+
+  /** A robot that was handed over is what it is now, everywhere. */
+  private followHandOvers(flags: Uint16Array): void {
+    const changed = this.mixed.filter((slot) => (flags[slot] & RobotFlag.known) !== 0 && ((flags[slot] & RobotFlag.real) !== 0) !== (this.robots[slot].kind === 'real'));
+    for (const slot of changed) {
+      const robot = this.robots[slot];
+      robot.kind = robot.kind === 'real' ? 'simulated' : 'real';
+      robot.handedOver = robot.kind === robot.twin?.kind;
+    }
+    if (changed.length > 0) this.rosterChanged.emit();
   }
 
   /** A connection begins, or on the same one a live run has become its recording. */
@@ -204,6 +244,7 @@ export class RunModel {
     this.readings.clear();
     this.variances = new Map();
     this.maps.clear();
+    this.probes.clear();
     this.runChanged.emit();
   }
 }

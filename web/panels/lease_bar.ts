@@ -57,18 +57,26 @@ export class LeaseBar extends LitElement {
     const drive = model.drives.get(this.robot);
     const mine = drive?.yours === true;
     const other = drive !== undefined && drive.lease !== '' && !mine;
+    const own = other && this.isOwn(drive.lease);
     return html`<div class="bar ${mine ? 'mine' : ''}">
       ${drive === undefined || drive.lease === '' ? html`<i class="face none">${icon('hand', 14)}</i>` : html`<i class="face ${mine ? 'you' : ''}">${initials(mine ? (model.hello?.user.name ?? '') : drive.lease)}</i>`}
-      <span class="who"><b>${mine ? 'You hold the lease' : other ? `${drive.lease} drives` : 'Nobody drives'}</b>
+      <span class="who"><b>${mine ? 'You hold the lease' : own ? 'You drive on another page' : other ? `${drive.lease} drives` : 'Nobody drives'}</b>
         <small>${this.note !== '' ? html`<span class=${this.bad ? 'bad' : ''}>${this.note}</span>` : this.about(mine, other)}</small></span>
       ${model.commands(this.robot) ? this.renderButtons(mine, other, drive?.lease ?? '') : nothing}</div>`;
+  }
+
+  /** Of two pages of one person one has the lease. The run calls who has the link of the server the operator. */
+  private isOwn(driver: string): boolean {
+    const name = this.context.model.hello?.user.name ?? '';
+    return driver === (name === 'you' ? 'the operator' : name);
   }
 
   private about(mine: boolean, other: boolean): string {
     const {model} = this.context;
     if (mine) return 'ends 3 s after driving, 10 min after another order';
-    if (!model.commands(this.robot)) return model.may('command') ? 'not yours to command' : 'you look on';
-    return other ? 'others ask first' : 'your first order takes it';
+    if (!model.commands(this.robot)) return model.may('command') ? 'you may not command it' : 'you can only watch';
+    if (other && this.isOwn(model.drives.get(this.robot)?.lease ?? '')) return 'give it back there, or take it here';
+    return other ? 'others must ask you' : 'your first order takes the lease';
   }
 
   private renderButtons(mine: boolean, other: boolean, driver: string): TemplateResult {
@@ -79,8 +87,8 @@ export class LeaseBar extends LitElement {
         <button class="plain" @click=${() => void this.lease('give')}>Give back</button>`;
     }
     if (!other) return html`<button class="main" @click=${() => void this.lease('take')}>Take control</button>`;
-    if (this.sure) return html`<button class="danger" @click=${() => void this.lease('force')}>Take it from ${driver}</button><button class="plain" @click=${() => { this.sure = false; this.requestUpdate(); }}>Keep</button>`;
-    return html`<button class="main" @click=${() => void this.ask(driver)}>Ask</button><button class="plain" @click=${() => { this.sure = true; this.requestUpdate(); }}>Take …</button>`;
+    if (this.sure) return html`<button class="danger" @click=${() => void this.lease('force')}>${this.isOwn(driver) ? 'Take it here' : `Take it from ${driver}`}</button><button class="plain" @click=${() => { this.sure = false; this.requestUpdate(); }}>Keep</button>`;
+    return html`${this.isOwn(driver) ? nothing : html`<button class="main" @click=${() => void this.ask(driver)}>Ask</button>`}<button class="plain" @click=${() => { this.sure = true; this.requestUpdate(); }}>Take …</button>`;
   }
 
   static override styles = [

@@ -12,6 +12,12 @@ export const RobotFlag = {
   poseLost: 64,
 } as const;
 
+/** Readings of virtual sensors that are tried come with numbers from here on. */
+export const kFirstProbe = 0xf000;
+
+/** In the place of a sensor's index: velocities that a robot was told. Asked forward and left, then what its actuators got. */
+export const kCommandsOf = 0xefff;
+
 /** Where all robots of the roster are at one moment. Metres, radians, metres per second. */
 export interface PoseFrame {
   sequence: number;

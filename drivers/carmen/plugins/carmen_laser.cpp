@@ -17,9 +17,10 @@ constexpr auto kParams = recording::join_params(
         required(number_param("fov_deg", "deg", 180, 0, 360,
                               "Angle from the first ray to the last, symmetric about the sensor's "
                               "x axis.")),
-        number_param("range_min_m", "m", 0.02, 0, 1000, "Anything nearer is read as this range."),
+        number_param("range_min_m", "m", 0.02, 0, 1000,
+                     "Smallest range; nearer bodies read as this."),
         number_param("range_max_m", "m", 80, 0.1, 1000,
-                     "A range this long or longer counts as no return."),
+                     "Ranges from this value on count as no return."),
     });
 
 /// The scans of the front laser.

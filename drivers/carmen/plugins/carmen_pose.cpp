@@ -44,7 +44,7 @@ struct Poses {
 RAVE_PLUGIN("carmen_pose") {
   rave::add_sensor<rave::recording::Player<rave::carmen::Poses>>(
       registry, {.name = "carmen_pose",
-                 .summary = "Plays where the laser of a corrected CARMEN log was at each scan.",
+                 .summary = "Plays the laser poses of a corrected CARMEN log.",
                  .params = rave::carmen::kParams,
                  .clock = rave::DriverClock::kEither});
 }

@@ -107,8 +107,7 @@ TEST(Log, CountsWhatItDropsInTheWindowOnly) {
 TEST(Log, RefusesWhatItCannotUse) {
   const auto none = load_text({"ODOM 0 0 0 0 0 0 1 h 1\n", false}, "f", std::nullopt, {});
   ASSERT_FALSE(none);
-  EXPECT_EQ(none.error().text(),
-            "f: the log has no FLASER row; scans of other messages are not read");
+  EXPECT_EQ(none.error().text(), "f: the log has no FLASER row; other messages are not read");
   LoadOptions options;
   options.window.end_s = 5;
   EXPECT_EQ(load_small(options).error().text(),

@@ -86,7 +86,7 @@ TEST(LogText, ACutLineIsSeenWhereverItWasCut) {
   const auto gzip = parse_log({whole.substr(0, last), true}, "f", false);
   ASSERT_FALSE(gzip);
   EXPECT_EQ(gzip.error().text(),
-            "f:9:1: the gzip stream ends before its time, after the previous line; fetch the whole "
+            "f:9:1: the gzip stream is truncated after the previous line; fetch the whole "
             "file, or set accept_cut to use the 2 whole scans");
 }
 

@@ -62,7 +62,7 @@ TEST(AirSample, RefusesWhatIsNoPacket) {
   const std::array<std::byte, 50> bytes{};
   bus::Packet sample = sample_of(example(bytes), 1);
   EXPECT_EQ(packet_of(sample, 7, 105).error().message,
-            "a packet of 106 bytes with its head, more than 105");
+            "a packet of 106 bytes with its header; expected at most 105");
   EXPECT_TRUE(packet_of(sample, 7, 106));
   for (auto* const name : {&sample.from_robot, &sample.communicator, &sample.to_robot}) {
     const std::uint32_t before = std::exchange(*name, 0);

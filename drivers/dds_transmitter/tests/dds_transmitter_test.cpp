@@ -39,7 +39,7 @@ std::optional<RadioPacket> read(const std::string& bytes) {
 
 std::string payload_of(const std::string& bytes) {
   const auto packet = read(bytes);
-  if (!packet) return "no packet";
+  if (!packet) return "not a packet";
   return {reinterpret_cast<const char*>(packet->payload.data()), packet->payload.size()};
 }
 
@@ -82,8 +82,8 @@ TEST(DdsTransmitter, CarriesPacketsBetweenProcessesAndWithinOne) {
   // Its own words do not come back.
   EXPECT_EQ(c.port.packets().size(), 1U);
   EXPECT_EQ(a.radio.send(packet_from("anna", 2, std::string(1400 - 55, 'c'))),
-            "1401 bytes that are no packet of at most 1400");
-  EXPECT_EQ(a.radio.send("hello"), "5 bytes that are no packet of at most 1400");
+            "1401 bytes are not a packet of at most 1400");
+  EXPECT_EQ(a.radio.send("hello"), "5 bytes are not a packet of at most 1400");
   // Closed and opened again, as a reset of the run does.
   a.radio.close();
   EXPECT_EQ(c.radio.send(packet_from("carl", 2, "to b")), "");

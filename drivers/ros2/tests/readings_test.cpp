@@ -47,8 +47,8 @@ TEST(Ros2Readings, AScanWithoutAnyReadingIsRefused) {
   const ros2::LaserScan dead = scan_of(sent);
   std::vector<float> got(5);
   EXPECT_EQ(ranges_of(dead, fan_of(dead), got).error().message,
-            "no ray has a reading: each is NaN, 0 or negative, as of a scanner that does not turn; "
-            "nothing there is +infinity (REP-117)");
+            "no ray has a valid reading: all are NaN, 0 or negative, as if the scanner did not "
+            "turn; no return is +infinity (REP-117)");
   for (const float one : {kInf, -kInf, 0.3F, 100.0F}) {
     std::vector<float> alive{kNan, 0, -1, kNan, one};
     const ros2::LaserScan scan = scan_of(alive);
@@ -64,8 +64,8 @@ TEST(Ros2Readings, AnotherScannerIsRefused) {
   scan.angle_increment = 0.125F;
   std::vector<float> got(5);
   EXPECT_EQ(ranges_of(scan, fan, got).error().message,
-            "the scanner has changed: 9 rays from -0.5000 rad each 0.12500 rad instead of 5 from "
-            "-0.5000 rad each 0.25000 rad; start the run anew");
+            "the scanner has changed: 9 rays from -0.5000 rad with spacing 0.12500 rad, instead of "
+            "5 from -0.5000 rad with spacing 0.25000 rad; restart the run");
 }
 
 TEST(Ros2Readings, OdometryBringsItsDoubtOrIsGivenOne) {

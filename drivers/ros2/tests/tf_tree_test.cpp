@@ -61,7 +61,7 @@ TEST(Ros2TfTree, SaysWhereTheChainEnds) {
             "no transform leads from `map` to `base_link`: `odom` has no parent");
   ASSERT_TRUE(tf.put("base_link", "odom", {}, 1));
   EXPECT_EQ(tree.find("map", "base_link").error().message,
-            "the transforms above `base_link` go round in a circle");
+            "the transforms above `base_link` form a cycle");
 }
 
 TEST(Ros2TfTree, WhatLeansMattersToItsUsersOnly) {
@@ -72,7 +72,7 @@ TEST(Ros2TfTree, WhatLeansMattersToItsUsersOnly) {
   ASSERT_TRUE(tf.put("base_link", "camera", {}, 1));
   EXPECT_TRUE(tree.find("map", "base_link"));
   EXPECT_EQ(tree.find("map", "camera").error().message,
-            "camera leans by 90 degrees; RAVE's robots stay level");
+            "camera is tilted by 90 degrees; robots in RAVE stay level");
 }
 
 TEST(Ros2TfTree, MadeUpFramesDoNotFillTheMemory) {

@@ -158,7 +158,7 @@ TEST_F(SerialTransmitter, UnpluggedAndPluggedInAgain) {
     modem.unplug();
     ASSERT_TRUE(port.wait_failures(round));
     EXPECT_FALSE(port.failure().empty());
-    EXPECT_EQ(a.send("lost"), "the line " + link("modem") + " is gone");
+    EXPECT_EQ(a.send("lost"), "the line " + link("modem") + " is lost");
     modem.plug_in();
     ASSERT_TRUE(port.wait_recoveries(round));
     ASSERT_EQ(a.send("back"), "");

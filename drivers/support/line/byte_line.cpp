@@ -64,10 +64,10 @@ ReadResult ByteLine::read(std::span<char> room, Wait limit, const Wake* wake) no
 Status ByteLine::write(std::string_view bytes, Wait limit, const Wake* wake) {
   const HostTime end = host_now() + limit;
   while (!bytes.empty()) {
-    if (!lost_.empty()) return fail(ErrorCode::kIo, "the line is gone: {}", lost_);
+    if (!lost_.empty()) return fail(ErrorCode::kIo, "the line is lost: {}", lost_);
     const int ready = detail::wait_ready(fd_, POLLOUT, end, wake);
     if (ready < 0) return fail(ErrorCode::kState, "closed while writing");
-    if (ready == 0) return fail(ErrorCode::kTimeout, "the device does not take what is written");
+    if (ready == 0) return fail(ErrorCode::kTimeout, "the device does not accept data");
     ssize_t size = ::send(fd_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
     if (size < 0 && errno == ENOTSOCK) size = ::write(fd_, bytes.data(), bytes.size());
     if (size > 0) bytes.remove_prefix(static_cast<std::size_t>(size));

@@ -109,7 +109,7 @@ Result<DatagramSocket> DatagramSocket::open(const std::string& host, std::uint16
   }
   if (group != nullptr && group->address.ss_family != own->ai_family) {
     return fail(ErrorCode::kInvalidArgument,
-                "the group {} and the address {} are not of one family", group->text, host);
+                "the group {} and the address {} are of different families", group->text, host);
   }
   DatagramSocket opened(::socket(own->ai_family, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   const auto failed = [&](std::string_view what) {

@@ -14,21 +14,18 @@ inline constexpr std::array<const char*, 2> kClocks{"stepped", "live"};
 /// The parameters that all players of recordings have.
 inline constexpr std::array<ParamSpec, 5> kPlayParams{
     choice_param("clock", "stepped", kClocks,
-                 "Whether samples come by simulation time or by the clock on the wall."),
+                 "Whether samples follow simulation time or the wall clock."),
     number_param("start_s", "s", -1, -1, 1e6,
-                 "Time of the recording that is run time 0; -1: where the logs start."),
+                 "Time in the recording at which the run starts; -1: start of the logs."),
     number_param("end_s", "s", -1, -1, 1e6,
-                 "Time of the recording after which nothing comes; -1: where the logs end."),
-    number_param("clock_offset_s", "s", 0, -1000, 1000,
-                 "Added to all stamps: a clock that is off."),
-    bool_param("accept_cut", false, "Use the whole lines of a log that ends in the middle of one."),
+                 "Time in the recording at which it ends; -1: end of the logs."),
+    number_param("clock_offset_s", "s", 0, -1000, 1000, "Added to all stamps, to correct a clock."),
+    bool_param("accept_cut", false, "Accept a truncated log and use its complete lines."),
 };
 
 // What the parameters of pose_doubt mean where a recording has nothing of it.
-inline constexpr const char* kPositionSigmaDoc =
-    "Standard deviation that each of x and y is said to have.";
-inline constexpr const char* kHeadingSigmaDoc =
-    "Standard deviation that the heading is said to have.";
+inline constexpr const char* kPositionSigmaDoc = "Stated standard deviation of x and of y.";
+inline constexpr const char* kHeadingSigmaDoc = "Stated standard deviation of the heading.";
 
 /// One list of parameters behind the other.
 template <std::size_t kFirst, std::size_t kSecond>

@@ -41,16 +41,16 @@ TEST(Datagram, SaysWhatIsWrong) {
   EXPECT_EQ(error_of(R"({"body":"a","t":0,"x":0,"y":0,"yaw":0} x)"), "not JSON");
   EXPECT_EQ(error_of(R"({"body":"a","t":NaN,"x":0,"y":0,"yaw":0})"), "not JSON");
   EXPECT_EQ(error_of(R"({"body":"a","t":1e999,"x":0,"y":0,"yaw":0})"), "not JSON");
-  EXPECT_EQ(error_of("[]"), "no JSON object");
+  EXPECT_EQ(error_of("[]"), "not a JSON object");
   EXPECT_EQ(error_of(R"({"t":0,"x":0,"y":0,"yaw":0})"), "`body` is missing");
-  EXPECT_EQ(error_of(R"({"body":7,"t":0,"x":0,"y":0,"yaw":0})"), "`body` is not a text");
+  EXPECT_EQ(error_of(R"({"body":7,"t":0,"x":0,"y":0,"yaw":0})"), "`body` is not a string");
   EXPECT_EQ(error_of(R"({"body":"","t":0,"x":0,"y":0,"yaw":0})"), "`body` must have 1 to 64 bytes");
   EXPECT_EQ(error_of(R"({"body":"a","t":0,"x":0,"yaw":0})"), "`y` is missing");
   EXPECT_EQ(error_of(R"({"body":"a","t":0,"x":"0","y":0,"yaw":0})"), "`x` is not a number");
   EXPECT_EQ(error_of(R"({"body":"a","t":0,"x":2e6,"y":0,"yaw":0})"), "`x` is beyond 1000000");
   EXPECT_EQ(error_of(R"({"body":"a","t":0,"x":0,"y":0,"yaw":0,"z":0})"),
-            "unknown key; there are body, t, x, y, yaw, cov and seq");
-  EXPECT_EQ(error_of(R"({"body":"a","t":0,"x":0,"x":1,"y":0,"yaw":0})"), "`x` is there twice");
+            "unknown key; expected body, t, x, y, yaw, cov and seq");
+  EXPECT_EQ(error_of(R"({"body":"a","t":0,"x":0,"x":1,"y":0,"yaw":0})"), "duplicate key `x`");
   EXPECT_EQ(error_of(R"({"body":"a","t":0,"x":0,"y":0,"yaw":0,"cov":[1,2]})"),
             "`cov` is not a list of three numbers");
   EXPECT_EQ(error_of(R"({"body":"a","t":0,"x":0,"y":0,"yaw":0,"cov":[1,2,-3]})"),

@@ -98,7 +98,7 @@ TEST(UdpTransmitter, SaysWhatIsWrongWithItsParameters) {
     return transmitter.configure(given);
   };
   EXPECT_EQ(error_of({}),
-            "expected `peers`, `group` or `port`: it would neither send nor be found");
+            "expected `peers`, `group` or `port`: without them it can neither send nor receive");
   EXPECT_EQ(error_of({{"peers", "127.0.0.1:4711 nobody"s}}),
             "`peers`: expected an address such as 127.0.0.1:4711, found `nobody`");
   EXPECT_EQ(error_of({{"peers", "localhost:4711"s}}),
@@ -106,7 +106,7 @@ TEST(UdpTransmitter, SaysWhatIsWrongWithItsParameters) {
   EXPECT_EQ(error_of({{"peers", "127.0.0.1:4711"s}, {"listen", "nowhere"s}}),
             "`listen` must be a numeric address such as 127.0.0.1, not `nowhere`");
   EXPECT_EQ(error_of({{"group", "239.255.7.1:4711"s}, {"port", 5.0}}),
-            "`port` is that of `group`: give one of both");
+            "`group` already has a port: give either `port` or `group`");
 }
 
 }  // namespace

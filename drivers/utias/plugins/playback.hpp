@@ -19,7 +19,7 @@ inline constexpr auto kPlaybackParams = recording::join_params(
     std::array<ParamSpec, 2>{
         required(
             text_param("folder", "", "Folder of the logs, relative to that of the robot file.")),
-        required(integer_param("robot", 1, 1, 5, "Which of the recorded robots to play.")),
+        required(integer_param("robot", 1, 1, 5, "Number of the recorded robot to play.")),
     },
     recording::kPlayParams);
 

@@ -9,12 +9,11 @@ namespace {
 
 constexpr std::array<const char*, 2> kCodes{"barcode", "subject"};
 constexpr auto kParams = recording::join_params(
-    kPlaybackParams,
-    std::array<ParamSpec, 1>{
-        choice_param("codes", "barcode", kCodes,
-                     "How the number in the log is read; `subject` is the classical mistake, for "
-                     "checks that must notice it."),
-    });
+    kPlaybackParams, std::array<ParamSpec, 1>{
+                         choice_param("codes", "barcode", kCodes,
+                                      "Interpretation of the number in the log; `subject` is a "
+                                      "known mistake, for checks that must detect it."),
+                     });
 
 /// What the camera is said to have read on a landmark. A number that is no subject must not turn
 /// into somebody's barcode by chance: it becomes a negative one, which nobody carries.

@@ -112,9 +112,9 @@ TEST_F(DatasetTest, RefusesWrongOptions) {
   EXPECT_EQ(error(), "clock_offset_s is 5000: expected seconds from -1000 to 1000");
   options_.clock_offset_s = 0;
   options_.robots = {1, 1};
-  EXPECT_EQ(error(), "robot 1 was asked for twice");
+  EXPECT_EQ(error(), "robot 1 requested twice");
   options_.robots = {};
-  EXPECT_EQ(error(), "no robot was asked for");
+  EXPECT_EQ(error(), "no robot requested");
 }
 
 TEST_F(DatasetTest, HoldsTheStretchToItsWord) {
@@ -133,8 +133,9 @@ TEST_F(DatasetTest, HoldsTheStretchToItsWord) {
   EXPECT_EQ(data->robot(1)->pose_report.unchanged, true);
 
   put("Robot1_Groundtruth.dat", "1000.000 1 0 0\n");
-  EXPECT_NE(error().find("Robot1_Groundtruth.dat: the file is not the one that stretch.txt lists"),
-            std::string::npos)
+  EXPECT_NE(
+      error().find("Robot1_Groundtruth.dat: the file differs from the one that stretch.txt lists"),
+      std::string::npos)
       << error();
   options_.require_unchanged = false;
   EXPECT_EQ(load(folder_, options_)->robot(1)->pose_report.unchanged, false);

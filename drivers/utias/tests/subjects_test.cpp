@@ -37,10 +37,10 @@ TEST_F(SubjectsTest, RefusesRowsThatBelongToNobody) {
   const std::string barcodes = in_folder("Barcodes.dat");
   const std::string landmarks = in_folder("Landmark_Groundtruth.dat");
   put("Barcodes.dat", "1 5\n2 14\n6 63\n21 90\n");
-  EXPECT_EQ(error(), barcodes +
-                         ":4: subject 21 is neither a robot with logs in this folder nor a "
-                         "landmark of " +
-                         landmarks);
+  EXPECT_EQ(error(),
+            barcodes +
+                ":4: subject 21 is neither a robot with logs in this folder nor a landmark of " +
+                landmarks);
   put("Barcodes.dat", "1 5\n6 63\n");
   EXPECT_EQ(error(), barcodes + ": robot 2 has no row with its barcode");
   put("Barcodes.dat", "1 5\n2 14\n");

@@ -100,7 +100,7 @@ TEST(TextLog, AGzipStreamThatBreaksOffIsACutLogEvenAtALineEnd) {
     return parse_log({text, true}, "o.gz", odometry_columns(), {BadRowPolicy::kRefuse, accept});
   };
   EXPECT_EQ(cut("1.0 0.1 0.1\n", false).error().text(),
-            "o.gz:2:1: the gzip stream ends before its time, after the previous line; fetch the "
+            "o.gz:2:1: the gzip stream is truncated after the previous line; fetch the "
             "whole file, or set accept_cut to use the 1 whole rows");
   EXPECT_EQ(cut("1.0 0.1 0.1\n2.0 0.1 0.1", false).error().text(),
             "o.gz:2:12: the gzip stream ends in the middle of this line; fetch the whole file, or "

@@ -7,7 +7,7 @@
 namespace rave::detail {
 
 void check_failed(const char* condition, const char* file, int line) noexcept {
-  std::fprintf(stderr, "%s:%d: a promise inside RAVE was broken: %s\n", file, line, condition);
+  std::fprintf(stderr, "%s:%d: internal error in RAVE: %s\n", file, line, condition);
   std::abort();
 }
 

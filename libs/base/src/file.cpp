@@ -49,7 +49,7 @@ Result<int> open_regular_file(const std::filesystem::path& path) {
   if (S_ISREG(info.st_mode)) return fd;
   ::close(fd);
   return fail(ErrorCode::kIo, "cannot read `{}`: it is {}", path.string(),
-              S_ISDIR(info.st_mode) ? "a folder" : "no regular file");
+              S_ISDIR(info.st_mode) ? "a folder" : "not a regular file");
 }
 
 Result<std::string> read_file(const std::filesystem::path& path, std::size_t max_bytes) {

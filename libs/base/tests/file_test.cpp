@@ -42,7 +42,7 @@ TEST_F(FileTest, ANamedPipeIsRefusedAndNotWaitedFor) {
   const auto text = read_file(pipe);
   ASSERT_FALSE(text);
   EXPECT_EQ(text.error().code, ErrorCode::kIo);
-  EXPECT_EQ(text.error().message, "cannot read `" + pipe.string() + "`: it is no regular file");
+  EXPECT_EQ(text.error().message, "cannot read `" + pipe.string() + "`: it is not a regular file");
   EXPECT_EQ(read_file("/dev/null").error().code, ErrorCode::kIo);
 }
 

@@ -167,7 +167,7 @@ Status Bus::introduce() {
 
 tl::unexpected<Error> Bus::refused(dds_return_t code) {
   if (code == DDS_RETCODE_PRECONDITION_NOT_MET) {
-    return fail(ErrorCode::kState, "this process has a bus in domain {} already", config_.domain);
+    return fail(ErrorCode::kState, "this process already has a bus in domain {}", config_.domain);
   }
   std::string reason(dds_strretcode(code));
   if (log_) {

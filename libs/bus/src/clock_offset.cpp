@@ -12,8 +12,7 @@ Result<ClockReading> read_clock(const ClockExchange& exchange) {
   const std::int64_t held = exchange.answered_ns - exchange.received_ns;
   if (away < 0 || held < 0 || held > away) {
     return fail(ErrorCode::kInvalidArgument,
-                "an exchange of clocks of {} ns, of which {} ns at the other end, cannot be", away,
-                held);
+                "impossible clock exchange of {} ns, of which {} ns at the other end", away, held);
   }
   const std::int64_t on_the_way = away - held;
   // Odd sums are cut by half a nanosecond; the bound is rounded up to cover it.

@@ -42,11 +42,11 @@ bool is_address(std::string_view text) {
 
 Status check_text(std::string_view field, std::string_view text, std::size_t longest) {
   if (text.size() > longest) {
-    return fail(ErrorCode::kInvalidArgument, "{}: {} bytes are more than {}", field, text.size(),
-                longest);
+    return fail(ErrorCode::kInvalidArgument, "{}: {} bytes; expected at most {}", field,
+                text.size(), longest);
   }
   if (!plain(text)) {
-    return fail(ErrorCode::kInvalidArgument, "{}: control characters and `$` cannot be in it",
+    return fail(ErrorCode::kInvalidArgument, "{}: control characters and `$` are not allowed",
                 field);
   }
   return {};
@@ -179,34 +179,33 @@ bool BusConfig::loopback() const { return interface.starts_with("127.") || inter
 
 Status validate(const BusConfig& config) {
   constexpr ErrorCode kBad = ErrorCode::kInvalidArgument;
-  if (config.participant.empty()) return fail(kBad, "participant: a name is needed");
+  if (config.participant.empty()) return fail(kBad, "participant: expected a name");
   RAVE_TRY(check_text("participant", config.participant, 64));
   RAVE_TRY(check_text("interface", config.interface, 255));
   RAVE_TRY(check_text("tag", config.tag, 255));
   if (config.run.none() && !config.anonymous)
-    return fail(kBad, "run: an id is needed; all processes of a run share one");
-  if (config.domain > 230) return fail(kBad, "domain: {} is not in 0 to 230", config.domain);
-  if (config.interface.empty()) return fail(kBad, "interface: an address or a name is needed");
+    return fail(kBad, "run: expected an id, the same for all processes of a run");
+  if (config.domain > 230) return fail(kBad, "domain: found {}, expected 0 to 230", config.domain);
+  if (config.interface.empty()) return fail(kBad, "interface: expected an address or a name");
   if (config.max_processes < 1 || config.max_processes > 119) {
-    return fail(kBad, "max_processes: {} is not in 1 to 119", config.max_processes);
+    return fail(kBad, "max_processes: found {}, expected 1 to 119", config.max_processes);
   }
   if (config.reach != Reach::kAll && config.max_processes > BusConfig::kMostPlain) {
-    return fail(kBad, "max_processes: {} is not in 1 to {}, beside hubs", config.max_processes,
-                BusConfig::kMostPlain);
+    return fail(kBad, "max_processes: found {}, expected 1 to {}, in addition to hubs",
+                config.max_processes, BusConfig::kMostPlain);
   }
   if (config.lease.ns < 100'000'000 || config.lease.ns > 3600'000'000'000) {
-    return fail(kBad, "lease: {} s is not in 0.1 s to 3600 s", config.lease.seconds());
+    return fail(kBad, "lease: found {} s, expected 0.1 s to 3600 s", config.lease.seconds());
   }
   for (const std::string& peer : config.peers) {
     RAVE_TRY(check_text("peers", peer, 255));
     if (peer.empty()) return fail(kBad, "peers: an empty address");
   }
   if (config.peers.empty() && config.multicast == Multicast::kOff && !config.loopback()) {
-    return fail(
-        kBad,
-        "peers: without multicast nobody is found on {}; list the machines that take part, this "
-        "one included, or allow multicast",
-        config.interface);
+    return fail(kBad,
+                "peers: without multicast no process is found on {}; list all machines of the run, "
+                "this one included, or allow multicast",
+                config.interface);
   }
   if (!config.security.empty()) RAVE_TRY(check_certificates(config.security));
   return {};

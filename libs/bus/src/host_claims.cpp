@@ -14,7 +14,7 @@ Status HostClaims::claim(std::uint32_t host, std::uint64_t writer) {
   if (owner == 0) owner = writer;
   if (owner == writer) return {};
   return fail(ErrorCode::kState,
-              "host {} is served by process {:016x} already, so {:016x} is refused; stop one of "
+              "host {} is already served by process {:016x}, so {:016x} is refused; stop one of "
               "them, or give it another host",
               host, owner, writer);
 }

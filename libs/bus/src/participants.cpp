@@ -134,7 +134,7 @@ void Participants::judge(std::vector<BusEvent>& events) {
     const bool long_enough = 2 * standstill_.stood().ns > lease_.ns;
     if ((missed_.empty() && !long_enough) || std::exchange(told_, true)) return;
     events.push_back({EventKind::kStoodStill, "", "", 0,
-                      fmt::format("this process, for {:.1f} s; who else is there is found out anew",
+                      fmt::format("this process, for {:.1f} s; it searches for the others again",
                                   standstill_.stood().seconds())});
     return;
   }

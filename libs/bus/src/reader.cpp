@@ -48,7 +48,7 @@ const void* ReaderCore::take_short(std::size_t& budget) {
       sender_ = datagram->writer;
       return sample;
     }
-    refuse(datagram->writer, "what came by the short way is no sample of this topic");
+    refuse(datagram->writer, "a datagram of the local transport is not a sample of this topic");
   }
   return nullptr;
 }
@@ -58,7 +58,7 @@ bool ReaderCore::is_of(std::uint64_t writer, const dds_sample_info_t& info) {
   const bool known = info.publication_handle == 0
                          ? writer == sender_
                          : bus_->speaks_for(reader_, info.publication_handle, writer);
-  if (!known) refuse(writer, "it was sent in the name of this process by another one");
+  if (!known) refuse(writer, "another process sent it in the name of this process");
   return known;
 }
 

@@ -32,7 +32,7 @@ constexpr std::chrono::milliseconds kMostCrowded{1000};
 
 Result<std::unique_ptr<Relay>> Relay::create(dds_entity_t set, dds_entity_t bell) {
   const int event = ::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
-  if (event < 0) return fail(ErrorCode::kIo, "cannot wait: no event descriptor is to be had");
+  if (event < 0) return fail(ErrorCode::kIo, "cannot wait: no event descriptor is available");
   std::unique_ptr<Relay> relay(new Relay(set, bell, event));
   RAVE_TRY(start_thread(relay->thread_, "a wait set", [it = relay.get()] { it->run(); }));
   return relay;

@@ -55,7 +55,7 @@ Status check_inputs(std::string_view list, const Sequence& sequence) {
   };
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     if (inputs[i].kind > rave_wire_INPUT_JOIN) {
-      return invalid(fmt::format("{}[{}] is of no known kind", list, i));
+      return invalid(fmt::format("{}[{}] has an unknown kind", list, i));
     }
     if (i > 0 && place(inputs[i - 1]) >= place(inputs[i])) {
       return invalid(
@@ -245,11 +245,11 @@ Status validate(const LineInfo& sample) {
   const std::string_view url = sample.url;
   RAVE_TRY(check_label("url", url, true));
   if (!url.starts_with("ws://") && !url.starts_with("wss://")) {
-    return invalid("url begins with neither ws:// nor wss://");
+    return invalid("url: expected ws:// or wss://");
   }
   // It goes into a header of the page, where these would begin something else.
   if (url.find_first_of(" ;,'\"<>") != std::string_view::npos) {
-    return invalid("url has a character that no address has");
+    return invalid("url has an invalid character");
   }
   return {};
 }
@@ -294,7 +294,7 @@ Status validate(const ClockPong& sample) {
   RAVE_TRY(check_writer(sample));
   if (sample.target == 0) return invalid("target is 0");
   if (sample.pong_sent_ns < sample.ping_received_ns) {
-    return invalid("a pong was sent before its ping came");
+    return invalid("a pong was sent before its ping");
   }
   RAVE_TRY(check_time("ping_sent_ns", sample.ping_sent_ns));
   RAVE_TRY(check_time("ping_received_ns", sample.ping_received_ns));

@@ -12,8 +12,8 @@ Status check_place(std::string_view list, std::size_t index, double x_m, double 
       std::fabs(yaw_rad) <= kMaxAngle_rad) {
     return {};
   }
-  return invalid(fmt::format("{}[{}] is at {}, {}, {}, which no robot can be", list, index, x_m,
-                             y_m, yaw_rad));
+  return invalid(
+      fmt::format("{}[{}] has the impossible pose {}, {}, {}", list, index, x_m, y_m, yaw_rad));
 }
 
 template <class Sequence>
@@ -27,7 +27,7 @@ Status check_poses(const Sequence& sequence) {
     RAVE_TRY(check_number("poses.wz_radps", pose.wz_radps, kMaxTurn_radps));
     // Variances may be infinite: nothing is known.
     if (!(pose.variance_xy_m2 >= 0 && pose.variance_yaw_rad2 >= 0)) {
-      return invalid(fmt::format("poses[{}] has a variance that is none", i));
+      return invalid(fmt::format("poses[{}] has an invalid variance", i));
     }
   }
   return {};
@@ -95,7 +95,7 @@ Status check_refused(const rave_wire_AuthorityState& authority, std::size_t robo
   RAVE_TRY(check_events("authority.refused", authority.refused, robots));
   const std::size_t told = authority.refused._length;
   if (told <= authority.refused_count) return {};
-  return invalid(fmt::format("authority.refused are {}, more than the {} that there were", told,
+  return invalid(fmt::format("authority.refused has {} entries; expected at most {}", told,
                              authority.refused_count));
 }
 

@@ -33,6 +33,13 @@ Status validate(const Look& sample) {
     RAVE_TRY(check_id("sensors.robot", looked.robot));
   }
   for (const std::uint32_t robot : elements(sample.maps)) RAVE_TRY(check_id("maps", robot));
+  for (const rave_wire_Probe& probe : elements(sample.probes)) {
+    RAVE_TRY(check_id("probes.robot", probe.robot));
+    if ((probe.number & 0x8000'0000U) == 0) {
+      return invalid(fmt::format("probes.number is {}, which is a sensor's", probe.number));
+    }
+    RAVE_TRY(check_label("probes.block", probe.block, true));
+  }
   return {};
 }
 

@@ -70,7 +70,7 @@ Status validate(const Obstacle& sample) {
     return invalid(fmt::format("stands.id is {}, of obstacle {}", sample.stands.id, sample.id));
   }
   if (!sample.removed || sample.stands.kind == rave_wire_OBSTACLE_ADD) return {};
-  return invalid("removed is set of an obstacle that did not come");
+  return invalid("removed is set for an obstacle that was not added");
 }
 
 }  // namespace rave::bus

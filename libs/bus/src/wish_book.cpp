@@ -74,14 +74,14 @@ void WishBook::reply(Asker* asker, Reply reply, Clock::time_point now) {
     if (bytes > kMostAnswerBytes) {
       reply.taken = false;
       reply.text = fmt::format(
-          "it was done, but the answer has {} bytes, and over the bus go {}: ask on the machine "
-          "where this process runs",
+          "it was carried out, but the answer has {} bytes, and the bus carries {}: send the "
+          "request on the machine of this process",
           bytes, kMostAnswerBytes);
     } else if (asker == nullptr || kept_long(asker) + bytes > kMostKeptLong) {
       reply.taken = false;
       reply.text = fmt::format(
-          "it was done, but the answer has {} bytes, and others have such long ones to fetch; ask "
-          "again later",
+          "it was carried out, but the answer has {} bytes and too many long answers are pending; "
+          "try again later",
           bytes);
     }
   }
@@ -127,11 +127,11 @@ void WishBook::hear(const Heard& wish, Clock::time_point now) {
     return;
   }
   if (!in_time) {
-    refuse(wish, *asker, "it asks too often; ask again later", now);
+    refuse(wish, *asker, "too many requests; try again later", now);
     return;
   }
   if (asker->open >= kMostOpenEach || open_.size() >= kMostOpen) {
-    refuse(wish, *asker, "too much that was asked waits to be done; ask again later", now);
+    refuse(wish, *asker, "too many requests are waiting; try again later", now);
     return;
   }
   asker->last = number;

@@ -57,14 +57,14 @@ std::size_t rest_wished(std::string_view wish) noexcept {
 
 Status AnswerParts::add(std::string_view message) {
   const auto refused = [](std::string_view why) {
-    return fail(ErrorCode::kParse, "what came is no part of an answer: {}", why);
+    return fail(ErrorCode::kParse, "not a part of an answer: {}", why);
   };
   std::size_t from = 0;
   std::size_t total = message.size();
   if (take_word(message, kFrom)) {
     const bool headed = take_number(message, from) && take_word(message, kOf) &&
                         take_number(message, total) && take_word(message, kColon);
-    if (!headed) return refused("its heading is not understood");
+    if (!headed) return refused("its header is malformed");
   }
   if (total == 0 || total > kMostAnswerBytes) {
     return refused(fmt::format("{} bytes are not within 1 and {}", total, kMostAnswerBytes));

@@ -39,7 +39,7 @@ Status WriterCore::write(const void* sample) {
   const dds_return_t code = dds_write(writer_, sample);
   if (code == DDS_RETCODE_OK) return {};
   if (code == DDS_RETCODE_TIMEOUT) {
-    return fail(ErrorCode::kTimeout, "{}: a reader does not keep up", topic_);
+    return fail(ErrorCode::kTimeout, "{}: a reader is too slow", topic_);
   }
   return fail(ErrorCode::kInvalidArgument, "{}: the sample cannot be sent: {}", topic_,
               dds_strretcode(code));

@@ -110,41 +110,41 @@ TEST(BusConfig, OfManyProcessesHostsLookForHubsAlone) {
   config = good();
   config.reach = Reach::kHubs;
   config.max_processes = 115;
-  EXPECT_EQ(reason(config), "max_processes: 115 is not in 1 to 114, beside hubs");
+  EXPECT_EQ(reason(config), "max_processes: found 115, expected 1 to 114, in addition to hubs");
 }
 
 TEST(BusConfig, RefusesWhatCannotWork) {
   BusConfig config = good();
   config.participant = "";
-  EXPECT_EQ(reason(config), "participant: a name is needed");
+  EXPECT_EQ(reason(config), "participant: expected a name");
   config = good();
   config.participant = std::string(65, 'x');
-  EXPECT_EQ(reason(config), "participant: 65 bytes are more than 64");
+  EXPECT_EQ(reason(config), "participant: 65 bytes; expected at most 64");
   config = good();
   config.run = {};
-  EXPECT_EQ(reason(config), "run: an id is needed; all processes of a run share one");
+  EXPECT_EQ(reason(config), "run: expected an id, the same for all processes of a run");
   config.anonymous = true;
   EXPECT_TRUE(validate(config)) << "who only looks belongs to no run";
   config = good();
   config.domain = 231;
-  EXPECT_EQ(reason(config), "domain: 231 is not in 0 to 230");
+  EXPECT_EQ(reason(config), "domain: found 231, expected 0 to 230");
   config = good();
   config.max_processes = 120;
-  EXPECT_EQ(reason(config), "max_processes: 120 is not in 1 to 119");
+  EXPECT_EQ(reason(config), "max_processes: found 120, expected 1 to 119");
   config = good();
   config.lease = Duration{1};
-  EXPECT_TRUE(has(reason(config), "lease: 1e-09 s is not in 0.1 s to 3600 s"));
+  EXPECT_TRUE(has(reason(config), "lease: found 1e-09 s, expected 0.1 s to 3600 s"));
   config = good();
   config.interface = "${HOME}";
-  EXPECT_EQ(reason(config), "interface: control characters and `$` cannot be in it");
+  EXPECT_EQ(reason(config), "interface: control characters and `$` are not allowed");
   config = good();
   config.participant =
       "host\xc2\x9b"
       "2J";
-  EXPECT_EQ(reason(config), "participant: control characters and `$` cannot be in it");
+  EXPECT_EQ(reason(config), "participant: control characters and `$` are not allowed");
   config = good();
   config.interface = "192.168.0.1";
-  EXPECT_TRUE(has(reason(config), "peers: without multicast nobody is found on 192.168.0.1"));
+  EXPECT_TRUE(has(reason(config), "peers: without multicast no process is found on 192.168.0.1"));
 }
 
 TEST(BusConfig, LooksForEachCertificate) {

@@ -14,7 +14,7 @@ TEST(HostClaims, TheFirstHasTheHostUntilItIsLost) {
   const Status second = claims.claim(1, 0xb);
   ASSERT_FALSE(second);
   EXPECT_EQ(second.error().message,
-            "host 1 is served by process 000000000000000a already, so 000000000000000b is refused; "
+            "host 1 is already served by process 000000000000000a, so 000000000000000b is refused; "
             "stop one of them, or give it another host");
   EXPECT_EQ(claims.claim(3, 0xa).error().message, "host 3 is not one of the 3 of the scenario");
   claims.release(0xa);

@@ -65,7 +65,7 @@ TEST(Impostor, WhatIsSentInTheNameOfAProcessThatIsThereIsRefused) {
   }));
   const BusEvent refused = await_event(**bus, EventKind::kRefused);
   EXPECT_EQ(refused.writer, appeared.writer);
-  EXPECT_EQ(refused.text, "it was sent in the name of this process by another one");
+  EXPECT_EQ(refused.text, "another process sent it in the name of this process");
   // In its own name it is heard.
   EXPECT_TRUE(eventually([&] {
     listen();

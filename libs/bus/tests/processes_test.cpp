@@ -174,7 +174,7 @@ TEST(Processes, ASecondProcessForAHostIsRefusedUntilTheFirstIsGone) {
   ASSERT_TRUE(eventually([&] { return listen(), claims.writer_of(1) != 0; }));
   PeerProcess second(domain, "host", "again", {"host=1", "count=1"});
   ASSERT_TRUE(eventually([&] { return listen(), !why.empty(); }));
-  EXPECT_NE(why.find("host 1 is served by process"), std::string::npos) << why;
+  EXPECT_NE(why.find("host 1 is already served by process"), std::string::npos) << why;
   EXPECT_EQ(await_event(**bus, EventKind::kRefused).text, why);
 
   EXPECT_EQ(first.line(), "written");

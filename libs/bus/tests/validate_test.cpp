@@ -212,7 +212,7 @@ TEST(Validate, AnObstacleThatMovedHasNoBody) {
   box.sample.stands.shapes._length = 0;
   EXPECT_EQ(reason(box.sample), "accepted");
   box.sample.removed = true;
-  EXPECT_EQ(reason(box.sample), "removed is set of an obstacle that did not come");
+  EXPECT_EQ(reason(box.sample), "removed is set for an obstacle that was not added");
 }
 
 TEST(Validate, RosterEntriesHaveNamesThatCanBeShown) {
@@ -268,9 +268,9 @@ TEST(Validate, Lines) {
   put_text(line.host, "left");
   EXPECT_EQ(reason(line), "url is empty");
   put_text(line.url, "http://left:8090/ws");
-  EXPECT_EQ(reason(line), "url begins with neither ws:// nor wss://");
+  EXPECT_EQ(reason(line), "url: expected ws:// or wss://");
   put_text(line.url, "ws://left; script-src *");
-  EXPECT_EQ(reason(line), "url has a character that no address has");
+  EXPECT_EQ(reason(line), "url has an invalid character");
   put_text(line.url, "wss://left:8090/ws");
   EXPECT_EQ(reason(line), "accepted");
   auto withdrawal = written<LineWithdrawal>();
@@ -305,7 +305,7 @@ TEST(Validate, HostsAndClocks) {
   auto pong = written<ClockPong>();
   pong.target = 2;
   pong.ping_received_ns = 5;
-  EXPECT_EQ(reason(pong), "a pong was sent before its ping came");
+  EXPECT_EQ(reason(pong), "a pong was sent before its ping");
   auto packet = written<Packet>();
   packet.from_robot = rave_wire_kNone;
   EXPECT_EQ(reason(packet), "from_robot is none");
@@ -382,7 +382,7 @@ TEST(Validate, RefusesWishesThatAreForNobodyOrNoLine) {
   std::string endless(rave_wire_kMaxWishBytes + 1, 'x');
   auto much = wish_with<Wish>(endless);
   put_text(much.from, "anna");
-  EXPECT_EQ(reason(much), "text has 16385 bytes, more than 16384");
+  EXPECT_EQ(reason(much), "text has 65537 bytes, more than 65536");
   EXPECT_EQ(reason(wish_with<WishAnswer>(endless)), "accepted");
   std::string none;
   EXPECT_EQ(reason(wish_with<WishAnswer>(none)), "text is empty");

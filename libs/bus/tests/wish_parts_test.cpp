@@ -65,7 +65,7 @@ TEST(WishParts, GarbageIsRefused) {
   EXPECT_NE(reason(parts.add("from 0 of 0: ")).find("not within"), std::string::npos);
   for (const char* const heading : {"from ", "from x of 9: x", "from 0 of -1: x", "from 0 of 9",
                                     "from 0, of 9: x", "from 0 of 99999999999999999999999: x"}) {
-    EXPECT_NE(reason(parts.add(heading)).find("heading"), std::string::npos) << heading;
+    EXPECT_NE(reason(parts.add(heading)).find("header"), std::string::npos) << heading;
   }
   EXPECT_NE(reason(parts.add("from 1 of 9: x")).find("at byte 1 instead of 0"), std::string::npos);
   EXPECT_NE(reason(parts.add("from 0 of 9: x")).find("has 1 bytes of 9"), std::string::npos);

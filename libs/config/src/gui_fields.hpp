@@ -31,7 +31,8 @@ constexpr auto enum_names(EnumTag<GuiClass> /*tag*/) {
                     EnumName{GuiClass::kRelease, "release"},
                     EnumName{GuiClass::kRunControl, "run_control"},
                     EnumName{GuiClass::kCommand, "command"},
-                    EnumName{GuiClass::kEdit, "edit"}};
+                    EnumName{GuiClass::kEdit, "edit"},
+                    EnumName{GuiClass::kProbe, "probe"}};
 }
 
 constexpr auto enum_names(EnumTag<GuiReach> /*tag*/) {
@@ -46,7 +47,7 @@ void describe(V& v, GuiRightFile& c) {
   v.required("classes", c.classes,
              {.doc = "Classes of information or requests that are granted or withdrawn.",
               .min_items = 1,
-              .max_items = 16});
+              .max_items = 17});
   v.required(
       "reach", c.reach,
       {.doc =

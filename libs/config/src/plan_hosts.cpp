@@ -46,7 +46,7 @@ Status claim(const ExpandedScenario& scenario, const HostFile& file, std::size_t
     for (const std::size_t robot : robots) {
       if (host_of[robot] != kNobody) {
         return fail_at(name.where, ErrorCode::kParse,
-                       "robot `{}` is given to host `{}`, but `{}` has it already",
+                       "robot `{}` is given to host `{}`, but `{}` already has it",
                        scenario.robots[robot].name, file.name.value,
                        scenario.scenario.hosts[host_of[robot]].name.value);
       }
@@ -63,9 +63,10 @@ Result<std::vector<std::size_t>> share(const ExpandedScenario& scenario) {
   std::optional<std::size_t> rest;
   for (std::size_t h = 0; h < files.size(); ++h) {
     if (files[h].robots.empty() && rest) {
-      return fail_at(files[h].name.where, ErrorCode::kParse,
-                     "the hosts `{}` and `{}` name no robots; one may, and gets the rest",
-                     files[*rest].name.value, files[h].name.value);
+      return fail_at(
+          files[h].name.where, ErrorCode::kParse,
+          "the hosts `{}` and `{}` name no robots; only one host may do so, and gets the rest",
+          files[*rest].name.value, files[h].name.value);
     }
     if (files[h].robots.empty()) rest = h;
     RAVE_TRY(claim(scenario, files[h], h, host_of));
@@ -103,7 +104,7 @@ Result<std::vector<PlannedHost>> plan_hosts(const ExpandedScenario& scenario) {
   for (std::size_t h = 0; h < hosts.size(); ++h) {
     if (!hosts[h].robots.empty()) continue;
     return fail_at(files[h].name.where, ErrorCode::kParse,
-                   "host `{}` has no robot: the others have them all", hosts[h].name);
+                   "host `{}` has no robot: the other hosts have all", hosts[h].name);
   }
   return hosts;
 }

@@ -66,7 +66,7 @@ void validate(const SensorFile& c, CheckContext& check) {
   check_layers(c.senses, check);
   if (c.real.has_value() != c.imagined.has_value()) {
     check.error(c.real ? "real" : "virtual",
-                "found `{}` without `{}`: a hybrid sensor has both halves",
+                "found `{}` without `{}`: a hybrid sensor needs both halves",
                 c.real ? "real" : "virtual", c.real ? "virtual" : "real");
   }
   if (c.real && c.device) {

@@ -37,9 +37,9 @@ void describe(V& v, MountFile& c) {
   v.field("x_m", c.x_m, length_m("Forward of the body's origin."));
   v.field("y_m", c.y_m, length_m("To the left of the body's origin."));
   v.field("z_m", c.z_m, length_m("Height above the floor."));
-  v.field("yaw_deg", c.yaw_deg, angle_deg("Counter-clockwise from ahead."));
-  v.field("roll_deg", c.roll_deg, angle_deg("0; anything else needs the 3-D world."));
-  v.field("pitch_deg", c.pitch_deg, angle_deg("0; anything else needs the 3-D world."));
+  v.field("yaw_deg", c.yaw_deg, angle_deg("Counter-clockwise from forward."));
+  v.field("roll_deg", c.roll_deg, angle_deg("Must be 0, because the world is planar."));
+  v.field("pitch_deg", c.pitch_deg, angle_deg("Must be 0, because the world is planar."));
 }
 
 void validate(const MountFile& c, CheckContext& check);

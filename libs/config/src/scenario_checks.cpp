@@ -45,7 +45,7 @@ void validate(const RobotEntry& c, CheckContext& check) {
   }
   const bool has_twin = c.twin || c.twin_robot;
   if (has_twin && (c.poses || c.scatter)) {
-    check.error("twin", "`twin` belongs to one robot, but `{}` stands for several", *c.name);
+    check.error("twin", "`twin` needs a single robot, but `{}` stands for several", *c.name);
   }
   if (c.shadow && !has_twin) {
     check.error("shadow", "`shadow` needs `twin`, the file of the simulated robot");
@@ -54,11 +54,11 @@ void validate(const RobotEntry& c, CheckContext& check) {
 
 void validate(const GuiRightFile& c, CheckContext& check) {
   if (c.role.has_value() == c.user.has_value()) {
-    check.error("", "a right is of a `role` or of a `user`: exactly one of the two is given");
+    check.error("", "expected exactly one of `role` and `user`");
   }
   if (c.user && c.user->value.empty()) check.error("user", "`user`: expected a name");
   if ((c.reach == GuiReach::kTeams) == c.teams.empty()) {
-    check.error("teams", "`teams` is given with `reach: teams`, and only then");
+    check.error("teams", "expected `teams` with `reach: teams`, and only then");
   }
 }
 
@@ -80,12 +80,12 @@ void validate(const ChangeFile& c, CheckContext& check) {
     return;
   }
   if (c.hand_over) {
-    if (!c.robot) check.error("hand_over", "`hand_over` needs `robot`, which says whose drivers");
+    if (!c.robot) check.error("hand_over", "`hand_over` needs `robot`");
     if (c.set) check.error("set", "`set` and `hand_over` are two changes; write two entries");
     return;
   }
   if (!c.robot && !c.set) return;
-  if (!c.robot) check.error("set", "`set` needs `robot`, which says whose parameters change");
+  if (!c.robot) check.error("set", "`set` needs `robot`");
   if (c.set && c.set->is_mapping() && c.set->size() > 0) return;
   check.error(c.set ? "set" : "robot",
               "`set`: found {}, expected keys such as `program.speed_mps` with new values",
@@ -98,7 +98,7 @@ void validate(const ScenarioFile& c, CheckContext& check) {
   check_name("name", *c.name, check);
   check_unique("host", c.hosts, check);
   if (c.processes && !c.hosts.empty()) {
-    check.error("processes", "`processes` and `hosts` both say who runs the robots; one can");
+    check.error("processes", "expected `processes` or `hosts`, not both");
   }
   check_unique("obstacle", c.obstacles, check);
   if (c.picture && c.picture->instant_s && *c.picture->instant_s > c.duration_s) {

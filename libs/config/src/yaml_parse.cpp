@@ -82,7 +82,7 @@ class TreeBuilder : public YAML::EventHandler {
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     const auto found = anchors_.find(anchor);
     if (found == anchors_.end()) {
-      throw Abort{{ErrorCode::kParse, "an alias stands inside of what it refers to", place(mark)}};
+      throw Abort{{ErrorCode::kParse, "an alias refers to a value that contains it", place(mark)}};
     }
     count(found->second.size, mark);
     check_depth(static_cast<int>(stack_.size()) + height_of(found->second.node), mark);
@@ -126,7 +126,7 @@ class TreeBuilder : public YAML::EventHandler {
     nodes_ += nodes;
     if (nodes_ <= kMaxNodes) return;
     throw Abort{{ErrorCode::kParse,
-                 fmt::format("more than {} values, counting what aliases stand for", kMaxNodes),
+                 fmt::format("more than {} values, with aliases expanded", kMaxNodes),
                  place(mark)}};
   }
 

@@ -175,7 +175,7 @@ const Case kCases[] = {
     {"UnknownAlias", "frame: base\nparams: *nobody\n",
      "a.yaml:2:9: YAML syntax: the referenced anchor is not defined"},
     {"AliasInsideItself", "frame: base\nparams: &a [*a]\n",
-     "a.yaml:2:13: an alias stands inside of what it refers to"},
+     "a.yaml:2:13: an alias refers to a value that contains it"},
     {"Tag", "frame: base\nrays: !!int 3\n",
      "a.yaml:2:7: tags are not allowed, found `tag:yaml.org,2002:int`"},
     {"OwnTag", "frame: base\nparams: !thing {a: 1}\n",
@@ -244,8 +244,7 @@ TEST(BadInputLimits, TooLargeTooDeepTooManyValues) {
     for (int k = 0; k < 10; ++k) bomb += fmt::format("{}*a{}", k == 0 ? "" : ", ", i - 1);
     bomb += "]\n";
   }
-  EXPECT_EQ(error_of(bomb),
-            "a.yaml:7:42: more than 1000000 values, counting what aliases stand for");
+  EXPECT_EQ(error_of(bomb), "a.yaml:7:42: more than 1000000 values, with aliases expanded");
 }
 
 }  // namespace

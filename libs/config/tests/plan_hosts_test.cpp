@@ -65,19 +65,20 @@ TEST(PlanHosts, BadInputNamesItsPlace) {
   EXPECT_EQ(plan_error("hosts: [{name: one, robots: [d]}]\n"),
             "lab.yaml:9:30: there is no robot `d`; did you mean `a`?");
   EXPECT_EQ(plan_error("hosts: [{name: one, robots: [a]}, {name: two, robots: [a-1]}]\n"),
-            "lab.yaml:9:56: robot `a-1` is given to host `two`, but `one` has it already");
+            "lab.yaml:9:56: robot `a-1` is given to host `two`, but `one` already has it");
   EXPECT_EQ(plan_error("hosts: [{name: one, robots: [a]}]\n"),
             "lab.yaml:9:16: no host has robot `b`; a host without `robots` gets all that no other "
             "has");
   EXPECT_EQ(plan_error("hosts: [{name: one}, {name: two}]\n"),
-            "lab.yaml:9:29: the hosts `one` and `two` name no robots; one may, and gets the rest");
+            "lab.yaml:9:29: the hosts `one` and `two` name no robots; only one host may do so, and "
+            "gets the rest");
   EXPECT_EQ(plan_error("hosts: [{name: one, robots: [a, b, c]}, {name: two}]\n"),
-            "lab.yaml:9:48: host `two` has no robot: the others have them all");
+            "lab.yaml:9:48: host `two` has no robot: the other hosts have all");
   EXPECT_EQ(plan_error("processes: 6\n"),
             "lab.yaml:9:12: `processes`: found 6, expected at most one per robot, of which there "
             "are 5");
   EXPECT_EQ(plan_error("processes: 2\nhosts: [{name: one}]\n"),
-            "lab.yaml:9:12: `processes` and `hosts` both say who runs the robots; one can");
+            "lab.yaml:9:12: expected `processes` or `hosts`, not both");
   EXPECT_EQ(
       plan_error("on_lost_host: weit\n"),
       "lab.yaml:9:15: `on_lost_host`: found the text \"weit\", expected one of wait, drop and "

@@ -205,12 +205,12 @@ const FileCase kScenarios[] = {
      "mean `humble`?"},
     {"GuiNobody",
      "name: a\ngui: {rights: [{classes: [pose], reach: all}]}\nrobots: [{name: r, file: r.yaml}]\n",
-     "s.yaml:2:16: a right is of a `role` or of a `user`: exactly one of the two is given"},
+     "s.yaml:2:16: expected exactly one of `role` and `user`"},
     {"GuiTeams",
      "name: a\ngui: {rights: [{role: observer, classes: [pose], reach: teams}]}\nrobots: [{name: "
      "r, "
      "file: r.yaml}]\n",
-     "s.yaml:2:16: `teams` is given with `reach: teams`, and only then"},
+     "s.yaml:2:16: expected `teams` with `reach: teams`, and only then"},
     {"GuiSuperUser",
      "name: a\ngui: {rights: [{role: super_user, classes: [pose], reach: none}]}\nrobots: [{name: "
      "r, "

@@ -26,7 +26,7 @@ std::string choices_problem(const ParamSpec& spec) {
   const std::string_view value = spec.default_text;
   if (spec.required == 0 && std::none_of(choices.begin(), choices.end(),
                                          [&](const char* choice) { return value == choice; })) {
-    return fmt::format("its default `{}` is none of its choices", value);
+    return fmt::format("its default `{}` is not one of its choices", value);
   }
   return {};
 }
@@ -35,7 +35,7 @@ std::string choices_problem(const ParamSpec& spec) {
 std::string range_problem(const ParamSpec& spec) {
   // Written so that a NaN fails as well.
   if (!(spec.min <= spec.max)) {
-    return fmt::format("its range is upside down (min {}, max {})", spec.min, spec.max);
+    return fmt::format("its range is reversed (min {}, max {})", spec.min, spec.max);
   }
   if (spec.type == ParamType::kNumbers || spec.required != 0) return {};
   const double value = spec.default_number;
@@ -49,8 +49,8 @@ std::string range_problem(const ParamSpec& spec) {
 }
 
 std::string param_problem(const ParamSpec& spec) {
-  if (spec.unit == nullptr || spec.default_text == nullptr) return "it has a null text";
-  if (empty(spec.doc)) return "it has no sentence that explains it";
+  if (spec.unit == nullptr || spec.default_text == nullptr) return "one of its texts is null";
+  if (empty(spec.doc)) return "it has no explanation";
   switch (spec.type) {
     case ParamType::kText:
       return {};
@@ -67,7 +67,7 @@ std::string param_problem(const ParamSpec& spec) {
 
 Status check_params(const DriverInfo& info) {
   if (info.param_count > 0 && info.params == nullptr) {
-    return fail(ErrorCode::kPlugin, "driver `{}` says {} parameters and gives none", info.name,
+    return fail(ErrorCode::kPlugin, "driver `{}` declares {} parameters but has none", info.name,
                 info.param_count);
   }
   std::set<std::string_view> names;
@@ -96,7 +96,7 @@ Status check_description(const DriverInfo& info, const void* ops) {
     return fail(ErrorCode::kPlugin, "driver name `{}` is not lower_snake_case", info.name);
   }
   if (static_cast<std::uint32_t>(info.kind) >= kDriverKindCount) {
-    return fail(ErrorCode::kPlugin, "driver `{}` is of unknown kind {}", info.name,
+    return fail(ErrorCode::kPlugin, "driver `{}` has the unknown kind {}", info.name,
                 static_cast<std::uint32_t>(info.kind));
   }
   if (info.clock > DriverClock::kEither) {
@@ -108,12 +108,12 @@ Status check_description(const DriverInfo& info, const void* ops) {
                 static_cast<std::uint32_t>(info.timing));
   }
   if (info.timing != SampleTiming::kUnknown && info.kind != DriverKind::kSensor) {
-    return fail(ErrorCode::kPlugin, "driver `{}` has a timing of samples, but is a {}", info.name,
+    return fail(ErrorCode::kPlugin, "driver `{}` declares a sample timing, but is a {}", info.name,
                 rave::to_string(info.kind));
   }
   if (info.device == nullptr) {
-    return fail(ErrorCode::kPlugin, "driver `{}` has a null instead of a device; empty means none",
-                info.name);
+    return fail(ErrorCode::kPlugin,
+                "driver `{}` has null as device; expected an empty string for none", info.name);
   }
   if (empty(info.version)) {
     return fail(ErrorCode::kPlugin, "driver `{}` has no version", info.name);
@@ -122,8 +122,7 @@ Status check_description(const DriverInfo& info, const void* ops) {
     return fail(ErrorCode::kPlugin, "driver `{}` has no summary", info.name);
   }
   if (ops == nullptr) {
-    return fail(ErrorCode::kPlugin, "driver `{}` comes without a function table (null ops)",
-                info.name);
+    return fail(ErrorCode::kPlugin, "driver `{}` has no function table (null ops)", info.name);
   }
   return check_params(info);
 }

@@ -129,7 +129,7 @@ std::string_view sanitizer_name(std::uint32_t sanitizer) {
 
 std::string sanitizer_difference(std::uint32_t plugin, std::uint32_t host) {
   if (host == 0) {
-    return fmt::format("built {}, the host is not: rebuild it without", sanitizer_name(plugin));
+    return fmt::format("built {}, unlike the host: rebuild it without", sanitizer_name(plugin));
   }
   return fmt::format("built {}, the host {}: rebuild it as its host is", sanitizer_name(plugin),
                      sanitizer_name(host));
@@ -137,8 +137,7 @@ std::string sanitizer_difference(std::uint32_t plugin, std::uint32_t host) {
 
 std::string virtual_difference(std::uint64_t plugin, std::uint64_t host) {
   if (host == 0) {
-    return "it needs the virtual world, which this program does not have: load it in one that "
-           "simulates";
+    return "it needs the virtual world, which this program does not have: load it into a host";
   }
   return fmt::format(
       "built for another interface of virtual drivers ({:016x}, the host has {:016x}): rebuild it "
@@ -162,7 +161,7 @@ Result<Stamp> parse_stamp(std::string_view bytes) {
   if (!stamp) return damaged(bytes, "its stamp reaches");
   if (stamp->magic != Stamp::kMagic) {
     return fail(ErrorCode::kIncompatible,
-                "its stamp is none that this version knows: rebuild it against this installation");
+                "its stamp is unknown to this version: rebuild it against this installation");
   }
   return *stamp;
 }

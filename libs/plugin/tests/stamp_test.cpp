@@ -95,7 +95,7 @@ TEST(ParseStamp, SaysThatThereIsNoUsableStamp) {
   expect_says(problem(file), "its stamp has 128 bytes, this version's has 256");
   file = TinyElf(sample());
   file.stamp.magic = 0;
-  expect_says(problem(file), "its stamp is none that this version knows");
+  expect_says(problem(file), "its stamp is unknown to this version");
 }
 
 TEST(ParseProvides, TakesAFieldWithoutATerminatingZero) {
@@ -133,7 +133,7 @@ TEST(CheckStamp, NamesTheSanitizerOfEitherSide) {
   Stamp plugin = sample();
   host.sanitizer = 0;
   plugin.sanitizer = 1;
-  expect_says(difference(plugin, host), "built with the address sanitizer, the host is not");
+  expect_says(difference(plugin, host), "built with the address sanitizer, unlike the host");
   host.sanitizer = 2;
   expect_says(difference(plugin, host),
               "built with the address sanitizer, the host with the thread sanitizer");

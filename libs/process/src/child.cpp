@@ -100,7 +100,8 @@ class SpawnPlan {
 }  // namespace
 
 Result<Child> Child::start(const ChildOptions& options) {
-  if (options.words.empty()) return fail(ErrorCode::kInvalidArgument, "there is nothing to start");
+  if (options.words.empty())
+    return fail(ErrorCode::kInvalidArgument, "expected a program to start");
   const std::string& name = options.words.front();
   SpawnPlan plan(options);
   Child child;

@@ -84,7 +84,7 @@ TEST(Child, WhatIsNotThereIsNotStarted) {
   ASSERT_FALSE(child);
   EXPECT_EQ(child.error().code, ErrorCode::kNotFound);
   EXPECT_EQ(child.error().message, "cannot start `/nowhere/at all`: No such file or directory");
-  EXPECT_EQ(Child::start({}).error().message, "there is nothing to start");
+  EXPECT_EQ(Child::start({}).error().message, "expected a program to start");
 }
 
 TEST(Child, HasTheFilesItIsGiven) {

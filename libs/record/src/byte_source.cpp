@@ -45,7 +45,7 @@ Status ByteSource::read(std::uint64_t offset, std::uint64_t size, Bytes& out) co
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) {
       return fail(ErrorCode::kIo, "cannot read `{}` at offset {}: {}", name_, offset + done,
-                  count == 0 ? "the file became shorter" : std::strerror(errno));
+                  count == 0 ? "the file was truncated" : std::strerror(errno));
     }
     done += static_cast<std::uint64_t>(count);
   }

@@ -25,7 +25,7 @@ class FileCheck {
     for (const MetadataInfo& metadata : file_.metadata) check_metadata(metadata);
     for (const ChunkInfo& chunk : file_.chunks) check_chunk(chunk);
     if (messages_ != file_.statistics.message_count && checked_.damages.empty()) {
-      damage(fmt::format("`{}` says it has {} messages; there are {}", source_.name(),
+      damage(fmt::format("`{}` states {} messages; it has {}", source_.name(),
                          file_.statistics.message_count, messages_));
     }
     if (file_.data_end != 0 && file_.ended) check_data();
@@ -52,7 +52,7 @@ class FileCheck {
                        reader.get<std::uint64_t>() == bytes.size() - kRecordHead;
     constexpr std::size_t kCrc = sizeof(std::uint32_t);
     if (!right || bytes.size() < kRecordHead + kCrc) {
-      return damage_at(what, info.offset, "is not whole");
+      return damage_at(what, info.offset, "is incomplete");
     }
     const ByteSpan summed = ByteSpan(bytes).first(bytes.size() - kCrc).subspan(kRecordHead);
     const auto crc = ByteReader(ByteSpan(bytes).last(kCrc)).get<std::uint32_t>();
@@ -72,7 +72,7 @@ class FileCheck {
     const bool named = reader.string() == info.name;
     static_cast<void>(reader.map());
     if (!right || !named || !reader.ok()) {
-      damage_at(fmt::format("metadata `{}`", info.name), info.offset, "is not whole");
+      damage_at(fmt::format("metadata `{}`", info.name), info.offset, "is incomplete");
     }
   }
 
@@ -107,8 +107,8 @@ class FileCheck {
     ByteReader reader(bytes);
     if (!read || reader.get<std::uint8_t>() != opcode::kDataEnd ||
         reader.get<std::uint64_t>() != sizeof(std::uint32_t)) {
-      return damage(fmt::format("`{}`: the data do not end at offset {} as they should",
-                                source_.name(), file_.data_end));
+      return damage(fmt::format("`{}`: the data do not end at offset {} as stated", source_.name(),
+                                file_.data_end));
     }
     const auto crc = reader.get<std::uint32_t>();
     if (crc == 0) return unsummed("data section");

@@ -24,7 +24,7 @@ constexpr std::size_t kLongestHead = kRecordHead + 8 + 8 + 8 + 4 + 4 + 4 + 8;
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) {
       return fail(ErrorCode::kIo, "cannot read `{}` back at offset {}: {}", path, offset + done,
-                  count == 0 ? "the file became shorter" : std::strerror(errno));
+                  count == 0 ? "the file was truncated" : std::strerror(errno));
     }
     done += static_cast<std::size_t>(count);
   }
@@ -36,8 +36,7 @@ constexpr std::size_t kLongestHead = kRecordHead + 8 + 8 + 8 + 4 + 4 + 4 + 8;
 Result<ChunkInfo> read_back(int fd, const ChunkPlace& place, const std::string& path,
                             Bytes& buffer) {
   const auto changed = [&] {
-    return fail(ErrorCode::kIo, "`{}` was changed at offset {} while it was written", path,
-                place.offset);
+    return fail(ErrorCode::kIo, "`{}` was changed at offset {} during writing", path, place.offset);
   };
   ChunkInfo info;
   info.offset = place.offset;

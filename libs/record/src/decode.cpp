@@ -11,13 +11,14 @@ namespace {
 using Message = std::span<const std::byte>;
 
 tl::unexpected<Error> malformed(const char* topic) {
-  return fail(ErrorCode::kParse, "a message of `{}` is not as RAVE writes it", topic);
+  return fail(ErrorCode::kParse, "a message of `{}` does not have the format that RAVE writes",
+              topic);
 }
 
 tl::unexpected<Error> other_version(const char* topic, std::uint32_t version) {
   return fail(ErrorCode::kParse,
-              "a message of `{}` has layout {}; this RAVE reads layout {}, so the record is of "
-              "another version of RAVE",
+              "a message of `{}` has layout {}; this RAVE reads layout {}, so another version of "
+              "RAVE wrote the recording",
               topic, version, kLayoutVersion);
 }
 
@@ -186,6 +187,20 @@ Result<RunInput> decode_input(Message message) {
   if (!reader.at_end()) input.by = reader.get_string();
   if (!reader.ok()) return malformed(topic::kInputs);
   return input;
+}
+
+Result<std::pair<SimTime, RunChat>> decode_chat(Message message) {
+  CdrReader reader(message);
+  std::pair<SimTime, RunChat> said;
+  auto& [time, chat] = said;
+  time = get_time(reader);
+  chat.step = reader.get<std::uint64_t>();
+  chat.number = reader.get<std::uint64_t>();
+  for (std::string* const word : {&chat.from, &chat.role, &chat.to, &chat.name, &chat.text}) {
+    *word = reader.get_string();
+  }
+  if (!reader.ok()) return malformed(topic::kChat);
+  return said;
 }
 
 Result<ConsoleLine> decode_console(Message message) {

@@ -48,6 +48,16 @@ void encode_input(CdrWriter& writer, SimTime time, const RunInput& input) {
   writer.put_string(input.by);
 }
 
+void encode_chat(CdrWriter& writer, SimTime time, const RunChat& chat) {
+  writer.clear();
+  put_time(writer, time);
+  writer.put(chat.step);
+  writer.put(chat.number);
+  for (const std::string* const word : {&chat.from, &chat.role, &chat.to, &chat.name, &chat.text}) {
+    writer.put_string(*word);
+  }
+}
+
 void encode_console(CdrWriter& writer, const ConsoleLine& line) {
   writer.clear();
   put_time(writer, line.time);

@@ -54,7 +54,8 @@ Status McapFile::append(ByteSpan bytes) {
       const auto good = static_cast<off_t>(offset_);
       const bool cut = ::ftruncate(fd_, good) == 0 && ::lseek(fd_, good, SEEK_SET) == good;
       return fail(ErrorCode::kIo, "cannot write `{}` at offset {}: {}{}", path_.string(), offset_,
-                  std::strerror(code), cut ? "" : " (and the half piece could not be cut off)");
+                  std::strerror(code),
+                  cut ? "" : " (and the incomplete piece could not be removed)");
     }
     rest = rest.subspan(static_cast<std::size_t>(count));
   }

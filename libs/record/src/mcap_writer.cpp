@@ -12,7 +12,7 @@ class McapWriter::Impl {
       : queue(std::move(file), options, sink) {}
 
   [[nodiscard]] Status usable() {
-    if (closed) return fail(ErrorCode::kState, "the record is closed");
+    if (closed) return fail(ErrorCode::kState, "the recording is closed");
     return queue.failure();
   }
 
@@ -42,7 +42,7 @@ Result<McapWriter> McapWriter::open(const std::filesystem::path& path, McapWrite
   if (!level_ok || options.chunk_bytes == 0 || !(options.flush_interval_s > 0) ||
       !(options.flush_interval_s < 1e6)) {
     return fail(ErrorCode::kInvalidArgument,
-                "the record needs a zstd level of -7 to 19, a chunk size and a flush interval "
+                "the recording needs a zstd level of -7 to 19, a chunk size and a flush interval "
                 "above 0 (given: {}, {} bytes, {} s)",
                 options.zstd_level, options.chunk_bytes, options.flush_interval_s);
   }
@@ -54,8 +54,8 @@ Result<std::uint16_t> McapWriter::add_schema(std::string_view name, std::string_
                                              std::string_view data) {
   RAVE_TRY(impl_->usable());
   if (impl_->schemas.size() == 65535) {
-    return fail(ErrorCode::kInvalidArgument, "a record holds at most 65535 schemas; `{}` is more",
-                name);
+    return fail(ErrorCode::kInvalidArgument,
+                "a recording has at most 65535 schemas; `{}` is one too many", name);
   }
   SchemaInfo schema{static_cast<std::uint16_t>(impl_->schemas.size() + 1), std::string(name),
                     std::string(encoding), std::string(data)};
@@ -69,12 +69,12 @@ Result<std::uint16_t> McapWriter::add_channel(std::string_view topic,
                                               std::uint16_t schema_id, const StringMap& metadata) {
   RAVE_TRY(impl_->usable());
   if (schema_id > impl_->schemas.size()) {
-    return fail(ErrorCode::kInvalidArgument, "channel `{}` names schema {}, which is not there",
+    return fail(ErrorCode::kInvalidArgument, "channel `{}` names schema {}, which does not exist",
                 topic, schema_id);
   }
   if (impl_->channels.size() == 65535) {
-    return fail(ErrorCode::kInvalidArgument, "a record holds at most 65535 channels; `{}` is more",
-                topic);
+    return fail(ErrorCode::kInvalidArgument,
+                "a recording has at most 65535 channels; `{}` is one too many", topic);
   }
   ChannelInfo channel{static_cast<std::uint16_t>(impl_->channels.size() + 1), schema_id,
                       std::string(topic), std::string(message_encoding), metadata};
@@ -96,7 +96,8 @@ Status McapWriter::write_parts(std::uint16_t channel, std::uint32_t sequence,
     return usable;
   }
   if (channel == 0 || channel > impl_->channels.size()) {
-    return fail(ErrorCode::kInvalidArgument, "message for channel {}, which is not there", channel);
+    return fail(ErrorCode::kInvalidArgument, "message for channel {}, which does not exist",
+                channel);
   }
   std::uint64_t size = kMessageHead;
   for (const auto part : parts) size += part.size();

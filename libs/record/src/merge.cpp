@@ -6,6 +6,8 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <set>
+#include <tuple>
 
 #include "once.hpp"
 #include "rave/base/hash.hpp"
@@ -23,7 +25,7 @@ namespace fs = std::filesystem;
 const std::vector<std::string_view>& merged_topics() {
   static const std::vector<std::string_view> kTopics = {
       topic::kPoses,  topic::kPercepts, topic::kCommands, topic::kActuators, topic::kRadio,
-      topic::kEvents, topic::kInputs,   topic::kHash,     topic::kConsole};
+      topic::kEvents, topic::kInputs,   topic::kHash,     topic::kConsole,   topic::kChat};
   return kTopics;
 }
 
@@ -65,7 +67,7 @@ Result<std::unique_ptr<Part>> open_part(const fs::path& path) {
   std::string host = host_of(reader);
   auto part = std::make_unique<Part>(
       Part{path, std::move(host), std::move(reader), *std::move(info), end, std::move(cursor)});
-  if (!part->end) part->torn = "it has no end";
+  if (!part->end) part->torn = "its end is missing";
   if (!part->reader.damages().empty()) part->torn = part->reader.damages().front();
   return part;
 }
@@ -107,9 +109,12 @@ class Merger {
   void write_poses(RunRecorder& recorder);
   void write_hash(RunRecorder& recorder);
   void write_inputs(RunRecorder& recorder, bool before_first);
+  void write_chat(RunRecorder& recorder);
   [[nodiscard]] bool was_told(const Part& part, const RunEvent& event);
   [[nodiscard]] std::vector<std::string> notes() const;
 
+  /// Lines of the chat that were written: number, from, to, name, text.
+  std::set<std::tuple<std::uint64_t, std::string, std::string, std::string, std::string>> chats_;
   std::vector<std::unique_ptr<Part>> parts_;
   std::vector<Unreadable> unreadable_;
   std::vector<std::string> hosts_;               ///< All that the run has.
@@ -124,14 +129,14 @@ class Merger {
 Status Merger::check() const {
   const Part& first = *parts_.front();
   if (!(first.info.step_s >= 1e-9 && first.info.step_s < 1e9)) {
-    return fail(ErrorCode::kParse, "`{}` gives no step", first.path.string());
+    return fail(ErrorCode::kParse, "`{}` does not state the step", first.path.string());
   }
   for (const auto& part : parts_) {
     if (part->info.scenario == first.info.scenario && part->info.seed == first.info.seed &&
         part->info.step_s == first.info.step_s && part->info.robots == first.info.robots) {
       continue;
     }
-    return fail(ErrorCode::kParse, "`{}` and `{}` are records of different runs",
+    return fail(ErrorCode::kParse, "`{}` and `{}` are recordings of different runs",
                 first.path.string(), part->path.string());
   }
   return {};
@@ -183,7 +188,7 @@ std::vector<std::string> Merger::notes() const {
   for (const std::string& host : hosts_) {
     const bool there =
         std::ranges::any_of(parts_, [&](const auto& part) { return part->host == host; });
-    if (!there) notes.push_back(fmt::format("there is no record of host `{}`", host));
+    if (!there) notes.push_back(fmt::format("there is no recording of host `{}`", host));
   }
   return notes;
 }
@@ -247,6 +252,15 @@ void Merger::write_inputs(RunRecorder& recorder, bool before_first) {
   for (const RunInput& input : once.items()) static_cast<void>(recorder.input(input));
 }
 
+/// Several hosts may have a line, each when it came to it: the first one tells of it.
+void Merger::write_chat(RunRecorder& recorder) {
+  each_item(parts_, topic::kChat, decode_chat, [&](const Part&, const auto& said) {
+    const RunChat& chat = said.second;
+    if (!chats_.emplace(chat.number, chat.from, chat.to, chat.name, chat.text).second) return;
+    static_cast<void>(recorder.chat(chat));
+  });
+}
+
 /// In real time each host has a change of an obstacle when it comes: the first one tells of it. The
 /// event then says which obstacle it is, and which change.
 bool Merger::was_told(const Part& part, const RunEvent& event) {
@@ -296,6 +310,7 @@ Status Merger::write_moment(RunRecorder& recorder) {
   }
   RAVE_TRY(recorder.end_step());
   write_inputs(recorder, false);
+  write_chat(recorder);
   return {};
 }
 
@@ -351,7 +366,7 @@ Result<std::vector<std::string>> merge_records(const std::vector<fs::path>& part
     }
   }
   if (opened.empty()) {
-    return fail(ErrorCode::kParse, "no record of the run can be read{}{}",
+    return fail(ErrorCode::kParse, "no recording of the run can be read{}{}",
                 unreadable.empty() ? "" : ": ", unreadable.empty() ? "" : unreadable.front().why);
   }
   fs::path draft = output;

@@ -81,7 +81,7 @@ namespace {
                             std::string_view compression, std::uint64_t size, Bytes& records) {
   const std::string& name = file.source->name();
   if (size > file.options.max_chunk_bytes) {
-    return fail(ErrorCode::kParse, "`{}`: the chunk at offset {} says it holds {} bytes", name,
+    return fail(ErrorCode::kParse, "`{}`: the chunk at offset {} states {} bytes", name,
                 chunk.offset, size);
   }
   if (compression.empty() && packed.size() == size) {
@@ -89,8 +89,9 @@ namespace {
     return {};
   }
   if (compression != "zstd") {
-    return fail(ErrorCode::kParse, "`{}`: the chunk at offset {} is packed as `{}`; known: zstd",
-                name, chunk.offset, compression);
+    return fail(ErrorCode::kParse,
+                "`{}`: the chunk at offset {} has the compression `{}`; expected zstd", name,
+                chunk.offset, compression);
   }
   // Believe the size only as far as the frame agrees, before memory is taken for it.
   const auto frame = ZSTD_getFrameContentSize(packed.data(), packed.size());
@@ -101,7 +102,7 @@ namespace {
   }
   if ((frame != size && frame != ZSTD_CONTENTSIZE_UNKNOWN) || ZSTD_isError(got) != 0 ||
       got != size) {
-    return fail(ErrorCode::kParse, "`{}`: the chunk at offset {} cannot be unpacked", name,
+    return fail(ErrorCode::kParse, "`{}`: the chunk at offset {} cannot be decompressed", name,
                 chunk.offset);
   }
   return {};

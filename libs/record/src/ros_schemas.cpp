@@ -79,6 +79,11 @@ const RosSchema kInputSchema{"rave_msgs/msg/Input",
                              "builtin_interfaces/Time stamp\nuint64 step\nstring kind\n"
                              "string robot\nstring key\nstring value\nstring by\n" RAVE_TIME};
 
+const RosSchema kChatSchema{
+    "rave_msgs/msg/Chat",
+    "builtin_interfaces/Time stamp\nuint64 step\nuint64 number\nstring sender\nstring role\n"
+    "string addressee\nstring name\nstring text\n" RAVE_TIME};
+
 const RosSchema kShadowSchema{
     "rave_msgs/msg/Shadow",
     "builtin_interfaces/Time stamp\nuint64 step\nuint32 robot\nfloat64[3] robot_pose\n"

@@ -23,6 +23,7 @@ extern const RosSchema kHashSchema;
 extern const RosSchema kRadioSchema;
 extern const RosSchema kEventSchema;
 extern const RosSchema kInputSchema;
+extern const RosSchema kChatSchema;
 extern const RosSchema kShadowSchema;
 extern const RosSchema kLogSchema;
 extern const RosSchema kTfSchema;

@@ -35,8 +35,8 @@ Result<RunInfo> read_run_info(const McapReader& reader) {
   auto run = first_of(reader, topic::kRun, decode_run);
   if (!run) {
     return fail(ErrorCode::kParse,
-                "the record does not say what ran: it was not written by RAVE, "
-                "or its beginning is damaged");
+                "the recording does not describe its run: RAVE did not write it, or its beginning "
+                "is damaged");
   }
   const auto& attachments = reader.attachments();
   const auto yaml = std::ranges::find(attachments, "scenario.yaml", &AttachmentInfo::name);
@@ -59,7 +59,7 @@ Result<const RecordedRobot*> find_robot(const RunInfo& run, std::string_view nam
   if (found != run.robots.end()) return &*found;
   std::vector<std::string_view> names;
   for (const RecordedRobot& robot : run.robots) names.push_back(robot.name);
-  return unknown("robot", name, "the record", names);
+  return unknown("robot", name, "the recording", names);
 }
 
 Result<const RecordedSensor*> find_sensor(const RunInfo& run, const RecordedRobot& robot,
@@ -70,7 +70,7 @@ Result<const RecordedSensor*> find_sensor(const RunInfo& run, const RecordedRobo
     if (sensor.name == name) return &sensor;
     names.push_back(sensor.name);
   }
-  return unknown("sensor", name, fmt::format("robot `{}` of the record", robot.name), names);
+  return unknown("sensor", name, fmt::format("robot `{}` of the recording", robot.name), names);
 }
 
 Result<SensorSamples> read_samples(const McapReader& reader, RobotId robot, DeviceId sensor,

@@ -78,6 +78,7 @@ class RunRecorder::Impl {
   StandardViews views_;
   Stream run_, end_, events_, inputs_, console_, hash_;
   std::optional<Stream> shadows_;
+  std::optional<Stream> chat_;
   PoseBatch poses_;
   std::vector<RobotPose> seen_;  ///< For the view, in steps in which it is due.
   bool view_due_ = false;
@@ -243,6 +244,15 @@ Status RunRecorder::event(const RunEvent& event) {
 Status RunRecorder::input(const RunInput& input) {
   encode_input(impl_->cdr_, impl_->time_, input);
   return impl_->inputs_.write(impl_->file_, impl_->time_, impl_->cdr_.bytes());
+}
+
+Status RunRecorder::chat(const RunChat& chat) {
+  if (!impl_->chat_) {
+    RAVE_TRY_ASSIGN(const auto schema, add_schema(impl_->file_, kChatSchema));
+    RAVE_TRY_ASSIGN(impl_->chat_, add_stream(impl_->file_, topic::kChat, schema));
+  }
+  encode_chat(impl_->cdr_, impl_->time_, chat);
+  return impl_->chat_->write(impl_->file_, impl_->time_, impl_->cdr_.bytes());
 }
 
 Status RunRecorder::shadow(const ShadowRecord& shadow) {

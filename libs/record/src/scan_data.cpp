@@ -39,9 +39,9 @@ class DataScan {
   void cut(std::uint64_t at) {
     // Of a file that ends as it should the rest is lost, of another one it was never written.
     (file_.ended ? file_.damages : file_.cuts)
-        .push_back(fmt::format("`{}`: the record at offset {} is not whole; {} bytes from "
-                               "there on are not read",
-                               file_.source->name(), at, file_.source->size() - at));
+        .push_back(fmt::format(
+            "`{}`: the record at offset {} is incomplete; {} bytes from there on are not read",
+            file_.source->name(), at, file_.source->size() - at));
   }
 
   [[nodiscard]] bool take(std::uint8_t code, std::uint64_t at, std::uint64_t size) {
@@ -113,10 +113,8 @@ class DataScan {
       return true;
     });
     if (!ok || !complete) {
-      file_.damages.push_back(
-          fmt::format("`{}`: the chunk at offset {} has a record that is not "
-                      "whole",
-                      file_.source->name(), at));
+      file_.damages.push_back(fmt::format("`{}`: the chunk at offset {} has an incomplete record",
+                                          file_.source->name(), at));
     }
     for (const auto channel : channels) chunk.channels.emplace_back(channel, 0);
     if (!channels.empty()) file_.chunks.push_back(std::move(chunk));

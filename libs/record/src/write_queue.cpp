@@ -109,7 +109,7 @@ Status WriteQueue::perform(WriteJob& job, std::size_t backlog_bytes) {
     if (!status) dropped_.fetch_add(chunk.entries.size(), std::memory_order_relaxed);
     return status;
   } catch (const std::exception& error) {
-    return fail(ErrorCode::kIo, "cannot write the record: {}", error.what());
+    return fail(ErrorCode::kIo, "cannot write the recording: {}", error.what());
   }
 }
 

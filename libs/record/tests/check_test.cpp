@@ -144,7 +144,7 @@ TEST_F(CheckedRecord, IsNotWholeWithMoreOrFewerMessagesThanItSays) {
     std::memcpy(bytes.data() + at + kRecordHead, &said, sizeof said);
     // Without a checksum of the index nothing else tells.
     std::fill_n(bytes.end() - static_cast<std::ptrdiff_t>(kMagic.size() + 4), 4, '\0');
-    expect_said(bytes, fmt::format("says it has {} messages; there are {}", said, count), "count");
+    expect_said(bytes, fmt::format("states {} messages; it has {}", said, count), "count");
   }
 }
 

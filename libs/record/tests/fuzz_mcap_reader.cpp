@@ -29,6 +29,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static_cast<void>(decode_percepts(bytes));
     static_cast<void>(decode_commands(bytes));
     static_cast<void>(decode_input(bytes));
+    static_cast<void>(decode_chat(bytes));
     static_cast<void>(decode_shadow(bytes));
     static_cast<void>(decode_actuators(bytes));
     static_cast<void>(decode_hash(bytes));

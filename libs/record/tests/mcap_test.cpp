@@ -279,12 +279,12 @@ TEST(Mcap, WriterRefusesWhatIsNotThere) {
   auto writer = McapWriter::open(file.path());
   ASSERT_TRUE(writer);
   EXPECT_EQ(writer->write(3, 0, 0, 0, {}).error().text(),
-            "message for channel 3, which is not there");
+            "message for channel 3, which does not exist");
   EXPECT_EQ(writer->add_channel("/x", "cdr", 2).error().text(),
-            "channel `/x` names schema 2, which is not there");
+            "channel `/x` names schema 2, which does not exist");
   ASSERT_TRUE(writer->close());
   EXPECT_TRUE(writer->close());
-  EXPECT_EQ(writer->write(1, 0, 0, 0, {}).error().text(), "the record is closed");
+  EXPECT_EQ(writer->write(1, 0, 0, 0, {}).error().text(), "the recording is closed");
   EXPECT_EQ(McapWriter::open("/nowhere/x.mcap").error().code, ErrorCode::kNotFound);
   McapWriterOptions odd;
   odd.zstd_level = 99;

@@ -141,6 +141,28 @@ TEST_F(Merged, AnObstacleThatHostsHadAtDifferentStepsCameOnce) {
                                               "3 obstacle moved 3", "4 obstacle removed 4"}));
 }
 
+TEST_F(Merged, ALineOfTheChatThatSeveralHostsHaveIsThereOnce) {
+  for (const std::string host : {"a", "b"}) {
+    write(fs::path("hosts") / host / "run.mcap", host, 4,
+          [&](RunRecorder& recorder, std::uint64_t step) {
+            static_cast<void>(recorder.hash(step));
+            // Each comes to it in its own step; what is said twice is said twice.
+            if (step != (host == "a" ? 1U : 2U)) return;
+            static_cast<void>(recorder.chat({step, 1, "ada", "commander", "all", "", "hello"}));
+            static_cast<void>(recorder.chat({step, 2, "ada", "commander", "all", "", "hello"}));
+          });
+  }
+  write_world(4);
+  const auto reader = McapReader::open(open().file);
+  ASSERT_TRUE(reader);
+  std::vector<std::uint64_t> numbers;
+  ASSERT_TRUE(for_each_message(*reader, topic::kChat, [&](const MessageView& message) -> Status {
+    numbers.push_back(decode_chat(message.bytes).value().second.number);
+    return {};
+  }));
+  EXPECT_EQ(numbers, (std::vector<std::uint64_t>{1, 2}));
+}
+
 TEST_F(Merged, IsMadeAgainOnlyIfAPartHasChanged) {
   write_host("a", 2, 5);
   write_host("b", 2, 7);
@@ -159,7 +181,7 @@ TEST_F(Merged, IsMadeAgainOnlyIfAPartHasChanged) {
 TEST_F(Merged, WhatIsMissingOrTornIsNamed) {
   write_host("a", 200, 5);
   write_world(200);
-  EXPECT_EQ(open().notes, std::vector<std::string>{"there is no record of host `b`"});
+  EXPECT_EQ(open().notes, std::vector<std::string>{"there is no recording of host `b`"});
   write_host("b", 200, 7);
   EXPECT_TRUE(open().notes.empty());
   const fs::path torn = folder_ / "hosts/b/run.mcap";
@@ -191,7 +213,7 @@ TEST_F(Merged, ARecordThatWasNotEndedIsTornThoughItIsReadable) {
   }
   const OpenedRun run = open();
   ASSERT_EQ(run.notes.size(), 1U);
-  EXPECT_NE(run.notes[0].find("hosts/b/run.mcap` is torn: it has no end"), std::string::npos)
+  EXPECT_NE(run.notes[0].find("hosts/b/run.mcap` is torn: its end is missing"), std::string::npos)
       << run.notes[0];
   const auto reader = McapReader::open(run.file);
   ASSERT_TRUE(reader);
@@ -227,7 +249,7 @@ TEST_F(Merged, RecordsOfDifferentRunsAreRefused) {
   ASSERT_TRUE(other->end(1));
   const auto run = open_run(folder_);
   ASSERT_FALSE(run);
-  EXPECT_NE(run.error().message.find("are records of different runs"), std::string::npos);
+  EXPECT_NE(run.error().message.find("are recordings of different runs"), std::string::npos);
 }
 
 TEST(RobotRanges, ThereAndBack) {

@@ -149,6 +149,30 @@ TEST(RunRecordInputs, ComeBackInTheirOrder) {
   EXPECT_FALSE(decode_input({}));
 }
 
+TEST(RunRecordChat, ComesBackWithAuthorAndAddressee) {
+  const TemporaryFile file;
+  auto recorder = RunRecorder::open(file.path(), sample_info());
+  ASSERT_TRUE(recorder);
+  record_sample(*recorder, 1);
+  ASSERT_TRUE(recorder->chat({2, 7, "ada", "commander", "robot", "anna", "gr\u00fc\u00dfe"}));
+  ASSERT_TRUE(recorder->end(1));
+  const auto reader = McapReader::open(file.path());
+  ASSERT_TRUE(reader);
+  std::vector<std::pair<SimTime, RunChat>> read;
+  ASSERT_TRUE(for_each_message(*reader, topic::kChat, [&](const MessageView& message) -> Status {
+    EXPECT_FALSE(decode_chat(message.bytes.first(message.bytes.size() - 1)));
+    read.push_back(decode_chat(message.bytes).value());
+    return {};
+  }));
+  ASSERT_EQ(read.size(), 1U);
+  const RunChat& chat = read[0].second;
+  EXPECT_EQ(chat.step, 2U);
+  EXPECT_EQ(chat.number, 7U);
+  EXPECT_EQ(chat.from + chat.role + chat.to + chat.name, "adacommanderrobotanna");
+  EXPECT_EQ(chat.text, "gr\u00fc\u00dfe");
+  EXPECT_FALSE(decode_chat({}));
+}
+
 TEST_F(RunRecord, OneSensorAndOneRobotAreReadAtATime) {
   const auto run = read_run_info(*reader_);
   ASSERT_TRUE(run) << run.error().text();
@@ -387,17 +411,17 @@ std::string error_of_percepts(std::uint32_t version, std::uint32_t robots, std::
 }
 
 TEST(RunRecordDecode, RowsWithoutEqualPartsAndOtherLayoutsAreErrors) {
-  const std::string malformed = "a message of `/rave/percepts` is not as RAVE writes it";
+  const std::string malformed =
+      "a message of `/rave/percepts` does not have the format that RAVE writes";
   EXPECT_EQ(error_of_percepts(kLayoutVersion, 3, 12), "3 percepts");
   EXPECT_EQ(error_of_percepts(kLayoutVersion, 1, 0), "1 percepts");
   EXPECT_EQ(error_of_percepts(kLayoutVersion, 5, 12), malformed);
   EXPECT_EQ(error_of_percepts(kLayoutVersion, 0, 12), malformed);
   EXPECT_EQ(error_of_percepts(kLayoutVersion, 0xffff'ffffU, 0), malformed);
   EXPECT_EQ(error_of_percepts(kLayoutVersion, 1, 13), malformed);
-  EXPECT_EQ(
-      error_of_percepts(1, 3, 12),
-      "a message of `/rave/percepts` has layout 1; this RAVE reads layout 2, so the record is "
-      "of another version of RAVE");
+  EXPECT_EQ(error_of_percepts(1, 3, 12),
+            "a message of `/rave/percepts` has layout 1; this RAVE reads layout 2, so another "
+            "version of RAVE wrote the recording");
 }
 
 TEST(RunRecordShadows, HaveAChannelOfTheirOwn) {
@@ -458,7 +482,8 @@ TEST(RunRecordDecode, ACutMessageIsAnErrorWithItsTopic) {
     }
   }
   EXPECT_EQ(try_all({}), 0);
-  EXPECT_EQ(decode_poses({}).error().text(), "a message of `/rave/poses` is not as RAVE writes it");
+  EXPECT_EQ(decode_poses({}).error().text(),
+            "a message of `/rave/poses` does not have the format that RAVE writes");
 }
 
 }  // namespace

@@ -33,9 +33,8 @@ Status check_amount(const char* name, double value, bool applies, ReadingKind ki
                 "noise: `{}` is {}; it must be a finite number of at least 0", name, value);
   }
   if (value > 0 && !applies) {
-    return fail(ErrorCode::kInvalidArgument,
-                "noise: `{}` has nothing to act on in a sensor of kind `{}`", name,
-                to_string(kind));
+    return fail(ErrorCode::kInvalidArgument, "noise: `{}` has no effect on a sensor of kind `{}`",
+                name, to_string(kind));
   }
   return {};
 }
@@ -63,8 +62,8 @@ Status check_noise(const NoiseSpec& noise, ReadingKind kind) {
 Status check_filter(const FilterSpec& filter, ReadingKind kind) {
   if (detail::filter_fields(kind).count == 0) {
     return fail(ErrorCode::kInvalidArgument,
-                "filter: a sensor of kind `{}` cannot be filtered, since its records come and go; "
-                "filters work on ranges, pose, odometry, velocity and values",
+                "filter: a sensor of kind `{}` cannot be filtered, because its number of records "
+                "varies; filters work on ranges, pose, odometry, velocity and values",
                 to_string(kind));
   }
   if (filter.kind == FilterSpec::Kind::kMedian) {
@@ -148,9 +147,9 @@ Result<Processing> Processing::make(const ProcessingSpec& spec, ReadingKind kind
   }
   if (!fits) {
     return fail(ErrorCode::kInvalidArgument,
-                "the processing chain would need more than {} MiB for each robot: {} samples under "
-                "way of {} records each and {} filters; shorten the latency, lengthen the period "
-                "or use smaller filters",
+                "the processing chain would need more than {} MiB per robot: {} delayed samples of "
+                "{} records each and {} filters; shorten the latency, lengthen the period or use "
+                "smaller filters",
                 kLargestState >> 20, depth, capacity, spec.filters.size());
   }
   made.depth_ = static_cast<std::uint32_t>(depth);

@@ -57,7 +57,7 @@ bool SampleQueue::refused(SimTime stamp, std::uint32_t count) {
   } else if (stamp.ns < newest_ns_) {
     why = "came after one of " + text_of(newest_ns_) + "; stamps must not step back";
   } else if (live_ == nullptr && stamp.ns <= complete_ns_) {
-    why = "came after completeness had been promised up to " + text_of(complete_ns_);
+    why = "came after the driver had declared samples complete up to " + text_of(complete_ns_);
   } else {
     return false;
   }

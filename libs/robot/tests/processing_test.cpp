@@ -459,11 +459,11 @@ TEST(ProcessingErrors, SayWhatIsWrong) {
   EXPECT_EQ(refusal({.noise = {.length_quantum_m = std::nan("")}}),
             "noise: `length_quantum_m` is nan; it must be a finite number of at least 0");
   EXPECT_EQ(refusal({.noise = {.angle_sigma_rad = 0.1}}),
-            "noise: `angle_sigma_rad` has nothing to act on in a sensor of kind `ranges`");
+            "noise: `angle_sigma_rad` has no effect on a sensor of kind `ranges`");
   EXPECT_EQ(refusal({.noise = {.velocity_sigma_mps = 0.1}}, ReadingKind::kPose),
-            "noise: `velocity_sigma_mps` has nothing to act on in a sensor of kind `pose`");
+            "noise: `velocity_sigma_mps` has no effect on a sensor of kind `pose`");
   EXPECT_EQ(refusal({.noise = {.length_sigma_m = 0.1}}, ReadingKind::kContact),
-            "noise: `length_sigma_m` has nothing to act on in a sensor of kind `contact`");
+            "noise: `length_sigma_m` has no effect on a sensor of kind `contact`");
   EXPECT_EQ(refusal({.noise = {.dropout_probability = 1.5}}),
             "noise: `dropout_probability` is 1.5; it must lie between 0 and 1");
   EXPECT_EQ(refusal({.latency_s = -0.1}),
@@ -476,17 +476,17 @@ TEST(ProcessingErrors, SayWhatIsWrong) {
   EXPECT_EQ(refusal({}, ReadingKind::kNone),
             "a sensor of kind `nothing` with 1 records has nothing to process");
   EXPECT_EQ(refusal({.latency_s = 3600, .filters = {{}}}, ReadingKind::kRanges, 180, 0.001),
-            "the processing chain would need more than 64 MiB for each robot: 3600001 samples "
-            "under way of 180 records each and 1 filters; shorten the latency, lengthen the period "
-            "or use smaller filters");
+            "the processing chain would need more than 64 MiB per robot: 3600001 delayed samples "
+            "of 180 records each and 1 filters; shorten the latency, lengthen the period or use "
+            "smaller filters");
 }
 
 TEST(ProcessingErrors, FiltersSayWhatTheyCanDo) {
   for (const ReadingKind kind :
        {ReadingKind::kSightings, ReadingKind::kNeighbours, ReadingKind::kContact}) {
     EXPECT_EQ(refusal({.filters = {{}}}, kind),
-              fmt::format("filter: a sensor of kind `{}` cannot be filtered, since its records "
-                          "come and go; filters work on ranges, pose, odometry, velocity and "
+              fmt::format("filter: a sensor of kind `{}` cannot be filtered, because its number of "
+                          "records varies; filters work on ranges, pose, odometry, velocity and "
                           "values",
                           to_string(kind)));
   }

@@ -371,8 +371,8 @@ TEST(SampleQueue, DropsSamplesInTimeThatWasSaidToBeComplete) {
   EXPECT_TRUE(put(queue, 1'000'000'000, 0));
   EXPECT_TRUE(put(queue, 1'000'000'001, 0));
   EXPECT_EQ(queue.complaint(),
-            "the sample of 1.000000000 s was dropped: it came after completeness had been promised "
-            "up to 1.000000000 s");
+            "the sample of 1.000000000 s was dropped: it came after the driver had declared "
+            "samples complete up to 1.000000000 s");
   EXPECT_EQ(take(queue, kEnd), Stamps{1'000'000'001});
 }
 

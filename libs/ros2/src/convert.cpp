@@ -13,8 +13,9 @@ constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 Status check_upright(const char* what, const Attitude& attitude) {
   if (attitude.tilt_rad <= kMostTilt_rad) return {};
-  return fail(ErrorCode::kInvalidArgument, "{} leans by {:.0f} degrees; RAVE's robots stay level",
-              what, rad_to_deg(attitude.tilt_rad));
+  return fail(ErrorCode::kInvalidArgument,
+              "{} is tilted by {:.0f} degrees; robots in RAVE stay level", what,
+              rad_to_deg(attitude.tilt_rad));
 }
 
 }  // namespace

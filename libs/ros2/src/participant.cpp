@@ -202,7 +202,7 @@ std::string Participant::explain_silence(std::string_view topic, std::string_vie
   std::vector<std::string> elsewhere;
   for (const RemoteEnd& end : others(writers)) {
     if (end.topic == topic && end.type == wanted) {
-      return fmt::format("somebody {} `{}`, but nothing came", does, topic);
+      return fmt::format("another participant {} `{}`, but no message came", does, topic);
     }
     if (end.topic == topic) {
       return fmt::format("`{}` is there with the type {} instead of {}", topic, end.type, wanted);
@@ -211,10 +211,10 @@ std::string Participant::explain_silence(std::string_view topic, std::string_vie
     if (end.type == wanted && !told) elsewhere.push_back(end.topic);
   }
   if (!elsewhere.empty()) {
-    return fmt::format("nobody {} `{}`; the type {} is at {}", does, topic, wanted,
+    return fmt::format("no participant {} `{}`; the type {} is at {}", does, topic, wanted,
                        named(elsewhere));
   }
-  return fmt::format("nobody {} `{}`, nor the type {} elsewhere", does, topic, wanted);
+  return fmt::format("no participant {} `{}`, nor the type {} elsewhere", does, topic, wanted);
 }
 
 }  // namespace rave::ros2

@@ -49,7 +49,8 @@ TEST(Ros2Convert, PosesAreSeenFromAbove) {
   EXPECT_EQ(seen->position(), (Vec2{1, -2}));
   EXPECT_NEAR(seen->yaw, 0.5, 1e-15);
   pose.orientation = {std::sqrt(0.5), 0, 0, std::sqrt(0.5)};
-  EXPECT_EQ(planar(pose).error().message, "the pose leans by 90 degrees; RAVE's robots stay level");
+  EXPECT_EQ(planar(pose).error().message,
+            "the pose is tilted by 90 degrees; robots in RAVE stay level");
 }
 
 }  // namespace

@@ -112,16 +112,16 @@ TEST(Ros2Participant, SilenceIsExplained) {
     EXPECT_TRUE(eventually(*waiter, [&] { return reader->explain_silence() == text; }))
         << reader->explain_silence();
   };
-  says("nobody writes `/scan`, nor the type sensor_msgs/msg/LaserScan elsewhere");
+  says("no participant writes `/scan`, nor the type sensor_msgs/msg/LaserScan elsewhere");
   auto elsewhere = Writer<LaserScan>::create(*robot, "/front/scan");
-  says("nobody writes `/scan`; the type sensor_msgs/msg/LaserScan is at /front/scan");
+  says("no participant writes `/scan`; the type sensor_msgs/msg/LaserScan is at /front/scan");
   {
     auto other = Writer<Imu>::create(*robot, "/scan");
     ASSERT_TRUE(other);
     says("`/scan` is there with the type sensor_msgs/msg/Imu instead of sensor_msgs/msg/LaserScan");
   }
   auto right = Writer<LaserScan>::create(*robot, "/scan");
-  says("somebody writes `/scan`, but nothing came");
+  says("another participant writes `/scan`, but no message came");
 }
 
 TEST(Ros2Participant, ABusOfTheSameDomainIsNoHindrance) {
@@ -143,7 +143,7 @@ TEST(Ros2Participant, WrongNetworksAreNamed) {
   EXPECT_EQ(Participant::open(network).error().message.substr(0, missing.size()), missing);
   network = {};
   network.domain = 231;
-  EXPECT_EQ(Participant::open(network).error().message, "domain: 231 is not in 0 to 230");
+  EXPECT_EQ(Participant::open(network).error().message, "domain: found 231, expected 0 to 230");
 }
 
 TEST(Ros2Participant, ABellThatRangBeforeEndsTheNextWait) {

@@ -153,8 +153,8 @@ Result<std::uint64_t> WorldAuthority::ask(WorldInput input) {
   const auto of_body = std::count_if(input.changes.begin(), input.changes.end(), is_of_body);
   if (of_body != 0 && static_cast<std::size_t>(of_body) != input.changes.size()) {
     return fail(ErrorCode::kInvalidArgument,
-                "robot `{}`: its body and other parts cannot change at once while several hosts "
-                "share the world; ask for one after the other",
+                "robot `{}`: its body and other parts cannot change in one request while several "
+                "hosts share the world; send two requests",
                 authority.spec.robots[input.robot.value()].name);
   }
   input.sequence = ++authority.inputs;

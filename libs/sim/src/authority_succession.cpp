@@ -70,7 +70,9 @@ void WorldAuthority::Impl::put_refusal_texts(std::uint64_t in_step) {
   auto next = std::ranges::find_if(refused, [&](const Event& one) { return one.step == in_step; });
   for (Event& event : events) {
     if (event.kind != EventKind::kChangeRefused) continue;
-    event.text = next != refused.end() ? next++->text : "refused; why was told to nobody else";
+    event.text = next != refused.end()
+                     ? next++->text
+                     : "refused; the reason is known only to the previous manager";
   }
 }
 

@@ -14,8 +14,8 @@ namespace rave::sim {
       fan.ray_count % fan.rays_per_reading == 0) {
     return {};
   }
-  return fail(ErrorCode::kPlugin, "declared a fan of {} rays, {} a reading, for {}", fan.ray_count,
-              fan.rays_per_reading, to_string(kind));
+  return fail(ErrorCode::kPlugin, "declared a fan of {} rays, {} per reading, for {}",
+              fan.ray_count, fan.rays_per_reading, to_string(kind));
 }
 
 /// Fills in what a declared fan says of the sensor.

@@ -27,32 +27,32 @@ Status check_readings(const RobotGroup& group, const RobotGroup& other) {
     // What each value means follows from its place, and the program was told how many there are.
     if (info.kind == ReadingKind::kValues && info.capacity != told.capacity) {
       return fail(ErrorCode::kInvalidArgument,
-                  "sensor `{}` gives up to {} values, but the program was told of {}", told.name,
+                  "sensor `{}` gives up to {} values, but the program expects {}", told.name,
                   info.capacity, told.capacity);
     }
     if (info.kind != ReadingKind::kRanges) {
       const bool isolated = group.program.spec != nullptr && group.program.spec->isolate;
       if (!isolated || info.capacity <= told.capacity) continue;
       return fail(ErrorCode::kInvalidArgument,
-                  "sensor `{}` may give {} readings, but its program has a process of its own with "
-                  "room for {}",
+                  "sensor `{}` may give {} readings, but the isolated program has room for {}",
                   told.name, info.capacity, told.capacity);
     }
     if (info.capacity != told.capacity) {
       return fail(ErrorCode::kInvalidArgument,
-                  "sensor `{}` gives {} ranges, but the program was told of {}", told.name,
+                  "sensor `{}` gives {} ranges, but the program expects {}", told.name,
                   info.capacity, told.capacity);
     }
     if (told.bearings_rad == nullptr && info.bearings_rad == nullptr) continue;
     if (told.bearings_rad == nullptr || info.bearings_rad == nullptr) {
       return fail(ErrorCode::kInvalidArgument,
-                  "sensor `{}`: only one set of drivers says where its ranges point", told.name);
+                  "sensor `{}`: only one set of drivers states the bearings of its ranges",
+                  told.name);
     }
     for (std::uint32_t i = 0; i < info.capacity; ++i) {
       const double apart_rad = std::abs(wrap_angle(told.bearings_rad[i] - info.bearings_rad[i]));
       if (apart_rad <= kSameBearing_rad) continue;
       return fail(ErrorCode::kInvalidArgument,
-                  "sensor `{}`: range {} is at {:.2f} degrees, but the program was told {:.2f}",
+                  "sensor `{}`: range {} is at {:.2f} degrees, but the program expects {:.2f}",
                   told.name, i, rad_to_deg(info.bearings_rad[i]), rad_to_deg(told.bearings_rad[i]));
     }
   }
@@ -63,10 +63,9 @@ Status check_readings(const RobotGroup& group, const RobotGroup& other) {
 Status check_live(const RobotGroup& other) {
   for (const SensorSlots& slots : other.sensors) {
     if (slots.is_virtual() || slots.live) continue;
-    return fail(
-        ErrorCode::kInvalidArgument,
-        "sensor `{}` (driver `{}`) plays a recording, which cannot begin in a running world",
-        slots.spec->name, slots.spec->hardware_driver());
+    return fail(ErrorCode::kInvalidArgument,
+                "sensor `{}` (driver `{}`) plays a recording, which cannot start during a run",
+                slots.spec->name, slots.spec->hardware_driver());
   }
   return {};
 }
@@ -120,15 +119,14 @@ const RobotType* HandOvers::other_type(RobotId robot) const noexcept {
 
 Status HandOvers::restore() {
   if (!close()) {
-    return fail(
-        ErrorCode::kState,
-        "the run cannot begin anew while drivers of a hand-over are being opened or closed");
+    return fail(ErrorCode::kState,
+                "the run cannot restart while drivers of a hand-over are opening or closing");
   }
   for (Twin& twin : twins_) {
     if (twin.state.active != DriverSet::kFirst) {
       if (!site_.close_all(take_open(group_of(twin)))) {
         return fail(ErrorCode::kState,
-                    "the run cannot begin anew while drivers of the last one are being closed");
+                    "the run cannot restart while drivers of the last run are closing");
       }
       exchange(twin);
       site_.drivers_restored(twin.robot);
@@ -185,7 +183,7 @@ Arrival HandOvers::arrival(const Twin& twin) const {
 Status HandOvers::check_near(const Twin& twin) const {
   const std::uint32_t r = twin.robot.value();
   if (!truth_.movers[r].present) {
-    return fail(ErrorCode::kState, "nobody has said yet where it is");
+    return fail(ErrorCode::kState, "its pose is not known yet");
   }
   const Pose2 X_before = truth_.movers[r].X_WR;
   const Pose2 X_after = arrival(twin).X_WR;
@@ -195,12 +193,11 @@ Status HandOvers::check_near(const Twin& twin) const {
   const bool finite =
       std::isfinite(X_after.x) && std::isfinite(X_after.y) && std::isfinite(X_after.yaw);
   if (finite && apart_m <= limits.within_m && turned_rad <= limits.within_rad) return {};
-  return fail(
-      ErrorCode::kState,
-      "its {} drivers say that it is at ({:.3f}, {:.3f}) m, {:.1f} degrees, which is {:.3f} "
-      "m and {:.1f} degrees from where it is now; expected at most {} m and {:.0f} degrees",
-      reality_of(*twin.other.type), X_after.x, X_after.y, rad_to_deg(X_after.yaw), apart_m,
-      rad_to_deg(turned_rad), limits.within_m, rad_to_deg(limits.within_rad));
+  return fail(ErrorCode::kState,
+              "its {} drivers report ({:.3f}, {:.3f}) m, {:.1f} degrees, which is {:.3f} m and "
+              "{:.1f} degrees from its present pose; expected at most {} m and {:.0f} degrees",
+              reality_of(*twin.other.type), X_after.x, X_after.y, rad_to_deg(X_after.yaw), apart_m,
+              rad_to_deg(turned_rad), limits.within_m, rad_to_deg(limits.within_rad));
 }
 
 /// The sets change places; program and controllers stay.
@@ -238,7 +235,7 @@ void HandOvers::change_drivers(Twin& twin) {
   close_other(twin);
   const Status guarded = site_.start_guards(group);
   if (!guarded && spec_.log != nullptr) {
-    spec_.log->error("guard", "{}; from now on it is guarded in the steps of the run alone",
+    spec_.log->error("guard", "{}; from now on only the steps of the run guard it",
                      guarded.error().text());
   }
   ++twin.state.made;
@@ -248,7 +245,7 @@ void HandOvers::change_drivers(Twin& twin) {
       "{} -> {} at ({:.3f}, {:.3f}) m, {:.1f} degrees; moved by {:.4f} m and {:.2f} degrees",
       reality_of(*twin.other.type), reality_of(type), place.X_WR.x, place.X_WR.y,
       rad_to_deg(place.X_WR.yaw), jump_m, rad_to_deg(turn_rad));
-  if (!guards_[r].holds().armed) text += "; it stands until somebody arms it";
+  if (!guards_[r].holds().armed) text += "; it stands until it is armed";
   end(twin, EventKind::kHandedOver, std::move(text));
 }
 
@@ -277,7 +274,7 @@ bool HandOvers::close() noexcept {
     if (!twin.work.ready_by(end)) {
       all = false;
       if (spec_.log == nullptr) continue;
-      spec_.log->error(roster_.logs[twin.robot.value()].source, "{}; nobody waits for it any more",
+      spec_.log->error(roster_.logs[twin.robot.value()].source, "{}; the run ends without it",
                        still_busy(twin));
       continue;
     }

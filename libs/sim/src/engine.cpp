@@ -178,8 +178,8 @@ void Engine::Impl::tell_withheld(const RobotGroup& group, const SensorSlots& slo
     const std::uint64_t count = slots.fusion->too_late[m];
     if (count == 0) continue;
     spec.log->warn(roster.logs[group.members[m].value()].source,
-                   "sensor `{}`: {} readings were withheld, because the robot's pose or the world "
-                   "at their stamps was not known any more (history {} s)",
+                   "sensor `{}`: {} readings were withheld, because the pose of the robot or the "
+                   "world at their stamps was no longer known (history {} s)",
                    slots.spec->name, count, spec.history.seconds());
   }
 }
@@ -200,7 +200,7 @@ Status Engine::Impl::reset() {
   // All are closed first: what two robots share must be free before one of them opens it again.
   if (!close_all(take_open()) || !close_all(radio->take_open())) {
     return fail(ErrorCode::kState,
-                "the run cannot begin anew while drivers of the last one are being closed");
+                "the run cannot restart while drivers of the last run are closing");
   }
   restore_world();
   radio->clear();
@@ -268,6 +268,8 @@ void Engine::Impl::forget_past() {
   if (fusion_world) fusion_world->valid = false;
 }
 
+// The stages of a step, as in the table of docs/explanation/engine.md. One of several hosts calls
+// work() between two worlds of the authority, which resolves the motion of all.
 void Engine::Impl::work(PhaseTimer& phase) {
   if (spec.live_clock != nullptr) work_began = spec.live_clock->now();
   sense();
@@ -300,7 +302,7 @@ Status Engine::Impl::step_alone() {
 Status Engine::step() {
   if (impl_->host) {
     return fail(ErrorCode::kState,
-                "runs a part of the robots: propose() and apply() in the place of step()");
+                "runs some of the robots: expected propose() and apply() instead of step()");
   }
   return impl_->step_alone();
 }

@@ -14,7 +14,7 @@ bool is_finite(const Command& command) noexcept {
 
 /// One text is kept per batch: that of the last one to fail.
 std::string_view text_for(const ErrorText& error, std::size_t slot) noexcept {
-  return error.slot == slot ? std::string_view(error.text) : "failed, as others did in this step";
+  return error.slot == slot ? std::string_view(error.text) : "failed, like others in this step";
 }
 
 }  // namespace
@@ -97,7 +97,7 @@ void Engine::Impl::control(RobotGroup& group, const Block& block, Worker& worker
       Command& output = outputs[m - block.begin];
       if (slots.failed[m] == 0 && !is_finite(output)) {
         slots.failed[m] = 1;
-        problem = "gave a command that is not a number";
+        problem = "gave a command that is not finite";
       }
       if (slots.failed[m] == 0) continue;
       output = {slots.spec->ops->gives, 0, {}};
@@ -155,7 +155,7 @@ void Engine::Impl::actuate(RobotGroup& group, const Block& block, Worker& worker
       if (slots.failed[m] == 0 &&
           !(std::isfinite(twist.vx) && std::isfinite(twist.vy) && std::isfinite(twist.wz))) {
         slots.failed[m] = 1;
-        problem = "proposed a velocity that is not a number";
+        problem = "proposed a velocity that is not finite";
       }
       if (slots.failed[m] != 0) {
         twist = {};

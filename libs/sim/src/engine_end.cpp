@@ -73,8 +73,8 @@ bool Engine::Impl::close_all(std::vector<ToClose> drivers) {
       keep_loaded(spec, *other);
     if (spec.log == nullptr) continue;
     spec.log->error(roster.logs[r].source,
-                    "{} `{}` (driver `{}`) is still being closed; nobody waits for it any more",
-                    driver.kind, driver.name, driver.driver);
+                    "{} `{}` (driver `{}`) is still closing; the run ends without it", driver.kind,
+                    driver.name, driver.driver);
   }
   return !is_in_use;
 }

@@ -87,10 +87,10 @@ Status Engine::Impl::ingest_sensor(RobotGroup& group, SensorSlots& slots, std::s
     if (wait == SampleQueue::Wait::kFull) continue;
     if (wait == SampleQueue::Wait::kTimeout) {
       return fail(ErrorCode::kTimeout,
-                  "robot `{}`, sensor `{}` (driver `{}`) has not said for {} ms what it has up to "
-                  "{:.3f} s; the run cannot go on",
+                  "robot `{}`, sensor `{}` (driver `{}`) has not declared its samples complete up "
+                  "to {:.3f} s for {} ms; the run cannot continue",
                   spec.robots[robot.value()].name, slots.spec->name, slots.spec->hardware_driver(),
-                  spec.host_timeout.count(), now.seconds());
+                  now.seconds(), spec.host_timeout.count());
     }
     // A stepped driver runs ahead: what it says of its device counts when its samples have been
     // taken in, not when its thread happened to say it.
@@ -226,7 +226,7 @@ void Engine::Impl::refresh_told(const Block& block, Worker& worker) {
       worker.events.push_back(
           {step, robot, stale ? EventKind::kPoseStale : EventKind::kPoseBack, BodyId(),
            stale ? fmt::format("its last pose is from {:.2f} s", pose.stamp.seconds())
-                 : fmt::format("poses come again from {:.2f} s", pose.stamp.seconds())});
+                 : fmt::format("poses arrive again from {:.2f} s", pose.stamp.seconds())});
       pose.stale = stale;
     }
     if (stale) pose.velocity = {};

@@ -85,7 +85,7 @@ Status Engine::Impl::order(const WorldInput& input) {
 Status Engine::Impl::place(const WorldInput& input) {
   if (host) {
     return refused_order(spec, input, ErrorCode::kState,
-                         "only the authority of the world places robots");
+                         "only the authority of the world can place robots");
   }
   const Vec2 p_WR = input.order.points_W.front();
   const double yaw_rad = input.order.yaw_rad.value_or(truth.movers[input.robot.value()].X_WR.yaw);
@@ -101,7 +101,7 @@ Status Engine::Impl::check_own(RobotId robot, std::span<const ParameterChange> c
     return fail(ErrorCode::kState, "robot `{}` runs on another host", name);
   }
   if (std::none_of(changes.begin(), changes.end(), is_of_body)) return {};
-  return fail(ErrorCode::kState, "the body of robot `{}` is the authority's to change", name);
+  return fail(ErrorCode::kState, "only the authority can change the body of robot `{}`", name);
 }
 
 void Engine::stop(RobotId robot, const Author& author) {
@@ -132,7 +132,7 @@ Status Engine::set_parameters(RobotId robot, std::span<const ParameterChange> ch
 Result<ChangedObstacle> Engine::change_obstacle(const ObstacleChange& change,
                                                 const Author& author) {
   if (impl_->host) {
-    return fail(ErrorCode::kState, "obstacles are the authority's to change");
+    return fail(ErrorCode::kState, "only the authority can change obstacles");
   }
   return impl_->inputs.change_obstacle(impl_->step, change, author);
 }

@@ -114,17 +114,16 @@ void Engine::Impl::tell_of_guards() const {
     }
   }
   if (without_priority) {
-    spec.log->info("guard",
-                   "the system grants no real-time priority (SCHED_FIFO, `ulimit -r`); on a busy "
-                   "machine the guards of real robots may come late, and then let them drive "
-                   "slower near their limits");
+    spec.log->info(
+        "guard",
+        "the system grants no real-time priority (SCHED_FIFO, `ulimit -r`); on a busy machine the "
+        "guards of real robots may be late, and then slow them down near their limits");
   }
   if (without_watchdog.empty()) return;
-  spec.log->warn(
-      "guard",
-      "only a watchdog of the device itself stops a robot when this process is killed or "
-      "suspended; none is stated (`{}` of the actuator) for {}",
-      kDeviceWatchdog, list_of(without_watchdog));
+  spec.log->warn("guard",
+                 "if this process is killed or suspended, only a watchdog of the device stops a "
+                 "robot; none is stated (`{}` of the actuator) for {}",
+                 kDeviceWatchdog, list_of(without_watchdog));
 }
 
 void Engine::Impl::serve_guard(RobotGroup& group, std::uint32_t member) {

@@ -37,7 +37,7 @@ std::optional<ObstacleChange> left_to_do(const world::WorldModel& world,
 Status Engine::propose(HostReport& report) {
   Impl& engine = *impl_;
   if (!engine.host) {
-    return fail(ErrorCode::kState, "runs all robots: step() in the place of propose()");
+    return fail(ErrorCode::kState, "runs all robots: expected step() instead of propose()");
   }
   if (engine.host->proposed) {
     return fail(ErrorCode::kState, "step {} has been proposed: apply() comes next", engine.step);
@@ -111,7 +111,7 @@ void Engine::Impl::fill_report(HostReport& report) {
 Status Engine::apply(const WorldStep& world) {
   Impl& engine = *impl_;
   if (!engine.host) {
-    return fail(ErrorCode::kState, "runs all robots: step() in the place of apply()");
+    return fail(ErrorCode::kState, "runs all robots: expected step() instead of apply()");
   }
   if (!engine.host->proposed) {
     return fail(ErrorCode::kState, "step {} has begun: propose() comes next", engine.step);
@@ -168,7 +168,7 @@ Status Engine::Impl::take_newer_samples() {
 
 Status Engine::Impl::check(const WorldStep& world) const {
   if (world.step != step) {
-    return fail(ErrorCode::kInvalidArgument, "the world is of step {}, but step {} comes next",
+    return fail(ErrorCode::kInvalidArgument, "the world is for step {}, but step {} is next",
                 world.step, step);
   }
   return check_world_step(spec, world);

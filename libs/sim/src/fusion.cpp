@@ -28,8 +28,7 @@ std::string limits_of(const SensorInfo& info) {
 Status check_rays(const HybridSpec& spec, const SensorInfo& real, const SensorInfo& imagined) {
   if (real.bearings_rad == nullptr || imagined.bearings_rad == nullptr) {
     return fail(ErrorCode::kInvalidArgument,
-                "the {} half (driver `{}`) does not say where its rays "
-                "point",
+                "the {} half (driver `{}`) does not state the bearings of its rays",
                 real.bearings_rad == nullptr ? "real" : "virtual",
                 real.bearings_rad == nullptr ? spec.real_driver : spec.virtual_driver);
   }

@@ -53,16 +53,15 @@ Status HandOvers::check(const Twin& twin, DriverSet to) const {
   const std::string& name = spec_.robots[twin.robot.value()].name;
   const RobotType& target = spec_.types[twin.type_of(to)];
   if (twin.stage != Twin::Stage::kIdle) {
-    return fail(ErrorCode::kState, "robot `{}` is being handed over already", name);
+    return fail(ErrorCode::kState, "robot `{}` is already being handed over", name);
   }
   if (twin.given_up) {
     return fail(ErrorCode::kState,
-                "the {} drivers of robot `{}` are still being opened for a hand-over that was "
-                "given up",
+                "the {} drivers of robot `{}` are still opening for an abandoned hand-over",
                 reality_of(target), name);
   }
   if (twin.state.active == to) {
-    return fail(ErrorCode::kState, "robot `{}` has its {} drivers already", name,
+    return fail(ErrorCode::kState, "robot `{}` already has its {} drivers", name,
                 reality_of(target));
   }
   const double scale = truth_.scale_of(twin.robot);
@@ -135,8 +134,7 @@ void HandOvers::advance(Twin& twin) {
     if (!twin.work.ready()) {
       if (now_ - twin.since <= kOpen) return;
       twin.given_up = true;
-      return refuse(twin,
-                    fmt::format("its drivers were not open within {:.0f} s", kOpen.seconds()));
+      return refuse(twin, fmt::format("its drivers did not open within {:.0f} s", kOpen.seconds()));
     }
     const Status opened = twin.work.get();
     if (!opened) return refuse(twin, opened.error().text());
@@ -150,8 +148,7 @@ void HandOvers::advance(Twin& twin) {
   }
   if (!stands(twin)) {
     if (now_ - twin.since <= kComeToStand) return;
-    return refuse(twin,
-                  fmt::format("it was not seen to stand within {} s", kComeToStand.seconds()));
+    return refuse(twin, fmt::format("it did not come to rest within {} s", kComeToStand.seconds()));
   }
   // Where it was long ago is not where it is; silence is listen()'s to judge.
   if (twin.heard && now_ - twin.heard_at > twin.other.type->staleness) return;
@@ -188,7 +185,7 @@ Status HandOvers::listen(Twin& twin) {
   }
   const bool lost = twin.heard && now_ - twin.heard_at > kListen;
   if (!lost && (is_heard(twin) || now_ - twin.since <= kListen)) return {};
-  return fail(ErrorCode::kTimeout, "sensor `{}` has not said for {} s where the robot is",
+  return fail(ErrorCode::kTimeout, "sensor `{}` has not reported the pose of the robot for {} s",
               twin.other.sensors[*twin.other.type->pose_from].spec->name, kListen.seconds());
 }
 

@@ -52,7 +52,7 @@ Status check_robots(const EngineSpec& spec, std::span<const RobotId> expected,
     if (again) return wrong(spec, robot, fmt::format("{} twice", what));
     // An earlier one is missing, or this one should not be here.
     if (i >= expected.size() || expected[i].value() > robot) {
-      return wrong(spec, robot, fmt::format("{}, which is not asked of it", what));
+      return wrong(spec, robot, fmt::format("{}, which it was not asked for", what));
     }
     return wrong(spec, expected[i].value(), fmt::format("missing among those that have {}", what));
   }
@@ -75,7 +75,7 @@ Status check_proposals(const EngineSpec& spec, const HostRobots& own,
       "a proposal"));
   for (std::size_t i = 0; i < count; ++i) {
     if (is_finite(Twist2{all.vx_mps[i], all.vy_mps[i], all.wz_radps[i]})) continue;
-    return wrong(spec, all.robots[i], "proposes a velocity that is not a number");
+    return wrong(spec, all.robots[i], "proposes a velocity that is not finite");
   }
   return {};
 }
@@ -84,7 +84,7 @@ Status check_pose(const EngineSpec& spec, std::uint64_t step, const PoseReport& 
   const ReportedPose& pose = report.reported;
   const Pose2 X_WR{pose.pose.x_m, pose.pose.y_m, pose.pose.yaw_rad};
   if (!is_finite(X_WR) || !is_finite(pose.velocity)) {
-    return wrong(spec, report.robot.value(), "a reported pose that is not a number");
+    return wrong(spec, report.robot.value(), "a reported pose that is not finite");
   }
   if (pose.stamp.ns > time_ns(spec, step)) {
     return wrong(spec, report.robot.value(), "a reported pose from the future");
@@ -101,9 +101,9 @@ Status check_samples(const EngineSpec& spec, std::uint64_t step,
     const std::uint32_t robot = sample.robot.value();
     if (robot >= spec.robots.size() || spec.types[spec.robots[robot].type].simulated ||
         !is_theirs(robot)) {
-      return wrong(spec, robot, "a sample of its pose that is not its host's to give");
+      return wrong(spec, robot, "a sample of its pose from another host");
     }
-    if (!is_finite(sample.X_WR)) return wrong(spec, robot, "a sample that is not a number");
+    if (!is_finite(sample.X_WR)) return wrong(spec, robot, "a sample that is not finite");
     if (sample.stamp.ns > time_ns(spec, step))
       return wrong(spec, robot, "a sample from the future");
     if (before != nullptr &&
@@ -124,17 +124,18 @@ Status check_packet(const EngineSpec& spec, std::uint64_t step, const SentPacket
   }
   if (packet.size > SentPacket::kMostBytes ||
       std::uint64_t{packet.first_byte} + packet.size > sent.bytes.size()) {
-    return wrong(spec, robot, "a message whose bytes are not there");
+    return wrong(spec, robot, "a message with missing bytes");
   }
-  if (packet.to.kind > RecipientKind::kTeam) return wrong(spec, robot, "a message to nobody");
+  if (packet.to.kind > RecipientKind::kTeam)
+    return wrong(spec, robot, "a message without receiver");
   if (!(std::isfinite(packet.x_m) && std::isfinite(packet.y_m) && std::isfinite(packet.range_m) &&
         packet.range_m >= 0 && std::isfinite(packet.antenna_z_m))) {
-    return wrong(spec, robot, "a message from a place or with a range that is not a number");
+    return wrong(spec, robot, "a message with a position or range that is not finite");
   }
   const std::int64_t begin_ns = time_ns(spec, step) - spec.step.ns;
   if (packet.complete_ns < begin_ns || packet.complete_ns > begin_ns + spec.step.ns ||
       packet.stamp_ns > begin_ns) {
-    return wrong(spec, robot, "a message of another step");
+    return wrong(spec, robot, "a message for another step");
   }
   return {};
 }
@@ -149,7 +150,7 @@ Status check_sent(const EngineSpec& spec, std::uint64_t step, const SentPackets&
   for (const SentPacket& packet : sent.packets) {
     const std::uint32_t robot = packet.robot.value();
     if (robot >= spec.robots.size() || !is_theirs(robot)) {
-      return wrong(spec, robot, "a message that is not its host's to give");
+      return wrong(spec, robot, "a message from another host");
     }
     RAVE_TRY(check_packet(spec, step, sent, packet));
     if (before != nullptr && std::tie(packet.robot, packet.communicator, packet.sequence) <=
@@ -172,7 +173,7 @@ Status check_columns(const EngineSpec& spec, const WorldStep& world) {
                   column->size(), count);
     }
     if (!all_finite(*column)) {
-      return fail(ErrorCode::kInvalidArgument, "a world with a pose that is not a number");
+      return fail(ErrorCode::kInvalidArgument, "a world with a pose that is not finite");
     }
   }
   return {};
@@ -188,7 +189,7 @@ Status check_inputs(const EngineSpec& spec, const WorldStep& world) {
     if (known && (all || input.robot.value() < spec.robots.size())) {
       continue;
     }
-    return wrong(spec, input.robot.value(), "an input that cannot be");
+    return wrong(spec, input.robot.value(), "an invalid input");
   }
   return {};
 }
@@ -281,14 +282,14 @@ Status check_world_step(const EngineSpec& spec, const WorldStep& world) {
   const std::size_t count = spec.robots.size();
   for (const PushedRobot& pushed : world.pushed) {
     if (pushed.robot.value() < count && is_finite(pushed.X_WR)) continue;
-    return wrong(spec, pushed.robot.value(), "pushed to a place that is none");
+    return wrong(spec, pushed.robot.value(), "pushed to an invalid pose");
   }
   for (const TouchPoint& point : world.touches) {
     if (point.robot.value() < count && std::isfinite(point.direction_W.x) &&
         std::isfinite(point.direction_W.y)) {
       continue;
     }
-    return wrong(spec, point.robot.value(), "touches something where nothing can be");
+    return wrong(spec, point.robot.value(), "touches something at an invalid place");
   }
   for (const PoseReport& pose : world.poses) {
     if (pose.robot.value() >= count) return wrong(spec, pose.robot.value(), "a reported pose");
@@ -296,7 +297,7 @@ Status check_world_step(const EngineSpec& spec, const WorldStep& world) {
   }
   for (const ResizedRobot& resized : world.resized) {
     if (resized.robot.value() < count && std::isfinite(resized.scale)) continue;
-    return wrong(spec, resized.robot.value(), "a size that no body can have");
+    return wrong(spec, resized.robot.value(), "an impossible size of a body");
   }
   RAVE_TRY(check_obstacles(spec, world));
   RAVE_TRY(check_inputs(spec, world));
@@ -308,7 +309,7 @@ Status check_told_obstacles(const EngineSpec& spec, const WorldStep& world,
                             const AuthorityState& state) {
   if (state.obstacles.empty() && state.obstacle_changes > 0) {
     return fail(ErrorCode::kInvalidArgument,
-                "obstacles have changed {} times before this world, and nobody told how",
+                "obstacles had changed {} times before this world, but the changes are missing",
                 state.obstacle_changes);
   }
   if (state.obstacles.size() > state.obstacle_changes) {
@@ -345,7 +346,7 @@ Status check_taken_over(const EngineSpec& spec, const WorldStep& world, const Au
   const bool refused = std::ranges::all_of(
       state.refused, [&](const Event& event) { return exists(event) && event.step <= world.step; });
   if (state.refused.size() > std::min<std::uint64_t>(state.refused_count, state.kMostRefused)) {
-    return fail(ErrorCode::kInvalidArgument, "{} refused changes of {} are told",
+    return fail(ErrorCode::kInvalidArgument, "{} refused changes, but only {} were made",
                 state.refused.size(), state.refused_count);
   }
   if (pinned && sizes && events && refused) return {};

@@ -47,7 +47,7 @@ Status check_shape(const ObstacleChange& change, const world::Shape& shape) {
     return fail(ErrorCode::kInvalidArgument, "obstacle `{}`: {}", change.name, what);
   };
   if (!(std::isfinite(shape.z0_m) && std::isfinite(shape.z1_m) && shape.z0_m < shape.z1_m)) {
-    return wrong("a height range that does not go from low to high");
+    return wrong("a height range whose low end is not below its high end");
   }
   // A polygon that exists is convex, and all its numbers are finite.
   if (shape.kind == world::ShapeKind::kPolygon) {
@@ -113,7 +113,7 @@ Status check_obstacle_change(const ObstacleChange& change) {
   RAVE_TRY(check_name(change));
   if (change.asked.size() > ObstacleChange::kMostAskedBytes) {
     return fail(ErrorCode::kInvalidArgument,
-                "obstacle `{}`: asked for in {} bytes; expected at most {}", change.name,
+                "obstacle `{}`: request of {} bytes; expected at most {}", change.name,
                 change.asked.size(), ObstacleChange::kMostAskedBytes);
   }
   if (change.kind == Kind::kRemove) return {};

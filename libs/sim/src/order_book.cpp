@@ -90,8 +90,7 @@ Status OrderBook::take(std::uint64_t step, const WorldInput& input, const GuardH
 Status OrderBook::take_text(std::uint64_t step, const WorldInput& input) {
   const RobotGroup& group = roster_.group_of(input.robot);
   if (!takes_by_program(group, roster_.member_of(input.robot), OrderKind::kText)) {
-    return refused_order(spec_, input, ErrorCode::kInvalidArgument,
-                         "nobody listens: its program takes no texts");
+    return refused_order(spec_, input, ErrorCode::kInvalidArgument, "its program takes no texts");
   }
   robots_[input.robot.value()].wait_for_program(input);
   log_.note_order(step, input, EventKind::kOrdered);

@@ -100,7 +100,8 @@ tl::unexpected<Error> wrong(const EngineSpec& spec, const WorldInput& input,
 
 Status check_point(const EngineSpec& spec, const WorldInput& input, const Box& box, Vec2 p_W) {
   if (!std::isfinite(p_W.x) || !std::isfinite(p_W.y)) {
-    return wrong(spec, input, fmt::format("({}, {}) is no point; expected metres", p_W.x, p_W.y));
+    return wrong(spec, input,
+                 fmt::format("({}, {}) is not a point; expected metres", p_W.x, p_W.y));
   }
   if (p_W.x < box.low.x || p_W.x > box.high.x || p_W.y < box.low.y || p_W.y > box.high.y) {
     return wrong(spec, input,
@@ -130,19 +131,18 @@ Status check_points(const EngineSpec& spec, const WorldInput& input) {
   const std::size_t count = input.order.points_W.size();
   if (count < least || count > most) {
     return wrong(spec, input,
-                 path ? fmt::format("{} points; expected {} to {}", count, least, most)
-                      : fmt::format("{} points; expected one", count));
+                 path ? path_size_text(count) : fmt::format("{} points; expected one", count));
   }
   const Box box = world_box(spec);
   for (const Vec2 p_W : input.order.points_W) RAVE_TRY(check_point(spec, input, box, p_W));
   const double yaw_rad = input.order.yaw_rad.value_or(0);
   if (!(std::abs(yaw_rad) <= kMostTurn_rad)) {
-    return wrong(spec, input, fmt::format("{} is no yaw; expected radians", yaw_rad));
+    return wrong(spec, input, fmt::format("{} is not a yaw; expected radians", yaw_rad));
   }
   const double speed_mps = input.order.speed_mps;
   if (!(speed_mps >= 0 && speed_mps <= kFastest_mps)) {
     return wrong(spec, input,
-                 fmt::format("{} is no speed; expected 0 to {} m/s", speed_mps, kFastest_mps));
+                 fmt::format("{} is not a speed; expected 0 to {} m/s", speed_mps, kFastest_mps));
   }
   return {};
 }
@@ -200,7 +200,7 @@ Status check_order(const EngineSpec& spec, const WorldInput& input) {
   const std::string& name = input.author.name;
   if (name.size() > kMostOrderAuthor || has_control_characters(name)) {
     return fail(ErrorCode::kInvalidArgument,
-                "the name of who asks has {} bytes, or control characters; expected at most {}",
+                "the name of the author has {} bytes, or control characters; expected at most {}",
                 name.size(), kMostOrderAuthor);
   }
   const bool for_all = input.kind == InputKind::kCancel && !input.robot.valid();
@@ -232,8 +232,12 @@ Status check_order(const EngineSpec& spec, const WorldInput& input) {
     case InputKind::kCancel:
       return {};
     default:
-      return fail(ErrorCode::kInvalidArgument, "the input is no order");
+      return fail(ErrorCode::kInvalidArgument, "the input is not an order");
   }
+}
+
+std::string path_size_text(std::size_t points) {
+  return fmt::format("a path has {} points; expected 2 to {}", points, kMostOrderPoints);
 }
 
 std::string order_text(const WorldInput& input) {

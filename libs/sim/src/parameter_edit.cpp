@@ -48,7 +48,7 @@ template <class Slots>
 Result<ParameterTarget> device_target(std::vector<Slots>& devices, std::string_view part,
                                       std::uint32_t index, std::size_t m) {
   if (index >= devices.size()) {
-    return fail(ErrorCode::kNotFound, "the robot has no {} of this number", part);
+    return fail(ErrorCode::kNotFound, "the robot has no {} with this number", part);
   }
   Slots& slots = devices[index];
   if (slots.failed[m] != 0) {
@@ -76,7 +76,7 @@ Result<ParameterTarget> actuator_target(RobotGroup& group, std::uint32_t index, 
   ActuatorSlots& slots = group.actuators[index];
   target.update = [&slots, m](std::span<const ParamValue> values) -> Status {
     if (slots.spec->virtual_ops == nullptr) {
-      return fail(ErrorCode::kInvalidArgument, "a real actuator takes no new parameters");
+      return fail(ErrorCode::kInvalidArgument, "the parameters of a real actuator cannot change");
     }
     return updated(slots.spec->virtual_ops->update, slots.instances.at(m), values);
   };
@@ -97,7 +97,7 @@ Result<ParameterTarget> parameter_target(RobotGroup& group, std::size_t m, Part 
     case Part::kBody:
       break;
   }
-  return fail(ErrorCode::kInvalidArgument, "the body is no device");
+  return fail(ErrorCode::kInvalidArgument, "the body is not a device");
 }
 
 std::optional<std::string> present_text(const ParameterTarget& target, std::string_view name) {

@@ -10,7 +10,7 @@ namespace rave::sim {
 namespace {
 
 constexpr ParamSpec kBodyParams[] = {
-    number_param("scale", "", 1, 0.05, 20, "Size of the outline about the robot's origin."),
+    number_param("scale", "", 1, 0.05, 20, "Scale of the outline about the origin of the robot."),
 };
 
 Status wrong_type(const ParamSpec& spec, std::string_view expected) {
@@ -101,7 +101,7 @@ Status check_value(const ParamSpec& spec, const ParameterValue& value) {
       for (const double item : *list) RAVE_TRY(check_number(spec, item, spec.unit));
       return {};
   }
-  return wrong_type(spec, "a type that is known");
+  return wrong_type(spec, "a known type");
 }
 
 Result<plugin::ParamSet> with_changes(std::span<const ParamSpec> specs,

@@ -62,14 +62,12 @@ void Radio::note_flood(RadioLine& line) {
   line.flooders.push_back(overruns.sender);
   const auto known = by_hash_.find(overruns.sender);
   const bool robot = known != by_hash_.end() && known->second < spec_.robots.size();
-  const std::string who =
-      robot ? fmt::format("robot `{}`", spec_.robots[known->second].name)
-            : fmt::format("a sender that is no robot here (hash {:08x})", overruns.sender);
+  const std::string who = robot ? fmt::format("robot `{}`", spec_.robots[known->second].name)
+                                : fmt::format("an unknown sender (hash {:08x})", overruns.sender);
   services_of(logs_[line.robot])
-      .write(LogLevel::kWarning,
-             fmt::format("transmitter `{}`: {} sends more than can be taken in; what is too much "
-                         "of it is dropped, {} packets in this step",
-                         line.spec->name, who, overruns.count));
+      .write(LogLevel::kWarning, fmt::format("transmitter `{}`: {} sends too much; the surplus is "
+                                             "dropped, {} packets in this step",
+                                             line.spec->name, who, overruns.count));
 }
 
 /// Of the sender's communicators that by which the message was sent, as its own host counts them,

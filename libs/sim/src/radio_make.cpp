@@ -189,8 +189,8 @@ Status Radio::configure_line(RadioLine& line) {
   if (line.declaration.in_process != 0) return {};
   if (spec_.local && !spec_.own_authority) {
     return fail(ErrorCode::kInvalidArgument,
-                "is a device, which keeps to the clock on the wall; robots of several hosts in "
-                "lock-step need transmitters that work in process");
+                "is a device, which follows the wall clock; robots of several hosts in lock-step "
+                "need the transmitter `in_process`");
   }
   if (!(line.declaration.byte_rate >= 0)) {
     return fail(ErrorCode::kPlugin, "declared {} B/s", line.declaration.byte_rate);
@@ -209,7 +209,7 @@ Status Radio::check_packet_sizes(const RadioLine& line) const {
     if (needed <= line.declaration.max_packet_bytes) continue;
     return fail(ErrorCode::kInvalidArgument,
                 "carries packets of up to {} bytes, but communicator `{}` sends messages of up to "
-                "{} bytes, {} with their head",
+                "{} bytes, {} with their header",
                 line.declaration.max_packet_bytes, model.spec->name,
                 model.declaration.max_message_bytes, needed);
   }

@@ -80,7 +80,7 @@ void RadioPort::drop_one() {
 void RadioPort::fail(const char* text, std::uint64_t size) noexcept {
   const std::lock_guard lock(mutex_);
   failure_.assign(text, size);
-  if (failure_.empty()) failure_ = "the device is gone";
+  if (failure_.empty()) failure_ = "the device is lost";
 }
 
 void RadioPort::recover() noexcept {

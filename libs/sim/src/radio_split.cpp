@@ -71,8 +71,8 @@ Status Radio::receive(const RadioMoment& moment, const SentPackets& sent) {
     if (found.failed_model == kNobody) continue;
     const CommunicatorSpec& communicator = *models_[found.failed_model].spec;
     return fail(ErrorCode::kPlugin,
-                "communicator `{}` (driver `{}`): {}; a run of several hosts ends here, since the "
-                "others would go on with theirs",
+                "communicator `{}` (driver `{}`): {}; the run ends here, because the other hosts "
+                "would continue with theirs",
                 communicator.name, communicator.driver, found.failure);
   }
   return {};

@@ -65,27 +65,27 @@ Command standing(CommandKind kind) noexcept {
 std::string_view text_of(GuardLimit limit) noexcept {
   switch (limit) {
     case GuardLimit::kStopped:
-      return "stop: it was told to stand until it is released";
+      return "stop: it stands until it is released";
     case GuardLimit::kUnarmed:
-      return "not armed: it stands until somebody arms it";
+      return "not armed: it stands until it is armed";
     case GuardLimit::kPoseLost:
-      return "pose lost: nobody says where it is";
+      return "pose lost: its pose is not reported";
     case GuardLimit::kSensorLost:
-      return "sensor lost: a sensor gives nothing any more";
+      return "sensor lost: a sensor gives no samples";
     case GuardLimit::kWorldLost:
-      return "world lost: the virtual world does not come any more";
+      return "world lost: no updates of the virtual world";
     case GuardLimit::kWatchdog:
-      return "watchdog: its program gives no commands any more";
+      return "watchdog: its program gives no commands";
     case GuardLimit::kBadCommand:
-      return "bad command: not a number, or of a kind that cannot be guarded";
+      return "bad command: not finite, or of a kind that cannot be guarded";
     case GuardLimit::kSpeed:
-      return "speed: faster than it may";
+      return "speed: above its limit";
     case GuardLimit::kTurn:
-      return "turn rate: turns faster than it may";
+      return "turn rate: above its limit";
     case GuardLimit::kFence:
       return "fence: it would leave its region";
     case GuardLimit::kSeparation:
-      return "separation: it would come too near to another robot";
+      return "separation: it would come too close to another robot";
   }
   return "unknown";
 }

@@ -126,7 +126,7 @@ Status configure_hardware(const GroupContext& context, RobotGroup& group, Sensor
     slots.info.cone_rad = declaration.cone_rad;
   }
   if (slots.live && context.spec.live_clock == nullptr) {
-    return fail(ErrorCode::kState, "runs by the clock on the wall, but the run is stepped");
+    return fail(ErrorCode::kState, "follows the wall clock, but the run is stepped");
   }
   for (std::size_t m = 0; m < group.members.size(); ++m) {
     slots.queues.push_back(std::make_unique<SampleQueue>(

@@ -69,7 +69,7 @@ std::string sensor_lost_text(const SensorSlots& slots) {
   if (is_judged_by_link(*slots.spec)) {
     return fmt::format("sensor lost: the driver of `{}` has failed", slots.spec->name);
   }
-  return fmt::format("sensor lost: `{}` has given nothing for more than {:g} s", slots.spec->name,
+  return fmt::format("sensor lost: `{}` has given no sample for more than {:g} s", slots.spec->name,
                      *slots.max_age_s);
 }
 

@@ -17,8 +17,8 @@ Status check_not_mixed(const EngineSpec& spec, const ScheduledChange& a, const S
                    std::all_of(b.changes.begin(), b.changes.end(), is_of_body);
   if (!body || all) return {};
   return fail(ErrorCode::kInvalidArgument,
-              "robot `{}`, step {}: its body and other parts change in one step, which several "
-              "hosts cannot do yet; change the body a step earlier",
+              "robot `{}`, step {}: its body and other parts change in one step, which runs of "
+              "several hosts do not support; change the body a step earlier",
               spec.robots[a.robot.value()].name, a.step);
 }
 
@@ -32,12 +32,12 @@ Status check_world(const EngineSpec& spec) {
     const RobotType& type = spec.types[robot.type];
     if (!type.simulated && !type.pose_from) {
       return fail(ErrorCode::kInvalidArgument,
-                  "robot `{}` is real, so something must say where it is: `pose_from`", robot.name);
+                  "robot `{}` is real, so it needs a source of its pose: `pose_from`", robot.name);
     }
   }
   if (!spec.world.added.empty()) {
     return fail(ErrorCode::kInvalidArgument,
-                "the world of a run begins without obstacles that came later");
+                "the world of a run must begin without obstacles that were added later");
   }
   for (const ScheduledObstacle& scheduled : spec.obstacle_changes) {
     RAVE_TRY(check_obstacle_change(scheduled.change));
@@ -48,7 +48,7 @@ Status check_world(const EngineSpec& spec) {
 Status check_shared(const EngineSpec& spec) {
   if (spec.live_clock != nullptr && !spec.own_authority) {
     return fail(ErrorCode::kInvalidArgument,
-                "a live run cannot be shared by hosts in lock-step: its drivers do not wait");
+                "hosts in lock-step cannot share a live run: its drivers do not wait");
   }
   // They are made in the order of the list, so one that stands behind a later one waits for it.
   std::uint64_t step = 0;
@@ -90,7 +90,8 @@ Status check_twins(const EngineSpec& spec) {
 Status check_local(const EngineSpec& spec) {
   if (!spec.local) return {};
   RAVE_TRY(check_shared(spec));
-  if (spec.local->empty()) return fail(ErrorCode::kInvalidArgument, "a host needs a robot to run");
+  if (spec.local->empty())
+    return fail(ErrorCode::kInvalidArgument, "expected at least one robot for the host");
   std::vector<std::uint8_t> seen(spec.robots.size());
   for (const RobotId robot : *spec.local) {
     if (robot.value() >= seen.size()) {
@@ -109,8 +110,8 @@ Status check_local(const EngineSpec& spec) {
 Status check_threads(const EngineSpec& spec, unsigned given) {
   if (given >= spec.threads) return {};
   return fail(ErrorCode::kIo,
-              "the system gives {} of the {} threads that the run asks for (`threads`); expected "
-              "fewer, or a higher limit of processes or memory",
+              "the system grants only {} of {} threads (`threads`); use fewer, or raise the limits "
+              "of processes or memory",
               given, spec.threads);
 }
 

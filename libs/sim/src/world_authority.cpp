@@ -66,18 +66,18 @@ void WorldAuthority::Impl::begin() {
 
 Status WorldAuthority::Impl::check(const HostReport& report) const {
   if (report.host >= hosts.size()) {
-    return fail(ErrorCode::kInvalidArgument, "a report of host {}, but there are {}", report.host,
-                hosts.size());
+    return fail(ErrorCode::kInvalidArgument, "a report of host {}, but there are only {}",
+                report.host, hosts.size());
   }
   const auto named = [&](Error error) {
     return tl::unexpected(std::move(error).with_context(fmt::format("host {}", report.host)));
   };
   if (report.state > HostState::kDone) {
-    return named({ErrorCode::kState, fmt::format("cannot go on: {}", report.text), {}});
+    return named({ErrorCode::kState, fmt::format("cannot continue: {}", report.text), {}});
   }
   if (report.step != step) {
     return named({ErrorCode::kInvalidArgument,
-                  fmt::format("a report for step {}, but step {} comes next", report.step, step),
+                  fmt::format("a report for step {}, but step {} is next", report.step, step),
                   {}});
   }
   const Status status = check_report(spec, hosts[report.host], host_of, report);

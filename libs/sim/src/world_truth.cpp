@@ -193,7 +193,7 @@ Result<world::Body> WorldTruth::body_at(RobotId robot, double scale) const {
 
 Status WorldTruth::resize(RobotId robot, double scale) {
   if (!movers[robot.value()].simulated) {
-    return fail(ErrorCode::kInvalidArgument, "a real body has the size that it has");
+    return fail(ErrorCode::kInvalidArgument, "a real body cannot change its size");
   }
   RAVE_TRY_ASSIGN(const world::Body body, body_at(robot, scale));
   RAVE_TRY(check_room(robot, body, scale));
@@ -201,7 +201,6 @@ Status WorldTruth::resize(RobotId robot, double scale) {
 }
 
 Status WorldTruth::check_room(RobotId robot, const world::Body& body, double scale) const {
-  constexpr double kApart_m = 1e-4;  // the skin that the resolver keeps
   const std::uint32_t r = robot.value();
   const auto own = static_cast<std::uint32_t>(spec.world.obstacles.size()) + r;
   for (std::uint32_t other = 0; other < spec.world.body_count(); ++other) {

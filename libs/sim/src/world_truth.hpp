@@ -82,6 +82,9 @@ struct WorldTruth {
   /// Puts the obstacles of the start back, and forgets all others; false if nothing had changed.
   bool restore_obstacles();
 
+  /// Nearer than this two bodies touch: the skin that the resolver keeps.
+  static constexpr double kApart_m = 1e-4;
+
   /// Robots in the order of their ids, by blocks, whatever their groups.
   static constexpr std::size_t kRobotBlock = 256;
   [[nodiscard]] std::size_t robot_blocks() const noexcept {

@@ -11,8 +11,6 @@ namespace {
 
 using Kind = ObstacleChange::Kind;
 
-constexpr double kApart_m = 1e-4;  // the skin that the resolver keeps
-
 /// Calls `visit(id, obstacle)` for each obstacle that stands.
 template <class Visit>
 void for_each_standing(const world::WorldModel& world, Visit&& visit) {
@@ -56,7 +54,7 @@ Result<BodyId> WorldTruth::find_obstacle(const ObstacleChange& change) const {
   });
   if (count == 0) return tl::unexpected(unknown_obstacle(world, change.name));
   if (count == 1) return found;
-  return fail(ErrorCode::kInvalidArgument, "`{}` is the name of {} obstacles; expected a number",
+  return fail(ErrorCode::kInvalidArgument, "{1} obstacles have the name `{0}`; expected a number",
               change.name, count);
 }
 
@@ -74,20 +72,21 @@ Status WorldTruth::check_new_obstacle(const ObstacleChange& change) const {
   });
   if (same.valid()) {
     return fail(ErrorCode::kInvalidArgument,
-                "there is an obstacle `{}` already (number {}); move it, or choose another name",
+                "there already is an obstacle `{}` (number {}); move it, or choose another name",
                 change.name, same.value());
   }
   if (change.body.code && same_code != nullptr) {
-    return fail(
-        ErrorCode::kInvalidArgument,
-        "`{}` carries the code {} already; expected a code of its own for the obstacle `{}`",
-        *same_code, *change.body.code, change.name);
+    return fail(ErrorCode::kInvalidArgument,
+                "`{}` already carries the code {}; expected another code for the obstacle `{}`",
+                *same_code, *change.body.code, change.name);
   }
   if (standing >= ObstacleChange::kMostStanding) {
-    return fail(ErrorCode::kInvalidArgument, "there are {} obstacles; no more fit in", standing);
+    return fail(ErrorCode::kInvalidArgument, "there are {} obstacles, which is the maximum",
+                standing);
   }
   if (spec.world.added.size() >= ObstacleChange::kMostAdded) {
-    return fail(ErrorCode::kInvalidArgument, "{} obstacles were added in this run; no more can be",
+    return fail(ErrorCode::kInvalidArgument,
+                "{} obstacles were added in this run, which is the maximum",
                 spec.world.added.size());
   }
   return {};

@@ -8,10 +8,9 @@
 namespace rave::sim {
 
 Status WorldTruth::check_place(RobotId robot, const Pose2& X_WR) const {
-  constexpr double kApart_m = 1e-4;  // the skin that the resolver keeps
   const std::uint32_t r = robot.value();
   if (!movers[r].simulated) {
-    return fail(ErrorCode::kInvalidArgument, "a real robot is where it is; carry it there");
+    return fail(ErrorCode::kInvalidArgument, "a real robot cannot be placed; move it by hand");
   }
   const auto own = static_cast<std::uint32_t>(spec.world.obstacles.size()) + r;
   const world::Body& body = spec.world.robots[r];

@@ -32,9 +32,9 @@ TEST(EngineFailure, CostsOnlyTheRobotItHappensTo) {
   const auto events = run(*engine, 50);
   const std::pair<EventKind, const char*> expected[] = {
       {EventKind::kProgramFailed, "program `program`: threw an exception: out of ideas"},
-      {EventKind::kDriverFailed, "controller `drive`: gave a command that is not a number"},
+      {EventKind::kDriverFailed, "controller `drive`: gave a command that is not finite"},
       {EventKind::kDriverFailed, "actuator `wheels`: threw an exception: a wheel came off"},
-      {EventKind::kDriverFailed, "actuator `wheels`: proposed a velocity that is not a number"},
+      {EventKind::kDriverFailed, "actuator `wheels`: proposed a velocity that is not finite"},
       {EventKind::kDriverFailed, "controller `drive`: threw an exception: burnt out"},
       {EventKind::kDriverFailed,
        "sensor `counter` (driver `counter`): threw an exception: lens cap on"},

@@ -94,9 +94,8 @@ TEST(EngineGuard, ASensorThatFallsSilentStopsTheRobotUntilItSpeaksAgain) {
     EXPECT_EQ(events[0].kind, EventKind::kGuardStopped);
     EXPECT_EQ(events[0].detail, static_cast<std::uint32_t>(GuardLimit::kSensorLost));
     EXPECT_EQ(events[0].step, c.stops_at);
-    EXPECT_EQ(events[0].text, fmt::format("sensor lost: `compass` has given nothing for more than "
-                                          "{} s",
-                                          c.text));
+    EXPECT_EQ(events[0].text,
+              fmt::format("sensor lost: `compass` has given no sample for more than {} s", c.text));
     for (std::size_t i = c.stops_at; i < Obedient::told().size(); ++i) {
       EXPECT_EQ(Obedient::told()[i], velocity_command(0, 0)) << i;
     }

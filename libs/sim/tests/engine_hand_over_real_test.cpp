@@ -171,7 +171,7 @@ TEST_F(RealHandOver, WaitsForWheelsThatHaveNeverBeenCounted) {
 TEST_F(RealHandOver, IsRefusedWhileItsWheelsDoNotObey) {
   Plugged::cable_is_out = true;
   EXPECT_FALSE(handed_over(50));
-  EXPECT_NE(refusal_.find("it was not seen to stand within 10 s"), std::string::npos) << refusal_;
+  EXPECT_NE(refusal_.find("it did not come to rest within 10 s"), std::string::npos) << refusal_;
   EXPECT_EQ(engine_->hand_over_state(robot_)->active, DriverSet::kFirst);
   Plugged::cable_is_out = false;
   run(*engine_, 2);
@@ -245,7 +245,7 @@ TEST_F(BecomesReal, NotWhenItIsElsewhere) {
   while (under_way() && !is_late()) say(0.3);
   const auto refused = of_kind(events_, EventKind::kHandOverRefused);
   ASSERT_EQ(refused.size(), 1U);
-  EXPECT_NE(refused[0].text.find("which is 0.300 m and 0.0 degrees from where it is now"),
+  EXPECT_NE(refused[0].text.find("which is 0.300 m and 0.0 degrees from its present pose"),
             std::string::npos)
       << refused[0].text;
   EXPECT_EQ(engine_->hand_over_state(robot_)->made, 0U);
@@ -289,8 +289,7 @@ TEST_F(BecomesReal, WhoArmedTheOneHasNotArmedTheOther) {
   EXPECT_FALSE(engine_->armed(robot_));
   const auto made = of_kind(events_, EventKind::kHandedOver);
   ASSERT_EQ(made.size(), 1U);
-  EXPECT_NE(made[0].text.find("it stands until somebody arms it"), std::string::npos)
-      << made[0].text;
+  EXPECT_NE(made[0].text.find("it stands until it is armed"), std::string::npos) << made[0].text;
 }
 
 }  // namespace

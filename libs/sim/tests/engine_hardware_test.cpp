@@ -16,8 +16,8 @@ TEST(EngineHardware, ADriverThatNeverAnswersEndsTheRun) {
   ASSERT_FALSE(status.has_value());
   EXPECT_EQ(status.error().code, ErrorCode::kTimeout);
   EXPECT_EQ(status.error().text(),
-            "robot `r0`, sensor `mocap` (driver `mocap`) has not said for 20 ms what it has up to "
-            "0.000 s; the run cannot go on");
+            "robot `r0`, sensor `mocap` (driver `mocap`) has not declared its samples complete up "
+            "to 0.000 s for 20 ms; the run cannot continue");
 }
 
 TEST(EngineHardware, ALostDeviceIsToldInTheStepThatMissesItAndTheRunGoesOn) {
@@ -69,7 +69,7 @@ TEST(EngineHardware, AStalePoseIsToldAndSoIsItsReturn) {
   EXPECT_EQ(events[0].text, "its last pose is from 0.29 s");
   EXPECT_EQ(events[0].step, 80U);  // the first more than 0.5 s after 0.294 s
   EXPECT_EQ(events[1].kind, EventKind::kPoseBack);
-  EXPECT_EQ(events[1].text, "poses come again from 1.20 s");
+  EXPECT_EQ(events[1].text, "poses arrive again from 1.20 s");
   EXPECT_EQ(events[1].step, 121U);
   EXPECT_FALSE(engine->reported(real).stale);
   EXPECT_NEAR(engine->reported(real).velocity.vx, 0.1, 1e-9);
@@ -111,7 +111,7 @@ TEST(EngineHardware, ANumberThatIsNoneNeverReachesAnActuator) {
   const auto engine = make_engine(std::move(spec));
   const auto events = run(*engine, 20);
   ASSERT_EQ(events.size(), 1U);
-  EXPECT_EQ(events[0].text, "controller `drive`: gave a command that is not a number");
+  EXPECT_EQ(events[0].text, "controller `drive`: gave a command that is not finite");
 }
 
 /// The numbers that a ticker delivered, step by step, as observers see them.

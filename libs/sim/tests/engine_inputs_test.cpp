@@ -109,7 +109,7 @@ TEST(EngineInputs, ARefusedChangeLeavesEverythingAsItWas) {
   refused("a number", {to("v", std::string("fast"))});
   refused("no such gear", {to("gear", 2.0)});
   refused("too fast for a curve", {to("v", 0.6), to("w", 0.1)});
-  refused("no controller of this number", {{ParameterChange::Part::kController, 7, "x", 1.0}});
+  refused("no controller with this number", {{ParameterChange::Part::kController, 7, "x", 1.0}});
   refused("there is no parameter `x`", {{ParameterChange::Part::kController, 0, "x", 1.0}});
   refused("nothing to change", {});
   // The body would overlap the wall; what the program has taken by then is taken back.

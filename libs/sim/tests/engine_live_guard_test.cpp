@@ -258,8 +258,8 @@ TEST_F(EngineLiveGuard, WhatTheDriverSaysIsAnEventOnce) {
 
 TEST_F(EngineLiveGuard, NamesTheDevicesThatNobodyStopsWhenTheProcessIsGone) {
   const std::string text =
-      "guard: only a watchdog of the device itself stops a robot when this process is killed or "
-      "suspended; none is stated (`device_watchdog_s` of the actuator) for `r0` (driver "
+      "guard: if this process is killed or suspended, only a watchdog of the device stops a robot; "
+      "none is stated (`device_watchdog_s` of the actuator) for `r0` (driver "
       "`cart_wheels`)\n";
   make_engine(live_spec(cart_type(0.3))).reset();
   EXPECT_NE(ears_.heard.find(text), std::string::npos) << ears_.heard;
@@ -302,7 +302,7 @@ TEST(EngineLiveGuardEnd, ADriverThatHangsHoldsUpNeitherStepsNorTheEnd) {
   ASSERT_EQ(failed.size(), 1U);
   EXPECT_EQ(failed[0].text, "actuator `wheels`: has not returned from a command");
   engine.reset();
-  EXPECT_NE(ears.heard.find("the guard of actuator `wheels` (driver `deaf`) is still being closed"),
+  EXPECT_NE(ears.heard.find("the guard of actuator `wheels` (driver `deaf`) is still closing"),
             std::string::npos)
       << ears.heard;
 }

@@ -154,7 +154,7 @@ TEST(EngineObstacles, WithACodeThatAnotherCarriesAreRefused) {
   const auto second = engine->change_obstacle(coded("b", 30));
   ASSERT_FALSE(second);
   EXPECT_EQ(second.error().text(),
-            "`a` carries the code 7 already; expected a code of its own for the obstacle `b`");
+            "`a` already carries the code 7; expected another code for the obstacle `b`");
   ASSERT_TRUE(engine->change_obstacle(add("c", {40, 20, 0}))) << "without a code";
   ASSERT_TRUE(engine->change_obstacle(take_away("a")));
   EXPECT_TRUE(engine->change_obstacle(coded("b", 30)));
@@ -180,7 +180,7 @@ TEST(EngineObstacles, ARefusedChangeLeavesEverythingAsItWas) {
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   refused("there is no obstacle `pst`; did you mean `post`?", take_away("pst"));
-  refused("there is an obstacle `post` already (number 0)", add("post", {3, 0, 0}));
+  refused("there already is an obstacle `post` (number 0)", add("post", {3, 0, 0}));
   refused("x is nan; expected within +-10000000 m", add("crate", {nan, 0, 0}));
   refused("y is -inf", move("post", {0, -std::numeric_limits<double>::infinity(), 0}));
   refused("x is 20000000", move("post", {2e7, 0, 0}));
@@ -221,7 +221,7 @@ TEST(EngineObstacles, WhatHasGoneCannotBeChangedAndWhatHasTwoNamesNeedsANumber) 
   spec.world.obstacles.push_back(box({9, 9, 0}, 0.2, 1, 1, "post"));
   const auto engine = make_engine(std::move(spec));
   EXPECT_EQ(engine->change_obstacle(take_away("post")).error().text(),
-            "`post` is the name of 2 obstacles; expected a number");
+            "2 obstacles have the name `post`; expected a number");
   ObstacleChange change = take_away("");
   change.id = BodyId(0);
   ASSERT_TRUE(engine->change_obstacle(change));

@@ -189,11 +189,11 @@ TEST(EngineOrders, ARefusedOrderLeavesEverythingAsItWas) {
   refused("expected at most 100 m/s", drive(kDriver, nan, 0));
   refused("expected at most 100 m/s", drive(kDriver, 0, std::numeric_limits<double>::infinity()));
   refused("expected at most 100 m/s", drive(kDriver, 101, 0));
-  refused("is no point", goal(kListener, {nan, 0}));
+  refused("is not a point", goal(kListener, {nan, 0}));
   refused("is outside the world", goal(kListener, {1e6, 0}));
   refused("is inside the obstacle `wall`", goal(kListener, {4, 1}));
   refused("is outside the fence", goal(kListener, {3.5, 0}));
-  refused("is no yaw", place(kListener, {1, 1}, nan));
+  refused("is not a yaw", place(kListener, {1, 1}, nan));
   refused("`path` needs a robot", order(Kind::kPath, RobotId()));
   refused("`goal` needs a robot", goal(RobotId(99), {0, 0}));
   refused("1 points; expected 2 to 1000", [] {
@@ -217,7 +217,7 @@ TEST(EngineOrders, ARefusedOrderLeavesEverythingAsItWas) {
   refused("1001 bytes; expected 1 to 1000", words(kListener, std::string(1001, 'a')));
   refused("control characters", words(kListener, "a\x1b[2J"));
   refused("a velocity that an actuator obeys", drive(RobotId(3), 0.1, 0));
-  refused("a real robot is where it is", place(RobotId(3), {1, 1}));
+  refused("a real robot cannot be placed", place(RobotId(3), {1, 1}));
 }
 
 TEST(EngineOrders, ARobotSaysWhatItTakes) {

@@ -155,7 +155,7 @@ TEST(EngineCreate, RefusesPoseSourcesThatCannotWork) {
   add_robot(nowhere, std::move(type));
   const auto a = Engine::create(std::move(nowhere));
   ASSERT_FALSE(a.has_value());
-  EXPECT_EQ(a.error().text(), "robot `r0` is real, so something must say where it is: `pose_from`");
+  EXPECT_EQ(a.error().text(), "robot `r0` is real, so it needs a source of its pose: `pose_from`");
 
   EngineSpec blind;
   type = real_type({});
@@ -185,8 +185,8 @@ TEST(EngineCreate, ALiveDriverNeedsAClock) {
   const auto engine = Engine::create(std::move(spec));
   ASSERT_FALSE(engine.has_value());
   EXPECT_EQ(engine.error().text(),
-            "robot `r0`, sensor `mocap` (driver `mocap`): runs by the clock on the wall, but the "
-            "run is stepped");
+            "robot `r0`, sensor `mocap` (driver `mocap`): follows the wall clock, but the run is "
+            "stepped");
 }
 
 }  // namespace

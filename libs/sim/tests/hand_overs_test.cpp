@@ -5,8 +5,6 @@
 namespace rave::sim::testing {
 namespace {
 
-constexpr RobotId kRobot(0);
-
 EngineSpec two_sets() {
   EngineSpec spec;
   add_robot(spec, simulated_type());
@@ -51,7 +49,7 @@ TEST(HandOvers, ARobotThatDoesNotStandKeepsItsDrivers) {
   const auto told = parts.told();
   ASSERT_EQ(told.size(), 1U);
   EXPECT_EQ(told[0].kind, EventKind::kHandOverRefused);
-  EXPECT_NE(told[0].text.find("it was not seen to stand within 10 s"), std::string::npos);
+  EXPECT_NE(told[0].text.find("it did not come to rest within 10 s"), std::string::npos);
   EXPECT_TRUE(parts.calls.empty());
 }
 
@@ -70,10 +68,10 @@ TEST(HandOvers, WhatCannotBeAskedIsRefusedAtOnce) {
   EXPECT_EQ(why(parts.hand_overs.ask(0, RobotId(1), DriverSet::kTwin, Author::kHand)),
             "robot `r1` has one set of drivers; `twin:` in the scenario names another");
   EXPECT_EQ(why(parts.hand_overs.ask(0, kRobot, DriverSet::kFirst, Author::kHand)),
-            "robot `r0` has its simulated drivers already");
+            "robot `r0` already has its simulated drivers");
   ASSERT_TRUE(parts.hand_overs.ask(0, kRobot, DriverSet::kTwin, Author::kHand));
   EXPECT_EQ(why(parts.hand_overs.ask(0, kRobot, DriverSet::kTwin, Author::kHand)),
-            "robot `r0` is being handed over already");
+            "robot `r0` is already being handed over");
   EXPECT_EQ(parts.log.by_hand(), 1U) << "of what was refused nothing counts";
 }
 

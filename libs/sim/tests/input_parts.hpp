@@ -8,9 +8,12 @@
 #include "../src/spec_checks.hpp"
 #include "engine_fixture.hpp"
 
-/// What inputs act on, without an engine around it.
 namespace rave::sim::testing {
 
+/// Of the robot that most of these tests are about.
+inline constexpr RobotId kRobot(0);
+
+/// What inputs act on, without an engine around it.
 struct InputParts : private HandOvers::Site {
   explicit InputParts(EngineSpec of)
       : spec(std::move(of)),

@@ -96,7 +96,7 @@ TEST(ObstacleAuthority, WhoIsNotToldOfObstaclesDoesNotGoOn) {
   const Status untold = first->resume(world, state);
   ASSERT_FALSE(untold);
   EXPECT_EQ(untold.error().message,
-            "obstacles have changed 2 times before this world, and nobody told how");
+            "obstacles had changed 2 times before this world, but the changes are missing");
   ObstacleChange added = crate("a", {1, 3, 0});
   added.id = BodyId(3);
   state.obstacles = {added, added};

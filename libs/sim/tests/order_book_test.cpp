@@ -5,8 +5,6 @@
 namespace rave::sim::testing {
 namespace {
 
-constexpr RobotId kRobot(0);
-
 struct OneRobot : InputParts {
   explicit OneRobot(RobotType type) : InputParts(with(std::move(type))) {}
   static EngineSpec with(RobotType type) {
@@ -72,7 +70,7 @@ TEST(OrderBook, WhatTheRobotDoesNotTakeIsRefused) {
   OneRobot robot(driver_type());
   const Status text = robot.take(0, words(kRobot, "hello"));
   ASSERT_FALSE(text);
-  EXPECT_EQ(text.error().message, "robot `r0`, text: nobody listens: its program takes no texts");
+  EXPECT_EQ(text.error().message, "robot `r0`, text: its program takes no texts");
   const Status there = robot.take(0, goal(kRobot, {1, 0}));
   ASSERT_FALSE(there);
   EXPECT_EQ(there.error().message,

@@ -199,7 +199,7 @@ TEST_F(RadioDevice, WhoFloodsIsNamedAndLosesItsOwnMessages) {
   EXPECT_GT(engine->radio_counts().lost_mailbox, 0U);
   expect_balance(engine->radio_counts());
   // Once for each robot that hears it.
-  const std::string told = "transmitter `cable`: a sender that is no robot here";
+  const std::string told = "transmitter `cable`: an unknown sender";
   std::size_t times = 0;
   for (auto at = ears.heard.find(told); at != std::string::npos;
        at = ears.heard.find(told, at + 1)) {
@@ -322,7 +322,7 @@ TEST_F(RadioDevice, ACommunicatorWhoseMessagesDoNotFitIsRefused) {
   ASSERT_FALSE(engine);
   EXPECT_EQ(engine.error().text(),
             "robot `r0`, transmitter `cable` (driver `cable`): carries packets of up to 100 bytes, "
-            "but communicator `air` sends messages of up to 64 bytes, 120 with their head");
+            "but communicator `air` sends messages of up to 64 bytes, 120 with their header");
 }
 
 }  // namespace

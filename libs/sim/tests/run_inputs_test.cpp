@@ -5,7 +5,6 @@
 namespace rave::sim::testing {
 namespace {
 
-constexpr RobotId kRobot(0);
 constexpr ParamSpec kGearParams[] = {integer_param("gear", 1, 1, 5, "Only odd ones are built.")};
 
 /// Says which gears it was given; refuses even ones.

@@ -82,8 +82,9 @@ using Reports = std::vector<HostReport>;
 
 TEST(SplitRefusal, ReportsOfAnotherStepOrHost) {
   EXPECT_EQ(refusal([](Reports& all) { all[1].step = 10; }),
-            "host 1: a report for step 10, but step 11 comes next");
-  EXPECT_EQ(refusal([](Reports& all) { all[1].host = 7; }), "a report of host 7, but there are 2");
+            "host 1: a report for step 10, but step 11 is next");
+  EXPECT_EQ(refusal([](Reports& all) { all[1].host = 7; }),
+            "a report of host 7, but there are only 2");
   EXPECT_EQ(refusal([](Reports& all) { all.push_back(all[0]); }),
             "host 0: two reports for one step");
   EXPECT_EQ(refusal([](Reports& all) { all.pop_back(); }), "host 1 has not reported for step 11");
@@ -91,7 +92,7 @@ TEST(SplitRefusal, ReportsOfAnotherStepOrHost) {
     all[0].state = HostState::kFailed;
     all[0].text = "the line is dead";
   };
-  EXPECT_EQ(refusal(failed), "host 0: cannot go on: the line is dead");
+  EXPECT_EQ(refusal(failed), "host 0: cannot continue: the line is dead");
 }
 
 TEST(SplitRefusal, RobotsThatAreNotTheHosts) {
@@ -108,26 +109,25 @@ TEST(SplitRefusal, RobotsThatAreNotTheHosts) {
   EXPECT_EQ(refusal([](Reports& all) {
               all[0].poses.push_back({RobotId(0), {}});
             }),
-            "host 0: robot `r0`: a reported pose, which is not asked of it");
+            "host 0: robot `r0`: a reported pose, which it was not asked for");
   EXPECT_EQ(refusal([](Reports& all) { all[0].proposals.vx_mps.pop_back(); }),
             "host 0: proposals of unequal length");
   const auto sample = [](Reports& all) { all[0].samples.push_back({RobotId(0), {}, {}}); };
-  EXPECT_EQ(refusal(sample),
-            "host 0: robot `r0`: a sample of its pose that is not its host's to give");
+  EXPECT_EQ(refusal(sample), "host 0: robot `r0`: a sample of its pose from another host");
 }
 
 TEST(SplitRefusal, NumbersThatAreNone) {
   for (const double bad : {kNan, std::numeric_limits<double>::infinity()}) {
     EXPECT_EQ(refusal([bad](Reports& all) { all[0].proposals.wz_radps[0] = bad; }),
-              "host 0: robot `r0`: proposes a velocity that is not a number");
+              "host 0: robot `r0`: proposes a velocity that is not finite");
     EXPECT_EQ(refusal([bad](Reports& all) { all[1].poses[0].reported.pose.yaw_rad = bad; }),
-              "host 1: robot `r2`: a reported pose that is not a number");
+              "host 1: robot `r2`: a reported pose that is not finite");
     EXPECT_EQ(refusal([bad](Reports& all) { all[1].poses[0].reported.velocity.vx = bad; }),
-              "host 1: robot `r2`: a reported pose that is not a number");
+              "host 1: robot `r2`: a reported pose that is not finite");
     EXPECT_EQ(refusal([bad](Reports& all) { all[1].samples.at(0).X_WR.x = bad; }),
-              "host 1: robot `r2`: a sample that is not a number");
+              "host 1: robot `r2`: a sample that is not finite");
     EXPECT_EQ(refusal([bad](Reports& all) { all[0].sent.packets.at(0).x_m = bad; }),
-              "host 0: robot `r0`: a message from a place or with a range that is not a number");
+              "host 0: robot `r0`: a message with a position or range that is not finite");
   }
   EXPECT_EQ(refusal([](Reports& all) { all[1].poses[0].reported.stamp.ns += 1'000'000'000; }),
             "host 1: robot `r2`: a reported pose from the future");
@@ -138,21 +138,21 @@ TEST(SplitRefusal, MessagesThatCannotBe) {
     return refusal([&](Reports& all) { spoil(all[0].sent.packets.at(1)); });
   };
   EXPECT_EQ(spoilt([](SentPacket& packet) { packet.robot = RobotId(3); }),
-            "host 0: robot `r3`: a message that is not its host's to give");
+            "host 0: robot `r3`: a message from another host");
   EXPECT_EQ(spoilt([](SentPacket& packet) { packet.robot = RobotId(99); }),
-            "host 0: robot `number 99`: a message that is not its host's to give");
+            "host 0: robot `number 99`: a message from another host");
   EXPECT_EQ(spoilt([](SentPacket& packet) { packet.robot = RobotId(0); }),
             "host 0: robot `r0`: messages out of order");
   EXPECT_EQ(spoilt([](SentPacket& packet) { packet.communicator = 1; }),
             "host 0: robot `r1`: a message of a communicator that it does not have");
   EXPECT_EQ(spoilt([](SentPacket& packet) { packet.first_byte = 0xFFFF'FFFFU; }),
-            "host 0: robot `r1`: a message whose bytes are not there");
+            "host 0: robot `r1`: a message with missing bytes");
   EXPECT_EQ(spoilt([](SentPacket& packet) { packet.size = 70'000; }),
-            "host 0: robot `r1`: a message whose bytes are not there");
+            "host 0: robot `r1`: a message with missing bytes");
   EXPECT_EQ(spoilt([](SentPacket& packet) { packet.complete_ns += 1'000'000'000; }),
-            "host 0: robot `r1`: a message of another step");
+            "host 0: robot `r1`: a message for another step");
   EXPECT_EQ(spoilt([](SentPacket& packet) { packet.to.kind = RecipientKind{7}; }),
-            "host 0: robot `r1`: a message to nobody");
+            "host 0: robot `r1`: a message without receiver");
 }
 
 /// The error with which a host answers a world that was changed like this.
@@ -169,25 +169,25 @@ std::string world_refusal(const std::function<void(WorldStep&)>& spoil) {
 
 TEST(SplitRefusal, WorldsThatCannotBe) {
   EXPECT_EQ(world_refusal([](WorldStep& world) { ++world.step; }),
-            "the world is of step 4, but step 3 comes next");
+            "the world is for step 4, but step 3 is next");
   EXPECT_EQ(world_refusal([](WorldStep& world) { world.x_m.pop_back(); }),
             "a world of 3 robots, but there are 4");
   EXPECT_EQ(world_refusal([](WorldStep& world) { world.yaw_rad[2] = kNan; }),
-            "a world with a pose that is not a number");
+            "a world with a pose that is not finite");
   EXPECT_EQ(world_refusal([](WorldStep& world) {
               world.pushed.push_back({RobotId(9), {}});
             }),
-            "robot `number 9`: pushed to a place that is none");
+            "robot `number 9`: pushed to an invalid pose");
   EXPECT_EQ(world_refusal([](WorldStep& world) {
               world.touches.push_back({RobotId(1), {kNan, 0}});
             }),
-            "robot `r1`: touches something where nothing can be");
+            "robot `r1`: touches something at an invalid place");
   EXPECT_EQ(world_refusal([](WorldStep& world) {
               world.resized.push_back({RobotId(1), kNan});
             }),
-            "robot `r1`: a size that no body can have");
+            "robot `r1`: an impossible size of a body");
   EXPECT_EQ(world_refusal([](WorldStep& world) { world.inputs.emplace_back().robot = RobotId(9); }),
-            "robot `number 9`: an input that cannot be");
+            "robot `number 9`: an invalid input");
 }
 
 TEST(SplitRefusal, CallsOutOfTurn) {
@@ -214,14 +214,15 @@ TEST(SplitRefusal, AtCreation) {
     return engine ? std::string() : engine.error().text();
   };
   EXPECT_EQ(error_of([](EngineSpec&) {}), "");
-  EXPECT_EQ(error_of([](EngineSpec& spec) { spec.local->clear(); }), "a host needs a robot to run");
+  EXPECT_EQ(error_of([](EngineSpec& spec) { spec.local->clear(); }),
+            "expected at least one robot for the host");
   EXPECT_EQ(error_of([](EngineSpec& spec) { spec.local->emplace_back(4); }),
             "robot 4 is local, but there are 4 robots");
   EXPECT_EQ(error_of([](EngineSpec& spec) { spec.local->emplace_back(0); }),
             "robot `r0` is local twice");
   HandClock clock;
   EXPECT_EQ(error_of([&](EngineSpec& spec) { spec.live_clock = &clock; }),
-            "a live run cannot be shared by hosts in lock-step: its drivers do not wait");
+            "hosts in lock-step cannot share a live run: its drivers do not wait");
   EXPECT_EQ(error_of([&](EngineSpec& spec) {
               spec.live_clock = &clock;
               spec.own_authority = true;
@@ -234,8 +235,8 @@ TEST(SplitRefusal, AtCreation) {
     spec.changes.push_back({5, RobotId(0), {speed}});
   };
   EXPECT_EQ(error_of(mixed),
-            "robot `r0`, step 5: its body and other parts change in one step, which several hosts "
-            "cannot do yet; change the body a step earlier");
+            "robot `r0`, step 5: its body and other parts change in one step, which runs of "
+            "several hosts do not support; change the body a step earlier");
   EngineSpec spec = four();
   mixed(spec);
   EXPECT_FALSE(WorldAuthority::create(std::move(spec), kFourOn));
@@ -277,7 +278,7 @@ TEST(SplitRefusal, InputsThatCannotBeCarriedOut) {
   ASSERT_TRUE(run.advance());
   ASSERT_EQ(run.authority->refusals().size(), 1U);
   EXPECT_EQ(run.authority->refusals()[0].text,
-            "robot `r2`, body: a real body has the size that it has");
+            "robot `r2`, body: a real body cannot change its size");
   input.robot = RobotId(0);
   input.changes = {speed};
   ASSERT_EQ(run.authority->ask(input), 2U);
@@ -290,7 +291,7 @@ TEST(SplitRefusal, InputsThatCannotBeCarriedOut) {
             "robot `r2` runs on another host");
   input.changes = {body};
   EXPECT_EQ(run.hosts[0]->set_parameters(RobotId(0), input.changes).error().text(),
-            "the body of robot `r0` is the authority's to change");
+            "only the authority can change the body of robot `r0`");
 }
 
 ObstacleChange crate(const Pose2& X_WB) {
@@ -326,7 +327,7 @@ TEST(SplitRefusal, ObstaclesOfAWorldThatCannotBe) {
               input.kind = WorldInput::Kind::kObstacle;
               world.inputs.push_back(input);
             }),
-            "robot `number 4294967295`: an input that cannot be");
+            "robot `number 4294967295`: an invalid input");
 }
 
 TEST(SplitRefusal, ObstaclesThatNobodyCanHave) {
@@ -345,7 +346,7 @@ TEST(SplitRefusal, ObstaclesThatNobodyCanHave) {
   ASSERT_EQ(run.authority->refusals().size(), 2U);
   EXPECT_EQ(run.authority->refusals()[0].sequence, 1U);
   EXPECT_NE(run.authority->refusals()[0].text.find("overlap the robot `r0`"), std::string::npos);
-  EXPECT_NE(run.authority->refusals()[1].text.find("there is an obstacle `crate` already"),
+  EXPECT_NE(run.authority->refusals()[1].text.find("there already is an obstacle `crate`"),
             std::string::npos);
   ASSERT_EQ(run.world.obstacles.size(), 1U);
   EXPECT_EQ(run.world.obstacles[0].id, BodyId(4));
@@ -354,7 +355,7 @@ TEST(SplitRefusal, ObstaclesThatNobodyCanHave) {
   EXPECT_EQ(run.hosts[1]->spec().world.added.at(0).body.name, "crate");
   EXPECT_EQ(run.authority->world().added.size(), 1U);
   EXPECT_EQ(run.hosts[0]->change_obstacle(crate({6, 6, 0})).error().text(),
-            "obstacles are the authority's to change");
+            "only the authority can change obstacles");
 }
 
 TEST(SplitHost, HasNoInstancesForRobotsOfOtherHosts) {
@@ -401,7 +402,7 @@ TEST(SplitHost, AFailedDriverStandsInTheReport) {
   EXPECT_EQ(host->propose(report).error().code, ErrorCode::kTimeout);
   EXPECT_EQ(report.host, 5U);
   EXPECT_EQ(report.state, HostState::kFailed);
-  EXPECT_NE(report.text.find("has not said"), std::string::npos);
+  EXPECT_NE(report.text.find("has not declared"), std::string::npos);
 }
 
 }  // namespace

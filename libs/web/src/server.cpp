@@ -159,7 +159,7 @@ void ServerImpl::stop() {
       link->cut();
     }
     for (SocketLink* const socket : std::vector(core_.sockets.begin(), core_.sockets.end())) {
-      socket->close(1001, "the server ends");
+      socket->close(1001, "the server is shutting down");
     }
     auto bound = std::make_shared<asio::steady_timer>(core_.io(), std::chrono::seconds(1));
     bound->async_wait([this, bound](Error) {

@@ -73,7 +73,7 @@ Result<Body> scaled(const Body& body, double factor) {
     for (Vec2& corner : corners) corner = factor * corner;
     RAVE_TRY_ASSIGN(auto polygon, ConvexPolygon::make(corners));
     if (polygon.size() != corners.size()) {
-      return fail(ErrorCode::kInvalidArgument, "scaled by {} a shape of it loses corners", factor);
+      return fail(ErrorCode::kInvalidArgument, "scaled by {}, a shape of it loses corners", factor);
     }
     shape.polygon = std::move(polygon);
   }

@@ -47,8 +47,7 @@ class Judge {
     if (result_.other_domain) {
       problem(
           "domain",
-          fmt::format("it is in domain {}, and this machine in {}", *result_.other_domain,
-                      here_.domain),
+          fmt::format("it uses domain {}, this machine {}", *result_.other_domain, here_.domain),
           fmt::format("--domain {}    # here, or the other number there", *result_.other_domain));
       return;
     }
@@ -57,21 +56,23 @@ class Judge {
         good("way", fmt::format("`{}` answers", there_.machine));
         return;
       case ProbeResult::PortState::kRefused:
-        problem("way", "the machine is there, and no doctor listens on it", listen);
+        problem("way", "the machine is reachable, but `rave doctor --listen` does not run on it",
+                listen);
         return;
       case ProbeResult::PortState::kNoWay:
-        problem("way", fmt::format("there is no way to it ({})", result_.why),
+        problem("way", fmt::format("there is no route to it ({})", result_.why),
                 fmt::format("ip route get {0}; ping -c 3 {0}    # which address does it have?",
                             result_.peer));
         return;
       case ProbeResult::PortState::kSilent:
-        problem("way",
-                fmt::format("nothing comes back: no doctor listens there, a cable is out, or a "
-                            "firewall on one of the two drops UDP {} to {}",
-                            first, last),
-                listen + fmt::format("; sudo nft insert rule inet filter input udp dport {}-{} "
-                                     "accept    # on both",
-                                     first, last));
+        problem(
+            "way",
+            fmt::format("no answer: `rave doctor --listen` does not run there, a cable is "
+                        "unplugged, or a firewall on one of the machines drops UDP ports {} to {}",
+                        first, last),
+            listen + fmt::format("; sudo nft insert rule inet filter input udp dport {}-{} "
+                                 "accept    # on both",
+                                 first, last));
         return;
     }
   }
@@ -98,7 +99,7 @@ class Judge {
     }
     if (there_.multicast != here_.multicast) {
       add("settings", Verdict::kAdvice,
-          fmt::format("it says --multicast {}, and this machine --multicast {}", there_.multicast,
+          fmt::format("it uses --multicast {}, this machine --multicast {}", there_.multicast,
                       here_.multicast),
           fmt::format("--multicast {}    # there", here_.multicast));
     }
@@ -107,10 +108,9 @@ class Judge {
   void clock() {
     if (!result_.clock) return;
     const double offset_s = result_.clock->offset.seconds();
-    const std::string text = fmt::format(
-        "its clock of day is {:+.3f} s from the one here, give or "
-        "take {:.3f} s",
-        offset_s, result_.clock->bound.seconds());
+    const std::string text =
+        fmt::format("its clock differs from the clock here by {:+.3f} s (uncertainty {:.3f} s)",
+                    offset_s, result_.clock->bound.seconds());
     if (std::fabs(offset_s) <= kSameTime_s + result_.clock->bound.seconds()) {
       good("clock", text);
       return;
@@ -121,21 +121,22 @@ class Judge {
   void ports() {
     const bool none = there_.discovery_port == 0;
     if (none) {
-      problem("ports", "no port is left there for another process in the domain",
-              "sudo ss -ulpn    # there: says who has them");
+      problem("ports", "no UDP port is free there for another process in the domain",
+              "sudo ss -ulpn    # there: lists the programs that use them");
       return;
     }
     if (result_.discovery_open && result_.data_open) {
       good("ports", fmt::format("{} and {} are reached", there_.discovery_port, there_.data_port));
       return;
     }
-    problem("ports",
-            fmt::format("UDP port {} is not reached, while {} is: a firewall lets a part of the "
-                        "domain through",
-                        result_.discovery_open ? there_.data_port : there_.discovery_port,
-                        doctor_port(here_.domain)),
-            fmt::format("sudo nft insert rule inet filter input udp dport {}-{} accept    # there",
-                        first_port(here_.domain), last_port(here_.domain)));
+    problem(
+        "ports",
+        fmt::format(
+            "UDP port {} cannot be reached, but {} can: a firewall blocks some ports of the domain",
+            result_.discovery_open ? there_.data_port : there_.discovery_port,
+            doctor_port(here_.domain)),
+        fmt::format("sudo nft insert rule inet filter input udp dport {}-{} accept    # there",
+                    first_port(here_.domain), last_port(here_.domain)));
   }
 
   void multicast() {
@@ -145,10 +146,11 @@ class Judge {
       good("multicast", "both ways");
       return;
     }
-    const char* const what = !tried                     ? "it does not take part in the group"
-                             : *result_.multicast_there ? "what it sends is not heard here"
-                             : *result_.multicast_back  ? "what is sent here is not heard there"
-                                                        : "neither hears the other";
+    const char* const what = !tried                     ? "it has not joined the multicast group"
+                             : *result_.multicast_there ? "its multicast packets do not arrive here"
+                             : *result_.multicast_back
+                                 ? "multicast packets from here do not arrive there"
+                                 : "multicast packets arrive in neither direction";
     problem("multicast", what,
             fmt::format("--multicast off --peer {}    # a list of all machines, on each",
                         result_.peer));
@@ -164,8 +166,8 @@ class Judge {
       return;
     }
     problem("sizes",
-            fmt::format("datagrams of {} bytes and more do not {}: fragments of packets are "
-                        "dropped, or the MTU on the way is smaller than at an end",
+            fmt::format("datagrams of {} bytes and more do not {}: packet fragments are dropped, "
+                        "or the MTU along the route is smaller than at one end",
                         lost->bytes, lost->there ? "come back" : "arrive"),
             fmt::format("ip link show    # compare the mtu on both; sudo ip link set DEV mtu {}",
                         lost->bytes <= 1472 ? 1400 : 1500));
@@ -205,12 +207,11 @@ Finding check_bus(const bus::BusConfig& given, const std::string& participant) {
   if (participant.empty()) {
     return {"bus", Verdict::kGood, fmt::format("{} other processes are seen on it", seen), {}};
   }
-  return {
-      "bus", Verdict::kProblem,
-      fmt::format("`{}` answers, and is not seen on the bus: its --peer, --multicast, --security "
-                  "or --bus-tag differ from those here",
-                  participant),
-      "rave doctor --listen    # there, with the same options as here"};
+  return {"bus", Verdict::kProblem,
+          fmt::format("`{}` answers, but is not visible on the bus: its --peer, --multicast, "
+                      "--security or --bus-tag differ from those here",
+                      participant),
+          "rave doctor --listen    # there, with the same options as here"};
 }
 
 }  // namespace rave::doctor

@@ -11,7 +11,7 @@ constexpr std::int64_t kSoon_days = 30;
 
 Finding check_keys(const std::filesystem::path& folder, std::int64_t now_s) {
   if (folder.empty()) {
-    return {"keys", Verdict::kGood, "none: whoever reaches the network can take part", {}};
+    return {"keys", Verdict::kGood, "none: any process on the network can take part", {}};
   }
   const auto problem = [&](std::string what, std::string mend) {
     return Finding{"keys", Verdict::kProblem, std::move(what), std::move(mend)};
@@ -25,7 +25,7 @@ Finding check_keys(const std::filesystem::path& folder, std::int64_t now_s) {
   std::error_code error;
   if (!std::filesystem::exists(folder / "identity.pem", error) || set->members.empty()) {
     return problem(
-        fmt::format("{} is a whole set, and a process needs the folder of one member",
+        fmt::format("{} is a complete set of keys; a process needs the folder of one member",
                     folder.string()),
         fmt::format("--security {}", (folder / (set->members.empty() ? std::string("MEMBER")
                                                                      : set->members.front().name))
@@ -36,9 +36,10 @@ Finding check_keys(const std::filesystem::path& folder, std::int64_t now_s) {
       return problem(fmt::format("{}: {}", key->name, key->problems.front()), again);
     }
     if (now_s < key->from_s) {
-      return problem(fmt::format("{} is not valid before {}, as the clock here goes", key->name,
-                                 keys::date_text(key->from_s)),
-                     "sudo timedatectl set-ntp true");
+      return problem(
+          fmt::format("{} is not valid before {}, according to the clock of this machine",
+                      key->name, keys::date_text(key->from_s)),
+          "sudo timedatectl set-ntp true");
     }
     if (now_s > key->until_s) {
       return problem(fmt::format("{} expired on {}", key->name, keys::date_text(key->until_s)),

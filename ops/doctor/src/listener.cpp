@@ -79,8 +79,8 @@ Status Listener::Impl::open() {
   const std::uint32_t domain = options.about.domain;
   auto doctor = Socket::bind({options.address, doctor_port(domain)});
   if (!doctor && doctor.error().code == ErrorCode::kState) {
-    return fail(ErrorCode::kState, "a doctor listens at {}, UDP port {}, already", options.address,
-                doctor_port(domain));
+    return fail(ErrorCode::kState, "another `rave doctor --listen` already uses {}, UDP port {}",
+                options.address, doctor_port(domain));
   }
   if (!doctor) return tl::unexpected(doctor.error());
   sockets.push_back(*std::move(doctor));

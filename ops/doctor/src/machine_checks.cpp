@@ -66,9 +66,9 @@ Finding check_interface(const Machine& machine, const bus::BusConfig& config) {
   }
   const bool far = std::ranges::any_of(config.peers, elsewhere);
   if (found->loopback && (far || config.multicast != bus::Multicast::kOff)) {
-    return problem(
-        fmt::format("{} reaches this machine only, and others are looked for", found->name),
-        fmt::format("--interface {}", some_address(machine)));
+    return problem(fmt::format("{} reaches only this machine, but other machines are to be found",
+                               found->name),
+                   fmt::format("--interface {}", some_address(machine)));
   }
   finding.what = fmt::format("{} with {}", found->name, found->address);
   return finding;
@@ -97,23 +97,25 @@ Finding check_open_files(const Machine& machine) {
     return {"files", Verdict::kGood, fmt::format("{} may be open", machine.open_files), {}};
   }
   return {"files", Verdict::kProblem,
-          fmt::format("a process may open {} files only, which is soon too few for sockets and "
-                      "records",
+          fmt::format("a process may open only {} files; sockets and recordings may need more",
                       machine.open_files),
           "ulimit -n 1024"};
 }
 
 Finding check_receive_buffer(const Machine& machine) {
   if (!machine.receive_buffer_max) {
-    return {"buffers", Verdict::kUnknown, "the kernel does not say how large they may be", {}};
+    return {"buffers", Verdict::kUnknown, "the kernel does not report their maximum size", {}};
   }
   const std::uint64_t most = *machine.receive_buffer_max;
   if (most >= kWorld_bytes) {
-    return {"buffers", Verdict::kGood, fmt::format("sockets may hold {} kB", most / 1024), {}};
+    return {"buffers",
+            Verdict::kGood,
+            fmt::format("socket buffers may have up to {} kB", most / 1024),
+            {}};
   }
   return {"buffers", Verdict::kAdvice,
-          fmt::format("sockets may hold {} kB; a world of 10 000 robots has 600, and what does not "
-                      "fit is lost and sent again",
+          fmt::format("socket buffers are limited to {} kB; a world of 10 000 robots needs 600 kB, "
+                      "and packets that do not fit are lost and sent again",
                       most / 1024),
           fmt::format("sudo sysctl -w net.core.rmem_max={}", kWanted_bytes)};
 }
@@ -130,9 +132,9 @@ Finding check_domain(const Machine& machine, const bus::BusConfig& config) {
                       first <= *machine.last_handed_out && last >= *machine.first_handed_out;
   if (!shared) return {"domain", Verdict::kGood, range, {}};
   return {"domain", Verdict::kAdvice,
-          fmt::format("{}, of which the kernel gives some to others ({} to {})", range,
+          fmt::format("{}; the kernel also gives some of them to other programs ({} to {})", range,
                       *machine.first_handed_out, *machine.last_handed_out),
-          "--domain 0    # on all machines; any up to 99 will do"};
+          "--domain 0    # on all machines; any domain up to 99"};
 }
 
 Finding check_cyclone_uri(const Machine& machine) {
@@ -166,9 +168,9 @@ Finding check_cyclone_uri(const Machine& machine) {
 }
 
 Finding check_clock(const Machine& machine) {
-  if (machine.now_s >= kYoung_s) return {"clock", Verdict::kGood, "can be right", {}};
+  if (machine.now_s >= kYoung_s) return {"clock", Verdict::kGood, "plausible", {}};
   return {"clock", Verdict::kProblem,
-          "the clock of day is before 2020: certificates are not valid yet",
+          "the clock of this machine is before 2020: certificates are not valid yet",
           "sudo timedatectl set-ntp true"};
 }
 

@@ -67,9 +67,9 @@ Finding check_peers(const Machine& machine, const bus::BusConfig& config,
   if (!self && !multicast) {
     const std::string own = address_on(machine, config);
     return {"peers", Verdict::kAdvice,
-            fmt::format("{}; this machine is not among them, so its own processes do not find one "
-                        "another",
-                        list_of(addresses)),
+            fmt::format(
+                "{}; this machine is not in the list, so its own processes do not find each other",
+                list_of(addresses)),
             fmt::format("--peer {}", own.empty() ? "ADDRESS" : own)};
   }
   return {
@@ -83,10 +83,10 @@ Finding check_ports(const bus::BusConfig& config) {
   if (const auto shared = Socket::bind({any, group}, true); !shared) {
     return {
         "ports", Verdict::kProblem,
-        fmt::format("UDP port {}, of multicast, is taken by a program that does not share it "
-                    "({})",
-                    group, shared.error().message),
-        fmt::format("sudo ss -ulpn 'sport = :{}'    # says which; or use another --domain", group)};
+        fmt::format("UDP port {} for multicast is used exclusively by another program ({})", group,
+                    shared.error().message),
+        fmt::format("sudo ss -ulpn 'sport = :{}'    # lists the program; or use another --domain",
+                    group)};
   }
   int taken = 0;
   for (int index = 0; index < config.max_processes; ++index) {
@@ -98,15 +98,15 @@ Finding check_ports(const bus::BusConfig& config) {
   const int last = data_port(domain, config.max_processes - 1);
   if (taken == config.max_processes) {
     return {"ports", Verdict::kProblem,
-            fmt::format("all UDP ports from {} to {} are taken", first, last),
-            fmt::format("sudo ss -ulpn 'sport >= :{} and sport <= :{}'    # says by whom; or use "
-                        "another --domain",
+            fmt::format("all UDP ports from {} to {} are in use", first, last),
+            fmt::format("sudo ss -ulpn 'sport >= :{} and sport <= :{}'    # lists the programs; or "
+                        "use another --domain",
                         first, last)};
   }
   return {"ports",
           Verdict::kGood,
           taken == 0 ? fmt::format("{} to {} are free", first, last)
-                     : fmt::format("{} of {} processes have theirs; the others are free", taken,
+                     : fmt::format("{} of {} are in use by processes; the others are free", taken,
                                    config.max_processes),
           {}};
 }
@@ -114,7 +114,7 @@ Finding check_ports(const bus::BusConfig& config) {
 Finding check_own_way(const Machine& machine, const bus::BusConfig& config) {
   const std::string address = address_on(machine, config);
   if (address.empty()) {
-    return {"self", Verdict::kUnknown, "there is no interface to try it on", {}};
+    return {"self", Verdict::kUnknown, "no interface to test", {}};
   }
   const std::uint32_t domain = std::min(config.domain, kMostDomain);
   for (int index = 0; index < config.max_processes; ++index) {
@@ -132,13 +132,13 @@ Finding check_own_way(const Machine& machine, const bus::BusConfig& config) {
           "self", Verdict::kGood, fmt::format("{} reaches its own UDP port {}", address, port), {}};
     }
     return {"self", Verdict::kProblem,
-            fmt::format("what {} sends to its own UDP port {} does not arrive: a packet filter "
-                        "drops it",
-                        address, port),
-            fmt::format("sudo nft list ruleset    # shows its rules; let UDP {} to {} in",
+            fmt::format(
+                "packets from {} to its own UDP port {} do not arrive: a packet filter drops them",
+                address, port),
+            fmt::format("sudo nft list ruleset    # shows the rules; accept UDP {} to {}",
                         first_port(domain), last_port(domain))};
   }
-  return {"self", Verdict::kUnknown, "no port is free to try it on", {}};
+  return {"self", Verdict::kUnknown, "no free port for the test", {}};
 }
 
 Finding check_multicast(const Machine& machine, const bus::BusConfig& config) {
@@ -149,13 +149,13 @@ Finding check_multicast(const Machine& machine, const bus::BusConfig& config) {
   }
   const Interface* const interface = machine.find(config.interface);
   if (interface == nullptr || interface->address.empty()) {
-    return {"multicast", Verdict::kUnknown, "there is no interface to try it on", {}};
+    return {"multicast", Verdict::kUnknown, "no interface to test", {}};
   }
   const std::string by_list =
-      "--multicast off --peer ADDRESS    # of each machine; works wherever one reaches the other";
+      "--multicast off --peer ADDRESS    # of each machine; works without multicast";
   if (!interface->multicast && !interface->loopback) {
     return {"multicast", Verdict::kProblem,
-            fmt::format("{} does not do multicast", interface->name),
+            fmt::format("{} does not support multicast", interface->name),
             fmt::format("sudo ip link set {} multicast on", interface->name)};
   }
   const std::uint16_t port = multicast_port(std::min(config.domain, kMostDomain));
@@ -166,8 +166,8 @@ Finding check_multicast(const Machine& machine, const bus::BusConfig& config) {
   if (tried) tried = socket->send(probe, {kMulticastGroup, port});
   if (!tried) {
     return {"multicast", Verdict::kProblem,
-            fmt::format("nothing can be sent to {} through {} ({})", kMulticastGroup,
-                        interface->name, tried.error().message),
+            fmt::format("cannot send to {} through {} ({})", kMulticastGroup, interface->name,
+                        tried.error().message),
             fmt::format("sudo ip route add 224.0.0.0/4 dev {}", interface->name)};
   }
   // Others may talk in the group.
@@ -180,8 +180,8 @@ Finding check_multicast(const Machine& machine, const bus::BusConfig& config) {
     return finding;
   }
   return {"multicast", Verdict::kProblem,
-          fmt::format("what is sent to {}:{} through {} does not come back: a packet filter drops "
-                      "it, or it leaves elsewhere",
+          fmt::format("packets sent to {}:{} through {} do not come back: a packet filter drops "
+                      "them, or they leave through another interface",
                       kMulticastGroup, port, interface->name),
           by_list};
 }

@@ -135,13 +135,14 @@ Result<Probe> parse_probe(std::string_view bytes) {
   fields.read("asked_ns", probe.asked_ns);
   fields.read("received_ns", probe.received_ns);
   if (!fields.good()) return refused("a field is missing or of another type");
-  if (layout != 1) return refused("it is of another version");
+  if (layout != 1) return refused("its version differs");
   const auto found = std::ranges::find(kKinds, kind);
-  if (found == kKinds.end()) return refused("its kind is not known");
+  if (found == kKinds.end()) return refused("its kind is unknown");
   probe.kind = static_cast<Probe::Kind>(found - kKinds.begin());
   if (probe.kind != Probe::Kind::kAnswer) return probe;
   const Json* const about = fields.find("about");
-  if (about == nullptr || !read_about(*about, probe.about)) return refused("it says too little");
+  if (about == nullptr || !read_about(*about, probe.about))
+    return refused("members are missing or invalid");
   return probe;
 }
 

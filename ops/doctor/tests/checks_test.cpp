@@ -60,7 +60,7 @@ TEST(CheckInterface, DownWithoutAddressOrLoopbackOnly) {
   expect(check_interface(machine, config_of("wlan0")), Verdict::kProblem,
          "wlan0 has no IPv4 address", "sudo ip addr add ADDRESS/24 dev wlan0");
   expect(check_interface(machine, config_of("127.0.0.1", {"127.0.0.1", "192.168.1.2"})),
-         Verdict::kProblem, "lo reaches this machine only, and others are looked for",
+         Verdict::kProblem, "lo reaches only this machine, but other machines are to be found",
          "--interface 192.168.1.7");
   EXPECT_EQ(check_interface(machine, config_of("127.0.0.1", {"127.0.0.1"})).verdict,
             Verdict::kGood);
@@ -84,11 +84,11 @@ TEST(CheckLimits, FilesAndBuffers) {
   EXPECT_EQ(check_open_files(machine).verdict, Verdict::kGood);
   machine.open_files = 64;
   expect(check_open_files(machine), Verdict::kProblem,
-         "a process may open 64 files only, which is soon too few for sockets and records",
+         "a process may open only 64 files; sockets and recordings may need more",
          "ulimit -n 1024");
   expect(check_receive_buffer(machine), Verdict::kAdvice,
-         "sockets may hold 208 kB; a world of 10 000 robots has 600, and what does not fit is lost "
-         "and sent again",
+         "socket buffers are limited to 208 kB; a world of 10 000 robots needs 600 kB, and packets "
+         "that do not fit are lost and sent again",
          "sudo sysctl -w net.core.rmem_max=8388608");
   machine.receive_buffer_max = 8U << 20U;
   EXPECT_EQ(check_receive_buffer(machine).verdict, Verdict::kGood);
@@ -101,8 +101,9 @@ TEST(CheckDomain, PortsOfTheKernel) {
   expect(check_domain(lab_machine(), config), Verdict::kGood, "0: UDP ports 7400 to 7649", "");
   config.domain = 150;
   expect(check_domain(lab_machine(), config), Verdict::kAdvice,
-         "150: UDP ports 44900 to 45149, of which the kernel gives some to others (32768 to 60999)",
-         "--domain 0    # on all machines; any up to 99 will do");
+         "150: UDP ports 44900 to 45149; the kernel also gives some of them to other programs "
+         "(32768 to 60999)",
+         "--domain 0    # on all machines; any domain up to 99");
   config.domain = 99;
   EXPECT_EQ(check_domain(lab_machine(), config).verdict, Verdict::kGood);
   config.domain = 231;
@@ -126,7 +127,7 @@ TEST(CheckClock, BeforeRave) {
   EXPECT_EQ(check_clock(machine).verdict, Verdict::kGood);
   machine.now_s = 3600;
   expect(check_clock(machine), Verdict::kProblem,
-         "the clock of day is before 2020: certificates are not valid yet",
+         "the clock of this machine is before 2020: certificates are not valid yet",
          "sudo timedatectl set-ntp true");
 }
 
@@ -142,7 +143,7 @@ TEST(CheckPeers, NamesThatNobodyKnowsAndListsWithoutThisMachine) {
   EXPECT_TRUE(found.empty());
   expect(
       check_peers(machine, config_of("eth0", {"192.168.1.2"}), found), Verdict::kAdvice,
-      "192.168.1.2; this machine is not among them, so its own processes do not find one another",
+      "192.168.1.2; this machine is not in the list, so its own processes do not find each other",
       "--peer 192.168.1.7");
   EXPECT_EQ(found, std::vector<std::string>{"192.168.1.2"});
   found.clear();
@@ -174,12 +175,12 @@ TEST(CheckPorts, FreeTakenByOneAndTakenByAll) {
   EXPECT_EQ(check_ports(config).what, fmt::format("{} to {} are free", first, first + 3));
   const auto one = Socket::bind({"0.0.0.0", data_port(config.domain, 0)});
   ASSERT_TRUE(one);
-  EXPECT_EQ(check_ports(config).what, "1 of 2 processes have theirs; the others are free");
+  EXPECT_EQ(check_ports(config).what, "1 of 2 are in use by processes; the others are free");
   const auto other = Socket::bind({"0.0.0.0", discovery_port(config.domain, 1)});
   ASSERT_TRUE(other);
   const Finding finding = check_ports(config);
   EXPECT_EQ(finding.verdict, Verdict::kProblem);
-  EXPECT_EQ(finding.what, fmt::format("all UDP ports from {} to {} are taken", first, first + 3));
+  EXPECT_EQ(finding.what, fmt::format("all UDP ports from {} to {} are in use", first, first + 3));
   EXPECT_TRUE(finding.mend.starts_with("sudo ss -ulpn")) << finding.mend;
 }
 
@@ -191,7 +192,7 @@ TEST(CheckPorts, OneWhoDoesNotShareThePortOfMulticast) {
   const Finding finding = check_ports(config);
   EXPECT_EQ(finding.verdict, Verdict::kProblem);
   EXPECT_TRUE(finding.what.starts_with(
-      fmt::format("UDP port {}, of multicast, is taken", multicast_port(config.domain))))
+      fmt::format("UDP port {} for multicast is used", multicast_port(config.domain))))
       << finding.what;
 }
 
@@ -220,7 +221,7 @@ TEST(CheckMulticast, AnInterfaceThatDoesNone) {
   machine.interfaces[1].multicast = false;
   bus::BusConfig config = config_of("eth0");
   config.multicast = bus::Multicast::kOn;
-  expect(check_multicast(machine, config), Verdict::kProblem, "eth0 does not do multicast",
+  expect(check_multicast(machine, config), Verdict::kProblem, "eth0 does not support multicast",
          "sudo ip link set eth0 multicast on");
 }
 
@@ -259,7 +260,7 @@ TEST_F(CheckKeys, MissingMixedUpOpenAndAWholeSet) {
   namespace fs = std::filesystem;
   const fs::path key = folder_ / "set/left/identity_key.pem";
   fs::permissions(key, fs::perms::others_read, fs::perm_options::add);
-  EXPECT_TRUE(at(1).what.starts_with("left: identity_key.pem is open to others")) << at(1).what;
+  EXPECT_TRUE(at(1).what.starts_with("left: other users can read identity_key.pem")) << at(1).what;
   fs::permissions(key, fs::perms::others_read, fs::perm_options::remove);
   ASSERT_TRUE(keys::make_key_set({folder_ / "other", "lab", 100, {"left"}, kMade_s}));
   fs::copy_file(folder_ / "other/left/identity_ca.pem", folder_ / "set/left/identity_ca.pem",

@@ -87,7 +87,8 @@ TEST_F(ProbePeerTest, NobodyListens) {
   EXPECT_EQ(result.port, ProbeResult::PortState::kRefused);
   const Findings findings = judge(result, about(domain_));
   ASSERT_EQ(findings.size(), 1U);
-  EXPECT_EQ(findings[0].what, "127.0.0.2: the machine is there, and no doctor listens on it");
+  EXPECT_EQ(findings[0].what,
+            "127.0.0.2: the machine is reachable, but `rave doctor --listen` does not run on it");
   EXPECT_EQ(
       findings[0].mend,
       fmt::format("rave doctor --listen --interface 127.0.0.2 --domain {}    # there", domain_));
@@ -112,7 +113,8 @@ TEST_F(ProbePeerTest, AClockThatIsWrong) {
   const Findings findings = judge(result, about(domain_));
   ASSERT_NE(find(findings, "clock"), nullptr);
   EXPECT_EQ(find(findings, "clock")->verdict, Verdict::kProblem);
-  EXPECT_TRUE(find(findings, "clock")->what.starts_with("127.0.0.2: its clock of day is +36"))
+  EXPECT_TRUE(find(findings, "clock")
+                  ->what.starts_with("127.0.0.2: its clock differs from the clock here by +36"))
       << find(findings, "clock")->what;
   EXPECT_EQ(find(findings, "clock")->mend, "sudo timedatectl set-ntp true    # on both");
 }
@@ -124,9 +126,9 @@ TEST_F(ProbePeerTest, ASecondListenerIsRefused) {
   options.about = about(domain_);
   const auto second = Listener::open(std::move(options));
   ASSERT_FALSE(second);
-  EXPECT_EQ(
-      second.error().message,
-      fmt::format("a doctor listens at 127.0.0.2, UDP port {}, already", doctor_port(domain_)));
+  EXPECT_EQ(second.error().message,
+            fmt::format("another `rave doctor --listen` already uses 127.0.0.2, UDP port {}",
+                        doctor_port(domain_)));
 }
 
 TEST_F(ProbePeerTest, GarbageIsNotAnsweredAndNothingIsMultiplied) {
@@ -196,8 +198,8 @@ TEST(Judge, AFirewallThatLetsAPartThrough) {
   ProbeResult result = open_result();
   result.data_open = false;
   EXPECT_EQ(trouble(result),
-            "problem 10.0.0.2: UDP port 7411 is not reached, while 7402 is: a firewall lets a part "
-            "of the domain through | sudo nft insert rule inet filter input udp dport 7400-7649 "
+            "problem 10.0.0.2: UDP port 7411 cannot be reached, but 7402 can: a firewall blocks "
+            "some ports of the domain | sudo nft insert rule inet filter input udp dport 7400-7649 "
             "accept    # there\n");
 }
 
@@ -207,28 +209,28 @@ TEST(Judge, MulticastOneWay) {
   result.about.multicast = here.multicast = "on";
   result.multicast_there = true;
   result.multicast_back = false;
-  EXPECT_EQ(trouble(result, here),
-            "problem 10.0.0.2: what it sends is not heard here | --multicast off --peer 10.0.0.2"
-            "    # a list of all machines, on each\n");
+  EXPECT_EQ(
+      trouble(result, here),
+      "problem 10.0.0.2: its multicast packets do not arrive here | --multicast off --peer 10.0.0.2"
+      "    # a list of all machines, on each\n");
 }
 
 TEST(Judge, FragmentsThatGetLost) {
   ProbeResult result = open_result();
   result.sizes = {{1400, true, true}, {1472, true, true}, {4000, false, false}};
   EXPECT_TRUE(trouble(result).starts_with(
-      "problem 10.0.0.2: datagrams of 4000 bytes and more do not arrive: fragments"))
+      "problem 10.0.0.2: datagrams of 4000 bytes and more do not arrive: packet fragments"))
       << trouble(result);
 }
 
 TEST(Judge, SilenceAndNoWay) {
   ProbeResult result;
   result.peer = "10.0.0.2";
-  EXPECT_TRUE(trouble(result).starts_with("problem 10.0.0.2: nothing comes back"))
-      << trouble(result);
+  EXPECT_TRUE(trouble(result).starts_with("problem 10.0.0.2: no answer")) << trouble(result);
   result.port = ProbeResult::PortState::kNoWay;
   result.why = "send: Network is unreachable";
   EXPECT_TRUE(trouble(result).starts_with(
-      "problem 10.0.0.2: there is no way to it (send: Network is unreachable) | ip route get"))
+      "problem 10.0.0.2: there is no route to it (send: Network is unreachable) | ip route get"))
       << trouble(result);
 }
 

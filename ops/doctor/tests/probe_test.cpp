@@ -51,16 +51,17 @@ TEST(Probe, WhatIsNoneIsRefused) {
     return text.replace(text.find(from), from.size(), to);
   };
   EXPECT_EQ(reason(good), "read");
-  EXPECT_EQ(reason(with("\"rave_doctor\":1", "\"rave_doctor\":2")), "it is of another version");
-  EXPECT_EQ(reason(with("\"answer\"", "\"anwser\"")), "its kind is not known");
+  EXPECT_EQ(reason(with("\"rave_doctor\":1", "\"rave_doctor\":2")), "its version differs");
+  EXPECT_EQ(reason(with("\"answer\"", "\"anwser\"")), "its kind is unknown");
   EXPECT_EQ(reason(with("\"size\":1200", "\"size\":-1")), "a field is missing or of another type");
   EXPECT_EQ(reason(with("\"sent_ns\":-5", "\"sent_ns\":9e99")),
             "a field is missing or of another type");
   EXPECT_EQ(reason(with("\"sent_ns\":-5", "\"sent_ns\":9223372036854775807")),
             "a field is missing or of another type");
-  EXPECT_EQ(reason(with("lab-1", "lab\\u001bJ")), "it says too little") << "control characters";
-  EXPECT_EQ(reason(with("lab-1", "lab\\u009bJ")), "it says too little");
-  EXPECT_EQ(reason(with("7411", "74110")), "it says too little");
+  EXPECT_EQ(reason(with("lab-1", "lab\\u001bJ")), "members are missing or invalid")
+      << "control characters";
+  EXPECT_EQ(reason(with("lab-1", "lab\\u009bJ")), "members are missing or invalid");
+  EXPECT_EQ(reason(with("7411", "74110")), "members are missing or invalid");
 }
 
 }  // namespace

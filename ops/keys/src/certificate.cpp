@@ -155,7 +155,7 @@ Result<Credential> make_credential(const Name& name, const Validity& validity, X
                                    EVP_PKEY* issuer_key, std::span<const Extra> extras = {}) {
   const Key key(EVP_PKEY_Q_keygen(nullptr, nullptr, "EC", "P-256"));
   const Certificate certificate(X509_new());
-  if (!key || !certificate || !name) return failed(ErrorCode::kIo, "cannot make a key");
+  if (!key || !certificate || !name) return failed(ErrorCode::kIo, "cannot create a key");
   X509* const made = certificate.get();
   if (issuer == nullptr) issuer = made;
   bool filled = X509_set_version(made, X509_VERSION_3) == 1 && set_serial(made) &&
@@ -170,7 +170,7 @@ Result<Credential> make_credential(const Name& name, const Validity& validity, X
   const Stream stream = writing();
   if (!filled || X509_sign(made, signer, EVP_sha256()) == 0 ||
       PEM_write_bio_X509(stream.get(), made) != 1) {
-    return failed(ErrorCode::kIo, "cannot make a certificate");
+    return failed(ErrorCode::kIo, "cannot create a certificate");
   }
   RAVE_TRY_ASSIGN(std::string key_text, text_of(key));
   return Credential{content_of(stream.get()), std::move(key_text)};
@@ -318,7 +318,7 @@ Result<std::string> signed_text(const std::string& certificate, const std::strin
   // As DDS Security does it: the signer is this very certificate, whatever the document brings.
   if (PKCS7_verify(parsed.get(), signers.get(), nullptr, content.get(), out.get(),
                    PKCS7_TEXT | PKCS7_NOVERIFY | PKCS7_NOINTERN) != 1) {
-    return failed(ErrorCode::kState, "its signature is not that of the authority");
+    return failed(ErrorCode::kState, "it was not signed by the authority");
   }
   return content_of(out.get());
 }
@@ -353,7 +353,7 @@ Status check_pair(const Credential& credential) {
   RAVE_TRY_ASSIGN(const Certificate certificate, parse_certificate(credential.certificate));
   RAVE_TRY_ASSIGN(const Key key, parse_key(credential.key));
   if (X509_check_private_key(certificate.get(), key.get()) != 1) {
-    return failed(ErrorCode::kState, "certificate and key do not belong together");
+    return failed(ErrorCode::kState, "the certificate does not match the key");
   }
   return {};
 }

@@ -19,11 +19,11 @@ constexpr ErrorCode kBad = ErrorCode::kInvalidArgument;
 constexpr std::size_t kLongestName = 64;
 
 Status check_members(const std::vector<std::string>& members) {
-  if (members.empty()) return fail(kBad, "no member is named; each process or machine is one");
+  if (members.empty()) return fail(kBad, "no member given; each process or machine is a member");
   for (auto member = members.begin(); member != members.end(); ++member) {
     RAVE_TRY(check_name(*member));
     if (std::find(members.begin(), member, *member) != member) {
-      return fail(kBad, "`{}` is named twice", *member);
+      return fail(kBad, "`{}` is given twice", *member);
     }
   }
   return {};
@@ -31,7 +31,7 @@ Status check_members(const std::vector<std::string>& members) {
 
 Status check_days(int days, int least) {
   if (days >= least && days <= kMostDays) return {};
-  return fail(kBad, "{} days are not in {} to {}", days, least, kMostDays);
+  return fail(kBad, "{} days: expected {} to {}", days, least, kMostDays);
 }
 
 /// The authority of a set and what is known of it.
@@ -71,7 +71,7 @@ Status make_member_folder(const fs::path& folder, const Authority& authority,
 tl::unexpected<Error> taken(const fs::path& folder) {
   const auto there = read_key_set(folder);
   if (!there || !check_set(folder)) {
-    return fail(kBad, "`{}` is there already; nothing was changed; take another name",
+    return fail(kBad, "`{}` already exists; nothing was changed; choose another name",
                 folder.string());
   }
   std::string names;
@@ -79,8 +79,8 @@ tl::unexpected<Error> taken(const fs::path& folder) {
     names += (names.empty() ? "`" : ", `") + member.name + "`";
   }
   return fail(kBad,
-              "`{0}` is there already, with keys of {1}; nothing was changed; `rave keys add {0} "
-              "MEMBER` adds to it",
+              "`{0}` already exists, with keys for {1}; nothing was changed; `rave keys add {0} "
+              "MEMBER` adds a member",
               folder.string(), names.empty() ? "nobody" : names);
 }
 
@@ -91,7 +91,7 @@ Result<Authority> read_authority(const fs::path& folder, std::int64_t now_s) {
   Authority authority;
   RAVE_TRY_ASSIGN(authority.credential.certificate, read_file(ca / kAuthority, kLargestFile));
   const auto damaged = [&](const char* file, Error error) {
-    return fail(ErrorCode::kState, "{}: {}; it must be as `rave keys new` made it",
+    return fail(ErrorCode::kState, "{}: {}; expected the file that `rave keys new` created",
                 (ca / file).string(), error.message);
   };
   auto facts = read_certificate(authority.credential.certificate);
@@ -101,11 +101,11 @@ Result<Authority> read_authority(const fs::path& folder, std::int64_t now_s) {
       check_issued(authority.credential.certificate, authority.credential.certificate);
   if (!whole) return damaged(kAuthority, whole.error());
   if (!authority.facts.authority || !check_name(authority.facts.lab)) {
-    return fail(ErrorCode::kState, "{}: it is not the certificate of an authority of RAVE",
+    return fail(ErrorCode::kState, "{}: not the certificate of a RAVE authority",
                 (ca / kAuthority).string());
   }
   if (authority.facts.validity.until_s <= now_s) {
-    return fail(ErrorCode::kState, "the authority in `{}` has expired on {}; make a new set",
+    return fail(ErrorCode::kState, "the authority in `{}` expired on {}; create a new set",
                 ca.string(), date_text(authority.facts.validity.until_s));
   }
   RAVE_TRY_ASSIGN(authority.credential.key, read_file(ca / kAuthorityKey, kLargestFile));
@@ -171,8 +171,8 @@ Status add_members(const fs::path& folder, const std::vector<std::string>& membe
   for (const std::string& member : members) {
     if (is_taken(folder / member)) {
       return fail(kBad,
-                  "`{0}` is there already; nothing was changed; for a new certificate remove the "
-                  "folder `{0}` first",
+                  "`{0}` already exists; nothing was changed; to create a new certificate, remove "
+                  "the folder `{0}` first",
                   (folder / member).string());
     }
   }

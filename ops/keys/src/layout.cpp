@@ -45,9 +45,8 @@ Status check_set(const fs::path& folder) {
   const std::vector<std::string> names = sets_in(parent_of(folder));
   const std::vector<std::string_view> views(names.begin(), names.end());
   const std::string_view near = nearest_name(without_slash(folder).filename().string(), views);
-  return fail(ErrorCode::kNotFound, "`{}` is not a set of keys: there is no {}/{} in it{}",
-              folder.string(), kCaFolder, kAuthority,
-              near.empty() ? "" : fmt::format("; did you mean `{}`?", near));
+  return fail(ErrorCode::kNotFound, "`{}` is not a set of keys: it has no {}/{}{}", folder.string(),
+              kCaFolder, kAuthority, near.empty() ? "" : fmt::format("; did you mean `{}`?", near));
 }
 
 }  // namespace rave::keys

@@ -36,7 +36,7 @@ bool write_all(int file, std::string_view content) {
 
 Result<ScratchFolder> ScratchFolder::inside(const fs::path& parent) {
   std::string name = parent / ".rave-keys-XXXXXX";
-  if (::mkdtemp(name.data()) == nullptr) return refused("make a folder in", parent);
+  if (::mkdtemp(name.data()) == nullptr) return refused("create a folder in", parent);
   return ScratchFolder(name);
 }
 
@@ -50,7 +50,7 @@ ScratchFolder::~ScratchFolder() {
 }
 
 Status make_private_folder(const fs::path& folder) {
-  if (::mkdir(folder.c_str(), 0700) != 0) return refused("make the folder", folder);
+  if (::mkdir(folder.c_str(), 0700) != 0) return refused("create the folder", folder);
   return {};
 }
 
@@ -71,7 +71,7 @@ Status move_to_free_name(const fs::path& from, const fs::path& to) {
   if (result != 0 && errno == EINVAL && !is_taken(to)) result = ::rename(from.c_str(), to.c_str());
   if (result == 0) return {};
   if (errno == EEXIST || errno == ENOTEMPTY || is_taken(to)) {
-    return fail(ErrorCode::kInvalidArgument, "`{}` is there already; nothing was changed",
+    return fail(ErrorCode::kInvalidArgument, "`{}` already exists; nothing was changed",
                 to.string());
   }
   return refused("make", to);

@@ -30,8 +30,9 @@ KeyInfo info_of(const CertificateFacts& facts) {
 void check_mode(const fs::path& key, KeyInfo& info) {
   struct stat status {};
   if (::stat(key.c_str(), &status) != 0 || (status.st_mode & 077U) == 0) return;
-  info.problems.push_back(fmt::format("{} is open to others (mode {:04o}); `chmod 600` closes it",
-                                      key.filename().string(), status.st_mode & 07777U));
+  info.problems.push_back(
+      fmt::format("other users can read {} (mode {:04o}); run `chmod 600` on it",
+                  key.filename().string(), status.st_mode & 07777U));
 }
 
 /// Adds what is wrong to the problems of a member, with the file that it is about.
@@ -80,7 +81,7 @@ void check_documents(const std::string& authority, const CertificateFacts& facts
     findings.add(kPermissions, permissions.error());
   } else if (permissions->find("<subject_name>" + facts.subject + "</subject_name>") ==
              std::string::npos) {
-    findings.add(kPermissions, Error{ErrorCode::kState, "it is for another member", {}});
+    findings.add(kPermissions, Error{ErrorCode::kState, "it belongs to another member", {}});
   }
 }
 
@@ -107,7 +108,7 @@ KeyInfo read_member(const fs::path& folder, const std::string& authority) {
   findings.add(kIdentity, check_issued(authority, certificate));
   for (const char* const file : {kIdentityCa, kPermissionsCa}) {
     if (findings.read(file) != authority) {
-      findings.add(file, Error{ErrorCode::kState, "it is not the authority of this set", {}});
+      findings.add(file, Error{ErrorCode::kState, "it differs from the authority of this set", {}});
     }
   }
   findings.add(kIdentityKey, check_pair({certificate, findings.read(kIdentityKey)}));
@@ -172,7 +173,7 @@ Result<KeySetInfo> read_key_set(const fs::path& folder) {
     KeyInfo& read = info.members.back();
     const std::string name = member.filename();
     if (read.name == name) continue;
-    read.problems.push_back(fmt::format("they are the keys of `{}`", read.name));
+    read.problems.push_back(fmt::format("they belong to `{}`", read.name));
     read.name = name;
   }
   return info;

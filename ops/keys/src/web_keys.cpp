@@ -48,8 +48,7 @@ Status check(const NewWebKeys& wanted) {
   }
   for (const std::string& name : wanted.names) RAVE_TRY(check_web_name(name));
   if (wanted.days < 1 || wanted.days > kMostWebDays) {
-    return fail(kBadWeb,
-                "{} days are not in 1 to {}: browsers refuse certificates that last longer",
+    return fail(kBadWeb, "{} days: expected 1 to {}, because browsers refuse longer validity",
                 wanted.days, kMostWebDays);
   }
   return {};
@@ -62,7 +61,7 @@ Result<Credential> read_web_authority(const fs::path& folder, std::int64_t now_s
   RAVE_TRY(check_pair(authority));
   RAVE_TRY_ASSIGN(const CertificateFacts facts, read_certificate(authority.certificate));
   if (facts.validity.until_s <= now_s) {
-    return fail(ErrorCode::kState, "the authority in `{}` has expired on {}; make another folder",
+    return fail(ErrorCode::kState, "the authority in `{}` expired on {}; create another folder",
                 folder.string(), date_text(facts.validity.until_s));
   }
   return authority;
@@ -89,11 +88,10 @@ Status renew(const NewWebKeys& wanted, const fs::path& folder, const Credential&
                   make_web_server(authority, wanted.names, server_validity(wanted)));
   const Status good = check_web_server(authority.certificate, server.certificate, wanted.now_s);
   if (!good) {
-    return fail(
-        ErrorCode::kState,
-        "the authority in `{}` cannot speak for these names ({}); nothing was changed; make "
-        "another folder",
-        folder.string(), good.error().message);
+    return fail(ErrorCode::kState,
+                "the authority in `{}` is not permitted to certify these names ({}); nothing was "
+                "changed; create another folder",
+                folder.string(), good.error().message);
   }
   RAVE_TRY(replace_file(folder / kServerKey, server.key));
   return replace_file(folder / kServer, server.certificate);
@@ -124,7 +122,7 @@ Status check_web_name(std::string_view name) {
     rest.remove_prefix(label.size() + 1);
   }
   if (good) return {};
-  return fail(kBadWeb, "`{}` is neither the name of a host nor an address", name);
+  return fail(kBadWeb, "`{}` is neither a host name nor an address", name);
 }
 
 Result<WebKeys> make_web_keys(const NewWebKeys& wanted) {
@@ -135,7 +133,7 @@ Result<WebKeys> make_web_keys(const NewWebKeys& wanted) {
   std::error_code error;
   if (is_taken(folder)) {
     if (!fs::is_regular_file(folder / kAuthorityKey, error)) {
-      return fail(kBadWeb, "`{}` is there already and has no {}; take another name",
+      return fail(kBadWeb, "`{}` already exists and has no {}; choose another name",
                   folder.string(), kAuthorityKey);
     }
     RAVE_TRY_ASSIGN(authority, read_web_authority(folder, wanted.now_s));

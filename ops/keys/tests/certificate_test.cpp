@@ -64,7 +64,7 @@ TEST_F(Certificates, KeysBelongToOne) {
   EXPECT_TRUE(check_pair(member_));
   const Status mixed = check_pair({authority_.certificate, member_.key});
   ASSERT_FALSE(mixed);
-  EXPECT_TRUE(mixed.error().message.starts_with("certificate and key do not belong together"));
+  EXPECT_TRUE(mixed.error().message.starts_with("the certificate does not match the key"));
   const Status none = check_pair({authority_.certificate, "-----BEGIN PRIVATE KEY-----\n"});
   ASSERT_FALSE(none);
   EXPECT_EQ(none.error().code, ErrorCode::kParse);

@@ -52,9 +52,9 @@ TEST_F(KeySet, NothingIsOverwritten) {
   const std::string key = text_of(folder_ / "set/ca/authority_key.pem");
   const std::string set = (folder_ / "set").string();
   EXPECT_EQ(error_of(make_key_set(plan())), "`" + set +
-                                                "` is there already, with keys of `left`, `right`; "
+                                                "` already exists, with keys for `left`, `right`; "
                                                 "nothing was changed; `rave keys add " +
-                                                set + " MEMBER` adds to it");
+                                                set + " MEMBER` adds a member");
   EXPECT_EQ(text_of(folder_ / "set/ca/authority_key.pem"), key);
 
   NewKeySet other = plan();
@@ -62,7 +62,7 @@ TEST_F(KeySet, NothingIsOverwritten) {
   fs::create_directory(other.folder);
   EXPECT_EQ(
       error_of(make_key_set(other)),
-      "`" + other.folder.string() + "` is there already; nothing was changed; take another name");
+      "`" + other.folder.string() + "` already exists; nothing was changed; choose another name");
   EXPECT_TRUE(fs::is_empty(other.folder));
 }
 
@@ -90,15 +90,15 @@ TEST_F(KeySet, WhatCannotBeLeavesNothingBehind) {
     return error;
   };
   EXPECT_EQ(attempt([](NewKeySet& set) { set.members = {}; }),
-            "no member is named; each process or machine is one");
-  EXPECT_EQ(attempt([](NewKeySet& set) { set.members = {"a", "b", "a"}; }), "`a` is named twice");
-  EXPECT_EQ(attempt([](NewKeySet& set) { set.days = 0; }), "0 days are not in 1 to 36500");
-  EXPECT_EQ(attempt([](NewKeySet& set) { set.days = 36'501; }), "36501 days are not in 1 to 36500");
+            "no member given; each process or machine is a member");
+  EXPECT_EQ(attempt([](NewKeySet& set) { set.members = {"a", "b", "a"}; }), "`a` is given twice");
+  EXPECT_EQ(attempt([](NewKeySet& set) { set.days = 0; }), "0 days: expected 1 to 36500");
+  EXPECT_EQ(attempt([](NewKeySet& set) { set.days = 36'501; }), "36501 days: expected 1 to 36500");
   EXPECT_NE(attempt([](NewKeySet& set) { set.lab = "a/b"; }).find("`a/b` cannot be a name"),
             std::string::npos);
   EXPECT_EQ(
       attempt([](NewKeySet& set) { set.folder = set.folder / "deep"; }),
-      "cannot make a folder in `" + (folder_ / "set").string() + "`: No such file or directory");
+      "cannot create a folder in `" + (folder_ / "set").string() + "`: No such file or directory");
 }
 
 TEST_F(KeySet, ASlashAtTheEndOfTheNameDoesNotMatter) {
@@ -139,11 +139,11 @@ TEST_F(KeySet, AddedMembersDoNotOutliveTheAuthority) {
 TEST_F(KeySet, AllMembersAreAddedOrNone) {
   ASSERT_TRUE(make_key_set(plan()));
   const std::string right = (folder_ / "set/right").string();
-  EXPECT_EQ(
-      error_of(add_members(folder_ / "set", {"gui", "right"}, 0, kNow_s)),
-      "`" + right +
-          "` is there already; nothing was changed; for a new certificate remove the folder `" +
-          right + "` first");
+  EXPECT_EQ(error_of(add_members(folder_ / "set", {"gui", "right"}, 0, kNow_s)),
+            "`" + right +
+                "` already exists; nothing was changed; to create a new certificate, remove the "
+                "folder `" +
+                right + "` first");
   EXPECT_EQ(names_in(folder_ / "set"), (Names{"ca", "left", "right"}));
 }
 
@@ -151,14 +151,14 @@ TEST_F(KeySet, ASetThatIsNotThereHasANearName) {
   ASSERT_TRUE(make_key_set(plan()));
   EXPECT_EQ(error_of(add_members(folder_ / "sett", {"gui"}, 0, kNow_s)),
             "`" + (folder_ / "sett").string() +
-                "` is not a set of keys: there is no ca/authority.pem in it; did you mean `set`?");
+                "` is not a set of keys: it has no ca/authority.pem; did you mean `set`?");
 }
 
 TEST_F(KeySet, AnExpiredAuthorityMakesNoMembers) {
   ASSERT_TRUE(make_key_set(plan()));
   EXPECT_EQ(error_of(add_members(folder_ / "set", {"gui"}, 0, kNow_s + 365 * kDay_s)),
             "the authority in `" + (folder_ / "set/ca").string() +
-                "` has expired on 2028-01-15; make a new set");
+                "` expired on 2028-01-15; create a new set");
 }
 
 TEST_F(KeySet, ADamagedAuthorityMakesNoMembers) {
@@ -176,11 +176,12 @@ TEST_F(KeySet, ADamagedAuthorityMakesNoMembers) {
   char& letter = changed[changed.size() / 2];
   letter = letter == 'A' ? 'B' : 'A';
   write(ca / "authority.pem", changed);
-  EXPECT_NE(add().find("it must be as `rave keys new` made it"), std::string::npos) << add();
+  EXPECT_NE(add().find("expected the file that `rave keys new` created"), std::string::npos)
+      << add();
   write(ca / "authority.pem", certificate);
 
   write(ca / "authority_key.pem", text_of(folder_ / "set/left/identity_key.pem"));
-  EXPECT_NE(add().find("certificate and key do not belong together"), std::string::npos) << add();
+  EXPECT_NE(add().find("the certificate does not match the key"), std::string::npos) << add();
   write(ca / "authority_key.pem", "");
   EXPECT_NE(add().find("authority_key.pem: it is not a private key"), std::string::npos) << add();
   fs::remove(ca / "authority_key.pem");

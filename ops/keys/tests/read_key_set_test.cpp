@@ -55,20 +55,19 @@ TEST_F(ReadKeySet, WhatIsMissingOrMixedUpIsNamed) {
   fs::copy_file(right_ / "identity_key.pem", left_ / "identity_key.pem",
                 fs::copy_options::overwrite_existing);
   ASSERT_EQ(problems().size(), 1U);
-  EXPECT_TRUE(
-      problems()[0].starts_with("identity_key.pem: certificate and key do not belong together"))
+  EXPECT_TRUE(problems()[0].starts_with("identity_key.pem: the certificate does not match the key"))
       << problems()[0];
   fs::remove(left_ / "permissions.p7s");
   EXPECT_EQ(problems(), Texts{"permissions.p7s is missing"});
   fs::copy_file(right_ / "permissions.p7s", left_ / "permissions.p7s");
   ASSERT_EQ(problems().size(), 2U);
-  EXPECT_EQ(problems()[1], "permissions.p7s: it is for another member");
+  EXPECT_EQ(problems()[1], "permissions.p7s: it belongs to another member");
 }
 
 TEST_F(ReadKeySet, KeysOfAnotherMemberAreNamed) {
   fs::remove_all(left_);
   fs::copy(right_, left_);
-  EXPECT_EQ(problems(), Texts{"they are the keys of `right`"});
+  EXPECT_EQ(problems(), Texts{"they belong to `right`"});
 }
 
 TEST_F(ReadKeySet, ADamagedCertificateIsListedWithoutDates) {
@@ -86,15 +85,15 @@ TEST_F(ReadKeySet, AMemberOfAnotherSetIsNamed) {
   const Texts found = problems();
   ASSERT_EQ(found.size(), 5U);
   EXPECT_TRUE(found[0].starts_with("identity.pem: the authority has not signed it")) << found[0];
-  EXPECT_EQ(found[1], "identity_ca.pem: it is not the authority of this set");
-  EXPECT_TRUE(found[4].starts_with("permissions.p7s: its signature is not that of the authority"))
+  EXPECT_EQ(found[1], "identity_ca.pem: it differs from the authority of this set");
+  EXPECT_TRUE(found[4].starts_with("permissions.p7s: it was not signed by the authority"))
       << found[4];
 }
 
 TEST_F(ReadKeySet, OpenKeysAreAProblem) {
   fs::permissions(left_ / "identity_key.pem", fs::perms{0644});
-  EXPECT_EQ(problems(), Texts{"identity_key.pem is open to others (mode 0644); `chmod 600` closes "
-                              "it"});
+  EXPECT_EQ(problems(),
+            Texts{"other users can read identity_key.pem (mode 0644); run `chmod 600` on it"});
   fs::permissions(folder_ / "set/ca/authority_key.pem", fs::perms{0640});
   EXPECT_EQ(read_key_set(folder_ / "set")->authority.problems.size(), 1U);
 }

@@ -274,7 +274,7 @@ void RunModel::tell_run(RunView& view, std::int64_t now_ns) const {
   view.run = run_;
   view.timing = timing();
   if (!knows_any()) {
-    view.text = "its processes are there and nothing is heard: do they have --security?";
+    view.text = "its processes were found, but they send nothing readable: do they use --security?";
   }
   if (!state_) return tell_words(view);
   view.scenario = state_->scenario;
@@ -295,7 +295,7 @@ void RunModel::tell_run(RunView& view, std::int64_t now_ns) const {
   const bool over = view.phase == Phase::kEnded || view.phase == Phase::kFailed;
   if (!over && !manager_here() && view.timing == Timing::kLockStep) {
     view.phase = Phase::kWaits;
-    view.text = "the environment manager is gone";
+    view.text = "the environment manager is lost";
     view.speed = 0;
   }
 }
@@ -345,7 +345,7 @@ void RunModel::tell_words(RunView& view) const {
     const bool done = words.over != nullptr || farthest.step + 1 >= farthest.steps;
     const bool failed = words.over != nullptr && words.over->phase == rave_wire_RUN_FAILED;
     view.phase = failed ? Phase::kFailed : (done ? Phase::kEnded : Phase::kWaits);
-    view.text = failed ? words.over->text : (done ? "" : "no process of the run is there");
+    view.text = failed ? words.over->text : (done ? "" : "no process of the run was found");
     return;
   }
   view.phase = Phase::kGoes;
@@ -356,7 +356,7 @@ void RunModel::tell_words(RunView& view) const {
   }
   if (!words.manager_lost || view.timing != Timing::kLockStep) return;
   view.phase = Phase::kWaits;
-  if (view.text.empty()) view.text = "the environment manager is gone";
+  if (view.text.empty()) view.text = "the environment manager is lost";
 }
 
 RunView RunModel::view(std::int64_t now_ns, bool with_robots) const {

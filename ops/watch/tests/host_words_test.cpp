@@ -78,7 +78,7 @@ TEST_F(HostWordsTest, AManagerThatIsGoneIsWaitedFor) {
   say(2, 100, rave_wire_RUN_GOES, "", false);
   say(3, 100, rave_wire_RUN_GOES, "", false);
   EXPECT_EQ(view().phase, Phase::kWaits);
-  EXPECT_EQ(view().text, "the environment manager is gone");
+  EXPECT_EQ(view().text, "the environment manager is lost");
   EXPECT_EQ(view().hosts[0].standing, Standing::kGone);
 }
 

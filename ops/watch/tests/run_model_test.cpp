@@ -174,7 +174,7 @@ TEST(RunModelAlone, WhoHearsNothingIsToldWhy) {
   const RunModel model("00ff");
   EXPECT_FALSE(model.knows_any());
   EXPECT_EQ(model.view(0, true).text,
-            "its processes are there and nothing is heard: do they have --security?");
+            "its processes were found, but they send nothing readable: do they use --security?");
 }
 
 TEST_F(RunModelTest, TheSpeedIsThatOfLately) {
@@ -192,7 +192,7 @@ TEST_F(RunModelTest, WithoutAManagerARunInLockStepStands) {
   const RunView view = model_.view(kSecond, false);
   EXPECT_EQ(view.hosts[0].standing, Standing::kGone);
   EXPECT_EQ(view.phase, Phase::kWaits);
-  EXPECT_EQ(view.text, "the environment manager is gone");
+  EXPECT_EQ(view.text, "the environment manager is lost");
   EXPECT_EQ(view.hosts[1].standing, Standing::kHere) << "what the dead said of it does not count";
 }
 

@@ -61,10 +61,9 @@ void note_clock(const DeviceContext& context, const config::RobotGroup& group,
     live = Params(params.values()).text("clock") == "live";
   }
   if (live && context.built.live_reason.empty()) {
-    context.built.live_reason = fmt::format(
-        "`{}` of robot `{}` uses the driver `{}` by the wall "
-        "clock",
-        device, group.name.value, info.name);
+    context.built.live_reason =
+        fmt::format("`{}` of robot `{}` uses the driver `{}`, which follows the wall clock", device,
+                    group.name.value, info.name);
   }
 }
 
@@ -173,8 +172,8 @@ Status add_actuators(const DeviceContext& context, const config::RobotGroup& gro
     if (driver->info.kind == DriverKind::kVirtualActuator) {
       if (simulated != nullptr) {
         return fail_at(file.name.where, ErrorCode::kInvalidArgument,
-                       "actuators `{}` and `{}` both move the body; one can", simulated->name.value,
-                       actuator.name);
+                       "actuators `{}` and `{}` both move the body; expected one that does",
+                       simulated->name.value, actuator.name);
       }
       simulated = &file;
       actuator.virtual_ops = static_cast<const VirtualActuatorOps*>(driver->ops);
@@ -191,7 +190,7 @@ Status add_actuators(const DeviceContext& context, const config::RobotGroup& gro
   }
   if (hardware != nullptr && simulated != nullptr) {
     return fail_at(simulated->driver.where, ErrorCode::kInvalidArgument,
-                   "actuator `{}` is simulated and `{}` is real; a robot is the one or the other",
+                   "actuator `{}` is simulated and `{}` is real; expected all of one kind",
                    simulated->name.value, hardware->name.value);
   }
   return {};
@@ -243,7 +242,7 @@ Status check_ages(const DeviceContext& context, const config::RobotGroup& group,
     if (driver->info.clock != DriverClock::kLive) continue;
     return fail_at(file.name.where, ErrorCode::kInvalidArgument,
                    "robot `{}` is real, and the driver `{}` of its range sensor `{}` does not know "
-                   "how often samples come: expected `max_age_s`, the age of the newest sample in "
+                   "its period: expected `max_age_s`, the age of the newest sample in "
                    "seconds after which the robot is stopped, such as three periods of the sensor "
                    "(`max_age_s: 0.3` at 10 Hz)",
                    group.name.value, driver->info.name, sensor.name);
@@ -255,8 +254,8 @@ Status set_pose_source(const config::RobotGroup& group, sim::RobotType& type) {
   if (!group.robot.pose_from) {
     if (type.simulated) return {};
     return fail_at(group.robot.body.where, ErrorCode::kInvalidArgument,
-                   "robot `{}` is real, so others can sense it only if something says where it is: "
-                   "expected `pose_from:` with the name of a sensor that gives a pose or odometry",
+                   "robot `{}` is real, so others can sense it only if its pose is known: expected "
+                   "`pose_from:` with the name of a sensor that gives a pose or odometry",
                    group.name.value);
   }
   const config::Located<std::string>& name = *group.robot.pose_from;

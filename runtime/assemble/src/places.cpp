@@ -141,10 +141,10 @@ Status put_down_robots(const config::ExpandedScenario& scenario, sim::EngineSpec
       } else if (pose) {
         spec.robots[r].X_WR = {pose->x_m, pose->y_m, wrap_angle(deg_to_rad(pose->yaw_deg))};
       } else if (simulated) {
-        return fail_at(group.name.where, ErrorCode::kInvalidArgument,
-                       "robot `{}` is simulated and must be put somewhere: expected `pose`, "
-                       "`poses` or `scatter`",
-                       spec.robots[r].name);
+        return fail_at(
+            group.name.where, ErrorCode::kInvalidArgument,
+            "robot `{}` is simulated and has no start pose: expected `pose`, `poses` or `scatter`",
+            spec.robots[r].name);
       }
       // Where a real robot is said to begin is kept free; where it is, its pose source will tell.
       if (!simulated && pose) standing.add(r);

@@ -13,7 +13,7 @@ Status add_transmitter(const DeviceContext& context, const config::RobotGroup& g
                   begin_device(context, DriverKind::kTransmitter, file, transmitter));
   if (file.device) {
     return fail_at(file.device->where, ErrorCode::kInvalidArgument,
-                   "the driver `{}` is part of no device: expected no `device:`",
+                   "the driver `{}` does not use a device: expected no `device:`",
                    driver->info.name);
   }
   RAVE_TRY_ASSIGN(transmitter.params, read_params(*driver, file.params));

@@ -28,10 +28,10 @@ Status check_same_plugin(const DeviceContext& context, const Driver& user,
   constexpr std::array kKinds = {DriverKind::kDevice};
   RAVE_TRY_ASSIGN(const Driver* const found, context.catalogue.find(kKinds, device.driver));
   if (found->file == user.file) return {};
-  return fail_at(where, ErrorCode::kPlugin,
-                 "the drivers `{}` and `{}` must be of one plug-in, but they come from `{}` and "
-                 "`{}`",
-                 user.info.name, device.driver, user.file.string(), found->file.string());
+  return fail_at(
+      where, ErrorCode::kPlugin,
+      "the drivers `{}` and `{}` must come from one plug-in, but they come from `{}` and `{}`",
+      user.info.name, device.driver, user.file.string(), found->file.string());
 }
 
 }  // namespace
@@ -44,7 +44,7 @@ Result<std::optional<std::uint32_t>> shared_device(
   if (wanted.empty()) {
     if (!named) return std::nullopt;
     return fail_at(named->where, ErrorCode::kInvalidArgument,
-                   "the driver `{}` is part of no device: expected no `device:`", info.name);
+                   "the driver `{}` does not use a device: expected no `device:`", info.name);
   }
   const auto fitting = devices_of(type, wanted);
   const std::string there =

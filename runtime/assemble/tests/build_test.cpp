@@ -96,7 +96,7 @@ TEST(Build, ASensorIsGivenItsLargestAgeAndWhenItsSamplesCome) {
 TEST(BuildErrors, ARangeSensorOfUnknownPaceNeedsALargestAgeIfItsRobotDrives) {
   const std::string expected =
       "robot `anna` is real, and the driver `ros2_laser` of its range sensor `eye` does not know "
-      "how often samples come: expected `max_age_s`, the age of the newest sample in seconds after "
+      "its period: expected `max_age_s`, the age of the newest sample in seconds after "
       "which the robot is stopped, such as three periods of the sensor (`max_age_s: 0.3` at 10 Hz)";
   Host host;
   const std::string plain = "{name: eye, driver: ros2_laser, device: base}";
@@ -151,9 +151,10 @@ TEST(BuildErrors, APartOfADeviceNeedsOneOfItsDriver) {
   EXPECT_EQ(host.error_of(one(kBase + "actuators: [{name: motors, driver: create_drive}]")),
             "s.yaml:6:174: the driver `create_drive` is part of a device: expected `device:` with "
             "the name of an entry of `devices:` that has the driver `create_oi`; there is base");
-  EXPECT_EQ(host.error_of(one(kBase + "sensors: [{name: eye, driver: virtual_laser, device: "
-                                      "base}]")),
-            "s.yaml:6:192: the driver `virtual_laser` is part of no device: expected no `device:`");
+  EXPECT_EQ(
+      host.error_of(one(kBase + "sensors: [{name: eye, driver: virtual_laser, device: "
+                                "base}]")),
+      "s.yaml:6:192: the driver `virtual_laser` does not use a device: expected no `device:`");
   const std::string unknown = host.error_of(
       one(kBase + "sensors: [{name: wheels, driver: create_odometry, device: bass}]"));
   EXPECT_EQ(unknown.find("s.yaml:6:"), 0U) << unknown;
@@ -242,8 +243,8 @@ TEST(BuildErrors, ARealRobotMustSayWhereItIs) {
       "velocity, actuator: wheels}]";
   const std::string silent = host.error_of(one(deaf));
   EXPECT_EQ(silent.find("s.yaml:6:"), 0U) << silent;
-  EXPECT_NE(silent.find("robot `anna` is real, so others can sense it only if something says where "
-                        "it is: expected `pose_from:` with the name of a sensor that gives a pose "
+  EXPECT_NE(silent.find("robot `anna` is real, so others can sense it only if its pose is known: "
+                        "expected `pose_from:` with the name of a sensor that gives a pose "
                         "or odometry"),
             std::string::npos)
       << silent;
@@ -282,12 +283,12 @@ TEST(BuildErrors, OneActuatorMovesABody) {
   const std::string two =
       host.error_of(one("actuators: [{name: a, driver: differential_drive}, {name: b, driver: "
                         "differential_drive}]"));
-  EXPECT_NE(two.find("actuators `a` and `b` both move the body; one can"), std::string::npos)
+  EXPECT_NE(two.find("actuators `a` and `b` both move the body; expected one that does"),
+            std::string::npos)
       << two;
   const std::string mixed = host.error_of(
       one("actuators: [{name: a, driver: differential_drive}, {name: b, driver: replay_ignored}]"));
-  EXPECT_NE(mixed.find("actuator `a` is simulated and `b` is real; a robot is the one or the "
-                       "other"),
+  EXPECT_NE(mixed.find("actuator `a` is simulated and `b` is real; expected all of one kind"),
             std::string::npos)
       << mixed;
 }
@@ -311,9 +312,10 @@ TEST(BuildErrors, ASimulatedRobotMustBePutSomewhere) {
   Host host;
   const std::string error =
       host.error_of(scenario_text("  - {name: anna, robot: {" + kBody + ", " + kWheels + "}}\n"));
-  EXPECT_NE(error.find("robot `anna` is simulated and must be put somewhere: expected `pose`, "
-                       "`poses` or `scatter`"),
-            std::string::npos)
+  EXPECT_NE(
+      error.find(
+          "robot `anna` is simulated and has no start pose: expected `pose`, `poses` or `scatter`"),
+      std::string::npos)
       << error;
 }
 

@@ -9,11 +9,11 @@ using What = Request::What;
 /// Pause, resume and step: what a live run cannot do.
 Answer hold(runtime::RunControl& control, const Request& request) {
   const runtime::RunStatus status = control.status();
-  if (status.scenario.empty()) return {false, "no run is under way", {}};
+  if (status.scenario.empty()) return {false, "no run is in progress", {}};
   if (status.follows) {
-    return {false, "this host goes as its environment manager says: ask that one", {}};
+    return {false, "this host follows its environment manager: send the request there", {}};
   }
-  if (status.live) return {false, "a live run cannot be held: the world outside goes on", {}};
+  if (status.live) return {false, "a live run cannot be paused: the real world goes on", {}};
   const std::string waits =
       status.waits_for.empty() ? "" : fmt::format("; the run waits for {}", status.waits_for);
   if (request.what == What::kPause) {
@@ -28,7 +28,7 @@ Answer hold(runtime::RunControl& control, const Request& request) {
   control.step(request.count);
   const std::string steps = fmt::format("{} step{}", request.count, request.count == 1 ? "" : "s");
   if (waits.empty()) return {true, steps, {}};
-  return {true, fmt::format("{} asked for{}, which is late or gone", steps, waits), {}};
+  return {true, fmt::format("{} requested{}, which is late or lost", steps, waits), {}};
 }
 
 }  // namespace

@@ -64,22 +64,22 @@ Result<std::string> wish_line(const Request& request) {
   std::string line = write_request(request);
   if (line.ends_with('\n')) line.pop_back();
   if (line.size() <= rave_wire_kMaxWishBytes && !has_control_characters(line)) return line;
-  return fail(ErrorCode::kInvalidArgument,
-              "what is asked has {} bytes, or control characters; the bus carries {} bytes of "
-              "plain text",
-              line.size(), rave_wire_kMaxWishBytes);
+  return fail(
+      ErrorCode::kInvalidArgument,
+      "the request has {} bytes, or control characters; expected at most {} bytes of plain text",
+      line.size(), rave_wire_kMaxWishBytes);
 }
 
 tl::unexpected<Error> gone(const BusPeer& peer) {
-  return fail(ErrorCode::kState, "`{}` has gone without an answer", peer.name);
+  return fail(ErrorCode::kState, "`{}` ended without an answer", peer.name);
 }
 
 tl::unexpected<Error> silent(const BusPeer& peer, Duration patience) {
-  return fail(ErrorCode::kTimeout,
-              "`{}` has not answered for {} s: what was asked may still be done, and its log will "
-              "say so; `rave top` shows how it fares (a RAVE that is older than this one takes no "
-              "wishes from the bus)",
-              peer.name, patience.seconds());
+  return fail(
+      ErrorCode::kTimeout,
+      "`{}` has not answered for {} s; the request may still be carried out, see its log; `rave "
+      "top` shows its state (a RAVE older than this one takes no requests from the bus)",
+      peer.name, patience.seconds());
 }
 
 /// One of several that are asked at a time.
@@ -250,23 +250,25 @@ Result<BusPeer> BusRun::find(std::string_view host, Duration patience) {
   if (run.peers.empty()) {
     // That a process exists is seen without certificates, and nothing that it says.
     return fail(ErrorCode::kNotFound,
-                "a run is seen, but nothing that its processes say: those with certificates are "
-                "heard by members of their set alone; {}",
+                "a run was found, but its messages cannot be read: processes with certificates "
+                "talk only to members of their set; {}",
                 run.bus->config().security.empty()
-                    ? "give --security with the folder of one that you have"
-                    : "these are of another set, or the run has none (then leave --security out)");
+                    ? "give --security with the folder of a member"
+                    : "these certificates belong to another set, or the run has none (then leave "
+                      "--security out)");
   }
   std::vector<std::string_view> names;
   for (const BusPeer& peer : run.peers) {
     if (!peer.manager) names.emplace_back(peer.name);
   }
-  const std::string others =
-      names.empty() ? std::string("nor any host") : "its hosts are " + join_names(names);
+  const std::string others = names.empty() ? std::string("no host was found either")
+                                           : "its hosts are " + join_names(names);
   if (!host.empty()) {
-    return fail(ErrorCode::kNotFound, "host `{}` of the run is not there; {}", host, others);
+    return fail(ErrorCode::kNotFound, "host `{}` of the run was not found; {}", host, others);
   }
   return fail(ErrorCode::kNotFound,
-              "the environment manager of the run is not there; {}; RUN@HOST asks a host", others);
+              "the environment manager of the run was not found; {}; RUN@HOST addresses a host",
+              others);
 }
 
 std::vector<BusPeer> BusRun::all(Duration patience) {

@@ -20,7 +20,8 @@ Status send_line(int file, std::string_view line) {
   while (!line.empty()) {
     const ssize_t sent = ::send(file, line.data(), line.size(), MSG_NOSIGNAL);
     if (sent < 0 && errno == EINTR) continue;
-    if (sent < 0) return fail(ErrorCode::kIo, "the run does not listen: {}", std::strerror(errno));
+    if (sent < 0)
+      return fail(ErrorCode::kIo, "the run does not accept connections: {}", std::strerror(errno));
     line.remove_prefix(static_cast<std::size_t>(sent));
   }
   return {};
@@ -37,12 +38,12 @@ Result<std::string> receive_line(int file) {
     char part[4096];
     const ssize_t size = ::recv(file, part, sizeof part, 0);
     if (size < 0 && errno == EINTR) continue;
-    if (size <= 0) return fail(ErrorCode::kIo, "the run has ended without an answer");
+    if (size <= 0) return fail(ErrorCode::kIo, "the run ended without an answer");
     text.append(part, static_cast<std::size_t>(size));
     const std::size_t line = text.find('\n');
     if (line != std::string::npos) return text.substr(0, line);
   }
-  return fail(ErrorCode::kParse, "the run's answer does not end");
+  return fail(ErrorCode::kParse, "the answer of the run is incomplete");
 }
 
 }  // namespace

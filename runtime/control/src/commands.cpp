@@ -65,6 +65,7 @@ bus::OnCommand commands_of(RunControl& control, const config::ExpandedScenario& 
     if (drive.by == runtime::HostLeases::kTerminal) return;
     drive.v_mps = command.vx_mps;
     drive.w_radps = command.wz_radps;
+    drive.page = command.lease;
     static_cast<void>(control.post(std::move(drive)));
   };
 }
@@ -77,6 +78,7 @@ bus::Command drive_command(const RunRequest& drive, std::uint32_t robot, std::ui
   bus::put_text(command.author, drive.by);
   command.vx_mps = drive.v_mps;
   command.wz_radps = drive.w_radps;
+  command.lease = drive.page;
   return command;
 }
 

@@ -43,13 +43,13 @@ Result<fs::path> socket_folder() {
   }
   struct stat info {};
   if (::lstat(folder.c_str(), &info) != 0) {
-    return fail(ErrorCode::kIo, "cannot look at `{}`: {}", folder.string(), std::strerror(errno));
+    return fail(ErrorCode::kIo, "cannot read the state of `{}`: {}", folder.string(),
+                std::strerror(errno));
   }
   // In /tmp anybody may have been first.
   if (!S_ISDIR(info.st_mode) || info.st_uid != ::geteuid() || (info.st_mode & 077U) != 0) {
     return fail(ErrorCode::kState,
-                "`{}` must be a folder of this user that nobody else may open (mode 0700), and no "
-                "link",
+                "`{}` must be a folder of this user with mode 0700, and not a link",
                 folder.string());
   }
   return folder;
@@ -84,7 +84,7 @@ Result<std::vector<std::string>> running_runs() {
 
 Result<std::string> find_run(std::string_view word) {
   RAVE_TRY_ASSIGN(const std::vector<std::string> runs, running_runs());
-  if (runs.empty()) return fail(ErrorCode::kNotFound, "no run is under way");
+  if (runs.empty()) return fail(ErrorCode::kNotFound, "no run is in progress");
   std::vector<std::string_view> names;
   for (const std::string& run : runs) {
     if (run.find(kOfHost) == std::string::npos) names.emplace_back(run);
@@ -92,7 +92,8 @@ Result<std::string> find_run(std::string_view word) {
   if (names.empty()) names.assign(runs.begin(), runs.end());
   if (word.empty() && names.size() == 1) return std::string(names.front());
   if (word.empty()) {
-    return fail(ErrorCode::kNotFound, "{} runs are under way: {}", names.size(), choose_one(names));
+    return fail(ErrorCode::kNotFound, "{} runs are in progress: {}", names.size(),
+                choose_one(names));
   }
   std::vector<std::string> of_scenario;
   for (const std::string& run : runs) {
@@ -102,15 +103,15 @@ Result<std::string> find_run(std::string_view word) {
   if (of_scenario.size() == 1) return of_scenario.front();
   if (of_scenario.size() > 1) {
     names.assign(of_scenario.begin(), of_scenario.end());
-    return fail(ErrorCode::kNotFound, "several runs are of `{}`: {}", word, choose_one(names));
+    return fail(ErrorCode::kNotFound, "several runs match `{}`: {}", word, choose_one(names));
   }
   names.assign(runs.begin(), runs.end());
   return fail(ErrorCode::kNotFound, "there is no run `{}`{}", word, suggestion(word, names));
 }
 
 std::string choose_one(std::span<const std::string_view> runs, std::string_view option) {
-  return fmt::format("{}; say which by its name or its process id, such as `{}{}{}`",
-                     join_names(runs), option, option.empty() ? "" : " ", process_of(runs.front()));
+  return fmt::format("{}; name one, by its name or process id, such as `{}{}{}`", join_names(runs),
+                     option, option.empty() ? "" : " ", process_of(runs.front()));
 }
 
 }  // namespace rave::control

@@ -18,11 +18,13 @@ std::string_view name_of(const HostLeases::Person& person) {
 
 std::string lease_text(const HostLeases::Change& change) {
   if (change.after.empty()) {
-    return fmt::format("`{}` drives no more{}", change.before,
-                       change.expired ? ": nothing was heard of them" : "");
+    return fmt::format("`{}` no longer drives{}", change.before,
+                       change.expired ? ": no message came from them" : "");
   }
   if (change.before.empty()) return fmt::format("`{}` drives", change.after);
-  return fmt::format("`{}` drives, no more `{}`", change.after, change.before);
+  if (change.before == change.after)
+    return fmt::format("`{}` drives on another page", change.after);
+  return fmt::format("`{}` drives now, instead of `{}`", change.after, change.before);
 }
 
 const HostLeases::Lease* HostLeases::find(const std::string& robot) const noexcept {
@@ -35,42 +37,58 @@ const std::string& HostLeases::holder(const std::string& robot) const noexcept {
   return lease != nullptr ? lease->holder : kNobody;
 }
 
-void HostLeases::set(const std::string& robot, std::string_view holder, bool driven, Time now) {
-  Lease& lease = leases_[robot];
-  if (lease.holder != holder) {
-    changes_.push_back({robot, lease.holder, std::string(holder), lease.driven, false});
-    lease.holder = holder;
+std::uint64_t HostLeases::page(const std::string& robot) const noexcept {
+  const Lease* const lease = find(robot);
+  return lease != nullptr ? lease->page : 0;
+}
+
+bool HostLeases::owns(const Lease& lease, const Person& person) noexcept {
+  return lease.holder == name_of(person) && (lease.page == 0 || lease.page == person.page);
+}
+
+tl::unexpected<Error> HostLeases::refusal(const std::string& robot, const Lease& lease,
+                                          const Person& person) {
+  if (lease.holder == name_of(person)) {
+    return fail(ErrorCode::kState,
+                "you drive {} on another page: give it back there, or take it here", robot);
   }
+  return fail(ErrorCode::kState, "`{}` drives {}", lease.holder, robot);
+}
+
+void HostLeases::set(const std::string& robot, const Person& holder, bool driven, Time now) {
+  Lease& lease = leases_[robot];
+  if (!owns(lease, holder)) {
+    changes_.push_back({robot, lease.holder, std::string(name_of(holder)), lease.driven, false});
+    lease.holder = name_of(holder);
+  }
+  lease.page = holder.page;
   lease.driven = driven;
   lease.until = driven ? now + kAfterDrive : now + kAfterOrder;
 }
 
 Status HostLeases::use(const std::string& robot, const Person& person, Use how, Time now) {
   const Lease* const lease = find(robot);
-  const std::string_view name = name_of(person);
-  const bool own = lease != nullptr && lease->holder == name;
-  if (lease != nullptr && !own) {
-    return fail(ErrorCode::kState, "`{}` drives {}", lease->holder, robot);
-  }
+  const bool own = lease != nullptr && owns(*lease, person);
+  if (lease != nullptr && !own) return refusal(robot, *lease, person);
   // What a terminal says once shall not keep people from the robot for minutes.
   const bool takes = how == Use::kDrive || (how == Use::kOrder && (own || !person.name.empty()));
-  if (takes) set(robot, name, how == Use::kDrive, now);
+  if (takes) set(robot, person, how == Use::kDrive, now);
   return {};
 }
 
 Result<std::string> HostLeases::take(const std::string& robot, const Person& person, bool force,
                                      Time now) {
   const Lease* const lease = find(robot);
-  const std::string_view name = name_of(person);
+  const bool own = lease != nullptr && owns(*lease, person);
   const bool rights = force || person.overrides || person.name.empty();
-  if (lease != nullptr && lease->holder != name && !rights) {
-    return fail(ErrorCode::kState, "`{}` drives {}", lease->holder, robot);
-  }
-  const bool own = lease != nullptr && lease->holder == name;
+  if (lease != nullptr && !own && !rights) return refusal(robot, *lease, person);
   const std::string before = lease != nullptr && !own ? lease->holder : "";
-  set(robot, name, own && lease->driven, now);
+  set(robot, person, own && lease->driven, now);
   if (before.empty()) return fmt::format("{} is yours", robot);
-  return fmt::format("{} is yours; `{}` had it", robot, before);
+  if (before == name_of(person)) {
+    return fmt::format("{} is yours; it was taken from another page of yours", robot);
+  }
+  return fmt::format("{} is yours; it was taken from `{}`", robot, before);
 }
 
 Result<std::string> HostLeases::give(const std::string& robot, const Person& person,
@@ -80,11 +98,13 @@ Result<std::string> HostLeases::give(const std::string& robot, const Person& per
   if (lease == nullptr && to.empty()) {
     return fail(ErrorCode::kInvalidArgument, "nobody drives {}", robot);
   }
-  if (lease != nullptr && lease->holder != name_of(person) && !rights) {
-    return fail(ErrorCode::kState, "`{}` drives {}", lease->holder, robot);
+  if (lease != nullptr && !owns(*lease, person) && !rights) return refusal(robot, *lease, person);
+  if (lease != nullptr && to == lease->holder && to == name_of(person)) {
+    leases_.at(robot).page = 0;
+    return fmt::format("{} is any page's of yours", robot);
   }
   if (!to.empty()) {
-    set(robot, to, false, now);
+    set(robot, Person{to}, false, now);
     return fmt::format("{} is now `{}`'s", robot, to);
   }
   changes_.push_back({robot, lease->holder, "", lease->driven, false});

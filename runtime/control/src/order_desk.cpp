@@ -20,13 +20,15 @@ RunRequest ended_by(RunRequest::Kind kind, const std::string& robot, const std::
   return request;
 }
 
-HostLeases::Person person_of(const RunRequest& request) { return {request.by, request.overrides}; }
+HostLeases::Person person_of(const RunRequest& request) {
+  return {request.by, request.overrides, request.page};
+}
 
 }  // namespace
 
 bool OrderDesk::is_for(RunRequest::Kind kind) noexcept {
   return is_order(kind) || kind == RunRequest::Kind::kTake || kind == RunRequest::Kind::kGive ||
-         kind == RunRequest::Kind::kRelease;
+         kind == RunRequest::Kind::kRelease || kind == RunRequest::Kind::kHandOver;
 }
 
 Status OrderDesk::check_rate(const std::string& robot, Time now) {
@@ -44,15 +46,13 @@ Status OrderDesk::check_rate(const std::string& robot, Time now) {
   return {};
 }
 
-Status OrderDesk::check_release(const RunRequest& request) const {
+Status OrderDesk::check_release(const RunRequest& request, Time now) {
   if (request.by.empty() || request.overrides) return {};
   if (!request.robot.empty()) {
-    const std::string& holder = leases_.holder(request.robot);
-    if (holder.empty() || holder == request.by) return {};
-    return fail(ErrorCode::kState, "`{}` drives {}", holder, request.robot);
+    return leases_.use(request.robot, person_of(request), HostLeases::Use::kLook, now);
   }
   return fail(ErrorCode::kState,
-              "all robots are released by a super-user; release those that you drive one by one");
+              "only a super-user can release all robots; release those that you drive one by one");
 }
 
 Result<std::string> OrderDesk::serve(const RunRequest& request, const Give& give,
@@ -62,10 +62,16 @@ Result<std::string> OrderDesk::serve(const RunRequest& request, const Give& give
   const bool gives_to_it =
       request.kind == RunRequest::Kind::kGive && request.value == HostLeases::kTerminal;
   if (request.by == HostLeases::kTerminal || gives_to_it) {
-    return fail(ErrorCode::kInvalidArgument, "`{}` is no name of a person", HostLeases::kTerminal);
+    return fail(ErrorCode::kInvalidArgument, "`{}` is not a valid name of a person",
+                HostLeases::kTerminal);
   }
   if (request.kind == RunRequest::Kind::kRelease) {
-    RAVE_TRY(check_release(request));
+    RAVE_TRY(check_release(request, now));
+    return give(request);
+  }
+  // Who drives a robot must not find another one in its place.
+  if (request.kind == RunRequest::Kind::kHandOver && !request.robot.empty()) {
+    RAVE_TRY(check_release(request, now));
     return give(request);
   }
   const bool for_all = request.kind == RunRequest::Kind::kCancel && request.robot.empty();
@@ -73,14 +79,13 @@ Result<std::string> OrderDesk::serve(const RunRequest& request, const Give& give
     return fail(ErrorCode::kInvalidArgument, "`{}` needs a robot", to_string(request.kind));
   }
   if (for_all && !request.by.empty() && !request.overrides) {
-    return fail(ErrorCode::kState, "only a super-user cancels the orders of all robots");
+    return fail(ErrorCode::kState, "only a super-user can cancel the orders of all robots");
   }
   RAVE_TRY(check_rate(request.robot, now));
   Result<std::string> answer;
   if (request.kind == RunRequest::Kind::kTake) {
     if (!request.value.empty() && request.value != "force") {
-      return fail(ErrorCode::kInvalidArgument, "`{}` is no way to take a robot; expected `force`",
-                  request.value);
+      return fail(ErrorCode::kInvalidArgument, "`{}`: expected `force` or nothing", request.value);
     }
     answer = leases_.take(request.robot, person_of(request), request.value == "force", now);
   } else if (request.kind == RunRequest::Kind::kGive) {

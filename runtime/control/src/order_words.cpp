@@ -10,6 +10,7 @@
 
 #include "rave/assemble/parameter_key.hpp"
 #include "rave/robot/order.hpp"
+#include "rave/sim/orders.hpp"
 
 namespace rave::runtime {
 namespace {
@@ -77,6 +78,11 @@ bool read_word(Words& words, RunRequest& request) {
 
 }  // namespace
 
+Status check_path_size(std::size_t points) {
+  if (points >= 2 && points <= kMostOrderPoints) return {};
+  return fail(ErrorCode::kInvalidArgument, "{}", sim::path_size_text(points));
+}
+
 Result<sim::WorldInput> order_input(const sim::EngineSpec& spec, const RunRequest& request) {
   sim::WorldInput input;
   for (const auto& [kind, its] : kKinds) {
@@ -142,7 +148,7 @@ std::string order_answer(const RunRequest& request) {
     case RunRequest::Kind::kPath:
       return fmt::format("{} is sent along {} points to {}", whom, request.points.size(), last());
     case RunRequest::Kind::kCancel:
-      return fmt::format("{}: no order of people counts any more", whom);
+      return fmt::format("{}: the orders of people are cancelled", whom);
     case RunRequest::Kind::kText:
       return fmt::format("{} was told", whom);
     case RunRequest::Kind::kPlace:
@@ -177,7 +183,8 @@ Status read_order_words(std::string_view text, RunRequest& request) {
   Words words(text);
   while (!words.empty()) {
     if (read_word(words, request)) continue;
-    return fail(ErrorCode::kParse, "`{}` are no details of a `{}`", text, to_string(request.kind));
+    return fail(ErrorCode::kParse, "`{}` are not the details of a `{}`", text,
+                to_string(request.kind));
   }
   return {};
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/control/protocol.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -8,6 +10,8 @@
 #include <vector>
 
 #include "rave/base/names.hpp"
+#include "rave/control/chat_line.hpp"
+#include "rave/control/order_words.hpp"
 #include "rave/robot/order.hpp"
 
 namespace rave::control {
@@ -44,7 +48,8 @@ constexpr std::array kWords = {Word{"status", Request::What::kStatus},
                                Word{"text", Request::What::kText},
                                Word{"place", Request::What::kPlace},
                                Word{"take", Request::What::kTake},
-                               Word{"give", Request::What::kGive}};
+                               Word{"give", Request::What::kGive},
+                               Word{"chat", Request::What::kChat}};
 
 using RunKind = runtime::RunRequest::Kind;
 
@@ -70,7 +75,8 @@ constexpr std::array kRunWords = {RunWord{Request::What::kStop, RunKind::kStop},
                                   RunWord{Request::What::kText, RunKind::kText},
                                   RunWord{Request::What::kPlace, RunKind::kPlace},
                                   RunWord{Request::What::kTake, RunKind::kTake},
-                                  RunWord{Request::What::kGive, RunKind::kGive}};
+                                  RunWord{Request::What::kGive, RunKind::kGive},
+                                  RunWord{Request::What::kChat, RunKind::kChat}};
 
 /// An object without repeated keys; discarded for anything else.
 Json parse_object(std::string_view line) {
@@ -125,10 +131,18 @@ bool take_flag(Json& json, const char* key, bool& value) {
   return true;
 }
 
+bool take_page(Json& json, std::uint64_t& page) {
+  if (!json.contains("page")) return true;
+  if (!json.at("page").is_number_unsigned()) return false;
+  page = json.at("page").get<std::uint64_t>();
+  json.erase("page");
+  return page > 0;
+}
+
 /// Who asks: what changes something may say it.
 bool take_author(Json& json, Request& request) {
   return take_text(json, "by", request.by) && request.by.size() <= kMostOrderAuthor &&
-         take_flag(json, "overrides", request.overrides);
+         take_flag(json, "overrides", request.overrides) && take_page(json, request.page);
 }
 
 /// A number, which must be finite; `needed`: it must be there.
@@ -162,6 +176,13 @@ bool take_points(Json& json, std::size_t least, std::size_t most, Request& reque
   return true;
 }
 
+/// Of a path, before its points are read: what is wrong with their number is worth a sentence.
+Status check_points(Request::What what, const Json& json) {
+  if (what != Request::What::kPath || !json.contains("points")) return {};
+  const Json& points = json.at("points");
+  return points.is_array() ? runtime::check_path_size(points.size()) : Status();
+}
+
 bool take_robot(Json& json, Request& request) {
   return take_text(json, "robot", request.robot) && !request.robot.empty();
 }
@@ -187,6 +208,9 @@ bool take_order(Json& json, Request& request) {
              !request.value.empty() && request.value.size() <= kMostOrderText;
     case Request::What::kCancel:
       return take_text(json, "robot", request.robot);
+    case Request::What::kChat:
+      return take_text(json, "key", request.key) && take_text(json, "value", request.value) &&
+             runtime::chat_line(run_request(request)).has_value();
     default:
       return take_robot(json, request) && take_text(json, "value", request.value) &&
              request.value.size() <= kMostOrderAuthor;
@@ -269,6 +293,7 @@ Json status_json(const runtime::RunStatus& status) {
     if (robot.hand_over) last["hand_over"] = hand_over_json(*robot.hand_over);
     if (robot.shadow) last["shadow"] = shadow_json(*robot.shadow);
     if (!robot.lease.empty()) last["lease"] = robot.lease;
+    if (robot.lease_page != 0) last["lease_page"] = robot.lease_page;
     if (!robot.takes.empty()) last["takes"] = robot.takes;
     if (!robot.order.empty()) last["order"] = robot.order;
   }
@@ -340,6 +365,8 @@ bool read_shadow(const Json& json, runtime::RunStatus::Shadow& shadow) {
 /// What a robot takes and does of orders; older processes say nothing of that.
 bool read_orders(const Json& item, runtime::RunStatus::Robot& robot) {
   if (item.contains("lease") && !read_text(item, "lease", robot.lease)) return false;
+  if (item.contains("lease_page") && !read_count(item, "lease_page", robot.lease_page))
+    return false;
   if (item.contains("order") && !read_text(item, "order", robot.order)) return false;
   if (!item.contains("takes")) return true;
   if (!item.at("takes").is_array()) return false;
@@ -392,6 +419,7 @@ Request request_of(const runtime::RunRequest& request) {
   asked.value = request.value;
   asked.by = request.by;
   asked.overrides = request.overrides;
+  asked.page = request.page;
   asked.points = request.points;
   asked.yaw_rad = request.yaw_rad;
   asked.v_mps = request.v_mps;
@@ -410,6 +438,7 @@ runtime::RunRequest run_request(const Request& request) {
   asked.value = request.value;
   asked.by = request.by;
   asked.overrides = request.overrides;
+  asked.page = request.page;
   asked.points = request.points;
   asked.yaw_rad = request.yaw_rad;
   asked.v_mps = request.v_mps;
@@ -418,14 +447,19 @@ runtime::RunRequest run_request(const Request& request) {
   return asked;
 }
 
+std::string too_long_text() {
+  return fmt::format("the line is longer than {} bytes, which hold a path of {} points",
+                     kMaxLineBytes, kMostOrderPoints);
+}
+
 Result<Request> parse_request(std::string_view line) {
-  if (line.size() > kMaxLineBytes) return fail(ErrorCode::kParse, "the line is too long");
+  if (line.size() > kMaxLineBytes) return fail(ErrorCode::kParse, "{}", too_long_text());
   Json json = parse_object(line);
   if (json.is_discarded()) {
-    return fail(ErrorCode::kParse, "expected a JSON object in which no key comes twice");
+    return fail(ErrorCode::kParse, "expected a JSON object without duplicate keys");
   }
   if (!json.contains("rave") || json.at("rave") != 1) {
-    return fail(ErrorCode::kParse, "expected `\"rave\": 1`, the version of what is spoken here");
+    return fail(ErrorCode::kParse, "expected `\"rave\": 1`, the version of this protocol");
   }
   json.erase("rave");
   Request request;
@@ -436,11 +470,12 @@ Result<Request> parse_request(std::string_view line) {
     return fail(ErrorCode::kInvalidArgument, "expected `do` to be one of {}", join_names(names));
   }
   request.what = *what;
+  RAVE_TRY(check_points(*what, json));
   if (!take_details(json, request)) {
-    return fail(ErrorCode::kInvalidArgument, "something is missing or of the wrong type");
+    return fail(ErrorCode::kInvalidArgument, "a key is missing or has the wrong type");
   }
   if (!json.empty()) {
-    return fail(ErrorCode::kInvalidArgument, "`{}` does not belong here", json.begin().key());
+    return fail(ErrorCode::kInvalidArgument, "unexpected key `{}`", json.begin().key());
   }
   return request;
 }
@@ -456,6 +491,7 @@ std::string write_request(const Request& request) {
   if (request.what == Request::What::kStep) json["count"] = request.count;
   if (!request.by.empty()) json["by"] = request.by;
   if (request.overrides) json["overrides"] = true;
+  if (request.page != 0) json["page"] = request.page;
   for (const Vec2 p_W : request.points) json["points"].push_back({p_W.x, p_W.y});
   if (request.yaw_rad) json["yaw"] = *request.yaw_rad;
   if (request.speed_mps != 0) json["speed"] = request.speed_mps;
@@ -472,7 +508,7 @@ Result<Answer> parse_answer(std::string_view line) {
   if (json.is_discarded() || !read_bool(json, "good", answer.good) ||
       !read_text(json, "text", answer.text) ||
       (json.contains("status") && !read_status(json.at("status"), answer.status))) {
-    return fail(ErrorCode::kParse, "the run gave an answer that nobody understands");
+    return fail(ErrorCode::kParse, "the answer of the run is malformed");
   }
   return answer;
 }

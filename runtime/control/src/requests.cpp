@@ -41,17 +41,18 @@ Result<std::string> arm(sim::Engine& engine, RobotId robot, const sim::Author& a
     return fail(ErrorCode::kState, "stopped: {}; a stop holds until it is released (`--release`)",
                 stopped);
   }
-  if (waiting.empty()) return std::string("nothing to arm: no robot waits for it");
+  if (waiting.empty()) return std::string("nothing to arm: no robot waits to be armed");
   engine.arm(robot, author);
   return "armed " + waiting;
 }
 
 Result<std::string> set(sim::Engine& engine, RobotId robot, const RunRequest& request) {
-  if (!robot.valid()) return fail(ErrorCode::kInvalidArgument, "a parameter needs a robot");
+  if (!robot.valid())
+    return fail(ErrorCode::kInvalidArgument, "expected the robot whose parameter changes");
   config::Diagnostics diagnostics;
   const auto value = config::parse_yaml(request.value, "value", diagnostics);
   if (!value || !diagnostics.ok() || (!value->is_scalar() && !value->is_sequence())) {
-    return fail(ErrorCode::kInvalidArgument, "`{}` is no value for a parameter", request.value);
+    return fail(ErrorCode::kInvalidArgument, "`{}` is not a value of a parameter", request.value);
   }
   const sim::EngineSpec& spec = engine.spec();
   const sim::RobotSpec& its = spec.robots[robot.value()];
@@ -81,7 +82,7 @@ Status check_pose(const sim::Engine& engine, const sim::WorldInput& input) {
   if (input.kind != Kind::kGoal && input.kind != Kind::kPath) return {};
   const sim::ReportedPose& pose = engine.reported(input.robot);
   if (engine.steps_done() == 0 || (pose.known && !pose.stale)) return {};
-  return fail(ErrorCode::kState, "robot `{}`: where it is is not known at present",
+  return fail(ErrorCode::kState, "robot `{}`: its pose is not known at present",
               engine.spec().robots[input.robot.value()].name);
 }
 
@@ -93,7 +94,7 @@ Result<std::string> order(sim::Engine& engine, const RunRequest& request) {
 }
 
 Result<std::string> hand_over(sim::Engine& engine, RobotId robot, const RunRequest& request) {
-  if (!robot.valid()) return fail(ErrorCode::kInvalidArgument, "a hand-over needs a robot");
+  if (!robot.valid()) return fail(ErrorCode::kInvalidArgument, "expected the robot to hand over");
   RAVE_TRY_ASSIGN(const config::HandOverTo to, hand_over_word(request.value));
   const auto state = engine.hand_over_state(robot);
   const sim::DriverSet active = state ? state->active : sim::DriverSet::kFirst;
@@ -149,7 +150,9 @@ Result<std::string> serve_request(sim::Engine& engine, const RunRequest& request
       return order(engine, request);
     case RunRequest::Kind::kTake:
     case RunRequest::Kind::kGive:
-      return fail(ErrorCode::kState, "nobody keeps leases here");
+      return fail(ErrorCode::kState, "this process keeps no leases");
+    case RunRequest::Kind::kChat:
+      return fail(ErrorCode::kState, "this process keeps no chat");
   }
   return fail(ErrorCode::kInvalidArgument, "unknown request");
 }
@@ -165,6 +168,7 @@ void refresh_status(const sim::Engine& engine, RunStatus& status) {
     robot.hand_over.reset();
     robot.shadow.reset();
     robot.lease.clear();
+    robot.lease_page = 0;
     robot.order = engine.order_of(RobotId(r));
     write_takes(engine.takes(RobotId(r)), robot.takes);
     robot.name = spec.robots[r].name;

@@ -25,7 +25,8 @@ constexpr std::pair<Kind, std::string_view> kWords[] = {{Kind::kStop, "stop"},
                                                         {Kind::kText, "text"},
                                                         {Kind::kPlace, "place"},
                                                         {Kind::kTake, "take"},
-                                                        {Kind::kGive, "give"}};
+                                                        {Kind::kGive, "give"},
+                                                        {Kind::kChat, "chat"}};
 
 }  // namespace
 
@@ -92,7 +93,7 @@ Result<std::future<Result<std::string>>> RunControl::post(RunRequest request) {
   std::stop_source wake(std::nostopstate);
   {
     const std::lock_guard lock(mutex_);
-    if (!running_) return fail(ErrorCode::kState, "no run is under way");
+    if (!running_) return fail(ErrorCode::kState, "no run is in progress");
     Pending& pending = pending_.emplace_back();
     pending.request = std::move(request);
     pending.since = std::chrono::steady_clock::now();
@@ -109,9 +110,22 @@ Result<std::string> RunControl::ask(RunRequest request, std::chrono::millisecond
   RAVE_TRY_ASSIGN(auto answer, post(std::move(request)));
   if (answer.wait_for(patience) == std::future_status::ready) return answer.get();
   return fail(ErrorCode::kTimeout,
-              "the run has not come to it for {} ms: a step does not end; it is done before the "
-              "next one",
+              "the run has not handled the request for {} ms, because a step does not end; it will "
+              "be handled before the next step",
               patience.count());
+}
+
+void RunControl::keep_said(RunRequest chat) {
+  const std::lock_guard lock(mutex_);
+  said_.push_back(std::move(chat));
+  said_something_.store(true);
+}
+
+std::vector<RunRequest> RunControl::take_said() {
+  if (!said_something_.load()) return {};
+  const std::lock_guard lock(mutex_);
+  said_something_.store(false);
+  return std::exchange(said_, {});
 }
 
 RunStatus RunControl::status() const {

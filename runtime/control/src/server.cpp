@@ -91,7 +91,10 @@ bool Server::Impl::read_some(Connection& connection) {
     connection.received.erase(0, end + 1);
     if (!send(connection, write_answer(answer))) return false;
   }
-  return connection.received.size() <= kMaxLineBytes;
+  if (connection.received.size() <= kMaxLineBytes) return true;
+  // Where the line ends is not known, so the connection does, after a reason.
+  static_cast<void>(send(connection, write_answer({false, too_long_text(), {}})));
+  return false;
 }
 
 void Server::Impl::run() {

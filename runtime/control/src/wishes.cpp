@@ -41,7 +41,7 @@ bus::BeginWish wishes_of(RunControl& control) {
     const auto request = parse_request(line);
     if (!request) {
       return answered({false, request.error().message, {}},
-                      "something that is not understood: " + request.error().message, false);
+                      "malformed request: " + request.error().message, false);
     }
     if (const auto answer = answer_at_once(control, *request)) {
       return answered(*answer, told_of(*request));

@@ -19,18 +19,18 @@ constexpr std::string_view kBodyKey = "body.scale";
 
 Result<sim::ParameterChange> body_change(const sim::EngineSpec& spec, RobotId robot,
                                          const RunRequest& request) {
-  if (!robot.valid()) return fail(ErrorCode::kInvalidArgument, "a parameter needs a robot");
+  if (!robot.valid())
+    return fail(ErrorCode::kInvalidArgument, "expected the robot whose parameter changes");
   if (request.key != kBodyKey) {
-    return fail(
-        ErrorCode::kState,
-        "the parameters of `{}` are known where it runs: ask the process of its host, which "
-        "`rave ps` lists; here only `{}` can be set",
-        request.robot, kBodyKey);
+    return fail(ErrorCode::kState,
+                "the parameters of `{}` are set at its host: send the request to that process, "
+                "which `rave ps` lists; here only `{}` can be set",
+                request.robot, kBodyKey);
   }
   config::Diagnostics diagnostics;
   const auto value = config::parse_yaml(request.value, "value", diagnostics);
   if (!value || !diagnostics.ok()) {
-    return fail(ErrorCode::kInvalidArgument, "`{}` is no value for a parameter", request.value);
+    return fail(ErrorCode::kInvalidArgument, "`{}` is not a value of a parameter", request.value);
   }
   auto change = parse_change(spec.types[spec.robots[robot.value()].type], request.key, *value);
   // The place within the word on the command line tells nobody anything.
@@ -107,8 +107,9 @@ Result<sim::WorldInput> input_of(const sim::EngineSpec& spec, const RunRequest& 
       return order_input(spec, request);
     case RunRequest::Kind::kTake:
     case RunRequest::Kind::kGive:
-      return fail(ErrorCode::kState, "the host of a robot keeps its lease");
+      return fail(ErrorCode::kState, "the lease of a robot is kept by its host");
     case RunRequest::Kind::kList:
+    case RunRequest::Kind::kChat:
       break;
   }
   return fail(ErrorCode::kInvalidArgument, "a request that changes nothing");

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "rave/bus/writer.hpp"
+
 namespace rave::control {
 namespace {
 
@@ -34,6 +36,50 @@ TEST(Protocol, RequestsComeBackAsTheyWere) {
   }
 }
 
+TEST(Protocol, SaysWhyAPathIsNone) {
+  const auto why = [](std::size_t points) {
+    std::string line = R"({"rave":1,"do":"path","robot":"r1","points":[[0,0])";
+    for (std::size_t i = 1; i < points; ++i) line += ",[0,1]";
+    return parse_request(line + "]}").error().message;
+  };
+  EXPECT_EQ(why(1), "a path has 1 points; expected 2 to 1000");
+  EXPECT_EQ(why(1001), "a path has 1001 points; expected 2 to 1000");
+  EXPECT_EQ(why(9000), "a path has 9000 points; expected 2 to 1000");
+  EXPECT_EQ(why(20'000), "the line is longer than 65536 bytes, which hold a path of 1000 points");
+}
+
+TEST(Protocol, AnyPathThatIsTakenFitsIntoALine) {
+  Request path{What::kPath, std::string(64, 'r'), "", "", 1, std::string(64, 'a'), true, ~0ULL};
+  for (int i = 0; i < 1000; ++i)
+    path.points.push_back({-1.2345678901234567e-100, -1.2345678901234567e-100});
+  path.speed_mps = 0.1234567890123456;
+  const std::string line = write_request(path);
+  EXPECT_LE(line.size(), kMaxLineBytes);
+  EXPECT_LE(line.size(), std::size_t{rave_wire_kMaxWishBytes});
+  EXPECT_TRUE(parse_request(std::string_view(line).substr(0, line.size() - 1)));
+}
+
+TEST(Protocol, RefusesWhatIsNoLineOfAChat) {
+  for (const char* const rest :
+       {R"("key":"0 commander all","value":"a","by":"anna")",
+        R"("key":"1 boss all","value":"a","by":"anna")",
+        R"("key":"1 commander nobody","value":"a","by":"anna")",
+        R"("key":"1 commander user","value":"a","by":"anna")",
+        R"("key":"1 commander all ben","value":"a","by":"anna")",
+        R"("key":"1 commander all","value":"","by":"anna")",
+        R"("key":"1 commander all","value":"a")",
+        R"("key":"-1 commander all","value":"a","by":"b")",
+        R"("key":"1 commander all","value":"a","by":"anna","robot":"r1")",
+        R"("key":"","value":"a","by":"anna")", R"("value":"a","by":"anna")"}) {
+    EXPECT_FALSE(parse_request(R"({"rave":1,"do":"chat",)" + std::string(rest) + "}")) << rest;
+  }
+  for (const char* const page : {"0", "-1", "1.5", "\"1\""}) {
+    EXPECT_FALSE(parse_request(R"({"rave":1,"do":"take","robot":"r1","by":"a","page":)" +
+                               std::string(page) + "}"))
+        << page;
+  }
+}
+
 std::vector<Request> orders() {
   Request drive{What::kDrive, "r1", "", "", 1, "anna"};
   drive.v_mps = 0.1;
@@ -57,7 +103,10 @@ std::vector<Request> orders() {
           Request{What::kText, "r1", "", "h\u00e4llo", 1},
           Request{What::kTake, "r1", "", "force", 1, "anna"},
           Request{What::kTake, "r1", "", "", 1, "anna"},
-          Request{What::kGive, "r1", "", "bert", 1, "anna"}};
+          Request{What::kGive, "r1", "", "bert", 1, "anna"},
+          Request{What::kTake, "r1", "", "", 1, "anna", false, 0xffffffffffffffffULL},
+          Request{What::kChat, "", "3 commander user ben a", "psst", 1, "anna"},
+          Request{What::kChat, "", "1 observer all", "two\nlines", 1, "the operator"}};
 }
 
 TEST(Protocol, OrdersComeBackAsTheyWere) {

@@ -111,9 +111,9 @@ TEST_F(ServerTest, WhoHasToChooseIsToldAmongWhatAndHow) {
   const auto two = Server::start("crowd-12", control);
   ASSERT_TRUE(one && two);
   const std::string how =
-      "crowd-11 and crowd-12; say which by its name or its process id, such as `11`";
-  EXPECT_EQ(find_run("").error().message, "2 runs are under way: " + how);
-  EXPECT_EQ(find_run("crowd").error().message, "several runs are of `crowd`: " + how);
+      "crowd-11 and crowd-12; name one, by its name or process id, such as `11`";
+  EXPECT_EQ(find_run("").error().message, "2 runs are in progress: " + how);
+  EXPECT_EQ(find_run("crowd").error().message, "several runs match `crowd`: " + how);
   EXPECT_EQ(find_run("12").value(), "crowd-12");
   const std::vector<std::string_view> runs = {"crowd-11", "crowd-12"};
   EXPECT_NE(choose_one(runs, "--run").find("such as `--run 11`"), std::string::npos);

@@ -87,7 +87,7 @@ TEST_F(WishesTest, NonsenseIsRefusedWithASentenceAndLogged) {
     EXPECT_FALSE(begun.told.empty()) << line;
   }
   const bus::BegunWish endless = wishes_(std::string(kMaxLineBytes + 1, 'x'));
-  EXPECT_NE(answer_of(endless).text.find("too long"), std::string::npos);
+  EXPECT_NE(answer_of(endless).text.find("longer than 65536 bytes"), std::string::npos);
 }
 
 }  // namespace

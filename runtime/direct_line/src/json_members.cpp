@@ -21,7 +21,7 @@ Result<nlohmann::json> JsonMembers::parse_object(std::string_view text, const ch
     return depth <= kDeepest;
   };
   auto object = nlohmann::json::parse(text, shallow, false);
-  if (!object.is_object()) return fail(ErrorCode::kParse, "this is no {}", what);
+  if (!object.is_object()) return fail(ErrorCode::kParse, "not a valid {}", what);
   return object;
 }
 
@@ -65,7 +65,7 @@ Result<std::string> JsonMembers::text(const char* name, std::size_t most) {
 }
 
 Status JsonMembers::finish() const {
-  if (object_.size() != taken_) return fail(ErrorCode::kParse, "there are unknown members");
+  if (object_.size() != taken_) return fail(ErrorCode::kParse, "unknown members");
   return {};
 }
 

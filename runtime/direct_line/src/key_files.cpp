@@ -35,7 +35,7 @@ Status read_line(const fs::path& file, std::string_view word, std::span<unsigned
   while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
   const bool secret = word == kSecretWord;
   if (text.starts_with(secret ? kPublicWord : kSecretWord)) {
-    return fail(ErrorCode::kParse, "`{}` is the {} half of the key; expected the {} one",
+    return fail(ErrorCode::kParse, "`{}` is the {} half of the key; expected the {} half",
                 file.string(), secret ? "public" : "secret", secret ? "secret" : "public");
   }
   std::size_t size = 0;
@@ -46,7 +46,8 @@ Status read_line(const fs::path& file, std::string_view word, std::span<unsigned
       sodium_hex2bin(bytes.data(), bytes.size(), hex.data(), hex.size(), nullptr, &size, &end);
   if (hex.empty() || good != 0 || size != bytes.size() || end != hex.data() + hex.size()) {
     return fail(ErrorCode::kParse,
-                "`{}` is no key of direct lines; `rave keys line FILE` makes one", file.string());
+                "`{}` is not a key of direct lines; `rave keys line FILE` creates one",
+                file.string());
   }
   return {};
 }
@@ -63,7 +64,7 @@ Status make_key_files(const fs::path& file) {
   std::error_code error;
   for (const fs::path& each : {file, open}) {
     if (fs::exists(each, error)) {
-      return fail(ErrorCode::kInvalidArgument, "`{}` is there already; take another name",
+      return fail(ErrorCode::kInvalidArgument, "`{}` already exists; choose another name",
                   each.string());
     }
   }
@@ -84,7 +85,8 @@ Result<SigningKey> read_signing_key(const fs::path& file) {
   RAVE_TRY(read_line(file, kSecretWord, key.secret));
   struct stat about {};
   if (::stat(file.c_str(), &about) == 0 && (about.st_mode & 077U) != 0) {
-    return fail(ErrorCode::kState, "others can read `{}`: chmod 600 it", file.string());
+    return fail(ErrorCode::kState, "other users can read `{}`; run `chmod 600` on it",
+                file.string());
   }
   crypto_sign_ed25519_sk_to_pk(key.open.data(), key.secret.data());
   return key;

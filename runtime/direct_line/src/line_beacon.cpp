@@ -51,13 +51,14 @@ struct LineBeacon::Impl {
     if (!wait_for_run(stop)) return;
     // A process that must not announce its line needs no end on the bus for it.
     if (!has_the_say(control.status(), host)) {
-      log.info("line", "no line of `{}`: another process takes the orders of this run", host);
+      log.info("line", "`{}` offers no direct line: another process takes the orders of this run",
+               host);
       return;
     }
     auto ends = open_ends(config);
     const Status told = ends ? tell(*ends) : Status(tl::unexpected(ends.error()));
     if (!told) {
-      log.warn("line", "pages do not learn of the line of `{}`: {}", host, told.error().message);
+      log.warn("line", "cannot announce the direct line of `{}`: {}", host, told.error().message);
       return;
     }
     log.info("line", "pages reach `{}` at {}", host, server.url());

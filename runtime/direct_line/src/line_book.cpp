@@ -62,8 +62,8 @@ void LineBook::opened(std::uint64_t id, web::Socket& socket, const web::Request&
       lines_, [](const auto& entry) { return !entry.second.ticket && !entry.second.closing; });
   Line& kept = lines_.emplace(id, std::move(line)).first->second;
   if (static_cast<std::size_t>(strangers) >= kMostStrangers) {
-    note_refusal(kept, "a line", "too many others have shown no ticket");
-    return close(kept, kTooManyLines, "too many lines");
+    note_refusal(kept, "a line", "too many connections without a ticket");
+    return close(kept, kTooManyLines, "too many connections");
   }
   kept.send(
       dumped({{"type", "challenge"}, {"host", options_.host}, {"challenge", kept.challenge}}));
@@ -84,7 +84,7 @@ void LineBook::received(std::uint64_t id, std::string_view text) {
     return;
   }
   if (!line.ticket && !std::holds_alternative<HelloMessage>(*message)) {
-    return refuse_line(line, "expected a ticket before anything else");
+    return refuse_line(line, "expected a ticket first");
   }
   std::visit([&](const auto& what) { take(id, line, what); }, *message);
 }
@@ -94,10 +94,26 @@ void LineBook::closed(std::uint64_t id) {
   if (found == lines_.end()) return;
   // Who drives stops driving with the line, whatever ended it.
   post_.forget(id);
+  if (found->second.ticket) leave_leases(*found->second.ticket);
   if (found->second.ticket && options_.log != nullptr) {
     options_.log->info("line", "{} is gone", found->second.who());
   }
   lines_.erase(found);
+}
+
+/// A page that is loaded anew, or dials again, need not take anything from itself.
+void LineBook::leave_leases(const Ticket& ticket) {
+  const std::uint64_t page = page_number(ticket.page_key);
+  for (const runtime::RunStatus::Robot& robot : control_.status().robots) {
+    if (robot.lease != ticket.user || robot.lease_page != page) continue;
+    Request leave;
+    leave.kind = Kind::kGive;
+    leave.robot = robot.name;
+    leave.value = leave.by = ticket.user;
+    leave.page = page;
+    // Nobody is there to be told.
+    static_cast<void>(control_.post(std::move(leave)));
+  }
 }
 
 void LineBook::end() {
@@ -107,13 +123,13 @@ void LineBook::end() {
 
 Result<Ticket> LineBook::check_ticket(std::string_view text, const Line& line) const {
   RAVE_TRY_ASSIGN(Ticket ticket, verify_ticket(text, options_.signer, now_ms() / 1000));
-  if (ticket.run != options_.run) return fail(ErrorCode::kState, "the ticket is of another run");
+  if (ticket.run != options_.run) return fail(ErrorCode::kState, "the ticket is for another run");
   if (ticket.host != options_.host) {
     return fail(ErrorCode::kState, "the ticket is for host `{}`, and this is `{}`", ticket.host,
                 options_.host);
   }
   if (ticket.origin != line.origin) {
-    return fail(ErrorCode::kState, "the ticket is for a page of {}, and this one is of {}",
+    return fail(ErrorCode::kState, "the ticket is for a page from {}, but this page is from {}",
                 ticket.origin, line.origin.empty() ? "nowhere" : line.origin);
   }
   const auto epoch = epochs_.find(ticket.user);
@@ -124,7 +140,7 @@ Result<Ticket> LineBook::check_ticket(std::string_view text, const Line& line) c
 }
 
 void LineBook::take(std::uint64_t id, Line& line, const HelloMessage& hello) {
-  if (line.ticket) return refuse_line(line, "said hello twice");
+  if (line.ticket) return refuse_line(line, "sent hello twice");
   auto ticket = check_ticket(hello.ticket, line);
   if (!ticket) return refuse_line(line, ticket.error().message);
   const std::string text = proof_text(line.challenge, line.address, hello.ticket);
@@ -139,7 +155,7 @@ void LineBook::welcome(std::uint64_t id, Line& line, Ticket ticket) {
   for (auto& [other_id, other] : lines_) {
     if (other_id == id || !other.ticket || other.ticket->nonce != ticket.nonce) continue;
     post_.forget(other_id);
-    close(other, kReplaced, "the page has opened another line");
+    close(other, kReplaced, "the page opened another line");
   }
   line.ticket = std::move(ticket);
   follows_ = control_.status().follows;
@@ -173,15 +189,16 @@ Result<std::vector<runtime::RunRequest>> LineBook::covered(const Ticket& ticket,
   const RobotSet& reach = reach_of(ticket, request.kind);
   const std::string_view word = runtime::to_string(request.kind);
   if (!request.robot.empty() && !reach.has(request.robot)) {
-    return fail(ErrorCode::kState, "`{}` of `{}` is not among your rights", word, request.robot);
+    return fail(ErrorCode::kState, "your rights do not include `{}` of `{}`", word, request.robot);
   }
   if (request.kind == Kind::kPlace && ticket.role != "super_user") {
-    return fail(ErrorCode::kState, "to place a robot is for super-users");
+    return fail(ErrorCode::kState, "only a super-user can place a robot");
   }
-  if (reach.empty()) return fail(ErrorCode::kState, "`{}` is not among your rights", word);
+  if (reach.empty()) return fail(ErrorCode::kState, "your rights do not include `{}`", word);
   Request signed_one = request;
   signed_one.by = ticket.user;
   signed_one.overrides = ticket.role == "super_user";
+  signed_one.page = page_number(ticket.page_key);
   std::vector<Request> requests;
   if (!request.robot.empty() || reach.all) {
     requests.push_back(std::move(signed_one));
@@ -197,7 +214,7 @@ Result<std::vector<runtime::RunRequest>> LineBook::covered(const Ticket& ticket,
 void LineBook::take(std::uint64_t id, Line& line, const OrderMessage& order) {
   if (follows_) {
     return answer(id, order.id, false,
-                  "this host is in lock-step: orders go to the environment manager");
+                  "this host runs in lock-step: send orders to the environment manager");
   }
   auto requests = covered(*line.ticket, order.request);
   if (!requests) {
@@ -237,7 +254,7 @@ void LineBook::note_refusal(const Line& line, std::string_view what, std::string
     ++untold_;
     return;
   }
-  if (untold_ > 0) options_.log->warn("line", "refused {} times more", std::exchange(untold_, 0));
+  if (untold_ > 0) options_.log->warn("line", "{} more refused", std::exchange(untold_, 0));
   options_.log->warn("line", "refused {} of {}: {}", what, line.who(), why);
 }
 
@@ -245,7 +262,7 @@ void LineBook::withdraw(const std::string& signed_text) {
   const auto withdrawal = verify_withdrawal(signed_text, options_.signer);
   if (!withdrawal) {
     if (options_.log != nullptr) {
-      options_.log->warn("line", "a withdrawal counts for nothing: {}", withdrawal.error().message);
+      options_.log->warn("line", "a withdrawal was ignored: {}", withdrawal.error().message);
     }
     return;
   }
@@ -256,7 +273,7 @@ void LineBook::withdraw(const std::string& signed_text) {
     if (line.closing || !line.ticket || line.ticket->user != withdrawal->user) continue;
     if (line.ticket->epoch >= epoch) continue;
     ++counts_.withdrawn;
-    if (options_.log != nullptr) options_.log->warn("line", "{}: the rights changed", line.who());
+    if (options_.log != nullptr) options_.log->warn("line", "{}: rights changed", line.who());
     post_.forget(id);
     close(line, kWithdrawn, "your rights have changed");
   }

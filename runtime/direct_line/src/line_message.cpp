@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "json_members.hpp"
+#include "rave/control/order_words.hpp"
 #include "rave/direct_line/ticket.hpp"
 #include "signed_text.hpp"
 
@@ -26,11 +27,11 @@ Result<double> number_within(JsonMembers& members, const char* name, double most
   return value;
 }
 
-Result<std::vector<Vec2>> points_of(JsonMembers& members, std::size_t least, std::size_t most) {
+Result<std::vector<Vec2>> points_of(JsonMembers& members, bool path) {
   RAVE_TRY_ASSIGN(const nlohmann::json* const value, members.any("points"));
-  if (!value->is_array() || value->size() < least || value->size() > most) {
-    return fail(ErrorCode::kParse, "`points`: expected {} to {} of them", least, most);
-  }
+  if (!value->is_array()) return fail(ErrorCode::kParse, "`points`: expected a list");
+  if (path) RAVE_TRY(runtime::check_path_size(value->size()));
+  if (!path && value->size() != 1) return fail(ErrorCode::kParse, "`points`: expected one point");
   std::vector<Vec2> points;
   for (const nlohmann::json& pair : *value) {
     if (!pair.is_array() || pair.size() != 2 || !pair[0].is_number() || !pair[1].is_number()) {
@@ -46,7 +47,7 @@ Result<std::vector<Vec2>> points_of(JsonMembers& members, std::size_t least, std
 
 Status read_place(JsonMembers& members, RunRequest& request) {
   const bool path = request.kind == Kind::kPath;
-  RAVE_TRY_ASSIGN(request.points, points_of(members, path ? 2 : 1, path ? kMostPoints : 1));
+  RAVE_TRY_ASSIGN(request.points, points_of(members, path));
   if (!path && members.has("yaw")) {
     RAVE_TRY_ASSIGN(request.yaw_rad, number_within(members, "yaw", kMostYaw_rad));
   }
@@ -72,7 +73,7 @@ Status read_kind(JsonMembers& members, RunRequest& request) {
       return read_place(members, request);
     case Kind::kText: {
       RAVE_TRY_ASSIGN(request.value, members.text("text", kLongestText));
-      if (request.value.empty()) return fail(ErrorCode::kParse, "`text`: expected words");
+      if (request.value.empty()) return fail(ErrorCode::kParse, "`text`: expected text");
       return {};
     }
     case Kind::kTake: {
@@ -91,7 +92,7 @@ Status read_kind(JsonMembers& members, RunRequest& request) {
   }
 }
 
-bool is_order(Kind kind) {
+bool is_for_lines(Kind kind) {
   switch (kind) {
     case Kind::kDrive:
     case Kind::kGoal:
@@ -119,7 +120,7 @@ Result<LineMessage> order_of(JsonMembers& members) {
   RAVE_TRY_ASSIGN(order.id, members.whole("id"));
   RAVE_TRY_ASSIGN(const std::string word, members.text("kind", kLongestName));
   const auto kind = runtime::request_kind(word);
-  if (!kind || !is_order(*kind)) {
+  if (!kind || !is_for_lines(*kind)) {
     return fail(ErrorCode::kParse,
                 "`kind`: expected drive, goal, path, cancel, text, place, take, give, stop or "
                 "release");

@@ -36,7 +36,6 @@ using LineMessage = std::variant<HelloMessage, RenewMessage, PingMessage, OrderM
 inline constexpr double kMostSpeed_mps = 100;
 inline constexpr double kMostTurn_radps = 100;
 inline constexpr double kFarthest_m = 1e6;
-inline constexpr std::size_t kMostPoints = 1000;
 inline constexpr std::size_t kLongestText = 1000;
 
 /// Errors: kParse with what was expected.

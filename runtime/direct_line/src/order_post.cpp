@@ -25,7 +25,7 @@ void OrderPost::give(Line line, std::vector<runtime::RunRequest> requests, Answe
   const bool stop = !requests.empty() && requests.front().kind == Kind::kStop;
   const auto own = std::ranges::count(waiting_, line, &Waiting::line);
   if (!stop && static_cast<std::size_t>(own) >= kMostWaiting) {
-    return answer(false, "too many orders wait for the run");
+    return answer(false, "too many orders are waiting");
   }
   Waiting waiting{line, {}, std::move(answer)};
   for (runtime::RunRequest& request : requests) {

@@ -68,17 +68,17 @@ Result<std::string> verify_text(std::string_view what, std::string_view text,
   RAVE_CHECK(sodium_init() >= 0);
   const std::size_t dot = text.find('.');
   if (text.size() > kLongestTicket || dot == std::string_view::npos) {
-    return fail(ErrorCode::kParse, "this is no {}", what);
+    return fail(ErrorCode::kParse, "not a valid {}", what);
   }
   auto content = from_base64(text.substr(0, dot));
   const auto signature = from_base64(text.substr(dot + 1));
   if (!content || !signature || signature->size() != crypto_sign_BYTES) {
-    return fail(ErrorCode::kParse, "this is no {}", what);
+    return fail(ErrorCode::kParse, "not a valid {}", what);
   }
   const std::string message = message_of(what, *content);
   if (crypto_sign_verify_detached(bytes_at(*signature), bytes_at(message), message.size(),
                                   key.data()) != 0) {
-    return fail(ErrorCode::kState, "the GUI Server of this run has not signed the {}", what);
+    return fail(ErrorCode::kState, "the {} is not signed by the GUI Server of this run", what);
   }
   return *std::move(content);
 }

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/direct_line/ticket.hpp"
 
+#include <algorithm>
+#include <span>
+
 #include "json_members.hpp"
+#include "rave/base/hash.hpp"
 #include "signed_text.hpp"
 
 namespace rave::direct_line {
@@ -35,7 +39,7 @@ Result<RobotSet> robots_of(JsonMembers& members, const char* name) {
 Status check_version(JsonMembers& members) {
   RAVE_TRY_ASSIGN(const std::uint64_t version, members.whole("v"));
   if (version == 1) return {};
-  return fail(ErrorCode::kParse, "version {} is not known here: expected 1", version);
+  return fail(ErrorCode::kParse, "unknown version {}: expected 1", version);
 }
 
 Result<Ticket> ticket_of(const nlohmann::json& object) {
@@ -71,6 +75,10 @@ Result<Ticket> ticket_of(const nlohmann::json& object) {
 
 }  // namespace
 
+std::uint64_t page_number(std::string_view key) {
+  return std::max<std::uint64_t>(1, content_hash(std::as_bytes(std::span(key))));
+}
+
 std::string sign_ticket(const Ticket& ticket, const SigningKey& key) {
   const nlohmann::json object = {{"v", 1},
                                  {"run", ticket.run},
@@ -98,8 +106,8 @@ Result<Ticket> verify_ticket(std::string_view text, const PublicKey& key, std::i
   }
   if (ticket.expires_s > now_s + kTicketLife_s + kClockSlack_s) {
     return fail(ErrorCode::kState,
-                "the ticket is good for {} s, longer than any: the clocks of this host and the GUI "
-                "Server differ",
+                "the ticket is valid for {} s, longer than permitted: the clocks of this host and "
+                "the GUI Server differ",
                 ticket.expires_s - now_s);
   }
   return ticket;

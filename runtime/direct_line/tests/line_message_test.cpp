@@ -62,17 +62,18 @@ TEST(LineMessage, RefusesWhatIsNoOrder) {
   const auto refused = [&start](const char* rest) { return why_refused(start + rest + "}"); };
   EXPECT_EQ(refused(R"("kind":"drive","v":"NaN","w":0)"), "`v`: expected a finite number");
   EXPECT_EQ(refused(R"("kind":"drive","v":null,"w":0)"), "`v`: expected a finite number");
-  EXPECT_EQ(refused(R"("kind":"drive","v":NaN,"w":0)"), "this is no message");
-  EXPECT_EQ(refused(R"("kind":"drive","v":1e999,"w":0)"), "this is no message");
+  EXPECT_EQ(refused(R"("kind":"drive","v":NaN,"w":0)"), "not a valid message");
+  EXPECT_EQ(refused(R"("kind":"drive","v":1e999,"w":0)"), "not a valid message");
   EXPECT_EQ(refused(R"("kind":"drive","v":101,"w":0)"), "`v`: expected -100 to 100");
   EXPECT_EQ(refused(R"("kind":"drive","v":1)"), "`w` is missing");
-  EXPECT_EQ(refused(R"("kind":"goal","points":[])"), "`points`: expected 1 to 1 of them");
+  EXPECT_EQ(refused(R"("kind":"goal","points":[])"), "`points`: expected one point");
   EXPECT_EQ(refused(R"("kind":"goal","points":[[1]])"),
             "`points`: expected pairs of x and y in metres");
   EXPECT_EQ(refused(R"("kind":"goal","points":[[1,1e7]])"), "`points`: expected at most 1000000 m");
-  EXPECT_EQ(refused(R"("kind":"path","points":[[1,1]])"), "`points`: expected 2 to 1000 of them");
-  EXPECT_EQ(refused(R"("kind":"text","text":"")"), "`text`: expected words");
-  EXPECT_EQ(refused(R"("kind":"stop","by":"ben")"), "there are unknown members");
+  EXPECT_EQ(refused(R"("kind":"path","points":[[1,1]])"),
+            "a path has 1 points; expected 2 to 1000");
+  EXPECT_EQ(refused(R"("kind":"text","text":"")"), "`text`: expected text");
+  EXPECT_EQ(refused(R"("kind":"stop","by":"ben")"), "unknown members");
   for (const char* const other : {"set", "add", "arm", "hand_over", "remove", "list"}) {
     EXPECT_NE(refused((R"("kind":")" + std::string(other) + "\"").c_str()).find("`kind`: expected"),
               std::string::npos)
@@ -80,11 +81,11 @@ TEST(LineMessage, RefusesWhatIsNoOrder) {
   }
   std::string many = R"("kind":"path","points":[[0,0])";
   for (int i = 0; i < 10'000; ++i) many += ",[0,0]";
-  EXPECT_EQ(refused((many + "]").c_str()), "`points`: expected 2 to 1000 of them");
+  EXPECT_EQ(refused((many + "]").c_str()), "a path has 10001 points; expected 2 to 1000");
   EXPECT_EQ(why_refused(R"({"type":"order","id":1,"kind":"drive","v":0,"w":0})"),
             "`robot`: expected a name");
-  EXPECT_EQ(why_refused("[]"), "this is no message");
-  EXPECT_EQ(why_refused(""), "this is no message");
+  EXPECT_EQ(why_refused("[]"), "not a valid message");
+  EXPECT_EQ(why_refused(""), "not a valid message");
   EXPECT_EQ(why_refused(R"({"type":"shutdown"})"), "`type`: expected hello, order, ping or ticket");
   EXPECT_EQ(why_refused(R"({"type":"ping","id":-1})"), "`id`: expected a whole number from 0");
 }

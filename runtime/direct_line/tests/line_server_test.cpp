@@ -239,12 +239,13 @@ TEST_F(DirectLine, SuperUsersOverride) {
 
 TEST_F(DirectLine, TicketsThatDoNotHoldAreRefusedAndLogged) {
   const testing::PageKey thief;
-  expect_refused(sign_ticket(ticket(), new_signing_key()), page_, "has not signed the ticket");
+  expect_refused(sign_ticket(ticket(), new_signing_key()), page_,
+                 "is not signed by the GUI Server");
   expect_refused(signed_ticket(), thief, "showed a ticket of `anna` without the key of the page");
-  expect_refused("forged.ticket", page_, "this is no ticket");
+  expect_refused("forged.ticket", page_, "not a valid ticket");
   Ticket other = ticket();
   other.run = "4567";
-  expect_refused(sign_ticket(other, signer_), page_, "the ticket is of another run");
+  expect_refused(sign_ticket(other, signer_), page_, "the ticket is for another run");
   other = ticket();
   other.host = "right";
   expect_refused(sign_ticket(other, signer_), page_,
@@ -252,7 +253,7 @@ TEST_F(DirectLine, TicketsThatDoNotHoldAreRefusedAndLogged) {
   other = ticket();
   other.expires_s = now_ms_ / 1000 - 60;
   expect_refused(sign_ticket(other, signer_), page_, "the ticket has expired 60 s ago");
-  expect_refused(signed_ticket(), page_, "and this one is of https://evil.example",
+  expect_refused(signed_ticket(), page_, "but this page is from https://evil.example",
                  "https://evil.example");
   EXPECT_TRUE(journal_.has("somebody (127.0.0.1)"));
   EXPECT_EQ(server_->counts().welcomed, 0U);
@@ -302,10 +303,11 @@ TEST_F(DirectLine, OrdersBeyondTheTicketAreRefusedAndLogged) {
         R"("kind":"drive","robot":"nobody","v":1,"w":0)"}) {
     anna.send(fmt::format(R"({{"type":"order","id":{},{}}})", ++id, order));
     const std::string answer = anna.text_with("\"answer\"");
-    EXPECT_NE(answer.find("is not among your rights"), std::string::npos) << answer;
+    EXPECT_NE(answer.find("your rights do not include"), std::string::npos) << answer;
   }
   EXPECT_TRUE(run_.asked().empty());
-  EXPECT_TRUE(journal_.has("refused drive of anna (127.0.0.1): `drive` of `blue-1`"))
+  EXPECT_TRUE(journal_.has(
+      "refused drive of anna (127.0.0.1): your rights do not include `drive` of `blue-1`"))
       << journal_.text();
   anna.send(drive(9, "green-1", R"("v":NaN,"w":0)"));
   EXPECT_NE(anna.text_with("\"answer\"").find("\"good\":false"), std::string::npos);

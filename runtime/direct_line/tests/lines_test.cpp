@@ -176,7 +176,7 @@ TEST_F(LinesOnBus, InLockStepTheManagerHasTheLineAndAHostRefusesOrders) {
   RawSocket anna = page_at(*server, 5);
   ASSERT_NE(anna.text_with("\"welcome\""), "");
   anna.send(R"({"type":"order","id":1,"kind":"stop","robot":"r1"})");
-  EXPECT_NE(anna.text_with("\"answer\"").find("orders go to the environment manager"),
+  EXPECT_NE(anna.text_with("\"answer\"").find("send orders to the environment manager"),
             std::string::npos);
   of_manager.end();
 }

@@ -57,7 +57,7 @@ TEST(Ticket, OfAnotherKeyOrChangedIsRefused) {
   const SigningKey key = new_signing_key();
   const std::string text = sign_ticket(sample_ticket(), key);
   EXPECT_EQ(why_not(text, new_signing_key()),
-            "the GUI Server of this run has not signed the ticket");
+            "the ticket is not signed by the GUI Server of this run");
   // Every character counts.
   for (std::size_t at = 0; at < text.size(); at += 7) {
     std::string changed = text;
@@ -65,15 +65,15 @@ TEST(Ticket, OfAnotherKeyOrChangedIsRefused) {
     EXPECT_NE(why_not(changed, key), "") << at;
   }
   for (const char* const nonsense : {"", ".", "e30.", "no ticket", "e30.e30", "?.?"}) {
-    EXPECT_EQ(why_not(nonsense, key), "this is no ticket") << nonsense;
+    EXPECT_EQ(why_not(nonsense, key), "not a valid ticket") << nonsense;
   }
-  EXPECT_EQ(why_not(std::string(kLongestTicket, 'A') + ".A", key), "this is no ticket");
+  EXPECT_EQ(why_not(std::string(kLongestTicket, 'A') + ".A", key), "not a valid ticket");
 }
 
 TEST(Ticket, ASignedTextOfAnotherKindIsNone) {
   const SigningKey key = new_signing_key();
   const std::string withdrawal = sign_withdrawal({"0123", "anna", 8}, key);
-  EXPECT_EQ(why_not(withdrawal, key), "the GUI Server of this run has not signed the ticket");
+  EXPECT_EQ(why_not(withdrawal, key), "the ticket is not signed by the GUI Server of this run");
   EXPECT_FALSE(verify_withdrawal(sign_ticket(sample_ticket(), key), key.open));
   const auto back = verify_withdrawal(withdrawal, key.open);
   ASSERT_TRUE(back) << back.error().text();
@@ -92,9 +92,8 @@ TEST(Ticket, EndsInTime) {
 
 TEST(Ticket, SaysWhatIsMissingThoughItIsSigned) {
   const SigningKey key = new_signing_key();
-  EXPECT_EQ(why_not(sign_text("ticket", "[]", key), key), "this is no ticket");
-  EXPECT_EQ(why_not(sign_text("ticket", R"({"v":2})", key), key),
-            "version 2 is not known here: expected 1");
+  EXPECT_EQ(why_not(sign_text("ticket", "[]", key), key), "not a valid ticket");
+  EXPECT_EQ(why_not(sign_text("ticket", R"({"v":2})", key), key), "unknown version 2: expected 1");
   EXPECT_EQ(why_not(sign_text("ticket", R"({"v":1})", key), key), "`run` is missing");
   Ticket nobody = sample_ticket();
   nobody.user.clear();
@@ -137,16 +136,16 @@ TEST(KeyFiles, AreMadeOnceAndReadByHalves) {
   EXPECT_EQ(*open, key->open);
   EXPECT_EQ(why_not(sign_ticket(sample_ticket(), *key), *key), "");
   const auto message = [](const auto& result) { return result ? "" : result.error().message; };
-  EXPECT_NE(message(make_key_files(file)).find("is there already"), std::string::npos);
+  EXPECT_NE(message(make_key_files(file)).find("already exists"), std::string::npos);
   EXPECT_NE(message(read_public_key(file)).find("is the secret half of the key"),
             std::string::npos);
   EXPECT_NE(message(read_signing_key(name + "/line.pub")).find("is the public half"),
             std::string::npos);
   std::ofstream(name + "/text") << "no key\n";
-  EXPECT_NE(message(read_public_key(name + "/text")).find("is no key of direct lines"),
+  EXPECT_NE(message(read_public_key(name + "/text")).find("is not a key of direct lines"),
             std::string::npos);
   fs::permissions(file, fs::perms::group_read, fs::perm_options::add);
-  EXPECT_NE(message(read_signing_key(file)).find("others can read"), std::string::npos);
+  EXPECT_NE(message(read_signing_key(file)).find("other users can read"), std::string::npos);
   fs::remove_all(name);
 }
 

@@ -3,9 +3,10 @@
 
 namespace rave::runtime {
 
-Result<std::unique_ptr<BusFace>> BusFace::open(bus::Bus& bus, std::uint32_t host, bool obstacles) {
+Result<std::unique_ptr<BusFace>> BusFace::open(bus::Bus& bus, std::uint32_t host, bool obstacles,
+                                               plugin::Catalogue* catalogue) {
   std::unique_ptr<BusFace> face(new BusFace());
-  onlook::Teller::Options options{host, obstacles, {}};
+  onlook::Teller::Options options{host, obstacles, {}, catalogue};
   options.words = [self = face.get()](const sim::Event& event) {
     return self->kinds_ == nullptr ? event.text : words_of(*self->kinds_, event);
   };

@@ -13,10 +13,11 @@ namespace rave::runtime {
 /// the run, and waits for nobody.
 class BusFace final : public RunObserver {
  public:
-  /// `obstacles`: nobody else tells of them on the bus for this host. Errors: those of
-  /// onlook::Teller::create().
+  /// `obstacles`: nobody else tells of them on the bus for this host. `catalogue`: where
+  /// the drivers of probes are found; null: none. Errors: those of onlook::Teller::create().
   [[nodiscard]] static Result<std::unique_ptr<BusFace>> open(bus::Bus& bus, std::uint32_t host,
-                                                             bool obstacles);
+                                                             bool obstacles,
+                                                             plugin::Catalogue* catalogue);
 
   Status run_begins(const RunView& run) override;
   void after_step(const StepView& step) override;

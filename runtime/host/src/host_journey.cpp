@@ -135,7 +135,7 @@ void note_end(const HostJourney& journey, std::string_view ending, bool good,
               HostOutcome& outcome) {
   outcome.problems = journey.losses;
   outcome.problems.insert(outcome.problems.end(), journey.problems.begin(), journey.problems.end());
-  if (journey.stopped) outcome.problems.emplace_back("stopped before the run was over");
+  if (journey.stopped) outcome.problems.emplace_back("stopped before the end of the run");
   if (journey.ended) {
     outcome.ending = ending;
     if (!good) outcome.problems.push_back("the run ended: " + outcome.ending);
@@ -162,7 +162,7 @@ Status leave_facts(const HostJourney& journey, std::span<const std::byte> bytes,
       write_file_atomically(journey.options.run.output / kFactsFile,
                             {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   if (const Status sent = deliver(bytes); !sent) {
-    journey.console.warn("host", "the environment manager has not got its findings: {}",
+    journey.console.warn("host", "the environment manager did not receive its results: {}",
                          sent.error().message);
   }
   return written;

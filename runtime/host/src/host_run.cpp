@@ -74,7 +74,7 @@ Result<bool> take_step(Journey& journey) {
   if (journey.world.step > next) {
     std::string text =
         fmt::format("was not there from step {} to step {}", next, journey.world.step);
-    journey.console.warn("host", "{}; its robots go on where they stand", text);
+    journey.console.warn("host", "{}; its robots continue where they stand", text);
     journey.problems.push_back(std::move(text));
     journey.joined_at = journey.world.step;
   }
@@ -182,7 +182,7 @@ Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::C
   port->word().describe(scenario.scenario.name.value, steps_of(scenario.scenario),
                         scenario.scenario.step_s.value);
   introduce_robots(port->roster(), engine->spec(), seat.robots, console);
-  RAVE_TRY_ASSIGN(const auto face, BusFace::open(port->bus(), seat.number, true));
+  RAVE_TRY_ASSIGN(const auto face, BusFace::open(port->bus(), seat.number, true, &catalogue));
   options.run.observers.push_back(face.get());
   RAVE_TRY_ASSIGN(const auto observers,
                   ObserverList::open({scenario, expanded, built.robot_kinds, *engine, catalogue,

@@ -117,8 +117,8 @@ bool wait_for_turn(LiveJourney& journey) {
 void name_flooders(LiveJourney& journey, const std::vector<RobotId>& robots) {
   for (const RobotId robot : robots) {
     journey.console.warn("radio",
-                         "robot `{}` says more than {} messages or {} bytes in a step to other "
-                         "hosts; what is beyond that is dropped",
+                         "robot `{}` sends more than {} messages or {} bytes per step to other "
+                         "hosts; the rest is dropped",
                          journey.engine.spec().robots[robot.value()].name,
                          real_time::TalkLimit::kMessagesPerStep,
                          real_time::TalkLimit::kBytesPerStep);
@@ -184,13 +184,13 @@ Status go_through(LiveJourney& journey) {
   const std::int64_t now_ns = std::max<std::int64_t>(0, journey.pace.now().ns);
   journey.first = static_cast<std::uint64_t>((now_ns + step_ns - 1) / step_ns);
   if (journey.first >= journey.steps) {
-    journey.problems.emplace_back("came when the run was over");
+    journey.problems.emplace_back("arrived after the end of the run");
     return {};
   }
   RAVE_TRY(journey.live.begin_at(journey.first, journey.link.starts(), journey.report));
   if (now_ns > kInTime_ns) {
     std::string text =
-        fmt::format("begins at {:.2f} s of the run", static_cast<double>(now_ns) * 1e-9);
+        fmt::format("joins at {:.2f} s of the run", static_cast<double>(now_ns) * 1e-9);
     journey.console.info("host", "{}", text);
     journey.problems.push_back("it " + std::move(text));
   }
@@ -289,8 +289,8 @@ Result<HostOutcome> go(const LiveHost& host, sim::Engine& engine, HostLink& link
                        const BuiltScenario& built, bool begun, std::function<void()>& look) {
   RunOptions run = host.options.run;
   // With a manager the link hands on what that says of obstacles.
-  RAVE_TRY_ASSIGN(const auto face,
-                  BusFace::open(link.bus(), host.seat.number, !needs_manager(built)));
+  RAVE_TRY_ASSIGN(const auto face, BusFace::open(link.bus(), host.seat.number,
+                                                 !needs_manager(built), &host.catalogue));
   run.observers.push_back(face.get());
   RAVE_TRY_ASSIGN(
       const auto observers,

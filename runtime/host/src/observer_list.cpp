@@ -119,10 +119,14 @@ Result<std::string> ObserverList::serve(sim::Engine& engine, const RunRequest& r
   if (request.kind == RunRequest::Kind::kResetShadow && shadows_) {
     return shadows_->reset(request.robot);
   }
+  if (request.kind == RunRequest::Kind::kChat) {
+    if (record_) record_->say(request, engine.steps_done());
+    return std::string(record_ ? "it is in the record" : "there is no record");
+  }
   if (!OrderDesk::is_for(request.kind)) return make_input(engine, request);
   if (follows_ && request.kind != RunRequest::Kind::kRelease) {
     return fail(ErrorCode::kState,
-                "hosts in lock-step get orders from their environment manager: ask that one");
+                "hosts in lock-step get orders from their environment manager: send orders there");
   }
   if (!request.robot.empty()) RAVE_TRY(check_here(engine, request.robot));
   had_orders_ = true;
@@ -152,7 +156,10 @@ void ObserverList::note_leases(const sim::Engine& engine) {
 
 void ObserverList::refresh(RunStatus& status) const {
   if (!had_orders_) return;
-  for (RunStatus::Robot& robot : status.robots) robot.lease = desk_.holder(robot.name);
+  for (RunStatus::Robot& robot : status.robots) {
+    robot.lease = desk_.holder(robot.name);
+    robot.lease_page = desk_.page(robot.name);
+  }
 }
 
 void ObserverList::keep(const RunRequest& request, std::uint64_t step) {
@@ -163,7 +170,7 @@ std::string ObserverList::end_record(std::optional<std::uint64_t> hash) {
   console_.attach(nullptr);
   if (!record_) return {};
   const Status written = record_->end(hash);
-  return written ? std::string() : "the record is not whole: " + written.error().text();
+  return written ? std::string() : "the recording is incomplete: " + written.error().text();
 }
 
 }  // namespace rave::runtime

@@ -51,7 +51,7 @@ class BusFaceTest : public ::testing::Test {
     auto bus = bus::Bus::open(corner_);
     ASSERT_TRUE(bus.has_value()) << bus.error().text();
     bus_ = *std::move(bus);
-    auto face = BusFace::open(*bus_, 0, true);
+    auto face = BusFace::open(*bus_, 0, true, nullptr);
     ASSERT_TRUE(face.has_value()) << face.error().text();
     face_ = *std::move(face);
     engine_ = host_.engine_of(scenario);
@@ -253,7 +253,7 @@ TEST_F(BusFaceTest, WhatConcernsTheWorldIsHeardOnceOfSeveralHosts) {
   config.participant = "host-2";
   auto bus = bus::Bus::open(config);
   ASSERT_TRUE(bus.has_value());
-  auto second = BusFace::open(**bus, 1, true);
+  auto second = BusFace::open(**bus, 1, true, nullptr);
   ASSERT_TRUE(second.has_value());
   const record::RunInfo info;
   const record::StringMap hybrids;

@@ -202,7 +202,7 @@ TEST(Requests, AreServedBetweenStepsAlsoWhilePaused) {
   control.resume();
   const auto ended = outcome.get();
   ASSERT_TRUE(ended) << ended.error().text();
-  EXPECT_NE(ended->summary.find("changed by hand"), std::string::npos) << ended->summary;
+  EXPECT_NE(ended->summary.find("changed by people"), std::string::npos) << ended->summary;
   EXPECT_EQ(ask(RunRequest::Kind::kStop, "").error().code, ErrorCode::kState);
   std::filesystem::remove_all(options.output);
 }

@@ -73,9 +73,12 @@ TEST(HostLeases, IsTakenByForceOrRights) {
   const auto refused = leases.take("r1", kBert, false, kStart);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().message, "`anna` drives r1");
-  EXPECT_EQ(leases.take("r1", kBert, true, kStart).value(), "r1 is yours; `anna` had it");
-  EXPECT_EQ(leases.take("r1", kRoot, false, kStart).value(), "r1 is yours; `bert` had it");
-  EXPECT_EQ(leases.take("r1", kTerminal, false, kStart).value(), "r1 is yours; `root` had it");
+  EXPECT_EQ(leases.take("r1", kBert, true, kStart).value(),
+            "r1 is yours; it was taken from `anna`");
+  EXPECT_EQ(leases.take("r1", kRoot, false, kStart).value(),
+            "r1 is yours; it was taken from `bert`");
+  EXPECT_EQ(leases.take("r1", kTerminal, false, kStart).value(),
+            "r1 is yours; it was taken from `root`");
   EXPECT_EQ(leases.holder("r1"), "terminal");
   EXPECT_EQ(leases.take("r1", kTerminal, false, kStart).value(), "r1 is yours");
 }
@@ -97,6 +100,57 @@ TEST(HostLeases, ATerminalTakesNoLeaseForWhatItSaysOnce) {
   EXPECT_EQ(leases.holder("r1"), "");
   EXPECT_TRUE(leases.use("r1", kTerminal, Use::kDrive, kStart));
   EXPECT_EQ(why(leases.use("r1", kAnna, Use::kDrive, kStart)), "`terminal` drives r1");
+}
+
+TEST(HostLeases, TwoPagesOfOnePersonDoNotShareALease) {
+  const HostLeases::Person first{"anna", false, 1};
+  const HostLeases::Person second{"anna", false, 2};
+  const HostLeases::Person boss{"anna", true, 3};
+  HostLeases leases;
+  ASSERT_TRUE(leases.use("r1", first, Use::kDrive, kStart));
+  EXPECT_EQ(leases.page("r1"), 1U);
+  const std::string refusal = "you drive r1 on another page: give it back there, or take it here";
+  for (const Use use : {Use::kLook, Use::kOrder, Use::kDrive}) {
+    EXPECT_EQ(why(leases.use("r1", second, use, kStart)), refusal);
+  }
+  EXPECT_EQ(why(leases.use("r1", kAnna, Use::kDrive, kStart)), refusal) << "a script is none";
+  EXPECT_EQ(why(leases.use("r1", boss, Use::kDrive, kStart)), refusal);
+  EXPECT_EQ(leases.take("r1", second, false, kStart).error().message, refusal);
+  EXPECT_EQ(leases.give("r1", second, "bert", kStart).error().message, refusal);
+  EXPECT_EQ(why(leases.use("r1", kBert, Use::kDrive, kStart)), "`anna` drives r1");
+  static_cast<void>(leases.take_changes());
+  EXPECT_EQ(leases.take("r1", second, true, kStart).value(),
+            "r1 is yours; it was taken from another page of yours");
+  EXPECT_EQ(leases.page("r1"), 2U);
+  const auto changes = leases.take_changes();
+  ASSERT_EQ(changes.size(), 1U);
+  EXPECT_EQ(changes[0], (Change{"r1", "anna", "anna", true, false}));
+  EXPECT_EQ(lease_text(changes[0]), "`anna` drives on another page");
+  EXPECT_EQ(why(leases.use("r1", first, Use::kDrive, kStart)), refusal);
+}
+
+TEST(HostLeases, WhatAPageLeavesTheNextPageOfThePersonHas) {
+  const HostLeases::Person first{"anna", false, 1};
+  const HostLeases::Person second{"anna", false, 2};
+  HostLeases leases;
+  ASSERT_TRUE(leases.use("r1", first, Use::kDrive, kStart));
+  static_cast<void>(leases.take_changes());
+  EXPECT_EQ(leases.give("r1", first, "anna", kStart + 1s).value(), "r1 is any page's of yours");
+  EXPECT_TRUE(leases.take_changes().empty()) << "anna drives it as before";
+  EXPECT_EQ(why(leases.use("r1", kBert, Use::kOrder, kStart + 1s)), "`anna` drives r1");
+  EXPECT_TRUE(leases.use("r1", second, Use::kOrder, kStart + 2s));
+  EXPECT_NE(why(leases.use("r1", first, Use::kOrder, kStart + 2s)), "");
+  EXPECT_TRUE(leases.take_changes().empty());
+  // What somebody else gave is that of the page that uses it first.
+  EXPECT_EQ(leases.give("r1", second, "bert", kStart + 3s).value(), "r1 is now `bert`'s");
+  EXPECT_TRUE(leases.use("r1", {"bert", false, 8}, Use::kDrive, kStart + 3s));
+  EXPECT_NE(why(leases.use("r1", {"bert", false, 9}, Use::kDrive, kStart + 3s)), "");
+  // A page that goes keeps nobody longer from the robot than it would have.
+  HostLeases left;
+  ASSERT_TRUE(left.use("r1", first, Use::kDrive, kStart));
+  ASSERT_TRUE(left.give("r1", first, "anna", kStart + 2s));
+  left.expire(kStart + 3s);
+  EXPECT_FALSE(left.any());
 }
 
 TEST(DriveWatch, TellsWhoHasFallenSilentOnce) {

@@ -113,7 +113,7 @@ TEST(OrderedRun, IsRecordedAndVerified) {
       "carl was told",
       "refused: `lisa` drives anna",
       "refused: robot `bert`, path: its program takes no paths",
-      "anna: no order of people counts any more",
+      "anna: the orders of people are cancelled",
       "anna is sent to 2.50, 1.50",
       "stopped bert"};
   EXPECT_EQ(commander.answers(), expected);
@@ -126,7 +126,7 @@ TEST(OrderedRun, IsRecordedAndVerified) {
   const std::string events = read_file(options.output / "events.log").value_or("");
   for (const char* const text :
        {"drive 0.20 m/s, 0.33 rad/s (by hand: lisa)", "goal 0.50, 3.00: reached",
-        "I am at the end of the path.", "I obey goals and paths, no words.", "`lisa` drives",
+        "I am at the end of the path.", "I obey goals and paths, not texts.", "`lisa` drives",
         "place 2.00, 1.00, yaw 29 deg (by hand)", "by hand: mona"}) {
     EXPECT_NE(events.find(text), std::string::npos) << text << "\n" << events;
   }

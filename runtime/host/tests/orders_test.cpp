@@ -135,13 +135,48 @@ TEST(OrderDesk, TwoCommandersDoNotFight) {
   office.serve(drive("anna", 0.3));
   office.take();
   take.value = "force";
-  EXPECT_EQ(office.serve(take), "r1 is yours; `anna` had it");
+  EXPECT_EQ(office.serve(take), "r1 is yours; it was taken from `anna`");
   EXPECT_EQ(office.take(), Lines{"drive r1 anna 0"}) << "it stands until bert says something";
   EXPECT_EQ(office.serve(drive("anna", 0.3)), "`bert` drives r1");
   const auto changes = office.desk.take_changes();
   ASSERT_EQ(changes.size(), 2U);
   EXPECT_EQ(changes[1].before, "anna");
   EXPECT_EQ(changes[1].after, "bert");
+}
+
+TEST(OrderDesk, WhoDrivesARobotAloneHandsItOver) {
+  Office office;
+  EXPECT_EQ(office.serve(request(Kind::kHandOver, "bert")), "done") << "nobody drives it";
+  EXPECT_EQ(office.serve(goal("anna")), "done");
+  EXPECT_EQ(office.serve(request(Kind::kHandOver, "bert")), "`anna` drives r1");
+  EXPECT_EQ(office.serve(request(Kind::kHandOver, "anna")), "done");
+  RunRequest root = request(Kind::kHandOver, "root");
+  root.overrides = true;
+  EXPECT_EQ(office.serve(root), "done");
+  EXPECT_EQ(office.serve(request(Kind::kHandOver, "")), "done") << "the terminal";
+}
+
+TEST(OrderDesk, ASecondPageOfTheSamePersonTakesItAndTheRobotStands) {
+  Office office;
+  RunRequest first = drive("anna", 0.3);
+  first.page = 1;
+  RunRequest second = drive("anna", 0.1);
+  second.page = 2;
+  EXPECT_EQ(office.serve(first), "done");
+  EXPECT_NE(office.serve(second).find("you drive r1 on another page"), std::string::npos);
+  RunRequest release = request(Kind::kRelease, "anna");
+  release.page = 2;
+  EXPECT_NE(office.serve(release).find("you drive r1 on another page"), std::string::npos);
+  EXPECT_EQ(office.take(), Lines{"drive r1 anna 0.3"});
+  RunRequest take = request(Kind::kTake, "anna");
+  take.page = 2;
+  take.value = "force";
+  EXPECT_EQ(office.serve(take), "r1 is yours; it was taken from another page of yours");
+  EXPECT_EQ(office.take(), Lines{"drive r1 anna 0"});
+  EXPECT_EQ(office.desk.page("r1"), 2U);
+  EXPECT_NE(office.serve(first).find("you drive r1 on another page"), std::string::npos);
+  EXPECT_EQ(office.serve(second), "done");
+  EXPECT_EQ(office.take(), Lines{"drive r1 anna 0.1"});
 }
 
 TEST(OrderDesk, ALeaseThatIsGivenBackGivesTheRobotToItsProgram) {
@@ -183,9 +218,9 @@ TEST(OrderDesk, RefusesWordsThatAreNone) {
   Office office;
   RunRequest take = request(Kind::kTake, "anna");
   take.value = "please";
-  EXPECT_EQ(office.serve(take), "`please` is no way to take a robot; expected `force`");
+  EXPECT_EQ(office.serve(take), "`please`: expected `force` or nothing");
   EXPECT_EQ(office.serve(request(Kind::kGoal, "anna", "")), "`goal` needs a robot");
-  EXPECT_EQ(office.serve(goal("terminal")), "`terminal` is no name of a person");
+  EXPECT_EQ(office.serve(goal("terminal")), "`terminal` is not a valid name of a person");
 }
 
 TEST(OrderWords, ComeBackBitByBit) {

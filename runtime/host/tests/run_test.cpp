@@ -130,7 +130,7 @@ TEST(Run, TouchesOfASensorThatNeverGaveAReadingAreNotCounted) {
     const Json& check = result.at("checks").at(0);
     if (silent) {
       EXPECT_EQ(check.at("holds"), nullptr);
-      EXPECT_EQ(check.at("text"), "not made: `bumper` of `anna` never gave a reading");
+      EXPECT_EQ(check.at("text"), "not evaluated: `bumper` of `anna` never gave a reading");
     } else {
       EXPECT_EQ(check.at("holds"), true);
     }
@@ -150,8 +150,9 @@ TEST(Run, ContactsOfARobotWhosePlaceWasNeverKnownAreNotCounted) {
                     kBody, RAVE_SOURCE_DIR, late ? 5 : 0),
         "nowhere", outcome);
     EXPECT_EQ(outcome.checks_hold, !late);
-    EXPECT_EQ(result.at("checks").at(0).at("text"),
-              late ? "not made: the place of `real-1` was never known" : "0, expected at most 0");
+    EXPECT_EQ(
+        result.at("checks").at(0).at("text"),
+        late ? "not evaluated: the place of `real-1` was never known" : "0, expected at most 0");
   }
 }
 
@@ -175,9 +176,8 @@ TEST(Run, ContactsOfBeforeAManagerTookOverAreNotTakenForNone) {
   results = goal_results(*scenario, built->spec, facts, {});
   EXPECT_FALSE(results[0].holds);
   EXPECT_FALSE(results[0].made);
-  EXPECT_EQ(
-      results[0].text,
-      "not made: contacts before step 5 are known to the manager alone that was there before");
+  EXPECT_EQ(results[0].text,
+            "not evaluated: contacts before step 5 are known only to the previous manager");
 }
 
 TEST(Run, IsNotWholeWhenARecordingHasNoPoseOfItsRobot) {

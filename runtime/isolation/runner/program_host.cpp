@@ -18,14 +18,14 @@ Result<std::unique_ptr<ProgramHost>> ProgramHost::create(SharedMemory memory, in
   const auto* head = memory.at<SharedHead>(0);
   if (memory.size() < sizeof(SharedHead) || head->magic != SharedHead::kMagic ||
       head->total_bytes != memory.size() || head->setup_bytes > memory.size()) {
-    return fail(ErrorCode::kParse, "the shared memory was not made by a host of this version");
+    return fail(ErrorCode::kParse, "the shared memory was created by another version of the host");
   }
   // Where the setup lies does not depend on what comes after it.
   const std::size_t at = make_layout(head->setup_bytes, {}, {}, 0).setup;
   RAVE_TRY_ASSIGN(auto setup, SetupCopy::decode({memory.at<char>(at), head->setup_bytes}));
   std::unique_ptr<ProgramHost> host(new ProgramHost(std::move(memory), std::move(setup), socket));
   if (host->layout_.total_bytes != host->memory_.size()) {
-    return fail(ErrorCode::kParse, "the shared memory has {} bytes where its setup needs {}",
+    return fail(ErrorCode::kParse, "the shared memory has {} bytes, but its setup needs {}",
                 host->memory_.size(), host->layout_.total_bytes);
   }
   return host;

@@ -34,9 +34,9 @@ void ChildProcess::kill() {
 
 void ChildProcess::note(const process::ChildEnd& end) {
   if (end.exit_code) {
-    how_ = fmt::format("ended itself with exit code {}", *end.exit_code);
+    how_ = fmt::format("exited with code {}", *end.exit_code);
   } else if (end.signal) {
-    how_ = fmt::format("was ended by {}", signal_name(*end.signal));
+    how_ = fmt::format("was killed by {}", signal_name(*end.signal));
   } else {
     how_ = "ended";  // The host reaps all its children itself.
   }

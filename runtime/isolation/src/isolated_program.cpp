@@ -59,7 +59,7 @@ Status IsolatedProgram::Impl::copy_in(const DecideItem& item) const {
     const SampleHeader header =
         item.sensors[i].header != nullptr ? *item.sensors[i].header : SampleHeader{};
     if (header.count > sensor.capacity) {
-      return fail(ErrorCode::kInvalidArgument, "sensor {} has {} records, more than its {}", i,
+      return fail(ErrorCode::kInvalidArgument, "sensor {} has {} records; expected at most {}", i,
                   header.count, sensor.capacity);
     }
     *memory.at<SampleHeader>(sensor.header) = header;
@@ -161,8 +161,8 @@ Result<std::unique_ptr<IsolatedProgram>> IsolatedProgram::start(const IsolationO
   for (const double timeout_s :
        {options.decide_timeout_s, options.start_timeout_s, options.last_word_s}) {
     if (!(timeout_s > 0 && timeout_s <= 1e6)) {
-      return fail(ErrorCode::kInvalidArgument, "{}: a timeout of {} s is not in (0, 1e6] s", who,
-                  timeout_s);
+      return fail(ErrorCode::kInvalidArgument,
+                  "{}: timeout of {} s; expected more than 0 and at most 1e6 s", who, timeout_s);
     }
   }
   RAVE_TRY_ASSIGN(Shared shared, make_shared(options, setup));
@@ -198,7 +198,7 @@ Status IsolatedProgram::begin_decide(const DecideItem& item) {
 Status IsolatedProgram::end_decide(const DecideItem& item) {
   Impl& impl = *impl_;
   RAVE_TRY(impl.link.state());
-  if (!impl.deciding) return fail(ErrorCode::kState, "no decision of the program was begun");
+  if (!impl.deciding) return fail(ErrorCode::kState, "no decision of the program was started");
   impl.deciding = false;
   RAVE_TRY(impl.link.await(MessageKind::kDecided, impl.decision, impl.deadline,
                            fmt::format("has not decided for {}", seconds_text(impl.timeout_s))));
@@ -212,13 +212,13 @@ Status IsolatedProgram::update(std::span<const ParamValue> params, double radius
   if (impl.deciding) return fail(ErrorCode::kState, "the program is still deciding");
   const std::string bytes = encode_update(params, radius_m);
   if (bytes.size() > kMaxMessageBytes - sizeof(MessageHead)) {
-    return fail(ErrorCode::kInvalidArgument, "the parameters take {} bytes, more than {}",
+    return fail(ErrorCode::kInvalidArgument, "the parameters take {} bytes; expected at most {}",
                 bytes.size(), kMaxMessageBytes - sizeof(MessageHead));
   }
   RAVE_TRY(impl.link.tell(MessageKind::kUpdate, bytes));
   RAVE_TRY(impl.link.await(
       MessageKind::kUpdated, 0, Deadline(impl.timeout_s),
-      fmt::format("has not taken its parameters for {}", seconds_text(impl.timeout_s))));
+      fmt::format("has not accepted its parameters for {}", seconds_text(impl.timeout_s))));
   const std::string refusal = impl.link.take_refusal();
   if (!refusal.empty()) return fail(ErrorCode::kInvalidArgument, "{}", refusal);
   return {};

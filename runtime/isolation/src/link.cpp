@@ -47,7 +47,7 @@ Status Link::ask(std::uint32_t decision) {
   RAVE_TRY(state_);
   if (!send_message(socket_.get(), {MessageKind::kDecide, decision, 0}, {}, false)) {
     // What the child said before it went tells why.
-    return await(MessageKind::kDecided, decision, Deadline(last_word_s_), "has not listened");
+    return await(MessageKind::kDecided, decision, Deadline(last_word_s_), "did not read its input");
   }
   return {};
 }
@@ -56,7 +56,7 @@ Status Link::tell(MessageKind kind, std::string_view text) {
   RAVE_TRY(state_);
   refusal_.clear();
   if (!send_message(socket_.get(), {kind, 0, 0}, text, false)) {
-    return await(MessageKind::kUpdated, 0, Deadline(last_word_s_), "has not listened");
+    return await(MessageKind::kUpdated, 0, Deadline(last_word_s_), "did not read its input");
   }
   return {};
 }
@@ -91,7 +91,7 @@ Status Link::await(MessageKind kind, std::uint32_t number, const Deadline& deadl
       case Receipt::kClosed:
         return end_of_conversation();
       case Receipt::kGarbage:
-        return give_up(ErrorCode::kPlugin, "sent something that is not a message to its host");
+        return give_up(ErrorCode::kPlugin, "sent a malformed message to its host");
       case Receipt::kMessage:
         ++messages;
         if (const auto result = handle(message, kind, number)) return *result;
@@ -132,7 +132,7 @@ std::optional<Status> Link::handle(const Message& message, MessageKind kind, std
     report_dropped(head.count);
     return give_up(ErrorCode::kPlugin, std::string(message.text));
   }
-  return give_up(ErrorCode::kPlugin, "sent a message to its host that is out of turn");
+  return give_up(ErrorCode::kPlugin, "sent a message to its host at the wrong time");
 }
 
 Status Link::end_of_conversation() {
@@ -173,7 +173,7 @@ Status Link::give_up(ErrorCode code, const std::string& what) {
 void Link::report_dropped(std::uint32_t count) const {
   if (count == 0) return;
   host_.write(LogLevel::kWarning,
-              fmt::format("dropped {} log lines of one decision that were too many", count));
+              fmt::format("dropped {} surplus log lines of one decision", count));
 }
 
 }  // namespace rave::isolation

@@ -157,7 +157,7 @@ TEST(IsolatedProgram, LogLinesComeInOrderAndThoseTooManyAreCounted) {
     ASSERT_EQ(robot.log.size(), 65U);
     EXPECT_EQ(robot.log[0], "line 0");
     EXPECT_EQ(robot.log[63], "line 63");
-    EXPECT_EQ(robot.log[64], "dropped 36 log lines of one decision that were too many");
+    EXPECT_EQ(robot.log[64], "dropped 36 surplus log lines of one decision");
   }
 }
 
@@ -166,7 +166,7 @@ TEST(IsolatedProgram, CallsOutOfTurnAreRefused) {
   const auto program = IsolatedProgram::start(options_for("echo", "echo"), robot.setup());
   ASSERT_TRUE(program) << program.error().text();
   EXPECT_EQ((*program)->end_decide(robot.item(0)).error().text(),
-            "no decision of the program was begun");
+            "no decision of the program was started");
   ASSERT_TRUE((*program)->begin_decide(robot.item(0)));
   EXPECT_EQ((*program)->begin_decide(robot.item(0)).error().text(),
             "the program is still deciding");
@@ -174,7 +174,7 @@ TEST(IsolatedProgram, CallsOutOfTurnAreRefused) {
   const DecideItem item = robot.item(1);
   robot.headers[1].count = 4;
   EXPECT_EQ((*program)->begin_decide(item).error().text(),
-            "sensor 1 has 4 records, more than its 3");
+            "sensor 1 has 4 records; expected at most 3");
   EXPECT_TRUE((*program)->begin_decide(robot.item(1)));
   EXPECT_TRUE((*program)->end_decide(robot.item(1)));
 }

@@ -98,12 +98,12 @@ TEST(Fault, SleepNamesTheLineThatCalls) {
 }
 
 TEST(Fault, OtherWaysToGo) {
-  EXPECT_EQ(decision_error("exits").text(), who("exits") + "ended itself with exit code 3");
-  EXPECT_EQ(decision_error("killed").text(), who("killed") + "was ended by signal 9 (kill)");
+  EXPECT_EQ(decision_error("exits").text(), who("exits") + "exited with code 3");
+  EXPECT_EQ(decision_error("killed").text(), who("killed") + "was killed by signal 9 (kill)");
   EXPECT_EQ(decision_error("closes_files").text(),
             who("closes_files") + "closed its connection to the host");
   EXPECT_EQ(decision_error("garbage").text(),
-            who("garbage") + "sent something that is not a message to its host");
+            who("garbage") + "sent a malformed message to its host");
 }
 
 TEST(Fault, WhatWasLoggedBeforeACrashIsNotLost) {
@@ -137,7 +137,7 @@ TEST(Fault, ProgramDiedBetweenDecisions) {
   ASSERT_EQ(::waitid(P_PID, static_cast<id_t>(id), &info, WEXITED | WNOWAIT), 0);
   const Status status = (*program)->begin_decide(robot.item(0));
   ASSERT_FALSE(status);
-  EXPECT_EQ(status.error().text(), who("echo") + "was ended by signal 9 (kill)");
+  EXPECT_EQ(status.error().text(), who("echo") + "was killed by signal 9 (kill)");
 }
 
 /// The kernel tells a child when the thread that started it ends; that is not the host's end.
@@ -194,8 +194,9 @@ TEST(StartFault, MissingFiles) {
 TEST(StartFault, Timeouts) {
   IsolationOptions options = options_for("echo", "echo");
   options.decide_timeout_s = 0;
-  EXPECT_EQ(start_error(options).text(),
-            "program `echo` of robot `anna`: a timeout of 0 s is not in (0, 1e6] s");
+  EXPECT_EQ(
+      start_error(options).text(),
+      "program `echo` of robot `anna`: timeout of 0 s; expected more than 0 and at most 1e6 s");
 }
 
 }  // namespace

@@ -18,22 +18,21 @@ Status EditLimits::take(const sim::ObstacleChange& change, Clock::time_point now
   filled_ = now;
   if (edits_ < 1 || bytes_ < bytes) {
     return fail(ErrorCode::kState,
-                "too many edits at once: a run of several processes takes {} a second and {} MB of "
-                "them; ask again later",
+                "too many edits at once: a run of several processes takes {} per second, and {} "
+                "MB; try again later",
                 kPerSecond, kBytesPerSecond * 1e-6);
   }
   const bool grows = change.kind != sim::ObstacleChange::Kind::kRemove;
   if (grows && (entries_ >= kMostEntries ||
                 all_bytes_ + static_cast<std::size_t>(bytes) > lock_step::kMostObstacleBytes)) {
-    return fail(
-        ErrorCode::kState,
-        "the obstacles that came or changed are as many as hosts that come late can be told "
-        "of: {} of at most {}, {} of at most {} bytes",
-        entries_, kMostEntries, all_bytes_, lock_step::kMostObstacleBytes);
+    return fail(ErrorCode::kState,
+                "too many obstacles were added or changed for hosts that join late: {} of at most "
+                "{}, {} of at most {} bytes",
+                entries_, kMostEntries, all_bytes_, lock_step::kMostObstacleBytes);
   }
   if (open_ >= kMostOpen) {
     return fail(ErrorCode::kState,
-                "{} edits wait for the next step, which is as many as it takes; ask again later",
+                "{} edits are waiting for the next step, which is the maximum; try again later",
                 open_);
   }
   ++open_;
@@ -59,11 +58,11 @@ Status check_scheduled(const sim::EngineSpec& spec) {
       bytes <= lock_step::kMostObstacleBytes) {
     return {};
   }
-  return fail(
-      ErrorCode::kInvalidArgument,
-      "the scenario changes obstacles {} times, in {} bytes; hosts that come late can be told "
-      "of {} and of {} bytes",
-      spec.obstacle_changes.size(), bytes, EditLimits::kMostEntries, lock_step::kMostObstacleBytes);
+  return fail(ErrorCode::kInvalidArgument,
+              "the scenario changes obstacles {} times, in {} bytes; expected at most {} and {} "
+              "bytes, so that hosts can join late",
+              spec.obstacle_changes.size(), bytes, EditLimits::kMostEntries,
+              lock_step::kMostObstacleBytes);
 }
 
 }  // namespace rave::manager

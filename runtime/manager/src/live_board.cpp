@@ -108,7 +108,7 @@ void LiveBoard::lose(std::uint64_t writer, bool goes) {
     if (!goes) continue;
     ++seat.losses;
     if (options_.log != nullptr) {
-      options_.log->error(kSource, "host `{}` is gone; the others go on{}{}", seat.name,
+      options_.log->error(kSource, "host `{}` is gone; the others continue{}{}", seat.name,
                           seat.command.empty() ? "" : "; start it again with: ", seat.command);
     }
   }
@@ -270,7 +270,8 @@ void LiveBoard::take_handed(const std::function<Status(const real_time::Obstacle
 
 void LiveBoard::refuse_handed(std::uint64_t writer, std::string_view why) {
   if (!wrong_hands_.insert(writer).second) return;
-  endpoint_->log_fault(fmt::format("refused what the process {:016x} hands over: {}", writer, why));
+  endpoint_->log_fault(
+      fmt::format("refused the hand-over of obstacles by process {:016x}: {}", writer, why));
 }
 
 void LiveBoard::end_handing() {

@@ -111,8 +111,8 @@ void LiveEdits::drop_orphans() {
   obstacles_.erase(it, obstacles_.end());
   if (orphans == 0 || options_.log == nullptr) return;
   options_.log->error(kSource,
-                      "{} obstacles that hosts handed over are left out: nobody knows of the one "
-                      "with the number {}, which came before them",
+                      "{} obstacles from hosts are left out: obstacle number {}, which was added "
+                      "before them, is missing",
                       orphans, next);
 }
 
@@ -122,7 +122,7 @@ Status LiveEdits::take_over(SimTime now) {
   board_.end_handing();
   revision_ = newest_of(obstacles_);
   if (revision_ < board_.shown_revision() && options_.log != nullptr) {
-    options_.log->error(kSource, "hosts have obstacles up to change {}, but handed over only {}",
+    options_.log->error(kSource, "hosts have obstacles up to change {}, but sent only {}",
                         board_.shown_revision(), revision_);
   }
   revision_ = std::max(revision_, board_.shown_revision());
@@ -133,7 +133,7 @@ Status LiveEdits::take_over(SimTime now) {
     obstacles_.clear();
     takes_over_ = false;
     if (options_.log != nullptr) {
-      options_.log->error(kSource, "what hosts handed over of obstacles cannot be: {}",
+      options_.log->error(kSource, "the obstacles from hosts are inconsistent: {}",
                           put.error().message);
     }
     return {};
@@ -250,14 +250,13 @@ void LiveEdits::note(const sim::ObstacleChange& made) {
 
 Result<std::string> LiveEdits::edit(const runtime::RunRequest& request, SimTime now) {
   if (!is_edit(request.kind)) {
-    return fail(
-        ErrorCode::kState,
-        "in real time each host controls its own robots: ask the process of the host that "
-        "runs them, which `rave ps` lists and which is RUN@HOST on the bus; obstacles are changed "
-        "here");
+    return fail(ErrorCode::kState,
+                "in real time each host controls its own robots: send the request to the host that "
+                "runs them (`rave ps` lists it; on the bus it is RUN@HOST); this process only "
+                "changes obstacles");
   }
   if (takes_over_) {
-    return fail(ErrorCode::kState, "this manager is taking over from another one; ask again");
+    return fail(ErrorCode::kState, "this manager is taking over from another one; try again");
   }
   RAVE_TRY_ASSIGN(sim::WorldInput input, runtime::input_of(authority_->spec(), request));
   RAVE_TRY(limits_.take(*input.obstacle, EditLimits::Clock::now()));
@@ -304,8 +303,8 @@ void LiveEdits::answer_waiting(SimTime now) {
     std::string reach;
     if (missing.empty()) {
       const double after_s = Duration{last_ns - one.since.ns}.seconds();
-      reach = fmt::format("around the robots of all {} hosts {:.1f} ms after it was asked for",
-                          hosts, after_s * 1e3);
+      reach = fmt::format("in effect at all {} hosts {:.1f} ms after the request", hosts,
+                          after_s * 1e3);
       edits_.slowest_s = std::max(edits_.slowest_s, after_s);
       edits_.sum_s += after_s;
       ++edits_.confirmed;

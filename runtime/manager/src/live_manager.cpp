@@ -110,7 +110,7 @@ void LiveRun::begin_if_ready() {
   if (waits_for.empty()) {
     begin_in(kLead);
     edits_->begin(false);
-    log(LogLevel::kInfo, "all hosts are there: the run begins");
+    log(LogLevel::kInfo, "all hosts have joined: the run begins");
   } else if (Clock::now() -
                  std::max(first_host_, board_->endpoint().standstill().silence_counts_from()) >
              std::chrono::nanoseconds(options_.host_timeout.ns)) {
@@ -125,9 +125,8 @@ void LiveRun::leave_alone(std::int64_t run_ns) {
   left_alone_ = Error{
       ErrorCode::kState,
       fmt::format(
-          "hosts are at {:.1f} s of a run that has lost its environment manager: --resume "
-          "goes on with that run, `rave end {}` ends it, and --run with a name begins another "
-          "one beside it",
+          "hosts are at {:.1f} s of a run that lost its environment manager: --resume continues "
+          "that run, `rave end {}` ends it, and --run with another name starts a new run",
           Duration{run_ns}.seconds(), options_.scenario),
       {}};
 }
@@ -190,7 +189,7 @@ void LiveRun::look_for_stale(SimTime now) {
     stale_[r] = stale ? 1 : 0;
     (stale ? silent : back).push_back(options_.robots[r].name);
   }
-  tell_silence(silent, "is stale: its host has not said for too long where it is");
+  tell_silence(silent, "is stale: its host has not reported its pose for too long");
   tell_silence(back, "is back");
 }
 
@@ -280,7 +279,8 @@ LiveManagerOutcome LiveRun::outcome() {
     outcome.hosts.push_back({seat.name, seat.heard, static_cast<double>(seat.offset_ns) * 1e-9,
                              seat.bound_ns < 0 ? -1 : static_cast<double>(seat.bound_ns) * 1e-9,
                              seat.losses});
-    if (!seat.heard && begun_) problems_.push_back(fmt::format("host `{}` never came", seat.name));
+    if (!seat.heard && begun_)
+      problems_.push_back(fmt::format("host `{}` never joined", seat.name));
     if (seat.losses > 0) {
       problems_.push_back(
           fmt::format("host `{}` was lost {}", seat.name,
@@ -288,12 +288,12 @@ LiveManagerOutcome LiveRun::outcome() {
     }
   }
   if (board_->endpoint().standstills() > 0) {
-    problems_.push_back(fmt::format(
-        "the environment manager stood still for so long that hosts may have missed it{}: no "
-        "worlds were sent meanwhile",
-        board_->endpoint().standstills() == 1
-            ? ""
-            : fmt::format(" ({} times)", board_->endpoint().standstills())));
+    problems_.push_back(
+        fmt::format("the environment manager stood still for so long that hosts may have "
+                    "considered it lost{}: it sent no worlds meanwhile",
+                    board_->endpoint().standstills() == 1
+                        ? ""
+                        : fmt::format(" ({} times)", board_->endpoint().standstills())));
   }
   const bool over = begun_ && now().ns >= options_.duration.ns;
   outcome.problems = problems_;

@@ -85,8 +85,8 @@ Result<std::vector<std::uint64_t>> ManagerEndpoint::look_at_processes(bool begun
   infos_.take([&](const bus::HostInfo& info) { meet(info, begun); });
   if (second_) {
     return fail(ErrorCode::kState,
-                "this run has an environment manager already; to start another run of the same "
-                "scenario beside it, give both a name of their own with --run");
+                "this run has an environment manager already; to start a second run of the same "
+                "scenario, give each its own name with --run");
   }
   std::vector<std::uint64_t> gone;
   for (const bus::BusEvent& event : bus_->take_events()) {

@@ -25,7 +25,7 @@ inline constexpr std::chrono::seconds kLongFarewell{20};
 
 /// Of another manager that gives way to this one.
 [[nodiscard]] inline std::string not_listened_to(const bus::HostInfo& other) {
-  return fmt::format("another one, on {}, was started after this one and is not listened to",
+  return fmt::format("a second environment manager, started later on {}, is ignored",
                      other.machine);
 }
 

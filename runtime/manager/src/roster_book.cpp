@@ -43,9 +43,9 @@ std::string RosterBook::wrong(const bus::RosterEntry& entry) const {
   if (entry.host == host && name == entry.name) return {};
   const auto host_text = [this](std::uint32_t number) {
     return number < host_names_.size() ? "`" + host_names_[number] + "`"
-                                       : fmt::format("{}, which there is not", number);
+                                       : fmt::format("{}, which does not exist", number);
   };
-  return fmt::format("robot {} is said to be `{}` on host {}; in the scenario it is `{}` on {}",
+  return fmt::format("robot {} was reported as `{}` on host {}; in the scenario it is `{}` on {}",
                      entry.robot, entry.name, host_text(entry.host), name, host_text(host));
 }
 

@@ -88,20 +88,20 @@ Status SteppedRun::take_over() {
   if (step_ == 0) return {};
   if (!handed_over_ || world_.step + 1 < step_) {
     return fail(ErrorCode::kState,
-                "the hosts are in step {} already, and none has handed over the world of the step "
-                "before: they belong to another run",
+                "the hosts are already in step {}, and none has sent the world of the previous "
+                "step: they belong to another run",
                 step_);
   }
   // One host may have had a world that the others have not got, and have gone since.
   if (world_.step > step_) {
     return fail(ErrorCode::kState,
-                "the world of step {} was handed over, but no host is beyond step {}: whoever did "
-                "so is not of this run",
+                "the world of step {} arrived, but no host is beyond step {}: its sender does not "
+                "belong to this run",
                 world_.step, step_);
   }
   step_ = world_.step + 1;
   RAVE_TRY(authority_->resume(world_, state_));
-  log(LogLevel::kWarning, "takes over from a manager that is gone, at step {}", step_);
+  log(LogLevel::kWarning, "takes over from a lost manager at step {}", step_);
   for (Seat& seat : seats_) {
     // A new process begins anew where the one before it was in the run.
     if (seat.last_step + 1 < step_) {
@@ -185,7 +185,7 @@ void SteppedRun::hold() {
              seat.needed(options_.on_lost_host == LostHost::kWait);
     })));
     if (Clock::now() >= next_tell_) tell_state(rave_wire_RUN_WAITS, "paused");
-    tell_progress("somebody who has paused it");
+    tell_progress("`rave resume`");
   }
   began_ += Clock::now() - since;
 }

@@ -25,9 +25,9 @@ void SteppedRun::lose(Seat& seat, std::string_view why) {
   seat.last_writer = seat.writer;
   seat.writer = 0;
   roster_.stir();
-  constexpr std::string_view kThen[] = {"all wait until it is back",
-                                        "its robots stand from this step on",
-                                        "its robots stand until it is back"};
+  constexpr std::string_view kThen[] = {"all hosts wait until it is back",
+                                        "its robots stop from this step on",
+                                        "its robots stop until it is back"};
   std::string text = fmt::format("host `{}` {} in step {}; {}", seat.name, why, step_,
                                  kThen[static_cast<std::size_t>(options_.on_lost_host)]);
   const bool again = !for_good && !seat.command.empty();
@@ -80,8 +80,8 @@ Status SteppedRun::refuse_ahead(const Seat& seat, const bus::HostReport& message
   if (!over_ && options_.on_lost_host == LostHost::kWait) {
     // Nobody would answer it, and so all would wait for ever.
     return fail(ErrorCode::kState,
-                "a report of host `{}` cannot be: {}; the host was told a world that this manager "
-                "has not sent, or somebody else spoke in its name",
+                "invalid report of host `{}`: {}; either the host received a world that this "
+                "manager did not send, or another process sent the report",
                 seat.name, why);
   }
   // The others go on without it when it has been silent for long enough.
@@ -96,9 +96,8 @@ Status SteppedRun::leave_alone(const bus::HostReport& message) {
   left_alone_ = true;
   return fail(
       ErrorCode::kState,
-      "host `{}` is in step {} of a run that has lost its environment manager: --resume goes "
-      "on with that run, `rave end {}` ends it, and --run with a name begins another one "
-      "beside it",
+      "host `{}` is in step {} of a run that lost its environment manager: --resume continues that "
+      "run, `rave end {}` ends it, and --run with another name starts a new run",
       seats_[message.host].name, message.step, options_.scenario);
 }
 
@@ -119,9 +118,9 @@ Status SteppedRun::hear(const bus::HostReport& message) {
   if (message.state == rave_wire_REPORT_FAILED) {
     if (over_) return {};  // nothing depends on it any more, and it still says what it knows
     if (options_.on_lost_host == LostHost::kWait) {
-      return fail(ErrorCode::kState, "host `{}` cannot go on: {}", seat.name, message.text);
+      return fail(ErrorCode::kState, "host `{}` cannot continue: {}", seat.name, message.text);
     }
-    lose(seat, fmt::format("cannot go on ({})", message.text));
+    lose(seat, fmt::format("cannot continue ({})", message.text));
     return {};
   }
   if (message.step < step_) {
@@ -164,7 +163,7 @@ void SteppedRun::miss(std::uint64_t writer) {
       continue;
     }
     if (!begun_) {
-      log(LogLevel::kWarning, "host `{}` is gone before the run began{}{}", seat.name,
+      log(LogLevel::kWarning, "host `{}` was lost before the run began{}{}", seat.name,
           seat.command.empty() ? "" : "; start it again with: ", seat.command);
     }
     claims_.release(writer);
@@ -230,8 +229,9 @@ void SteppedRun::look_at_clock(Clock::time_point since) {
     }
     seat.state = SeatState::kLate;
     next_tell_ = {};
-    log(LogLevel::kWarning, "host `{}` has not answered for {:.1f} s in step {}; all wait for it",
-        seat.name, options_.host_timeout.seconds(), step_);
+    log(LogLevel::kWarning,
+        "host `{}` has not answered for {:.1f} s in step {}; all hosts wait for it", seat.name,
+        options_.host_timeout.seconds(), step_);
   }
 }
 

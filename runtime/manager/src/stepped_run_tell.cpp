@@ -18,7 +18,7 @@ std::string SteppedRun::waited_for() const {
   const auto names =
       names_of(seats_, [all](const Seat& seat) { return seat.needed(all) && !seat.reported; });
   if (!names.empty() || complete()) return join_names(names);
-  return fmt::format("somebody who knows the world of step {}", newest_report_ - 1);
+  return fmt::format("a host with the world of step {}", newest_report_ - 1);
 }
 
 void SteppedRun::tell_state(rave_wire_RunPhase phase, std::string_view text) {

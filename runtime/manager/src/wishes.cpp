@@ -92,7 +92,7 @@ Result<std::uint64_t> Wishes::pass_on(const RunRequest& request, sim::WorldAutho
   if (input.obstacle) {
     RAVE_TRY(limits_.take(*input.obstacle, EditLimits::Clock::now()));
   } else if (wishes_.size() >= EditLimits::kMostOpen) {
-    return fail(ErrorCode::kState, "too much waits for the next step; ask again later");
+    return fail(ErrorCode::kState, "too many requests wait for the next step; try again later");
   } else {
     RAVE_TRY(lock_step::check_fits(input));
   }
@@ -116,6 +116,10 @@ void Wishes::listen(sim::WorldAuthority& authority) {
 void Wishes::take(runtime::RunControl::Asked asked, sim::WorldAuthority& authority) {
   if (asked.request().kind == RunRequest::Kind::kList) {
     return asked.answer(runtime::obstacle_list(authority.world()));
+  }
+  if (asked.request().kind == RunRequest::Kind::kChat) {
+    control_->keep_said(asked.request());
+    return asked.answer(std::string("it is for the record"));
   }
   if (runtime::OrderDesk::is_for(asked.request().kind)) {
     return take_order(std::move(asked), authority);
@@ -173,6 +177,7 @@ void Wishes::show_orders(runtime::RunStatus& status) const {
   for (std::size_t r = 0; r < status.robots.size(); ++r) {
     runtime::RunStatus::Robot& robot = status.robots[r];
     robot.lease = desk_.holder(robot.name);
+    robot.lease_page = desk_.page(robot.name);
     robot.order = orders_[r];
   }
 }
@@ -181,9 +186,10 @@ void Wishes::put_off(std::string_view why) {
   const auto now = std::chrono::steady_clock::now();
   for (Wish& wish : wishes_) {
     if (now - wish.since < kWishPatience) continue;
-    wish.asked.answer(fmt::format(
-        "asked for; {}, so it is done, or refused, in step {}: the log of this process will say",
-        why, next_step_));
+    wish.asked.answer(
+        fmt::format("requested; {}, so it is carried out or refused in step {}; the log of this "
+                    "process tells the result",
+                    why, next_step_));
   }
 }
 

@@ -45,7 +45,7 @@ TEST(EditLimits, InAllNotMoreThanOneMessageHolds) {
   now += milliseconds(1000);
   const Status refused = limits.take(crate(9, 64), now);
   ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().message.find("as many as hosts that come late can be told of"),
+  EXPECT_NE(refused.error().message.find("were added or changed for hosts that join late"),
             std::string::npos);
   sim::ObstacleChange gone;
   gone.kind = Kind::kRemove;

@@ -90,8 +90,8 @@ TEST_F(LiveManagerTest, LeavesHostsAloneThatAreInTheMiddleOfARun) {
   finish();
   ASSERT_FALSE(*outcome_);
   EXPECT_EQ(outcome_->error().code, ErrorCode::kState);
-  EXPECT_NE(outcome_->error().message.find("hosts are at 60.0 s of a run that has lost its "
-                                           "environment manager: --resume goes on with that run"),
+  EXPECT_NE(outcome_->error().message.find("hosts are at 60.0 s of a run that lost its "
+                                           "environment manager: --resume continues that run"),
             std::string::npos)
       << outcome_->error().message;
 }
@@ -107,7 +107,7 @@ TEST_F(LiveManagerTest, BeginsWithoutAHostThatNeverComesAndSaysSo) {
   finish();
   ASSERT_TRUE(*outcome_) << outcome_->error().text();
   EXPECT_FALSE((*outcome_)->whole);
-  EXPECT_TRUE(says("host `two` never came")) << lines_.said();
+  EXPECT_TRUE(says("host `two` never joined")) << lines_.said();
   EXPECT_TRUE((*outcome_)->hosts[0].heard);
 }
 
@@ -117,7 +117,7 @@ TEST_F(LiveManagerTest, NamesRobotsThatAreNotHeardOfAndHostsThatWereLost) {
   {
     SpeakingHost one(options_.bus, 0, "one");
     std::optional<SpeakingHost> two(std::in_place, options_.bus, 1, "two");
-    go_until({&one, &*two}, [this] { return lines_.has("all hosts are there"); });
+    go_until({&one, &*two}, [this] { return lines_.has("all hosts have joined"); });
     EXPECT_FALSE(lines_.has("is stale"));
     one.say(0, {0}, 0);
     go_until({&one, &*two}, [this] { return lines_.has("robot `anna` is stale"); });

@@ -54,10 +54,10 @@ TEST_F(RosterBookTest, WhatIsNotInTheScenarioIsRefusedOncePerProcess) {
   EXPECT_EQ(reason(entry_of(kLeft, 4, 0, "dora"), kLeft), "accepted") << "said once already";
   EXPECT_FALSE(book_.take_news());
   EXPECT_EQ(reason(entry_of(kOther, 1, 0, "anna"), 0),
-            "robot 1 is said to be `anna` on host `left`; in the scenario it is `bob` on `left`");
+            "robot 1 was reported as `anna` on host `left`; in the scenario it is `bob` on `left`");
   book_.lose(kOther);
   EXPECT_EQ(reason(entry_of(kOther, 0, 7, "anna"), 0),
-            "robot 0 is said to be `anna` on host 7, which there is not; in the scenario it is "
+            "robot 0 was reported as `anna` on host 7, which does not exist; in the scenario it is "
             "`anna` on `left`");
 }
 

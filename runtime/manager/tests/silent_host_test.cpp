@@ -129,9 +129,8 @@ TEST_F(SilentHost, IsGivenUpAndTheRunIsNotCalledWhole) {
     EXPECT_FALSE(outcome.whole);
     EXPECT_FALSE(outcome.hash) << "it would be of another run";
     ASSERT_EQ(outcome.problems.size(), 1U) << lines_.said();
-    const char* const then = policy == config::LostHost::kDrop
-                                 ? "its robots stand from this step on"
-                                 : "its robots stand until it is back";
+    const char* const then = policy == config::LostHost::kDrop ? "its robots stop from this step on"
+                                                               : "its robots stop until it is back";
     EXPECT_EQ(outcome.problems[0],
               fmt::format("host `two` has not answered for {:.1f} s in step {}; {}", kTimeout_s,
                           kSilentFrom, then));
@@ -144,7 +143,7 @@ TEST_F(SilentHost, IsWaitedForAndNamedUntilItSpeaks) {
   QuietHost two(options_.bus, 1, "two", kSilentFrom);
   std::string told;
   options_.on_progress = [&](const ManagerOptions::Progress& progress) {
-    if (!lines_.has("all wait for it")) return;
+    if (!lines_.has("all hosts wait for it")) return;
     if (told.empty()) told = progress.waiting;
     two.speak();
   };
@@ -188,7 +187,7 @@ TEST_F(SilentHost, ThatSpeaksOfAStepThatCannotBeEndsARunThatWouldWaitForIt) {
   const auto outcome = manage(two_robots(), options_);
   ASSERT_FALSE(outcome);
   EXPECT_EQ(outcome.error().code, ErrorCode::kState);
-  EXPECT_NE(outcome.error().message.find("a report of host `two` cannot be: it is of step 1007"),
+  EXPECT_NE(outcome.error().message.find("invalid report of host `two`: it is of step 1007"),
             std::string::npos)
       << outcome.error().message;
 }
@@ -200,7 +199,7 @@ TEST_F(SilentHost, ThatIsInTheMiddleOfAnotherRunIsLeftAlone) {
   const auto outcome = manage(two_robots(), options_);
   ASSERT_FALSE(outcome);
   EXPECT_EQ(outcome.error().code, ErrorCode::kState);
-  EXPECT_NE(outcome.error().message.find("host `two` is in step 1000 of a run that has lost its "
+  EXPECT_NE(outcome.error().message.find("host `two` is in step 1000 of a run that lost its "
                                          "environment manager: --resume"),
             std::string::npos)
       << outcome.error().message;

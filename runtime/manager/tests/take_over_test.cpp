@@ -124,7 +124,7 @@ TEST_F(TakeOver, WithFewerObstaclesThanHostsHaveNobodyIsToldToWaitForTheRest) {
   host_->hand_over(kFirstAdded, 1);
   take_over(7, 1);
   EXPECT_TRUE(has(kFirstAdded));
-  EXPECT_NE(ears_.heard.find("hosts have obstacles up to change 7, but handed over only 1"),
+  EXPECT_NE(ears_.heard.find("hosts have obstacles up to change 7, but sent only 1"),
             std::string::npos)
       << ears_.heard;
 }
@@ -149,12 +149,13 @@ TEST_F(TakeOver, ObstaclesThatCannotBeSpoilNothing) {
   go_until([this] { return has(kFirstAdded); }, "what was handed over is there");
   EXPECT_FALSE(has(kFirstAdded + 1));
   EXPECT_TRUE(board_->handed_obstacles().empty()) << "nobody needs them any more";
-  const std::size_t told = ears_.heard.find("refused what the process");
+  const std::size_t told = ears_.heard.find("refused the hand-over of obstacles by process");
   ASSERT_NE(told, std::string::npos) << ears_.heard;
-  EXPECT_EQ(ears_.heard.find("refused what the process", told + 1), std::string::npos)
+  EXPECT_EQ(ears_.heard.find("refused the hand-over of obstacles by process", told + 1),
+            std::string::npos)
       << "once of each process:\n"
       << ears_.heard;
-  EXPECT_NE(ears_.heard.find("1 obstacles that hosts handed over are left out"), std::string::npos)
+  EXPECT_NE(ears_.heard.find("1 obstacles from hosts are left out"), std::string::npos)
       << ears_.heard;
 }
 

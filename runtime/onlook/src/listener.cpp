@@ -46,8 +46,7 @@ void Listener::look(const Asked& asked) {
     asked_ = asked;
     ++number_;
     std::erase_if(readings_, [&](const auto& entry) {
-      return !std::ranges::binary_search(asked_.sensors, entry.second.sensor) ||
-             (entry.second.part != 0 && !asked_.parts);
+      return !is_asked(entry.second.sensor) || (entry.second.part != 0 && !asked_.parts);
     });
     sensors_.clear();
     const std::size_t most = std::min<std::size_t>(asked_.sensors.size(), rave_wire_kMaxLookedAt);
@@ -57,7 +56,8 @@ void Listener::look(const Asked& asked) {
   }
   next_look_ = now + kSayAgain;
   // Who looks at nothing says so once, and is forgotten then.
-  if (!changed && !asked_.robots && sensors_.empty() && asked_.maps.empty()) return;
+  const bool nothing = !asked_.robots && sensors_.empty() && asked_.maps.empty();
+  if (!changed && nothing && asked_.probes.empty()) return;
   bus::Look message{};
   message.number = number_;
   message.robots = asked_.robots;
@@ -66,7 +66,23 @@ void Listener::look(const Asked& asked) {
   std::vector<std::uint32_t> maps = asked_.maps;
   if (maps.size() > rave_wire_kMaxLookedAtMaps) maps.resize(rave_wire_kMaxLookedAtMaps);
   bus::borrow(message.maps, maps);
+  std::vector<rave_wire_Probe> probes;
+  for (const probe::Asked& probe : asked_.probes) {
+    if (probes.size() == rave_wire_kMaxProbes) break;
+    rave_wire_Probe& one = probes.emplace_back();
+    one.robot = probe.robot;
+    one.number = probe.number;
+    bus::put_text(one.block, probe.block);
+  }
+  bus::borrow(message.probes, probes);
   static_cast<void>(looks_.write(message));
+}
+
+bool Listener::is_asked(const LookedAt& sensor) const {
+  if (!probe::is_probe(sensor.sensor)) return std::ranges::binary_search(asked_.sensors, sensor);
+  return std::ranges::any_of(asked_.probes, [&sensor](const probe::Asked& probe) {
+    return probe.robot == sensor.robot && probe.number == sensor.sensor;
+  });
 }
 
 void Listener::hear() {
@@ -85,7 +101,7 @@ void Listener::hear(const bus::Readings& sample) {
     const std::size_t count = std::size_t{reading.rows} * reading.fields;
     values += count;
     const LookedAt sensor{reading.robot, reading.sensor};
-    if (!std::ranges::binary_search(asked_.sensors, sensor)) continue;
+    if (!is_asked(sensor)) continue;
     if (readings_.size() >= kMostReadings) continue;
     HeardReading& heard = readings_[{reading.robot, reading.sensor, reading.part}];
     heard.sensor = sensor;

@@ -2,6 +2,7 @@
 #include "rave/onlook/reading_teller.hpp"
 
 #include "rave/bus/sequence.hpp"
+#include "rave/onlook/command_row.hpp"
 #include "rave/onlook/reading_rows.hpp"
 
 namespace rave::onlook {
@@ -30,10 +31,35 @@ void ReadingTeller::put_part(const LookedAt& looked, std::uint8_t part, ReadingK
       {static_cast<const std::byte*>(records), header->count * record_size(kind)}, values_);
 }
 
+void ReadingTeller::put_commands(const sim::Engine& engine, const LookedAt& looked) {
+  const auto row = command_row(engine, RobotId(looked.robot));
+  if (!row) return;
+  const auto step = static_cast<std::uint32_t>(engine.steps_done());
+  const auto [told, fresh] = told_.try_emplace({looked.robot, looked.sensor, 0}, 0);
+  const bool full = readings_.size() == rave_wire_kMaxReadings ||
+                    values_.size() + row->size() > rave_wire_kMaxReadingValues;
+  if (told->second == step) return;
+  if (full) {
+    ++left_out_;
+    return;
+  }
+  told->second = step;
+  rave_wire_Reading& reading = readings_.emplace_back();
+  reading.robot = looked.robot;
+  reading.sensor = looked.sensor;
+  reading.part = 0;
+  reading.kind = static_cast<std::uint8_t>(ReadingKind::kValues);
+  reading.stamp_ns = engine.time().ns;
+  reading.fields = kCommandFields;
+  reading.rows = 1;
+  values_.insert(values_.end(), row->begin(), row->end());
+}
+
 void ReadingTeller::put(const sim::Engine& engine, const LookedAt& looked, bool parts) {
   const sim::EngineSpec& spec = engine.spec();
   const RobotId robot(looked.robot);
   if (looked.robot >= spec.robots.size() || !engine.is_local(robot)) return;
+  if (looked.sensor == kCommandsOf) return put_commands(engine, looked);
   const auto& sensors = spec.types[spec.robots[looked.robot].type].sensors;
   if (looked.sensor >= sensors.size()) return;
   const ReadingKind kind = sensors[looked.sensor].kind;
@@ -45,8 +71,8 @@ void ReadingTeller::put(const sim::Engine& engine, const LookedAt& looked, bool 
   put_part(looked, 2, kind, halves.imagined, halves.imagined_records);
 }
 
-void ReadingTeller::tell(const sim::Engine& engine, const Asked& asked, Clock::time_point now,
-                         int slower) {
+void ReadingTeller::tell(const sim::Engine& engine, const Asked& asked, probe::Probes& probes,
+                         Clock::time_point now, int slower) {
   if (now < next_) return;
   next_ = now + kInterval * slower;
   if (now >= again_at_) {
@@ -57,6 +83,11 @@ void ReadingTeller::tell(const sim::Engine& engine, const Asked& asked, Clock::t
   values_.clear();
   left_out_ = 0;
   for (const LookedAt& looked : asked.sensors) put(engine, looked, asked.parts);
+  probes.sample(engine);
+  for (const auto& [key, sensor] : probes.all()) {
+    if (!sensor) continue;
+    put_part({key.first, key.second}, 0, sensor->info().kind, &sensor->header(), sensor->records());
+  }
   if (readings_.empty() && left_out_ == 0) return;
   bus::Readings message{};
   message.host = host_;

@@ -50,7 +50,10 @@ void Teller::hear(Clock::time_point now) {
     heard.heard = now;
     if (heard.number == look.number) return;
     heard.number = look.number;
-    heard.asked = {look.robots, look.parts, {}, {}};
+    heard.asked = {look.robots, look.parts, {}, {}, {}};
+    for (const rave_wire_Probe& probe : bus::elements(look.probes)) {
+      heard.asked.probes.push_back({probe.robot, probe.number, probe.block});
+    }
     const auto maps = bus::elements(look.maps);
     heard.asked.maps.assign(maps.begin(), maps.end());
     for (const rave_wire_LookedAt& sensor : bus::elements(look.sensors)) {
@@ -69,6 +72,7 @@ void Teller::hear(Clock::time_point now) {
     asked_.sensors.insert(asked_.sensors.end(), look.asked.sensors.begin(),
                           look.asked.sensors.end());
     asked_.maps.insert(asked_.maps.end(), look.asked.maps.begin(), look.asked.maps.end());
+    asked_.probes.insert(asked_.probes.end(), look.asked.probes.begin(), look.asked.probes.end());
   }
   std::ranges::sort(asked_.sensors);
   const auto twice = std::ranges::unique(asked_.sensors);
@@ -118,12 +122,18 @@ void Teller::tell_maps(const sim::Engine& engine, Clock::time_point now, int slo
   }
 }
 
+void Teller::tell_readings(const sim::Engine& engine, Clock::time_point now, int slower) {
+  if (options_.catalogue != nullptr) probes_.ask(engine, *options_.catalogue, asked_.probes);
+  if (asked_.sensors.empty() && probes_.empty()) return;
+  readings_.tell(engine, asked_, probes_, now, slower);
+}
+
 void Teller::after_step(const sim::Engine& engine, std::span<const sim::Event> beside, bool late) {
   const auto now = Clock::now();
   hear(now);
   if (obstacles_) obstacles_->after_step(engine, beside);
   tell_events(engine, beside);
-  if (!asked_.sensors.empty()) readings_.tell(engine, asked_, now, late ? kLateFactor : 1);
+  tell_readings(engine, now, late ? kLateFactor : 1);
   if (!maps_.empty()) maps_.after_step(engine);
   tell_maps(engine, now, late ? kLateFactor : 1);
 }
@@ -131,7 +141,7 @@ void Teller::after_step(const sim::Engine& engine, std::span<const sim::Event> b
 void Teller::held(const sim::Engine& engine) {
   const auto now = Clock::now();
   hear(now);
-  if (!asked_.sensors.empty()) readings_.tell(engine, asked_, now, 1);
+  tell_readings(engine, now, 1);
   tell_maps(engine, now, 1);
 }
 

@@ -50,11 +50,11 @@ void LateWatch::step_done() {
 void LateWatch::tell_change(Clock::duration late) {
   if (!told_ && late > kNews) {
     told_ = true;
-    log_.warn("run", "steps come {:.2f} s late; most of the time goes into `{}`", seconds(late),
+    log_.warn("run", "steps are {:.2f} s late; most of the time is spent in `{}`", seconds(late),
               lateness_.busiest());
   } else if (told_ && !behind_) {
     told_ = false;
-    log_.info("run", "steps come in time again");
+    log_.info("run", "steps are in time again");
   }
 }
 
@@ -79,10 +79,9 @@ std::vector<std::string> lateness_problems(const LatenessFacts& facts, double mo
                                    lateness_text(facts)));
   }
   if (facts.stops > 0) {
-    problems.push_back(
-        fmt::format("steps came so late that real robots were stopped {}x, the "
-                    "latest by {:.2f} s",
-                    facts.stops, static_cast<double>(facts.worst_ns) * 1e-9));
+    problems.push_back(fmt::format(
+        "real robots were stopped {}x because of late steps; the latest step was {:.2f} s late",
+        facts.stops, static_cast<double>(facts.worst_ns) * 1e-9));
   }
   return problems;
 }

@@ -41,8 +41,8 @@ void StallWatch::watch() {
     if (std::chrono::steady_clock::now() - *since_ < kPatience) continue;
     told_ = step_;
     log_->warn("run",
-               "step {} has not come to its end for 1 s: a driver or program does not return; "
-               "`isolate: true` gives a program a process of its own that can be stopped",
+               "step {} has not ended for 1 s: a driver or program does not return; `isolate: "
+               "true` runs a program in its own process, which can be stopped",
                step_);
   }
 }

@@ -16,14 +16,14 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kPart = rave_wire_kMaxFindingsPart;
 
 Status too_late(Duration patience) {
-  return fail(ErrorCode::kTimeout, "the environment manager has not taken them within {} s",
+  return fail(ErrorCode::kTimeout, "the environment manager did not accept them within {} s",
               patience.seconds());
 }
 
 Status nobody(bool listened) {
   return fail(ErrorCode::kState, "{}",
-              listened ? "the environment manager was gone before it had them"
-                       : "no environment manager is there that would take them");
+              listened ? "the environment manager was lost before it had received them"
+                       : "there is no environment manager to receive them");
 }
 
 }  // namespace
@@ -70,7 +70,7 @@ Status FindingsSender::send(std::uint32_t host, std::span<const std::byte> bytes
     // Who is gone is not waited for either.
     return readers() > 0 ? Status{} : nobody(true);
   }
-  return fail(ErrorCode::kIo, "nobody says whether they came: {}", dds_strretcode(confirmed));
+  return fail(ErrorCode::kIo, "their arrival was not confirmed: {}", dds_strretcode(confirmed));
 }
 
 Status FindingsParts::add(const bus::FindingsPart& part) {
@@ -84,8 +84,8 @@ Status FindingsParts::add(const bus::FindingsPart& part) {
   }
   if (part.host != partial.host || part.size != partial.size || part.hash != partial.hash) {
     return fail(ErrorCode::kInvalidArgument,
-                "part {} is of other findings than those before: of host {} and {} bytes, not of "
-                "host {} and {} bytes",
+                "part {} belongs to other results than the parts before: of host {} and {} bytes, "
+                "not of host {} and {} bytes",
                 part.part, part.host, part.size, partial.host, partial.size);
   }
   const auto bytes = std::as_bytes(bus::elements(part.bytes));
@@ -105,7 +105,7 @@ Status FindingsParts::finish(std::uint64_t writer, Partial partial) {
     findings.bytes.insert(findings.bytes.end(), bytes.begin(), bytes.end());
   }
   if (findings.bytes.size() != partial.size || content_hash(findings.bytes) != partial.hash) {
-    return fail(ErrorCode::kParse, "the findings of host {} are not what it says it has sent",
+    return fail(ErrorCode::kParse, "the results of host {} do not match their checksum",
                 partial.host);
   }
   whole_.push_back(std::move(findings));
@@ -122,7 +122,7 @@ Result<FindingsCollector> FindingsCollector::create(bus::Bus& bus) {
 void FindingsCollector::take(const std::function<bool(std::uint64_t, std::uint32_t)>& sat) {
   const auto hear = [&](const bus::FindingsPart& part) {
     if (!sat(part.writer, part.host)) {
-      reader_.refuse(part, fmt::format("it is no process of host {} of this run", part.host));
+      reader_.refuse(part, fmt::format("it is not a process of host {} of this run", part.host));
       return;
     }
     if (const Status added = parts_.add(part); !added) {

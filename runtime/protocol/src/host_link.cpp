@@ -114,10 +114,9 @@ void HostLink::Impl::start_clock() {
   last_world = Clock::now();
   told.clear();
   if (const auto reading = time.reading(local_ns())) {
-    tell(LogLevel::kInfo,
-         fmt::format("the clock of the environment manager is {:+.6f} s from the one here, give or "
-                     "take {:.6f} s",
-                     reading->offset.seconds(), reading->bound.seconds()));
+    tell(LogLevel::kInfo, fmt::format("the clock of the environment manager differs from the clock "
+                                      "here by {:+.6f} s (uncertainty {:.6f} s)",
+                                      reading->offset.seconds(), reading->bound.seconds()));
   }
 }
 
@@ -133,10 +132,10 @@ void HostLink::Impl::watch_worlds() {
   world_lost = lost;
   if (lost) ++losses;
   tell(lost ? LogLevel::kError : LogLevel::kInfo,
-       lost ? fmt::format("no world has come for {:.1f} s: the robots of other hosts stand where "
-                          "they were heard of last",
+       lost ? fmt::format("no world has arrived for {:.1f} s: robots of other hosts stay at their "
+                          "last known poses",
                           age.seconds())
-            : "worlds come again");
+            : "worlds arrive again");
 }
 
 HostLink::HostLink(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -238,8 +237,8 @@ void HostLink::send(const sim::SentPackets& sent) {
     // Nobody waits for a reader that is stuck; the others miss the number.
     if (link.packets_unsent++ > 0) continue;
     link.tell(LogLevel::kWarning,
-              "some other process is too slow for what robots here say: messages are dropped until "
-              "it is faster, or taken for dead");
+              "another process is too slow for the messages of robots here: messages are dropped "
+              "until it catches up or counts as lost");
   }
 }
 

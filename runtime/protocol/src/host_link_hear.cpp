@@ -112,7 +112,7 @@ void HostLink::Impl::hear(const bus::Obstacle& sample) {
   if (const Status possible = live.check(*sight); !possible) {
     // Once of each manager: what does not fit comes in numbers.
     if (!std::exchange(wrong_obstacles, true)) {
-      tell(LogLevel::kWarning, "refused of the environment manager: " + possible.error().message);
+      tell(LogLevel::kWarning, "refused from the environment manager: " + possible.error().message);
     }
     return;
   }
@@ -175,10 +175,9 @@ void HostLink::Impl::lose(std::uint64_t writer) {
   manager = 0;
   alone_since = Clock::now();
   if (!ending) {
-    tell_once(LogLevel::kError,
-              started ? "the environment manager is gone; this host goes on without the others "
-                        "until one is back"
-                      : "the environment manager is gone");
+    tell_once(LogLevel::kError, started ? "the environment manager is lost; this host continues "
+                                          "without the others until one is back"
+                                        : "the environment manager is lost");
   }
   // The next one may have come before this one was missed.
   if (!managers.empty()) listen_to_first();

@@ -145,7 +145,7 @@ void HostPort::Impl::hear(const RunWord& word) {
   if (manager != 0 && word.writer != manager) return;
   if (word.without_us) {
     over = true;
-    ending = {false, "it went on without this host, which was late or gone"};
+    ending = {false, "the run continued without this host, which was late or lost"};
   }
   switch (word.phase) {
     case rave_wire_RUN_GOES:
@@ -177,7 +177,7 @@ void HostPort::Impl::lose(std::uint64_t writer) {
   overslept = 2 * still.stood().ns > bus->config().lease.ns &&
               alone_since - still.silence_counts_from() < kMissedAtOnce;
   if (over) return;
-  tell(LogLevel::kError, "the environment manager is gone; robots stand until one is back");
+  tell(LogLevel::kError, "the environment manager is lost; robots stop until one is back");
 }
 
 void HostPort::Impl::look_at_processes() {
@@ -208,7 +208,7 @@ void HostPort::Impl::look_at_patience() {
   ending = {
       false,
       fmt::format("there was no environment manager for {} s{}", longest.seconds(),
-                  short_of_it ? " after this host stood still: the run went on without it" : "")};
+                  short_of_it ? " after this host stood still: the run continued without it" : "")};
   tell(LogLevel::kError, fmt::format("gives up: {}", ending.text));
 }
 
@@ -241,7 +241,7 @@ Status HostPort::Impl::follow_obstacles(const sim::WorldStep& world, sim::Author
     for (const sim::ObstacleChange& change : last_obstacles) obstacles.add(change);
   } else {
     return fail(ErrorCode::kInvalidArgument,
-                "obstacles have changed {} times before this world, of which this host knows {}",
+                "obstacles had changed {} times before this world, but this host knows {} changes",
                 state.obstacle_changes, known);
   }
   last_obstacles = world.obstacles;
@@ -255,7 +255,7 @@ bool HostPort::Impl::take_world(const sim::HostReport& report, sim::WorldStep& w
     // it again.
     if (gone.contains(sample.writer)) return;
     if (epoch != 0 && sample.epoch != epoch) {
-      worlds.refuse(sample, "it is of another authority than the one this run has");
+      worlds.refuse(sample, "it comes from another authority than that of this run");
       return;
     }
     if (sample.step < report.step) return;           // sent again for somebody else

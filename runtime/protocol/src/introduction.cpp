@@ -50,15 +50,16 @@ Status check_fits(const Identity& self, const bus::HostInfo& other) {
   }
   if (other.scenario != self.scenario) {
     return fail(ErrorCode::kState,
-                "`{}` has another scenario: its files and options (seed, duration) must say the "
+                "`{}` has another scenario: its files and options (seed, duration) must be the "
                 "same as here",
                 other.name);
   }
   if ((other.clock == rave_wire_CLOCK_REAL_TIME) != self.real_time) {
-    return fail(ErrorCode::kState,
-                "`{}` runs {}, and this process {}: a driver is by the wall clock here or there",
-                other.name, self.real_time ? "in lock-step" : "in real time",
-                self.real_time ? "in real time" : "in lock-step");
+    return fail(
+        ErrorCode::kState,
+        "`{}` runs {}, and this process {}: one of them has a driver that follows the wall clock",
+        other.name, self.real_time ? "in lock-step" : "in real time",
+        self.real_time ? "in real time" : "in lock-step");
   }
   return {};
 }

@@ -84,8 +84,8 @@ Status check_sight(const ObstacleSight& sight, const world::WorldModel& start) {
       adds ? id >= first_added && id - first_added < sim::ObstacleChange::kMostAdded
            : id < start.obstacles.size();
   if (!possible) {
-    return fail(ErrorCode::kInvalidArgument, "{} {} is none of the run",
-                adds ? "an obstacle that came with the number" : "obstacle", id);
+    return fail(ErrorCode::kInvalidArgument, "{} {} does not belong to the run",
+                adds ? "an added obstacle with the number" : "obstacle", id);
   }
   if (sight.revision == 0 || sight.revision > ObstacleSight::kMostRevision) {
     return fail(ErrorCode::kInvalidArgument,
@@ -297,8 +297,9 @@ void LiveWorld::report_place(Other& other, std::uint64_t step) {
   const bool stale = other.known && age > other.staleness;
   if (stale != other.stale) {
     const std::string text =
-        stale ? fmt::format("its host was heard of it last at {:.2f} s", last.stamp.seconds())
-              : fmt::format("its host speaks of it again, from {:.2f} s", last.stamp.seconds());
+        stale ? fmt::format("the last message of its host about it is from {:.2f} s",
+                            last.stamp.seconds())
+              : fmt::format("its host reports it again, from {:.2f} s", last.stamp.seconds());
     events_.push_back({step, last.robot,
                        stale ? sim::EventKind::kPoseStale : sim::EventKind::kPoseBack, BodyId(),
                        text});

@@ -30,8 +30,8 @@ void Realities::hear(const bus::RosterEntry& entry) {
                     entry.kind != rave_wire_ROBOT_SHADOW;
   if (!fits) {
     if (std::exchange(refused_, true)) return;
-    reader_.refuse(
-        entry, fmt::format("robot {} does not run on host {}, or not so", entry.robot, entry.host));
+    reader_.refuse(entry, fmt::format("robot {} does not run on host {} in this way", entry.robot,
+                                      entry.host));
     return;
   }
   auto book = std::ranges::find(books_, entry.writer, &Book::writer);

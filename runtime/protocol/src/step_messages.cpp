@@ -225,7 +225,7 @@ Result<sim::ParameterChange> from_wire(const rave_wire_ParameterChange& wire) {
   sim::ParameterChange change;
   change.part = static_cast<sim::ParameterChange::Part>(wire.part);
   if (change.part > sim::ParameterChange::Part::kBody) {
-    return fail(ErrorCode::kInvalidArgument, "a parameter of no known part of a robot");
+    return fail(ErrorCode::kInvalidArgument, "a parameter of an unknown part of a robot");
   }
   change.index = wire.index;
   change.name = wire.name;
@@ -252,7 +252,7 @@ Result<sim::WorldInput> from_wire(const rave_wire_WorldInput& wire) {
   input.author.by_hand = wire.author != 0;
   const bool known = input.kind <= sim::WorldInput::Kind::kChange || sim::is_order(input.kind);
   if (!known || wire.author > 1) {
-    return fail(ErrorCode::kInvalidArgument, "an input of no known kind or author");
+    return fail(ErrorCode::kInvalidArgument, "an input of an unknown kind or author");
   }
   input.robot = RobotId(wire.robot);
   for (const rave_wire_ParameterChange& change : elements(wire.changes)) {
@@ -394,7 +394,7 @@ Status WorldMessage::fill_inputs(const sim::WorldStep& world) {
 Status check_fits(const sim::WorldInput& input) {
   constexpr std::size_t kMostChanges = 64;
   if (input.changes.size() > kMostChanges) {
-    return fail(ErrorCode::kInvalidArgument, "{} changes at once, more than {}",
+    return fail(ErrorCode::kInvalidArgument, "{} changes at once; expected at most {}",
                 input.changes.size(), kMostChanges);
   }
   for (const sim::ParameterChange& change : input.changes) {

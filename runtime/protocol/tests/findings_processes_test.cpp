@@ -50,7 +50,7 @@ struct Host {
     EXPECT_LT(std::chrono::steady_clock::now() - began, kFarMoreThanTold);
     ASSERT_FALSE(sent);
     EXPECT_EQ(sent.error().code, ErrorCode::kTimeout);
-    EXPECT_EQ(sent.error().message, "the environment manager has not taken them within 1 s");
+    EXPECT_EQ(sent.error().message, "the environment manager did not accept them within 1 s");
   }
 };
 
@@ -81,7 +81,7 @@ TEST(FindingsProcesses, AManagerThatStandsHoldsUpNobodyForLongerThanTold) {
   other.poke();
   const auto bytes = made_findings(3, 1'000'000);
   host.expect_gives_up(bytes);
-  EXPECT_EQ(other.line(), "the environment manager has not taken them within 2 s");
+  EXPECT_EQ(other.line(), "the environment manager did not accept them within 2 s");
   // Who goes on has what all hosts know.
   const std::set<std::string> has = {manager.line(), manager.line()};
   const std::set<std::string> expected = {whole_line(3, bytes),
@@ -113,7 +113,7 @@ TEST(FindingsProcesses, AManagerThatDiesMeanwhileIsNotWaitedFor) {
   const Status sent = host.sender->send(3, bytes, from_seconds(3600));
   ASSERT_FALSE(sent);
   EXPECT_EQ(sent.error().code, ErrorCode::kState) << sent.error().text();
-  EXPECT_EQ(sent.error().message, "the environment manager was gone before it had them");
+  EXPECT_EQ(sent.error().message, "the environment manager was lost before it had received them");
 }
 
 TEST(FindingsProcesses, WithoutAManagerAreNotSent) {
@@ -123,7 +123,7 @@ TEST(FindingsProcesses, WithoutAManagerAreNotSent) {
   const Status sent = host.sender->send(3, made_findings(3, kMuch), from_seconds(3600));
   ASSERT_FALSE(sent);
   EXPECT_EQ(sent.error().code, ErrorCode::kState);
-  EXPECT_EQ(sent.error().message, "no environment manager is there that would take them");
+  EXPECT_EQ(sent.error().message, "there is no environment manager to receive them");
 }
 
 TEST(FindingsProcesses, OfAHostThatDiesDoNotKeepThoseOfAnother) {

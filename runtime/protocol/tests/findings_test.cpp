@@ -72,7 +72,7 @@ TEST(Findings, OfWhichAByteIsAnotherAreRefused) {
   EXPECT_TRUE(parts.add(sent.parts[0]));
   const Status last = parts.add(sent.parts[1]);
   ASSERT_FALSE(last);
-  EXPECT_NE(last.error().message.find("host 4 are not what it says"), std::string::npos);
+  EXPECT_NE(last.error().message.find("host 4 do not match their checksum"), std::string::npos);
   EXPECT_TRUE(parts.done_with(11)) << "nobody waits for them";
   EXPECT_TRUE(parts.hand_out().empty());
 }

@@ -122,7 +122,7 @@ class HostPortTest : public ::testing::Test {
     int looks = 0;
     const auto patience = deadline();
     const auto answer = port_->exchange(report_, 0, world_, [&] {
-      if (log_.has("the environment manager is gone")) {
+      if (log_.has("the environment manager is lost")) {
         // Between one and the next the host takes in what it has got.
         ++looks;
         if (looks == 1) ghost_->throw_world(manager_id_, host_id_);

@@ -142,7 +142,8 @@ TEST_F(LiveObstacles, WhatCannotBeIsNotTakenIn) {
   EXPECT_TRUE(live_->check(crate(3 + kMost - 1, 1)));
   const Status beyond = live_->check(crate(3 + kMost, 1));
   ASSERT_FALSE(beyond);
-  EXPECT_NE(beyond.error().message.find("number 100003 is none of the run"), std::string::npos)
+  EXPECT_NE(beyond.error().message.find("number 100003 does not belong to the run"),
+            std::string::npos)
       << beyond.error().message;
   EXPECT_FALSE(live_->see(crate(3 + kMost, 1)));
   EXPECT_FALSE(live_->see(crate(3, 0)));

@@ -241,16 +241,16 @@ TEST(Messages, AWorldThatNobodyCouldUseIsRefusedWithItsField) {
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.sent.packets._buffer[1].size = 99; }),
             "sent.packets[1] has 99 bytes from 3 on, of 7");
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.poses._buffer[0].variance_xy_m2 = -1; }),
-            "poses[0] has a variance that is none");
+            "poses[0] has an invalid variance");
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.inputs._buffer[0].kind = 17; }),
-            "an input of no known kind or author");
+            "an input of an unknown kind or author");
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.inputs._buffer[1].changes._buffer[0].part = 9; }),
-            "a parameter of no known part of a robot");
+            "a parameter of an unknown part of a robot");
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.inputs._buffer[0].kind = 4; }),
-            "an input of no known kind or author")
+            "an input of an unknown kind or author")
       << "obstacles come otherwise";
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.inputs._buffer[0].author = 2; }),
-            "an input of no known kind or author");
+            "an input of an unknown kind or author");
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) {
               w.inputs._buffer[2].points._buffer[1].x_m = std::nan("");
             }),

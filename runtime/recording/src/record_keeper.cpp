@@ -6,6 +6,7 @@
 #include <chrono>
 #include <ctime>
 
+#include "rave/control/chat_line.hpp"
 #include "rave/control/order_words.hpp"
 #include "rave/observe/event_words.hpp"
 
@@ -160,6 +161,17 @@ void RecordKeeper::keep(const RunRequest& request, std::uint64_t step) {
   static_cast<void>(
       recorder_.input({step, std::string(to_string(request.kind)), request.robot, request.key,
                        is_order(request.kind) ? order_words(request) : request.value, request.by}));
+}
+
+void record_chat(const RunRequest& chat, std::uint64_t step, record::RunRecorder& recorder) {
+  const auto line = chat_line(chat);
+  if (!line) return;
+  static_cast<void>(recorder.chat(
+      {step, line->number, line->from, line->role, line->to, line->name, line->text}));
+}
+
+void RecordKeeper::say(const RunRequest& chat, std::uint64_t step) {
+  record_chat(chat, step, recorder_);
 }
 
 void RecordKeeper::keep(std::span<const sim::Event> events) {

@@ -38,4 +38,8 @@ void WorldRecord::step(std::uint64_t step, const BodyKinds& kinds,
   static_cast<void>(recorder_.end_step());
 }
 
+void WorldRecord::say(const RunRequest& chat, std::uint64_t step) {
+  record_chat(chat, step, recorder_);
+}
+
 }  // namespace rave::runtime

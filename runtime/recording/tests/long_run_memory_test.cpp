@@ -27,6 +27,12 @@ __attribute__((noinline)) void* operator new(std::size_t size) {
   live_bytes += static_cast<std::int64_t>(::malloc_usable_size(memory));
   return memory;
 }
+// Buffers of std::stable_sort are taken with this one and given back with the ordinary delete.
+__attribute__((noinline)) void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  void* const memory = std::malloc(size == 0 ? 1 : size);
+  if (memory != nullptr) live_bytes += static_cast<std::int64_t>(::malloc_usable_size(memory));
+  return memory;
+}
 __attribute__((noinline)) void operator delete(void* memory) noexcept {
   live_bytes -= static_cast<std::int64_t>(::malloc_usable_size(memory));
   std::free(memory);

@@ -43,7 +43,7 @@ Result<Drive> drive(GapTwin& twin, const GapCommands& commands, const GapTrack& 
   const auto end = static_cast<std::uint64_t>(std::max<std::int64_t>(track.last().ns, 0) / step_ns);
   if (end <= result.first) {
     return fail(ErrorCode::kInvalidArgument,
-                "the pose is known for less than two steps, so there is nothing to compare");
+                "the pose is known in fewer than two steps, so there is nothing to compare");
   }
   // What it was told before counts for a twin with inertia.
   for (std::uint64_t k = 0; k < end; ++k) {
@@ -143,8 +143,8 @@ Result<const record::RecordedRobot*> chosen_robot(const record::RunInfo& run,
     }
     names += (names.empty() ? "" : ", ") + robot.name;
   }
-  return fail(ErrorCode::kInvalidArgument, "the record has {} robots; choose one with --robot: {}",
-              run.robots.size(), names);
+  return fail(ErrorCode::kInvalidArgument,
+              "the recording has {} robots; choose one with --robot: {}", run.robots.size(), names);
 }
 
 Result<GapTwin> make_twin(const GapSource& source, const GapOptions& options,
@@ -173,7 +173,7 @@ Result<GapReport> measure_gap(const std::filesystem::path& record, plugin::Catal
         fmt::format("the scenario inside `{}`", record.string())));
   }
   if (robot->id.value() >= scenario->robots.size() || from_seconds(run.step_s).ns <= 0) {
-    return fail(ErrorCode::kParse, "the scenario in the record does not fit its robots");
+    return fail(ErrorCode::kParse, "the scenario in the recording does not match its robots");
   }
   const GapSource source{reader, run, *robot, *scenario};
   RAVE_TRY_ASSIGN(GapTwin twin, make_twin(source, options, catalogue));
@@ -189,18 +189,17 @@ Result<GapReport> measure_gap(const std::filesystem::path& record, plugin::Catal
   RAVE_TRY_ASSIGN(const Drive driven, drive(twin, commands, track, from_seconds(run.step_s).ns));
   report.start_s = driven.time(0).seconds();
   if (!track.at(driven.time(0))) {
-    return fail(ErrorCode::kInvalidArgument,
-                "the pose of robot `{}` is not known without gaps where it begins", robot->name);
+    return fail(ErrorCode::kInvalidArgument, "the pose of robot `{}` has gaps at the beginning",
+                robot->name);
   }
   report.steps = driven.twists.size() + 1;
   follow(driven, track, report);
   // The first one is where the twin was put.
   if (report.points.size() < 2) {
-    return fail(
-        ErrorCode::kInvalidArgument,
-        "the pose of robot `{}` is known in the first of {} steps alone, so there is nothing "
-        "to compare",
-        robot->name, report.steps);
+    return fail(ErrorCode::kInvalidArgument,
+                "the pose of robot `{}` is known only in the first of {} steps, so there is "
+                "nothing to compare",
+                robot->name, report.steps);
   }
   report.windows = start_anew(driven, track, options.window_s);
   return report;

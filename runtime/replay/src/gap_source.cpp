@@ -90,7 +90,7 @@ Result<GapCommands> commands_of_sensor(const GapSource& source, const std::strin
         {{sample.header.stamp_ns}, velocity_command(reading->v_mps, reading->w_radps)});
   }
   if (!commands.commands.empty()) return commands;
-  return fail(ErrorCode::kInvalidArgument, "sensor `{}` gave no velocities in the record", name);
+  return fail(ErrorCode::kInvalidArgument, "sensor `{}` gave no velocities in the recording", name);
 }
 
 std::string hint(const GapSource& source) {
@@ -181,7 +181,7 @@ Result<GapTrack> read_track(const GapSource& source, bool truth, std::string& fr
     if (pose) track.add(point.time, *pose);
   }
   if (track.empty()) {
-    return fail(ErrorCode::kInvalidArgument, "robot `{}` has no {} in the record",
+    return fail(ErrorCode::kInvalidArgument, "robot `{}` has no {} in the recording",
                 source.robot.name, from);
   }
   return track;
@@ -199,14 +199,14 @@ Result<GapCommands> read_commands(const GapSource& source, const std::string& se
   for (const config::ActuatorFile& actuator : source.file().actuators) {
     if (actuator.driver.value != kDeaf) continue;
     return fail(ErrorCode::kInvalidArgument,
-                "robot `{}` is a recording that obeyed none of its commands{}", source.robot.name,
+                "robot `{}` is a recorded robot, which ignored its commands{}", source.robot.name,
                 hint(source));
   }
   const bool recorded = source.reader.channel(record::topic::kActuators) != nullptr;
   RAVE_TRY_ASSIGN(GapCommands commands, recorded ? commands_of_actuator(source, kind)
                                                  : commands_of_program(source, kind));
   if (!commands.commands.empty()) return commands;
-  return fail(ErrorCode::kInvalidArgument, "the record has no {} commands of robot `{}`{}",
+  return fail(ErrorCode::kInvalidArgument, "the recording has no {} commands of robot `{}`{}",
               to_string(kind), source.robot.name, hint(source));
 }
 

@@ -94,9 +94,9 @@ Result<GapTwin> GapTwin::make(config::RobotFile robot, const std::filesystem::pa
   });
   if (found == robot.actuators.end()) {
     return fail(ErrorCode::kInvalidArgument,
-                "{} has no simulated actuator, so it is no twin; give the file of a simulated "
-                "robot with --twin",
-                file.empty() ? "the robot in the record" : fmt::format("`{}`", file.string()));
+                "{} has no simulated actuator, so it cannot be a twin; give the file of a "
+                "simulated robot with --twin",
+                file.empty() ? "the robot in the recording" : fmt::format("`{}`", file.string()));
   }
   // Its place in the file is part of its chance.
   const auto device = static_cast<std::uint32_t>(found - robot.actuators.begin());

@@ -294,8 +294,8 @@ Result<RecordMatch> match_records(const record::McapReader& recorded,
     // The second run stops behind the first step that differs, so its end alone says nothing.
     if (!more_b || (!more_a && form.cut)) return match;
     if (!more_a) {
-      match.difference =
-          difference_at(b.time_ns(), run, "record", "recorded: nothing from here on; now: more");
+      match.difference = difference_at(b.time_ns(), run, "record",
+                                       "the recorded messages end here; the repeated run has more");
       return match;
     }
     const bool broken_off = form.cut && a.at_last();

@@ -125,7 +125,8 @@ class InputReplay {
       const auto kind = request_kind(input.kind);
       if (!kind) {
         return fail(ErrorCode::kParse,
-                    "the record has an input `{}`, which this RAVE does not know", input.kind);
+                    "the recording has an input `{}`, which this version of RAVE does not know",
+                    input.kind);
       }
       RAVE_TRY_ASSIGN(const RunRequest request, request_of(*kind, input));
       const auto answer = again.ask(request);
@@ -133,8 +134,7 @@ class InputReplay {
         keeper.keep(request, step);
       } else {
         outcome.notes.push_back(
-            fmt::format("step {}: `{}` was done in the record and is refused "
-                        "here: {}",
+            fmt::format("step {}: `{}` was accepted in the recording and is refused here: {}",
                         input.step, input.kind, answer.error().text()));
       }
     }
@@ -153,7 +153,7 @@ void compare_inputs(const record::RunInfo& run, VerifyOutcome& outcome) {
       outcome.missing.push_back(now.error().text());
     } else if (*now != recorded) {
       outcome.notes.push_back(
-          fmt::format("the input file `{}` is another one than was recorded (SHA-256 {}, now {})",
+          fmt::format("the input file `{}` has changed since the recording (SHA-256 {}, now {})",
                       path, recorded, *now));
     }
   }
@@ -165,8 +165,8 @@ void compare_versions(const record::RunInfo& run, const record::StringMap& now,
     const auto found = now.find(name);
     const std::string version = found == now.end() ? "none" : found->second;
     if (version != recorded) {
-      outcome.notes.push_back(
-          fmt::format("{} was version {} in the record and is {} here", name, recorded, version));
+      outcome.notes.push_back(fmt::format("{} was version {} in the recording and is {} here", name,
+                                          recorded, version));
     }
   }
 }
@@ -180,12 +180,11 @@ Status note_length(const record::McapReader& reader, const record::RunInfo& run,
     return {};
   }
   const std::int64_t step_ns = from_seconds(run.step_s).ns;
-  if (step_ns <= 0) return fail(ErrorCode::kParse, "the record gives no step");
+  if (step_ns <= 0) return fail(ErrorCode::kParse, "the recording does not state the step");
   outcome.recorded_steps = static_cast<std::uint64_t>(
       reader.statistics().end_ns / static_cast<std::uint64_t>(step_ns) + 1);
-  outcome.notes.push_back(
-      fmt::format("the recorded run did not come to its end; its {} steps are compared",
-                  outcome.recorded_steps));
+  outcome.notes.push_back(fmt::format(
+      "the recorded run did not complete; its {} steps are compared", outcome.recorded_steps));
   return {};
 }
 
@@ -193,7 +192,7 @@ Status note_length(const record::McapReader& reader, const record::RunInfo& run,
 Status check_record(const fs::path& record, VerifyOutcome& outcome) {
   RAVE_TRY_ASSIGN(const record::CheckedFile checked, record::check_record(record));
   if (!checked.damages.empty()) {
-    return fail(ErrorCode::kParse, "the record is damaged, so nothing is compared: {}{}",
+    return fail(ErrorCode::kParse, "the recording is damaged, so nothing is compared: {}{}",
                 checked.damages.front(),
                 checked.damages.size() == 1
                     ? ""
@@ -208,8 +207,7 @@ Status check_record(const fs::path& record, VerifyOutcome& outcome) {
 Result<config::ExpandedScenario> scenario_of(const record::RunInfo& run, const fs::path& record,
                                              const VerifyOptions& options) {
   if (run.expanded_scenario.empty()) {
-    return fail(ErrorCode::kParse, "`{}` holds no scenario that could be run again",
-                record.string());
+    return fail(ErrorCode::kParse, "`{}` contains no scenario to repeat", record.string());
   }
   auto scenario =
       config::expand_scenario_text(run.expanded_scenario, record.parent_path() / "scenario.yaml");
@@ -284,7 +282,7 @@ void judge_hash(const std::vector<std::uint64_t>& hashes, const sim::Engine& eng
   const std::uint64_t last = hashes.empty() ? outcome.steps - 1 : hashes.size() - 1;
   outcome.difference = RunDifference{
       last, static_cast<double>(last) * engine.spec().step.seconds(), "", "run hash",
-      fmt::format("recorded: {:016x}; now: {:016x}; all streams of the record are the same",
+      fmt::format("recorded: {:016x}; now: {:016x}; all streams of the recording are equal",
                   *outcome.recorded_hash, *outcome.hash)};
 }
 
@@ -310,7 +308,7 @@ Result<VerifyOutcome> verify(const fs::path& record, plugin::Catalogue& catalogu
   outcome.live_reason = built.live_reason;
   const auto end = record::read_run_end(reader);
   if (outcome.live_reason.empty() && end && !end->hash) {
-    outcome.live_reason = "the record says that it was live";
+    outcome.live_reason = "the recording states that the run was live";
   }
   if (!outcome.live_reason.empty()) return outcome;
   RAVE_TRY(note_length(reader, run, end, outcome));
@@ -342,14 +340,12 @@ Result<VerifyOutcome> verify(const fs::path& record, plugin::Catalogue& catalogu
   RAVE_TRY_ASSIGN(const RecordMatch match,
                   match_records(reader, written, run, {!end, record::is_merged(reader)}));
   if (match.messages == 0 && !match.difference && !outcome.ended_early) {
-    return fail(
-        ErrorCode::kInvalidArgument,
-        "`{}` cannot be verified: it holds nothing that a second run could be compared with",
-        record.string());
+    return fail(ErrorCode::kInvalidArgument,
+                "`{}` cannot be verified: it contains nothing to compare", record.string());
   }
   for (const std::string& topic : match.absent) {
     outcome.notes.push_back(
-        fmt::format("the record has no stream `{}`, so nothing of that was compared", topic));
+        fmt::format("the recording has no stream `{}`, so that was not compared", topic));
   }
   outcome.messages = match.messages;
   outcome.difference = match.difference;

@@ -262,33 +262,32 @@ Result<RunFacts> decode_facts(std::span<const std::byte> bytes, const FactsOf& a
   FactsOf whose;
   reader(mark, version, whose.run_number, whose.host);
   if (!reader.ok() || mark != kMark) {
-    return fail(ErrorCode::kParse, "these are no findings of a host");
+    return fail(ErrorCode::kParse, "not the results file of a host");
   }
   if (version != kVersion) {
     return fail(ErrorCode::kParse,
-                "the findings have layout {}; this RAVE reads layout {}, so they are of another "
-                "version of RAVE",
+                "the results have layout {}; this RAVE reads layout {}, so another version of RAVE "
+                "wrote them",
                 version, kVersion);
   }
   if (whose.run_number != about.run_number) {
-    return fail(ErrorCode::kState, "the findings are of another scenario, or of another seed");
+    return fail(ErrorCode::kState, "the results belong to another scenario or seed");
   }
   if (whose.host != about.host) {
-    return fail(ErrorCode::kState, "the findings are of host `{}`, not of `{}`", whose.host,
+    return fail(ErrorCode::kState, "the results are of host `{}`, not of `{}`", whose.host,
                 about.host);
   }
   RunFacts facts;
   reader(facts);
-  if (!reader.ok()) return fail(ErrorCode::kParse, "the findings are damaged or not whole");
+  if (!reader.ok()) return fail(ErrorCode::kParse, "the results are damaged or incomplete");
   if (!fits(facts, limits)) {
-    return fail(ErrorCode::kParse, "the findings speak of robots or bodies that there are not");
+    return fail(ErrorCode::kParse, "the results name robots or bodies that do not exist");
   }
   // What it was told of the world may be somebody else's fault, and its own robots do not hang on
   // it.
   if (facts.world && !fits(*facts.world, limits)) {
     facts.world.reset();
-    facts.problems.emplace_back(
-        "what it was told of the world speaks of robots or bodies that there are not");
+    facts.problems.emplace_back("its world names robots or bodies that do not exist");
   }
   return facts;
 }

@@ -148,7 +148,7 @@ CheckResult arrival_result(const config::ArrivalCheckFile& file, const std::stri
     result.text = fmt::format("came no nearer than {:.2f} m, expected {} m{}", facts.nearest_m,
                               file.within_m, limit);
   } else {
-    result.text = "never said where it is";
+    result.text = "never reported its pose";
   }
   return result;
 }
@@ -160,8 +160,8 @@ void note_lost(const std::vector<RobotId>& robots, const sim::EngineSpec& spec,
     if (robot.value() >= lost.size() || lost[robot.value()] == 0) continue;
     result.holds = false;
     result.made = false;
-    result.text =
-        fmt::format("not made: nothing is known of `{}` here", spec.robots[robot.value()].name);
+    result.text = fmt::format("not evaluated: nothing is known about `{}` here",
+                              spec.robots[robot.value()].name);
     return;
   }
 }
@@ -174,7 +174,7 @@ void note_missing(const config::TouchesCheckFile& file, const std::vector<RobotI
   const auto not_made = [&](RobotId robot, std::string reason) {
     result.holds = false;
     result.made = false;
-    result.text = fmt::format("not made: {} of `{}` {}",
+    result.text = fmt::format("not evaluated: {} of `{}` {}",
                               file.sensor ? fmt::format("`{}`", **file.sensor) : "the place",
                               spec.robots[robot.value()].name, reason);
   };
@@ -193,9 +193,9 @@ void note_unknown(const RunFacts& facts, CheckResult& result) {
   if (facts.world_from == 0) return;
   result.holds = false;
   result.made = false;
-  result.text = fmt::format(
-      "not made: contacts before step {} are known to the manager alone that was there before",
-      facts.world_from);
+  result.text =
+      fmt::format("not evaluated: contacts before step {} are known only to the previous manager",
+                  facts.world_from);
 }
 
 }  // namespace

@@ -28,20 +28,21 @@ void judge_capture(const Findings& findings, RunOutcome& outcome) {
   if (!check) return;
   const RunFacts& facts = findings.facts;
   if (!facts.capture) {
-    fail_check(outcome, false, "the capture check was not made: nobody saw all of the robots");
+    fail_check(outcome, false,
+               "the capture check was not evaluated: no host saw all of the robots");
     return;
   }
   if (holds(*check, *facts.capture)) return;
   if (facts.world_from > 0) {
     fail_check(outcome, false,
-               fmt::format("the capture check was not made: captures before step {} are known to "
-                           "the manager alone that was there before",
+               fmt::format("the capture check was not evaluated: captures before step {} are known "
+                           "only to the previous manager",
                            facts.world_from));
     return;
   }
   fail_check(
       outcome, true,
-      fmt::format("the capture check fails: nobody was captured before {} s", *check->before_s));
+      fmt::format("the capture check fails: no robot was captured before {} s", *check->before_s));
 }
 
 void judge_sightings(const Findings& findings, RunOutcome& outcome) {
@@ -49,7 +50,8 @@ void judge_sightings(const Findings& findings, RunOutcome& outcome) {
   if (!limits) return;
   const SightingTally tally = findings.facts.sightings.value_or(SightingFacts()).all();
   if (findings.any_lost()) {
-    fail_check(outcome, false, "the sighting check was not made: a host left nothing here");
+    fail_check(outcome, false,
+               "the sighting check was not evaluated: the results of a host are missing");
   } else if (tally.total < static_cast<std::uint64_t>(limits->min_compared)) {
     fail_check(outcome, true,
                fmt::format("the sighting check fails: {} real sightings had a code that a body "
@@ -76,8 +78,8 @@ void judge_checks(const Findings& findings, RunOutcome& outcome) {
        goal_results(findings.scenario, findings.spec, findings.facts, findings.lost)) {
     if (check.holds) continue;
     fail_check(outcome, check.made,
-               fmt::format("a check {}: {}: {}", check.made ? "fails" : "was not made", check.name,
-                           check.text));
+               fmt::format("a check {}: {}: {}", check.made ? "fails" : "was not evaluated",
+                           check.name, check.text));
   }
 }
 
@@ -130,7 +132,7 @@ RunOutcome judge(const Findings& findings) {
   for (const RobotFacts& robot : facts.robots) {
     if (robot.known || facts.steps == 0) continue;
     outcome.problems.push_back(
-        fmt::format("robot `{}` never said where it is", spec.robots[robot.robot].name));
+        fmt::format("robot `{}` never reported its pose", spec.robots[robot.robot].name));
   }
   for (const sim::Event& event : facts.events) {
     if (event.kind != sim::EventKind::kChangeRefused) continue;
@@ -157,8 +159,8 @@ RunOutcome judge(const Findings& findings) {
 std::string why_no_hash(const Findings& findings, const RunOutcome& outcome) {
   if (!outcome.hash.empty()) return {};
   if (!findings.live_reason.empty()) return findings.live_reason;
-  return outcome.problems.empty() ? std::string("nobody knows the parts of all hosts")
-                                  : "the run was not whole: " + outcome.problems.front();
+  return outcome.problems.empty() ? std::string("the results of some hosts are missing")
+                                  : "the run did not complete: " + outcome.problems.front();
 }
 
 Result<RunOutcome> write_results(const Findings& findings, const std::filesystem::path& folder,

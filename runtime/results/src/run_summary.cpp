@@ -28,7 +28,7 @@ void add_guard_row(const Findings& findings, report::Table& table) {
 void add_capture_rows(const Findings& findings, report::Table& table) {
   if (!findings.scenario.scenario.checks.capture) return;
   if (!findings.facts.capture) {
-    table.rows.push_back({"captured", "not made: nobody saw all of the robots"});
+    table.rows.push_back({"captured", "not evaluated: no host saw all of the robots"});
     return;
   }
   const sim::EngineSpec& spec = findings.spec;
@@ -127,8 +127,10 @@ std::string summary_text(const Findings& findings, const RunOutcome& outcome) {
                                      findings.count(sim::EventKind::kPinned))});
   if (findings.facts.world_from > 0) {
     table.rows.push_back(
-        {"", fmt::format("and captures, from step {} on: the manager before is gone with the rest",
-                         findings.facts.world_from)});
+        {"",
+         fmt::format(
+             "and captures, from step {} on: the earlier ones were lost with the previous manager",
+             findings.facts.world_from)});
   }
   if (has_radio(findings.spec)) {
     table.rows.push_back({"messages", radio_line(findings.facts.radio)});
@@ -136,19 +138,20 @@ std::string summary_text(const Findings& findings, const RunOutcome& outcome) {
   add_guard_row(findings, table);
   add_capture_rows(findings, table);
   if (const auto by_hand = findings.facts.inputs_by_hand; by_hand > 0) {
-    table.rows.push_back({"changed by hand", fmt::format("{} inputs; the scenario alone gives "
-                                                         "another run",
-                                                         by_hand)});
+    table.rows.push_back(
+        {"changed by people",
+         fmt::format("{} inputs; the scenario without them gives another run", by_hand)});
   }
   const std::string deaf = disobedient(findings);
   if (!deaf.empty()) {
-    table.rows.push_back({"did not obey", deaf + ": a recording cannot; its commands were logged"});
+    table.rows.push_back(
+        {"ignored commands", deaf + ": recorded robots do; the commands were logged"});
   }
   for (const HostShare& host : findings.hosts) {
     if (host.found || !host.folders.empty()) continue;
-    table.rows.push_back({fmt::format("host {}", host.name),
-                          "elsewhere: what it knows of its robots lies there, in the folder of its "
-                          "`rave robot`"});
+    table.rows.push_back(
+        {fmt::format("host {}", host.name),
+         "on another machine: its results are there, in the folder of its `rave robot`"});
   }
   table.rows.push_back({"run hash", outcome.hash.empty() ? "none: " + why_no_hash(findings, outcome)
                                                          : outcome.hash});

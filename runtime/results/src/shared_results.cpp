@@ -84,7 +84,7 @@ void SharedResults::Impl::note_take_over(const sim::WorldAuthority& authority, s
   }
   if (authority.refused_count() <= told.size()) return;
   facts.problems.push_back(
-      fmt::format("{} changes of the scenario were refused until step {}; the first {} are told",
+      fmt::format("{} changes of the scenario were refused up to step {}; the first {} are listed",
                   authority.refused_count(), from + 1, told.size()));
 }
 
@@ -151,7 +151,7 @@ void SharedResults::Impl::take(const SharedHost& host, const std::vector<std::si
         add(host, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, added);
     if (status) continue;
     facts.problems.push_back(
-        fmt::format("host `{}`: what it has sent: {}", host.name, status.error().message));
+        fmt::format("host `{}`: its results: {}", host.name, status.error().message));
   }
   share.found = !added.empty();
   if (!share.found) {
@@ -160,8 +160,8 @@ void SharedResults::Impl::take(const SharedHost& host, const std::vector<std::si
     // What a host elsewhere knows lies there if nobody could ask it for that.
     if (!host.folders.empty() || host.awaited) {
       facts.problems.push_back(
-          fmt::format("host `{}` {}: nothing is known of its robots here", host.name,
-                      host.folders.empty() ? "has not sent its findings" : "left no findings"));
+          fmt::format("host `{}` {}: nothing is known about its robots here", host.name,
+                      host.folders.empty() ? "did not send its results" : "left no results"));
     }
   }
   findings.hosts.push_back(std::move(share));
@@ -220,6 +220,10 @@ bool SharedResults::after_step(const sim::WorldAuthority& authority) {
   return impl_->capture->ends_run();
 }
 
+void SharedResults::say(const RunRequest& chat) {
+  if (impl_->record) impl_->record->say(chat, impl_->noted);
+}
+
 void SharedResults::learn(const world::WorldModel& world) {
   impl_->spec.world = world;
   impl_->kinds.learn(world);
@@ -236,7 +240,7 @@ void SharedResults::at_end(const sim::WorldAuthority& authority) {
   if (!impl_->record) return;
   const Status written = impl_->record->end(authority.hash().value());
   if (!written) {
-    impl_->facts.problems.push_back("the record of the world is not whole: " +
+    impl_->facts.problems.push_back("the recording of the world is incomplete: " +
                                     written.error().text());
   }
 }

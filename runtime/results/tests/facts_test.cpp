@@ -40,7 +40,7 @@ TEST(Facts, ThoseOfAnotherRunOrHostOrWorldAreRefused) {
   EXPECT_NE(host.error().message.find("of host `left`, not of `right`"), std::string::npos);
   const auto robots = decode_facts(bytes, sample_whose(), {3, 8});
   ASSERT_FALSE(robots);
-  EXPECT_NE(robots.error().message.find("robots or bodies that there are not"), std::string::npos);
+  EXPECT_NE(robots.error().message.find("robots or bodies that do not exist"), std::string::npos);
   EXPECT_FALSE(decode_facts(bytes, sample_whose(), {4, 1}));
 }
 

@@ -198,7 +198,7 @@ Result<Ros2Face::AnyWriter> Ros2Face::writer_for(Ros2Kind kind, const std::strin
     case Ros2Kind::kNone:
       break;
   }
-  return fail(ErrorCode::kInvalidArgument, "no message of ROS 2");
+  return fail(ErrorCode::kInvalidArgument, "not a message of ROS 2");
 }
 
 void Ros2Face::write_static(const sim::Engine& engine) {

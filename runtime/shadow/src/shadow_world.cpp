@@ -136,8 +136,8 @@ Status check_virtual(const sim::EngineSpec& spec, RobotId robot, const sim::Robo
   for (const sim::SensorSpec& sensor : type.sensors) {
     if (sensor.virtual_ops != nullptr) continue;
     return fail(ErrorCode::kInvalidArgument,
-                "`shadow` of robot `{}`: sensor `{}` of its simulated twin is of hardware (driver "
-                "`{}`), which is there once only",
+                "`shadow` of robot `{}`: sensor `{}` of its simulated twin uses hardware (driver "
+                "`{}`), which exists only once",
                 spec.robots[robot.value()].name, sensor.name, sensor.driver);
   }
   return {};

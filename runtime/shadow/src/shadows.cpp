@@ -276,10 +276,10 @@ Result<std::string> Shadows::reset(std::string_view robot) {
     asked.push_back(shadow.name);
   }
   if (asked.empty()) {
-    return fail(ErrorCode::kNotFound, "robot `{}` has no shadow; there are those of {}{}", robot,
-                join_names(names), suggestion(robot, names));
+    return fail(ErrorCode::kNotFound, "robot `{}` has no shadow; these robots have one: {}{}",
+                robot, join_names(names), suggestion(robot, names));
   }
-  return "with the next step the shadow begins anew where the robot is: " + join_names(asked);
+  return "in the next step the shadow restarts at the pose of the robot: " + join_names(asked);
 }
 
 void Shadows::refresh(RunStatus& status) const {

@@ -73,7 +73,8 @@ Status check_free(const AccountsFile& file, std::string_view name) {
     return fail(ErrorCode::kInvalidArgument, "the name `{}` is taken", account.person.name);
   }
   if (file.accounts.size() < kMostAccounts) return {};
-  return fail(ErrorCode::kInvalidArgument, "there are {} accounts already", kMostAccounts);
+  return fail(ErrorCode::kInvalidArgument,
+              "this server already has {} accounts, which is the maximum", kMostAccounts);
 }
 
 /// What has ended is not kept; with the last session of a guest goes the guest.
@@ -130,10 +131,11 @@ Result<std::unique_ptr<Accounts>> Accounts::open(const fs::path& folder, Clock c
   }
   struct stat info {};
   if (::stat(folder.c_str(), &info) != 0 || !S_ISDIR(info.st_mode)) {
-    return fail(ErrorCode::kIo, "`{}` is no folder", folder.string());
+    return fail(ErrorCode::kIo, "`{}` is not a folder", folder.string());
   }
   if ((info.st_mode & 077U) != 0) {
-    return fail(ErrorCode::kState, "others can read `{0}`, where accounts are kept: chmod 700 {0}",
+    return fail(ErrorCode::kState,
+                "other users can read the folder of accounts `{0}`: chmod 700 {0}",
                 folder.string());
   }
   std::unique_ptr<Accounts> accounts(new Accounts(folder, std::move(clock)));
@@ -213,16 +215,17 @@ Status Accounts::add(const Person& person, std::string_view password) {
 Result<std::string> Accounts::invite(Role role, const Teams& teams, int uses, int days,
                                      std::string_view by) {
   if (uses < 1 || uses > 1000) {
-    return fail(ErrorCode::kInvalidArgument, "an invitation is good for 1 to 1000 people");
+    return fail(ErrorCode::kInvalidArgument, "an invitation is valid for 1 to 1000 people");
   }
   if (days < 1 || days > 365) {
-    return fail(ErrorCode::kInvalidArgument, "an invitation is good for 1 to 365 days");
+    return fail(ErrorCode::kInvalidArgument, "an invitation is valid for 1 to 365 days");
   }
   RAVE_TRY(check_user_name(by));
   std::string secret = new_secret();
   RAVE_TRY(change([&](AccountsFile& file) -> Status {
     if (file.invitations.size() >= kMostInvitations) {
-      return fail(ErrorCode::kState, "there are {} invitations already", kMostInvitations);
+      return fail(ErrorCode::kState, "there are already {} invitations, which is the maximum",
+                  kMostInvitations);
     }
     const std::int64_t until_s = clock_() + std::int64_t{86'400} * days;
     file.invitations.push_back({hash_of(secret), role, teams, uses, until_s, std::string(by)});
@@ -234,7 +237,7 @@ Result<std::string> Accounts::invite(Role role, const Teams& teams, int uses, in
 Result<std::string> Accounts::join(std::string_view secret, const std::string& name,
                                    std::string_view password) {
   constexpr const char* kUnknown =
-      "this invitation was used already, has ended, or is not one of this server";
+      "this invitation is used up, has expired, or is not from this server";
   RAVE_TRY(check_user_name(name));
   // Whoever only guesses gets no slow work done.
   if (!knows_invitation(secret)) return fail(ErrorCode::kState, "{}", kUnknown);

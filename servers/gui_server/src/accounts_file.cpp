@@ -48,7 +48,7 @@ class Reader {
   Status first(std::string_view line) {
     where_.line = 1;
     if (line == kFirstLine) return {};
-    return wrong("expected `{}`; it is no file of accounts, or one of a later version", kFirstLine);
+    return wrong("expected `{}`; not a file of accounts, or one of a later version", kFirstLine);
   }
   [[nodiscard]] AccountsFile finish() {
     std::erase_if(file_.sessions, [this](const SessionEntry& session) {
@@ -111,7 +111,7 @@ class Reader {
     if (columns.size() == 7) RAVE_TRY(state(columns, account));
     for (const Account& other : file_.accounts) {
       if (other.person.name == account.person.name) {
-        return wrong("`{}` has an account already", account.person.name);
+        return wrong("`{}` already has an account", account.person.name);
       }
     }
     file_.accounts.push_back(std::move(account));

@@ -17,7 +17,7 @@ Result<Account*> known_account(AccountsFile& file, std::string_view name) {
     names.emplace_back(account.person.name);
   }
   const std::string_view near = nearest_name(name, names);
-  return fail(ErrorCode::kNotFound, "nobody is called `{}`{}", name,
+  return fail(ErrorCode::kNotFound, "there is no account `{}`{}", name,
               near.empty() ? "" : fmt::format("; did you mean `{}`?", near));
 }
 
@@ -89,7 +89,7 @@ Result<Invitation> Accounts::withdraw(std::string_view id) {
     const auto found = std::ranges::find_if(
         file.invitations, [id](const Invitation& known) { return known.id() == id; });
     if (found == file.invitations.end()) {
-      return fail(ErrorCode::kNotFound, "this invitation is used up, has ended or was withdrawn");
+      return fail(ErrorCode::kNotFound, "this invitation is used up, has expired or was withdrawn");
     }
     withdrawn = *found;
     file.invitations.erase(found);

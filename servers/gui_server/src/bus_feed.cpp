@@ -43,7 +43,7 @@ PlayState standing_of(const watch::RunView& view) {
             return !host.manager && host.standing == watch::Standing::kHere;
           });
       state.kind = here ? PlayState::Kind::kRunning : PlayState::Kind::kWaiting;
-      if (!here && state.reason.empty()) state.reason = "No process of this run is there.";
+      if (!here && state.reason.empty()) state.reason = "No process of this run was found.";
       break;
     }
   }
@@ -151,6 +151,7 @@ void BusFeed::ask() {
   for (const LookedAt& looked : wants.sensors)
     asked.sensors.push_back({looked.slot, looked.sensor});
   asked.maps = wants.maps;
+  asked.probes = wants.probes;
   listener_.look(asked);
 }
 

@@ -76,6 +76,7 @@ Result<std::future<Result<std::string>>> BusPort::drive(const runtime::RunReques
   take.kind = runtime::RunRequest::Kind::kTake;
   take.robot = request.robot;
   take.by = request.by;
+  take.page = request.page;
   return queue(std::move(take));
 }
 
@@ -97,7 +98,7 @@ void BusPort::work(const std::stop_token& stop) {
     promise.set_value(ask(request));
   }
   for (auto& [request, promise] : waiting_) {
-    promise.set_value(fail(ErrorCode::kState, "the server ends"));
+    promise.set_value(fail(ErrorCode::kState, "the server is shutting down"));
   }
 }
 

@@ -28,7 +28,7 @@ class BusPort final : public RunPort {
   ~BusPort() override;
 
   [[nodiscard]] std::string why_not_held() const override {
-    return "Only the process that manages the run can hold it: `rave run --gui` does.";
+    return "Only the process that manages the run can pause it: `rave run --gui` does.";
   }
   [[nodiscard]] bool paused() const override { return false; }
   [[nodiscard]] double pace() const override { return 1; }

@@ -5,6 +5,7 @@
 #include "bus_port.hpp"
 #include "components.hpp"
 #include "live_source.hpp"
+#include "parameters_json.hpp"
 #include "rave/recording/describe_run.hpp"
 #include "rave/watch/observer.hpp"
 #include "scenario_rights.hpp"
@@ -51,7 +52,7 @@ Result<LiveSource::Start> start_of(const config::ExpandedScenario& scenario,
   start.about.relay = scenario.scenario.gui.relay;
   start.about.rights = rights_of(scenario.scenario.gui);
   RAVE_TRY_ASSIGN(start.about.components, components_of(scenario.scenario.gui));
-  start.robots_json = robots_of(scenario, run.info, run.hybrids);
+  start.robots_json = with_parameters(robots_of(scenario, run.info, run.hybrids), built.spec);
   for (const record::RecordedRobot& robot : run.info.robots) start.robots.push_back(robot.name);
   const world::WorldModel& world = built.spec.world;
   for (std::size_t o = 0; o < world.obstacle_count(); ++o) {
@@ -65,6 +66,7 @@ Result<LiveSource::Start> start_of(const config::ExpandedScenario& scenario,
 
 Result<std::shared_ptr<Source>> watch_run(const config::ExpandedScenario& scenario,
                                           const runtime::BuiltScenario& built, bus::BusConfig bus,
+                                          std::unique_ptr<plugin::Catalogue> described,
                                           runtime::RunControl* control) {
   // The manager of the run may be in this process, with a bus of its own.
   bus.beside = true;
@@ -86,6 +88,9 @@ Result<std::shared_ptr<Source>> watch_run(const config::ExpandedScenario& scenar
     port = std::make_unique<BusPort>(std::move(asker), std::move(status), std::move(commands));
   }
   RAVE_TRY_ASSIGN(auto start, start_of(scenario, built));
+  if (described) {
+    start.probes = std::make_shared<ProbeDesk>(std::move(described), start.about.step_s);
+  }
   // In lock-step the manager takes the orders; beside it there is no shorter way.
   if (control != nullptr && start.about.lock_step) start.about.relay = true;
   return std::make_shared<BusSource>(std::move(start), std::make_shared<LiveBox>(), std::move(port),

@@ -23,11 +23,64 @@ const char* to_word(ChatMessage::To to) {
   return "all";
 }
 
+std::optional<ChatMessage::To> to_named(std::string_view word) {
+  using To = ChatMessage::To;
+  for (const To to : {To::kAll, To::kRole, To::kUser, To::kTeam, To::kRobot}) {
+    if (word == to_word(to)) return to;
+  }
+  return std::nullopt;
+}
+
+bool same_words(const ChatRoom::Line& a, const ChatRoom::Line& b) {
+  return a.from.name == b.from.name && a.to == b.to && a.name == b.name && a.text == b.text;
+}
+
 }  // namespace
+
+ChatText ChatRoom::text_of(const Line& line) {
+  return {line.number,      line.t_s,  line.from.name, std::string(to_string(line.from.role)),
+          to_word(line.to), line.name, line.text};
+}
+
+std::optional<ChatRoom::Line> ChatRoom::line_of(const ChatText& text, const Cast& cast) {
+  const auto role = role_named(text.role);
+  const auto to = to_named(text.to);
+  if (!role || !to) return std::nullopt;
+  Line line;
+  line.t_s = text.t_s;
+  line.from.name = text.from;
+  line.from.role = *role;
+  line.to = *to;
+  line.name = text.name;
+  line.text = text.text;
+  for (std::uint32_t robot = 0; robot < cast.names.size(); ++robot) {
+    const bool meant = (line.to == ChatMessage::To::kRobot && cast.names[robot] == line.name) ||
+                       (line.to == ChatMessage::To::kTeam && cast.teams[robot] == line.name);
+    if (meant) line.robots.push_back(robot);
+  }
+  return line;
+}
+
+void ChatRoom::begin(std::span<const ChatText> recorded, const Cast& cast) {
+  std::deque<Line> all;
+  for (const ChatText& text : recorded) {
+    if (auto line = line_of(text, cast)) all.push_back(*std::move(line));
+  }
+  const std::size_t of_record = all.size();
+  for (Line& line : lines_) {
+    const auto end = all.begin() + static_cast<std::ptrdiff_t>(of_record);
+    const bool known = std::any_of(all.begin(), end,
+                                   [&line](const Line& other) { return same_words(line, other); });
+    if (!known) all.push_back(std::move(line));
+  }
+  while (all.size() > kMostLines) all.pop_front();
+  for (Line& line : all) line.number = ++numbered_;
+  lines_ = std::move(all);
+}
 
 Status ChatRoom::say(Line line, std::chrono::steady_clock::time_point now) {
   if (!limit_.take(line.from.name, now)) {
-    return fail(ErrorCode::kState, "Too much at once: wait a moment.");
+    return fail(ErrorCode::kState, "Too many messages at once: wait a moment.");
   }
   line.number = ++numbered_;
   lines_.push_back(std::move(line));

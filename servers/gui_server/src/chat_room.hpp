@@ -5,19 +5,21 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "page_message.hpp"
 #include "rave/gui_server/person.hpp"
+#include "rave/gui_server/source.hpp"
 #include "rave/web/rate_limit.hpp"
 #include "view.hpp"
 
 namespace rave::gui_server {
 
-/// What people have said to each other and to robots since the server began, the newest 500 lines.
-/// It is in nobody's recording; what is said to robots is an order, which is. The thread of the
-/// server.
+/// What people have said to each other and to robots since the server began, and what the record of
+/// the run has that is shown; the newest 500 lines. The thread of the server.
 class ChatRoom {
  public:
   static constexpr std::size_t kMostLines = 500;
@@ -39,6 +41,13 @@ class ChatRoom {
 
   /// Error: kState (too much at once).
   [[nodiscard]] Status say(Line line, std::chrono::steady_clock::time_point now);
+  /// Shows lines of a record before those that were said here, which it may have, too; the numbers
+  /// are others then. `cast`: the robots of its run.
+  void begin(std::span<const ChatText> recorded, const Cast& cast);
+  [[nodiscard]] const Line& last() const { return lines_.back(); }
+  /// A line as a record has it; and back, with the robots that it is for. Nothing: it is none.
+  [[nodiscard]] static ChatText text_of(const Line& line);
+  [[nodiscard]] static std::optional<Line> line_of(const ChatText& text, const Cast& cast);
   /// The message `chat` with the lines after `number` that somebody may hear; empty: there are
   /// none. `all`: the page forgets those that it had.
   [[nodiscard]] std::string text_for(const Listener& listener, std::uint64_t number,

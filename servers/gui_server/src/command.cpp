@@ -31,15 +31,23 @@ std::string_view to_string(CommandMessage::Kind kind) noexcept {
       return "move";
     case CommandMessage::Kind::kRemove:
       return "remove";
+    case CommandMessage::Kind::kHandOver:
+      return "hand_over";
+    case CommandMessage::Kind::kResetShadow:
+      return "reset_shadow";
   }
   return "";
 }
 
 void Source::command(const CommandMessage& command, const Author& /*author*/,
                      const SlotReply& reply) {
-  const char* const why_not = "This is a recording: nobody takes orders.";
+  const char* const why_not = "This is a recording: it takes no orders.";
   if (command.slots.empty()) reply(kNoSlot, false, why_not);
   for (const std::uint32_t slot : command.slots) reply(slot, false, why_not);
+}
+
+Result<ProbeMade> Source::probe(const ProbeWish& /*wish*/) {
+  return fail(ErrorCode::kState, "This is a recording: its world is not there to be sensed.");
 }
 
 }  // namespace rave::gui_server

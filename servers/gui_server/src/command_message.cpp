@@ -7,6 +7,8 @@
 #include <array>
 #include <numbers>
 
+#include "rave/control/order_words.hpp"
+
 namespace rave::gui_server {
 namespace {
 
@@ -84,10 +86,10 @@ Status take_speed(Members& members, CommandMessage& command) {
 }
 
 Status take_path(Members& members, CommandMessage& command) {
-  RAVE_TRY_ASSIGN(command.points, points_of(members, "points", kMostPathPoints));
-  if (command.points.size() < 2) {
-    return fail(ErrorCode::kParse, "`points`: expected 2 to {} points", kMostPathPoints);
-  }
+  // What is too long for any run is told so in the words of the run.
+  constexpr std::size_t kMostRead = 100'000;
+  RAVE_TRY_ASSIGN(command.points, points_of(members, "points", kMostRead));
+  RAVE_TRY(runtime::check_path_size(command.points.size()));
   return take_speed(members, command);
 }
 
@@ -226,6 +228,27 @@ Result<CommandMessage> edit_of(Members& members) {
   return command;
 }
 
+Result<CommandMessage> twin_of(Members& members) {
+  CommandMessage command;
+  RAVE_TRY_ASSIGN(command.request, members.index("request"));
+  RAVE_TRY(take_slots(members, command));
+  RAVE_TRY_ASSIGN(const std::string word, members.word("do"));
+  if (word == "reset_shadow") {
+    command.kind = Command::kResetShadow;
+    return command;
+  }
+  if (word != "hand_over") {
+    return fail(ErrorCode::kParse, "`do`: expected hand_over or reset_shadow");
+  }
+  command.kind = Command::kHandOver;
+  RAVE_TRY_ASSIGN(command.value, members.word("to"));
+  static constexpr std::array kSets = {"real", "simulated", "first", "twin"};
+  if (std::find(kSets.begin(), kSets.end(), command.value) == kSets.end()) {
+    return fail(ErrorCode::kParse, "`to`: expected real, simulated, first or twin");
+  }
+  return command;
+}
+
 }  // namespace
 
 std::optional<Result<CommandMessage>> command_of(std::string_view type, Members& members) {
@@ -233,6 +256,7 @@ std::optional<Result<CommandMessage>> command_of(std::string_view type, Members&
   if (type == "lease") return lease_of(members);
   if (type == "set") return set_of(members);
   if (type == "edit") return edit_of(members);
+  if (type == "twin") return twin_of(members);
   return std::nullopt;
 }
 

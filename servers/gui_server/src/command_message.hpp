@@ -9,8 +9,8 @@
 
 namespace rave::gui_server {
 
-/// The messages `order`, `lease`, `set` and `edit`; nothing for any other type. Numbers are finite
-/// and within bounds that no world reaches. Errors: kParse with what was expected.
+/// The messages `order`, `lease`, `set`, `edit` and `twin`; nothing for any other type. Numbers are
+/// finite and within bounds that no world reaches. Errors: kParse with what was expected.
 [[nodiscard]] std::optional<Result<CommandMessage>> command_of(std::string_view type,
                                                                Members& members);
 

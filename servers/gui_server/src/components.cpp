@@ -35,7 +35,7 @@ Result<std::vector<PageComponent>> components_of(const config::GuiFile& gui) {
     }
     std::error_code error;
     if (!std::filesystem::is_regular_file(component.file, error)) {
-      return fail(ErrorCode::kNotFound, "the component `{}` of the page is no file",
+      return fail(ErrorCode::kNotFound, "the component `{}` of the page is not a file",
                   component.file.string());
     }
     components.push_back(std::move(component));

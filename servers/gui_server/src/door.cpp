@@ -18,7 +18,7 @@ constexpr double kTries = 10;
 constexpr double kTriesPerSecond = 1.0 / 30;
 constexpr double kTriesOfName = 50;
 constexpr double kTriesOfNamePerSecond = 1.0 / 20;
-constexpr const char* kUsedLink = "This link was used already, or is not one of this server.";
+constexpr const char* kUsedLink = "This link was already used, or is not from this server.";
 
 std::string field(const Fields& fields, const char* name) {
   const auto found = fields.find(name);
@@ -164,7 +164,7 @@ bool Door::serve_later(const web::Request& request, const web::Reply& reply) {
 
 void Door::work(std::function<web::Response()> what, const web::Reply& reply) {
   const bool posted = work_.post([what = std::move(what), reply] { reply(what()); });
-  if (!posted) reply(sign_in_page(503, "Too many people sign in at once. Try again.", ""));
+  if (!posted) reply(sign_in_page(503, "Too many people are signing in. Try again.", ""));
 }
 
 void Door::sign_in(const web::Request& request, const web::Reply& reply) {

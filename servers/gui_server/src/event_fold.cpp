@@ -87,7 +87,7 @@ void EventFold::leave_out(double t_s) {
   }
   LogEvent& row = events_[full_];
   row.until_s = t_s;
-  row.text = fmt::format("the log is full: {} more events are left out; the recording has them",
+  row.text = fmt::format("the log is full: {} more events are not shown; the recording has them",
                          left_out_);
   changed_[full_] = ++revision_;
 }

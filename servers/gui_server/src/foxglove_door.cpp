@@ -43,10 +43,11 @@ Status check_foxglove_origin(std::string_view origin) {
     return (c >= 'a' && c <= 'z') || c == '-';
   });
   if (plain && known) return {};
-  return fail(ErrorCode::kInvalidArgument,
-              "`{}` is no origin: expected scheme and host in lower case, without a path, such as "
-              "https://app.foxglove.dev, or file://",
-              origin);
+  return fail(
+      ErrorCode::kInvalidArgument,
+      "`{}` is not an origin: expected scheme and host in lower case, without a path, such as "
+      "https://app.foxglove.dev, or file://",
+      origin);
 }
 
 FoxgloveDoor::FoxgloveDoor(Door& door, std::shared_ptr<AuditLog> audit,
@@ -77,7 +78,7 @@ web::Handler::Upgrade FoxgloveDoor::upgrade(const web::Request& request) {
   const auto person = door_.whose(session_of(request));
   if (!person) {
     audit_->note("refused", {{"why", "foxglove token"}, {"from", request.peer}});
-    return {web::text_response(401, "the token is missing, wrong or too old\n"), {}};
+    return {web::text_response(401, "the token is missing, wrong or expired\n"), {}};
   }
   const std::string_view offered = request.header("sec-websocket-protocol");
   for (const std::string_view protocol : kFoxgloveProtocols) {

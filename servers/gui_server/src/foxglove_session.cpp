@@ -32,7 +32,7 @@ void FoxgloveSession::say(std::string text) { socket_.send_text(payload(std::mov
 
 void FoxgloveSession::refuse(std::string_view text) {
   if (++refusals_ > kMostFoxgloveRefusals) {
-    return socket_.close(kFoxgloveNonsense, "too many messages that are refused");
+    return socket_.close(kFoxgloveNonsense, "too many refused messages");
   }
   say(foxglove_status(FoxgloveLevel::kError, text));
 }
@@ -90,7 +90,7 @@ void FoxgloveSession::subscribe(const FoxgloveSubscription& subscription) {
                        return known.second == subscription.channel;
                      });
   if (taken) {
-    return refuse(fmt::format("subscription {}: its number or its channel has a subscription",
+    return refuse(fmt::format("subscription {}: this number or channel is already subscribed",
                               subscription.id));
   }
   channels_[subscription.id] = subscription.channel;

@@ -242,7 +242,7 @@ class GuiServer::Impl final : public web::Handler {
     }
     const std::string session = door_.session_of(request);
     if (visitors_.sees_as_other(session)) {
-      return web::text_response(403, "you look with the eyes of somebody else\n");
+      return web::text_response(403, "you are viewing the page as another user\n");
     }
     return tickets_.serve(
         request, {Visitors::known(*person), session, view, visitors_.source()->about().relay});

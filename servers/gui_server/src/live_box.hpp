@@ -31,6 +31,7 @@ struct LiveWants {
   std::vector<LookedAt> sensors;
   bool parts = false;
   std::vector<std::uint32_t> maps;
+  std::vector<probe::Asked> probes;
 };
 
 /// Something that happened, as the engine says it.

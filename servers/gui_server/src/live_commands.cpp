@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What pages ask of the robots of a run, and who drives them.
+#include <cmath>
 #include <utility>
 
 #include "live_source.hpp"
+#include "rave/control/chat_line.hpp"
 
 namespace rave::gui_server {
 namespace {
@@ -38,6 +40,10 @@ RunRequest::Kind kind_of(CommandMessage::Kind kind) {
       return To::kMove;
     case From::kRemove:
       return To::kRemove;
+    case From::kHandOver:
+      return To::kHandOver;
+    case From::kResetShadow:
+      return To::kResetShadow;
   }
   return To::kCancel;
 }
@@ -50,6 +56,7 @@ RunRequest request_of(const CommandMessage& command, const Author& author) {
   request.value = command.value;
   request.by = author.name;
   request.overrides = author.overrides;
+  request.page = author.page;
   request.yaw_rad = command.yaw_rad;
   request.v_mps = command.v_mps;
   request.w_radps = command.w_radps;
@@ -58,10 +65,24 @@ RunRequest request_of(const CommandMessage& command, const Author& author) {
   return request;
 }
 
+/// As it is shown, so that what stands is not told again.
+double to_tenth_of_mm(double value) { return std::round(value * 1e4) / 1e4; }
+
+runtime::RunStatus::Shadow rounded(runtime::RunStatus::Shadow shadow) {
+  for (double* const value :
+       {&shadow.m, &shadow.rad, &shadow.most_m, &shadow.most_rad, &shadow.since_s}) {
+    *value = to_tenth_of_mm(*value);
+  }
+  for (auto& reading : shadow.readings) {
+    reading.last = to_tenth_of_mm(reading.last);
+    reading.most = to_tenth_of_mm(reading.most);
+  }
+  return shadow;
+}
+
 constexpr const char* kNoRelay =
-    "Orders go by the direct line to the host of the robot, and there is none; `gui: {relay: "
-    "true}` "
-    "in the scenario lets the server pass them on.";
+    "Orders need a direct line to the host of the robot, and there is none; with `gui: {relay: "
+    "true}` in the scenario the server forwards them.";
 
 }  // namespace
 
@@ -78,10 +99,17 @@ void LiveSource::halt(const HaltMessage& halt, const Author& author, Reply reply
     request.robot = std::move(robot);
     request.by = author.name;
     request.overrides = author.overrides;
+    request.page = author.page;
     auto answer = port_->post(std::move(request));
     if (!answer) return reply(false, answer.error().message);
     asked_.push_back({*std::move(answer), reply});
   }
+}
+
+void LiveSource::keep_chat(const ChatText& said) {
+  // Nobody is told whether there is a record; its writer says if it has trouble.
+  static_cast<void>(port_->post(
+      runtime::chat_request({said.number, said.from, said.role, said.to, said.name, said.text})));
 }
 
 void LiveSource::command(const CommandMessage& command, const Author& author,
@@ -95,8 +123,9 @@ void LiveSource::command(const CommandMessage& command, const Author& author,
   };
   if (command.of_obstacle()) return post(request_of(command, author), kNoSlot);
   // Robots that are driven by way of a server would stop with it.
-  const bool passes =
-      command.kind == CommandMessage::Kind::kSet || command.kind == CommandMessage::Kind::kPlace;
+  using Kind = CommandMessage::Kind;
+  const bool passes = command.kind == Kind::kSet || command.kind == Kind::kPlace ||
+                      command.kind == Kind::kHandOver || command.kind == Kind::kResetShadow;
   if (!start_.about.relay && !passes) {
     for (const std::uint32_t slot : command.slots) reply(slot, false, kNoRelay);
     return;
@@ -147,11 +176,15 @@ void LiveSource::learn_status(Playhead::Clock::time_point now) {
 }
 
 void LiveSource::learn_leases(const runtime::RunStatus::Robot& robot, std::uint32_t slot) {
+  DriveState now{slot,           robot.lease,      robot.takes,
+                 robot.order,    robot.lease_page, robot.hand_over,
+                 robot.simulated};
+  // Where it is is in the pictures.
+  if (now.hand_over) now.hand_over->x_m = now.hand_over->y_m = now.hand_over->yaw_rad = 0;
+  if (robot.shadow) now.shadow = rounded(*robot.shadow);
   DriveState& known = leases_[slot];
-  if (known.lease == robot.lease && known.order == robot.order && known.takes == robot.takes) {
-    return;
-  }
-  known = {slot, robot.lease, robot.takes, robot.order};
+  if (known == now) return;
+  known = std::move(now);
   leases_changed_[slot] = ++leases_revision_;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "rave/onlook/command_row.hpp"
 #include "rave/onlook/reading_rows.hpp"
 #include "scene_json.hpp"
 
@@ -16,6 +17,31 @@ constexpr auto kUnwatchedInterval = std::chrono::milliseconds(250);
 constexpr int kLateFactor = 10;
 /// A crowd may touch thousands of times in a step, and nobody reads that.
 constexpr std::size_t kMostEvents = 100;
+
+void put_reading(LivePicture& picture, const LookedAt& looked, std::uint8_t part, ReadingKind kind,
+                 const SampleHeader* header, const void* records) {
+  if (header == nullptr || header->sequence == 0) return;
+  if (picture.reading_count == picture.readings.size()) picture.readings.emplace_back();
+  ReadingAt& reading = picture.readings[picture.reading_count++];
+  reading.slot = looked.slot;
+  reading.sensor = looked.sensor;
+  reading.part = part;
+  reading.stamp_s = SimTime{header->stamp_ns}.seconds();
+  reading.values.clear();
+  reading.fields = onlook::field_count(kind);
+  reading.rows = onlook::add_rows(
+      kind, header->count,
+      {static_cast<const std::byte*>(records), header->count * record_size(kind)}, reading.values);
+}
+
+void put_commands(LivePicture& picture, const sim::Engine& engine, const LookedAt& looked) {
+  const auto row = onlook::command_row(engine, RobotId(looked.slot));
+  if (!row) return;
+  if (picture.reading_count == picture.readings.size()) picture.readings.emplace_back();
+  ReadingAt& reading = picture.readings[picture.reading_count++];
+  reading = {looked.slot, looked.sensor, 0, engine.time().seconds(), 1, onlook::kCommandFields, {}};
+  reading.values.assign(row->begin(), row->end());
+}
 
 }  // namespace
 
@@ -102,6 +128,7 @@ void LiveFeed::draw(const sim::Engine& engine, int slower) {
   if (++serial_ == 0) ++serial_;
   picture.poses.serial = serial_;
   draw_readings(engine, box_->wants.value(), picture);
+  draw_probes(engine, picture);
   draw_maps(engine, slower);
   box_->pictures.publish();
 }
@@ -138,23 +165,15 @@ void LiveFeed::draw_readings(const sim::Engine& engine, const LiveWants& wants,
   const sim::EngineSpec& spec = engine.spec();
   const auto put = [&picture](const LookedAt& looked, std::uint8_t part, ReadingKind kind,
                               const SampleHeader* header, const void* records) {
-    if (header == nullptr || header->sequence == 0) return;
-    if (picture.reading_count == picture.readings.size()) picture.readings.emplace_back();
-    ReadingAt& reading = picture.readings[picture.reading_count++];
-    reading.slot = looked.slot;
-    reading.sensor = looked.sensor;
-    reading.part = part;
-    reading.stamp_s = SimTime{header->stamp_ns}.seconds();
-    reading.values.clear();
-    reading.fields = onlook::field_count(kind);
-    reading.rows = onlook::add_rows(
-        kind, header->count,
-        {static_cast<const std::byte*>(records), header->count * record_size(kind)},
-        reading.values);
+    put_reading(picture, looked, part, kind, header, records);
   };
   for (const LookedAt& looked : wants.sensors) {
     const RobotId robot(looked.slot);
     if (looked.slot >= spec.robots.size() || !engine.is_local(robot)) continue;
+    if (looked.sensor == onlook::kCommandsOf) {
+      put_commands(picture, engine, looked);
+      continue;
+    }
     const auto& sensors = spec.types[spec.robots[looked.slot].type].sensors;
     if (looked.sensor >= sensors.size()) continue;
     const ReadingKind kind = sensors[looked.sensor].kind;
@@ -164,6 +183,17 @@ void LiveFeed::draw_readings(const sim::Engine& engine, const LiveWants& wants,
     const sim::SensorParts parts = engine.sensor_parts(robot, looked.sensor);
     put(looked, 1, kind, parts.real, parts.real_records);
     put(looked, 2, kind, parts.imagined, parts.imagined_records);
+  }
+}
+
+void LiveFeed::draw_probes(const sim::Engine& engine, LivePicture& picture) {
+  probes_.ask(engine, catalogue_, box_->wants.value().probes);
+  if (probes_.empty()) return;
+  probes_.sample(engine);
+  for (const auto& [key, sensor] : probes_.all()) {
+    if (!sensor) continue;
+    put_reading(picture, {key.first, key.second}, 0, sensor->info().kind, &sensor->header(),
+                sensor->records());
   }
 }
 

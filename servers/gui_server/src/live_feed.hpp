@@ -9,6 +9,8 @@
 #include "live_box.hpp"
 #include "rave/maps/local_maps.hpp"
 #include "rave/observe/run_observer.hpp"
+#include "rave/plugin/catalogue.hpp"
+#include "rave/probe/probes.hpp"
 
 namespace rave::gui_server {
 
@@ -20,8 +22,9 @@ class LiveFeed final : public runtime::RunObserver {
   using Begun = std::function<Status(const runtime::RunView& run,
                                      std::vector<std::pair<std::uint32_t, std::string>> bodies)>;
 
-  LiveFeed(std::shared_ptr<LiveBox> box, Begun begun)
-      : box_(std::move(box)), begun_(std::move(begun)) {}
+  /// `catalogue`: of the run, for probes; outlives it.
+  LiveFeed(std::shared_ptr<LiveBox> box, plugin::Catalogue& catalogue, Begun begun)
+      : box_(std::move(box)), catalogue_(catalogue), begun_(std::move(begun)) {}
 
   Status run_begins(const runtime::RunView& run) override;
   void after_step(const runtime::StepView& step) override;
@@ -36,13 +39,16 @@ class LiveFeed final : public runtime::RunObserver {
   void draw_poses(const sim::Engine& engine, PosesAt& poses) const;
   static void draw_readings(const sim::Engine& engine, const LiveWants& wants,
                             LivePicture& picture);
+  void draw_probes(const sim::Engine& engine, LivePicture& picture);
 
   std::shared_ptr<LiveBox> box_;
+  plugin::Catalogue& catalogue_;
   Begun begun_;
   const runtime::BodyKinds* kinds_ = nullptr;
   std::vector<double> touching_until_s_;  ///< By robot.
   Clock::time_point drawn_{};
   maps::LocalMaps maps_;
+  probe::Probes probes_;
   std::uint32_t serial_ = 0;
 };
 

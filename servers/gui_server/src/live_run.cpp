@@ -12,18 +12,20 @@ namespace rave::gui_server {
 namespace {
 
 const char* const kHeldByNobody =
-    "A run with real robots cannot be held: the world outside goes on.";
+    "A run with real robots cannot be paused: the real world goes on.";
 
 }  // namespace
 
 struct LiveRun::Impl {
-  Impl(const config::ExpandedScenario& of, runtime::RunControl& with,
+  Impl(const config::ExpandedScenario& of, runtime::RunControl& with, plugin::Catalogue& catalogue,
+       std::unique_ptr<plugin::Catalogue> of_server,
        std::function<void(std::shared_ptr<Source>)> call)
       : scenario(of),
         control(with),
+        described(std::move(of_server)),
         ready(std::move(call)),
         box(std::make_shared<LiveBox>()),
-        feed(box, [this](const runtime::RunView& run, auto bodies) {
+        feed(box, catalogue, [this](const runtime::RunView& run, auto bodies) {
           return begin(run, std::move(bodies));
         }) {}
 
@@ -45,6 +47,9 @@ struct LiveRun::Impl {
         with_parameters(robots_of(scenario, run.info, run.hybrids), run.engine.spec());
     for (const record::RecordedRobot& robot : run.info.robots) start.robots.push_back(robot.name);
     start.bodies = std::move(bodies);
+    if (described) {
+      start.probes = std::make_shared<ProbeDesk>(std::move(described), run.info.step_s);
+    }
     source = std::make_shared<LiveSource>(
         std::move(start), box, std::make_unique<LocalPort>(control, run.live ? kHeldByNobody : ""));
     ready(source);
@@ -53,6 +58,7 @@ struct LiveRun::Impl {
 
   const config::ExpandedScenario& scenario;
   runtime::RunControl& control;
+  std::unique_ptr<plugin::Catalogue> described;
   std::function<void(std::shared_ptr<Source>)> ready;
   std::shared_ptr<LiveBox> box;
   std::shared_ptr<LiveSource> source;
@@ -60,8 +66,10 @@ struct LiveRun::Impl {
 };
 
 LiveRun::LiveRun(const config::ExpandedScenario& scenario, runtime::RunControl& control,
+                 plugin::Catalogue& catalogue, std::unique_ptr<plugin::Catalogue> described,
                  std::function<void(std::shared_ptr<Source>)> ready)
-    : impl_(std::make_unique<Impl>(scenario, control, std::move(ready))) {}
+    : impl_(std::make_unique<Impl>(scenario, control, catalogue, std::move(described),
+                                   std::move(ready))) {}
 
 LiveRun::~LiveRun() = default;
 

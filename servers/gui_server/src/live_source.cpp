@@ -26,7 +26,7 @@ std::string joined(const std::vector<std::pair<std::uint32_t, std::string>>& bod
   return json + ']';
 }
 
-const char* const kSeekLater = "The time line opens when the run is over.";
+const char* const kSeekLater = "The timeline is available when the run has ended.";
 
 class LiveCursor final : public Cursor {
  public:
@@ -105,8 +105,9 @@ Powers LiveSource::powers() const {
   Powers powers{{"stop", "release", "readings", "hybrid_parts", "obstacles", "log", "command",
                  "edit", "chat", "maps"},
                 {{"seek", kSeekLater},
-                 {"recording", "The recording can be downloaded when the run is over."},
+                 {"recording", "The recording can be downloaded when the run has ended."},
                  {"true_pose", "This view shows reported poses."}}};
+  if (start_.probes) powers.may.emplace_back("probe");
   for (const char* const word : {"play", "pace", "step"}) {
     if (const std::string why_not = port_->why_not_held(); !why_not.empty()) {
       powers.why_not[word] = why_not;
@@ -115,6 +116,14 @@ Powers LiveSource::powers() const {
     }
   }
   return powers;
+}
+
+Result<ProbeMade> LiveSource::probe(const ProbeWish& wish) {
+  if (!start_.probes) return fail(ErrorCode::kState, "No virtual sensors can be tried here.");
+  if (wish.slot >= start_.robots.size()) {
+    return fail(ErrorCode::kNotFound, "There is no such robot.");
+  }
+  return start_.probes->make(wish, wish.slot);
 }
 
 std::unique_ptr<Cursor> LiveSource::open_cursor() { return std::make_unique<LiveCursor>(*this); }
@@ -126,8 +135,8 @@ std::unique_ptr<Playhead> LiveSource::open_playhead() {
 void LiveSource::tick(Playhead::Clock::time_point now, const Audience& audience) {
   box_->watched.store(audience.any, std::memory_order_relaxed);
   if (audience.looked_at != wants_.sensors || audience.parts != wants_.parts ||
-      audience.maps != wants_.maps) {
-    wants_ = {audience.looked_at, audience.parts, audience.maps};
+      audience.maps != wants_.maps || audience.probes != wants_.probes) {
+    wants_ = {audience.looked_at, audience.parts, audience.maps, audience.probes};
     box_->wants.draft() = wants_;
     box_->wants.publish();
   }
@@ -231,7 +240,7 @@ std::string LiveSource::take(const TransportMessage& transport) {
   using Do = TransportMessage::Do;
   if (transport.what == Do::kSeek) return kSeekLater;
   if (std::string why_not = port_->why_not_held(); !why_not.empty()) return why_not;
-  if (state_.kind == PlayState::Kind::kEnded) return "The run is over.";
+  if (state_.kind == PlayState::Kind::kEnded) return "The run has ended.";
   switch (transport.what) {
     case Do::kPlay:
       port_->resume();
@@ -240,7 +249,7 @@ std::string LiveSource::take(const TransportMessage& transport) {
       port_->pause();
       break;
     case Do::kStep:
-      if (transport.value < 1) return "A run cannot go backwards.";
+      if (transport.value < 1) return "A run cannot go back in time.";
       port_->pause();
       port_->step(static_cast<std::uint64_t>(std::min(std::round(transport.value), 1e6)));
       break;

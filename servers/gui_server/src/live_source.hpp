@@ -13,6 +13,7 @@
 #include "event_fold.hpp"
 #include "live_box.hpp"
 #include "map_book.hpp"
+#include "probe_desk.hpp"
 #include "run_port.hpp"
 
 namespace rave::gui_server {
@@ -25,6 +26,7 @@ class LiveSource : public Source {
     std::string robots_json;
     std::vector<std::string> robots;  ///< Names, by slot.
     std::vector<std::pair<std::uint32_t, std::string>> bodies;
+    std::shared_ptr<ProbeDesk> probes;  ///< Null: no virtual sensors can be tried.
   };
   LiveSource(Start start, std::shared_ptr<LiveBox> box, std::unique_ptr<RunPort> port);
 
@@ -59,6 +61,11 @@ class LiveSource : public Source {
   }
   [[nodiscard]] std::uint64_t maps_revision() const noexcept override { return maps_.revision(); }
   [[nodiscard]] const MapShown* map(const MapName& name) const override { return maps_.find(name); }
+  [[nodiscard]] std::string virtual_sensors_json() override {
+    return start_.probes ? start_.probes->catalogue_json() : "[]";
+  }
+  [[nodiscard]] Result<ProbeMade> probe(const ProbeWish& wish) override;
+  void keep_chat(const ChatText& said) override;
   void halt(const HaltMessage& halt, const Author& author, Reply reply) override;
   void command(const CommandMessage& command, const Author& author,
                const SlotReply& reply) override;

@@ -20,21 +20,21 @@ std::string metric(const char* name, const char* kind, const char* help, std::ui
 
 std::string metrics_text(const web::ServerCounts& counts, std::size_t pages,
                          std::uint64_t lost_audit_lines) {
-  return metric("pages", "gauge", "Pages that are connected.", pages) +
+  return metric("pages", "gauge", "Connected pages.", pages) +
          metric("sockets", "gauge", "Open WebSockets.", counts.open_sockets) +
-         metric("connections", "gauge", "Open connections of HTTP.", counts.open_connections) +
+         metric("connections", "gauge", "Open HTTP connections.", counts.open_connections) +
          metric("connections_total", "counter", "Accepted connections.", counts.connections) +
-         metric("failed_handshakes_total", "counter", "Handshakes of TLS that failed.",
+         metric("failed_handshakes_total", "counter", "Failed TLS handshakes.",
                 counts.failed_handshakes) +
-         metric("requests_total", "counter", "Requests of HTTP.", counts.requests) +
+         metric("requests_total", "counter", "HTTP requests.", counts.requests) +
          metric("refused_requests_total", "counter",
-                "Requests that were malformed, foreign, too large or too many.",
+                "Refused requests: malformed, of another origin, too large or too many.",
                 counts.refused_requests) +
-         metric("rate_closed_total", "counter", "WebSockets that sent too much.",
+         metric("rate_closed_total", "counter", "WebSockets closed because they sent too much.",
                 counts.sockets_closed_for_rate) +
          metric("sent_bytes_total", "counter", "Bytes sent over WebSockets.", counts.sent_bytes) +
-         metric("lost_audit_lines_total", "counter", "Lines that the audit log could not keep.",
-                lost_audit_lines);
+         metric("lost_audit_lines_total", "counter",
+                "Lines that could not be written to the audit log.", lost_audit_lines);
 }
 
 Result<std::string> metrics_token(const std::filesystem::path& folder) {

@@ -50,7 +50,7 @@ void PageCommands::take(const CommandMessage& command) {
   // To stand is never too much.
   if (!command.stands() && too_many(command)) {
     const PageAnswer answer{
-        to, false, fmt::format("Too many at once: {} robots in a second at most.", kPerSecond),
+        to, false, fmt::format("Too many orders: at most {} robots per second.", kPerSecond),
         command.request};
     say_(answer);
     told_(command, answer);

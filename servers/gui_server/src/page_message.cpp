@@ -8,6 +8,7 @@
 #include "command_message.hpp"
 #include "members.hpp"
 #include "rave/base/names.hpp"
+#include "ticket_request.hpp"
 
 namespace rave::gui_server {
 namespace {
@@ -164,7 +165,7 @@ Result<PageMessage> chat_of(Members& members) {
   RAVE_TRY_ASSIGN(chat.request, members.index("request"));
   RAVE_TRY_ASSIGN(chat.text, members.text("text", kLongestText, true));
   if (chat.text.find_first_not_of(" \n") == std::string::npos) {
-    return fail(ErrorCode::kParse, "`text`: expected something to say");
+    return fail(ErrorCode::kParse, "`text`: expected a text that is not empty");
   }
   RAVE_TRY_ASSIGN(const std::string to, members.word("to"));
   if (to == "all") {
@@ -187,6 +188,12 @@ Result<PageMessage> chat_of(Members& members) {
   return PageMessage(std::move(chat));
 }
 
+Result<PageMessage> page_key_message_of(Members& members) {
+  RAVE_TRY_ASSIGN(const std::string text, members.word("key"));
+  RAVE_TRY_ASSIGN(std::string key, page_key_of(text));
+  return PageMessage(PageKeyMessage{std::move(key)});
+}
+
 }  // namespace
 
 Result<PageMessage> parse_page_message(std::string_view text) {
@@ -199,6 +206,16 @@ Result<PageMessage> parse_page_message(std::string_view text) {
     message = look_of(members);
   } else if (type == "look_maps") {
     message = look_maps_of(members);
+  } else if (type == "look_probes") {
+    auto look = look_probes_of(members);
+    if (!look) return tl::unexpected(look.error());
+    message = PageMessage(*std::move(look));
+  } else if (type == "ask_catalogue") {
+    auto request = members.index("request");
+    if (!request) return tl::unexpected(request.error());
+    message = PageMessage(AskCatalogueMessage{*request});
+  } else if (type == "page") {
+    message = page_key_message_of(members);
   } else if (type == "ack") {
     auto sequence = members.index("sequence");
     if (!sequence) return tl::unexpected(sequence.error());

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "people_message.hpp"
+#include "probe_message.hpp"
 #include "rave/base/result.hpp"
 #include "rave/gui_server/rights.hpp"
 #include "rave/gui_server/source.hpp"
@@ -45,6 +46,12 @@ struct SeeAsMessage {
   std::string user{};  ///< Both empty: with their own eyes again.
 };
 
+/// Which page it is, by the public key that its tickets have: what it does over direct lines and
+/// through the server is of one page.
+struct PageKeyMessage {
+  std::string key;  ///< 65 bytes.
+};
+
 /// Somebody says something to people, or to robots and the people who see them.
 struct ChatMessage {
   enum class To : std::uint8_t { kAll, kRole, kUser, kTeam, kRobot } to = To::kAll;
@@ -56,7 +63,8 @@ struct ChatMessage {
 
 using PageMessage =
     std::variant<LookMessage, AckMessage, TransportMessage, HaltMessage, SetRightMessage,
-                 SeeAsMessage, CommandMessage, ChatMessage, PeopleMessage, LookMapsMessage>;
+                 SeeAsMessage, CommandMessage, ChatMessage, PeopleMessage, LookMapsMessage,
+                 LookProbesMessage, AskCatalogueMessage, PageKeyMessage>;
 
 /// Errors: kParse with what was expected.
 [[nodiscard]] Result<PageMessage> parse_page_message(std::string_view text);

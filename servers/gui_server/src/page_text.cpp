@@ -112,14 +112,41 @@ std::string time_text(const PlayState& state, const RunAbout& about) {
   return text_of(time);
 }
 
-std::string leases_text(std::span<const DriveState> states, const std::string& me, bool all) {
+namespace {
+
+Json shadow_json(const runtime::RunStatus::Shadow& shadow) {
+  Json json = {
+      {"running", shadow.running}, {"since_s", shadow.since_s}, {"m", shadow.m},
+      {"rad", shadow.rad},         {"most_m", shadow.most_m},   {"most_rad", shadow.most_rad},
+      {"readings", Json::array()}};
+  for (const auto& reading : shadow.readings) {
+    json["readings"].push_back({{"sensor", reading.sensor},
+                                {"unit", reading.unit},
+                                {"last", reading.last},
+                                {"most", reading.most}});
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string leases_text(std::span<const DriveState> states, const Author& me, bool all) {
   Json message = {{"type", "leases"}, {"reset", all}, {"robots", Json::array()}};
   for (const DriveState& state : states) {
     message["robots"].push_back({{"slot", state.slot},
                                  {"lease", state.lease},
-                                 {"yours", !state.lease.empty() && state.lease == me},
+                                 {"yours", state.is_of(me)},
                                  {"takes", state.takes},
                                  {"order", state.order}});
+    Json& robot = message["robots"].back();
+    if (state.hand_over) {
+      robot["twin"] = {{"simulated", state.simulated},
+                       {"under_way", state.hand_over->under_way},
+                       {"made", state.hand_over->made},
+                       {"refused", state.hand_over->refused},
+                       {"last", state.hand_over->last}};
+    }
+    if (state.shadow) robot["shadow"] = shadow_json(*state.shadow);
   }
   return text_of(message);
 }
@@ -130,6 +157,21 @@ std::string maps_text(std::span<const MapName> names) {
     Json map = {{"name", name.name}};
     if (!name.global()) map["slot"] = name.slot;
     message["maps"].push_back(std::move(map));
+  }
+  return text_of(message);
+}
+
+std::string probes_text(std::uint32_t request, std::span<const ProbeAnswer> answers) {
+  Json message = {{"type", "probes"}, {"request", request}, {"probes", Json::array()}};
+  for (const ProbeAnswer& answer : answers) {
+    Json probe = {{"slot", answer.slot}};
+    if (answer.error.empty()) {
+      probe["block"] = answer.made.text;
+      probe["sensor"] = Json::parse(answer.made.sensor_json);
+    } else {
+      probe["error"] = answer.error;
+    }
+    message["probes"].push_back(std::move(probe));
   }
   return text_of(message);
 }

@@ -44,12 +44,19 @@ struct PageAnswer {
 /// Events from `first` on; with 0 the page forgets those that it had.
 [[nodiscard]] std::string events_text(std::span<const LogEvent> events, std::size_t first);
 [[nodiscard]] std::string time_text(const PlayState& state, const RunAbout& about);
-/// Who drives what; `me` marks those that the page's own person drives.
-[[nodiscard]] std::string leases_text(std::span<const DriveState> states, const std::string& me,
+/// Who drives what; `me` marks those that this page drives.
+[[nodiscard]] std::string leases_text(std::span<const DriveState> states, const Author& me,
                                       bool all);
 /// Which maps the page can look at.
 [[nodiscard]] std::string maps_text(std::span<const MapName> names);
 /// What a page sent may stand in the text; what is no UTF-8 is replaced.
+/// What became of a probe that a page wished for.
+struct ProbeAnswer {
+  std::uint32_t slot = 0;  ///< Of the page.
+  std::string error;       ///< For people; empty: it was made.
+  ProbeMade made;
+};
+[[nodiscard]] std::string probes_text(std::uint32_t request, std::span<const ProbeAnswer> answers);
 [[nodiscard]] std::string answer_text(const PageAnswer& answer);
 
 }  // namespace rave::gui_server

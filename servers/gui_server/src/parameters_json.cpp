@@ -18,10 +18,9 @@ ParameterJson first_value(const ParamSpec& spec, const std::string& text) {
   return ParameterJson::parse(text, nullptr, false);
 }
 
-/// Null: a list, which no control of the page shows.
-ParameterJson parameter_json(const runtime::ChangeableParameter& parameter) {
-  const ParamSpec& spec = *parameter.spec;
-  ParameterJson json = {{"key", parameter.key}};
+/// Null: a list, which no control of the page shows for what is changed while a robot runs.
+ParameterJson parameter_json(const ParamSpec& spec, const std::string& key, bool lists = false) {
+  ParameterJson json = {{"key", key}};
   switch (spec.type) {
     case ParamType::kBool:
       json["kind"] = "flag";
@@ -42,12 +41,17 @@ ParameterJson parameter_json(const runtime::ChangeableParameter& parameter) {
     case ParamType::kText:
       json["kind"] = "text";
       break;
+    case ParamType::kNumbers:
+      if (!lists) return nullptr;
+      json["kind"] = "numbers";
+      break;
     default:
       return nullptr;
   }
   json["unit"] = spec.unit;
   json["doc"] = spec.doc;
-  const bool counts = spec.type == ParamType::kNumber || spec.type == ParamType::kInteger;
+  const bool counts = spec.type == ParamType::kNumber || spec.type == ParamType::kInteger ||
+                      spec.type == ParamType::kNumbers;
   if (counts && spec.min < spec.max) json["range"] = ParameterJson::array({spec.min, spec.max});
   return json;
 }
@@ -57,7 +61,7 @@ ParameterJson parameters_of(const sim::RobotType& type) {
   for (auto& [key, text] : runtime::first_values(type)) values[key] = std::move(text);
   ParameterJson all = ParameterJson::array();
   for (const auto& parameter : runtime::changeable_parameters(type)) {
-    ParameterJson json = parameter_json(parameter);
+    ParameterJson json = parameter_json(*parameter.spec, parameter.key);
     if (json.is_null()) continue;
     if (const auto value = values.find(parameter.key); value != values.end()) {
       const ParameterJson first = first_value(*parameter.spec, value->second);
@@ -68,7 +72,46 @@ ParameterJson parameters_of(const sim::RobotType& type) {
   return all;
 }
 
+ParameterJson twin_json(const sim::RobotType& type) {
+  ParameterJson json = {{"kind", type.simulated ? "simulated" : "real"},
+                        {"drivers", ParameterJson::array()},
+                        {"sensors", ParameterJson::array()}};
+  for (const sim::ActuatorSpec& actuator : type.actuators)
+    json["drivers"].push_back(actuator.driver);
+  for (const sim::SensorSpec& sensor : type.sensors) {
+    const char* const origin =
+        sensor.hybrid ? "hybrid" : (sensor.virtual_ops != nullptr ? "virtual" : "real");
+    json["sensors"].push_back({{"driver", sensor.driver}, {"origin", origin}});
+  }
+  return json;
+}
+
 }  // namespace
+
+std::string described_json(const ParamSpec& spec) {
+  ParameterJson json = parameter_json(spec, spec.name, true);
+  if (json.is_null()) return "{}";
+  if (spec.required == 0) {
+    switch (spec.type) {
+      case ParamType::kBool:
+        json["value"] = spec.default_number != 0;
+        break;
+      case ParamType::kInteger:
+        json["value"] = static_cast<std::int64_t>(spec.default_number);
+        break;
+      case ParamType::kNumber:
+        json["value"] = spec.default_number;
+        break;
+      case ParamType::kText:
+      case ParamType::kChoice:
+        json["value"] = spec.default_text;
+        break;
+      default:
+        break;
+    }
+  }
+  return json.dump(-1, ' ', false, ParameterJson::error_handler_t::replace);
+}
 
 std::string with_parameters(const std::string& robots_json, const sim::EngineSpec& spec) {
   if (spec.robots.size() > kMostDescribed) return robots_json;
@@ -79,6 +122,7 @@ std::string with_parameters(const std::string& robots_json, const sim::EngineSpe
     const auto [found, is_new] = known.try_emplace(type);
     if (is_new) found->second = parameters_of(spec.types[type]);
     robots[r]["parameters"] = found->second;
+    if (spec.robots[r].twin) robots[r]["twin"] = twin_json(spec.types[*spec.robots[r].twin]);
   }
   return robots.dump(-1, ' ', false, ParameterJson::error_handler_t::replace);
 }

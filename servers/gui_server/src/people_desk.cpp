@@ -12,10 +12,9 @@ namespace {
 using DeskJson = nlohmann::ordered_json;
 
 constexpr const char* kNoAccounts =
-    "This server has no accounts: only who has the link of its terminal comes in, and nothing is "
-    "kept of what they do. To let others in, start it with --accounts DIR; over a network also "
-    "with "
-    "--listen, --certificate and --key.";
+    "This server has no accounts: only the link printed in its terminal gives access, and there is "
+    "no audit log. To let others in, start the server with --accounts DIR, and over a network also "
+    "with --listen, --certificate and --key.";
 
 std::string desk_text(const DeskJson& message) {
   return message.dump(-1, ' ', false, DeskJson::error_handler_t::replace);
@@ -128,7 +127,7 @@ void PeopleDesk::take(const PeopleMessage& message, const std::string& by, const
   if (!options_.accounts) return tell(refused(message, kNoAccounts));
   if (const auto* const account = std::get_if<AccountMessage>(&message)) {
     if (locks_out(*account, by)) {
-      return tell(refused(message, "Nobody can take the role of super-user from themselves."));
+      return tell(refused(message, "You cannot remove your own role of super-user."));
     }
     later(
         message, [at = options_, asked = *account, by] { return account_outcome(at, asked, by); },

@@ -17,7 +17,7 @@ namespace rave::gui_server {
 namespace {
 
 constexpr const char* kNoStop = "A recording cannot be stopped.";
-constexpr const char* kNoOrders = "This is a recording: nobody takes orders.";
+constexpr const char* kNoOrders = "This is a recording: it takes no orders.";
 
 class Recording final : public Source {
  public:
@@ -48,6 +48,7 @@ class Recording final : public Source {
              {"edit", kNoOrders},
              {"true_pose", "This view shows reported poses."}}};
   }
+  [[nodiscard]] std::span<const ChatText> chat() const noexcept override { return chat_; }
   // Maps that robots made are not recorded; the one of the world file is known all the same.
   [[nodiscard]] std::vector<MapName> map_names() const override { return maps_->names(); }
   [[nodiscard]] std::uint64_t map_names_revision() const noexcept override { return 1; }
@@ -61,6 +62,7 @@ class Recording final : public Source {
 
  private:
   Status read_events(const record::RunInfo& run);
+  Status read_chat();
   void note_flag(const record::RunEvent& event, double t_s);
   [[nodiscard]] record::StringMap hybrids() const;
 
@@ -69,6 +71,7 @@ class Recording final : public Source {
   std::string bodies_;
   std::string robots_;
   std::vector<LogEvent> events_;
+  std::vector<ChatText> chat_;
   std::vector<std::uint8_t> real_;
   FlagHistory flags_;
   BodyHistory history_;
@@ -117,7 +120,19 @@ Status Recording::read(const std::filesystem::path& file) {
   RAVE_TRY(history_.read(reader_, scenario, bodies_));
   robots_ = robots_of(scenario, run, hybrids());
   maps_.emplace("[]", bodies_);
+  RAVE_TRY(read_chat());
   return read_events(run);
+}
+
+Status Recording::read_chat() {
+  const auto take = [&](const record::MessageView& message) -> Status {
+    RAVE_TRY_ASSIGN(auto said, record::decode_chat(message.bytes));
+    auto& [time, chat] = said;
+    chat_.push_back({chat.number, time.seconds(), std::move(chat.from), std::move(chat.role),
+                     std::move(chat.to), std::move(chat.name), std::move(chat.text)});
+    return {};
+  };
+  return record::for_each_message(reader_, record::topic::kChat, take);
 }
 
 Status Recording::read_events(const record::RunInfo& run) {

@@ -29,7 +29,7 @@ class RestrictedCursor final : public Cursor {
     std::vector<LookedAt> wanted;
     for (const LookedAt& sensor : sensors) {
       const auto robot = view_.robot_of(sensor.slot);
-      if (robot && view_.may(InfoClass::kReadings, *robot)) {
+      if (robot && view_.may_read_sensor(*robot, sensor.sensor)) {
         wanted.push_back({*robot, sensor.sensor});
       }
     }
@@ -78,6 +78,7 @@ bool allowed(const View& view, bool live, const std::string& power) {
       {"edit", InfoClass::kEdit},
       {"chat", InfoClass::kChat},
       {"maps", InfoClass::kMaps},
+      {"probe", InfoClass::kProbe},
   };
   if (const auto found = kOfSome.find(power); found != kOfSome.end()) {
     return view.may_any(found->second);
@@ -235,6 +236,21 @@ const MapShown* RestrictedSource::map(const MapName& name) const {
   return all_->map({*robot, view_->cast().names[*robot]});
 }
 
+std::string RestrictedSource::virtual_sensors_json() {
+  return view_->may_any(InfoClass::kProbe) ? all_->virtual_sensors_json() : "[]";
+}
+
+Result<ProbeMade> RestrictedSource::probe(const ProbeWish& wish) {
+  const auto robot = view_->robot_of(wish.slot);
+  const bool may =
+      robot && view_->may(InfoClass::kProbe, *robot) && view_->may(InfoClass::kReadings, *robot);
+  if (!may) return fail(ErrorCode::kState, "{}", kNotYours);
+  ProbeWish mine = wish;
+  mine.slot = *robot;
+  mine.without_obstacles = !view_->may_any(InfoClass::kObstacles);
+  return all_->probe(mine);
+}
+
 void RestrictedSource::halt(const HaltMessage& halt, const Author& author, Reply reply) {
   const InfoClass what = halt.stop ? InfoClass::kStop : InfoClass::kRelease;
   HaltMessage mine;
@@ -254,7 +270,7 @@ void RestrictedSource::halt(const HaltMessage& halt, const Author& author, Reply
   }
   all_->halt(mine, author, [reply = std::move(reply), view = view_](bool good, std::string text) {
     // The answer of a host may name robots that are not seen.
-    if (!view->may_read(text)) text = good ? "Done." : "It could not be done.";
+    if (!view->may_read(text)) text = good ? "Done." : "The request failed.";
     reply(good, std::move(text));
   });
 }
@@ -282,7 +298,7 @@ void RestrictedSource::command(const CommandMessage& command, const Author& auth
                                const SlotReply& reply) {
   const auto read = [view = view_](bool good, std::string text) {
     if (view->may_read(text)) return text;
-    return std::string(good ? "Done." : "It could not be done.");
+    return std::string(good ? "Done." : "The request failed.");
   };
   if (command.of_obstacle()) {
     if (!may_edit(*view_)) return reply(kNoSlot, false, kNotYours);
@@ -313,7 +329,12 @@ std::vector<DriveState> RestrictedSource::leases_changed_since(std::uint64_t rev
     const auto slot = view_->slot_of(state.slot);
     if (!slot) continue;
     const std::uint32_t robot = std::exchange(state.slot, *slot);
-    if (!view_->may(InfoClass::kCommand, robot)) state.takes.clear();
+    if (!view_->may(InfoClass::kCommand, robot)) {
+      state.takes.clear();
+      state.hand_over.reset();
+    }
+    // It tells what the sensors of the robot read.
+    if (!view_->may(InfoClass::kReadings, robot)) state.shadow.reset();
     if (!view_->may(InfoClass::kGoals, robot)) state.order.clear();
     mine.push_back(std::move(state));
   }

@@ -45,6 +45,9 @@ class RestrictedSource final : public Source {
     return all_->maps_revision();
   }
   [[nodiscard]] const MapShown* map(const MapName& name) const override;
+  [[nodiscard]] std::string virtual_sensors_json() override;
+  /// Who gets no virtual obstacles senses none.
+  [[nodiscard]] Result<ProbeMade> probe(const ProbeWish& wish) override;
   void halt(const HaltMessage& halt, const Author& author, Reply reply) override;
   void command(const CommandMessage& command, const Author& author,
                const SlotReply& reply) override;

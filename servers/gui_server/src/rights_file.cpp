@@ -86,7 +86,7 @@ Result<std::vector<KeptChange>> parse_rights(std::string_view text, std::string_
       changes.push_back(std::move(kept));
     } else if (line != kFirstRightsLine) {
       return fail_at(where, ErrorCode::kParse,
-                     "expected `{}`; it is no file of rights, or one of a later version",
+                     "expected `{}`; not a file of rights, or one of a later version",
                      kFirstRightsLine);
     }
     if (line.size() == text.size()) return changes;

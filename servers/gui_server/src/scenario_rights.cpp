@@ -21,7 +21,7 @@ Reach reach_of_rule(const config::GuiRightFile& rule) {
 }  // namespace
 
 Rights rights_of(const config::GuiFile& gui) {
-  static_assert(static_cast<std::size_t>(config::GuiClass::kEdit) + 1 == kInfoClasses);
+  static_assert(static_cast<std::size_t>(config::GuiClass::kProbe) + 1 == kInfoClasses);
   Rights rights;
   for (const config::GuiRightFile& rule : gui.rights) {
     for (const config::GuiClass what : rule.classes) {

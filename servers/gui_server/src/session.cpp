@@ -16,6 +16,8 @@ constexpr auto kNewsInterval = std::chrono::milliseconds(100);
 /// Who sends so much nonsense is not our page.
 constexpr unsigned kMostRefusals = 20;
 constexpr std::uint16_t kBadMessages = 4400;
+/// In a frame of a reading the probe of this place in the page's list has the number of a sensor.
+constexpr std::uint32_t kFirstProbe = 0xf000;
 
 }  // namespace
 
@@ -52,11 +54,19 @@ void Session::show(std::shared_ptr<Source> source, const Greeting& greeting, boo
   // The slots are others now; the page says again what it looks at.
   look_.readings.clear();
   map_stream_.look({});
+  probes_.clear();
   told_map_names_ = 0;
   changed_ = true;
   past_due_ = true;
   broken_ = false;
   send_time(playhead_->look(Clock::now()));
+}
+
+void Session::set_author(Author author) {
+  if (author == commands_.author()) return;
+  commands_.set_author(std::move(author));
+  // Which leases are those of this page depends on it.
+  if (source_) send_leases(true);
 }
 
 void Session::keep_place(const PlayState& before) {
@@ -80,8 +90,9 @@ void Session::received(std::string_view text) {
 
 void Session::forget_foreign_sensors() {
   if (!source_) return;
-  std::erase_if(look_.readings,
-                [this](const LookedAt& looked) { return looked.slot >= source_->robot_count(); });
+  std::erase_if(look_.readings, [this](const LookedAt& looked) {
+    return looked.slot >= source_->robot_count() || probe::is_probe(looked.sensor);
+  });
 }
 
 void Session::take(const LookMessage& look) {
@@ -95,6 +106,33 @@ void Session::take(const LookMessage& look) {
 void Session::take(const LookMapsMessage& look) {
   map_stream_.look(look.maps);
   changed_ = true;
+}
+
+void Session::take(const LookProbesMessage& look) {
+  probes_.clear();
+  std::vector<ProbeAnswer> answers;
+  for (std::uint32_t place = 0; place < look.probes.size(); ++place) {
+    ProbeAnswer& answer = answers.emplace_back();
+    answer.slot = look.probes[place].slot;
+    if (!source_) {
+      answer.error = "No run is in progress.";
+    } else if (!probe_limit_.take("", web::RateLimit::Clock::now())) {
+      answer.error = "Too many changes at once. Try again in a second.";
+    } else if (auto made = source_->probe(look.probes[place]); !made) {
+      answer.error = made.error().message;
+    } else {
+      answer.made = *made;
+      probes_.push_back({answer.slot, place, std::move(made->asked)});
+    }
+  }
+  socket_.send_text(payload(probes_text(look.request, answers)));
+  changed_ = true;
+}
+
+void Session::take(const AskCatalogueMessage& ask) {
+  const std::string drivers = source_ ? source_->virtual_sensors_json() : "[]";
+  socket_.send_text(payload(R"({"type":"catalogue","request":)" + std::to_string(ask.request) +
+                            R"(,"drivers":)" + drivers + "}"));
 }
 
 void Session::take(const AckMessage& ack) {
@@ -179,6 +217,7 @@ void Session::tick(Clock::time_point now, SharedFrames& frames) {
     socket_.send_text(payload(std::move(bodies)));
   }
   send_readings();
+  send_probes();
   send_variances();
   map_stream_.send(*source_,
                    [this](std::string tile) { socket_.send_binary(payload(std::move(tile))); });
@@ -229,6 +268,21 @@ void Session::send_readings() {
   }
 }
 
+void Session::send_probes() {
+  if (probes_.empty()) return;
+  std::vector<LookedAt> looked;
+  for (const ProbeShown& probe : probes_) looked.push_back({probe.slot, probe.asked.number});
+  for (ReadingAt& reading : cursor_->readings(looked, false)) {
+    const auto probe = std::find_if(probes_.begin(), probes_.end(), [&](const ProbeShown& one) {
+      return one.slot == reading.slot && one.asked.number == reading.sensor;
+    });
+    if (probe == probes_.end() || probe->told_s == reading.stamp_s) continue;
+    probe->told_s = reading.stamp_s;
+    reading.sensor = kFirstProbe + probe->place;
+    socket_.send_binary(payload(encode_reading(reading, cursor_->poses().time_s)));
+  }
+}
+
 /// Of the robots whose readings are looked at, when they change.
 void Session::send_variances() {
   const PosesAt& poses = cursor_->poses();
@@ -275,7 +329,7 @@ void Session::send_leases(bool all) {
   told_leases_ = source_->leases_revision();
   const std::vector<DriveState> changed = source_->leases_changed_since(since);
   if (!all && changed.empty()) return;
-  socket_.send_text(payload(leases_text(changed, commands_.author().name, all)));
+  socket_.send_text(payload(leases_text(changed, commands_.author(), all)));
 }
 
 void Session::send_time(const PlayState& state) {

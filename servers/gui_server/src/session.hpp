@@ -19,6 +19,7 @@
 #include "page_text.hpp"
 #include "rave/gui_server/person.hpp"
 #include "rave/gui_server/source.hpp"
+#include "rave/web/rate_limit.hpp"
 #include "rave/web/server.hpp"
 
 namespace rave::gui_server {
@@ -35,8 +36,18 @@ struct SessionCalls {
   /// Once it is known what became of it.
   PageCommands::Told commanded;
   std::function<Result<std::string>(const ChatMessage&)> chat;
+  /// The page has a key, so it is known from now on by that.
+  std::function<void(const PageKeyMessage&)> page_key;
   /// Answers by itself.
   std::function<void(const PeopleMessage&)> people;
+};
+
+/// A virtual sensor that a page tries.
+struct ProbeShown {
+  std::uint32_t slot = 0;   ///< Of the page.
+  std::uint32_t place = 0;  ///< In the page's list.
+  probe::Asked asked;
+  double told_s = -1;  ///< Stamp of the reading that was sent last.
 };
 
 /// One page that is connected: what it looks at, its place in time, what is on its way to it. The
@@ -44,6 +55,9 @@ struct SessionCalls {
 class Session {
  public:
   using Clock = Playhead::Clock;
+  /// Each that is made costs some of the server's time.
+  static constexpr double kProbesPerSecond = 10;
+  static constexpr double kProbesAtOnce = 40;
 
   /// `socket` outlives the session, and what `calls` use as well.
   Session(web::Socket& socket, SessionCalls calls);
@@ -53,7 +67,7 @@ class Session {
   void show(std::shared_ptr<Source> source, const Greeting& greeting, bool same_run);
   void send(web::Payload text) { socket_.send_text(std::move(text)); }
   /// The same person has other rights.
-  void set_author(Author author) { commands_.set_author(std::move(author)); }
+  void set_author(Author author);
   /// Asks of robots as if the page had, as what is said to a robot does.
   void command(const CommandMessage& command) { commands_.take(command); }
   Session(const Session&) = delete;
@@ -69,10 +83,16 @@ class Session {
     return look_.poses ? std::span<const MapName>(map_stream_.looked_at())
                        : std::span<const MapName>();
   }
+  /// Virtual sensors that the page tries, by robots of the run; none while it shows no run.
+  [[nodiscard]] std::span<const ProbeShown> looked_at_probes() const noexcept {
+    return look_.poses ? std::span<const ProbeShown>(probes_) : std::span<const ProbeShown>();
+  }
 
  private:
   void take(const LookMessage& look);
   void take(const LookMapsMessage& look);
+  void take(const LookProbesMessage& look);
+  void take(const AskCatalogueMessage& ask);
   void take(const AckMessage& ack);
   void take(const TransportMessage& transport);
   void take(const HaltMessage& halt);
@@ -81,11 +101,13 @@ class Session {
   void take(const CommandMessage& command) { commands_.take(command); }
   void take(const ChatMessage& chat);
   void take(const PeopleMessage& people) { calls_.people(people); }
+  void take(const PageKeyMessage& page) { calls_.page_key(page); }
   void keep_place(const PlayState& before);
   void forget_foreign_sensors();
   void send_past(double now_s);
   void send_frame(SharedFrames& frames);
   void send_readings();
+  void send_probes();
   void send_variances();
   void send_time(const PlayState& state);
   void send_news();
@@ -108,6 +130,8 @@ class Session {
   std::map<std::pair<LookedAt, std::uint8_t>, double> told_;  ///< Stamp of what was sent last.
   std::vector<VarianceAt> told_variances_;
   MapStream map_stream_;
+  std::vector<ProbeShown> probes_;
+  web::RateLimit probe_limit_{kProbesPerSecond, kProbesAtOnce};
   std::uint64_t told_map_names_ = 0;
   std::uint64_t told_events_ = 0;
   std::uint64_t told_bodies_ = 0;

@@ -87,11 +87,11 @@ web::Response TicketDesk::serve(const web::Request& request, const Asker& asker)
   const auto wanted = parse_ticket_request(request.body);
   if (!wanted) return refused(400, wanted.error().message);
   const std::string origin(request.header("origin"));
-  if (origin.empty()) return refused(400, "the request says no origin");
+  if (origin.empty()) return refused(400, "the request has no Origin header");
   if (asker.person.role == Role::kObserver) {
     audit_->note("refused",
                  {{"why", "ticket"}, {"user", asker.person.name}, {"from", request.peer}});
-    return refused(403, "Observers give no orders.");
+    return refused(403, "Observers cannot give orders.");
   }
   TicketJson answer = {{"relay", asker.relay}, {"lines", TicketJson::array()}};
   if (!lines_) return json_response(200, answer);

@@ -13,6 +13,9 @@ struct TicketRequest {
   std::string page_key;  ///< 65 bytes; see direct_line::Ticket.
 };
 
+/// A public key in base64url, as its 65 bytes. Error: kParse.
+[[nodiscard]] Result<std::string> page_key_of(const std::string& text);
+
 /// Errors: kParse with what was expected.
 [[nodiscard]] Result<TicketRequest> parse_ticket_request(std::string_view body);
 

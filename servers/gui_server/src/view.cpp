@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "rave/base/check.hpp"
+#include "rave/onlook/command_row.hpp"
 
 namespace rave::gui_server {
 namespace {
@@ -102,6 +103,12 @@ bool View::may(InfoClass what, std::uint32_t robot) const {
   return slot_of(robot).has_value() && covers_[column(what)][team_of_[robot]];
 }
 
+bool View::may_read_sensor(std::uint32_t robot, std::uint32_t sensor) const {
+  if (sensor == onlook::kCommandsOf) return may(InfoClass::kGoals, robot);
+  if (probe::is_probe(sensor) && !may(InfoClass::kProbe, robot)) return false;
+  return may(InfoClass::kReadings, robot);
+}
+
 bool View::may_any(InfoClass what) const { return any_[column(what)]; }
 bool View::may_some(InfoClass what) const {
   return may_all(what) || std::any_of(shown_.begin(), shown_.end(),
@@ -122,12 +129,13 @@ PosesAt View::poses(const PosesAt& all, bool truth) const {
 
 bool View::reading(ReadingAt& reading) const {
   const std::uint32_t robot = reading.slot;
-  if (!may(InfoClass::kReadings, robot)) return false;
+  if (!may_read_sensor(robot, reading.sensor)) return false;
   if (reading.part != 0 && !may(InfoClass::kHybridParts, robot)) return false;
   reading.slot = *slot_of(robot);
-  if (!cast_->neighbour_sensors.contains({robot, reading.sensor}) || reading.fields == 0) {
-    return true;
-  }
+  const bool names_robots = probe::is_probe(reading.sensor)
+                                ? (reading.sensor & probe::kNamesRobotsBit) != 0
+                                : cast_->neighbour_sensors.contains({robot, reading.sensor});
+  if (!names_robots || reading.fields == 0) return true;
   // The first field of a row is the other robot, as the run counts them.
   std::vector<float> kept;
   std::uint32_t rows = 0;
@@ -185,7 +193,10 @@ std::string View::robots_json(const std::string& all) const {
   OrderedJson mine = OrderedJson::array();
   for (const std::uint32_t robot : shown_) {
     OrderedJson one = robots.at(robot);
-    if (!may(InfoClass::kReadings, robot)) one["sensors"] = OrderedJson::array();
+    if (!may(InfoClass::kReadings, robot)) {
+      one["sensors"] = OrderedJson::array();
+      if (one.contains("twin")) one["twin"]["sensors"] = OrderedJson::array();
+    }
     if (!may(InfoClass::kCommand, robot)) {
       one["yours"] = false;
       one.erase("parameters");

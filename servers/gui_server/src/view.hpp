@@ -52,6 +52,9 @@ class View {
   [[nodiscard]] std::optional<std::uint32_t> slot_of(std::uint32_t robot) const;
   /// Whether a class is given of one robot, which has to be seen at all.
   [[nodiscard]] bool may(InfoClass what, std::uint32_t robot) const;
+  /// Whether readings of a sensor of a robot are given: of velocities that it is told, `goals`; of
+  /// a probe, `probe` as well.
+  [[nodiscard]] bool may_read_sensor(std::uint32_t robot, std::uint32_t sensor) const;
   /// Of any robot; of what belongs to no robot at all.
   [[nodiscard]] bool may_any(InfoClass what) const;
   /// Of one robot at least.

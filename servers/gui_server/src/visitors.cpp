@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "rave/direct_line/ticket.hpp"
+#include "secrets.hpp"
+
 namespace rave::gui_server {
 namespace {
 
@@ -65,6 +68,7 @@ void Visitors::show(std::shared_ptr<Source> source) {
   desk_.begin(
       about.name, about.rights,
       std::make_shared<const Cast>(cast_of(source_->robots_json(), source_->bodies_json())));
+  if (!about.live) room_.begin(source_->chat(), desk_.cast());
   for (auto& [id, visitor] : visitors_) {
     visitor.view = desk_.view_of(visitor.eyes.value_or(visitor.person));
     show_to(visitor, false);
@@ -76,6 +80,7 @@ void Visitors::opened(std::uint64_t id, web::Socket& socket, const std::string& 
   Visitor visitor;
   visitor.socket = &socket;
   visitor.session = session;
+  visitor.number = direct_line::page_number(new_secret());
   visitor.person = door_.whose(session).value_or(Person{"", Role::kObserver, {false, {}}});
   visitor.page = std::make_unique<Session>(socket, calls_of(id));
   Visitor& kept = visitors_.emplace(id, std::move(visitor)).first->second;
@@ -92,8 +97,11 @@ void Visitors::opened(std::uint64_t id, web::Socket& socket, const std::string& 
 void Visitors::closed(std::uint64_t id) {
   const auto found = visitors_.find(id);
   if (found == visitors_.end()) return;
-  const Visitor gone = std::move(found->second);
+  Visitor gone = std::move(found->second);
   visitors_.erase(found);
+  // What it drives stands, before it is let go.
+  gone.page.reset();
+  leave_leases(gone);
   told_people_.clear();
   ++accounts_news_;
   const bool more = std::any_of(visitors_.begin(), visitors_.end(), [&gone](const auto& entry) {
@@ -118,7 +126,8 @@ std::shared_ptr<Source> Visitors::source_for(const std::shared_ptr<const View>& 
 }
 
 Author Visitors::author_of(const Visitor& visitor) {
-  return {known_as(visitor.person).name, visitor.person.role == Role::kSuperUser && !visitor.eyes};
+  return {known_as(visitor.person).name, visitor.person.role == Role::kSuperUser && !visitor.eyes,
+          visitor.number};
 }
 
 void Visitors::show_to(Visitor& visitor, bool same_run) {
@@ -165,7 +174,7 @@ void Visitors::tick(Audience audience) {
     for (const LookedAt& looked : look.readings) {
       // What is withheld is not even gathered.
       const auto robot = visitor.view->robot_of(looked.slot);
-      if (robot && visitor.view->may(InfoClass::kReadings, *robot)) {
+      if (robot && visitor.view->may_read_sensor(*robot, looked.sensor)) {
         audience.looked_at.push_back({*robot, looked.sensor});
       }
     }
@@ -173,7 +182,13 @@ void Visitors::tick(Audience audience) {
       const auto robot = visitor.view->robot_of(map.slot);
       if (robot && visitor.view->may(InfoClass::kMaps, *robot)) audience.maps.push_back(*robot);
     }
+    for (const ProbeShown& probe : visitor.page->looked_at_probes()) {
+      if (visitor.view->may(InfoClass::kProbe, probe.asked.robot)) {
+        audience.probes.push_back(probe.asked);
+      }
+    }
   }
+  std::sort(audience.probes.begin(), audience.probes.end());
   std::sort(audience.maps.begin(), audience.maps.end());
   audience.maps.erase(std::unique(audience.maps.begin(), audience.maps.end()), audience.maps.end());
   auto& looked_at = audience.looked_at;
@@ -269,6 +284,14 @@ SessionCalls Visitors::calls_of(std::uint64_t id) {
     note_command(id, command, answer);
   };
   calls.people = [this, id](const PeopleMessage& asked) { take_people(id, asked); };
+  calls.page_key = [this, id](const PageKeyMessage& page) {
+    const auto found = visitors_.find(id);
+    if (found == visitors_.end()) return;
+    // What it asked before is its own, too.
+    leave_leases(found->second);
+    found->second.number = direct_line::page_number(page.key);
+    found->second.page->set_author(author_of(found->second));
+  };
   calls.chat = [this, id](const ChatMessage& said) { return chat(id, said); };
   calls.halted = [this, id](const HaltMessage& halt, bool good) {
     const auto found = visitors_.find(id);
@@ -290,55 +313,6 @@ void Visitors::note_command(std::uint64_t id, const CommandMessage& command,
     audit_->note("refused",
                  {{"why", "order"}, {"user", found->second.person.name}, {"detail", detail}});
   }
-}
-
-Result<std::string> Visitors::chat(std::uint64_t id, const ChatMessage& chat) {
-  using To = ChatMessage::To;
-  Visitor& visitor = visitors_.at(id);
-  if (visitor.eyes) return fail(ErrorCode::kState, "With the eyes of another one only looks.");
-  if (!source_) return fail(ErrorCode::kState, "No run is in progress.");
-  if (!visitor.view->may_any(InfoClass::kChat)) {
-    return fail(ErrorCode::kState, "Your rights do not include this.");
-  }
-  ChatRoom::Line line;
-  line.from = known_as(visitor.person);
-  line.to = chat.to;
-  line.name = chat.name;
-  line.text = chat.text;
-  line.t_s = source_->open_playhead()->look(Session::Clock::now()).now_s;
-  const Cast& cast = desk_.cast();
-  CommandMessage told;
-  told.kind = CommandMessage::Kind::kText;
-  told.value = chat.text;
-  for (std::uint32_t slot = 0; slot < visitor.view->robots(); ++slot) {
-    const std::uint32_t robot = *visitor.view->robot_of(slot);
-    const bool meant = (chat.to == To::kRobot && slot == chat.slot) ||
-                       (chat.to == To::kTeam && cast.teams[robot] == chat.name);
-    if (!meant || !visitor.view->may(InfoClass::kChat, robot)) continue;
-    line.robots.push_back(robot);
-    if (chat.to == To::kRobot) line.name = cast.names[robot];
-    if (source_->about().live && visitor.view->may(InfoClass::kCommand, robot)) {
-      told.slots.push_back(slot);
-    }
-  }
-  if ((chat.to == To::kRobot || chat.to == To::kTeam) && line.robots.empty()) {
-    return fail(ErrorCode::kNotFound, "There is no such robot or team.");
-  }
-  if (chat.to == To::kUser && !is_there(chat.name)) {
-    return fail(ErrorCode::kNotFound, "`{}` is not here.", chat.name);
-  }
-  const std::size_t robots = std::min(told.slots.size(), kMostCommanded);
-  told.slots.resize(robots);
-  told.request = chat.request;
-  RAVE_TRY(room_.say(std::move(line), Session::Clock::now()));
-  if (robots > 0) visitor.page->command(told);
-  return robots > 0 ? fmt::format("Said, and given to {} robots.", robots) : std::string("Said.");
-}
-
-bool Visitors::is_there(const std::string& name) const {
-  return std::any_of(visitors_.begin(), visitors_.end(), [&name](const auto& entry) {
-    return known_as(entry.second.person).name == name;
-  });
 }
 
 Result<std::string> Visitors::set_right(std::uint64_t id, const RightChange& change) {
@@ -368,7 +342,7 @@ Result<std::string> Visitors::see_as(std::uint64_t id, const SeeAsMessage& see) 
     for (const Person& person : people()) {
       if (person.name == see.user) eyes = person;
     }
-    if (!eyes) return fail(ErrorCode::kNotFound, "Nobody is called `{}`.", see.user);
+    if (!eyes) return fail(ErrorCode::kNotFound, "There is no user `{}`.", see.user);
   }
   audit_->note("see_as", {{"user", visitor.person.name}, {"detail", eyes ? eyes->name : "self"}});
   visitor.eyes = std::move(eyes);

@@ -57,6 +57,7 @@ class Visitors {
     std::optional<Person> eyes;  ///< With whose eyes a super-user looks.
     std::shared_ptr<const View> view;
     std::unique_ptr<Session> page;
+    std::uint64_t number = 0;  ///< Of the page, as the run knows it.
     std::uint64_t told_chat = 0;
     std::uint64_t told_accounts = 0;  ///< Revision; 0: nothing yet.
     std::uint64_t told_audit = 0;     ///< Lines, and one.
@@ -66,6 +67,7 @@ class Visitors {
     }
   };
   [[nodiscard]] static Author author_of(const Visitor& visitor);
+  void leave_leases(const Visitor& gone);
   void show_to(Visitor& visitor, bool same_run);
   void show_again_if_other();
   void tell_rights();

@@ -100,17 +100,16 @@ TEST_F(AccountsTest, AnInvitationIsGoodForSoManyPeopleAndSoLong) {
   ASSERT_TRUE(accounts->join(*two, "ben", ""));
   EXPECT_EQ(error_of(accounts->join(*two, "BEN", "")), "the name `ben` is taken");
   ASSERT_TRUE(accounts->join(*two, "cleo", "ten letters!"));
-  const std::string gone =
-      "this invitation was used already, has ended, or is not one of this server";
+  const std::string gone = "this invitation is used up, has expired, or is not from this server";
   EXPECT_EQ(error_of(accounts->join(*two, "dora", "")), gone);
   EXPECT_EQ(error_of(accounts->join("feed", "dora", "")), gone);
   const auto old = accounts->invite(Role::kObserver, {}, 1, 7, "ada");
   now_s_ += 8 * 86'400;
   EXPECT_EQ(error_of(accounts->join(*old, "dora", "")), gone);
   EXPECT_EQ(error_of(accounts->invite(Role::kObserver, {}, 0, 7, "ada")),
-            "an invitation is good for 1 to 1000 people");
+            "an invitation is valid for 1 to 1000 people");
   EXPECT_EQ(error_of(accounts->invite(Role::kObserver, {}, 1, 366, "ada")),
-            "an invitation is good for 1 to 365 days");
+            "an invitation is valid for 1 to 365 days");
 }
 
 TEST_F(AccountsTest, GuestsGoWithTheirSession) {
@@ -133,7 +132,7 @@ TEST_F(AccountsTest, WhoIsRemovedOrSignsOutIsOut) {
   ASSERT_TRUE(accounts->sign_out(one));
   EXPECT_FALSE(accounts->who(one));
   EXPECT_TRUE(accounts->who(two));
-  EXPECT_EQ(error_of(accounts->remove("adda")), "nobody is called `adda`; did you mean `ada`?");
+  EXPECT_EQ(error_of(accounts->remove("adda")), "there is no account `adda`; did you mean `ada`?");
   // Another process removes; the first one learns of it.
   ASSERT_TRUE(opened()->remove("ada"));
   ASSERT_TRUE(accounts->refresh());
@@ -148,7 +147,7 @@ TEST_F(AccountsTest, AnotherRoleIsInForceAtOnceAndOfOpenSessions) {
   ASSERT_TRUE(accounts->change_person({"ben", Role::kObserver, {false, {"green"}}}));
   EXPECT_EQ(*accounts->who(session), (Person{"ben", Role::kObserver, {false, {"green"}}}));
   EXPECT_EQ(error_of(accounts->change_person({"Ben", Role::kObserver, {}})),
-            "nobody is called `Ben`; did you mean `ben`?");
+            "there is no account `Ben`; did you mean `ben`?");
   // Who could mend it is never taken away; ben may go.
   EXPECT_EQ(error_of(accounts->change_person({"ada", Role::kCommander, {}})),
             "`ada` is the last super-user who can sign in");
@@ -192,7 +191,7 @@ TEST_F(AccountsTest, SessionsEndAndPeopleWereSeen) {
   EXPECT_EQ(accounts->state().accounts[0].seen_s, now_s_);
   EXPECT_EQ(accounts->end_sessions("ada").value_or(0), 2U);
   EXPECT_FALSE(accounts->who(one));
-  EXPECT_EQ(error_of(accounts->end_sessions("eve")), "nobody is called `eve`");
+  EXPECT_EQ(error_of(accounts->end_sessions("eve")), "there is no account `eve`");
 }
 
 TEST_F(AccountsTest, AnInvitationIsWithdrawnByItsId) {
@@ -207,7 +206,7 @@ TEST_F(AccountsTest, AnInvitationIsWithdrawnByItsId) {
   EXPECT_FALSE(accounts->knows_invitation(secret));
   EXPECT_TRUE(accounts->knows_invitation(kept));
   EXPECT_EQ(error_of(accounts->withdraw(id)),
-            "this invitation is used up, has ended or was withdrawn");
+            "this invitation is used up, has expired or was withdrawn");
 }
 
 TEST_F(AccountsTest, NamesAndPasswordsAreChecked) {
@@ -249,8 +248,8 @@ INSTANTIATE_TEST_SUITE_P(
     All, BadAccounts,
     testing::Values(
         BadFile{"",
-                "accounts:1: expected `rave-accounts 1`; it is no file of accounts, or one of a "
-                "later version"},
+                "accounts:1: expected `rave-accounts 1`; not a file of accounts, or one of a later "
+                "version"},
         BadFile{"rave-accounts 1\nhost\tx\n",
                 "accounts:2: expected user, invitation or session, found `host`"},
         BadFile{"rave-accounts 1\nuser\tada\tobserver\t*\n",
@@ -262,7 +261,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"rave-accounts 1\nuser\tada\tobserver\t*\tplain\n",
                 "accounts:2: expected a hash by Argon2id, or - for none"},
         BadFile{"rave-accounts 1\nuser\tada\tobserver\t*\t-\nuser\tada\tobserver\t*\t-\n",
-                "accounts:3: `ada` has an account already"},
+                "accounts:3: `ada` already has an account"},
         BadFile{"rave-accounts 1\nuser\tada\tobserver\t*\t-\tasleep\t0\n",
                 "accounts:2: expected enabled or disabled, found `asleep`"},
         BadFile{"rave-accounts 1\nuser\tada\tobserver\t*\t-\tenabled\t-1\n",

@@ -44,7 +44,7 @@ TEST(EventFold, ALogThatIsFullSaysWhatIsLeftOut) {
   }
   ASSERT_EQ(fold.events().size(), EventFold::kMostEvents + 1);
   EXPECT_EQ(fold.events().back().text,
-            "the log is full: 10 more events are left out; the recording has them");
+            "the log is full: 10 more events are not shown; the recording has them");
   const std::uint64_t revision = fold.revision();
   // What matters is still told.
   fold.add(1e6, 0, "driver failed", "it does not answer");

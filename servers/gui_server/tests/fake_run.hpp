@@ -20,6 +20,10 @@ class FakeRun : public Source {
   static constexpr float kSecretRange_m = 1234.5F;
   static constexpr float kOpenRange_m = 2.5F;
   static constexpr float kHalfRange_m = 987.5F;
+  static constexpr std::uint32_t kProbeNumber = probe::kProbeBit | 7U;
+  static constexpr double kOpenGap_m = 0.3125;
+  static constexpr double kSecretGap_m = 4711.5;
+  static constexpr const char* kTwinText = "real -> simulated at the door";
   inline static const std::vector<std::uint8_t> kOpenCells{1, 2, 3, 4, 5, 6, 7, 8};
   inline static const std::vector<std::uint8_t> kGlobalCells{11, 12, 13, 14, 15, 16, 17, 18};
   inline static const std::vector<std::uint8_t> kSecretCells{91, 92, 93, 94, 95, 96, 97, 98};
@@ -61,7 +65,7 @@ class FakeRun : public Source {
   [[nodiscard]] const RunAbout& about() const noexcept override { return about_; }
   [[nodiscard]] Powers powers() const override {
     return {{"play", "pace", "step", "stop", "release", "true_pose", "readings", "hybrid_parts",
-             "obstacles", "log", "recording", "command", "edit", "chat", "maps"},
+             "obstacles", "log", "recording", "command", "edit", "chat", "maps", "probe"},
             {}};
   }
   [[nodiscard]] const std::string& bodies_json() const noexcept override { return bodies_; }
@@ -80,8 +84,27 @@ class FakeRun : public Source {
   [[nodiscard]] const MapShown* map(const MapName& name) const override { return maps_.find(name); }
   void tick(Playhead::Clock::time_point /*now*/, const Audience& audience) override {
     for (const std::uint32_t robot : audience.maps) asked_maps_ |= 1 << robot;
+    int probed = 0;
+    for (const probe::Asked& asked : audience.probes) probed |= 1 << asked.robot;
+    probed_ = probed;
     ++poses_.serial;
     poses_.time_s = 0.01 * poses_.serial;
+  }
+  [[nodiscard]] std::string virtual_sensors_json() override {
+    return R"([{"name":"virtual_laser","summary":"","kind":"ranges","parameters":[]}])";
+  }
+  [[nodiscard]] Result<ProbeMade> probe(const ProbeWish& wish) override {
+    const std::lock_guard lock(mutex_);
+    wishes_.push_back(wish);
+    return ProbeMade{{wish.slot, kProbeNumber, "{}"},
+                     "  - name: p\n",
+                     R"({"name":"p","kind":"ranges","origin":"virtual","driver":"virtual_laser",)"
+                     R"("mount":[0,0,0],"z":0,"period_s":0.1,"fields":["range [m]"]})"};
+  }
+  /// What pages wished to try, by robots of the run.
+  [[nodiscard]] std::vector<ProbeWish> wishes() {
+    const std::lock_guard lock(mutex_);
+    return wishes_;
   }
   void halt(const HaltMessage& halt, const Author& /*author*/, Reply reply) override {
     halted_robots += halt.slots.empty() ? 4 : static_cast<int>(halt.slots.size());
@@ -101,7 +124,26 @@ class FakeRun : public Source {
   [[nodiscard]] std::vector<DriveState> leases_changed_since(
       std::uint64_t revision) const override {
     if (revision > 0) return {};
-    return {{0, "ben", {"drive", "goal"}, "goal 1.00, 2.00"}, {1, "spy-lord", {"drive"}, ""}};
+    DriveState open{0, "ben", {"drive", "goal"}, "goal 1.00, 2.00", lease_page};
+    open.hand_over.emplace();
+    open.hand_over->last = kTwinText;
+    open.shadow.emplace();
+    open.shadow->m = kOpenGap_m;
+    DriveState secret{1, "spy-lord", {"drive"}, ""};
+    secret.hand_over.emplace();
+    secret.shadow.emplace();
+    secret.shadow->m = kSecretGap_m;
+    return {open, secret};
+  }
+  [[nodiscard]] std::span<const ChatText> chat() const noexcept override { return recorded; }
+  void keep_chat(const ChatText& said) override {
+    const std::lock_guard lock(mutex_);
+    kept_.push_back(said);
+  }
+  /// What was said, for the record.
+  [[nodiscard]] std::vector<ChatText> kept() {
+    const std::lock_guard lock(mutex_);
+    return kept_;
   }
   /// What robots and obstacles were asked, with who asked.
   [[nodiscard]] std::vector<std::pair<CommandMessage, Author>> commands() {
@@ -110,9 +152,12 @@ class FakeRun : public Source {
   }
 
   RunAbout about_;
+  std::vector<ChatText> recorded;  ///< Of the record that this is, if it is one.
   std::atomic<int> halted_robots = 0;
   std::atomic<int> asked_maps_ = 0;  ///< A bit of each robot whose local map was asked for.
-  std::atomic<int> moved = 0;        ///< How often somebody moved the time of the run.
+  std::atomic<int> probed_ = 0;      ///< A bit of each robot that something is tried on now.
+  std::atomic<std::uint64_t> lease_page = 0;  ///< On which page ben drives.
+  std::atomic<int> moved = 0;                 ///< How often somebody moved the time of the run.
 
  private:
   class FakeCursor final : public Cursor {
@@ -154,6 +199,8 @@ class FakeRun : public Source {
   };
 
   std::mutex mutex_;
+  std::vector<ProbeWish> wishes_;
+  std::vector<ChatText> kept_;
   std::vector<std::pair<CommandMessage, Author>> commands_;
   std::string robots_;
   std::string bodies_ =

@@ -67,7 +67,7 @@ TEST(FoxgloveOrigin, IsSchemeAndHost) {
                                 "https://app.foxglove.dev/", "https://App.foxglove.dev", "://a"}) {
     const auto checked = check_foxglove_origin(bad);
     ASSERT_FALSE(checked) << bad;
-    EXPECT_NE(checked.error().message.find("is no origin: expected scheme and host"),
+    EXPECT_NE(checked.error().message.find("is not an origin: expected scheme and host"),
               std::string::npos);
   }
 }

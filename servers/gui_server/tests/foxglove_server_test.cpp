@@ -106,7 +106,7 @@ TEST_F(Foxglove, EndsSubscriptionsAndRefusesOddOnes) {
   ASSERT_TRUE(one.data(1).is_object());
   ASSERT_TRUE(one.subscribe("/tf", 2));
   EXPECT_EQ(one.next("status").at("message"),
-            "subscription 2: its number or its channel has a subscription");
+            "subscription 2: this number or channel is already subscribed");
   one.socket().send(R"({"op":"subscribe","subscriptions":[{"id":9,"channelId":999}]})");
   EXPECT_EQ(one.next("status").at("message"), "there is no channel 999");
   one.socket().send(R"({"op":"unsubscribe","subscriptionIds":[1,3]})");

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include "hostile_fixture.hpp"
+#include "rave/direct_line/ticket.hpp"
 
 namespace rave::gui_server::testing {
 namespace {
@@ -19,6 +20,8 @@ TEST_F(Hostile, OrdersOfAnObserverAreRefusedAndLogged) {
         R"({"type":"set","request":7,"slots":[0],"key":"program.v","value":9})",
         R"({"type":"edit","request":8,"do":"remove","name":"secret-pond"})",
         R"({"type":"edit","request":9,"do":"add","name":"a","pose":[0,0,0],"disc":1})",
+        R"({"type":"twin","request":12,"do":"hand_over","slots":[0],"to":"real"})",
+        R"({"type":"twin","request":13,"do":"reset_shadow","slots":[0]})",
         R"({"type":"order","request":10,"kind":"cancel","slots":[3]})",
         R"({"type":"order","request":11,"kind":"cancel","slots":[4294967295]})"}) {
     eve.send(request);
@@ -44,7 +47,9 @@ TEST_F(Hostile, ACommanderCommandsTheirOwnTeamAlone) {
   ASSERT_EQ(asked.size(), 1U);
   EXPECT_EQ(asked[0].first.slots, (std::vector<std::uint32_t>{0}));
   EXPECT_EQ(asked[0].first.points[0], (Vec2{1, 2}));
-  EXPECT_EQ(asked[0].second, (Author{"ben", false}));
+  EXPECT_EQ(asked[0].second.name, "ben");
+  EXPECT_FALSE(asked[0].second.overrides);
+  EXPECT_NE(asked[0].second.page, 0U);
   for (const char* const request :
        {R"({"type":"order","request":2,"kind":"place","slots":[0],"points":[[0,0]]})",
         R"({"type":"edit","request":3,"do":"add","name":"a","pose":[0,0,0],"disc":1})",
@@ -60,6 +65,22 @@ TEST_F(Hostile, ACommanderCommandsTheirOwnTeamAlone) {
   EXPECT_TRUE(run_->commands().back().second.overrides);
 }
 
+TEST_F(Hostile, HowHandOversAndShadowsStandIsToldToWhoMayKnowIt) {
+  const std::string gap = "0.3125";
+  RawSocket eve = socket(guest(Role::kObserver, "eve"));
+  EXPECT_NE(eve.text_with("\"leases\"").find(gap), std::string::npos) << "readings of her team";
+  RawSocket ben = socket(guest(Role::kCommander, "ben"));
+  const std::string leases = ben.text_with("\"leases\"");
+  EXPECT_NE(leases.find(FakeRun::kTwinText), std::string::npos) << leases;
+  EXPECT_NE(leases.find(gap), std::string::npos) << leases;
+  for (const RawSocket* const client : {&eve, &ben}) {
+    EXPECT_EQ(client->heard().find("4711.5"), std::string::npos) << "the shadow of another team";
+  }
+  EXPECT_EQ(eve.heard().find(FakeRun::kTwinText), std::string::npos);
+  RawSocket boss = super_user();
+  EXPECT_NE(boss.text_with("\"leases\"").find("4711.5"), std::string::npos);
+}
+
 TEST_F(Hostile, MalformedOrdersNeverReachARun) {
   RawSocket ben = socket(guest(Role::kCommander, "ben"));
   std::string path = R"({"type":"order","request":1,"kind":"path","slots":[0],"points":[)";
@@ -72,12 +93,58 @@ TEST_F(Hostile, MalformedOrdersNeverReachARun) {
         std::string(R"({"type":"order","request":-1,"kind":"cancel","slots":[0]})"),
         std::string(
             R"({"type":"order","request":1,"kind":"drive","slots":[0],"v":1,"w":0,"by":"ada"})"),
-        path + "]}"}) {
+        std::string(R"({"type":"page","key":"BAAA"})"),
+        std::string(R"({"type":"page","key":7})")}) {
     ben.send(request);
     EXPECT_NE(ben.text_with("\"to\":\"message\"").find("\"good\":false"), std::string::npos)
         << request.substr(0, 80);
   }
+  ben.send(path + "]}");
+  EXPECT_NE(ben.text_with("\"to\":\"message\"").find("a path has 10000 points; expected 2 to 1000"),
+            std::string::npos);
   EXPECT_TRUE(run_->commands().empty());
+}
+
+TEST_F(Hostile, TwoPagesOfOnePersonAreTwoForTheRun) {
+  const std::string ben = guest(Role::kCommander, "ben");
+  RawSocket first = socket(ben);
+  RawSocket second = socket(ben);
+  const auto order = [](RawSocket& page) {
+    page.send(R"({"type":"order","request":1,"kind":"cancel","slots":[0]})");
+    EXPECT_NE(page.text_with("\"to\":\"cancel\"").find("\"good\":true"), std::string::npos);
+  };
+  order(first);
+  order(second);
+  order(first);
+  // The key of its tickets is another name of the page; of two with one key one has copied it.
+  std::string point(65, '\0');
+  point[0] = 4;
+  const std::string key(86, 'A');
+  second.send(R"({"type":"page","key":"B)" + key + R"("})");
+  order(second);
+  const auto asked = run_->commands();
+  ASSERT_EQ(asked.size(), 4U);
+  EXPECT_NE(asked[0].second.page, 0U);
+  EXPECT_NE(asked[0].second.page, asked[1].second.page);
+  EXPECT_EQ(asked[0].second.page, asked[2].second.page);
+  EXPECT_EQ(asked[3].second.page, direct_line::page_number(point));
+  EXPECT_NE(asked[3].second.page, asked[1].second.page);
+}
+
+TEST_F(Hostile, WhatAPageLeavesIsAnyPagesOfTheSamePerson) {
+  {
+    RawSocket ben = socket(guest(Role::kCommander, "ben"));
+    ben.send(R"({"type":"order","request":1,"kind":"cancel","slots":[0]})");
+    EXPECT_NE(ben.text_with("\"to\":\"cancel\""), "");
+    run_->lease_page = run_->commands()[0].second.page;
+  }
+  for (int i = 0; i < 1000 && run_->commands().size() < 2; ++i) ::usleep(10'000);
+  const auto asked = run_->commands();
+  ASSERT_EQ(asked.size(), 2U);
+  EXPECT_EQ(asked[1].first.kind, CommandMessage::Kind::kGive);
+  EXPECT_EQ(asked[1].first.value, "ben");
+  EXPECT_EQ(asked[1].first.slots, (std::vector<std::uint32_t>{0}));
+  EXPECT_EQ(asked[1].second.page, asked[0].second.page);
 }
 
 TEST_F(Hostile, AFloodOfOrdersIsRefusedAndThenCutOff) {
@@ -123,7 +190,53 @@ TEST_F(Hostile, WhatIsSaidReachesWhoMayHearItAlone) {
   EXPECT_NE(ben.text_with("and me"), "");
   EXPECT_EQ(run_->commands().size(), 1U);
   eve.send(R"({"type":"say","request":2,"to":"user","name":"nobody","text":"psst"})");
-  EXPECT_NE(eve.text_with("\"request\":2").find("is not here"), std::string::npos);
+  EXPECT_NE(eve.text_with("\"request\":2").find("is not connected"), std::string::npos);
+}
+
+TEST_F(Hostile, AReplayShowsTheChatOfTheRecordToWhoMayReadItAlone) {
+  auto replay = std::make_shared<FakeRun>();
+  replay->about_.live = false;
+  replay->recorded = {{1, 0.5, "ada", "commander", "all", "", "said to all"},
+                      {2, 1.5, "ada", "commander", "user", "ben", "for ben alone"},
+                      {3, 2.5, "ada", "commander", "role", "commander", "for commanders"},
+                      {4, 3.5, "ada", "commander", "robot", "spy-2", "for a spy"},
+                      {5, 4.5, "ada", "boss", "all", "", "of an unknown role"}};
+  const std::string cookie = guest(Role::kCommander, "ben");
+  RawSocket ben = socket(cookie);
+  RawSocket eve = socket(guest(Role::kObserver, "eve"));
+  server_->show(replay);
+  const std::string bens = ben.text_with("said to all");
+  EXPECT_NE(bens.find(R"("t":1.5,"from":{"name":"ada","role":"commander"})"), std::string::npos)
+      << bens;
+  EXPECT_NE(bens.find("for ben alone"), std::string::npos);
+  EXPECT_NE(bens.find("for commanders"), std::string::npos);
+  EXPECT_EQ(bens.find("unknown role"), std::string::npos);
+  const std::string eves = eve.text_with("said to all");
+  EXPECT_EQ(eves.find("for "), std::string::npos) << eves;
+  // Who comes later gets the same.
+  RawSocket late = socket(cookie);
+  EXPECT_NE(late.text_with("said to all").find("for ben alone"), std::string::npos);
+}
+
+TEST_F(Hostile, WhatIsSaidGoesIntoTheRecordOnce) {
+  RawSocket ben = socket(guest(Role::kCommander, "ben"));
+  ben.send(R"({"type":"say","request":1,"to":"robot","slot":0,"text":"well done"})");
+  EXPECT_NE(ben.text_with("\"request\":1").find("\"good\":true"), std::string::npos);
+  const auto kept = run_->kept();
+  ASSERT_EQ(kept.size(), 1U);
+  EXPECT_EQ(kept[0].from, "ben");
+  EXPECT_EQ(kept[0].role, "commander");
+  EXPECT_EQ(kept[0].to, "robot");
+  EXPECT_EQ(kept[0].name, "walker-1");
+  EXPECT_EQ(kept[0].text, "well done");
+  // The replay of the same run begins on the same page.
+  auto replay = std::make_shared<FakeRun>();
+  replay->about_.live = false;
+  replay->recorded = kept;
+  server_->show(replay);
+  const std::string shown = ben.text_with("\"type\":\"chat\",\"reset\":true");
+  EXPECT_NE(shown.find("well done"), std::string::npos) << shown;
+  EXPECT_EQ(shown.find("well done"), shown.rfind("well done")) << shown;
 }
 
 TEST_F(Hostile, ComponentsAreServedToTheirRolesAlone) {

@@ -101,7 +101,7 @@ TEST_F(Hostile, WhoLosesTheRoleLosesItOnOpenPages) {
   EXPECT_NE(cleo.text_with(R"("type":"accounts")"), "");
   // Nobody takes the role from themselves.
   cleo.send(R"({"type":"account","request":3,"do":"disable","name":"cleo"})");
-  EXPECT_NE(cleo.text_with(R"("to":"disable")").find("from themselves"), std::string::npos);
+  EXPECT_NE(cleo.text_with(R"("to":"disable")").find("your own role"), std::string::npos);
   boss.send(R"({"type":"account","request":4,"do":"disable","name":"cleo"})");
   EXPECT_EQ(cleo.close_code(), 4401);
   EXPECT_NE(audit().find("cleo: observer, teams green (was super_user, teams green)"),

@@ -63,7 +63,7 @@ TEST_F(PageCommandsTest, TooMuchIsRefusedButToStandNeverIs) {
     commands.take(drive({0}, 0.3));
   }
   EXPECT_FALSE(said_.back().good);
-  EXPECT_NE(said_.back().text.find("Too many at once"), std::string::npos);
+  EXPECT_NE(said_.back().text.find("Too many orders"), std::string::npos);
   commands.take(drive({0}, 0));
   EXPECT_TRUE(said_.back().good);
 }

@@ -108,6 +108,28 @@ TEST(PageMessage, LeasesParametersAndObstaclesAreRead) {
                 .value,
             R"({name: "pond", disc_radius_m: 0.5, x_m: 1, y_m: 2, yaw_deg: 0})");
   EXPECT_EQ(command_in(R"({"type":"edit","request":1,"do":"remove","name":"pond"})").key, "pond");
+  const CommandMessage swap =
+      command_in(R"({"type":"twin","request":1,"do":"hand_over","slots":[3],"to":"real"})");
+  EXPECT_EQ(swap.kind, CommandMessage::Kind::kHandOver);
+  EXPECT_EQ(swap.value, "real");
+  EXPECT_EQ(command_in(R"({"type":"twin","request":1,"do":"reset_shadow","slots":[3]})").kind,
+            CommandMessage::Kind::kResetShadow);
+}
+
+TEST(PageMessage, ProbesAreReadWithTheirValuesAsAFileHasThem) {
+  const auto message = parse_page_message(
+      R"({"type":"look_probes","request":5,"probes":[{"slot":2,"name":"sonar_2","driver":"virtual_sonar","mount":[0.5,-1,3],"z":0.2,"params":{"cone_deg":12.5,"fast":true,"mode":"a, b","zones":[1,2]}}]})");
+  ASSERT_TRUE(message.has_value()) << message.error().message;
+  const auto& look = std::get<LookProbesMessage>(*message);
+  EXPECT_EQ(look.request, 5U);
+  ASSERT_EQ(look.probes.size(), 1U);
+  const ProbeWish& wish = look.probes[0];
+  EXPECT_EQ(wish.slot, 2U);
+  EXPECT_EQ(wish.X_RS, (Pose2{0.5, -1, 3}));
+  EXPECT_EQ(wish.z_m, 0.2);
+  const std::vector<std::pair<std::string, std::string>> params = {
+      {"cone_deg", "12.5"}, {"fast", "true"}, {"mode", "\"a, b\""}, {"zones", "[1,2]"}};
+  EXPECT_EQ(wish.params, params);
 }
 
 TEST(PageMessage, WhatIsSaidIsRead) {
@@ -196,8 +218,31 @@ INSTANTIATE_TEST_SUITE_P(
             R"({"type":"edit","request":1,"do":"add","name":"a","pose":[0,0,0],"polygon":[[0,0],[1,1]]})",
             "3 to 64 corners"},
         Refused{R"({"type":"say","request":1,"to":"everybody","text":"a"})", "expected all"},
-        Refused{R"({"type":"say","request":1,"to":"all","text":" "})", "something to say"},
+        Refused{R"({"type":"say","request":1,"to":"all","text":" "})", "a text that is not empty"},
         Refused{R"({"type":"say","request":1,"to":"role","name":"king","text":"a"})", "observer"},
+        Refused{R"({"type":"look_probes","request":1,"probes":[1]})", "expected objects"},
+        Refused{
+            R"({"type":"look_probes","request":1,"probes":[{"slot":0,"name":"a b","driver":"d","mount":[0,0,0],"z":0,"params":{}}]})",
+            "`name`: expected letters"},
+        Refused{
+            R"({"type":"look_probes","request":1,"probes":[{"slot":0,"name":"a","driver":"d","mount":[0,0],"z":0,"params":{}}]})",
+            "`mount`"},
+        Refused{
+            R"({"type":"look_probes","request":1,"probes":[{"slot":0,"name":"a","driver":"d","mount":[0,0,0],"z":1e9,"params":{}}]})",
+            "at most 100 m"},
+        Refused{
+            R"({"type":"look_probes","request":1,"probes":[{"slot":0,"name":"a","driver":"d","mount":[0,0,0],"z":0,"params":{"x":{"y":1}}}]})",
+            "`params.x`"},
+        Refused{
+            R"({"type":"look_probes","request":1,"probes":[{"slot":0,"name":"a","driver":"d","mount":[0,0,0],"z":0,"params":{"x: 1, y":1}}]})",
+            "plain names"},
+        Refused{
+            R"({"type":"look_probes","request":1,"probes":[{"slot":0,"name":"a","driver":"d","mount":[0,0,0],"z":0,"params":{},"device":"base"}]})",
+            "unknown members"},
+        Refused{R"({"type":"twin","request":1,"do":"swap","slots":[0]})",
+                "hand_over or reset_shadow"},
+        Refused{R"({"type":"twin","request":1,"do":"hand_over","slots":[0],"to":"here"})",
+                "real, simulated, first or twin"},
         Refused{R"({"type":"halt","do":"go","slots":[]})", "stop or release"},
         Refused{R"({"type":"halt","do":"stop","slots":[-1]})", "whole number"},
         Refused{

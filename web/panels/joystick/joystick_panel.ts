@@ -4,6 +4,7 @@ import {icon} from '../../app/icons';
 import {controls, glyphs} from '../../app/styles';
 import type {PanelContext} from '../../panel_api';
 import '../lease_bar';
+import {kCommandsOf} from '../../protocol/frames';
 import {guardOf, type GuardAct} from '../robot/guard_act';
 import {CarDesk} from './car_desk';
 import {carStyles, renderCar} from './car_view';
@@ -41,6 +42,8 @@ export class JoystickPanel extends LitElement {
       if (this.driven !== chosen) this.car.letGo();
       chosen = this.driven;
       this.loop.choose(chosen);
+      // What is left of the stick behind the guard.
+      link.look(this, chosen === null ? [] : [[chosen, kCommandsOf]]);
       this.requestUpdate();
     };
     choose();
@@ -63,6 +66,7 @@ export class JoystickPanel extends LitElement {
   override disconnectedCallback(): void {
     super.disconnectedCallback();
     this.letGo();
+    this.context.link.look(this, []);
     for (const timer of this.timers) clearInterval(timer);
     for (const end of this.ends.splice(0)) end();
   }

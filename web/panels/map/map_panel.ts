@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-import {LitElement, html, nothing, type TemplateResult} from 'lit';
+import {html, nothing, type TemplateResult} from 'lit';
 import {icon} from '../../app/icons';
 import {controls, glyphs} from '../../app/styles';
 import {keyOf, type MapKey} from '../../model/maps';
-import {Placed} from '../../model/pose_history';
-import type {PanelContext} from '../../panel_api';
+import type {Signal} from '../../model/signal';
 import {RobotFlag} from '../../protocol/frames';
 import type {MapName} from '../../protocol/messages';
+import {LookingPanel} from '../looking_panel';
 import {Camera} from '../world/camera';
 import {drawGrid, drawScale} from '../world/grid_layer';
 import {RobotLayer} from '../world/robot_layer';
@@ -21,61 +21,26 @@ const kZoom = 1.4;
 const kMostRobots = 400;
 
 /** The local map of a robot or a global map, alone or over the world. */
-export class MapPanel extends LitElement {
-  declare context: PanelContext;
+export class MapPanel extends LookingPanel {
+  protected readonly refresh_ms = kTextRefresh_ms;
   /** By name, so that it is found again in another roster; null: not chosen yet. */
   private chosen: MapName | null = null;
   private opacity = 0.6;
   private moved = false;
   private fittedTiles = 0;
-  private robots!: RobotLayer;
+  private robots: RobotLayer | null = null;
   private readonly camera = new Camera();
-  private readonly placed = new Placed();
   private readonly gestures = new MapGestures(this.camera, () => {
     this.moved = true;
     this.draw();
   });
-  private drawQueued = false;
-  private timer = 0;
-  private readonly ends: (() => void)[] = [];
-  private readonly resized = new ResizeObserver(() => this.draw());
-
-  override connectedCallback(): void {
-    super.connectedCallback();
-    // The dock takes panels out while they are hidden: what came meanwhile is to be shown.
-    this.requestUpdate();
-    const {model, palette, selection} = this.context;
-    this.robots ??= new RobotLayer(palette, selection);
-    this.robots.refresh(model.robots);
-    const changed = () => {
-      this.robots.refresh(model.robots);
-      this.lookAround();
-      this.requestUpdate();
-      this.draw();
-    };
-    this.ends.push(
-      model.rosterChanged.on(changed),
-      model.maps.namesChanged.on(changed),
-      model.maps.overlayChanged.on(changed),
-      palette.changed.on(() => this.draw()),
-      selection.changed.on(() => this.draw()),
-      model.pictureChanged.on(() => this.draw()),
-    );
-    this.timer = window.setInterval(() => this.requestUpdate(), kTextRefresh_ms);
-    this.resized.observe(this);
-    changed();
+  protected override signals(): Signal[] {
+    const {maps} = this.context.model;
+    return [maps.namesChanged, maps.overlayChanged];
   }
 
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
+  protected lookAway(): void {
     this.context.link.lookAtMap(this, null);
-    clearInterval(this.timer);
-    this.resized.disconnect();
-    for (const end of this.ends.splice(0)) end();
-  }
-
-  override updated(): void {
-    this.draw();
   }
 
   /** What was chosen, else that of the selected robot, else the first. */
@@ -90,7 +55,10 @@ export class MapPanel extends LitElement {
     return source === null ? null : keyOf(source);
   }
 
-  private lookAround(): void {
+  protected lookAround(): void {
+    const {model, palette, selection} = this.context;
+    this.robots ??= new RobotLayer(palette, selection);
+    this.robots.refresh(model.robots);
     // It stays with its source, whoever is selected later.
     this.chosen ??= this.source;
     this.context.link.lookAtMap(this, this.key);
@@ -177,7 +145,7 @@ export class MapPanel extends LitElement {
   private whyNone(): string {
     const {model} = this.context;
     if (!model.live) return 'Local maps are not recorded, and the world of this run has nothing to map.';
-    return 'No map that you may see: no robot has a range sensor, and there is no global map.';
+    return 'There is no map that you may see: no robot has a range sensor, and there is no global map.';
   }
 
   private waits(source: MapName): string {
@@ -191,16 +159,7 @@ export class MapPanel extends LitElement {
     return `Map of ${source.name}: ${size}. Arrows move it, + and - change its size.`;
   }
 
-  private draw(): void {
-    if (this.drawQueued) return;
-    this.drawQueued = true;
-    requestAnimationFrame(() => {
-      this.drawQueued = false;
-      if (this.isConnected) this.paint();
-    });
-  }
-
-  private paint(): void {
+  protected paint(): void {
     const canvas = this.renderRoot.querySelector('canvas');
     const ctx = canvas?.getContext('2d');
     const {model, palette} = this.context;
@@ -243,7 +202,7 @@ export class MapPanel extends LitElement {
       const robot = model.robots[slot];
       if (robot === undefined || slot >= placed.count || (placed.flags[slot] & RobotFlag.known) === 0) continue;
       if (frames.length > 1) drawTrail(ctx, camera, placed, frames, slot, robot, palette);
-      this.robots.draw(ctx, camera, placed, slot, robot, null);
+      this.robots?.draw(ctx, camera, placed, slot, robot, null);
     }
   }
 

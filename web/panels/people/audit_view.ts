@@ -82,8 +82,8 @@ export class AuditView extends LitElement {
           <option value="">all kinds</option>${kAuditKinds.map((kind) => html`<option value=${kind} ?selected=${kind === this.kind}>${kind.replace('_', ' ')}</option>`)}</select></div>
       ${this.note === '' ? nothing : html`<p class="note bad" role="alert">${this.note}</p>`}
       <div class="scroll" tabindex="0" role="region" aria-label="Audit log">
-        ${this.lines?.map((line) => html`<div class="line ${line.what === 'refused' ? 'refused' : ''}" title=${line.time}><time>${auditTime(line.time, now)}</time><span><b>${whoText(line)}</b> ${auditText(line)}</span></div>`) ?? html`<p>The server has not told its log yet.</p>`}
-        ${this.lines?.length === 0 ? html`<p>${this.kind === '' && this.typed === '' ? 'Nothing was written yet.' : 'No line matches the filter.'}</p>` : nothing}
+        ${this.lines?.map((line) => html`<div class="line ${line.what === 'refused' ? 'refused' : ''}" title=${line.time}><time>${auditTime(line.time, now)}</time><span><b>${whoText(line)}</b> ${auditText(line)}</span></div>`) ?? html`<p>Waiting for the audit log.</p>`}
+        ${this.lines?.length === 0 ? html`<p>${this.kind === '' && this.typed === '' ? 'The audit log is empty.' : 'No line matches the filter.'}</p>` : nothing}
         ${this.more ? (this.most < kMost ? html`<p><button class="plain" @click=${() => { this.most = kMost; void this.load(); }}>Older lines</button></p>` : html`<p>Older lines are in the file audit.jsonl beside the accounts, or filter.</p>`) : nothing}</div>`;
   }
 

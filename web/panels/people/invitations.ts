@@ -36,7 +36,7 @@ export class Invitations extends LitElement {
 
   override render(): TemplateResult {
     const {accounts, rights} = this.context.model;
-    if (accounts === null) return html`<p>The server has not told the invitations yet.</p>`;
+    if (accounts === null) return html`<p>Waiting for the invitations.</p>`;
     if (!accounts.kept) return html`<p>${accounts.why_not}</p>`;
     const now_s = Date.now() / 1000;
     const number = (event: Event) => Number((event.target as HTMLInputElement).value);
@@ -88,7 +88,7 @@ export class Invitations extends LitElement {
       await navigator.clipboard.writeText(this.link);
       this.copied = true;
     } catch {
-      this.note = 'The browser did not allow to copy. Select the link and copy it by hand.';
+      this.note = 'The browser refused to copy. Select the link and copy it by hand.';
     }
     this.requestUpdate();
   }

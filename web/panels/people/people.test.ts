@@ -48,7 +48,7 @@ it('lines of the audit log are sentences', () => {
   expect(whoText({time: '', what: 'refused', from: '10.0.0.1'})).toBe('10.0.0.1');
   expect(whoText({time: '', what: 'stop', user: 'you'})).toBe('The operator');
   expect(auditText({time: '', what: 'login', user: 'ada', by: 'password', from: '::1'})).toBe('signed in by password from ::1');
-  expect(auditText({time: '', what: 'see_as', user: 'ada', detail: 'self'})).toContain('own eyes');
+  expect(auditText({time: '', what: 'see_as', user: 'ada', detail: 'self'})).toContain('no longer views');
   expect(auditText({time: '', what: 'new kind', detail: 'x'})).toBe('new kind: x');
 });
 

@@ -75,7 +75,7 @@ export function auditText(line: AuditLine): string {
     case 'stop': return `stopped ${said}`;
     case 'release': return `released ${said}`;
     case 'right': return `set the right ${said}`;
-    case 'see_as': return said === 'self' ? 'sees with their own eyes again' : `sees as ${said}`;
+    case 'see_as': return said === 'self' ? 'no longer views the page as another user' : `sees as ${said}`;
     case 'order': return `ordered ${said}`;
     case 'account': return `changed ${said}`;
     case 'invitation': return `invitation ${said}`;

@@ -44,7 +44,7 @@ export class PeopleList extends LitElement {
 
   override render(): TemplateResult {
     const {accounts} = this.context.model;
-    if (accounts === null) return html`<p>The server has not told the accounts yet.</p>`;
+    if (accounts === null) return html`<p>Waiting for the accounts.</p>`;
     if (!accounts.kept) return html`<p>${accounts.why_not}</p>`;
     const now_s = Date.now() / 1000;
     const people = peopleWith(accounts.people, this.typed);

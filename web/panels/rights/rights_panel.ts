@@ -46,7 +46,7 @@ export class RightsPanel extends LitElement {
   override render(): TemplateResult {
     const {model} = this.context;
     const {rights} = model;
-    if (rights === null) return html`<p>${model.may('rights') ? 'The server has not told the rights yet.' : model.whyNot('rights')}</p>`;
+    if (rights === null) return html`<p>${model.may('rights') ? 'Waiting for the rights.' : model.whyNot('rights')}</p>`;
     const {roles, people} = rowsOf(rights);
     return html`
       <div class="bar"><span><i class="cell all">${icon('check', 12)}</i>gets it</span><span><i class="cell own"><i></i></i>own teams only</span>

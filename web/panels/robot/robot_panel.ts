@@ -3,10 +3,13 @@ import {LitElement, css, html, nothing, svg, type TemplateResult} from 'lit';
 import {icon} from '../../app/icons';
 import {controls, glyphs} from '../../app/styles';
 import type {PanelContext} from '../../panel_api';
-import {RobotFlag} from '../../protocol/frames';
+import {RobotFlag, kCommandsOf} from '../../protocol/frames';
 import type {Parameter} from '../../protocol/messages';
 import '../lease_bar';
-import {guardOf} from './guard_act';
+import {usefulRange} from '../parameter_range';
+import {guardOf, lastAct} from './guard_act';
+import './twin_section';
+import {toldLines} from './told';
 import {SpeedTrace, askedLines, kTrace_s, type DrivenVelocity} from './speed_trace';
 
 const kRefresh_ms = 250;
@@ -25,14 +28,21 @@ export class RobotPanel extends LitElement {
   override connectedCallback(): void {
     super.connectedCallback();
     this.requestUpdate();
-    const {model, selection, palette} = this.context;
+    const {model, selection, palette, link} = this.context;
     const update = () => this.requestUpdate();
+    const look = () => {
+      const slot = selection.primary;
+      link.look(this, slot === null || !model.live ? [] : [[slot, kCommandsOf]]);
+    };
     for (const signal of [model.rosterChanged, model.drivesChanged, selection.changed, palette.changed]) this.ends.push(signal.on(update));
+    for (const signal of [model.rosterChanged, selection.changed]) this.ends.push(signal.on(look));
+    look();
     this.timer = window.setInterval(update, kRefresh_ms);
   }
 
   override disconnectedCallback(): void {
     super.disconnectedCallback();
+    this.context.link.look(this, []);
     clearInterval(this.timer);
     for (const end of this.ends.splice(0)) end();
   }
@@ -49,7 +59,7 @@ export class RobotPanel extends LitElement {
     const halt = (what: 'stop' | 'release') => link.send({type: 'halt', do: what, slots: [slot]});
     return html`
       <header><i class="glyph ${robot.kind}" style="--hue:${robot.kind === 'real' ? hue.fill : hue.ink}"></i><b style=${robot.kind === 'real' ? `color:${hue.ink}` : ''}>${robot.name}</b>
-        <span class="chip">${robot.kind}${robot.recorded ? ', recorded' : ''}</span><span class="space"></span>${robot.team === '' ? nothing : html`<span class="chip">team ${robot.team}</span>`}</header>
+        <span class="chip">${robot.kind}${robot.twin === undefined ? '' : ' now'}${robot.recorded ? ', recorded' : ''}</span><span class="space"></span>${robot.team === '' ? nothing : html`<span class="chip">team ${robot.team}</span>`}</header>
       <div class="scroll">
         <rave-lease .context=${this.context} .robot=${slot}></rave-lease>
         ${mayStop ? html`<div class="halt">${stopped && model.may('release')
@@ -57,11 +67,15 @@ export class RobotPanel extends LitElement {
           : html`<button class="stop" ?disabled=${stopped} @click=${() => halt('stop')}>${icon('octagonX', 16)} ${stopped ? 'Stopped' : `Stop ${robot.name}`}</button>`}
           ${drive?.order ? html`<span class="order">${drive.order}</span><button class="plain" @click=${() => void this.context.commands.cancel([slot])}>Cancel</button>` : nothing}</div>` : nothing}
         ${this.renderTakes(slot, drive?.takes ?? [])}
+        <rave-twin .context=${this.context} .robot=${slot}></rave-twin>
         ${this.renderParameters(slot, robot.program, robot.parameters ?? [])}
         ${this.renderGuard(slot)}
         ${robot.sensors.length + robot.drivers.length === 0 ? nothing : html`<h4>Drivers</h4><dl>
-          ${robot.sensors.map((sensor) => html`<dt>${sensor.name}</dt><dd>${sensor.driver || 'unknown'} ${sensor.origin === 'real' ? nothing : html`<span class="tag ${sensor.origin}">${sensor.origin}</span>`}</dd>`)}
-          ${robot.drivers.map((driver) => html`<dt>actuator</dt><dd>${driver}</dd>`)}
+          ${robot.sensors.map((sensor, i) => {
+            const {driver, origin} = (robot.handedOver ? robot.twin?.sensors[i] : undefined) ?? sensor;
+            return html`<dt>${sensor.name}</dt><dd>${driver || 'unknown'} ${origin === 'real' ? nothing : html`<span class="tag ${origin}">${origin}</span>`}</dd>`;
+          })}
+          ${(robot.handedOver ? (robot.twin?.drivers ?? []) : robot.drivers).map((driver) => html`<dt>actuator</dt><dd>${driver}</dd>`)}
           ${robot.host ? html`<dt>host</dt><dd>${robot.host}</dd>` : nothing}</dl>`}
         ${this.renderSpeed(slot)}
       </div>`;
@@ -120,8 +134,11 @@ export class RobotPanel extends LitElement {
   }
 
   private renderGuard(slot: number): TemplateResult | typeof nothing {
-    const act = guardOf(this.context.model, slot, null);
-    return act === null ? nothing : html`<h4>Guard</h4><p class="guard">${icon('shield', 14)} <b>${act.limit_mps.toFixed(2)} m/s</b> ${act.why}</p>`;
+    const {model} = this.context;
+    const act = guardOf(model, slot, null);
+    if (act !== null) return html`<h4>Guard</h4><p class="guard">${icon('shield', 14)} <b>${act.limit_mps.toFixed(2)} m/s</b> ${act.why}</p>`;
+    const last = lastAct(model, slot);
+    return last === null ? nothing : html`<h4>Guard</h4><p class="faint">Lets it drive. ${last.ago_s.toFixed(0)} s ago: ${last.why}</p>`;
   }
 
   private renderSpeed(slot: number): TemplateResult | typeof nothing {
@@ -131,15 +148,18 @@ export class RobotPanel extends LitElement {
     this.trace.take(slot, newest, past);
     const {points} = this.trace;
     if (points.length < 2) return nothing;
-    const asked = (of: 'v' | 'w') => askedLines(commands.asked.of(slot), of, newest.time_s);
+    const asked = (of: 'v' | 'w') => {
+      const told = toldLines(model, slot, of, newest.time_s - kTrace_s);
+      return told.length > 0 ? told : askedLines(commands.asked.of(slot), of, newest.time_s);
+    };
     const last = points[points.length - 1];
-    return html`<h4>Speed <em>${kTrace_s} s</em><span class="space"></span><em class="asked">asked here</em><em class="driven">driven</em></h4>
+    return html`<h4>Speed <em>${kTrace_s} s</em><span class="space"></span><em class="asked">asked</em><em class="driven">driven</em></h4>
       ${this.renderPlot('forward', 'm/s', 0.25, points, (point) => point.v, asked('v'), newest.time_s)}
       ${this.renderPlot('turn left', 'rad/s', 0.5, points, (point) => point.w, asked('w'), newest.time_s)}
       <p class="now"><b>${signed(last.v)}</b> m/s and <b>${signed(last.w ?? 0)}</b> rad/s now</p>`;
   }
 
-  /** One velocity: what this page asked for, dashed, and what was driven. */
+  /** One velocity: what was asked of it by whomever, dashed, and what was driven. */
   private renderPlot(name: string, unit: string, least: number, driven: readonly DrivenVelocity[], of: (point: DrivenVelocity) => number | null, asked: [number, number][][], now_s: number): TemplateResult {
     const values = [...driven.map(of), ...asked.flat().map(([, value]) => value)].filter((value): value is number => value !== null);
     const top = Math.max(least, ...values);
@@ -202,13 +222,6 @@ export class RobotPanel extends LitElement {
       .empty { display: grid; place-content: center; justify-items: center; gap: 4px; height: 100%; color: var(--text-3); }
     `,
   ];
-}
-
-/** A range may end at a billion, and then a slider is of no use: one about the value is. */
-function usefulRange(parameter: Parameter, value: number): [number, number] {
-  const [low, high] = parameter.range ?? [0, Infinity];
-  const about = Math.max(1, Math.abs(value));
-  return [Math.max(low, -4 * about), Math.min(high, 4 * about)];
 }
 
 /** Two digits, without the sign of a zero. */

@@ -1,73 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
-import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
+import {css, html, nothing, type TemplateResult} from 'lit';
 import {icon} from '../../app/icons';
 import {controls, glyphs} from '../../app/styles';
-import {Placed} from '../../model/pose_history';
-import type {PanelContext} from '../../panel_api';
+import type {Signal} from '../../model/signal';
 import type {Reading} from '../../protocol/frames';
 import type {Robot, Sensor} from '../../protocol/messages';
-import {bearingsOf, mountOf} from '../world/scan_layer';
+import {LookingPanel} from '../looking_panel';
 import {shortName} from '../world/name_layer';
-import {Surface, pointSurface, type Met} from '../world/surface';
+import {Surface, type Met} from '../world/surface';
 import {drawCourse} from './course_plot';
 import {drawPolar} from './polar_plot';
+import {aboutText, metBy, nearestText, readingStyles, renderTable, renderValues} from './reading_texts';
 import {drawSightingsPlot, pairsOf, type Named} from './sightings_plot';
 import {twinOf} from './twin';
 
 const kTextRefresh_ms = 200;
-const kTableRows = 40;
 
 /** What the sensors of the selected robot read. */
-export class SensorsPanel extends LitElement {
-  declare context: PanelContext;
+export class SensorsPanel extends LookingPanel {
+  protected readonly refresh_ms = kTextRefresh_ms;
   private chosen = new Map<number, number>();
   private pinned: number | null = null;
   private asTable = false;
   private field = 0;
-  private readonly placed = new Placed();
   private surface: Surface | null = null;
-  private drawQueued = false;
-  private timer = 0;
-  private readonly ends: (() => void)[] = [];
-  private readonly resized = new ResizeObserver(() => this.draw());
 
-  override connectedCallback(): void {
-    super.connectedCallback();
-    // The dock takes panels out while they are hidden: what came meanwhile is to be shown.
-    this.requestUpdate();
-    const {model, selection, palette} = this.context;
-    const changed = () => {
-      this.surface = new Surface(model.bodies.values(), model.robots, palette);
-      this.lookAround();
-      this.requestUpdate();
-      this.draw();
-    };
-    this.ends.push(
-      model.rosterChanged.on(() => {
-        this.pinned = null;
-        this.chosen.clear();
-        changed();
-      }),
-      model.sceneChanged.on(changed),
-      palette.changed.on(changed),
-      selection.changed.on(changed),
-      model.pictureChanged.on(() => this.draw()),
-    );
-    this.timer = window.setInterval(() => this.requestUpdate(), kTextRefresh_ms);
-    this.resized.observe(this);
-    changed();
+  protected override signals(): Signal[] {
+    return [this.context.model.sceneChanged];
   }
 
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
+  protected override rosterChanged(): void {
+    this.pinned = null;
+    this.chosen.clear();
+  }
+
+  protected lookAway(): void {
     this.context.link.look(this, []);
-    clearInterval(this.timer);
-    this.resized.disconnect();
-    for (const end of this.ends.splice(0)) end();
-  }
-
-  override updated(): void {
-    this.draw();
   }
 
   /** Pinned, else selected, else the first robot that has a sensor. */
@@ -86,7 +54,9 @@ export class SensorsPanel extends LitElement {
     return ranges < 0 ? 0 : ranges;
   }
 
-  private lookAround(): void {
+  protected lookAround(): void {
+    const {model, palette} = this.context;
+    this.surface = new Surface(model.bodies.values(), model.robots, palette);
     const slot = this.shownSlot;
     const robot = slot === null ? undefined : this.context.model.robots[slot];
     const {link} = this.context;
@@ -130,7 +100,7 @@ export class SensorsPanel extends LitElement {
         <button class="icon-button" title="Show the numbers" aria-label="Show the numbers" aria-pressed=${this.asTable}
           @click=${() => { this.asTable = !this.asTable; this.requestUpdate(); }}>${icon('list', 14)}</button>
       </div>
-      ${this.asTable ? this.renderTable(sensor, reading) : this.renderPlots(slot, sensor, reading)}`;
+      ${this.asTable ? renderTable(sensor, reading) : this.renderPlots(slot, sensor, reading)}`;
   }
 
   private choose(slot: number, index: number): void {
@@ -147,7 +117,7 @@ export class SensorsPanel extends LitElement {
     if (sensor.kind === 'sightings') return this.renderSightings(slot, sensor, reading);
     return html`
       ${sensor.origin === 'hybrid' ? html`<p class="halves"><span><i class="line"></i>real half</span><span><i class="dot"></i>result from it</span><span><i class="square"></i>result from the virtual half</span></p>` : nothing}
-      ${ranges ? html`<canvas class="polar" role="img" aria-label="Ranges around the robot; the numbers are behind the button Show the numbers"></canvas>` : this.renderValues(sensor, reading)}
+      ${ranges ? html`<canvas class="polar" role="img" aria-label="Ranges around the robot; the numbers are behind the button Show the numbers"></canvas>` : renderValues(sensor, reading)}
       ${ranges ? html`<p class="sentence">${this.nearest(slot, sensor, reading)}<em>nearest, 15 s</em></p>` : html`
         <div class="fields segments">${fields.map((name, i) => html`<button aria-pressed=${i === shown} @click=${() => { this.field = i; this.requestUpdate(); }}>${name.replace(/ \[.*/, '')}</button>`)}</div>`}
       <canvas class="course" role="img" aria-label="Course of ${ranges ? 'the nearest range' : fields[shown] ?? 'the sensor'}"></canvas>`;
@@ -164,7 +134,7 @@ export class SensorsPanel extends LitElement {
         ${twin === null ? nothing : html`<span><i class="square"></i>${robot.sensors[twin].name} ${sensor.origin === 'virtual' ? 'saw' : 'expects'} ${expected?.rows ?? 0}</span>
         <span class="space"></span><em>${count} of ${expected?.rows ?? 0} in both</em>`}</p>
       <canvas class="sightings" role="img" aria-label="Range and bearing of what the camera saw; the numbers are behind the button Show the numbers"></canvas>
-      ${this.renderValues(sensor, reading)}`;
+      ${renderValues(sensor, reading)}`;
   }
 
   /** Of several fields the first that is no stamp or code. */
@@ -174,31 +144,8 @@ export class SensorsPanel extends LitElement {
     return Math.max(first, 0);
   }
 
-  private renderValues(sensor: Sensor, reading: Reading | null): TemplateResult {
-    if (reading === null || reading.rows === 0) return html`<p class="none">${reading === null ? 'No reading yet.' : 'It sees nothing at present.'}</p>`;
-    if (reading.rows > 1 || sensor.kind === 'sightings' || sensor.kind === 'neighbours') return this.renderTable(sensor, reading);
-    return html`<dl>${sensor.fields.map((name, i) => {
-      const [word, unit] = splitField(name);
-      return html`<div><dt>${word}</dt><dd>${numberText(reading.values[i])} <em>${unit}</em></dd></div>`;
-    })}</dl>`;
-  }
-
-  private renderTable(sensor: Sensor, reading: Reading | null): TemplateResult {
-    if (reading === null) return html`<p class="none">No reading yet.</p>`;
-    const bearings = sensor.kind === 'ranges' ? bearingsOf(sensor, reading.rows) : null;
-    const rows = Array.from({length: Math.min(reading.rows, kTableRows * 5)}, (_, row) => row);
-    return html`<div class="table" tabindex="0" role="region" aria-label="Numbers of ${sensor.name}"><table>
-      <thead><tr>${bearings ? html`<th>bearing [°]</th>` : nothing}${sensor.fields.map((name) => html`<th>${name}</th>`)}</tr></thead>
-      <tbody>${rows.map((row) => html`<tr>${bearings ? html`<td>${((bearings[row] * 180) / Math.PI).toFixed(1)}</td>` : nothing}
-        ${sensor.fields.map((_, i) => html`<td>${numberText(reading.values[row * reading.fields + i])}</td>`)}</tr>`)}</tbody></table></div>`;
-  }
-
   private met(slot: number, sensor: Sensor, reading: Reading, ray: number): Met | null {
-    if (this.surface === null || slot >= this.placed.count) return null;
-    const mount = mountOf(this.placed, slot, sensor);
-    const angle = mount.yaw + bearingsOf(sensor, reading.rows)[ray];
-    const r = reading.values[ray];
-    return pointSurface(this.surface, mount.x + r * Math.cos(angle), mount.y + r * Math.sin(angle), slot);
+    return metBy(this.surface, this.placed, slot, sensor, reading, ray);
   }
 
   /** The robot or tube that carries a barcode. */
@@ -213,29 +160,10 @@ export class SensorsPanel extends LitElement {
   }
 
   private nearest(slot: number, sensor: Sensor, reading: Reading | null): TemplateResult | string {
-    if (reading === null) return 'No reading yet.';
-    let ray = -1;
-    for (let i = 0; i < reading.rows; ++i) {
-      if (reading.values[i] < (ray < 0 ? (sensor.range?.[1] ?? Infinity) : reading.values[ray])) ray = i;
-    }
-    if (ray < 0) return `Nothing within ${sensor.range?.[1] ?? 0} m.`;
-    const degrees = Math.round((bearingsOf(sensor, reading.rows)[ray] * 180) / Math.PI);
-    const side = degrees === 0 ? 'ahead' : `${Math.abs(degrees)}° ${degrees > 0 ? 'left' : 'right'}`;
-    const met = this.met(slot, sensor, reading, ray);
-    const colour = met === null ? '' : this.context.palette.token(met.token);
-    return html`<b>${reading.values[ray].toFixed(2)} m</b><span>${met === null ? nothing : html`to <span style="color:${colour}">${met.name}</span>, `}${side}</span>`;
+    return nearestText(sensor, reading, (ray) => (reading === null ? null : this.met(slot, sensor, reading, ray)), this.context.palette);
   }
 
-  private draw(): void {
-    if (this.drawQueued) return;
-    this.drawQueued = true;
-    requestAnimationFrame(() => {
-      this.drawQueued = false;
-      this.paint();
-    });
-  }
-
-  private paint(): void {
+  protected paint(): void {
     const {model, palette} = this.context;
     const slot = this.shownSlot;
     const robot = slot === null ? undefined : model.robots[slot];
@@ -261,21 +189,10 @@ export class SensorsPanel extends LitElement {
     });
   }
 
-  private onCanvas(name: string, paint: (ctx: CanvasRenderingContext2D, w: number, h: number) => void): void {
-    const canvas = this.renderRoot.querySelector<HTMLCanvasElement>(name);
-    const ctx = canvas?.getContext('2d');
-    if (!canvas || !ctx || canvas.clientWidth === 0) return;
-    const {clientWidth, clientHeight} = canvas;
-    const [w, h] = [Math.round(clientWidth * devicePixelRatio), Math.round(clientHeight * devicePixelRatio)];
-    if (canvas.width !== w || canvas.height !== h) [canvas.width, canvas.height] = [w, h];
-    ctx.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
-    ctx.clearRect(0, 0, clientWidth, clientHeight);
-    paint(ctx, clientWidth, clientHeight);
-  }
-
   static override styles = [
     controls,
     glyphs,
+    readingStyles,
     css`
       :host { display: flex; flex-direction: column; height: 100%; background: var(--bg-1); overflow: hidden; }
       .head, .about { display: flex; align-items: center; gap: 8px; padding: 8px 12px 0; flex-wrap: wrap; }
@@ -285,9 +202,6 @@ export class SensorsPanel extends LitElement {
       .tag { display: inline-flex; align-items: center; gap: 6px; padding: 1px 8px; border-radius: var(--r-2); background: var(--virtual-fill); color: var(--virtual-ink); }
       .polar { flex: 1 1 160px; min-height: 100px; width: 100%; }
       .course { flex: 0 1 96px; min-height: 56px; width: 100%; margin-top: 4px; }
-      .sentence { display: flex; gap: 4px; margin: 0; padding: 0 12px; font-size: var(--fs-12); align-items: baseline; }
-      .sentence b { font-size: var(--fs-15); font-weight: var(--fw-strong); }
-      .sentence em { margin-left: auto; color: var(--text-3); font-style: normal; font-size: var(--fs-11); }
       .sightings { flex: 1 1 180px; min-height: 120px; width: 100%; }
       .halves { display: flex; flex-wrap: wrap; gap: 4px 14px; margin: 6px 12px 0; color: var(--text-2); font-size: var(--fs-11); }
       .halves span { display: inline-flex; align-items: center; gap: 6px; }
@@ -297,46 +211,8 @@ export class SensorsPanel extends LitElement {
       .halves .square { width: 7px; height: 7px; border: 1.5px solid var(--virtual-ink); }
       .halves .line { width: 14px; height: 0; border-top: 1.5px solid var(--wall-ink); }
       .fields { margin: 4px 12px 0; align-self: flex-start; flex-wrap: wrap; }
-      dl { display: flex; flex-wrap: wrap; gap: 6px 24px; margin: 8px 14px; }
-      dt { color: var(--text-3); font-size: var(--fs-11); }
-      dd { margin: 0; font-size: var(--fs-15); }
-      dd em { font-style: normal; color: var(--text-3); font-size: var(--fs-12); }
-      .table { flex: 1; min-height: 60px; overflow: auto; margin: 6px 0; }
-      table { border-collapse: collapse; width: 100%; font-size: var(--fs-12); }
-      th { position: sticky; top: 0; background: var(--bg-1); color: var(--text-3); font-weight: 400; font-size: var(--fs-11); }
-      th, td { text-align: right; padding: 2px 12px; }
-      .none { display: flex; gap: 8px; margin: 12px 14px; color: var(--text-3); font-size: var(--fs-12); }
     `,
   ];
-}
-
-function aboutText(sensor: Sensor, reading: Reading | null, now_s: number): string {
-  const parts: string[] = [];
-  const rays = sensor.bearings?.length ?? 0;
-  if (rays > 1) {
-    parts.push(`${rays} rays`);
-    const bearings = sensor.bearings ?? [];
-    const degrees = Math.round((Math.abs(bearings[rays - 1] - bearings[0]) * 180) / Math.PI);
-    parts.push(`${degrees}°`);
-  }
-  if (sensor.period_s > 0) parts.push(`${Number((1 / sensor.period_s).toPrecision(3))} Hz`);
-  if (reading !== null) {
-    const age_s = Math.max(0, now_s - reading.stamp_s);
-    parts.push(age_s < 1 ? `age ${Math.round(age_s * 1000)} ms` : `age ${age_s.toFixed(1)} s`);
-  }
-  return parts.join(' · ');
-}
-
-function splitField(name: string): [string, string] {
-  const parts = /^(.*?)(?: \[(.*)\])?$/.exec(name);
-  return [parts?.[1] ?? name, parts?.[2] ?? ''];
-}
-
-function numberText(value: number | undefined): string {
-  if (value === undefined || Number.isNaN(value)) return '–';
-  if (!Number.isFinite(value)) return value > 0 ? 'no return' : '−∞';
-  const text = Number.isInteger(value) ? String(value) : value.toFixed(3);
-  return text.replace('-', '−');
 }
 
 customElements.define('rave-sensors', SensorsPanel);

@@ -19,6 +19,8 @@ export interface Shown {
   /** Of the selected robot. */
   strong: boolean;
   fresh: boolean;
+  /** Of a virtual sensor that is tried: no part of the run. */
+  tried: boolean;
 }
 
 /** The readings that the layers ask for. What is old is faint where it is looked at, and gone elsewhere. */
@@ -29,6 +31,11 @@ export function shownReadings(model: RunModel, selection: Selection, placed: Pla
     const robot = model.robots[slot];
     if (robot === undefined || layers.hidden.includes(robot.kind) || slot >= placed.count) return;
     if ((placed.flags[slot] & (RobotFlag.known | RobotFlag.stale)) !== RobotFlag.known) return;
+    const tried = model.probes.sensor(index);
+    if (tried !== undefined) {
+      if (tried.kind === 'ranges' || tried.kind === 'sightings') found.push({slot, sensor: tried, reading, strong: true, fresh: placed.time_s - reading.stamp_s < 1, tried: true});
+      return;
+    }
     const strong = slot === selection.primary;
     if (!strong && (layers.scans === 'selected' || robot.kind !== 'real')) return;
     if (!drawnSensors(robot).includes(index)) return;
@@ -36,7 +43,7 @@ export function shownReadings(model: RunModel, selection: Selection, placed: Pla
     const age_s = placed.time_s - reading.stamp_s;
     const fresh = age_s <= Math.max(1, 3 * sensor.period_s);
     if (!fresh && (!strong || age_s > kOldest_s)) return;
-    found.push({slot, sensor, reading, strong, fresh});
+    found.push({slot, sensor, reading, strong, fresh, tried: false});
   });
   return found.sort((a, b) => Number(a.strong) - Number(b.strong) || a.slot - b.slot);
 }
@@ -46,14 +53,16 @@ export function drawReadings(
   ctx: CanvasRenderingContext2D, camera: Camera, model: RunModel, selection: Selection, palette: Palette, placed: Placed,
   layers: Layers, surface: Surface | null, hits: boolean,
 ): void {
-  for (const {slot, sensor, reading, strong, fresh} of shownReadings(model, selection, placed, layers)) {
+  for (const {slot, sensor, reading, strong, fresh, tried} of shownReadings(model, selection, placed, layers)) {
     const mount = mountOf(placed, slot, sensor);
-    const hue = palette.hue(slot);
+    const hue = tried ? {fill: palette.token('virtual'), ink: palette.token('virtual-ink')} : palette.hue(slot);
     if (sensor.kind === 'sightings') {
       if (layers.sightings) drawSightings(ctx, camera, mount, reading, hue.ink);
       continue;
     }
+    if (tried) ctx.setLineDash([4, 3]);
     drawScan(ctx, camera, mount, sensor, reading, strong ? hue.fill : hue.ink, strong && fresh);
+    ctx.setLineDash([]);
     if (fresh && hits && layers.hits && surface !== null) drawHits(ctx, camera, mount, sensor, reading, slot, surface, palette);
   }
 }

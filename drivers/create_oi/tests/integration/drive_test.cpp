@@ -46,7 +46,8 @@ TEST(CreateDrive, TheDriverStopsTheWheelsWhenNobodyGivesCommands) {
   bench.await_state([](const nlohmann::json& s) { return s["left_mps"] > 0.1; });
   bench.await_standstill();
   EXPECT_EQ(bench.device.report()["watchdog_stops"], 1);
-  EXPECT_NE(bench.said().find("was told nothing for too long"), std::string::npos) << bench.said();
+  EXPECT_NE(bench.said().find("received no command for too long"), std::string::npos)
+      << bench.said();
   EXPECT_EQ(bench.state()["watchdog_stops"], 0);
 }
 
@@ -80,7 +81,7 @@ TEST(CreateDrive, ClosingStopsTheRobotAndLeavesItPassive) {
 TEST(CreateDrive, OnlyVelocitiesAreTaken) {
   CreateBench bench;
   ASSERT_NO_FATAL_FAILURE(bench.start());
-  EXPECT_EQ(bench.drive.write(goal_command(1, 1)), "takes velocities, not goal");
+  EXPECT_EQ(bench.drive.write(goal_command(1, 1)), "expected velocities, found goal");
 }
 
 }  // namespace

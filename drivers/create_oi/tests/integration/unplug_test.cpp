@@ -39,11 +39,11 @@ TEST(CreateUnplug, AbsenceIsReportedAndSoIsTheReturn) {
   bench.peer->tell("vanish");
   const std::string why = bench.poses->await_failure();
   EXPECT_EQ(why.substr(0, why.rfind(':')),
-            "the robot at `" + bench.link() + "` has been away for more than 0.3 s: cannot open `" +
-                bench.link() + "`");
+            "the robot at `" + bench.link() +
+                "` has been disconnected for more than 0.3 s: cannot open `" + bench.link() + "`");
   EXPECT_EQ(bench.touches->await_failure(), why);
   EXPECT_EQ(bench.drive.write(velocity_command(0.1, 0)),
-            "the robot at `" + bench.link() + "` is away; its wheels cannot be told anything");
+            "the robot at `" + bench.link() + "` is disconnected; its wheels cannot be commanded");
   EXPECT_EQ(bench.device.report()["connected"], false);
   bench.peer->tell("return");
   bench.poses->await_recovery();
@@ -59,7 +59,7 @@ TEST(CreateUnplug, SilenceIsNoticed) {
   ASSERT_NO_FATAL_FAILURE(bench.start());
   bench.peer->tell("mute");
   const std::string why = bench.poses->await_failure();
-  EXPECT_NE(why.find(": no good frame for 0.5 s"), std::string::npos) << why;
+  EXPECT_NE(why.find(": no valid frame for 0.5 s"), std::string::npos) << why;
   bench.peer->tell("speak");
   bench.poses->await_recovery();
 }
@@ -89,9 +89,9 @@ TEST(CreateUnplug, ALiftedRobotIsTakenBackIntoItsMode) {
   bench.peer->tell("drop 3");
   bench.await_report([](const nlohmann::json& r) { return r["mode_losses"] == 1; });
   bench.await_state([](const nlohmann::json& s) { return s["right_mps"] == 0.0; });
-  EXPECT_NE(bench.said().find("went from safe to passive mode and does not obey: a wheel hangs in "
-                              "the air"),
-            std::string::npos)
+  EXPECT_NE(
+      bench.said().find("went from safe to passive mode and does not obey: a wheel has dropped"),
+      std::string::npos)
       << bench.said();
   bench.poses->await_more(70);
   EXPECT_EQ(bench.state()["mode"], "passive") << "as long as it hangs";

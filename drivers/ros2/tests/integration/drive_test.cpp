@@ -34,7 +34,7 @@ TEST(Ros2Drive, TheDriverStopsTheRobotWhenNobodyGivesCommands) {
   ASSERT_EQ(bench.drive.write(velocity_command(0.4, 0)), "");
   bench.await_state(drives);
   bench.await_standstill();
-  EXPECT_NE(bench.said().find("`/cart/cmd_vel`: no command came for 0.25 s"), std::string::npos)
+  EXPECT_NE(bench.said().find("`/cart/cmd_vel`: no command for 0.25 s"), std::string::npos)
       << bench.said();
 }
 
@@ -80,12 +80,12 @@ TEST(Ros2Drive, AKilledRobotIsReportedAndOneThatSpeaksAgainIsTakenBack) {
   bench.peer->tell("mute");
   const std::string why = bench.poses->await_failure();
   EXPECT_EQ(why,
-            "no message has come on `/cart/odom` for 0.3 s: somebody writes `/cart/odom`, but "
-            "nothing came");
+            "no message has come on `/cart/odom` for 0.3 s: another participant writes "
+            "`/cart/odom`, but no message came");
   // One silent sensor may be dead by itself: the robot is when all of them are.
   (void)bench.scans->await_failure();
   EXPECT_EQ(bench.drive.write(velocity_command(0.1, 0)),
-            "the robot behind `/cart/cmd_vel` is silent; it may not hear either");
+            "the robot behind `/cart/cmd_vel` is silent; it may not receive commands either");
   bench.peer->tell("speak");
   bench.poses->await_recovery();
   bench.scans->await_recovery();

@@ -14,8 +14,8 @@ TEST(Ros2Errors, WhoIsNotThereIsLookedForAndNamed) {
   ASSERT_EQ(bench.odometry.configure({}, bench.device.base()), "") << "now all is known of it";
   LiveSensor laser(bench.plugin, "ros2_laser");
   EXPECT_EQ(laser.configure({{"topic", "front"}}, bench.device.base()),
-            "no message came on `/cart/front` within 2 s: nobody writes `/cart/front`; the type "
-            "sensor_msgs/msg/LaserScan is at /cart/scan");
+            "no message came on `/cart/front` within 2 s: no participant writes `/cart/front`; the "
+            "type sensor_msgs/msg/LaserScan is at /cart/scan");
   EXPECT_EQ(laser.configure({{"topic", "imu"}}, bench.device.base()),
             "no message came on `/cart/imu` within 2 s: `/cart/imu` is there with the type "
             "sensor_msgs/msg/Imu instead of sensor_msgs/msg/LaserScan");
@@ -38,7 +38,7 @@ TEST(Ros2Errors, SatelliteNavigationNeedsAPlaceOfTheWorldAndAFix) {
             "`geo_origin` has 0 numbers; expected that of the scenario");
   bench.peer->tell("lose-fix");
   EXPECT_EQ(gps.configure({{"geo_origin", std::vector<double>{47, 8}}}, bench.device.base()),
-            "no message on `/cart/fix` within 2 s could be used: the receiver has no fix");
+            "no usable message on `/cart/fix` within 2 s: the receiver has no fix");
 }
 
 TEST(Ros2Errors, AMismatchIsToldWithItsRemedy) {
@@ -71,9 +71,9 @@ TEST(Ros2Errors, WrongParametersAreNamed) {
             missing);
   EXPECT_EQ(device.open(), "opened before it was configured");
   LiveSensor laser(plugin, "ros2_laser");
-  EXPECT_EQ(laser.configure({}), "belongs to no device");
+  EXPECT_EQ(laser.configure({}), "has no `device`");
   LiveActuator drive(plugin, "ros2_velocity");
-  EXPECT_EQ(drive.open({}), "belongs to no device");
+  EXPECT_EQ(drive.open({}), "has no `device`");
 }
 
 TEST(Ros2Errors, AnEmptyDomainIsSaidToBeEmpty) {

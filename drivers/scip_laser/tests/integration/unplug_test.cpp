@@ -30,7 +30,7 @@ TEST(ScipLaserUnplug, AbsenceIsReportedAndEnds) {
   bench.peer->tell("vanish");
   const std::string why = bench.sink->await_failure();
   EXPECT_EQ(why.substr(0, why.find(':')),
-            "the laser at `" + bench.link() + "` has been away for more than 0.3 s");
+            "the laser at `" + bench.link() + "` has been disconnected for more than 0.3 s");
   EXPECT_FALSE(bench.driver.report()["connected"]);
   bench.peer->tell("return");
   bench.sink->await_more(3);
@@ -44,7 +44,7 @@ TEST(ScipLaserUnplug, SilenceIsNoticed) {
   ASSERT_NO_FATAL_FAILURE(bench.start());
   bench.peer->tell("mute");
   const std::string why = bench.sink->await_failure();
-  EXPECT_NE(why.find(": no good scan for 0.5 s"), std::string::npos) << why;
+  EXPECT_NE(why.find(": no valid scan for 0.5 s"), std::string::npos) << why;
   bench.peer->tell("speak");
   bench.sink->await_more(3);
 }

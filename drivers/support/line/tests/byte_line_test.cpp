@@ -78,7 +78,7 @@ TEST(ByteLine, ALineThatGoesIsLost) {
   EXPECT_FALSE(line->lost().empty());
   const Status written = line->write("x", kLong, nullptr);
   ASSERT_FALSE(written);
-  EXPECT_EQ(written.error().text(), "the line is gone: " + line->lost());
+  EXPECT_EQ(written.error().text(), "the line is lost: " + line->lost());
 }
 
 TEST(ByteLine, TheBellEndsAWait) {

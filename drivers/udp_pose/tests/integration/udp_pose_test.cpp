@@ -141,8 +141,8 @@ TEST(UdpPose, SilenceIsReportedAndEnds) {
   bench.sink.await_more(1);
   bench.peer->tell("mute");
   const std::string why = bench.sink.await_failure();
-  EXPECT_EQ(why, "no pose of `robot` has come on UDP port " + bench.driver.report()["port"].dump() +
-                     " for 0.2 s");
+  EXPECT_EQ(
+      why, "no pose of `robot` on UDP port " + bench.driver.report()["port"].dump() + " for 0.2 s");
   bench.peer->tell("speak");
   bench.sink.await_more(3);
   bench.sink.await_recovery();

@@ -31,6 +31,7 @@ enum class GuiClass : std::uint8_t {
   kRunControl,
   kCommand,
   kEdit,
+  kProbe,
 };
 
 /// Of which robots.

@@ -30,6 +30,7 @@ inline constexpr const char* kActuators = "/rave/actuators";
 inline constexpr const char* kRadio = "/rave/radio";
 inline constexpr const char* kEvents = "/rave/events";
 inline constexpr const char* kInputs = "/rave/inputs";
+inline constexpr const char* kChat = "/rave/chat";
 inline constexpr const char* kShadows = "/rave/shadows";
 inline constexpr const char* kHash = "/rave/hash";
 inline constexpr const char* kConsole = "/rosout";
@@ -146,6 +147,17 @@ struct RunInput {
   friend bool operator==(const RunInput&, const RunInput&) = default;
 };
 
+/// What somebody said to people, or to robots and the people who see them. It changes nothing.
+struct RunChat {
+  std::uint64_t step = 0;    ///< The step that comes next.
+  std::uint64_t number = 0;  ///< Counts the lines of the server that it was said at, from 1 on.
+  std::string from;          ///< Who said it,
+  std::string role;          ///< `observer`, `commander` or `super_user`,
+  std::string to;            ///< to whom: `all`, `role`, `user`, `team` or `robot`,
+  std::string name;          ///< of this name; empty: all.
+  std::string text;
+};
+
 /// How far a real robot and its shadow are from each other in one step.
 struct ShadowRecord {
   RobotId robot;
@@ -198,6 +210,8 @@ struct RunEnd {
 [[nodiscard]] Result<StepOf<RadioPacket>> decode_radio(std::span<const std::byte> message);
 [[nodiscard]] Result<StepOf<RunEvent>> decode_event(std::span<const std::byte> message);
 [[nodiscard]] Result<RunInput> decode_input(std::span<const std::byte> message);
+/// The time is that of the run when it was said.
+[[nodiscard]] Result<std::pair<SimTime, RunChat>> decode_chat(std::span<const std::byte> message);
 [[nodiscard]] Result<StepOf<ShadowRecord>> decode_shadow(std::span<const std::byte> message);
 [[nodiscard]] Result<StepHash> decode_hash(std::span<const std::byte> message);
 [[nodiscard]] Result<ConsoleLine> decode_console(std::span<const std::byte> message);

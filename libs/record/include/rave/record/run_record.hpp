@@ -69,6 +69,8 @@ class RunRecorder {
   Status event(const RunEvent& event);
   /// Between end_step() and begin_step(), or before the first step.
   Status input(const RunInput& input);
+  /// The same. The first one of a run begins a channel, which other records do not have.
+  Status chat(const RunChat& chat);
   /// The first one of a run begins a channel, which other records do not have.
   Status shadow(const ShadowRecord& shadow);
   /// Where a robot is; all of the step go into one message.

@@ -16,4 +16,7 @@ namespace rave::sim {
 /// An order for people: `goal 1.20, 3.40`.
 [[nodiscard]] std::string order_text(const WorldInput& input);
 
+/// Why a path of so many points is not taken, in the same words wherever orders come in.
+[[nodiscard]] std::string path_size_text(std::size_t points);
+
 }  // namespace rave::sim

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>
@@ -11,8 +12,8 @@
 
 namespace rave::runtime {
 
-/// Who may give the robots of a process orders: one person at a time each. Owned by the process
-/// that runs the robot, and kept by wall time, which the caller gives. One thread.
+/// Who may give the robots of a process orders: one page of one person at a time each. Owned by
+/// the process that runs the robot, and kept by wall time, which the caller gives. One thread.
 class HostLeases {
  public:
   using Clock = std::chrono::steady_clock;
@@ -33,6 +34,8 @@ class HostLeases {
   struct Person {
     std::string_view name;
     bool overrides = false;
+    /// Which of the pages that the person has open; 0: none, as of a script.
+    std::uint64_t page = 0;
   };
   /// What has become of the lease of a robot.
   struct Change {
@@ -44,13 +47,16 @@ class HostLeases {
     friend bool operator==(const Change&, const Change&) = default;
   };
 
-  /// Somebody gives an order. Error kState: another has the lease, who is named.
+  /// Somebody gives an order. Error kState: another has the lease, who is named, or another page of
+  /// the same person.
   Status use(const std::string& robot, const Person& person, Use how, Time now);
   /// Takes the lease; who has it keeps it longer. Error kState: another has it, and neither `force`
   /// nor the person's rights take it.
   Result<std::string> take(const std::string& robot, const Person& person, bool force, Time now);
-  /// Gives it to `to`, or back if that is empty. Errors: kState (another has it), kInvalidArgument
-  /// (nobody has it, so nothing can be given back).
+  /// Gives it to `to`, or back if that is empty. To a person is to any page of theirs: the first
+  /// that uses it has it. To oneself is what a page does that goes: what it asked for goes on.
+  /// Errors: kState (another has it), kInvalidArgument (nobody has it, so nothing can be given
+  /// back).
   Result<std::string> give(const std::string& robot, const Person& person, const std::string& to,
                            Time now);
   /// The robot is not driven any more, so the lease holds for kAfterOrder.
@@ -59,6 +65,8 @@ class HostLeases {
   void expire(Time now);
   /// Who has the lease of a robot; empty: nobody.
   [[nodiscard]] const std::string& holder(const std::string& robot) const noexcept;
+  /// On which page; 0: on none in particular.
+  [[nodiscard]] std::uint64_t page(const std::string& robot) const noexcept;
   [[nodiscard]] bool any() const noexcept { return !leases_.empty(); }
   /// What happened since the last call, in order.
   [[nodiscard]] std::vector<Change> take_changes();
@@ -66,11 +74,16 @@ class HostLeases {
  private:
   struct Lease {
     std::string holder;
+    std::uint64_t page = 0;  ///< 0: whichever page of the holder uses it next.
     Time until;
     bool driven = false;
   };
   [[nodiscard]] const Lease* find(const std::string& robot) const noexcept;
-  void set(const std::string& robot, std::string_view holder, bool driven, Time now);
+  [[nodiscard]] static bool owns(const Lease& lease, const Person& person) noexcept;
+  /// Why a person has to leave the robot alone.
+  [[nodiscard]] static tl::unexpected<Error> refusal(const std::string& robot, const Lease& lease,
+                                                     const Person& person);
+  void set(const std::string& robot, const Person& holder, bool driven, Time now);
 
   std::map<std::string, Lease, std::less<>> leases_;
   std::vector<Change> changes_;

@@ -28,7 +28,8 @@ class OrderDesk {
   /// Whether somebody drives a robot now, as far as the run knows: a stop ends that.
   using IsDriven = std::function<bool(const std::string& robot)>;
 
-  /// Whether a request concerns the desk: orders and leases, and a release, which needs the lease.
+  /// Whether a request concerns the desk: orders and leases, and a release and a
+  /// hand-over, which need the lease.
   [[nodiscard]] static bool is_for(RunRequest::Kind kind) noexcept;
   /// Does such a request, or refuses it. The robot that it names exists.
   Result<std::string> serve(const RunRequest& request, const Give& give, const IsDriven& is_driven,
@@ -40,6 +41,10 @@ class OrderDesk {
   [[nodiscard]] const std::string& holder(const std::string& robot) const noexcept {
     return leases_.holder(robot);
   }
+  /// On which page of theirs; 0: on none in particular.
+  [[nodiscard]] std::uint64_t page(const std::string& robot) const noexcept {
+    return leases_.page(robot);
+  }
   [[nodiscard]] std::vector<HostLeases::Change> take_changes() { return std::exchange(told_, {}); }
 
  private:
@@ -48,7 +53,7 @@ class OrderDesk {
     Time since;
   };
   Status check_rate(const std::string& robot, Time now);
-  Status check_release(const RunRequest& request) const;
+  Status check_release(const RunRequest& request, Time now);
   Result<std::string> order(const RunRequest& request, const Give& give, const IsDriven& is_driven,
                             Time now);
   Result<std::string> drive(const RunRequest& request, const Give& give, const IsDriven& is_driven,

@@ -15,6 +15,10 @@
 /// a recording.
 namespace rave::runtime {
 
+/// Whether a path has a number of points that is taken, everywhere: 2 to kMostOrderPoints. Error:
+/// kInvalidArgument.
+[[nodiscard]] Status check_path_size(std::size_t points);
+
 /// Whether a request is an order: kDrive to kPlace.
 [[nodiscard]] constexpr bool is_order(RunRequest::Kind kind) noexcept {
   return kind >= RunRequest::Kind::kDrive && kind <= RunRequest::Kind::kPlace;

@@ -43,6 +43,7 @@ struct Request {
     kPlace,
     kTake,
     kGive,
+    kChat,
   };
   What what = What::kStatus;
   std::string robot;        ///< kStop, kRelease, kArm, kResetShadow: empty: all; kSet, kHandOver.
@@ -52,6 +53,7 @@ struct Request {
   // Orders and leases, see runtime::RunRequest. All finite.
   std::string by = {};     ///< Also of what changes something: who asks.
   bool overrides = false;  ///< The same: a super-user asks.
+  std::uint64_t page = 0;  ///< The same: on which of their pages; 0: on none.
   std::vector<Vec2> points = {};
   std::optional<double> yaw_rad = std::nullopt;
   double v_mps = 0;
@@ -64,6 +66,9 @@ struct Request {
 [[nodiscard]] Request request_of(const runtime::RunRequest& request);
 /// The same back.
 [[nodiscard]] runtime::RunRequest run_request(const Request& request);
+
+/// Why a line of more than kMaxLineBytes is not read.
+[[nodiscard]] std::string too_long_text();
 
 /// Reads a line without its end. Strict: an object with `rave: 1`, a `do` that is known and the
 /// keys that go with it, each of its type and once. Errors: kParse, kInvalidArgument.

@@ -43,6 +43,8 @@ struct RunRequest {
     // Leases; each needs a robot.
     kTake,
     kGive,
+    /// Something was said that belongs into the record: `chat_line()`. No input of the run.
+    kChat,
   };
   Kind kind = Kind::kStop;
   std::string robot;  ///< Empty: all of them, except of orders and leases.
@@ -57,6 +59,8 @@ struct RunRequest {
   std::string by = {};
   /// Asked by a super-user, who needs no lease for a release and may take one without asking.
   bool overrides = false;
+  /// On which of the pages that the person has open; 0: on none, as a script. Of leases alone.
+  std::uint64_t page = 0;
   std::vector<Vec2> points = {};  ///< kGoal, kPlace: one. kPath: 2 to 1000. World frame, m.
   std::optional<double> yaw_rad = std::nullopt;  ///< kGoal, kPlace: none: as it comes.
   double v_mps = 0;                              ///< kDrive: forward.
@@ -109,6 +113,7 @@ struct RunStatus {
     std::optional<HandOver> hand_over = std::nullopt;
     std::optional<Shadow> shadow = std::nullopt;
     std::string lease = {};               ///< Who drives it; empty: nobody.
+    std::uint64_t lease_page = 0;         ///< On which page of theirs; 0: on none in particular.
     std::vector<std::string> takes = {};  ///< Of `drive`, `goal`, `path`, `text`, `place`.
     /// The order under way, for people, such as `goal 1.20, 3.40`; empty: none.
     std::string order = {};
@@ -211,6 +216,9 @@ class RunControl {
   void begin(RunStatus status);
   /// Answers what was asked, in order; `robots` brings the status up to date when something was.
   void serve(const Serve& serve, const std::function<void(RunStatus&)>& refresh);
+  /// Keeps what was said for who writes the record, where the run itself writes none.
+  void keep_said(RunRequest chat);
+  [[nodiscard]] std::vector<RunRequest> take_said();
   /// Brings the status up to date though nothing was asked.
   void refresh(const std::function<void(RunStatus&)>& refresh);
   /// Says for which hosts the run waits, in its status.
@@ -233,6 +241,7 @@ class RunControl {
   std::atomic<bool> everybody_{false};
   static_assert(std::atomic<bool>::is_always_lock_free);
   std::atomic<bool> asked_{false};
+  std::atomic<bool> said_something_{false};
   std::atomic<double> pace_asked_{-1};  ///< Negative: none.
   std::atomic<double> sim_s_{0};
   mutable std::mutex mutex_;
@@ -241,6 +250,7 @@ class RunControl {
   bool running_ = false;
   std::uint64_t steps_ = 0;  ///< Single steps still to be done.
   std::deque<Pending> pending_;
+  std::vector<RunRequest> said_;
   std::stop_source wake_;  ///< Of asked().
   RunStatus status_;
 };

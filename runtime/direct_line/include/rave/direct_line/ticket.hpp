@@ -59,6 +59,10 @@ struct Ticket {
   friend bool operator==(const Ticket&, const Ticket&) = default;
 };
 
+/// The number by which leases know a page: of its key, or of another secret that it alone has.
+/// Never 0.
+[[nodiscard]] std::uint64_t page_number(std::string_view key);
+
 [[nodiscard]] std::string sign_ticket(const Ticket& ticket, const SigningKey& key);
 
 /// Errors: kParse (it is none, or too long), kState (another key has signed it, or it has expired,

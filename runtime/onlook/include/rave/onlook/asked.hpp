@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "rave/probe/probes.hpp"
+
 namespace rave::onlook {
 
 /// A look holds so long after it has come.
@@ -24,6 +26,7 @@ struct Asked {
   bool parts = false;                 ///< Also the halves of hybrid sensors.
   std::vector<LookedAt> sensors;      ///< Ascending, without repetitions.
   std::vector<std::uint32_t> maps{};  ///< Robots whose local maps; the same.
+  std::vector<probe::Asked> probes{};
   friend bool operator==(const Asked&, const Asked&) = default;
 };
 

@@ -89,6 +89,7 @@ class Listener {
         obstacles_in_(std::move(obstacles)),
         tiles_in_(std::move(tiles)) {}
 
+  [[nodiscard]] bool is_asked(const LookedAt& sensor) const;
   void hear(const bus::Readings& sample);
   void hear(const bus::RunEvents& sample);
   void hear(const bus::LastObstacle& sample);

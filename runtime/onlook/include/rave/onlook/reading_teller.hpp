@@ -32,10 +32,13 @@ class ReadingTeller {
   void begin_again() noexcept { again_at_ = {}; }
   /// Sends what is due. Sensors of other hosts and numbers that do not exist are left out. Waits
   /// for nobody. `slower`: so many times rarer than usual, at least 1.
-  void tell(const sim::Engine& engine, const Asked& asked, Clock::time_point now, int slower);
+  /// Probes sense the world of the last step for that.
+  void tell(const sim::Engine& engine, const Asked& asked, probe::Probes& probes,
+            Clock::time_point now, int slower);
 
  private:
   void put(const sim::Engine& engine, const LookedAt& looked, bool parts);
+  void put_commands(const sim::Engine& engine, const LookedAt& looked);
   void put_part(const LookedAt& looked, std::uint8_t part, ReadingKind kind,
                 const SampleHeader* header, const void* records);
 

@@ -16,6 +16,7 @@
 #include "rave/onlook/asked.hpp"
 #include "rave/onlook/obstacle_teller.hpp"
 #include "rave/onlook/reading_teller.hpp"
+#include "rave/probe/probes.hpp"
 #include "rave/sim/engine.hpp"
 
 namespace rave::onlook {
@@ -36,6 +37,8 @@ class Teller {
     bool obstacles = true;   ///< Nobody else on this bus tells of them for this host.
     /// An event for people, behind its kind. Null: its text.
     std::function<std::string(const sim::Event&)> words = {};
+    /// Where the drivers of probes are found; outlives the teller. Null: there are no probes.
+    plugin::Catalogue* catalogue = nullptr;
   };
   /// Errors: those of bus::Writer::create() and bus::Reader::create().
   [[nodiscard]] static Result<Teller> create(bus::Bus& bus, Options options);
@@ -72,6 +75,7 @@ class Teller {
   void hear(Clock::time_point now);
   void put(const sim::Event& event, SimTime time);
   void tell_events(const sim::Engine& engine, std::span<const sim::Event> beside);
+  void tell_readings(const sim::Engine& engine, Clock::time_point now, int slower);
   void tell_maps(const sim::Engine& engine, Clock::time_point now, int slower);
 
   Options options_;
@@ -80,6 +84,7 @@ class Teller {
   ReadingTeller readings_;
   bus::Writer<bus::MapTile> tiles_;
   maps::LocalMaps maps_;
+  probe::Probes probes_;
   std::optional<ObstacleTeller> obstacles_;
   std::map<std::uint64_t, Look> heard_;  ///< By who looks.
   Asked asked_;                          ///< By all together.

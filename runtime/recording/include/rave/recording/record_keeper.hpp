@@ -41,6 +41,9 @@ class RecordKeeper final : public RunObserver {
   /// What was asked of the run and counts from this step on.
   void keep(const RunRequest& request, std::uint64_t step);
 
+  /// What was said before this step; a kChat.
+  void say(const RunRequest& chat, std::uint64_t step);
+
   [[nodiscard]] record::RunRecorder& recorder() noexcept { return recorder_; }
 
   /// Closes the file. `hash`: none for a live run. Errors: what kept it from being written.
@@ -64,6 +67,9 @@ class RecordKeeper final : public RunObserver {
   bool with_real_ = false;                ///< There are real robots, which others make way for.
   bool hashed_;
 };
+
+/// Writes what was said before this step; a kChat.
+void record_chat(const RunRequest& chat, std::uint64_t step, record::RunRecorder& recorder);
 
 /// What an engine knows for the beginning of a record: start, seed, step, all robots, and the
 /// sensors of those that run here.

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "rave/config/expanded_scenario.hpp"
+#include "rave/control/run_control.hpp"
 #include "rave/observe/kinds.hpp"
 #include "rave/record/run_record.hpp"
 
@@ -26,6 +27,8 @@ class WorldRecord {
   /// A step is done. That it could not be written is told by end().
   void step(std::uint64_t step, const BodyKinds& kinds, std::span<const sim::Event> events,
             std::uint64_t hash);
+  /// What was said before this step; a kChat.
+  void say(const RunRequest& chat, std::uint64_t step);
   Status end(std::uint64_t hash) { return recorder_.end(hash); }
 
  private:

@@ -19,6 +19,8 @@
 
 namespace rave::runtime {
 
+struct RunRequest;
+
 /// What is known of a host when a run of several is over.
 struct SharedHost {
   std::string name;
@@ -78,6 +80,8 @@ class SharedResults {
 
   /// In lock-step: the authority has made another world. True: a check ends the run with it.
   bool after_step(const sim::WorldAuthority& authority);
+  /// What people said since the last step; a kChat. For the record.
+  void say(const RunRequest& chat);
   /// ... and makes none any more.
   void at_end(const sim::WorldAuthority& authority);
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "rave/control/run_control.hpp"
 #include "rave/math/pose.hpp"
 
 // What people ask of robots and of obstacles. Plain values; SI units, frame W, angles in radians.
@@ -14,8 +15,6 @@ namespace rave::gui_server {
 
 /// So many robots are meant by one message, at most.
 inline constexpr std::size_t kMostCommanded = 2000;
-/// So many points a path has, at most.
-inline constexpr std::size_t kMostPathPoints = 1000;
 /// So long a text to a robot or a person is, bytes of UTF-8.
 inline constexpr std::size_t kLongestText = 1000;
 
@@ -23,24 +22,27 @@ inline constexpr std::size_t kLongestText = 1000;
 struct Author {
   std::string name;
   bool overrides = false;  ///< A super-user, who needs no lease.
+  std::uint64_t page = 0;  ///< Which of their pages: these do not share leases. Not 0 for a page.
   friend bool operator==(const Author&, const Author&) = default;
 };
 
 /// One request of a person. Which members count depends on the kind.
 struct CommandMessage {
   enum class Kind : std::uint8_t {
-    kDrive,   ///< `v_mps` and `w_radps`, for 250 ms.
-    kGoal,    ///< `points`: one for all, or one for each robot; `yaw_rad`, `speed_mps`.
-    kPath,    ///< `points`, `speed_mps`.
-    kCancel,  ///< What is under way.
-    kText,    ///< `value`.
-    kPlace,   ///< `points`: one for each robot; `yaw_rad`.
-    kTake,    ///< The lease; `value`: empty, or `force`.
-    kGive,    ///< The lease; `value`: to whom, or empty: back.
-    kSet,     ///< The parameter `key` becomes `value`.
-    kAdd,     ///< An obstacle; `value`: YAML.
-    kMove,    ///< The same; `key`: its name.
-    kRemove,  ///< The obstacle `key`.
+    kDrive,        ///< `v_mps` and `w_radps`, for 250 ms.
+    kGoal,         ///< `points`: one for all, or one for each robot; `yaw_rad`, `speed_mps`.
+    kPath,         ///< `points`, `speed_mps`.
+    kCancel,       ///< What is under way.
+    kText,         ///< `value`.
+    kPlace,        ///< `points`: one for each robot; `yaw_rad`.
+    kTake,         ///< The lease; `value`: empty, or `force`.
+    kGive,         ///< The lease; `value`: to whom, or empty: back.
+    kSet,          ///< The parameter `key` becomes `value`.
+    kAdd,          ///< An obstacle; `value`: YAML.
+    kMove,         ///< The same; `key`: its name.
+    kRemove,       ///< The obstacle `key`.
+    kHandOver,     ///< To the drivers `value`: `real`, `simulated`, `first` or `twin`.
+    kResetShadow,  ///< Puts the simulated twin where the robot is.
   };
   Kind kind = Kind::kDrive;
   std::uint32_t request = 0;  ///< The page's number for it, which the answer has.
@@ -71,7 +73,18 @@ struct DriveState {
   std::uint32_t slot = 0;
   std::string lease;               ///< Who drives it; empty: nobody.
   std::vector<std::string> takes;  ///< Of drive, goal, path, text, place.
-  std::string order;  ///< What is under way, such as `goal 1.20, 3.40`; empty: nothing.
+  std::string order;       ///< What is under way, such as `goal 1.20, 3.40`; empty: nothing.
+  std::uint64_t page = 0;  ///< On which of their pages it is driven; 0: on none in particular.
+  /// Of a robot with two sets of drivers: how hand-overs stand, without its place, and whether the
+  /// simulated one serves.
+  std::optional<runtime::RunStatus::HandOver> hand_over = std::nullopt;
+  bool simulated = true;
+  std::optional<runtime::RunStatus::Shadow> shadow = std::nullopt;  ///< Rounded.
+
+  /// Whether it is this page that drives it.
+  [[nodiscard]] bool is_of(const Author& author) const {
+    return !lease.empty() && lease == author.name && (page == 0 || page == author.page);
+  }
   friend bool operator==(const DriveState&, const DriveState&) = default;
 };
 

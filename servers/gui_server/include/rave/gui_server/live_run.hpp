@@ -9,6 +9,7 @@
 #include "rave/control/run_control.hpp"
 #include "rave/gui_server/source.hpp"
 #include "rave/observe/run_observer.hpp"
+#include "rave/plugin/catalogue.hpp"
 
 namespace rave::gui_server {
 
@@ -18,7 +19,10 @@ class LiveRun {
  public:
   /// `control` is that of the run: what pages ask for goes there. `ready` gets the source when the
   /// run is there, in the thread of the run. Both outlive the run.
+  /// `catalogue`: of the run, outlives it; `described`: another one of the same plug-ins, for the
+  /// thread of the server. With a null one nobody tries virtual sensors.
   LiveRun(const config::ExpandedScenario& scenario, runtime::RunControl& control,
+          plugin::Catalogue& catalogue, std::unique_ptr<plugin::Catalogue> described,
           std::function<void(std::shared_ptr<Source>)> ready);
   LiveRun(const LiveRun&) = delete;
   LiveRun& operator=(const LiveRun&) = delete;

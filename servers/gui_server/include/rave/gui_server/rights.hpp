@@ -33,8 +33,9 @@ enum class InfoClass : std::uint8_t {
   kRunControl,  ///< Pause, step, resume and pace of a run that goes on.
   kCommand,     ///< Driving robots, sending them somewhere, telling and setting them something.
   kEdit,        ///< Adding and moving virtual obstacles, and placing simulated robots.
+  kProbe,       ///< Trying virtual sensors.
 };
-inline constexpr std::size_t kInfoClasses = 16;
+inline constexpr std::size_t kInfoClasses = 17;
 
 [[nodiscard]] std::string_view to_string(InfoClass what) noexcept;
 [[nodiscard]] std::optional<InfoClass> class_named(std::string_view word) noexcept;

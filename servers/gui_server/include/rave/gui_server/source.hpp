@@ -17,6 +17,7 @@
 #include "rave/gui_server/command.hpp"
 #include "rave/gui_server/rights.hpp"
 #include "rave/maps/map_tile.hpp"
+#include "rave/probe/probes.hpp"
 
 // What the GUI Server shows comes from a source: a recording, or a run. Plain values; SI units,
 // frame W, angles in radians, times in seconds of the run.
@@ -106,6 +107,17 @@ struct LookedAt {
   std::uint32_t slot = 0;
   std::uint32_t sensor = 0;
   friend auto operator<=>(const LookedAt&, const LookedAt&) = default;
+};
+
+/// Something that a person said, as a record has it.
+struct ChatText {
+  std::uint64_t number = 0;  ///< From 1 on.
+  double t_s = 0;            ///< Of the run.
+  std::string from;
+  std::string role;  ///< `observer`, `commander` or `super_user`.
+  std::string to;    ///< `all`, `role`, `user`, `team` or `robot`.
+  std::string name;  ///< Of whom `to` says.
+  std::string text;
 };
 
 /// Something that happened, as the log shows it; repetitions folded.
@@ -202,12 +214,31 @@ struct MapShown {
   std::map<std::pair<std::uint32_t, std::uint32_t>, TileShown> tiles;
 };
 
+/// A virtual sensor that somebody wants to try on a robot.
+struct ProbeWish {
+  std::uint32_t slot = 0;
+  std::string name;
+  std::string driver;
+  Pose2 X_RS;
+  double z_m = 0;
+  std::vector<std::pair<std::string, std::string>> params;  ///< Values as a file has them.
+  bool without_obstacles = false;  ///< Who wishes it must not learn of virtual obstacles.
+};
+
+/// What became of it: what hosts are asked for, with the number of the robot in the run.
+struct ProbeMade {
+  probe::Asked asked;
+  std::string text;         ///< The entry for `sensors:` of a robot file.
+  std::string sensor_json;  ///< As in a roster.
+};
+
 /// What all pages together look at.
 struct Audience {
-  bool any = false;                 ///< A page wants poses.
-  std::vector<LookedAt> looked_at;  ///< Ascending, without repetitions.
-  bool parts = false;               ///< Also the halves of hybrid sensors.
-  std::vector<std::uint32_t> maps;  ///< Robots whose local maps; the same.
+  bool any = false;                  ///< A page wants poses.
+  std::vector<LookedAt> looked_at;   ///< Ascending, without repetitions.
+  bool parts = false;                ///< Also the halves of hybrid sensors.
+  std::vector<std::uint32_t> maps;   ///< Robots whose local maps; the same.
+  std::vector<probe::Asked> probes;  ///< The same.
 };
 
 /// One thread, which is that of the server.
@@ -260,6 +291,17 @@ class Source {
   /// A local map is found by its slot alone. Null: there is no such map, or nothing is known of it
   /// yet. Holds until the next tick().
   [[nodiscard]] virtual const MapShown* map(const MapName& /*name*/) const { return nullptr; }
+
+  // Virtual sensors that are tried. Their readings come with those of the cursor, by their number.
+  /// Which there are: the array `drivers` of a message `catalogue`.
+  [[nodiscard]] virtual std::string virtual_sensors_json() { return "[]"; }
+  /// Nothing senses yet: that begins when the audience of tick() has it. Errors: kState (nobody
+  /// can), kNotFound, kInvalidArgument.
+  [[nodiscard]] virtual Result<ProbeMade> probe(const ProbeWish& wish);
+  /// What people said in the run that this is the record of, oldest first; slots are robots.
+  [[nodiscard]] virtual std::span<const ChatText> chat() const noexcept { return {}; }
+  /// Puts what was said into the record of the run.
+  virtual void keep_chat(const ChatText& /*said*/) {}
 
   /// Stops and releases robots, at once and without a lease to stop.
   virtual void halt(const HaltMessage& halt, const Author& author, Reply reply) = 0;

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/sim/lone_sensor.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "declared_fan.hpp"
+#include "instances.hpp"
+#include "plugin_call.hpp"
+#include "rave/sim/range_engine.hpp"
+
+namespace rave::sim {
+namespace {
+
+/// No sensor of a robot has this number, so none draws the same random numbers.
+constexpr std::uint32_t kLoneDevice = 0x4000'0000U;
+
+}  // namespace
+
+struct LoneSensor::Parts {
+  SensorSpec spec;
+  InstanceArray instance;
+  SensorInfo info;
+  bool uses_fan = false;
+  FanTable fan;
+  FanScratch scratch;
+  std::vector<std::byte> records;
+  std::vector<std::uint32_t> bodies;
+  std::vector<std::byte> state;
+  SampleHeader header{};
+  bool failed = false;
+};
+
+LoneSensor::LoneSensor(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+LoneSensor::~LoneSensor() = default;
+
+const SensorSpec& LoneSensor::spec() const noexcept { return parts_->spec; }
+const SensorInfo& LoneSensor::info() const noexcept { return parts_->info; }
+const SampleHeader& LoneSensor::header() const noexcept { return parts_->header; }
+const void* LoneSensor::records() const noexcept { return parts_->records.data(); }
+
+Result<std::unique_ptr<LoneSensor>> LoneSensor::make(SensorSpec spec, double step_s) {
+  if (spec.virtual_ops == nullptr) {
+    return fail(ErrorCode::kInvalidArgument, "the driver `{}` is of hardware, which is there once",
+                spec.driver);
+  }
+  auto parts = std::make_unique<Parts>();
+  parts->spec = std::move(spec);
+  const SensorSpec& its = parts->spec;
+  RAVE_TRY(parts->instance.make(its.virtual_ops->instance, 1));
+  VirtualSensorSetup setup;
+  setup.params = its.params.values().data();
+  setup.param_count = its.params.values().size();
+  setup.layers = its.layers;
+  setup.period_s = its.period_steps * step_s;
+  setup.z_m = its.z_m;
+  VirtualDeclaration declaration;
+  RAVE_TRY(called([&](ErrorText* error) {
+    return its.virtual_ops->configure(parts->instance.at(0), &setup, &declaration, error);
+  }));
+  SensorInfo& info = parts->info;
+  info.name = its.name.c_str();
+  info.kind = its.kind;
+  info.capacity = declaration.capacity;
+  info.X_RS = its.X_RS;
+  info.z_m = its.z_m;
+  info.period_s = setup.period_s;
+  parts->uses_fan = declaration.uses_fan != 0;
+  if (parts->uses_fan) {
+    RAVE_TRY(check_fan(declaration, its.kind));
+    info.capacity = declaration.fan.ray_count / declaration.fan.rays_per_reading;
+    describe_fan(declaration, info);
+  }
+  if (info.capacity > kMostRecords || (parts->uses_fan && declaration.fan.ray_count > kMostRays)) {
+    return fail(ErrorCode::kInvalidArgument,
+                "{} readings of {} rays at once are too many to be tried: {} of {} at most",
+                info.capacity, declaration.fan.ray_count, kMostRecords, kMostRays);
+  }
+  if (parts->uses_fan) {
+    parts->fan = FanTable::make(declaration.fan, its.layers);
+    parts->bodies.resize(info.capacity);
+  }
+  parts->records.resize(info.capacity * record_size(its.kind));
+  parts->state.resize(its.virtual_ops->state_size);
+  return std::unique_ptr<LoneSensor>(new LoneSensor(std::move(parts)));
+}
+
+Status LoneSensor::sample(const world::Snapshot& world, RobotId robot, std::uint64_t seed) {
+  Parts& its = *parts_;
+  if (its.failed || !world.robot(robot).present) return {};
+  const double elapsed_s =
+      its.header.sequence == 0 ? 0 : SimTime{world.time().ns - its.header.stamp_ns}.seconds();
+  const std::uint32_t sequence = its.header.sequence;
+  its.header = {world.time().ns, sequence + 1, 0, 1, 0};
+  const Pose2 X_WR = world.pose(robot);
+  if (its.uses_fan) {
+    cast_fan(world, its.fan, sensor_place(X_WR, its.info.X_RS), its.info.z_m, world.body_of(robot),
+             its.scratch, {reinterpret_cast<float*>(its.records.data()), its.info.capacity},
+             its.bodies);
+    its.header.count = its.info.capacity;
+    return {};
+  }
+  SampleItem item;
+  item.robot = robot;
+  item.device = kLoneDevice;
+  item.seed = seed;
+  item.sequence = sequence;
+  item.capacity = its.info.capacity;
+  item.X_WR = X_WR;
+  item.X_WS = compose(X_WR, its.info.X_RS);
+  item.z_m = its.info.z_m;
+  item.elapsed_s = elapsed_s;
+  item.header = &its.header;
+  item.records = its.records.data();
+  item.state = its.state.data();
+  std::uint8_t failed = 0;
+  ErrorText error;
+  its.spec.virtual_ops->sample(its.instance.at(0), &world, &item, 1, &failed, &error);
+  its.header.count = std::min(its.header.count, its.info.capacity);
+  if (failed == 0) return {};
+  its.failed = true;
+  its.header.count = 0;
+  return fail(ErrorCode::kPlugin, "the driver `{}`: {}", its.spec.driver, error.text);
+}
+
+}  // namespace rave::sim

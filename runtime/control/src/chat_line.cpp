@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/control/chat_line.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <string_view>
+
+#include "rave/robot/order.hpp"
+
+namespace rave::runtime {
+namespace {
+
+constexpr std::array<std::string_view, 3> kRoles = {"observer", "commander", "super_user"};
+constexpr std::array<std::string_view, 5> kAddressees = {"all", "role", "user", "team", "robot"};
+
+template <std::size_t N>
+bool is_one_of(std::string_view word, const std::array<std::string_view, N>& words) {
+  return std::ranges::find(words, word) != words.end();
+}
+
+/// The word up to the next space; that and the space go.
+std::string_view take_word(std::string_view& text) {
+  const std::size_t end = std::min(text.find(' '), text.size());
+  const std::string_view word = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return word;
+}
+
+tl::unexpected<Error> no_line(std::string_view what) {
+  return fail(ErrorCode::kInvalidArgument, "this is no line of a chat: {}", what);
+}
+
+}  // namespace
+
+RunRequest chat_request(const ChatLine& line) {
+  RunRequest request;
+  request.kind = RunRequest::Kind::kChat;
+  request.key = fmt::format("{} {} {}", line.number, line.role, line.to);
+  if (!line.name.empty()) request.key += " " + line.name;
+  request.value = line.text;
+  request.by = line.from;
+  return request;
+}
+
+Result<ChatLine> chat_line(const RunRequest& request) {
+  ChatLine line;
+  std::string_view key = request.key;
+  const std::string_view number = take_word(key);
+  const char* const end = number.data() + number.size();
+  const auto [read, error] = std::from_chars(number.data(), end, line.number);
+  if (error != std::errc() || read != end || line.number == 0) {
+    return no_line("expected its number, from 1 on");
+  }
+  line.role = take_word(key);
+  if (!is_one_of(line.role, kRoles)) {
+    return no_line("expected the role observer, commander or super_user");
+  }
+  line.to = take_word(key);
+  if (!is_one_of(line.to, kAddressees)) {
+    return no_line("expected that it is to all, role, user, team or robot");
+  }
+  line.name = key;
+  if (line.name.empty() != (line.to == "all") || line.name.size() > kMostChatName) {
+    return no_line("expected whom it is for, or that it is for all");
+  }
+  line.from = request.by;
+  if (line.from.empty() || line.from.size() > kMostOrderAuthor)
+    return no_line("expected its author");
+  line.text = request.value;
+  if (line.text.empty() || line.text.size() > kMostOrderText) {
+    return no_line(fmt::format("expected 1 to {} bytes of text", kMostOrderText));
+  }
+  return line;
+}
+
+}  // namespace rave::runtime

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// What visitors say to people and robots, and what becomes of their leases.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "visitors.hpp"
+
+namespace rave::gui_server {
+
+/// What a page that goes had the lease of is any page's of the same person; so one that is loaded
+/// anew need not take anything from itself.
+void Visitors::leave_leases(const Visitor& gone) {
+  if (!source_ || !gone.view) return;
+  const Author author = author_of(gone);
+  CommandMessage leave;
+  leave.kind = CommandMessage::Kind::kGive;
+  leave.value = author.name;
+  for (const DriveState& state : source_->leases_changed_since(0)) {
+    if (state.page != 0 && state.is_of(author)) leave.slots.push_back(state.slot);
+  }
+  if (leave.slots.empty()) return;
+  source_->command(leave, author, [](std::uint32_t, bool, const std::string&) {});
+}
+
+Result<std::string> Visitors::chat(std::uint64_t id, const ChatMessage& chat) {
+  using To = ChatMessage::To;
+  Visitor& visitor = visitors_.at(id);
+  if (visitor.eyes)
+    return fail(ErrorCode::kState, "While you view the page as another user, you can only watch.");
+  if (!source_) return fail(ErrorCode::kState, "No run is in progress.");
+  if (!visitor.view->may_any(InfoClass::kChat)) {
+    return fail(ErrorCode::kState, "Your rights do not include this.");
+  }
+  ChatRoom::Line line;
+  line.from = known_as(visitor.person);
+  line.to = chat.to;
+  line.name = chat.name;
+  line.text = chat.text;
+  line.t_s = source_->open_playhead()->look(Session::Clock::now()).now_s;
+  const Cast& cast = desk_.cast();
+  CommandMessage told;
+  told.kind = CommandMessage::Kind::kText;
+  told.value = chat.text;
+  for (std::uint32_t slot = 0; slot < visitor.view->robots(); ++slot) {
+    const std::uint32_t robot = *visitor.view->robot_of(slot);
+    const bool meant = (chat.to == To::kRobot && slot == chat.slot) ||
+                       (chat.to == To::kTeam && cast.teams[robot] == chat.name);
+    if (!meant || !visitor.view->may(InfoClass::kChat, robot)) continue;
+    line.robots.push_back(robot);
+    if (chat.to == To::kRobot) line.name = cast.names[robot];
+    if (source_->about().live && visitor.view->may(InfoClass::kCommand, robot)) {
+      told.slots.push_back(slot);
+    }
+  }
+  if ((chat.to == To::kRobot || chat.to == To::kTeam) && line.robots.empty()) {
+    return fail(ErrorCode::kNotFound, "There is no such robot or team.");
+  }
+  if (chat.to == To::kUser && !is_there(chat.name)) {
+    return fail(ErrorCode::kNotFound, "`{}` is not connected.", chat.name);
+  }
+  const std::size_t robots = std::min(told.slots.size(), kMostCommanded);
+  told.slots.resize(robots);
+  told.request = chat.request;
+  RAVE_TRY(room_.say(std::move(line), Session::Clock::now()));
+  source_->keep_chat(ChatRoom::text_of(room_.last()));
+  if (robots > 0) visitor.page->command(told);
+  return robots > 0 ? fmt::format("Sent to {} robots.", robots) : std::string("Said.");
+}
+
+bool Visitors::is_there(const std::string& name) const {
+  return std::any_of(visitors_.begin(), visitors_.end(), [&name](const auto& entry) {
+    return known_as(entry.second.person).name == name;
+  });
+}
+
+}  // namespace rave::gui_server

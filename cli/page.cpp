@@ -65,13 +65,13 @@ void replay_on_page(gui_server::GuiServer& page, bool quiet, const std::filesyst
                     const runtime::RunControl& control) {
   if (control.stopping()) return;
   auto source = record_file(folder.string()).and_then(gui_server::open_recording);
-  if (source) page.show(*std::move(source));
   if (!quiet) {
     put(stdout, source
                     ? "the page shows the recording; press Ctrl-C to quit\n"
                     : fmt::format("the page cannot show the recording: {}; press Ctrl-C to quit\n",
                                   source.error().text()));
   }
+  if (source) page.show(*std::move(source));
   std::fflush(stdout);
   while (!control.stopping()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
 }

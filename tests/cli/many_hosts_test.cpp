@@ -17,7 +17,7 @@ constexpr std::size_t kMany = 80;
 class ManyHosts : public SharedWorld {
  protected:
   [[nodiscard]] std::string robots(std::size_t count) const {
-    const std::string path = folder("many.yaml");
+    std::string path = folder("many.yaml");
     std::ofstream(path) << "name: many\nduration_s: 0.2\nrobots:\n  - {name: walker, file: "
                         << RAVE_SOURCE_DIR
                         << "/tests/cli/data/crowd_robot.yaml, scatter: {count: " << count

@@ -393,7 +393,7 @@ TEST(EngineObstacles, AHybridSeesThemAsTheyWereAtTheStamp) {
 }
 
 TEST(EngineObstacles, ChangesOfTheScenarioBelongToTheRun) {
-  const auto go = [](unsigned threads, Author author, double x_m = 2) {
+  const auto go = [](unsigned threads, const Author& author, double x_m = 2) {
     EngineSpec spec = looker_and_driver();
     spec.threads = threads;
     spec.share_always = threads > 1;

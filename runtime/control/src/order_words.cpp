@@ -136,7 +136,7 @@ void write_takes(OrderSet set, std::vector<std::string>& words) {
 }
 
 std::string order_answer(const RunRequest& request) {
-  const std::string whom = request.robot.empty() ? "all robots" : request.robot;
+  std::string whom = request.robot.empty() ? "all robots" : request.robot;
   const auto last = [&request] {
     return fmt::format("{:.2f}, {:.2f}", request.points.back().x, request.points.back().y);
   };

@@ -29,7 +29,7 @@ bool comes_true(const std::function<bool()>& what) {
 }
 
 class LinesOnBus : public ::testing::Test {
- protected:
+ public:
   LinesOnBus() {
     bus_.participant = "test";
     bus_.run = bus::RunId::random();
@@ -42,6 +42,7 @@ class LinesOnBus : public ::testing::Test {
   }
   ~LinesOnBus() override { control_.end(); }
 
+ protected:
   [[nodiscard]] std::unique_ptr<LineServer> line(const std::string& host) {
     LineOptions options;
     options.run = bus_.run.text();

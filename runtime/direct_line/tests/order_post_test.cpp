@@ -12,10 +12,11 @@ namespace {
 
 /// A run that does nothing until it is told to serve.
 class OrderPostTest : public ::testing::Test {
- protected:
+ public:
   OrderPostTest() { control_.begin({}); }
   ~OrderPostTest() override { control_.end(); }
 
+ protected:
   void drive(int id, double v_mps, bool echo) {
     runtime::RunRequest request;
     request.kind = runtime::RunRequest::Kind::kDrive;

@@ -26,8 +26,8 @@ struct DrainLimits {
 template <class Seats, class Owes, class Turn>
 void drain(const Seats& seats, LogSink* log, Owes&& owes_findings, Turn&& turn,
            const DrainLimits& limits = {}) {
-  using Clock = std::chrono::steady_clock;
-  const auto began = Clock::now();
+  using Steady = std::chrono::steady_clock;
+  const auto began = Steady::now();
   const auto here = [](const auto& seat) { return seat.writer != 0; };
   const auto owes = [&](const auto& seat) {
     return seat.writer != 0 && owes_findings(seat.writer);
@@ -35,7 +35,7 @@ void drain(const Seats& seats, LogSink* log, Owes&& owes_findings, Turn&& turn,
   bool told = false;
   while (std::ranges::any_of(seats, here)) {
     const bool any_owes = std::ranges::any_of(seats, owes);
-    const auto waited = Clock::now() - began;
+    const auto waited = Steady::now() - began;
     if (waited >= (any_owes ? limits.owing : limits.usual)) break;
     if (waited >= limits.usual && !std::exchange(told, true) && log != nullptr) {
       std::vector<std::string_view> names;

@@ -193,8 +193,11 @@ double LiveBoard::slowest_speed() const {
   const std::int64_t now_ns = steady_ns();
   std::optional<double> slowest;
   for (const LiveSeat& seat : seats_) {
-    const auto rate = seat.writer != 0 ? seat.steps.at(now_ns) : std::nullopt;
-    if (rate) slowest = std::min(slowest.value_or(*rate), *rate);
+    if (seat.writer == 0) continue;
+    const auto rate = seat.steps.at(now_ns);
+    // The speed of the others would be too fast.
+    if (!rate) return 0;
+    slowest = std::min(slowest.value_or(*rate), *rate);
   }
   return slowest.value_or(0) * options_.step.seconds();
 }

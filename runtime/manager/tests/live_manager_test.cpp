@@ -23,7 +23,7 @@ using namespace sim::testing;
 
 /// Robot `anna` runs on host `one`, `bob` on `two`.
 class LiveManagerTest : public ::testing::Test {
- protected:
+ public:
   LiveManagerTest() {
     options_.bus = own_corner();
     options_.identity = {rave_wire_kNone, "environment manager", 0, 7, 9, true};
@@ -42,6 +42,8 @@ class LiveManagerTest : public ::testing::Test {
   ~LiveManagerTest() override {
     if (thread_.joinable()) thread_.join();
   }
+
+ protected:
   void start() {
     thread_ = std::thread([this] {
       sim::EngineSpec spec;

@@ -29,7 +29,8 @@ std::string loss_of(const Findings& findings, const InstrumentFacts& stream) {
   const double share = of > 0 ? static_cast<double>(count) / static_cast<double>(of) : 0;
   if (!(share > kMostLost)) return {};
   const auto because = dropped.find("because");
-  const bool said = because != dropped.end() && because->is_string() && *because != "";
+  const bool said = because != dropped.end() && because->is_string() &&
+                    !because->get_ref<const std::string&>().empty();
   return fmt::format("sensor `{}` of robot `{}` lost {} of {} readings ({:.1f} %){}", stream.name,
                      findings.spec.robots[stream.robot].name, count, of, 100 * share,
                      said ? ": " + because->get<std::string>() : "");

@@ -29,10 +29,10 @@ class FakeRun : public Source {
   inline static const std::vector<std::uint8_t> kSecretCells{91, 92, 93, 94, 95, 96, 97, 98};
 
   FakeRun() {
-    about_.live = true;
-    about_.name = "fake";
-    about_.step_s = 0.01;
-    about_.recording = "/nowhere/fake.mcap";
+    facts.live = true;
+    facts.name = "fake";
+    facts.step_s = 0.01;
+    facts.recording = "/nowhere/fake.mcap";
     for (const auto& [name, team] : {std::pair("walker-1", "green"), std::pair("spy-2", "blue"),
                                      std::pair("walker-3", "green"), std::pair("spy-4", "blue")}) {
       robots_ += robots_.empty() ? "[" : ",";
@@ -62,7 +62,7 @@ class FakeRun : public Source {
     }
   }
 
-  [[nodiscard]] const RunAbout& about() const noexcept override { return about_; }
+  [[nodiscard]] const RunAbout& about() const noexcept override { return facts; }
   [[nodiscard]] Powers powers() const override {
     return {{"play", "pace", "step", "stop", "release", "true_pose", "readings", "hybrid_parts",
              "obstacles", "log", "recording", "command", "edit", "chat", "maps", "probe"},
@@ -83,10 +83,10 @@ class FakeRun : public Source {
   [[nodiscard]] std::uint64_t maps_revision() const noexcept override { return 1; }
   [[nodiscard]] const MapShown* map(const MapName& name) const override { return maps_.find(name); }
   void tick(Playhead::Clock::time_point /*now*/, const Audience& audience) override {
-    for (const std::uint32_t robot : audience.maps) asked_maps_ |= 1 << robot;
-    int probed = 0;
-    for (const probe::Asked& asked : audience.probes) probed |= 1 << asked.robot;
-    probed_ = probed;
+    for (const std::uint32_t robot : audience.maps) asked_maps |= 1 << robot;
+    int robots = 0;
+    for (const probe::Asked& asked : audience.probes) robots |= 1 << asked.robot;
+    probed = robots;
     ++poses_.serial;
     poses_.time_s = 0.01 * poses_.serial;
   }
@@ -151,11 +151,11 @@ class FakeRun : public Source {
     return commands_;
   }
 
-  RunAbout about_;
+  RunAbout facts;
   std::vector<ChatText> recorded;  ///< Of the record that this is, if it is one.
   std::atomic<int> halted_robots = 0;
-  std::atomic<int> asked_maps_ = 0;  ///< A bit of each robot whose local map was asked for.
-  std::atomic<int> probed_ = 0;      ///< A bit of each robot that something is tried on now.
+  std::atomic<int> asked_maps = 0;  ///< A bit of each robot whose local map was asked for.
+  std::atomic<int> probed = 0;      ///< A bit of each robot that something is tried on now.
   std::atomic<std::uint64_t> lease_page = 0;  ///< On which page ben drives.
   std::atomic<int> moved = 0;                 ///< How often somebody moved the time of the run.
 

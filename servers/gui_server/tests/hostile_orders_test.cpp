@@ -195,7 +195,7 @@ TEST_F(Hostile, WhatIsSaidReachesWhoMayHearItAlone) {
 
 TEST_F(Hostile, AReplayShowsTheChatOfTheRecordToWhoMayReadItAlone) {
   auto replay = std::make_shared<FakeRun>();
-  replay->about_.live = false;
+  replay->facts.live = false;
   replay->recorded = {{1, 0.5, "ada", "commander", "all", "", "said to all"},
                       {2, 1.5, "ada", "commander", "user", "ben", "for ben alone"},
                       {3, 2.5, "ada", "commander", "role", "commander", "for commanders"},
@@ -231,7 +231,7 @@ TEST_F(Hostile, WhatIsSaidGoesIntoTheRecordOnce) {
   EXPECT_EQ(kept[0].text, "well done");
   // The replay of the same run begins on the same page.
   auto replay = std::make_shared<FakeRun>();
-  replay->about_.live = false;
+  replay->facts.live = false;
   replay->recorded = kept;
   server_->show(replay);
   const std::string shown = ben.text_with("\"type\":\"chat\",\"reset\":true");
@@ -244,7 +244,7 @@ TEST_F(Hostile, ComponentsAreServedToTheirRolesAlone) {
   const std::string ben = guest(Role::kCommander, "ben");
   std::ofstream(folder_ / "heat map.js") << "export const component = 1;\n";
   auto run = std::make_shared<FakeRun>();
-  run->about_.components.push_back({"heat_map", folder_ / "heat map.js", {Role::kCommander}});
+  run->facts.components.push_back({"heat_map", folder_ / "heat map.js", {Role::kCommander}});
   server_->show(run);
   RawSocket commander = socket(ben);
   EXPECT_NE(commander.text_with("\"hello\"").find("components/0/heat_map.js"), std::string::npos);

@@ -13,8 +13,8 @@ class HostileProbes : public Hostile {
  protected:
   /// Whether something is tried on just these robots soon.
   [[nodiscard]] bool probed(int robots) const {
-    for (int i = 0; i < 1000 && run_->probed_ != robots; ++i) ::usleep(10'000);
-    return run_->probed_ == robots;
+    for (int i = 0; i < 1000 && run_->probed != robots; ++i) ::usleep(10'000);
+    return run_->probed == robots;
   }
 };
 

@@ -118,7 +118,7 @@ TEST_F(Hostile, MapsOfOthersAreNotEncodedWhateverIsAskedFor) {
   for (const auto& cells : {FakeRun::kOpenCells, FakeRun::kGlobalCells, FakeRun::kSecretCells}) {
     EXPECT_NE(boss.heard().find(text_of_cells(cells)), std::string::npos);
   }
-  run_->asked_maps_ = 0;
+  run_->asked_maps = 0;
   boss.send(R"({"type":"look_maps","maps":[]})");
   // Team green is theirs: their own maps and the global one, nothing of team blue.
   RawSocket eve = socket(guest(Role::kObserver, "eve"));
@@ -129,8 +129,8 @@ TEST_F(Hostile, MapsOfOthersAreNotEncodedWhateverIsAskedFor) {
   EXPECT_EQ(heard.find(text_of_cells(FakeRun::kSecretCells)), std::string::npos);
   EXPECT_EQ(heard.find("spy-"), std::string::npos);
   // Nobody even makes the maps of the others for them.
-  EXPECT_EQ(run_->asked_maps_ & 0b1010, 0);
-  EXPECT_EQ(run_->asked_maps_ & 0b0101, 0b0101);
+  EXPECT_EQ(run_->asked_maps & 0b1010, 0);
+  EXPECT_EQ(run_->asked_maps & 0b0101, 0b0101);
 }
 
 TEST_F(Hostile, WhoGetsNoMapsGetsNoneAndNoNameOfOne) {
@@ -144,7 +144,7 @@ TEST_F(Hostile, WhoGetsNoMapsGetsNoneAndNoNameOfOne) {
     EXPECT_EQ(heard.find(text_of_cells(cells)), std::string::npos);
   }
   EXPECT_NE(heard.find(R"({"type":"maps","maps":[]})"), std::string::npos);
-  EXPECT_EQ(run_->asked_maps_, 0);
+  EXPECT_EQ(run_->asked_maps, 0);
   // A right that is given counts on the open connection.
   set_right(boss, "observer", "maps", "[\"green\"]");
   EXPECT_NE(eve.text_with("\"type\":\"maps\"").find("walker-3"), std::string::npos);

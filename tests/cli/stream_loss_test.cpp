@@ -88,7 +88,8 @@ TEST_F(StreamLoss, OfAUtiasLogIsTold) {
   for (const char* const name : {"Groundtruth", "Odometry", "Measurement"}) {
     std::ofstream file(folder_.path() / fmt::format("Robot1_{}.dat", name));
     for (int i = 0; i < 100; ++i) {
-      const double stamp_s = 10 + 0.02 * static_cast<double>(i / 2);
+      const int pair = i / 2;
+      const double stamp_s = 10 + 0.02 * pair;
       if (name[0] == 'M') {
         file << fmt::format("{:.2f} 5 1.0 0.1\n", stamp_s);
       } else if (name[0] == 'O') {

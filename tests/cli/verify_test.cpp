@@ -197,7 +197,8 @@ TEST_F(Verify, ARecordThatBrokeOffIsComparedAsFarAsItGoes) {
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
   const std::size_t at = ended.err.find("did not complete; its ");
   ASSERT_NE(at, std::string::npos) << ended.err;
-  const int steps = std::stoi(ended.err.substr(at + 29));
+  const int steps =
+      std::stoi(ended.err.substr(at + std::string_view("did not complete; its ").size()));
   EXPECT_GT(steps, 50);
   EXPECT_LT(steps, 200);
 }

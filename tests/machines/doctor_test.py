@@ -95,7 +95,7 @@ class Doctor(unittest.TestCase):
         with TwoMachines() as lab:
             code, findings = lab.ask()
             self.assertEqual(code, 1)
-            self.expect(findings, "way", "problem", "`rave doctor --listen` does not run there", "rave doctor --listen")
+            self.expect(findings, "way", "problem", "`rave doctor --listen` does not run on it", "rave doctor --listen")
 
     def test_a_firewall_here(self):
         with TwoMachines() as lab:

@@ -51,7 +51,7 @@ try {
     await until(page, `${app}?.model?.robots?.length === 16`);
     const again = await get(gui.link);
     assert.equal(again.status, 403);
-    assert.match(again.body, /used already/);
+    assert.match(again.body, /already used/);
   });
 
   await check('robots, bodies and events of the recording are there', async () => {

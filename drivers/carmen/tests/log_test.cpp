@@ -95,7 +95,8 @@ TEST(Log, CountsWhatItDropsIfAllStampsRepeat) {
 TEST(Log, CountsWhatItDropsInTheWindowOnly) {
   std::string text;
   for (int i = 0; i < 100; ++i) {
-    const double stamp_s = i < 50 ? 0.01 * static_cast<double>(i / 2) : 0.01 * i;
+    const int stamped = i < 50 ? i / 2 : i;
+    const double stamp_s = 0.01 * stamped;
     text += fmt::format("FLASER 1 1 0 0 0 0 0 0 {0:.2f} nohost {0:.2f}\n", stamp_s);
   }
   LoadOptions options;

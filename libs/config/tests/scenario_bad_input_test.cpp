@@ -223,7 +223,7 @@ const FileCase kScenarios[] = {
      "s.yaml:2:43: item 1 of `classes`: found the text \"poses\", expected one of pose, true_pose, "
      "readings, "
      "hybrid_parts, obstacles, goals, maps, chat, log, video, recording, stop, release, "
-     "run_control, command and edit; did you mean `pose`?"},
+     "run_control, command, edit and probe; did you mean `pose`?"},
     {"GuiComponent",
      "name: a\ngui: {components: [{module: panel.ts}]}\nrobots: [{name: r, file: r.yaml}]\n",
      "s.yaml:2:29: `module`: found `panel.ts`, expected a file that ends in .js or .mjs"},

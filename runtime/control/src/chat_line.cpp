@@ -16,8 +16,8 @@ namespace {
 constexpr std::array<std::string_view, 3> kRoles = {"observer", "commander", "super_user"};
 constexpr std::array<std::string_view, 5> kAddressees = {"all", "role", "user", "team", "robot"};
 
-template <std::size_t N>
-bool is_one_of(std::string_view word, const std::array<std::string_view, N>& words) {
+template <std::size_t kWords>
+bool is_one_of(std::string_view word, const std::array<std::string_view, kWords>& words) {
   return std::ranges::find(words, word) != words.end();
 }
 

@@ -123,8 +123,8 @@ std::string summary_text(const Findings& findings, const RunOutcome& outcome) {
   add_hit_rows(findings, table);
   table.rules_before.push_back(table.rows.size());
   table.rows.push_back(
-      {"contacts, pins", fmt::format("{}, {}", findings.count(sim::EventKind::kContact),
-                                     findings.count(sim::EventKind::kPinned))});
+      {"contacts, pinned robots", fmt::format("{}, {}", findings.count(sim::EventKind::kContact),
+                                              findings.count(sim::EventKind::kPinned))});
   if (findings.facts.world_from > 0) {
     table.rows.push_back(
         {"",

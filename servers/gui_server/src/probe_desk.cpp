@@ -36,7 +36,8 @@ std::vector<std::string> lines_of(const ProbeWish& wish) {
                                                 wish.X_RS.x, wish.X_RS.y, wish.z_m, yaw_deg)};
   if (wish.without_obstacles) lines.emplace_back(kWithoutObstacles);
   std::vector<std::string> params;
-  for (const auto& [name, value] : wish.params) params.push_back(name + ": " + value);
+  for (const auto& [name, value] : wish.params)
+    params.push_back(fmt::format("{}: {}", name, value));
   if (!params.empty()) lines.push_back(fmt::format("params: {{{}}}", fmt::join(params, ", ")));
   return lines;
 }

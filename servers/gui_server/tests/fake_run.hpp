@@ -125,13 +125,13 @@ class FakeRun : public Source {
       std::uint64_t revision) const override {
     if (revision > 0) return {};
     DriveState open{0, "ben", {"drive", "goal"}, "goal 1.00, 2.00", lease_page};
-    open.hand_over.emplace();
+    open.hand_over = runtime::RunStatus::HandOver{};
     open.hand_over->last = kTwinText;
-    open.shadow.emplace();
+    open.shadow = runtime::RunStatus::Shadow{};
     open.shadow->m = kOpenGap_m;
     DriveState secret{1, "spy-lord", {"drive"}, ""};
-    secret.hand_over.emplace();
-    secret.shadow.emplace();
+    secret.hand_over = runtime::RunStatus::HandOver{};
+    secret.shadow = runtime::RunStatus::Shadow{};
     secret.shadow->m = kSecretGap_m;
     return {open, secret};
   }

@@ -27,6 +27,12 @@ const char* level_word(LogEvent::Level level) {
   return "info";
 }
 
+Json person_json(const Person& person) {
+  return {{"name", person.name}, {"role", to_string(person.role)}};
+}
+
+}  // namespace
+
 const char* state_word(PlayState::Kind kind) {
   switch (kind) {
     case PlayState::Kind::kRunning:
@@ -40,12 +46,6 @@ const char* state_word(PlayState::Kind kind) {
   }
   return "ended";
 }
-
-Json person_json(const Person& person) {
-  return {{"name", person.name}, {"role", to_string(person.role)}};
-}
-
-}  // namespace
 
 std::string hello_text(const Source& source, const Greeting& greeting) {
   const RunAbout& about = source.about();

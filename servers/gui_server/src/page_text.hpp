@@ -16,6 +16,9 @@
 // What the server says to a page, as JSON; schemas/gui/messages.schema.json describes it.
 namespace rave::gui_server {
 
+/// The word for what the time of a run does, in all protocols.
+[[nodiscard]] const char* state_word(PlayState::Kind kind);
+
 /// As whom a page is greeted.
 struct Greeting {
   Person user;

@@ -18,7 +18,8 @@ class StaticFiles {
   /// Reads all files below `folder`, 64 MiB at most. Errors: kNotFound, kIo.
   [[nodiscard]] static Result<StaticFiles> load(const std::filesystem::path& folder);
 
-  /// `/` is `/index.html`. Files below `/assets/`, whose names have a hash, may be kept for ever.
+  /// `/` is `/index.html`. Files below `/assets/`, whose names have a hash, may be kept for ever,
+  /// except for HTML, whose name stays.
   [[nodiscard]] Response serve(const Request& request) const;
 
  private:

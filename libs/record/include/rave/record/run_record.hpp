@@ -73,6 +73,8 @@ class RunRecorder {
   Status chat(const RunChat& chat);
   /// The first one of a run begins a channel, which other records do not have.
   Status shadow(const ShadowRecord& shadow);
+  /// The same. All robots with a variance; the ones before are void. Within a step.
+  Status variances(std::span<const PoseVariance> robots);
   /// Where a robot is; all of the step go into one message.
   void pose(const RobotPose& robot);
   void poses(std::span<const RobotPose> robots) {

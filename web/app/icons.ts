@@ -66,6 +66,7 @@ import userPlus from 'lucide-static/icons/user-plus.svg?raw';
 import x from 'lucide-static/icons/x.svg?raw';
 import zap from 'lucide-static/icons/zap.svg?raw';
 import appWindow from 'lucide-static/icons/app-window.svg?raw';
+import share from 'lucide-static/icons/share-2.svg?raw';
 import undo from 'lucide-static/icons/undo-2.svg?raw';
 
 const kIcons = {
@@ -73,7 +74,7 @@ const kIcons = {
   layers, link, list, lock, map, maximize, maximize2, minimize2, minus, moon, octagonX, pause, play, plus, radar, refresh, rotateCcw, ruler, search, server, shield, skipBack, skipForward,
   stepBack, stepForward, sun, target, triangleAlert, wifiOff, x, zap,
   boxSelect, cornerDownLeft, gamepad, hand, joystick, keyboard, message, packageX, pointer, move, route, trash,
-  copy, ellipsis, keyRound, userPlus, appWindow, undo,
+  copy, ellipsis, keyRound, userPlus, appWindow, share, undo,
 };
 
 export type IconName = keyof typeof kIcons;

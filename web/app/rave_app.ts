@@ -13,6 +13,7 @@ import type {WorldPanel} from '../panels/world/world_panel';
 import {renderAway} from './away_strip';
 import {Dock, type LayoutName} from './dock';
 import './find_box';
+import './foxglove_sheet';
 import {icon, type IconName} from './icons';
 import {keySheetStyles, renderKeys} from './key_sheet';
 import {bindKeys, panelKey, type KeyAction} from './keys';
@@ -46,6 +47,7 @@ export class RaveApp extends LitElement {
   private pen = matchMedia(`(max-width: ${kPhone_px - 1}px) and (max-height: 700px)`);
   private finding = false;
   private showingKeys = false;
+  private showingFoxglove = false;
   /** The link that opened the page was followed. */
   private arrived = false;
   /** What the server refused last, in its words. */
@@ -252,7 +254,7 @@ export class RaveApp extends LitElement {
     return this.panel<JoystickPanel>('rave-joystick');
   }
 
-  private open(what: 'finding' | 'showingKeys'): void {
+  private open(what: 'finding' | 'showingKeys' | 'showingFoxglove'): void {
     this[what] = !this[what];
     // The keys may have been pressed in another window.
     if (this[what]) window.focus();
@@ -260,8 +262,9 @@ export class RaveApp extends LitElement {
   }
 
   private escape(): void {
-    if (this.finding || this.showingKeys) {
+    if (this.finding || this.showingKeys || this.showingFoxglove) {
       this.finding = false;
+      this.showingFoxglove = false;
       this.showingKeys = false;
     } else if (this.world?.drop()) return;
     else if (this.selection.following) this.selection.follow(false);
@@ -283,7 +286,7 @@ export class RaveApp extends LitElement {
     const old = link.state === 'lost';
     return html`
       <rave-top-bar .context=${this.context} .layout=${this.phone.matches || innerWidth < 1280 ? '' : (this.dock?.name ?? 'Watch')}
-        @layout=${(event: CustomEvent<LayoutName>) => { this.dock?.reset(event.detail); this.requestUpdate(); }} @find=${() => this.open('finding')} @theme=${() => this.toggleTheme()}></rave-top-bar>
+        @layout=${(event: CustomEvent<LayoutName>) => { this.dock?.reset(event.detail); this.requestUpdate(); }} @find=${() => this.open('finding')} @theme=${() => this.toggleTheme()} @foxglove=${() => this.open('showingFoxglove')}></rave-top-bar>
       ${old ? renderLost(model, link) : renderWaits(model)}
       ${renderSeenBy(model, () => link.send({type: 'see_as'}))}
       ${this.refusal === '' ? nothing : html`<div class="strip refused" role="alert">${icon('circleX', 16)}<span>${this.refusal}</span>
@@ -296,7 +299,8 @@ export class RaveApp extends LitElement {
       ${this.pen.matches && model.live && model.may('command')
         ? renderPenBar(this.context, this.phonePanel, this.world, (id) => this.showPanel(id))
         : html`<rave-run-bar .context=${this.context}></rave-run-bar>${this.phone.matches ? this.renderTabs() : nothing}`}
-      ${this.finding ? html`<rave-find .context=${this.context} .panels=${panelsFor(model)} @theme=${() => this.toggleTheme()} @done=${() => this.open('finding')}></rave-find>` : nothing}
+      ${this.finding ? html`<rave-find .context=${this.context} .panels=${panelsFor(model)} @theme=${() => this.toggleTheme()} @foxglove=${() => this.open('showingFoxglove')} @done=${() => this.open('finding')}></rave-find>` : nothing}
+      ${this.showingFoxglove ? html`<rave-foxglove @done=${() => this.open('showingFoxglove')}></rave-foxglove>` : nothing}
       ${this.showingKeys ? renderKeys(this.actions(), () => this.escape()) : nothing}`;
   }
 

@@ -141,6 +141,20 @@ Result<StepOf<RobotPose>> decode_poses(Message message) {
   return step;
 }
 
+Result<StepOf<PoseVariance>> decode_variances(Message message) {
+  CdrReader reader(message);
+  StepOf<PoseVariance> step;
+  std::uint32_t version = 0;
+  const auto packed = get_step<PackedVariance>(reader, step, version);
+  if (reader.ok() && version != kLayoutVersion) return other_version(topic::kVariances, version);
+  if (!reader.ok()) return malformed(topic::kVariances);
+  step.items.reserve(packed.size());
+  for (const PackedVariance& robot : packed) {
+    step.items.push_back({RobotId(robot.robot), robot.xy_m2, robot.yaw_rad2});
+  }
+  return step;
+}
+
 Result<StepOf<RunEvent>> decode_event(Message message) {
   CdrReader reader(message);
   StepOf<RunEvent> step;

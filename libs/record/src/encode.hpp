@@ -10,6 +10,8 @@ namespace rave::record {
 void encode_run(CdrWriter& writer, const RunInfo& info);
 void encode_end(CdrWriter& writer, const RunEnd& end);
 void encode_event(CdrWriter& writer, SimTime time, std::uint64_t step, const RunEvent& event);
+void encode_variances(CdrWriter& writer, SimTime time, std::uint64_t step,
+                      std::span<const PoseVariance> robots);
 void encode_shadow(CdrWriter& writer, SimTime time, std::uint64_t step, const ShadowRecord& shadow);
 void encode_input(CdrWriter& writer, SimTime time, const RunInput& input);
 void encode_chat(CdrWriter& writer, SimTime time, const RunChat& chat);

@@ -9,6 +9,7 @@
 #include <set>
 #include <tuple>
 
+#include "merge_facts.hpp"
 #include "once.hpp"
 #include "rave/base/hash.hpp"
 #include "rave/record/moment_cursor.hpp"
@@ -24,17 +25,10 @@ namespace fs = std::filesystem;
 
 const std::vector<std::string_view>& merged_topics() {
   static const std::vector<std::string_view> kTopics = {
-      topic::kPoses,  topic::kPercepts, topic::kCommands, topic::kActuators, topic::kRadio,
-      topic::kEvents, topic::kInputs,   topic::kHash,     topic::kConsole,   topic::kChat};
+      topic::kPoses,   topic::kPercepts, topic::kCommands, topic::kActuators,
+      topic::kRadio,   topic::kEvents,   topic::kInputs,   topic::kHash,
+      topic::kConsole, topic::kChat,     topic::kVariances};
   return kTopics;
-}
-
-StringMap metadata_of(const McapReader& reader, std::string_view name) {
-  for (const MetadataInfo& metadata : reader.metadata()) {
-    if (metadata.name != name) continue;
-    if (auto entries = reader.read_metadata(metadata)) return *std::move(entries);
-  }
-  return {};
 }
 
 /// The recording of one process, at one log time.
@@ -107,6 +101,7 @@ class Merger {
   [[nodiscard]] bool next_moment();
   Status write_moment(RunRecorder& recorder);
   void write_poses(RunRecorder& recorder);
+  void write_variances(RunRecorder& recorder);
   void write_hash(RunRecorder& recorder);
   void write_inputs(RunRecorder& recorder, bool before_first);
   void write_chat(RunRecorder& recorder);
@@ -117,9 +112,10 @@ class Merger {
   std::set<std::tuple<std::uint64_t, std::string, std::string, std::string, std::string>> chats_;
   std::vector<std::unique_ptr<Part>> parts_;
   std::vector<Unreadable> unreadable_;
-  std::vector<std::string> hosts_;               ///< All hosts of the run.
-  std::vector<const std::string*> owner_;        ///< By robot: its host's name, or null.
-  std::vector<std::optional<RobotPose>> poses_;  ///< By robot, at the merged time.
+  std::vector<std::string> hosts_;                   ///< All hosts of the run.
+  std::vector<const std::string*> owner_;            ///< By robot: its host's name, or null.
+  std::vector<std::optional<RobotPose>> poses_;      ///< By robot, at the merged time.
+  std::map<std::uint32_t, PoseVariance> variances_;  ///< By robot, the last ones.
   /// By change of an obstacle in real time: the first part that has it, and when.
   std::map<std::vector<double>, std::pair<const Part*, std::uint64_t>> told_;
   std::uint64_t time_ns_ = 0;
@@ -232,6 +228,26 @@ void Merger::write_poses(RunRecorder& recorder) {
   }
 }
 
+/// A host tells of its own robots, when it comes to it. In the result each message has those of
+/// all.
+void Merger::write_variances(RunRecorder& recorder) {
+  bool told = false;
+  each_item(parts_, topic::kVariances, decode_variances, [&](const Part& part, const auto& step) {
+    std::erase_if(variances_, [&](const auto& known) {
+      const std::string* const owner = owner_[known.first];
+      return owner != nullptr && *owner == part.host;
+    });
+    for (const PoseVariance& robot : step.items) {
+      if (robot.robot.value() < owner_.size()) variances_[robot.robot.value()] = robot;
+    }
+    told = true;
+  });
+  if (!told) return;
+  std::vector<PoseVariance> all;
+  for (const auto& [robot, variance] : variances_) all.push_back(variance);
+  static_cast<void>(recorder.variances(all));
+}
+
 void Merger::write_hash(RunRecorder& recorder) {
   RunHash sum;
   std::size_t known = 0;
@@ -301,6 +317,7 @@ Status Merger::write_moment(RunRecorder& recorder) {
   std::ranges::stable_sort(events.items(), {}, &RunEvent::robot);
   for (const RunEvent& event : events.items()) RAVE_TRY(recorder.event(event));
   write_poses(recorder);
+  write_variances(recorder);
   write_hash(recorder);
   Once<ConsoleLine> lines;
   each_item(parts_, topic::kConsole, decode_console,
@@ -380,35 +397,6 @@ Result<std::vector<std::string>> merge_records(const std::vector<fs::path>& part
   fs::rename(draft, output, error);
   if (!error) return notes;
   return fail(ErrorCode::kIo, "cannot write `{}`: {}", output.string(), error.message());
-}
-
-std::string host_of(const McapReader& reader) {
-  const StringMap whose = metadata_of(reader, kHostMetadata);
-  const auto name = whose.find("name");
-  return name == whose.end() ? std::string() : name->second;
-}
-
-bool is_merged(const McapReader& reader) {
-  return std::ranges::any_of(reader.metadata(), [](const MetadataInfo& metadata) {
-    return metadata.name == kPartsMetadata;
-  });
-}
-
-StringMap merged_files(const McapReader& reader) {
-  constexpr std::string_view kFile = "file ";
-  StringMap files;
-  for (const auto& [key, value] : metadata_of(reader, kPartsMetadata)) {
-    if (key.starts_with(kFile)) files[key.substr(kFile.size())] = value;
-  }
-  return files;
-}
-
-std::vector<std::string> missing_parts(const McapReader& reader) {
-  std::vector<std::string> missing;
-  for (const auto& [key, value] : metadata_of(reader, kPartsMetadata)) {
-    if (key.starts_with("note ")) missing.push_back(value);
-  }
-  return missing;
 }
 
 }  // namespace rave::record

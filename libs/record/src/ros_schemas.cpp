@@ -89,6 +89,12 @@ const RosSchema kShadowSchema{
     "builtin_interfaces/Time stamp\nuint64 step\nuint32 robot\nfloat64[3] robot_pose\n"
     "float64[3] shadow_pose\nfloat64 m\nfloat64 rad\nfloat64[] readings\n" RAVE_TIME};
 
+const RosSchema kVariancesSchema{
+    "rave_msgs/msg/Variances",
+    RAVE_STEP "rave_msgs/PoseVariance[] robots\n" RAVE_TIME RAVE_DEPENDENCY(
+        "rave_msgs/PoseVariance") "uint32 robot\nuint32 reserved\nfloat64 xy_m2\n"
+                                  "float64 yaw_rad2\n"};
+
 const RosSchema kLogSchema{
     "rcl_interfaces/msg/Log",
     "byte DEBUG=10\nbyte INFO=20\nbyte WARN=30\nbyte ERROR=40\nbyte FATAL=50\n"

@@ -25,6 +25,7 @@ extern const RosSchema kEventSchema;
 extern const RosSchema kInputSchema;
 extern const RosSchema kChatSchema;
 extern const RosSchema kShadowSchema;
+extern const RosSchema kVariancesSchema;
 extern const RosSchema kLogSchema;
 extern const RosSchema kTfSchema;
 extern const RosSchema kLaserScanSchema;

@@ -78,6 +78,7 @@ class RunRecorder::Impl {
   StandardViews views_;
   Stream run_, end_, events_, inputs_, console_, hash_;
   std::optional<Stream> shadows_;
+  std::optional<Stream> variances_;
   std::optional<Stream> chat_;
   PoseBatch poses_;
   std::vector<RobotPose> seen_;  ///< For the pose view, in steps in which it is due.
@@ -262,6 +263,15 @@ Status RunRecorder::shadow(const ShadowRecord& shadow) {
   }
   encode_shadow(impl_->cdr_, impl_->time_, impl_->step_, shadow);
   return impl_->shadows_->write(impl_->file_, impl_->time_, impl_->cdr_.bytes());
+}
+
+Status RunRecorder::variances(std::span<const PoseVariance> robots) {
+  if (!impl_->variances_) {
+    RAVE_TRY_ASSIGN(const auto schema, add_schema(impl_->file_, kVariancesSchema));
+    RAVE_TRY_ASSIGN(impl_->variances_, add_stream(impl_->file_, topic::kVariances, schema));
+  }
+  encode_variances(impl_->cdr_, impl_->time_, impl_->step_, robots);
+  return impl_->variances_->write(impl_->file_, impl_->time_, impl_->cdr_.bytes());
 }
 
 void RunRecorder::pose(const RobotPose& robot) {

@@ -95,7 +95,7 @@ Response StaticFiles::serve(const Request& request) const {
   Response response;
   response.type = file.type;
   response.headers.emplace_back("ETag", file.tag);
-  const bool forever = request.path.starts_with("/assets/");
+  const bool forever = request.path.starts_with("/assets/") && !request.path.ends_with(".html");
   response.headers.emplace_back("Cache-Control",
                                 forever ? "public, max-age=31536000, immutable" : "no-cache");
   if (request.header("if-none-match") == file.tag) {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -260,6 +261,7 @@ Json shadow_json(const runtime::RunStatus::Shadow& shadow) {
       {"running", shadow.running}, {"since_s", shadow.since_s}, {"m", shadow.m},
       {"rad", shadow.rad},         {"most_m", shadow.most_m},   {"most_rad", shadow.most_rad},
       {"readings", Json::array()}};
+  if (const auto& offset = shadow.offset_W) json["offset"] = {offset->x, offset->y, offset->yaw};
   for (const auto& reading : shadow.readings) {
     json["readings"].push_back({{"sensor", reading.sensor},
                                 {"unit", reading.unit},
@@ -345,11 +347,22 @@ bool read_hand_over(const Json& json, runtime::RunStatus::HandOver& hand_over) {
          read_number(json, "y_m", hand_over.y_m) && read_number(json, "yaw_rad", hand_over.yaw_rad);
 }
 
+/// Older processes do not say where it is.
+bool read_offset(const Json& json, std::optional<Pose2>& offset_W) {
+  if (!json.contains("offset")) return true;
+  const Json& values = json.at("offset");
+  const bool good = values.is_array() && values.size() == 3 &&
+                    std::ranges::all_of(values, [](const Json& v) { return v.is_number(); });
+  if (good) offset_W = Pose2{values[0], values[1], values[2]};
+  return good;
+}
+
 bool read_shadow(const Json& json, runtime::RunStatus::Shadow& shadow) {
   bool good = json.is_object() && read_bool(json, "running", shadow.running) &&
               read_number(json, "since_s", shadow.since_s) && read_number(json, "m", shadow.m) &&
               read_number(json, "rad", shadow.rad) && read_number(json, "most_m", shadow.most_m) &&
-              read_number(json, "most_rad", shadow.most_rad) && json.contains("readings") &&
+              read_number(json, "most_rad", shadow.most_rad) &&
+              read_offset(json, shadow.offset_W) && json.contains("readings") &&
               json.at("readings").is_array();
   if (!good) return false;
   for (const Json& item : json.at("readings")) {

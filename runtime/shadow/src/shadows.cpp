@@ -293,6 +293,10 @@ void Shadows::refresh(RunStatus& status) const {
       told.rad = shadow.now.rad;
       told.most_m = shadow.now.most_m;
       told.most_rad = shadow.now.most_rad;
+      if (shadow.now.compared > 0) {
+        told.offset_W = Pose2{shadow.X_WS.x - shadow.X_WR.x, shadow.X_WS.y - shadow.X_WR.y,
+                              wrap_angle(shadow.X_WS.yaw - shadow.X_WR.yaw)};
+      }
       for (const ShadowReading& reading : shadow.now.readings) {
         if (reading.compared == 0) continue;
         told.readings.push_back(

@@ -73,6 +73,11 @@ runtime::RunStatus::Shadow rounded(runtime::RunStatus::Shadow shadow) {
        {&shadow.m, &shadow.rad, &shadow.most_m, &shadow.most_rad, &shadow.since_s}) {
     *value = to_tenth_of_mm(*value);
   }
+  if (auto& offset = shadow.offset_W) {
+    for (double* const value : {&offset->x, &offset->y, &offset->yaw}) {
+      *value = to_tenth_of_mm(*value);
+    }
+  }
   for (auto& reading : shadow.readings) {
     reading.last = to_tenth_of_mm(reading.last);
     reading.most = to_tenth_of_mm(reading.most);

@@ -24,6 +24,7 @@ struct Greeting {
   Person user;
   std::optional<Person> seen_by{};  ///< The super-user who sees what `user` gets.
   Author author{};                  ///< As whom the run knows who looks.
+  bool foxglove = false;            ///< `/foxglove` gives addresses for Foxglove clients.
 };
 
 /// What became of a request of a page.

@@ -31,6 +31,7 @@ inline constexpr const char* kEvents = "/rave/events";
 inline constexpr const char* kInputs = "/rave/inputs";
 inline constexpr const char* kChat = "/rave/chat";
 inline constexpr const char* kShadows = "/rave/shadows";
+inline constexpr const char* kVariances = "/rave/variances";
 inline constexpr const char* kHash = "/rave/hash";
 inline constexpr const char* kConsole = "/rosout";
 }  // namespace topic
@@ -44,6 +45,19 @@ struct RobotPose {
 
   friend bool operator==(const RobotPose&, const RobotPose&) = default;
 };
+
+/// How sure a robot is of its reported pose. Both are 0 or above; of an older record none are
+/// known.
+struct PoseVariance {
+  RobotId robot;
+  double xy_m2 = 0;  ///< Of each of x and y.
+  double yaw_rad2 = 0;
+
+  friend bool operator==(const PoseVariance&, const PoseVariance&) = default;
+};
+
+/// As long as a robot has a variance, all of them are written again after so much time of the run.
+inline constexpr std::int64_t kVariancesHold_ns = 1'000'000'000;
 
 /// Which reading of a hybrid sensor: the result for the program, or one half before fusion.
 enum class PerceptPart : std::uint8_t { kResult = 0, kReal = 1, kVirtual = 2 };
@@ -215,6 +229,8 @@ struct RunEnd {
 /// The time is the time of the run at which it was sent.
 [[nodiscard]] Result<std::pair<SimTime, RunChat>> decode_chat(std::span<const std::byte> message);
 [[nodiscard]] Result<StepOf<ShadowRecord>> decode_shadow(std::span<const std::byte> message);
+/// All robots with a variance; those that are not among them have none.
+[[nodiscard]] Result<StepOf<PoseVariance>> decode_variances(std::span<const std::byte> message);
 [[nodiscard]] Result<StepHash> decode_hash(std::span<const std::byte> message);
 [[nodiscard]] Result<ConsoleLine> decode_console(std::span<const std::byte> message);
 

@@ -75,6 +75,8 @@ class RunRecorder {
   Status chat(const RunChat& chat);
   /// The channel is created with the first call, so recordings without shadows do not have it.
   Status shadow(const ShadowRecord& shadow);
+  /// Replaces the variances of all robots; those not in `robots` have none. Within a step.
+  Status variances(std::span<const PoseVariance> robots);
   /// Adds the pose of a robot; all poses of the step become one message.
   void pose(const RobotPose& robot);
   void poses(std::span<const RobotPose> robots) {

@@ -19,7 +19,7 @@ class StaticFiles {
   [[nodiscard]] static Result<StaticFiles> load(const std::filesystem::path& folder);
 
   /// Serves a file; `/` is `/index.html`. Files below `/assets/` have a hash in their names, so
-  /// browsers may cache them without limit.
+  /// browsers may cache them without limit, except for HTML, whose names do not change.
   [[nodiscard]] Response serve(const Request& request) const;
 
  private:

@@ -104,6 +104,8 @@ struct RunStatus {
     double most_m = 0;
     double most_rad = 0;
     std::vector<Reading> readings;
+    /// From the robot to the shadow when they were compared last, axes of W; none so far: nothing.
+    std::optional<Pose2> offset_W = std::nullopt;
     friend bool operator==(const Shadow&, const Shadow&) = default;
   };
   struct Robot {

@@ -13,6 +13,7 @@
 #include "rave/record/run_record.hpp"
 #include "rave/recording/part_keeper.hpp"
 #include "rave/recording/record_columns.hpp"
+#include "rave/recording/variance_keeper.hpp"
 
 namespace rave::runtime {
 
@@ -66,6 +67,7 @@ class RecordKeeper final : public RunObserver {
   std::vector<RecordColumns> groups_;
   std::vector<std::uint8_t> told_truth_;  ///< By robot: simulated, without a pose source.
   bool with_real_ = false;  ///< There are real robots, which push simulated ones aside.
+  VarianceKeeper variances_;
   bool hashed_;
 };
 

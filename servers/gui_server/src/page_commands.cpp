@@ -6,6 +6,17 @@
 #include <utility>
 
 namespace rave::gui_server {
+namespace {
+
+/// Whoever orders it has the lease then.
+bool takes_lease(CommandMessage::Kind kind) {
+  using Kind = CommandMessage::Kind;
+  return kind == Kind::kDrive || kind == Kind::kGoal || kind == Kind::kPath ||
+         kind == Kind::kCancel || kind == Kind::kText || kind == Kind::kPlace ||
+         kind == Kind::kTake;
+}
+
+}  // namespace
 
 /// A message whose robots have not all answered.
 struct PageCommands::Open {
@@ -27,12 +38,32 @@ void PageCommands::begin(std::shared_ptr<Source> source, Author author) {
 }
 
 void PageCommands::let_go() {
-  if (driven_.empty() || !source_) return;
-  CommandMessage stand;
-  stand.slots.assign(driven_.begin(), driven_.end());
-  driven_.clear();
   newest_.reset();
-  source_->command(stand, author_, [](std::uint32_t, bool, const std::string&) {});
+  if (!driven_.empty() && source_) {
+    CommandMessage stand;
+    stand.slots.assign(driven_.begin(), driven_.end());
+    source_->command(stand, author_, [](std::uint32_t, bool, const std::string&) {});
+  }
+  driven_.clear();
+  leave();
+}
+
+void PageCommands::leave() {
+  // Leases from before a restart of the server; those of direct lines their hosts leave.
+  if (source_ && source_->about().relay) {
+    for (const DriveState& state : source_->leases_changed_since(0)) {
+      if (state.page != 0 && state.is_of(author_)) ordered_.insert(state.slot);
+    }
+  }
+  if (!ordered_.empty()) {
+    CommandMessage leave;
+    leave.kind = CommandMessage::Kind::kGive;
+    leave.value = author_.name;
+    leave.slots.assign(ordered_.begin(), ordered_.end());
+    // Refused where it has the lease no more.
+    source_->command(leave, author_, [](std::uint32_t, bool, const std::string&) {});
+  }
+  ordered_.clear();
 }
 
 bool PageCommands::too_many(const CommandMessage& command) {
@@ -73,7 +104,23 @@ void PageCommands::take(const CommandMessage& command) {
   post(command);
 }
 
+void PageCommands::set_author(Author author) {
+  // Leases are those of a page, and for the run this is another one now.
+  if (author.page != author_.page) leave();
+  author_ = std::move(author);
+}
+
+/// Refused orders, too: the page may have the lease from before.
+void PageCommands::remember(const CommandMessage& command) {
+  for (const std::uint32_t slot : command.slots) {
+    // Who sends wrong slots must not fill the memory.
+    if (takes_lease(command.kind) && slot < source_->robot_count()) ordered_.insert(slot);
+    if (command.kind == CommandMessage::Kind::kGive) ordered_.erase(slot);
+  }
+}
+
 void PageCommands::post(const CommandMessage& command) {
+  remember(command);
   auto open = std::make_shared<Open>();
   open->command = command;
   open->missing = std::max<std::size_t>(1, command.slots.size());

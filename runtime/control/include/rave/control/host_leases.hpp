@@ -54,7 +54,8 @@ class HostLeases {
   /// nor the person's rights take it.
   Result<std::string> take(const std::string& robot, const Person& person, bool force, Time now);
   /// Gives it to `to`, or back if that is empty. To a person is to any page of theirs: the first
-  /// that uses it has it. To oneself is what a page does that goes: what it asked for goes on.
+  /// that uses it has it. To oneself is what a page does that goes: what it asked for goes on, and
+  /// what is not that page's stays as it is, whatever rights the person has.
   /// Errors: kState (another has it), kInvalidArgument (nobody has it, so nothing can be given
   /// back).
   Result<std::string> give(const std::string& robot, const Person& person, const std::string& to,

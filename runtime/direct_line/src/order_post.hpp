@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <future>
@@ -52,6 +53,7 @@ class OrderPost {
     bool echo = false;  ///< Of the one under way.
     Answer answer{};    ///< The same.
     bool moves = false;
+    std::chrono::steady_clock::time_point since{};  ///< Of `newest`.
     runtime::RunRequest newest{};
     std::optional<std::pair<bool, Answer>> next{};  ///< `newest` is not given yet.
   };

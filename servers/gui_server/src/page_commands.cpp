@@ -8,6 +8,10 @@
 namespace rave::gui_server {
 namespace {
 
+/// The run lets a robot stand whose driver is silent for 250 ms. To say so once more would take the
+/// robot from its program, or from whoever drives it since.
+constexpr std::chrono::seconds kStandsAnyway{1};
+
 /// Whoever orders it has the lease then.
 bool takes_lease(CommandMessage::Kind kind) {
   using Kind = CommandMessage::Kind;
@@ -39,12 +43,15 @@ void PageCommands::begin(std::shared_ptr<Source> source, Author author) {
 
 void PageCommands::let_go() {
   newest_.reset();
-  if (!driven_.empty() && source_) {
-    CommandMessage stand;
-    stand.slots.assign(driven_.begin(), driven_.end());
-    source_->command(stand, author_, [](std::uint32_t, bool, const std::string&) {});
+  CommandMessage stand;
+  const auto now = web::RateLimit::Clock::now();
+  for (const auto& [slot, since] : driven_) {
+    if (now - since < kStandsAnyway) stand.slots.push_back(slot);
   }
   driven_.clear();
+  if (!stand.slots.empty() && source_) {
+    source_->command(stand, author_, [](std::uint32_t, bool, const std::string&) {});
+  }
   leave();
 }
 
@@ -92,7 +99,7 @@ void PageCommands::take(const CommandMessage& command) {
       if (command.stands()) {
         driven_.erase(slot);
       } else {
-        driven_.insert(slot);
+        driven_[slot] = web::RateLimit::Clock::now();
       }
     }
     if (waiting_ >= kMostWaiting && !command.stands()) {

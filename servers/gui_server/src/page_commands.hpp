@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -52,7 +53,8 @@ class PageCommands {
   std::shared_ptr<Source> source_;
   Author author_;
   web::RateLimit limit_{kPerSecond, kBurst};
-  std::set<std::uint32_t> driven_;   ///< Slots that were given a velocity last.
+  /// Slots that were given a velocity last, and when.
+  std::map<std::uint32_t, web::RateLimit::Clock::time_point> driven_;
   std::set<std::uint32_t> ordered_;  ///< Slots whose lease this page may have.
   int waiting_ = 0;
   std::optional<CommandMessage> newest_;  ///< A velocity that was held back.

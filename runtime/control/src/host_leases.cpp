@@ -95,11 +95,15 @@ Result<std::string> HostLeases::give(const std::string& robot, const Person& per
                                      const std::string& to, Time now) {
   const Lease* const lease = find(robot);
   const bool rights = person.overrides || person.name.empty();
-  if (lease == nullptr && to.empty()) {
+  // A page that goes has asked for many robots perhaps, and takes none with that.
+  const bool to_oneself = to == name_of(person);
+  if (lease == nullptr && (to.empty() || to_oneself)) {
     return fail(ErrorCode::kInvalidArgument, "nobody drives {}", robot);
   }
-  if (lease != nullptr && !owns(*lease, person) && !rights) return refusal(robot, *lease, person);
-  if (lease != nullptr && to == lease->holder && to == name_of(person)) {
+  if (lease != nullptr && !owns(*lease, person) && (!rights || to_oneself)) {
+    return refusal(robot, *lease, person);
+  }
+  if (to_oneself) {
     leases_.at(robot).page = 0;
     return fmt::format("any of your pages can drive {} now", robot);
   }

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "rave/direct_line/ticket.hpp"
@@ -25,6 +26,7 @@ struct Line {
   bool closing = false;
   unsigned nonsense = 0;
   std::string told_state{};
+  std::set<std::string, std::less<>> ordered{};  ///< Robots whose lease the page may have.
 
   /// The name for the log: `anna (192.168.1.7)`.
   [[nodiscard]] std::string who() const {

@@ -19,6 +19,7 @@ constexpr auto kHelloPatience = std::chrono::seconds(5);
 constexpr std::size_t kMostStrangers = 32;
 constexpr unsigned kMostNonsense = 20;
 constexpr std::size_t kChallengeBytes = 32;
+constexpr std::size_t kMostRemembered = 2000;
 // Thirty refusals at once per network, then one in five seconds: a flood must not fill the disk.
 constexpr double kRefusals = 30;
 constexpr double kRefusalsPerSecond = 0.2;
@@ -94,7 +95,7 @@ void LineBook::closed(std::uint64_t id) {
   if (found == lines_.end()) return;
   // The end of the line ends driving, for whatever reason it ended.
   post_.forget(id);
-  if (found->second.ticket) leave_leases(*found->second.ticket);
+  if (found->second.ticket) leave_leases(found->second);
   if (found->second.ticket && options_.log != nullptr) {
     options_.log->info("line", "{} has disconnected", found->second.who());
   }
@@ -102,15 +103,17 @@ void LineBook::closed(std::uint64_t id) {
 }
 
 /// Gives up the leases of a page, so that the page can take the robots again after a reload or a
-/// new connection.
-void LineBook::leave_leases(const Ticket& ticket) {
-  const std::uint64_t page = page_number(ticket.page_key);
+/// new connection. The status reports leases one step late, so robots that the line has ordered
+/// count as well.
+void LineBook::leave_leases(const Line& line) {
+  const std::uint64_t page = page_number(line.ticket->page_key);
   for (const runtime::RunStatus::Robot& robot : control_.status().robots) {
-    if (robot.lease != ticket.user || robot.lease_page != page) continue;
+    const bool has = robot.lease == line.ticket->user && robot.lease_page == page;
+    if (!has && !line.ordered.contains(robot.name)) continue;
     Request leave;
     leave.kind = Kind::kGive;
     leave.robot = robot.name;
-    leave.value = leave.by = ticket.user;
+    leave.value = leave.by = line.ticket->user;
     leave.page = page;
     // The page is gone, so the answer is not needed.
     static_cast<void>(control_.post(std::move(leave)));
@@ -222,6 +225,13 @@ void LineBook::take(std::uint64_t id, Line& line, const OrderMessage& order) {
     ++counts_.refused_orders;
     note_refusal(line, runtime::to_string(order.request.kind), requests.error().message);
     return answer(id, order.id, false, requests.error().message);
+  }
+  const bool takes_lease = order.request.kind != Kind::kStop &&
+                           order.request.kind != Kind::kRelease &&
+                           order.request.kind != Kind::kGive;
+  // More than a page commands at once are named by somebody who wants to fill the memory.
+  if (takes_lease && line.ordered.size() < kMostRemembered) {
+    line.ordered.insert(order.request.robot);
   }
   auto told = [this, id, order_id = order.id](bool good, const std::string& text) {
     answer(id, order_id, good, text);

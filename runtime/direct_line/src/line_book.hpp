@@ -56,7 +56,7 @@ class LineBook {
   void refuse_line(Line& line, std::string_view why);
   void note_refusal(const Line& line, std::string_view what, std::string_view why);
   void answer(std::uint64_t id, std::uint64_t order, bool good, const std::string& text);
-  void leave_leases(const Ticket& ticket);
+  void leave_leases(const Line& line);
   void tell_state();
   [[nodiscard]] std::int64_t now_ms() const { return options_.clock_ms(); }
 

@@ -8,6 +8,9 @@ namespace rave::direct_line {
 namespace {
 
 constexpr std::chrono::seconds kNow{0};
+/// The run lets a robot stand whose driver is silent for 250 ms. To say so once more would take the
+/// robot from its program.
+constexpr std::chrono::seconds kStandsAnyway{1};
 
 bool is_ready(const std::future<Result<std::string>>& answer) {
   return answer.wait_for(kNow) == std::future_status::ready;
@@ -49,6 +52,7 @@ void OrderPost::drive(Line line, runtime::RunRequest request, bool echo, Answer 
   }
   drive.moves = request.v_mps != 0 || request.w_radps != 0;
   drive.newest = std::move(request);
+  drive.since = std::chrono::steady_clock::now();
   if (drive.under_way && !is_ready(*drive.under_way)) {
     drive.next.emplace(echo, std::move(answer));
     return;
@@ -85,12 +89,13 @@ void OrderPost::poll(Drive& drive) {
 }
 
 void OrderPost::forget(Line line) {
+  const auto now = std::chrono::steady_clock::now();
   for (auto drive = drives_.begin(); drive != drives_.end();) {
     if (drive->first.first != line) {
       ++drive;
       continue;
     }
-    if (drive->second.moves) {
+    if (drive->second.moves && now - drive->second.since < kStandsAnyway) {
       runtime::RunRequest stand = std::move(drive->second.newest);
       stand.v_mps = stand.w_radps = 0;
       // The line is gone, so the answer is not needed.

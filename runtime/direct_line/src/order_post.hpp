@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <future>
@@ -53,6 +54,7 @@ class OrderPost {
     bool echo = false;  ///< The `echo` of the command that the run is handling.
     Answer answer{};    ///< The answer function of that command.
     bool moves = false;
+    std::chrono::steady_clock::time_point since{};  ///< Of `newest`.
     runtime::RunRequest newest{};
     std::optional<std::pair<bool, Answer>> next{};  ///< Of `newest`, until that is passed on.
   };

@@ -62,6 +62,17 @@ void serve_requests(Journey& journey) {
       [&journey](RunStatus& status) { refresh(journey, status); });
 }
 
+/// People are kept by wall time, which goes on while a run is held: who falls silent drives no
+/// more.
+void look_on_while_held(Journey& journey) {
+  journey.observers.held(journey.engine);
+  journey.observers.tick(journey.engine);
+  const auto now = Clock::now();
+  if (!journey.observers.has_orders() || now < journey.next_status) return;
+  journey.next_status = now + kStatusInterval;
+  journey.options.control->refresh([&](RunStatus& status) { refresh(journey, status); });
+}
+
 /// Waits until the next step may be done; false: the run is to end.
 bool wait_for_turn(Journey& journey) {
   RunControl* const control = journey.options.control;
@@ -70,7 +81,7 @@ bool wait_for_turn(Journey& journey) {
     const auto asked = Clock::now();
     // The world outside a live run goes on, so that is not held.
     const bool held = !journey.live && control->paused();
-    const auto show = [&journey] { journey.observers.held(journey.engine); };
+    const auto show = [&journey] { look_on_while_held(journey); };
     if (held ? !control->wait_for_turn(serve, show) : control->stopping()) return false;
     if (held) journey.pace.shift(Clock::now() - asked);
   }

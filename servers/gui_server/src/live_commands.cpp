@@ -129,8 +129,11 @@ void LiveSource::command(const CommandMessage& command, const Author& author,
   if (command.of_obstacle()) return post(request_of(command, author), kNoSlot);
   // Robots that are driven by way of a server would stop with it.
   using Kind = CommandMessage::Kind;
+  // Placing takes a lease, which a page that goes leaves by the same way.
+  const bool leaves = command.kind == Kind::kGive && command.value == author.name;
   const bool passes = command.kind == Kind::kSet || command.kind == Kind::kPlace ||
-                      command.kind == Kind::kHandOver || command.kind == Kind::kResetShadow;
+                      command.kind == Kind::kHandOver || command.kind == Kind::kResetShadow ||
+                      leaves;
   if (!start_.about.relay && !passes) {
     for (const std::uint32_t slot : command.slots) reply(slot, false, kNoRelay);
     return;

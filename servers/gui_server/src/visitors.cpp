@@ -99,9 +99,8 @@ void Visitors::closed(std::uint64_t id) {
   if (found == visitors_.end()) return;
   Visitor gone = std::move(found->second);
   visitors_.erase(found);
-  // What it drives stands, before it is let go.
+  // What it drives stands, and is left.
   gone.page.reset();
-  leave_leases(gone);
   told_people_.clear();
   ++accounts_news_;
   const bool more = std::any_of(visitors_.begin(), visitors_.end(), [&gone](const auto& entry) {
@@ -288,8 +287,6 @@ SessionCalls Visitors::calls_of(std::uint64_t id) {
   calls.page_key = [this, id](const PageKeyMessage& page) {
     const auto found = visitors_.find(id);
     if (found == visitors_.end()) return;
-    // What it asked before is its own, too.
-    leave_leases(found->second);
     found->second.number = direct_line::page_number(page.key);
     found->second.page->set_author(author_of(found->second));
   };

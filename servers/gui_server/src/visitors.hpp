@@ -69,7 +69,6 @@ class Visitors {
     }
   };
   [[nodiscard]] static Author author_of(const Visitor& visitor);
-  void leave_leases(const Visitor& gone);
   void show_to(Visitor& visitor, bool same_run);
   void show_again_if_other();
   void tell_rights();

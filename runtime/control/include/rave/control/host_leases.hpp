@@ -55,9 +55,9 @@ class HostLeases {
   /// nor the user's rights override that.
   Result<std::string> take(const std::string& robot, const Person& person, bool force, Time now);
   /// Passes the lease to `to`, or returns it if that is empty. If passed to a user, the first of
-  /// their pages that uses it gets it. A page that closes passes it to its own user, so that its
-  /// orders continue. Errors: kState (another holds it), kInvalidArgument (nobody holds it, so it
-  /// cannot be returned).
+  /// their pages that uses it gets it. A page that closes passes its leases to its own user, so
+  /// that its orders continue; leases of other pages stay, whatever rights the user has. Errors:
+  /// kState (another holds it), kInvalidArgument (nobody holds it, so it cannot be returned).
   Result<std::string> give(const std::string& robot, const Person& person, const std::string& to,
                            Time now);
   /// The robot is no longer driven, so the lease lasts for kAfterOrder.

@@ -78,6 +78,17 @@ class HeldRun : public ::testing::Test {
   /// Goes on to the end of the run; its hash.
   std::string end() {
     give({"resume"});
+    return hash_at_end();
+  }
+  /// The same of a run that shows its recording afterwards, until somebody quits.
+  std::string end_of_show() {
+    give({"resume"});
+    wait_until(
+        [&] { return content_of(output_ + ".log").find("Ctrl-C to quit") != std::string::npos; });
+    ::kill(process_, SIGINT);
+    return hash_at_end();
+  }
+  std::string hash_at_end() {
     const int code = wait_for(process_);
     process_ = -1;
     EXPECT_EQ(code, 0) << content_of(output_ + ".log");

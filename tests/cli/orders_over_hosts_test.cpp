@@ -1,119 +1,107 @@
 // SPDX-License-Identifier: Apache-2.0
 // The same orders at the same steps, to robots in one process and in several.
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-#include <sys/wait.h>
+#include <cstdlib>
 
-#include <cmath>
-#include <csignal>
-#include <nlohmann/json.hpp>
-#include <string>
-#include <thread>
-
-#include "process.hpp"
+#include "held_run.hpp"
+#include "rave/control/client.hpp"
+#include "rave/control/folder.hpp"
 
 namespace rave::cli_test {
 namespace {
 
-using Words = std::vector<std::string>;
+/// A path of so many points around the place of `carl`.
+Words path_of(std::size_t points) {
+  Words words = {"goal", "carl"};
+  for (std::size_t i = 0; i < points; ++i) {
+    const double angle_rad = 0.01 * static_cast<double>(i);
+    // As many digits as numbers have that somebody computed.
+    words.push_back(fmt::format("{}", 3 + 0.31 * std::cos(angle_rad)));
+    words.push_back(fmt::format("{}", -3 + 0.31 * std::sin(angle_rad)));
+  }
+  return words;
+}
 
-class OrdersOverHosts : public ::testing::Test {
+class OrdersOverHosts : public HeldRun {
  protected:
-  void TearDown() override {
-    if (process_ <= 0) return;
-    ::kill(process_, SIGKILL);
-    static_cast<void>(wait_for(process_));
-  }
-  [[nodiscard]] Ended rave(const Words& words) const {
-    return run_rave(words, {"XDG_RUNTIME_DIR=" + folder_.path().string()});
-  }
-  void start(const std::string& name, const Words& more) {
-    output_ = folder_.path() / name;
-    Words words = {"run",  "orders.yaml", "--output", output_,       "--pace",
-                   "0.5x", "--duration",  "9",        "--no-picture"};
-    words.insert(words.end(), more.begin(), more.end());
-    process_ = start_rave(words, {"XDG_RUNTIME_DIR=" + folder_.path().string()}, output_ + ".log");
-    ASSERT_GT(process_, 0);
-    // Until all hosts have joined.
-    wait_until([&] { return rave({"edit", "list"}).exit_code == 0; });
-  }
-  /// Gives up only when something is broken.
-  template <class Holds>
-  void wait_until(Holds&& holds) {
-    for (int i = 0; i < 3000; ++i) {
-      if (holds()) return;
-      ASSERT_EQ(::waitpid(process_, nullptr, WNOHANG), 0)
-          << "the run has ended: " << content_of(output_ + ".log");
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    }
-    FAIL() << "never: " << rave({"ps"}).out;
-  }
-  /// The time that `rave ps` says of the run, in steps.
-  [[nodiscard]] long step() const {
-    const std::string out = rave({"ps"}).out;
-    const std::size_t end = out.find(" of 9 s");
-    if (end == std::string::npos) return -1;
-    const std::size_t begin = out.rfind(' ', end - 1);
-    return std::lround(100 * std::stod(out.substr(begin, end - begin)));
-  }
-  /// Holds the run when it has come to this step.
-  void go_to(long target) {
-    ASSERT_EQ(rave({"pause"}).exit_code, 0);
-    long now = -1;
-    wait_until([&] {
-      const long before = std::exchange(now, step());
-      return now >= 0 && now == before;
-    });
-    ASSERT_LT(now, target) << "it was too fast";
-    ASSERT_EQ(rave({"step", "--count", std::to_string(target - now)}).exit_code, 0);
-    wait_until([&] { return step() == target; });
-  }
-  void give(const Words& words) {
-    const Ended ended = rave(words);
-    EXPECT_EQ(ended.exit_code, 0) << ended.err;
-  }
   /// The hash of a run in which people ask all kinds of things.
   std::string hash_of_orders(const std::string& name, const Words& more) {
     start(name, more);
+    go_to(450);
+    drive_and_let_go();
     go_to(500);
     give({"goal", "bert", "-2.5", "-3"});
-    give({"goal", "carl", "3", "-2.8", "3.2", "-2.8", "--speed", "0.3"});
+    give({"goal", "carl", "3.05", "-3", "3.1", "-3", "--speed", "0.3"});
     give({"say", "carl", "hello"});
     give({"place", "anna", "2.5", "0.5", "90"});
     go_to(600);
     give({"goal", "anna", "2.2", "-0.5"});
     give({"stop", "--robot", "bert"});
+    give(path_of(1000));
     go_to(700);
     give({"goal", "anna", "--cancel"});
     // A run in lock-step that is paused has not released it yet when it is asked to arm it.
     static_cast<void>(rave({"arm", "--robot", "bert", "--release"}));
-    give({"resume"});
-    const int code = wait_for(process_);
-    process_ = -1;
-    EXPECT_EQ(code, 0) << content_of(output_ + ".log");
-    const auto result = nlohmann::json::parse(content_of(output_ + "/result.json"), nullptr, false);
-    return result.is_object() && result["hash"].is_string() ? result["hash"].get<std::string>()
-                                                            : "none";
+    return end();
   }
-
-  TemporaryFolder folder_;
-  std::string output_;
-  pid_t process_ = -1;
+  /// Somebody drives and is silent from then on: the drive, its end and that of the lease are three
+  /// inputs, all of the step for which the run waits.
+  void drive_and_let_go() {
+    const std::string drives = "`terminal` drives it";
+    control::Request drive;
+    drive.what = control::Request::What::kDrive;
+    drive.robot = "bert";
+    drive.v_mps = 0.3;
+    drive.w_radps = 0.1;
+    ASSERT_EQ(::setenv("XDG_RUNTIME_DIR", folder_.path().c_str(), 1), 0);
+    const auto run = control::find_run("orders");
+    ASSERT_TRUE(run) << run.error().text();
+    const auto answer = control::ask(*run, drive);
+    ASSERT_TRUE(answer) << answer.error().text();
+    EXPECT_TRUE(answer->good) << answer->text;
+    const auto robots = [this] { return rave({"ps", "--robots"}).out; };
+    EXPECT_NE(robots().find(drives), std::string::npos) << robots();
+    wait_until([&] { return robots().find(drives) == std::string::npos; });
+  }
 };
 
 TEST_F(OrdersOverHosts, TheHashIsThatOfOneProcessAndVerifyDoesThemAgain) {
   const std::string alone = hash_of_orders("alone", {});
   ASSERT_EQ(alone.size(), 16U) << alone;
-  const Ended one = rave({"verify", output_});
-  EXPECT_EQ(one.exit_code, 0) << one.err;
-  const std::string split = hash_of_orders(
-      "split", {"--processes", "3", "--bus-tag", folder_.path().filename().string()});
-  EXPECT_EQ(split, alone);
-  for (const std::string host : {"host-1", "host-2", "host-3"}) {
-    const Ended again = rave({"verify", output_ + "/hosts/" + host});
-    EXPECT_EQ(again.exit_code, 0) << host << again.out << again.err;
-    EXPECT_EQ(again.out.find("is refused here"), std::string::npos) << again.out;
+  expect_verified(false);
+  const std::string events = content_of(output_ + "/events.log");
+  for (const std::string order : {"drive 0.30 m/s, 0.10 rad/s", "cancel", "goal",
+                                  "path of 1000 points", "text: hello", "place"}) {
+    EXPECT_NE(events.find(order), std::string::npos) << order << "\n" << events;
   }
+  EXPECT_EQ(hash_of_orders("split", split()), alone);
+  expect_verified(true);
+}
+
+TEST_F(OrdersOverHosts, AProgramOfItsOwnProcessDoesTheSame) {
+  const std::string beside = hash_of_orders("beside", {});
+  ASSERT_EQ(beside.size(), 16U) << beside;
+  scenario_ = "orders_isolated.yaml";
+  EXPECT_EQ(hash_of_orders("isolated", {}), beside);
+  expect_verified(false);
+  const std::string events = content_of(output_ + "/events.log");
+  for (const std::string said : {"I obey goals and paths, not texts.", "path of 1000 points",
+                                 "I am at the end of the path."}) {
+    EXPECT_NE(events.find(said), std::string::npos) << said << "\n" << events;
+  }
+  EXPECT_EQ(hash_of_orders("isolated-split", split()), beside);
+  expect_verified(true);
+}
+
+TEST_F(OrdersOverHosts, APathThatIsTooLongIsRefusedAtOnce) {
+  start("split", [this] {
+    Words words = split();
+    words.emplace_back("--no-record");
+    return words;
+  }());
+  const Ended path = rave(path_of(10'000));
+  EXPECT_EQ(path.exit_code, 2) << path.out;
+  EXPECT_NE(path.err.find("a path has 10000 points; expected 2 to 1000"), std::string::npos)
+      << path.err;
 }
 
 TEST_F(OrdersOverHosts, WhatAHostRefusesIsSaid) {

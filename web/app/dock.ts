@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-import {DockviewComponent, type IContentRenderer, type GroupPanelPartInitParameters, type SerializedDockview} from 'dockview-core';
-import {HeaderActions} from './header_actions';
+import {DockviewComponent, type DockviewPanel, type IContentRenderer, type GroupPanelPartInitParameters, type SerializedDockview} from 'dockview-core';
+import {Signal} from '../model/signal';
 import type {PanelContext, PanelElement, PanelKind} from '../panel_api';
+import {HeaderActions} from './header_actions';
+import {bringHome, type KeptWindow, type WindowBox} from './kept_layout';
+import {PanelWindow} from './panel_window';
 
 /** Each class of widths has a layout of its own. */
 const kKept = 'rave.layout';
+const kLeave_ms = 2000;
 /** Another number makes layouts that were kept void. */
 const kVersion = 2;
 
@@ -30,15 +34,26 @@ class DockedPanel implements IContentRenderer {
 export class Dock {
   private readonly view: DockviewComponent;
   name: LayoutName = 'Watch';
+  /** Windows that were open when the page was left last, until they are open again or the person does without. */
+  away: KeptWindow[] = [];
+  /** `away` is another one. */
+  readonly changed = new Signal();
   private restoring = false;
+  /** The page goes, and its windows with it: that is no change of the layout. */
+  private leaving = false;
   private readonly kept: string;
   private readonly width = document.documentElement.clientWidth;
 
-  constructor(host: HTMLElement, private readonly kinds: () => readonly PanelKind[], context: PanelContext) {
+  constructor(host: HTMLElement, private readonly kinds: () => readonly PanelKind[], private readonly context: PanelContext, private readonly bindKeys: (document: Document) => void) {
+    // Before the dock itself hears of it. A download says the same, and the page stays.
+    window.addEventListener('beforeunload', () => {
+      this.leaving = true;
+      setTimeout(() => (this.leaving = false), kLeave_ms);
+    });
     this.view = new DockviewComponent(host, {
       theme: {name: 'rave', className: 'dockview-theme-rave', gap: 6},
       disableFloatingGroups: false,
-      createRightHeaderActionComponent: () => new HeaderActions(),
+      createRightHeaderActionComponent: (group) => new HeaderActions(group, (panel) => void this.moveOut(panel)),
       createComponent: (options) => {
         const kind = kinds().find((known) => known.id === options.name);
         if (kind === undefined) throw new Error(`unknown panel ${options.name}`); // Caught by restore().
@@ -48,7 +63,7 @@ export class Dock {
     this.kept = `${kKept}.${this.width >= 1280 ? 'wide' : this.width >= 900 ? 'middle' : 'narrow'}`;
     if (!this.restore()) this.resetWhenSized(host);
     this.view.onDidLayoutChange(() => {
-      if (!this.restoring) this.keep();
+      if (!this.restoring && !this.leaving) this.keep();
     });
   }
 
@@ -62,6 +77,52 @@ export class Dock {
     const kind = this.kinds().find((known) => known.id === id);
     const beside = this.view.panels.find((open) => open.id === kind?.beside);
     if (kind) this.add(id, beside && {referencePanel: beside.id, direction: 'within'});
+  }
+
+  /** Moves a panel to a window of its own, for another monitor. Stays where the browser opens none. */
+  async moveOut(id: string, box?: WindowBox): Promise<void> {
+    const panel = this.view.panels.find((open) => open.id === id);
+    const window = () => (panel?.api.location.type === 'popout' ? panel.api.location.getWindow() : null);
+    if (panel === undefined || window() !== null) return;
+    const opened = await this.view.addPopoutGroup(panel as DockviewPanel, {popoutUrl: new URL('assets/popout.html', document.baseURI).href, ...(box ? {position: new DOMRect(box.left - screenX, box.top - screenY, box.width, box.height)} : {})});
+    const view = window();
+    if (!opened || view === null) return;
+    const {group} = panel;
+    const there = new PanelWindow(view, this.context, this.bindKeys);
+    const entitle = () => there.open && there.entitle(this.kinds().find((kind) => kind.id === group.activePanel?.id)?.title ?? '');
+    group.api.onDidActivePanelChange(entitle);
+    this.context.model.runChanged.on(entitle);
+    entitle();
+  }
+
+  /** Opens a window again that was open when the page was left. */
+  async reopen(kept: KeptWindow): Promise<void> {
+    this.away = this.away.filter((other) => other !== kept);
+    this.changed.emit();
+    const [first, ...others] = kept.panels.filter((id) => this.view.panels.some((panel) => panel.id === id));
+    if (first === undefined) return;
+    await this.moveOut(first, kept.box ?? undefined);
+    const group = this.view.panels.find((panel) => panel.id === first)?.group;
+    if (group?.api.location.type !== 'popout') return;
+    for (const id of others) this.view.panels.find((panel) => panel.id === id)?.api.moveTo({group});
+  }
+
+  /** The panels of those windows stay in the page. */
+  stay(): void {
+    this.away = [];
+    this.keep();
+    this.changed.emit();
+  }
+
+  /** What the panels of a window are called. */
+  titleOf({panels}: KeptWindow): string {
+    return panels.map((id) => this.kinds().find((kind) => kind.id === id)?.title ?? id).join(', ');
+  }
+
+  /** Takes everything away, the windows too. */
+  close(): void {
+    this.leaving = true;
+    this.view.dispose();
   }
 
   /** A panel that came while the page was open, beside the Sensor Display; not where it was closed or kept. */
@@ -84,6 +145,7 @@ export class Dock {
   /** Lays the panels out anew. */
   reset(layout: LayoutName = this.name): void {
     this.name = layout;
+    this.away = [];
     this.restoring = true;
     this.view.clear();
     this.add('world');
@@ -137,7 +199,8 @@ export class Dock {
   }
 
   private keep(): void {
-    localStorage.setItem(this.kept, JSON.stringify({version: kVersion, name: this.name, layout: this.view.toJSON()}));
+    const {layout, windows} = bringHome(this.view.toJSON());
+    localStorage.setItem(this.kept, JSON.stringify({version: kVersion, name: this.name, layout, windows: [...windows, ...this.away]}));
   }
 
   /** Columns can be given a width only once the dock has its own. */
@@ -153,10 +216,11 @@ export class Dock {
 
   private restore(): boolean {
     try {
-      const kept = JSON.parse(localStorage.getItem(this.kept) ?? 'null') as {version: number; name?: LayoutName; layout: SerializedDockview} | null;
+      const kept = JSON.parse(localStorage.getItem(this.kept) ?? 'null') as {version: number; name?: LayoutName; layout: SerializedDockview; windows?: KeptWindow[]} | null;
       if (kept?.version === kVersion) {
         this.name = kept.name ?? 'Watch';
         this.view.fromJSON(kept.layout);
+        this.away = kept.windows ?? [];
         return true;
       }
     } catch {

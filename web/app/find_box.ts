@@ -44,6 +44,7 @@ export class FindBox extends LitElement {
       if (fits(panel.title)) all.push({icon: panel.icon as IconName, text: panel.title, note: 'panel', act: () => this.context.show(panel.id)});
     }
     if (fits('light or dark theme')) all.push({icon: 'sun', text: 'Light or dark', note: 'theme', act: () => this.dispatchEvent(new CustomEvent('theme'))});
+    if (model.hello?.foxglove && fits('watch in foxglove lichtblick')) all.push({icon: 'share', text: 'Watch in Foxglove', note: 'address and steps', act: () => this.dispatchEvent(new CustomEvent('foxglove'))});
     const seconds = /^(?:(\d+):)?(\d+(?:\.\d+)?)\s*s?$/.exec(this.text.trim());
     if (seconds && model.may('seek')) {
       const t = 60 * Number(seconds[1] ?? 0) + Number(seconds[2]);

@@ -1,28 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
-import type {IGroupHeaderProps, IHeaderActionsRenderer} from 'dockview-core';
-import {render} from 'lit';
-import {icon} from './icons';
+import type {DockviewGroupPanel, IGroupHeaderProps, IHeaderActionsRenderer} from 'dockview-core';
+import {html, nothing, render} from 'lit';
+import {icon, type IconName} from './icons';
 
-/** At the right of the tabs: one panel over the whole dock, and back. */
+/** At the right of the tabs: a window of its own for the panel, one panel over the whole dock, and back. */
 export class HeaderActions implements IHeaderActionsRenderer {
-  readonly element = document.createElement('button');
+  readonly element = document.createElement('div');
   private readonly ends: {dispose(): void}[] = [];
 
+  constructor(private readonly group: DockviewGroupPanel, private readonly moveOut: (panel: string) => void) {}
+
   init({api, containerApi}: IGroupHeaderProps): void {
-    this.element.className = 'maximise';
-    this.element.addEventListener('click', () => {
-      if (api.isMaximized()) api.exitMaximized();
-      else api.maximize();
-    });
-    this.ends.push(containerApi.onDidMaximizedGroupChange(() => this.show(api.isMaximized())));
-    this.show(false);
+    this.element.className = 'group-buttons';
+    const show = () => this.show(api);
+    this.ends.push(containerApi.onDidMaximizedGroupChange(show), api.onDidLocationChange(show));
+    show();
   }
 
-  private show(maximised: boolean): void {
-    const name = maximised ? 'Beside the others again' : 'Over all others';
-    this.element.title = name;
-    this.element.setAttribute('aria-label', name);
-    render(icon(maximised ? 'minimize2' : 'maximize2', 14), this.element);
+  private show(api: IGroupHeaderProps['api']): void {
+    const {location} = api;
+    const button = (name: IconName, text: string, act: () => void) => html`<button class=${name} title=${text} aria-label=${text} @click=${act}>${icon(name, 14)}</button>`;
+    const out = () => {
+      const panel = this.group.activePanel;
+      if (panel) this.moveOut(panel.id);
+    };
+    render(
+      location.type === 'popout'
+        ? button('undo', 'Back into the page', () => location.getWindow().close())
+        : html`${location.type === 'grid' && !api.isMaximized() ? button('appWindow', 'Into a window of its own', out) : nothing}
+          ${api.isMaximized() ? button('minimize2', 'Beside the others again', () => api.exitMaximized()) : button('maximize2', 'Over all others', () => api.maximize())}`,
+      this.element,
+    );
   }
 
   dispose(): void {

@@ -65,13 +65,16 @@ import trash from 'lucide-static/icons/trash-2.svg?raw';
 import userPlus from 'lucide-static/icons/user-plus.svg?raw';
 import x from 'lucide-static/icons/x.svg?raw';
 import zap from 'lucide-static/icons/zap.svg?raw';
+import appWindow from 'lucide-static/icons/app-window.svg?raw';
+import share from 'lucide-static/icons/share-2.svg?raw';
+import undo from 'lucide-static/icons/undo-2.svg?raw';
 
 const kIcons = {
   activity, bell, bot, camera, check, chevronDown, circleX, compass, crosshair, download, eye, fileText, filter, flask, hourglass, info,
   layers, link, list, lock, map, maximize, maximize2, minimize2, minus, moon, octagonX, pause, play, plus, radar, refresh, rotateCcw, ruler, search, server, shield, skipBack, skipForward,
   stepBack, stepForward, sun, target, triangleAlert, wifiOff, x, zap,
   boxSelect, cornerDownLeft, gamepad, hand, joystick, keyboard, message, packageX, pointer, move, route, trash,
-  copy, ellipsis, keyRound, userPlus,
+  copy, ellipsis, keyRound, userPlus, appWindow, share, undo,
 };
 
 export type IconName = keyof typeof kIcons;

@@ -27,8 +27,8 @@ export function panelKey(index: number): string[] {
 }
 
 /** Calls the action of a key, but never while text is typed; Space on a control presses that. */
-export function bindKeys(actions: () => readonly KeyAction[]): void {
-  document.addEventListener('keydown', (event) => {
+export function bindKeys(actions: () => readonly KeyAction[], where: Document = document): void {
+  where.addEventListener('keydown', (event) => {
     const target = event.composedPath()[0] as HTMLElement;
     const typing = target.matches?.('input:not([type=checkbox]), textarea, select, [contenteditable]');
     if (event.defaultPrevented || event.altKey || event.metaKey || (typing && event.key !== 'Escape')) return;
@@ -41,7 +41,7 @@ export function bindKeys(actions: () => readonly KeyAction[]): void {
     event.preventDefault();
     action.act(event);
   });
-  document.addEventListener('keyup', (event) => {
+  where.addEventListener('keyup', (event) => {
     // Shift may be lifted first: what is held ends all the same.
     const name = nameOf(event).replace('Shift ', '');
     actions().find((known) => known.end && known.keys.some((key) => key.replace('Shift ', '') === name))?.end?.();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import './base.css';
+import './adoption';
 import '../panels/world/world_panel';
 import '../panels/robots/robots_panel';
 import '../panels/sensors/sensors_panel';

@@ -7,10 +7,13 @@ import {RunModel} from '../model/run_model';
 import type {PanelContext, PanelElement, PanelKind} from '../panel_api';
 import {Palette} from '../panel_api/palette';
 import {Selection} from '../panel_api/selection';
+import {Windows} from '../panel_api/windows';
 import type {JoystickPanel} from '../panels/joystick/joystick_panel';
 import type {WorldPanel} from '../panels/world/world_panel';
+import {renderAway} from './away_strip';
 import {Dock, type LayoutName} from './dock';
 import './find_box';
+import './foxglove_sheet';
 import {icon, type IconName} from './icons';
 import {keySheetStyles, renderKeys} from './key_sheet';
 import {bindKeys, panelKey, type KeyAction} from './keys';
@@ -30,7 +33,8 @@ const kTheme = 'rave.theme';
 /** The whole page. */
 export class RaveApp extends LitElement {
   private readonly model = new RunModel();
-  private readonly link = new Link(this.model, socketUrl(), new DirectLines(new URL('ticket', document.baseURI).href));
+  private readonly windows = new Windows();
+  private readonly link = new Link(this.model, socketUrl(), new DirectLines(new URL('ticket', document.baseURI).href), this.windows);
   private readonly selection = new Selection();
   private readonly palette = new Palette(document.documentElement);
   private dock: Dock | null = null;
@@ -43,6 +47,7 @@ export class RaveApp extends LitElement {
   private pen = matchMedia(`(max-width: ${kPhone_px - 1}px) and (max-height: 700px)`);
   private finding = false;
   private showingKeys = false;
+  private showingFoxglove = false;
   /** The link that opened the page was followed. */
   private arrived = false;
   /** What the server refused last, in its words. */
@@ -54,6 +59,7 @@ export class RaveApp extends LitElement {
     selection: this.selection,
     palette: this.palette,
     commands: this.commands,
+    windows: this.windows,
     worldLayers: new Set(),
     seek: (time_s) => {
       if (this.model.may('seek')) this.link.send({type: 'transport', do: 'seek', value: time_s});
@@ -95,11 +101,12 @@ export class RaveApp extends LitElement {
       this.refusal = answer.good ? '' : answer.text;
       update();
     });
-    document.addEventListener('visibilitychange', () => this.link.queueLook());
+    this.windows.changed.on(() => this.link.queueLook());
     this.addEventListener('tool', update);
     model.linesChanged.on(update);
     this.pen.addEventListener('change', update);
     this.phone.addEventListener('change', () => {
+      this.dock?.close();
       this.dock = null;
       update();
     });
@@ -129,10 +136,17 @@ export class RaveApp extends LitElement {
 
   override updated(): void {
     const host = this.renderRoot.querySelector<HTMLElement>('.dock');
-    if (host && this.dock === null) this.dock = new Dock(this.dockHost(host), allPanels, this.context);
+    if (host && this.dock === null) this.openDock(host);
     this.retitle();
     const phone = this.renderRoot.querySelector<HTMLElement>('.phone');
     if (phone) this.fillPhone(phone);
+  }
+
+  private openDock(place: HTMLElement): void {
+    const keys = (there: Document) => bindKeys(() => this.actions(), there);
+    this.dock = new Dock(this.dockHost(place), allPanels, this.context, keys);
+    this.dock.changed.on(() => this.requestUpdate());
+    if (this.dock.away.length > 0) this.requestUpdate();
   }
 
   /** The dock stands in the page itself, where its style sheet is, and shows through a slot. */
@@ -176,7 +190,16 @@ export class RaveApp extends LitElement {
   }
 
   private get world(): WorldPanel | null {
-    return (this.querySelector('rave-world') ?? this.renderRoot.querySelector('rave-world')) as WorldPanel | null;
+    return this.panel<WorldPanel>('rave-world');
+  }
+
+  /** A panel, in whichever window it is. */
+  private panel<T extends Element>(tag: string): T | null {
+    for (const {document: there} of this.windows.all) {
+      const found = there.querySelector<T>(tag);
+      if (found !== null) return found;
+    }
+    return this.renderRoot.querySelector<T>(tag);
   }
 
   private get bar(): RunBar | null {
@@ -228,17 +251,20 @@ export class RaveApp extends LitElement {
   }
 
   private get joystick(): JoystickPanel | null {
-    return (this.querySelector('rave-joystick') ?? this.renderRoot.querySelector('rave-joystick')) as JoystickPanel | null;
+    return this.panel<JoystickPanel>('rave-joystick');
   }
 
-  private open(what: 'finding' | 'showingKeys'): void {
+  private open(what: 'finding' | 'showingKeys' | 'showingFoxglove'): void {
     this[what] = !this[what];
+    // The keys may have been pressed in another window.
+    if (this[what]) window.focus();
     this.requestUpdate();
   }
 
   private escape(): void {
-    if (this.finding || this.showingKeys) {
+    if (this.finding || this.showingKeys || this.showingFoxglove) {
       this.finding = false;
+      this.showingFoxglove = false;
       this.showingKeys = false;
     } else if (this.world?.drop()) return;
     else if (this.selection.following) this.selection.follow(false);
@@ -260,11 +286,12 @@ export class RaveApp extends LitElement {
     const old = link.state === 'lost';
     return html`
       <rave-top-bar .context=${this.context} .layout=${this.phone.matches || innerWidth < 1280 ? '' : (this.dock?.name ?? 'Watch')}
-        @layout=${(event: CustomEvent<LayoutName>) => { this.dock?.reset(event.detail); this.requestUpdate(); }} @find=${() => this.open('finding')} @theme=${() => this.toggleTheme()}></rave-top-bar>
+        @layout=${(event: CustomEvent<LayoutName>) => { this.dock?.reset(event.detail); this.requestUpdate(); }} @find=${() => this.open('finding')} @theme=${() => this.toggleTheme()} @foxglove=${() => this.open('showingFoxglove')}></rave-top-bar>
       ${old ? renderLost(model, link) : renderWaits(model)}
       ${renderSeenBy(model, () => link.send({type: 'see_as'}))}
       ${this.refusal === '' ? nothing : html`<div class="strip refused" role="alert">${icon('circleX', 16)}<span>${this.refusal}</span>
         <button @click=${() => { this.refusal = ''; this.requestUpdate(); }}>Close</button></div>`}
+      ${renderAway(this.dock)}
       ${model.hello === null && !old ? renderOpening() : nothing}
       <main class=${old ? 'old' : ''}>
         ${this.phone.matches ? html`<div class="phone"></div>${this.phonePanel === 'world' && !this.pen.matches ? html`<rave-sheet .context=${this.context}></rave-sheet>` : nothing}` : html`<div class="dock"><slot name="dock"></slot></div>`}
@@ -272,7 +299,8 @@ export class RaveApp extends LitElement {
       ${this.pen.matches && model.live && model.may('command')
         ? renderPenBar(this.context, this.phonePanel, this.world, (id) => this.showPanel(id))
         : html`<rave-run-bar .context=${this.context}></rave-run-bar>${this.phone.matches ? this.renderTabs() : nothing}`}
-      ${this.finding ? html`<rave-find .context=${this.context} .panels=${panelsFor(model)} @theme=${() => this.toggleTheme()} @done=${() => this.open('finding')}></rave-find>` : nothing}
+      ${this.finding ? html`<rave-find .context=${this.context} .panels=${panelsFor(model)} @theme=${() => this.toggleTheme()} @foxglove=${() => this.open('showingFoxglove')} @done=${() => this.open('finding')}></rave-find>` : nothing}
+      ${this.showingFoxglove ? html`<rave-foxglove @done=${() => this.open('showingFoxglove')}></rave-foxglove>` : nothing}
       ${this.showingKeys ? renderKeys(this.actions(), () => this.escape()) : nothing}`;
   }
 

@@ -2,6 +2,7 @@
 import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
 import {countStopped, Hold, kTwice_ms, Twice, type StopCount} from '../model/stop_state';
 import type {PanelContext} from '../panel_api';
+import {viewOf} from '../panel_api/windows';
 import {bigClock} from './clock';
 import {icon} from './icons';
 import {controls} from './styles';
@@ -60,7 +61,8 @@ export class StopButton extends LitElement {
   }
 
   private press(event: Event): void {
-    if (event instanceof PointerEvent) (event.currentTarget as HTMLElement).setPointerCapture(event.pointerId);
+    // Events of another window have classes of their own.
+    if ('pointerId' in event) (event.currentTarget as HTMLElement).setPointerCapture(event.pointerId as number);
     this.hold.press(performance.now());
     this.grow();
   }
@@ -77,7 +79,7 @@ export class StopButton extends LitElement {
       this.hold.lift();
       this.stoppedAt_s = null;
       this.context.link.send({type: 'halt', do: 'release', slots: []});
-    } else requestAnimationFrame(() => this.grow());
+    } else viewOf(this).requestAnimationFrame(() => this.grow());
     this.requestUpdate();
   }
 

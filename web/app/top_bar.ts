@@ -74,6 +74,7 @@ export class TopBar extends LitElement {
       ${this.renderPeople()}
       ${model.live ? html`<span class="pen">${([['chat', 'Chat', 'message'], ['robots', 'Robots', 'list'], ['world', 'World View', 'compass']] as const).map(([id, label, glyph]) => html`
         <button class="icon-button" aria-label=${label} title=${label} @click=${() => this.context.show(id)}>${icon(glyph, 20)}</button>`)}</span>` : nothing}
+      ${model.hello?.foxglove ? html`<button class="icon-button foxglove" title="Watch in Foxglove" aria-label="Watch in Foxglove" @click=${() => ask('foxglove')}>${icon('share')}</button>` : nothing}
       <rave-bell .context=${this.context}></rave-bell>
       <button class="icon-button theme" title="Light or dark" aria-label="Light or dark" @click=${() => ask('theme')}>${icon(palette.theme === 'dark' ? 'sun' : 'moon')}</button>
       ${model.hello ? html`<i class="rule"></i><span class="person">${face(model.hello.seen_by ?? model.hello.user, true)}<span>${roleText((model.hello.seen_by ?? model.hello.user).role)}</span></span>` : nothing}`;
@@ -130,7 +131,7 @@ export class TopBar extends LitElement {
       @media (max-width: 599px) {
         :host { padding: 0 10px; height: 52px; } .brand b, .find span, .find kbd, .rate { display: none; }
         .find { flex: none; width: 40px; height: 40px; justify-content: center; background: none; border-color: transparent; }
-        .theme, rave-bell { display: none; } .space ~ .space { display: none; } h1 { max-width: 46vw; } .state { order: 1; } .find { order: 2; } .person { order: 3; }
+        .theme, .foxglove, rave-bell { display: none; } .space ~ .space { display: none; } h1 { max-width: 46vw; } .state { order: 1; } .find { order: 2; } .person { order: 3; }
       }
     `,
   ];

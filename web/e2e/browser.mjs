@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Debian's Chromium for tests, and `rave gui` in a process of its own.
+// Debian's Chromium and Firefox for tests, and `rave gui` in a process of its own.
 import {spawn} from 'node:child_process';
-import {chromium} from 'playwright-core';
+import playwright, {chromium} from 'playwright-core';
 
 /** Headless Chromium as a machine without a graphics card runs it: pages are drawn by the processor, and
  * WebGL by SwiftShader. With `--use-angle=swiftshader` the whole page would go through an emulated card,
@@ -11,6 +11,13 @@ export function launch() {
     executablePath: process.env.RAVE_CHROMIUM ?? '/usr/bin/chromium',
     args: ['--no-sandbox', '--enable-unsafe-swiftshader'],
   });
+}
+
+export const whereFirefox = process.env.RAVE_FIREFOX ?? '/usr/bin/firefox-esr';
+
+/** Debian's Firefox through WebDriver BiDi: the Firefox that Playwright would drive otherwise is a build of its own. */
+export function launchFirefox() {
+  return playwright._bidiFirefox.launch({executablePath: whereFirefox, headless: true});
 }
 
 /** Waits until the policy of the page lists `hosts` hosts of a run in real time. A page that comes earlier is refused their lines, and loads again. */

@@ -51,7 +51,7 @@ export function report() {
 /** Errors of the page, and requests to other places than `origin`. */
 export function watch(page, origin) {
   const seen = {errors: [], foreign: []};
-  page.on('console', (message) => message.type() === 'error' && seen.errors.push(message.text()));
+  page.on('console', (message) => message.type() === 'error' && seen.errors.push(/Failed to load/.test(message.text()) ? `${message.text()}: ${message.location().url}` : message.text()));
   page.on('pageerror', (error) => seen.errors.push(String(error)));
   page.on('request', (request) => {
     if (!/^(data|blob):/.test(request.url()) && new URL(request.url()).origin !== origin) seen.foreign.push(request.url());

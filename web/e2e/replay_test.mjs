@@ -5,6 +5,7 @@ import {execFileSync} from 'node:child_process';
 import {mkdirSync, rmSync, writeFileSync} from 'node:fs';
 import http from 'node:http';
 import {join} from 'node:path';
+import WebSocket from 'ws';
 import {launch, startServer} from './browser.mjs';
 import {app, check, report, showFailures, until, watch} from './checks.mjs';
 
@@ -25,7 +26,7 @@ const run = join(folder, 'run');
 execFileSync(rave, ['run', scenario, '--pace', 'max', '--quiet', '--no-picture', '--output', run], {
   stdio: ['ignore', 'ignore', 'inherit'],
 });
-const gui = await startServer(rave, ['gui', run]);
+const gui = await startServer(rave, ['gui', run, '--foxglove']);
 const origin = new URL(gui.link).origin;
 const browser = await launch();
 try {
@@ -144,6 +145,27 @@ try {
     await page.getByText('View only').waitFor();
   });
 
+  await check('the sheet for Foxglove has an address that serves', async () => {
+    await page.getByLabel('Watch in Foxglove').click();
+    const sheet = page.locator('rave-foxglove');
+    await sheet.getByText(/^ws:/).waitFor();
+    const address = (await sheet.getByText(/^ws:/).innerText()).trim();
+    await page.screenshot({path: join(folder, 'foxglove.png')});
+    const first = await new Promise((resolve, reject) => {
+      const socket = new WebSocket(address, ['foxglove.sdk.v1', 'foxglove.websocket.v1']);
+      socket.onmessage = ({data}) => { socket.close(); resolve(JSON.parse(data)); };
+      socket.onerror = () => reject(new Error(`nothing serves at ${address}`));
+    });
+    assert.equal(first.op, 'serverInfo');
+    await page.keyboard.press('Escape');
+    await sheet.waitFor({state: 'detached'});
+    await page.keyboard.press('Control+k');
+    await page.keyboard.type('foxglove');
+    await page.getByRole('option', {name: /Watch in Foxglove/}).click();
+    await sheet.getByText(/^ws:/).waitFor();
+    await sheet.getByLabel('Close').click();
+  });
+
   await check('light and dark', async () => {
     const before = await page.evaluate('document.documentElement.dataset.theme');
     await page.getByLabel('Light or dark').click();
@@ -160,6 +182,34 @@ try {
     await page.goto(next.link);
     await until(page, `${app}?.model?.robots?.length === 16`);
     assert.equal(await next.end(), 0);
+  });
+
+  await check('how sure a robot was of its pose is in its recording, at any moment', async () => {
+    const guesses = join(folder, 'guesses');
+    const odometry = new URL('../../tests/cli/data/played.yaml', import.meta.url).pathname;
+    execFileSync(rave, ['run', odometry, '--pace', 'max', '--quiet', '--no-picture', '--output', guesses], {stdio: ['ignore', 'ignore', 'inherit']});
+    const other = await startServer(rave, ['gui', guesses]);
+    const replay = await (await browser.newContext({viewport: {width: 1400, height: 900}})).newPage();
+    await replay.goto(other.link);
+    await until(replay, `${app}?.model?.poses?.newest != null`);
+    assert.equal(await replay.getByLabel('Watch in Foxglove').count(), 0, 'it serves no Foxglove');
+    const slot = await replay.evaluate(`${app}.model.robots.findIndex((robot) => robot.name === 'anna')`);
+    await replay.evaluate((anna) => {
+      const there = document.querySelector('rave-app');
+      there.selection.set([anna]);
+      there.link.send({type: 'transport', do: 'pause'});
+    }, slot);
+    const varianceAt = async (time_s) => {
+      await replay.evaluate((value) => document.querySelector('rave-app').link.send({type: 'transport', do: 'seek', value}), time_s);
+      await until(replay, `Math.abs(${app}.model.poses.newest.time_s - ${time_s}) < 0.011`);
+      await replay.waitForTimeout(300);
+      return replay.evaluate(`${app}.model.variances.get(${slot})?.xy_m2 ?? 0`);
+    };
+    const [late, early, later] = [await varianceAt(3), await varianceAt(1), await varianceAt(3.8)];
+    // Odometry is the less sure the farther it went.
+    assert.ok(early > 0 && early < late && late < later, `${early} ${late} ${later}`);
+    await replay.screenshot({path: join(folder, 'variance.png')});
+    await other.end();
   });
 
   await check('every message is as the schema describes it', async () => {

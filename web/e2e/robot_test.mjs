@@ -102,6 +102,9 @@ try {
     await panel.getByText('differs by').waitFor();
     const laser = await page.evaluate(`${shadow}.readings.find(({sensor}) => sensor === 'laser')`);
     assert.equal(laser.unit, 'm');
+    const {m, offset} = await page.evaluate(shadow);
+    // The World View draws the shadow there, dashed.
+    assert.ok(Math.abs(Math.hypot(offset[0], offset[1]) - m) < 2e-4, `${offset}, but ${m} m`);
     await page.locator('rave-robot .scroll').evaluate((scroll) => scroll.scrollTo(0, 300));
     for (const theme of ['dark', 'light']) {
       await page.evaluate(`${app}.palette.set('${theme}')`);

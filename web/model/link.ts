@@ -4,6 +4,7 @@ import type {DirectLines} from './direct_lines';
 import {OrderRouter} from './order_router';
 import type {RunModel} from './run_model';
 import type {MapKey} from './maps';
+import {Windows} from '../panel_api/windows';
 import {Signal} from './signal';
 
 const kFirstRetry_ms = 500;
@@ -57,6 +58,7 @@ export class Link {
     private readonly url: string,
     /** The direct lines; null: all goes through the server. */
     readonly direct: DirectLines | null = null,
+    private readonly windows = new Windows(),
   ) {
     this.router = direct === null ? null : new OrderRouter(model, direct);
     if (this.router) this.router.serverIsThere = () => this.state === 'open';
@@ -177,11 +179,12 @@ export class Link {
       for (const interest of this.interests.values()) {
         for (const pair of interest) all.set(pair.join(), [pair[0], pair[1]]);
       }
+      const seen = this.windows.visible !== undefined;
       const look: Look = {
         type: 'look',
-        poses: document.visibilityState !== 'hidden',
+        poses: seen,
         true_poses: this.truePoses,
-        readings: document.visibilityState === 'hidden' ? [] : [...all.values()].slice(0, 256),
+        readings: seen ? [...all.values()].slice(0, 256) : [],
         parts: this.parts,
         max_hz: 30,
       };
@@ -209,8 +212,9 @@ export class Link {
     if (sequence !== null) {
       ++this.frames;
       const acknowledge = () => this.sendToServer({type: 'ack', sequence});
-      if (document.visibilityState === 'hidden') acknowledge();
-      else requestAnimationFrame(acknowledge);
+      const view = this.windows.visible;
+      if (view === undefined) acknowledge();
+      else view.requestAnimationFrame(acknowledge);
     }
   }
 

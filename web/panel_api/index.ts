@@ -7,10 +7,12 @@ import type {Power} from '../protocol/messages';
 import type {WorldLayer} from './component';
 import type {Palette} from './palette';
 import type {Selection} from './selection';
+import type {Windows} from './windows';
 
 export type {Component, ComponentPanel, WorldLayer} from './component';
 export type {Palette} from './palette';
 export type {Selection} from './selection';
+export type {Windows} from './windows';
 
 /** Number of this interface. A component says for which one it was made; another one is not loaded. */
 export const kPanelApi = 1;
@@ -23,6 +25,8 @@ export interface PanelContext {
   readonly palette: Palette;
   /** Orders, leases, parameters, obstacles and words, each with the answer of the run. */
   readonly commands: Commands;
+  /** Where the page is shown: panels may be in windows of their own. */
+  readonly windows: Windows;
   /** What components draw over the World View. A layer that throws is taken out. */
   readonly worldLayers: Set<WorldLayer>;
   /** Moves the replay; does nothing where the time cannot be moved. */

@@ -3,6 +3,7 @@ import {LitElement} from 'lit';
 import {Placed} from '../model/pose_history';
 import type {Signal} from '../model/signal';
 import type {PanelContext} from '../panel_api';
+import {viewOf} from '../panel_api/windows';
 
 /** A panel that looks at something of the run and draws it. It subscribes when it comes into the page and leaves
  * nothing behind when it goes; the dock takes panels out while they are hidden. */
@@ -30,6 +31,8 @@ export abstract class LookingPanel extends LitElement {
 
   override connectedCallback(): void {
     super.connectedCallback();
+    // A picture that another window was to draw does not come.
+    this.drawQueued = false;
     // What came while it was hidden is to be shown.
     this.requestUpdate();
     const {model, selection, palette} = this.context;
@@ -69,7 +72,7 @@ export abstract class LookingPanel extends LitElement {
   protected draw(): void {
     if (this.drawQueued) return;
     this.drawQueued = true;
-    requestAnimationFrame(() => {
+    viewOf(this).requestAnimationFrame(() => {
       this.drawQueued = false;
       if (this.isConnected) this.paint();
     });

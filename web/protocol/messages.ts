@@ -21,6 +21,8 @@ export interface Hello {
   may: Power[];
   /** Panels that the run brings along and that this user may have. */
   components?: Component[];
+  /** Foxglove clients may connect: `/foxglove` gives this user an address for them. Missing: they may not. */
+  foxglove?: true;
   /** For each power that is missing, the reason in words. */
   why_not: Record<string, string>;
 }
@@ -377,6 +379,8 @@ export interface Shadow {
   most_m: number;
   most_rad: number;
   readings: ShadowReading[];
+  /** From the robot to its twin when they were compared last: metres along x and y of the world, and radians. Missing: they were not compared so far. */
+  offset?: [number, number, number];
 }
 
 /** How the readings of one sensor differ. */

@@ -23,6 +23,17 @@ void encode_event(CdrWriter& writer, SimTime time, std::uint64_t step, const Run
   writer.put_sequence(std::span<const double>(event.values));
 }
 
+void encode_variances(CdrWriter& writer, SimTime time, std::uint64_t step,
+                      std::span<const PoseVariance> robots) {
+  encode_step_head(writer, time, step, robots.size());
+  for (const PoseVariance& robot : robots) {
+    writer.put(robot.robot.value());
+    writer.put(std::uint32_t{0});
+    writer.put(robot.xy_m2);
+    writer.put(robot.yaw_rad2);
+  }
+}
+
 void encode_shadow(CdrWriter& writer, SimTime time, std::uint64_t step,
                    const ShadowRecord& shadow) {
   writer.clear();

@@ -4,12 +4,14 @@
 #include "rave/record/cdr.hpp"
 #include "rave/record/run_messages.hpp"
 
-// The counterparts of decode.cpp. Each begins a new message in the writer.
+// The inverse of decode.cpp. Each function begins a new message in the writer.
 namespace rave::record {
 
 void encode_run(CdrWriter& writer, const RunInfo& info);
 void encode_end(CdrWriter& writer, const RunEnd& end);
 void encode_event(CdrWriter& writer, SimTime time, std::uint64_t step, const RunEvent& event);
+void encode_variances(CdrWriter& writer, SimTime time, std::uint64_t step,
+                      std::span<const PoseVariance> robots);
 void encode_shadow(CdrWriter& writer, SimTime time, std::uint64_t step, const ShadowRecord& shadow);
 void encode_input(CdrWriter& writer, SimTime time, const RunInput& input);
 void encode_chat(CdrWriter& writer, SimTime time, const RunChat& chat);

@@ -8,7 +8,7 @@
 #define RAVE_HEADER \
   RAVE_DEPENDENCY("std_msgs/Header") "builtin_interfaces/Time stamp\nstring frame_id\n"
 #define RAVE_VECTOR3 RAVE_DEPENDENCY("geometry_msgs/Vector3") "float64 x\nfloat64 y\nfloat64 z\n"
-// `version` counts changes of the layout; it also brings the array behind it to a multiple of 8.
+// `version` is the layout version; it also aligns the array after it to 8.
 #define RAVE_STEP "builtin_interfaces/Time stamp\nuint64 step\nuint32 version\n"
 
 namespace rave::record {
@@ -88,6 +88,12 @@ const RosSchema kShadowSchema{
     "rave_msgs/msg/Shadow",
     "builtin_interfaces/Time stamp\nuint64 step\nuint32 robot\nfloat64[3] robot_pose\n"
     "float64[3] shadow_pose\nfloat64 m\nfloat64 rad\nfloat64[] readings\n" RAVE_TIME};
+
+const RosSchema kVariancesSchema{
+    "rave_msgs/msg/Variances",
+    RAVE_STEP "rave_msgs/PoseVariance[] robots\n" RAVE_TIME RAVE_DEPENDENCY(
+        "rave_msgs/PoseVariance") "uint32 robot\nuint32 reserved\nfloat64 xy_m2\n"
+                                  "float64 yaw_rad2\n"};
 
 const RosSchema kLogSchema{
     "rcl_interfaces/msg/Log",

@@ -31,6 +31,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static_cast<void>(decode_input(bytes));
     static_cast<void>(decode_chat(bytes));
     static_cast<void>(decode_shadow(bytes));
+    static_cast<void>(decode_variances(bytes));
     static_cast<void>(decode_actuators(bytes));
     static_cast<void>(decode_hash(bytes));
     static_cast<void>(decode_radio(bytes));

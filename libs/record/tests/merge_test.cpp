@@ -111,6 +111,34 @@ TEST_F(Merged, EachStreamIsThereOnceAndPosesAreThoseOfTheHostThatRunsTheRobot) {
   }
 }
 
+TEST_F(Merged, VariancesOfAllHostsAreInEachMessage) {
+  const auto tell = [](std::uint32_t own, std::uint64_t first) {
+    return [own, first](RunRecorder& recorder, std::uint64_t step) {
+      // Robot 1 has none any more in the last step.
+      if (step == first) {
+        static_cast<void>(recorder.variances(std::vector<PoseVariance>{{RobotId(own), 0.5, 2}}));
+      } else if (own == 1 && step == 3) {
+        static_cast<void>(recorder.variances({}));
+      }
+    };
+  };
+  write("hosts/a/run.mcap", "a", 4, tell(0, 0));
+  write("hosts/b/run.mcap", "b", 4, tell(1, 1));
+  const OpenedRun run = open();
+  const auto reader = McapReader::open(run.file);
+  ASSERT_TRUE(reader);
+  std::vector<std::pair<std::uint64_t, std::size_t>> read;
+  const auto take = [&](const MessageView& message) -> Status {
+    RAVE_TRY_ASSIGN(const auto step, decode_variances(message.bytes));
+    read.emplace_back(step.step, step.items.size());
+    EXPECT_EQ(step.items.at(0).robot, RobotId(0));
+    return {};
+  };
+  ASSERT_TRUE(for_each_message(*reader, topic::kVariances, take));
+  const std::vector<std::pair<std::uint64_t, std::size_t>> expected = {{0, 1}, {1, 2}, {3, 1}};
+  EXPECT_EQ(read, expected);
+}
+
 TEST_F(Merged, AnObstacleThatHostsHadAtDifferentStepsCameOnce) {
   const auto say = [](RunRecorder& recorder, const std::string& kind, double revision) {
     ASSERT_TRUE(recorder.event({RobotId(), "obstacle " + kind, "`crate`", {3, revision}}));
@@ -188,7 +216,8 @@ TEST_F(Merged, WhatIsMissingOrTornIsNamed) {
   fs::resize_file(torn, fs::file_size(torn) / 2);
   OpenedRun run = open();
   ASSERT_EQ(run.notes.size(), 1U);
-  EXPECT_NE(run.notes[0].find("hosts/b/run.mcap` is torn"), std::string::npos) << run.notes[0];
+  EXPECT_NE(run.notes[0].find("hosts/b/run.mcap` is incomplete"), std::string::npos)
+      << run.notes[0];
   std::ofstream(torn) << "nothing";
   run = open();
   ASSERT_EQ(run.notes.size(), 2U);
@@ -213,7 +242,8 @@ TEST_F(Merged, ARecordThatWasNotEndedIsTornThoughItIsReadable) {
   }
   const OpenedRun run = open();
   ASSERT_EQ(run.notes.size(), 1U);
-  EXPECT_NE(run.notes[0].find("hosts/b/run.mcap` is torn: its end is missing"), std::string::npos)
+  EXPECT_NE(run.notes[0].find("hosts/b/run.mcap` is incomplete: its end is missing"),
+            std::string::npos)
       << run.notes[0];
   const auto reader = McapReader::open(run.file);
   ASSERT_TRUE(reader);

@@ -459,6 +459,37 @@ TEST(RunRecordShadows, HaveAChannelOfTheirOwn) {
   EXPECT_EQ(count, 1);
 }
 
+TEST(RunRecordVariances, HaveAChannelOfTheirOwn) {
+  const TemporaryFile file;
+  auto recorder = RunRecorder::open(file.path(), sample_info());
+  ASSERT_TRUE(recorder);
+  const std::vector<PoseVariance> told = {{RobotId(0), 1e-300, -0.0}, {RobotId(1), 0.25, 0.01}};
+  recorder->begin_step(7, SimTime{70'000'000});
+  ASSERT_TRUE(recorder->variances(told));
+  ASSERT_TRUE(recorder->end_step());
+  recorder->begin_step(8, SimTime{80'000'000});
+  ASSERT_TRUE(recorder->variances({}));
+  ASSERT_TRUE(recorder->end_step());
+  ASSERT_TRUE(recorder->end(std::nullopt));
+  const auto reader = McapReader::open(file.path());
+  ASSERT_TRUE(reader);
+  std::vector<StepOf<PoseVariance>> read;
+  const auto take = [&](const MessageView& message) -> Status {
+    RAVE_TRY_ASSIGN(read.emplace_back(), decode_variances(message.bytes));
+    for (std::size_t size = 0; size < message.bytes.size(); ++size) {
+      EXPECT_FALSE(decode_variances(message.bytes.first(size)));
+    }
+    return {};
+  };
+  EXPECT_TRUE(for_each_message(*reader, topic::kVariances, take));
+  ASSERT_EQ(read.size(), 2U);
+  EXPECT_EQ(read[0].step, 7U);
+  EXPECT_EQ(read[0].time.ns, 70'000'000);
+  EXPECT_EQ(read[0].items, told);
+  EXPECT_TRUE(std::signbit(read[0].items.at(0).yaw_rad2));
+  EXPECT_TRUE(read[1].items.empty());
+}
+
 TEST(RunRecordDecode, ACutMessageIsAnErrorWithItsTopic) {
   const TemporaryFile file;
   auto recorder = RunRecorder::open(file.path(), sample_info());

@@ -138,28 +138,32 @@ std::string_view to_string(EventKind kind) noexcept {
 Engine::Impl::Impl(EngineSpec s)
     : spec(std::move(s)),
       log_outlet(spec.log),
-      local(local_robots(spec)),
-      host(spec.local ? std::make_unique<HostPart>(spec, local) : nullptr),
+      roster(local_robots(spec)),
+      host(spec.local ? std::make_unique<HostPart>(spec, roster.local) : nullptr),
       pool(spec.threads, spec.share_always),
       workers(pool.threads()),
-      truth(spec, pool) {
+      truth(spec, pool),
+      hand_overs({spec, roster, truth, robot_guards, reported, input_log, *this}),
+      inputs({spec, roster, truth, robot_guards, orders, hand_overs, input_log,
+              [this](RobotId robot) { body_changed(robot); },
+              [this](const ObstacleChange& change) { obstacle_changed(change); }}) {
   if (spec.live_clock != nullptr) spec.live_clock = &clock_outlet.emplace(*spec.live_clock);
-  if (!has_hybrid(spec, local)) return;
+  if (!has_hybrid(spec, roster.local)) return;
   spec.history = std::max(spec.history, kHybridHistory);
   fusion_world = std::make_unique<FusionWorld>(spec.world);
 }
 
 void Engine::Impl::tell_complaints() const {
-  for (const RobotGroup& group : groups) tell_complaints(group);
+  for (const RobotGroup& group : roster.groups) before_closing(group);
 }
 
-void Engine::Impl::tell_complaints(const RobotGroup& group) const {
+void Engine::Impl::before_closing(const RobotGroup& group) const {
   if (spec.log == nullptr) return;
   for (const SensorSlots& slots : group.sensors) {
     for (std::size_t m = 0; m < slots.queues.size(); ++m) {
       const std::string complaint = slots.queues[m]->complaint();
       if (complaint.empty()) continue;
-      spec.log->warn(logs[group.members[m].value()].source,
+      spec.log->warn(roster.logs[group.members[m].value()].source,
                      "sensor `{}` (driver `{}`) broke its contract; samples dropped: {}; first: {}",
                      slots.spec->name, slots.spec->hardware_driver(), slots.queues[m]->dropped(),
                      complaint);
@@ -173,7 +177,7 @@ void Engine::Impl::tell_withheld(const RobotGroup& group, const SensorSlots& slo
   for (std::size_t m = 0; m < group.members.size(); ++m) {
     const std::uint64_t count = slots.fusion->too_late[m];
     if (count == 0) continue;
-    spec.log->warn(logs[group.members[m].value()].source,
+    spec.log->warn(roster.logs[group.members[m].value()].source,
                    "sensor `{}`: {} readings were withheld, because the pose of the robot or the "
                    "world at their stamps was no longer known (history {} s)",
                    slots.spec->name, count, spec.history.seconds());
@@ -181,60 +185,33 @@ void Engine::Impl::tell_withheld(const RobotGroup& group, const SensorSlots& slo
 }
 
 Status Engine::Impl::make() {
-  const std::size_t count = spec.robots.size();
-  logs.resize(count);
-  group_index.resize(count);
-  member_index.resize(count);
-  std::vector<std::uint32_t> group_of_type(spec.types.size(), RobotId::kNone);
-  for (std::uint32_t r = 0; r < count; ++r) {
-    group_index[r] = RobotId::kNone;
-    if (!is_local(r)) continue;
-    logs[r] = {spec.log != nullptr ? &log_outlet : nullptr,
-               fmt::format("robot {}", spec.robots[r].name)};
-    std::uint32_t& index = group_of_type[spec.robots[r].type];
-    if (index == RobotId::kNone) {
-      index = static_cast<std::uint32_t>(groups.size());
-      groups.emplace_back().type = &spec.types[spec.robots[r].type];
-    }
-    group_index[r] = index;
-    member_index[r] = static_cast<std::uint32_t>(groups[index].members.size());
-    groups[index].members.emplace_back(r);
-  }
-  make_twins();
-  radio = std::make_unique<Radio>(spec, local, logs, pool);
+  roster.lay_out(spec, spec.log != nullptr ? &log_outlet : nullptr);
+  radio = std::make_unique<Radio>(spec, roster.local, roster.logs, pool);
+  hand_overs.make(radio.get());
   RAVE_TRY(radio->make());
-  for (std::uint32_t g = 0; g < groups.size(); ++g) {
-    RAVE_TRY(make_group({spec, logs, radio.get(), nullptr, answers.service()}, groups[g]));
-    const auto size = static_cast<std::uint32_t>(groups[g].members.size());
-    for (std::uint32_t begin = 0; begin < size; begin += kMemberBlock) {
-      blocks.push_back({g, begin, std::min(begin + kMemberBlock, size)});
-    }
-  }
+  for (RobotGroup& group : roster.groups) RAVE_TRY(make_group(group_context(), group));
   return begin();
 }
 
 Status Engine::Impl::reset() {
   tell_complaints();
   halt();
-  RAVE_TRY(restore_twins());
+  RAVE_TRY(hand_overs.restore());
   // All are closed first: what two robots share must be free before one of them opens it again.
   if (!close_all(take_open()) || !close_all(radio->take_open())) {
     return fail(ErrorCode::kState,
                 "the run cannot restart while drivers of the last run are closing");
   }
-  restore_obstacles();
-  restore_bodies();
+  restore_world();
   radio->clear();
-  for (RobotGroup& group : groups)
-    RAVE_TRY(reset_group({spec, logs, radio.get(), nullptr, answers.service()}, group));
+  for (RobotGroup& group : roster.groups) RAVE_TRY(reset_group(group_context(), group));
   return begin();
 }
 
 Status Engine::Impl::begin() {
   set_initial_state();
   if (spec.on_ready) spec.on_ready();
-  for (RobotGroup& group : groups)
-    RAVE_TRY(open_sensors({spec, logs, radio.get(), nullptr, answers.service()}, group));
+  for (RobotGroup& group : roster.groups) RAVE_TRY(open_sensors(group_context(), group));
   RAVE_TRY(radio->open());
   return start_guards();
 }
@@ -246,18 +223,15 @@ void Engine::Impl::set_initial_state() {
   hash = RunHash();
   phase_times = {};
   events.clear();
-  pending.clear();
-  by_hand = 0;
-  next_change = 0;
-  next_hand_over = 0;
-  next_obstacle = 0;
+  input_log.clear();
+  inputs.begin();
+  hand_overs.begin();
   world_age = {};
-  orders.reset();
+  orders.clear();
   answers.clear();
   set_up_guards();
   history.clear();
-  past_valid = false;
-  if (fusion_world) fusion_world->valid = false;
+  forget_past();
   truth.begin();
   if (host) host->begin();
   reported.assign(count, ReportedPose{});
@@ -283,17 +257,19 @@ Result<std::unique_ptr<Engine>> Engine::create(EngineSpec spec) {
 
 void Engine::Impl::begin_step() {
   now = step_time(step);
-  make_changes();
-  if (!twins.empty()) {
-    begin_hand_overs();
-    advance_hand_overs();
-  }
-  events.swap(pending);  // both keep their room
-  pending.clear();
-  past_valid = false;  // samples of this step may change what the past looked like
+  inputs.make_scheduled(step);
+  if (!hand_overs.empty()) hand_overs.advance(step);
+  input_log.begin_step(events);
+  forget_past();
+}
+
+void Engine::Impl::forget_past() {
+  past.valid = false;
   if (fusion_world) fusion_world->valid = false;
 }
 
+// The stages of a step, as in the table of docs/explanation/engine.md. One of several hosts calls
+// work() between two worlds of the authority, which resolves the motion of all.
 void Engine::Impl::work(PhaseTimer& phase) {
   if (spec.live_clock != nullptr) work_began = spec.live_clock->now();
   sense();
@@ -332,125 +308,5 @@ Status Engine::step() {
 }
 
 Status Engine::reset() { return impl_->reset(); }
-
-const EngineSpec& Engine::spec() const noexcept { return impl_->spec; }
-std::uint64_t Engine::steps_done() const noexcept { return impl_->step; }
-SimTime Engine::time() const noexcept { return impl_->truth.snapshot.time(); }
-const world::Snapshot& Engine::snapshot() const noexcept { return impl_->truth.snapshot; }
-const ReportedPose& Engine::reported(RobotId robot) const noexcept {
-  return impl_->reported[robot.value()];
-}
-Pose2 Engine::true_pose(RobotId robot) const noexcept {
-  return impl_->truth.movers[robot.value()].X_WR;
-}
-bool Engine::is_local(RobotId robot) const noexcept { return impl_->is_local(robot.value()); }
-std::span<const Event> Engine::events() const noexcept {
-  return impl_->host ? impl_->host->events : impl_->events;
-}
-RunHash Engine::hash() const noexcept { return impl_->host ? impl_->host->hash : impl_->hash; }
-const PhaseTimes& Engine::phase_times() const noexcept { return impl_->phase_times; }
-
-SensorSample Engine::sensor(RobotId robot, std::uint32_t index) const noexcept {
-  const RobotGroup& group = impl_->group_of(robot);
-  const SensorSlots& slots = group.sensors[index];
-  const std::size_t m = impl_->member_index[robot.value()];
-  SensorSample sample{
-      &slots.info, &slots.headers[m], slots.records.data() + std::size_t{slots.stride} * m, {}};
-  if (slots.uses_fan) {
-    sample.bodies =
-        std::span(slots.bodies).subspan(std::size_t{slots.capacity} * m, slots.capacity);
-  }
-  return sample;
-}
-
-SensorParts Engine::sensor_parts(RobotId robot, std::uint32_t index) const noexcept {
-  const SensorSlots& slots = impl_->group_of(robot).sensors[index];
-  if (!slots.fusion) return {};
-  return slots.fusion->parts_of(impl_->member_index[robot.value()]);
-}
-
-Command Engine::command(RobotId robot, std::uint32_t controller) const noexcept {
-  return impl_->group_of(robot).controllers[controller].last[impl_->member_index[robot.value()]];
-}
-
-std::int64_t Engine::command_step(RobotId robot, std::uint32_t controller) const noexcept {
-  const ControllerSlots& slots = impl_->group_of(robot).controllers[controller];
-  return slots.last_step[impl_->member_index[robot.value()]];
-}
-
-const Command& Engine::actuator_command(RobotId robot, std::uint32_t actuator) const noexcept {
-  return impl_->group_of(robot).actuators[actuator].commands[impl_->member_index[robot.value()]];
-}
-
-std::uint32_t Engine::group_count() const noexcept {
-  return static_cast<std::uint32_t>(impl_->groups.size());
-}
-
-std::span<const RobotId> Engine::members(std::uint32_t group) const noexcept {
-  return impl_->groups[group].members;
-}
-
-const RobotType& Engine::type_of(std::uint32_t group) const noexcept {
-  return *impl_->groups[group].type;
-}
-
-SampleColumns Engine::samples(std::uint32_t group, std::uint32_t sensor) const noexcept {
-  const SensorSlots& slots = impl_->groups[group].sensors[sensor];
-  return {slots.headers, slots.records.data(), slots.stride};
-}
-
-CommandColumns Engine::commands(std::uint32_t group, std::uint32_t controller) const noexcept {
-  const ControllerSlots& slots = impl_->groups[group].controllers[controller];
-  return {slots.last, slots.last_step};
-}
-
-std::span<const Command> Engine::actuator_commands(std::uint32_t group,
-                                                   std::uint32_t actuator) const noexcept {
-  return impl_->groups[group].actuators[actuator].commands;
-}
-
-std::uint64_t Engine::commands_given(RobotId robot) const noexcept {
-  return impl_->group_of(robot).program.given[impl_->member_index[robot.value()]];
-}
-
-bool Engine::obeys(RobotId robot) const noexcept {
-  const std::size_t m = impl_->member_index[robot.value()];
-  const auto& actuators = impl_->group_of(robot).actuators;
-  return !actuators.empty() && std::all_of(actuators.begin(), actuators.end(),
-                                           [&](const auto& slots) { return slots.obeys[m] != 0; });
-}
-
-bool Engine::program_alive(RobotId robot) const noexcept {
-  const RobotGroup& group = impl_->group_of(robot);
-  return group.program.spec != nullptr &&
-         group.program.failed[impl_->member_index[robot.value()]] == 0;
-}
-
-std::string Engine::sensor_report(RobotId robot, std::uint32_t index) const {
-  const SensorSlots& slots = impl_->group_of(robot).sensors[index];
-  if (slots.is_virtual()) return "{}";
-  std::string text;
-  slots.spec->hardware_ops->report(slots.instances.at(impl_->member_index[robot.value()]), &text,
-                                   [](void* context, const char* part, std::uint64_t size) {
-                                     static_cast<std::string*>(context)->append(part, size);
-                                   });
-  return text;
-}
-
-std::string Engine::device_report(RobotId robot, std::uint32_t index) const {
-  const DeviceSlots& slots = impl_->group_of(robot).devices[index];
-  std::string text;
-  slots.spec->ops->report(slots.instances.at(impl_->member_index[robot.value()]), &text,
-                          [](void* context, const char* part, std::uint64_t size) {
-                            static_cast<std::string*>(context)->append(part, size);
-                          });
-  return text;
-}
-
-void Engine::flip_percept_bit(RobotId robot, std::uint32_t sensor) noexcept {
-  RAVE_CHECK(is_local(robot));
-  RobotGroup& group = impl_->groups[impl_->group_index[robot.value()]];
-  group.sensors[sensor].flip[impl_->member_index[robot.value()]] = 1;
-}
 
 }  // namespace rave::sim

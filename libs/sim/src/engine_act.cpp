@@ -20,11 +20,12 @@ std::string_view text_for(const ErrorText& error, std::size_t slot) noexcept {
 }  // namespace
 
 void Engine::Impl::act() {
-  if (orders) steer();
-  pool.for_each_block(blocks.size(), act_effort,
-                      [this](std::size_t b, unsigned w) { act_block(blocks[b], workers[w]); });
+  if (!orders.empty()) orders.steer(order_moment());
+  pool.for_each_block(roster.blocks.size(), act_effort, [this](std::size_t b, unsigned w) {
+    act_block(roster.blocks[b], workers[w]);
+  });
   // Hardware is written to from one thread, in the order of the robots, or by their guards.
-  for (RobotGroup& group : groups) {
+  for (RobotGroup& group : roster.groups) {
     for (std::uint32_t m = 0; m < group.guards.size(); ++m) {
       if (group.has_guard(m)) serve_guard(group, m);
     }
@@ -59,7 +60,7 @@ void Engine::Impl::note_written(const RobotGroup& group, ActuatorSlots& slots, s
 }
 
 void Engine::Impl::act_block(const Block& block, Worker& worker) {
-  RobotGroup& group = groups[block.group];
+  RobotGroup& group = roster.groups[block.group];
   control(group, block, worker);
   actuate(group, block, worker);
 }

@@ -7,12 +7,13 @@
 namespace rave::sim {
 
 void Engine::Impl::decide() {
-  if (orders) show_orders();
-  pool.for_each_block(blocks.size(), decide_effort,
-                      [this](std::size_t b, unsigned w) { decide_block(blocks[b], workers[w]); });
+  if (!orders.empty()) orders.show(step);
+  pool.for_each_block(roster.blocks.size(), decide_effort, [this](std::size_t b, unsigned w) {
+    decide_block(roster.blocks[b], workers[w]);
+  });
   decide_isolated();
-  if (answers.any()) take_answers();
-  if (orders) hide_orders();
+  if (answers.any()) orders.take_answers(order_moment(), answers);
+  if (!orders.empty()) orders.hide();
 }
 
 namespace {
@@ -37,7 +38,7 @@ void clear_commands(RobotGroup& group, std::size_t member) {
 }  // namespace
 
 void Engine::Impl::decide_block(const Block& block, Worker& worker) {
-  RobotGroup& group = groups[block.group];
+  RobotGroup& group = roster.groups[block.group];
   ProgramSlots& program = group.program;
   if (program.spec == nullptr) {
     for (std::uint32_t m = block.begin; m < block.end; ++m) mark_consumed(group, m);
@@ -75,7 +76,7 @@ void Engine::Impl::decide_block(const Block& block, Worker& worker) {
 
 void Engine::Impl::decide_isolated() {
   const auto for_each_due = [&](auto&& visit) {
-    for (RobotGroup& group : groups) {
+    for (RobotGroup& group : roster.groups) {
       ProgramSlots& program = group.program;
       if (program.spec == nullptr || !program.spec->isolate ||
           !due(program.spec->period_steps, program.spec->phase_steps)) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The end of an engine, which a driver that never opens or never closes does not hold up.
-#include <chrono>
 #include <utility>
 
 #include "engine_impl.hpp"
@@ -50,7 +49,7 @@ bool Engine::Impl::shut() noexcept {
   halt();
   // What serves first: an opening that is under way may take its time.
   bool all = close_all(take_open());
-  all = close_twins() && all;
+  all = hand_overs.close() && all;
   if (radio) all = close_all(radio->take_open()) && all;
   if (!all) leave_behind();
   return all;
@@ -58,7 +57,7 @@ bool Engine::Impl::shut() noexcept {
 
 std::vector<ToClose> Engine::Impl::take_open() {
   std::vector<ToClose> drivers;
-  for (RobotGroup& group : groups) {
+  for (RobotGroup& group : roster.groups) {
     const std::vector<ToClose> open = sim::take_open(group);
     drivers.insert(drivers.end(), open.begin(), open.end());
   }
@@ -69,63 +68,24 @@ bool Engine::Impl::close_all(std::vector<ToClose> drivers) {
   for (const ToClose& driver : close_within(std::move(drivers), spec.last_wait, this)) {
     is_in_use = true;
     const std::uint32_t r = driver.robot.value();
-    keep_loaded(spec, *groups[group_index[r]].type);
-    if (const Twin* const twin = find_twin(driver.robot)) keep_loaded(spec, *twin->other.type);
+    keep_loaded(spec, *roster.group_of(RobotId(r)).type);
+    if (const RobotType* const other = hand_overs.other_type(driver.robot))
+      keep_loaded(spec, *other);
     if (spec.log == nullptr) continue;
-    spec.log->error(logs[r].source,
+    spec.log->error(roster.logs[r].source,
                     "{} `{}` (driver `{}`) is still closing; the run ends without it", driver.kind,
                     driver.name, driver.driver);
   }
   return !is_in_use;
 }
 
-/// Those whose drivers are not done in time stay as they are; the log is told which.
-bool Engine::Impl::close_twins() noexcept {
-  const auto end = std::chrono::steady_clock::now() + spec.last_wait;
-  bool all = true;
-  std::vector<ToClose> open;
-  for (Twin& twin : twins) {
-    if (!twin.work.ready_by(end)) {
-      all = false;
-      if (spec.log == nullptr) continue;
-      spec.log->error(logs[twin.robot.value()].source, "{}; the run ends without it",
-                      still_busy(twin));
-      continue;
-    }
-    twin.work.wait();
-    twin.work = {};
-    twin.given_up = false;
-    twin.stage = Twin::Stage::kIdle;
-    twin.state.under_way = false;
-    const std::vector<ToClose> more = sim::take_open(twin.other);
-    open.insert(open.end(), more.begin(), more.end());
-  }
-  return close_all(std::move(open)) && all;
-}
-
-std::string Engine::Impl::still_busy(const Twin& twin) const {
-  const std::string opening = twin.opening.text();
-  return fmt::format("its {} drivers, which do not serve, are still being {}{}{}",
-                     reality_of(*twin.other.type),
-                     opening.empty() ? "made or closed" : "opened: ", opening,
-                     opening.empty() ? "" : " has not returned");
-}
-
 /// Who has not come to an end goes on in a thread of its own, with this engine and nothing else of
 /// the run.
 void Engine::Impl::leave_behind() noexcept {
-  for (Twin& twin : twins) {
-    if (twin.work.ready()) {
-      static_cast<void>(close_all(sim::take_open(twin.other)));
-      continue;
-    }
-    twin.left = true;
-    keep_loaded(spec, *twin.other.type);
-    twin.work.leave_alone();
-  }
+  hand_overs.leave_behind([this](const RobotType& type) { keep_loaded(spec, type); });
   // Programs and controllers, which no driver uses, end here as they would anyway. Of sensors the
   // threads may still read where their rays point.
-  for (RobotGroup& group : groups) {
+  for (RobotGroup& group : roster.groups) {
     group.program.processes.clear();
     group.program.instances.clear();
     for (ControllerSlots& controller : group.controllers) controller.instances.clear();

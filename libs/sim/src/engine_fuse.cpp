@@ -71,7 +71,7 @@ void Engine::Impl::sample_virtual_half(const SensorSlots& slots, RobotId robot, 
   FusionSlots& fusion = *slots.fusion;
   FusionWorld& past_world = *fusion_world;
   const SensorSpec& sensor = *slots.spec;
-  const auto device = static_cast<std::uint32_t>(&slots - group_of(robot).sensors.data());
+  const auto device = static_cast<std::uint32_t>(&slots - roster.group_of(robot).sensors.data());
   const SampleHeader& real = fusion.real_headers[member];
   SampleHeader& header = fusion.imagined_headers[member];
   std::byte* const records = fusion.imagined_records_of(member);

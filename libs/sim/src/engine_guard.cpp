@@ -4,6 +4,7 @@
 
 #include "engine_impl.hpp"
 #include "sensor_age.hpp"
+#include "spec_checks.hpp"
 
 namespace rave::sim {
 
@@ -16,14 +17,9 @@ void Engine::Impl::set_up_guards() {
     if (!type.simulated && !type.guard) guards[t] = GuardSpec{};
   }
   robot_guards.clear();
-  for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
-    robot_guards.emplace_back(GuardHolds{.armed = is_armed_at_first(r)});
+  for (const RobotSpec& robot : spec.robots) {
+    robot_guards.emplace_back(GuardHolds{.armed = is_armed_at_first(spec.types[robot.type])});
   }
-}
-
-bool Engine::Impl::is_armed_at_first(std::uint32_t robot) const {
-  const std::uint32_t type = spec.robots[robot].type;
-  return spec.types[type].simulated || !guards[type]->arm;
 }
 
 void Engine::Impl::find_neighbours(RobotId robot, double reach_m, Worker& worker) const {
@@ -103,14 +99,14 @@ void Engine::Impl::tell_guard(RobotId robot, const GuardSpec& limits, std::uint3
     const auto limit = static_cast<GuardLimit>(i);
     std::string text(text_of(limit));
     if (limit == GuardLimit::kSensorLost) {
-      text = sensor_lost_text(group_of(robot).sensors[lost_sensor]);
+      text = sensor_lost_text(roster.group_of(robot).sensors[lost_sensor]);
     }
     to.push_back({step, robot, event_of(limit, limits), BodyId(), std::move(text), i});
   }
 }
 
 void Engine::Impl::halt() noexcept {
-  for (RobotGroup& group : groups) halt(group);
+  for (RobotGroup& group : roster.groups) halt(group);
 }
 
 void Engine::Impl::halt(RobotGroup& group) noexcept {

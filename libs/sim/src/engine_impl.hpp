@@ -3,41 +3,28 @@
 
 #include <algorithm>
 #include <array>
-#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "answer_book.hpp"
 #include "history_ring.hpp"
 #include "host_part.hpp"
 #include "listed_fan.hpp"
-#include "order_book.hpp"
 #include "outlets.hpp"
 #include "pose_reading.hpp"
 #include "pose_track.hpp"
-#include "rave/base/check.hpp"
 #include "rave/base/crash_note.hpp"
 #include "rave/sim/engine.hpp"
 #include "rave/sim/thread_pool.hpp"
 #include "robot_group.hpp"
-#include "robot_guard.hpp"
-#include "twin.hpp"
+#include "run_inputs.hpp"
 #include "world_truth.hpp"
 
 namespace rave::sim {
 
 class Radio;
 struct RadioMoment;
-
-/// Members [begin, end) of a group: what one thread does at a time. Fixed once, so that results do
-/// not depend on how many threads there are.
-struct Block {
-  std::uint32_t group = 0;
-  std::uint32_t begin = 0;
-  std::uint32_t end = 0;
-};
 
 /// What each thread has of its own during a phase.
 struct Worker {
@@ -71,8 +58,17 @@ struct FusionWorld {
   FanScratch scratch;
 };
 
-/// The state of an engine. The phases are its functions, each in a file of its own.
-struct Engine::Impl {
+/// What sample_at() has looked at last.
+struct PastWorld {
+  std::unique_ptr<world::Snapshot> world;  ///< Made when it is first asked.
+  std::uint64_t obstacles = 0;             ///< The revision of the obstacles that it shows.
+  bool valid = false;                      ///< Still shows what is known of its time.
+  FanScratch scratch;
+};
+
+/// The state of an engine. The phases of a step are its functions, each in a file of its own; what
+/// is asked of a run between two steps is carried out by the classes that it holds.
+struct Engine::Impl final : private HandOvers::Site {
   explicit Impl(EngineSpec s);
   ~Impl();
 
@@ -84,15 +80,17 @@ struct Engine::Impl {
   /// What drivers did wrong with their samples. Told at the end, since when their threads did it is
   /// chance.
   void tell_complaints() const;
-  void tell_complaints(const RobotGroup& group) const;
+  void before_closing(const RobotGroup& group) const override;
   void tell_withheld(const RobotGroup& group, const SensorSlots& slots) const;
   /// Tells hardware to stand.
   void halt() noexcept;
-  void halt(RobotGroup& group) noexcept;
+  void halt(RobotGroup& group) noexcept override;
 
   Status step_alone();
   /// A step begins: its time, what is asked of it.
   void begin_step();
+  /// Samples of a step may change what the past looked like.
+  void forget_past();
   /// What each host does for its robots in a step: sense, radio, decide, act.
   void work(PhaseTimer& phase);
 
@@ -143,6 +141,9 @@ struct Engine::Impl {
   void hash_delivery(const RobotGroup& group, SensorSlots& slots, std::uint32_t device,
                      std::size_t member, RunHash& hash);
 
+  [[nodiscard]] GroupContext group_context() noexcept {
+    return {spec, roster.logs, radio.get(), nullptr, answers.service()};
+  }
   /// What a crash in a plug-in says of it; see CrashScope.
   [[nodiscard]] CrashNote crash_note(RobotId first, RobotId last, const char* part,
                                      const std::string& driver) const {
@@ -151,7 +152,7 @@ struct Engine::Impl {
   }
   [[nodiscard]] CrashNote crash_note(const Block& block, const char* part,
                                      const std::string& driver) const {
-    const std::vector<RobotId>& members = groups[block.group].members;
+    const std::vector<RobotId>& members = roster.groups[block.group].members;
     return crash_note(members[block.begin], members[block.end - 1], part, driver);
   }
 
@@ -194,12 +195,10 @@ struct Engine::Impl {
   /// Events of limits that begin to act, as bits. `lost_sensor`: as in GuardOutput.
   void tell_guard(RobotId robot, const GuardSpec& limits, std::uint32_t begun,
                   std::uint32_t lost_sensor, std::vector<Event>& to) const;
-  /// Whether a robot with the drivers that it has now need not be armed.
-  [[nodiscard]] bool is_armed_at_first(std::uint32_t robot) const;
 
   // engine_live.cpp: guards with threads of their own
   [[nodiscard]] Status start_guards();
-  [[nodiscard]] Status start_guards(RobotGroup& group);
+  [[nodiscard]] Status start_guards(RobotGroup& group) override;
   [[nodiscard]] Result<std::unique_ptr<GuardThread>> start_guard(RobotGroup& group,
                                                                  std::size_t member);
   void tell_of_guards() const;
@@ -210,87 +209,26 @@ struct Engine::Impl {
   void hear_guard(RobotGroup& group, std::uint32_t member);
   [[nodiscard]] std::shared_ptr<const world::Body> guard_body(RobotId robot);
 
-  // engine_exchange.cpp: robots with two sets of drivers
-  struct Arrival {
-    Pose2 X_WR;
-    PoseReading variance;
-    std::optional<Pose2> X_WM;
-    SimTime stamp;
-  };
-  void make_twins();
-  Status restore_twins();
-  Status open_other(Twin& twin);
-  void close_other(Twin& twin);
-  [[nodiscard]] Arrival arrival(const Twin& twin) const;
-  [[nodiscard]] Status check_near(const Twin& twin) const;
-  void exchange(Twin& twin);
-  void change_drivers(Twin& twin);
-  [[nodiscard]] Twin* find_twin(RobotId robot) noexcept;
-  [[nodiscard]] RobotGroup& group_of_twin(const Twin& twin) noexcept;
-
   // engine_end.cpp
   [[nodiscard]] bool shut() noexcept;
   /// False: some of the drivers do not come to an end. The log is told which.
-  [[nodiscard]] bool close_all(std::vector<ToClose> drivers);
+  [[nodiscard]] bool close_all(std::vector<ToClose> drivers) override;
   /// Of those that serve.
   [[nodiscard]] std::vector<ToClose> take_open();
-  [[nodiscard]] bool close_twins() noexcept;
   void leave_behind() noexcept;
-  [[nodiscard]] std::string still_busy(const Twin& twin) const;
 
-  // engine_hand_over.cpp: how they come to that
-  Status hand_over(RobotId robot, DriverSet to, const Author& author);
-  void begin_hand_overs();
-  void advance_hand_overs();
-  void advance(Twin& twin);
-  void close_late(Twin& twin);
-  void begin_stage(Twin& twin, Twin::Stage stage);
-  Status listen(Twin& twin);
-  [[nodiscard]] bool is_heard(const Twin& twin) const noexcept;
-  [[nodiscard]] bool stands(Twin& twin);
-  [[nodiscard]] bool moves_seen(const RobotGroup& group, std::uint32_t robot) const;
-  void refuse(Twin& twin, const std::string& why);
-  void end_hand_over(Twin& twin, EventKind kind, std::string text);
-
-  // engine_inputs.cpp: what is asked of a run between two steps
-  void note_input(RobotId robot, EventKind kind, std::string text, const Author& author);
-  void make_changes();
-  void make_change(const ScheduledChange& scheduled);
-  void stop(RobotId robot, const Author& author);
-  void release(RobotId robot, const Author& author);
-  void arm(RobotId robot, const Author& author);
-  Status change(RobotId robot, std::span<const ParameterChange> changes, const Author& author);
-  Result<ChangedObstacle> change_obstacle(const ObstacleChange& change, const Author& author);
-  void make_obstacle_changes();
-  /// The same for the snapshots of the past.
+  // engine_inputs.cpp: what follows for the engine from what is asked between two steps
+  void body_changed(RobotId robot);
   void obstacle_changed(const ObstacleChange& change);
-  void restore_obstacles();
+  /// Bodies and obstacles as they were at the start.
+  void restore_world();
+  void drivers_changed(RobotId robot, const Arrival& place) override;
+  void drivers_restored(RobotId robot) override;
+  Status order(const WorldInput& input);
+  Status place(const WorldInput& input);
   /// One of several hosts: what may be changed without the authority.
   [[nodiscard]] Status check_own(RobotId robot, std::span<const ParameterChange> changes) const;
-  void body_changed(RobotId robot);
-  void tell_program_of_body(RobotId robot);
-  void restore_bodies();
-
-  // engine_orders.cpp: what people ask of robots
-  [[nodiscard]] OrderSet takes(RobotId robot) const;
-  Status order(const WorldInput& input);
-  Status check_moved(const WorldInput& input);
-  Status order_text_for(const WorldInput& input);
-  Status order_motion(const WorldInput& input);
-  Status place(const WorldInput& input);
-  void steer_by(const WorldInput& input, std::uint32_t controller);
-  void tell_cancelled(const WorldInput& input, OrderedRobot& robot);
-  void give_back(RobotId id, OrderedRobot& robot);
-  /// False: there was none.
-  bool end_orders(const WorldInput& input, RobotId id);
-  void cancel_orders(const WorldInput& input);
-  void note_order(const WorldInput& input, EventKind kind);
-  [[nodiscard]] OrderedRobot& orders_of(RobotId robot);
-  void show_orders();
-  void hide_orders();
-  void take_answers();
-  void steer();
-  void look_at_goal(RobotId id, OrderedRobot& robot);
+  [[nodiscard]] OrderMoment order_moment() noexcept { return {step, now, reported, hash, events}; }
 
   // engine_split.cpp: one of several hosts
   Status propose(HostReport& report, PhaseTimer& phase);
@@ -302,37 +240,23 @@ struct Engine::Impl {
   Status catch_up(const WorldStep& world, const AuthorityState& state);
   void put_obstacles(std::span<const ObstacleChange> changes);
   void do_input(const WorldInput& input);
-  void do_order(const WorldInput& input);
   void adopt(const WorldStep& world);
   Status take_newer_samples();
-  [[nodiscard]] bool is_local(std::uint32_t robot) const noexcept { return local[robot] != 0; }
 
   void note(Event event) { events.push_back(std::move(event)); }
   [[nodiscard]] bool due(std::uint32_t period, std::uint32_t phase) const noexcept {
-    return step >= phase && (step - phase) % period == 0;
+    return is_due(step, period, phase);
   }
   [[nodiscard]] SimTime step_time(std::uint64_t k) const noexcept {
     return SimTime{static_cast<std::int64_t>(k) * spec.step.ns};
   }
-  /// Of a robot that runs here.
-  [[nodiscard]] const RobotGroup& group_of(RobotId robot) const noexcept {
-    RAVE_CHECK(is_local(robot.value()));
-    return groups[group_index[robot.value()]];
-  }
-
   EngineSpec spec;
   LogOutlet log_outlet;                     ///< Of the drivers.
   std::optional<ClockOutlet> clock_outlet;  ///< In live runs.
   bool is_shut = false;
-  bool is_in_use = false;           ///< By drivers that were closed and have not come to an end.
-  std::vector<std::uint8_t> local;  ///< By robot: runs here.
-  std::unique_ptr<HostPart> host;   ///< Null if all run here.
-  std::vector<RobotLog> logs;
-  std::deque<RobotGroup> groups;  ///< Deque: groups never move, views into them stay valid.
-  std::deque<Twin> twins;
-  std::vector<std::uint32_t> group_index;   ///< By robot; those that run elsewhere have none.
-  std::vector<std::uint32_t> member_index;  ///< By robot.
-  std::vector<Block> blocks;
+  bool is_in_use = false;  ///< By drivers that were closed and have not come to an end.
+  Roster roster;
+  std::unique_ptr<HostPart> host;  ///< Null if all run here.
   ThreadPool pool;
   ThreadPool::Effort refresh_effort, sense_effort, decide_effort, act_effort;
   std::vector<Worker> workers;
@@ -341,31 +265,26 @@ struct Engine::Impl {
 
   std::uint64_t step = 0;
   SimTime now;
-  std::unique_ptr<world::Snapshot> past;  ///< For sample_at(); made when it is first asked.
-  std::uint64_t past_obstacles = 0;       ///< The revision of the obstacles that it shows.
-  bool past_valid = false;                ///< Still shows what is known of its time.
+  PastWorld past;
   HistoryRing history;
   std::vector<ReportedPose> reported;
   std::vector<PoseTrack> tracks;
   MotionWatch motion_watch;
   double moves_m = 0;  ///< How far pieces of robots have moved since sensors looked last.
   std::vector<Event> events;
-  std::vector<Event> pending;                    ///< Of inputs, for the next step.
   std::vector<std::optional<GuardSpec>> guards;  ///< By type.
   std::vector<RobotGuard> robot_guards;          ///< By robot.
   SimTime work_began;                            ///< Of this step, by the clock of a live run.
   /// By robot, as far as guards with threads of their own know them. Shared with these.
   std::vector<std::shared_ptr<const world::Body>> guard_bodies;
   Duration world_age;
-  std::uint64_t by_hand = 0;
-  std::size_t next_change = 0;
-  std::size_t next_hand_over = 0;  ///< Of spec.hand_overs.
-  std::size_t next_obstacle = 0;   ///< Of spec.obstacle_changes.
   RunHash hash;
   PhaseTimes phase_times;
-  FanScratch past_scratch;
-  std::unique_ptr<OrderBook> orders;  ///< Null: nobody has asked anything of a robot yet.
   AnswerBook answers;
+  InputLog input_log{hash};
+  OrderBook orders{spec, roster, input_log};
+  HandOvers hand_overs;
+  RunInputs inputs;
   std::unique_ptr<FusionWorld> fusion_world;  ///< Null without hybrid sensors.
 };
 

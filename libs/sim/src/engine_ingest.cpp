@@ -56,7 +56,7 @@ Status Engine::Impl::ingest() {
 }
 
 Status Engine::Impl::ingest_sensors(bool hybrid) {
-  for (RobotGroup& group : groups) {
+  for (RobotGroup& group : roster.groups) {
     for (SensorSlots& slots : group.sensors) {
       if (slots.is_virtual() || (slots.fusion != nullptr) != hybrid) continue;
       for (std::size_t m = 0; m < group.members.size(); ++m) {
@@ -187,13 +187,13 @@ void Engine::Impl::note_reported_pose(RobotGroup& group, const SensorSlots& slot
 }
 
 void Engine::Impl::refresh_reported() {
-  pool.for_each_block(blocks.size(), refresh_effort, [this](std::size_t b, unsigned w) {
-    const RobotGroup& group = groups[blocks[b].group];
+  pool.for_each_block(roster.blocks.size(), refresh_effort, [this](std::size_t b, unsigned w) {
+    const RobotGroup& group = roster.groups[roster.blocks[b].group];
     if (group.type->pose_from) {
-      refresh_told(blocks[b], workers[w]);
+      refresh_told(roster.blocks[b], workers[w]);
       return;
     }
-    for (std::uint32_t m = blocks[b].begin; m < blocks[b].end; ++m) {
+    for (std::uint32_t m = roster.blocks[b].begin; m < roster.blocks[b].end; ++m) {
       refresh_true(group.members[m].value());
     }
   });
@@ -216,7 +216,7 @@ void Engine::Impl::refresh_true(std::uint32_t robot) {
 }
 
 void Engine::Impl::refresh_told(const Block& block, Worker& worker) {
-  const RobotGroup& group = groups[block.group];
+  const RobotGroup& group = roster.groups[block.group];
   for (std::uint32_t m = block.begin; m < block.end; ++m) {
     const RobotId robot = group.members[m];
     const std::uint32_t r = robot.value();

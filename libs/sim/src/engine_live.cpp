@@ -43,7 +43,7 @@ std::string list_of(const std::vector<std::string>& parts) {
 
 Status Engine::Impl::start_guards() {
   guard_bodies.clear();
-  for (RobotGroup& group : groups) RAVE_TRY(start_guards(group));
+  for (RobotGroup& group : roster.groups) RAVE_TRY(start_guards(group));
   tell_of_guards();
   return {};
 }
@@ -102,7 +102,7 @@ void Engine::Impl::tell_of_guards() const {
   if (spec.log == nullptr) return;
   std::vector<std::string> without_watchdog;
   bool without_priority = false;
-  for (const RobotGroup& group : groups) {
+  for (const RobotGroup& group : roster.groups) {
     for (std::size_t m = 0; m < group.guards.size(); ++m) {
       if (!group.has_guard(m)) continue;
       without_priority = without_priority || !group.guards[m].thread->has_priority();

@@ -14,15 +14,15 @@ void Engine::Impl::look_back(SimTime stamp) {
     if (history[i - 1].time <= stamp) frame = &history[i - 1];
   }
   for (std::uint32_t r = 0; frame != nullptr && r < truth.movers.size(); ++r) {
-    world::RobotState state = past->robot(RobotId(r));
+    world::RobotState state = past.world->robot(RobotId(r));
     state.velocity_W = frame->robots[r].velocity_W;
-    past->set_robot(RobotId(r), state);
-    past->set_touch(RobotId(r), frame->touch[r]);
+    past.world->set_robot(RobotId(r), state);
+    past.world->set_touch(RobotId(r), frame->touch[r]);
   }
-  truth.journal.show(*past, past_obstacles, truth.journal.revision_at(stamp));
-  past->set_time(stamp);
-  past->rebuild();
-  past_valid = true;
+  truth.journal.show(*past.world, past.obstacles, truth.journal.revision_at(stamp));
+  past.world->set_time(stamp);
+  past.world->rebuild();
+  past.valid = true;
 }
 
 Result<Pose2> Engine::pose_at(RobotId robot, SimTime stamp) const {
@@ -58,20 +58,20 @@ Result<SampleHeader> Engine::sample_at(RobotId robot, std::uint32_t sensor, SimT
     return fail(ErrorCode::kInvalidArgument, "robot `{}` runs on another host",
                 engine.spec.robots[robot.value()].name);
   }
-  RobotGroup& group = engine.groups[engine.group_index[robot.value()]];
+  RobotGroup& group = engine.roster.group_of(robot);
   SensorSlots& slots = group.sensors[sensor];
   if (!slots.is_virtual()) {
     return fail(ErrorCode::kInvalidArgument, "sensor `{}` is not virtual", slots.spec->name);
   }
   RAVE_TRY_ASSIGN(const Pose2 X_WR, pose_at(robot, stamp));
-  if (!engine.past) {
-    engine.past = std::make_unique<world::Snapshot>(engine.spec.world);
-    engine.past_obstacles = engine.truth.journal.revision();
+  if (!engine.past.world) {
+    engine.past.world = std::make_unique<world::Snapshot>(engine.spec.world);
+    engine.past.obstacles = engine.truth.journal.revision();
   }
-  if (!engine.past_valid || engine.past->time() != stamp) {
+  if (!engine.past.valid || engine.past.world->time() != stamp) {
     for (std::uint32_t r = 0; r < engine.truth.movers.size(); ++r) {
       const auto pose = pose_at(RobotId(r), stamp);
-      engine.past->set_robot(RobotId(r), {pose.value_or(Pose2{}), {}, pose.has_value()});
+      engine.past.world->set_robot(RobotId(r), {pose.value_or(Pose2{}), {}, pose.has_value()});
     }
     engine.look_back(stamp);
   }
@@ -79,8 +79,8 @@ Result<SampleHeader> Engine::sample_at(RobotId robot, std::uint32_t sensor, SimT
   header.stamp_ns = stamp.ns;
   if (slots.uses_fan) {
     std::vector<std::uint32_t> bodies(slots.capacity);
-    cast_fan(*engine.past, slots.fan, sensor_place(X_WR, slots.spec->X_RS), slots.spec->z_m,
-             engine.past->body_of(robot), engine.past_scratch,
+    cast_fan(*engine.past.world, slots.fan, sensor_place(X_WR, slots.spec->X_RS), slots.spec->z_m,
+             engine.past.world->body_of(robot), engine.past.scratch,
              {static_cast<float*>(records), slots.capacity}, bodies);
     header.count = slots.capacity;
     return header;
@@ -99,7 +99,7 @@ Result<SampleHeader> Engine::sample_at(RobotId robot, std::uint32_t sensor, SimT
   item.state = state.data();
   std::uint8_t failed = 0;
   ErrorText error;
-  slots.spec->virtual_ops->sample(slots.instances.at(0), engine.past.get(), &item, 1, &failed,
+  slots.spec->virtual_ops->sample(slots.instances.at(0), engine.past.world.get(), &item, 1, &failed,
                                   &error);
   if (failed != 0) return fail(ErrorCode::kPlugin, "{}", error.text);
   header.count = std::min(header.count, slots.capacity);

@@ -16,13 +16,13 @@ void Engine::Impl::carry_messages() {
   if (radio->empty()) return;
   const RadioMoment moment = radio_moment();
   for (std::uint32_t r = 0; r < truth.movers.size(); ++r) {
-    if (!is_local(r)) continue;
-    const ProgramSlots& program = groups[group_index[r]].program;
+    if (!roster.is_local(RobotId(r))) continue;
+    const ProgramSlots& program = roster.group_of(RobotId(r)).program;
     if (program.spec == nullptr) {
       // Nobody reads its mailbox.
       radio->collect(moment, RobotId(r), false);
     } else if (due(program.spec->period_steps, program.spec->phase_steps)) {
-      radio->collect(moment, RobotId(r), program.failed[member_index[r]] == 0);
+      radio->collect(moment, RobotId(r), program.failed[roster.member_of(RobotId(r))] == 0);
     }
   }
   if (!host) {

@@ -10,12 +10,13 @@ namespace rave::sim {
 
 void Engine::Impl::sense() {
   moves_m = motion_watch.look(truth.snapshot);
-  pool.for_each_block(blocks.size(), sense_effort,
-                      [this](std::size_t b, unsigned w) { sense_block(blocks[b], workers[w]); });
+  pool.for_each_block(roster.blocks.size(), sense_effort, [this](std::size_t b, unsigned w) {
+    sense_block(roster.blocks[b], workers[w]);
+  });
 }
 
 void Engine::Impl::sense_block(const Block& block, Worker& worker) {
-  RobotGroup& group = groups[block.group];
+  RobotGroup& group = roster.groups[block.group];
   for (std::uint32_t device = 0; device < group.sensors.size(); ++device) {
     SensorSlots& slots = group.sensors[device];
     if (!slots.is_virtual()) continue;

@@ -12,12 +12,6 @@
 namespace rave::sim {
 namespace {
 
-bool of_body(const ScheduledChange& scheduled) {
-  return std::any_of(scheduled.changes.begin(), scheduled.changes.end(), [](const auto& change) {
-    return change.part == ParameterChange::Part::kBody;
-  });
-}
-
 /// What of a change of an obstacle has not been made yet in this world; ids of new ones ascend.
 std::optional<ObstacleChange> left_to_do(const world::WorldModel& world,
                                          const ObstacleChange& change) {
@@ -60,8 +54,7 @@ Status Engine::propose(HostReport& report) {
 Status Engine::Impl::propose(HostReport& report, PhaseTimer& phase) {
   if (host->begun) {
     // Inputs since the step began are events of it.
-    events.insert(events.end(), pending.begin(), pending.end());
-    pending.clear();
+    input_log.add_to(events);
     work(phase);
     publish();
     phase.ends(Phase::kPublish);
@@ -75,15 +68,12 @@ Status Engine::Impl::propose(HostReport& report, PhaseTimer& phase) {
   // What hardware says of the next step does not depend on where the authority lets robots go, and
   // the authority needs to know where the real ones are.
   now = step_time(step);
-  if (!twins.empty()) {
-    begin_hand_overs();
-    advance_hand_overs();
-  }
-  past_valid = false;
-  if (fusion_world) fusion_world->valid = false;
+  if (!hand_overs.empty()) hand_overs.advance(step);
+  forget_past();
   RAVE_TRY(ingest_sensors(false));
-  pool.for_each_block(blocks.size(), refresh_effort, [this](std::size_t b, unsigned w) {
-    if (groups[blocks[b].group].type->pose_from) refresh_told(blocks[b], workers[w]);
+  pool.for_each_block(roster.blocks.size(), refresh_effort, [this](std::size_t b, unsigned w) {
+    if (roster.groups[roster.blocks[b].group].type->pose_from)
+      refresh_told(roster.blocks[b], workers[w]);
   });
   phase.ends(Phase::kIngest);
   host->proposed = true;
@@ -141,9 +131,7 @@ Status Engine::join(const WorldStep& world, const AuthorityState& state) {
   engine.step = world.step;
   engine.now = engine.step_time(world.step);
   // The time that this host was not there is none in which a hand-over came to nothing.
-  for (Twin& twin : engine.twins) {
-    if (twin.stage != Twin::Stage::kIdle) twin.since = twin.moved_at = engine.now;
-  }
+  engine.hand_overs.skip_to(world.step);
   RAVE_TRY(engine.catch_up(world, state));
   RAVE_TRY(engine.take_newer_samples());
   // The authority has had what it needs of that time from nobody, and needs it no more.
@@ -164,9 +152,7 @@ Status Engine::Impl::catch_up(const WorldStep& world, const AuthorityState& stat
   }
   for (const ResizedRobot& resized : state.scales) {
     if (truth.scale_of(resized.robot) == resized.scale) continue;
-    RAVE_TRY(truth.put_scale(resized.robot, resized.scale));
-    body_changed(resized.robot);
-    tell_program_of_body(resized.robot);
+    RAVE_TRY(inputs.resize(resized));
   }
   return check_world_step(spec, world);
 }
@@ -174,8 +160,8 @@ Status Engine::Impl::catch_up(const WorldStep& world, const AuthorityState& stat
 /// What hardware has said since the step was proposed.
 Status Engine::Impl::take_newer_samples() {
   RAVE_TRY(ingest_sensors(false));
-  for (const Block& block : blocks) {
-    if (groups[block.group].type->pose_from) refresh_told(block, workers[0]);
+  for (const Block& block : roster.blocks) {
+    if (roster.groups[block.group].type->pose_from) refresh_told(block, workers[0]);
   }
   return {};
 }
@@ -191,7 +177,7 @@ Status Engine::Impl::check(const WorldStep& world) const {
 Status Engine::Impl::apply(const WorldStep& world, bool was_there, PhaseTimer& phase) {
   host->proposed = false;
   host->begun = true;
-  past_valid = false;
+  past.valid = false;
   if (was_there && step > 0 && !radio->empty()) {
     // Who hears a message is decided in the world in which it was sent.
     const RadioMoment moment{
@@ -210,18 +196,11 @@ Status Engine::Impl::apply(const WorldStep& world, bool was_there, PhaseTimer& p
 
 Status Engine::Impl::make_changes(const WorldStep& world) {
   for (const ResizedRobot& resized : world.resized) {
-    RAVE_TRY(truth.put_scale(resized.robot, resized.scale));
-    body_changed(resized.robot);
-    tell_program_of_body(resized.robot);
+    RAVE_TRY(inputs.resize(resized));
   }
   put_obstacles(world.obstacles);
   for (const WorldInput& input : world.inputs) do_input(input);
-  for (; next_change < spec.changes.size() && spec.changes[next_change].step <= step;
-       ++next_change) {
-    const ScheduledChange& scheduled = spec.changes[next_change];
-    if (!is_local(scheduled.robot.value()) || of_body(scheduled)) continue;
-    make_change(scheduled);
-  }
+  inputs.make_scheduled_here(step);
   return {};
 }
 
@@ -235,30 +214,21 @@ void Engine::Impl::put_obstacles(std::span<const ObstacleChange> changes) {
 void Engine::Impl::do_input(const WorldInput& input) {
   switch (input.kind) {
     case WorldInput::Kind::kStop:
-      stop(input.robot, input.author);
-      return;
+      return inputs.stop(step, input.robot, input.author);
     case WorldInput::Kind::kRelease:
-      release(input.robot, input.author);
-      return;
+      return inputs.release(step, input.robot, input.author);
     case WorldInput::Kind::kArm:
-      arm(input.robot, input.author);
-      return;
+      return inputs.arm(step, input.robot, input.author);
     case WorldInput::Kind::kObstacle:
     case WorldInput::Kind::kPlace:
       return;  // the authority has done it
-    case WorldInput::Kind::kChange:
-      break;
     default:
-      return do_order(input);
+      break;
   }
-  if (!is_local(input.robot.value())) return;
-  const Status status = change(input.robot, input.changes, input.author);
-  if (!status) host->refusals.push_back({input.sequence, status.error().text()});
-}
-
-void Engine::Impl::do_order(const WorldInput& input) {
-  if (input.robot.valid() && !is_local(input.robot.value())) return;
-  const Status status = order(input);
+  if (input.robot.valid() && !roster.is_local(input.robot)) return;
+  const Status status = input.kind == WorldInput::Kind::kChange
+                            ? inputs.change(step, input.robot, input.changes, input.author)
+                            : order(input);
   if (!status) host->refusals.push_back({input.sequence, status.error().text()});
 }
 
@@ -280,11 +250,10 @@ void Engine::Impl::adopt(const WorldStep& world) {
     truth.touch[point.robot.value()] = {true, point.direction_W};
   }
   for (const PoseReport& pose : world.poses) {
-    if (!is_local(pose.robot.value())) reported[pose.robot.value()] = pose.reported;
+    if (!roster.is_local(pose.robot)) reported[pose.robot.value()] = pose.reported;
   }
   for (const PoseSample& sample : world.samples) {
-    if (!is_local(sample.robot.value()))
-      tracks[sample.robot.value()].add(sample.stamp, sample.X_WR);
+    if (!roster.is_local(sample.robot)) tracks[sample.robot.value()].add(sample.stamp, sample.X_WR);
   }
 }
 

@@ -2,43 +2,288 @@
 #include "order_book.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "order_checks.hpp"
 
 namespace rave::sim {
+namespace {
 
-void OrderedRobot::wait_for_program(const WorldInput& input) {
-  const bool text = input.kind == WorldInput::Kind::kText;
-  if (!text) {
-    std::erase_if(waiting,
-                  [](const WorldInput& one) { return one.kind != WorldInput::Kind::kText; });
-  } else if (waiting.size() >= kMostWaitingOrders) {
-    const auto oldest = std::find_if(waiting.begin(), waiting.end(), [](const WorldInput& one) {
-      return one.kind == WorldInput::Kind::kText;
-    });
-    waiting.erase(oldest);
+using InputKind = WorldInput::Kind;
+
+/// Of a goal for a controller that does not say its own.
+constexpr double kTolerance_m = 0.1;
+constexpr std::string_view kToleranceParam = "tolerance_m";
+
+/// The first controller of a robot that accepts a kind of command, with an actuator that obeys.
+std::optional<std::uint32_t> controller_for(const RobotGroup& group, std::size_t m,
+                                            CommandKind kind) {
+  for (std::uint32_t c = 0; c < group.controllers.size(); ++c) {
+    const ControllerSpec& spec = *group.controllers[c].spec;
+    if (spec.accepts == kind && group.actuators[spec.actuator].obeys[m] != 0) return c;
   }
-  waiting.push_back(input);
+  return std::nullopt;
 }
 
-void OrderedRobot::show() {
-  shown.swap(waiting);
-  waiting.clear();
-  items.clear();
-  for (const WorldInput& input : shown) {
-    OrderItem& item = items.emplace_back();
-    const OrderDetails& order = input.order;
-    item.kind = order_kind(input.kind);
-    item.points = order.points_W.data();
-    item.point_count = static_cast<std::uint32_t>(order.points_W.size());
-    item.has_yaw = order.yaw_rad ? 1 : 0;
-    item.yaw_rad = order.yaw_rad.value_or(0);
-    item.speed_mps = order.speed_mps;
-    item.text = order.text.data();
-    item.text_size = static_cast<std::uint32_t>(order.text.size());
-    item.by = input.author.name.data();
-    item.by_size = static_cast<std::uint32_t>(input.author.name.size());
+bool takes_by_program(const RobotGroup& group, std::size_t m, OrderKind kind) {
+  const ProgramSlots& program = group.program;
+  return program.spec != nullptr && program.failed[m] == 0 &&
+         has_order(program.spec->takes(), kind);
+}
+
+double tolerance_of(const ControllerSlots& slots, std::size_t m) {
+  const auto values = slots.changed[m] ? slots.changed[m]->values() : slots.spec->params.values();
+  for (const ParamValue& value : values) {
+    if (kToleranceParam == value.name) return value.number;
   }
+  return kTolerance_m;
+}
+
+Command command_of(const WorldInput& input) {
+  const OrderDetails& order = input.order;
+  if (input.kind == InputKind::kDrive) return velocity_command(order.v_mps, order.w_radps);
+  return goal_command(order.points_W.front().x, order.points_W.front().y, order.speed_mps);
+}
+
+}  // namespace
+
+OrderedRobot* OrderBook::find(RobotId robot) noexcept {
+  const auto found = robots_.find(robot.value());
+  return found == robots_.end() ? nullptr : &found->second;
+}
+
+std::string OrderBook::under_way(RobotId robot) const {
+  const auto found = robots_.find(robot.value());
+  return found == robots_.end() ? std::string() : found->second.under_way;
+}
+
+OrderSet OrderBook::takes(RobotId robot) const {
+  const RobotGroup& group = roster_.group_of(robot);
+  const std::size_t m = roster_.member_of(robot);
+  OrderSet set = 0;
+  if (group.type->simulated) set |= order_bit(OrderKind::kPlace);
+  if (controller_for(group, m, CommandKind::kVelocity)) set |= order_bit(OrderKind::kDrive);
+  if (controller_for(group, m, CommandKind::kGoal)) set |= order_bit(OrderKind::kGoal);
+  for (const OrderKind kind : {OrderKind::kGoal, OrderKind::kPath, OrderKind::kText}) {
+    if (takes_by_program(group, m, kind)) set |= order_bit(kind);
+  }
+  return set;
+}
+
+Status OrderBook::take(std::uint64_t step, const WorldInput& input, const GuardHolds& holds,
+                       bool handed_over) {
+  if (input.kind == InputKind::kText) return take_text(step, input);
+  if (holds.stopped) {
+    return refused_order(spec_, input, ErrorCode::kState,
+                         "it is stopped; a stop holds until it is released");
+  }
+  if (!holds.armed) {
+    return refused_order(spec_, input, ErrorCode::kState, "it waits to be armed");
+  }
+  if (handed_over) {
+    return refused_order(spec_, input, ErrorCode::kState, "it is being handed over");
+  }
+  return take_motion(step, input);
+}
+
+Status OrderBook::take_text(std::uint64_t step, const WorldInput& input) {
+  const RobotGroup& group = roster_.group_of(input.robot);
+  if (!takes_by_program(group, roster_.member_of(input.robot), OrderKind::kText)) {
+    return refused_order(spec_, input, ErrorCode::kInvalidArgument, "its program takes no texts");
+  }
+  robots_[input.robot.value()].wait_for_program(input);
+  log_.note_order(step, input, EventKind::kOrdered);
+  return {};
+}
+
+Status OrderBook::take_motion(std::uint64_t step, const WorldInput& input) {
+  const RobotGroup& group = roster_.group_of(input.robot);
+  const std::size_t m = roster_.member_of(input.robot);
+  const bool drive = input.kind == InputKind::kDrive;
+  if (!drive && takes_by_program(group, m, order_kind(input.kind))) {
+    give_to_program(step, input);
+    return {};
+  }
+  if (input.kind == InputKind::kPath) {
+    return refused_order(spec_, input, ErrorCode::kInvalidArgument, "its program takes no paths");
+  }
+  const auto controller =
+      controller_for(group, m, drive ? CommandKind::kVelocity : CommandKind::kGoal);
+  if (!controller) {
+    return refused_order(spec_, input, ErrorCode::kInvalidArgument,
+                         drive ? "none of its controllers takes a velocity that an actuator obeys"
+                               : "neither its program nor one of its controllers takes goals");
+  }
+  give_to_controller(step, input, *controller);
+  return {};
+}
+
+void OrderBook::give_to_program(std::uint64_t step, const WorldInput& input) {
+  OrderedRobot& robot = robots_[input.robot.value()];
+  give_back(input.robot, robot);
+  robot.of_program = true;
+  robot.under_way = order_text(input);
+  robot.by = input.author.name;
+  robot.wait_for_program(input);
+  log_.note_order(step, input, EventKind::kOrdered);
+}
+
+/// A controller does what is asked, in the place of the program.
+void OrderBook::give_to_controller(std::uint64_t step, const WorldInput& input,
+                                   std::uint32_t controller) {
+  RobotGroup& group = roster_.group_of(input.robot);
+  const std::size_t m = roster_.member_of(input.robot);
+  const bool drive = input.kind == InputKind::kDrive;
+  OrderedRobot& robot = robots_[input.robot.value()];
+  // A stick speaks many times a second: that somebody drives is told once.
+  const bool goes_on = drive && robot.driven && robot.by == input.author.name;
+  if (!goes_on) give_back(input.robot, robot);
+  if (robot.of_program) tell_cancelled(input, robot);
+  robot.controller = controller;
+  robot.command = command_of(input);
+  robot.driven = drive;
+  robot.reached = false;
+  robot.tolerance_m = drive ? 0 : tolerance_of(group.controllers[controller], m);
+  robot.under_way = drive ? "drive" : order_text(input);
+  robot.by = input.author.name;
+  group.program.items[m].driven = 1;
+  if (goes_on) {
+    log_.count_order(step, input, EventKind::kOrdered);
+  } else {
+    log_.note_order(step, input, EventKind::kOrdered);
+  }
+}
+
+/// The program learns that what it was asked for counts no more.
+void OrderBook::tell_cancelled(const WorldInput& input, OrderedRobot& robot) {
+  WorldInput cancel;
+  cancel.kind = InputKind::kCancel;
+  cancel.author = input.author;
+  cancel.robot = input.robot;
+  robot.of_program = false;
+  robot.wait_for_program(cancel);
+}
+
+/// The program has the controllers of a robot again.
+void OrderBook::give_back(RobotId id, OrderedRobot& robot) {
+  if (!robot.controller) return;
+  RobotGroup& group = roster_.group_of(id);
+  const std::size_t m = roster_.member_of(id);
+  ControllerSlots& slots = group.controllers[*robot.controller];
+  // It stands until the program speaks.
+  slots.last[m] = {};
+  slots.last_step[m] = -1;
+  robot.controller.reset();
+  robot.driven = false;
+  group.program.items[m].driven = 0;
+}
+
+bool OrderBook::end(const WorldInput& input, RobotId id) {
+  OrderedRobot* const robot = find(id);
+  if (robot == nullptr || robot->under_way.empty()) return false;
+  give_back(id, *robot);
+  WorldInput own = input;
+  own.robot = id;
+  if (robot->of_program) tell_cancelled(own, *robot);
+  robot->under_way.clear();
+  robot->by.clear();
+  return true;
+}
+
+bool OrderBook::end(RobotId robot, const Author& author) {
+  WorldInput cancel;
+  cancel.author = author;
+  return end(cancel, robot);
+}
+
+void OrderBook::cancel(std::uint64_t step, const WorldInput& input) {
+  for (const auto& [r, robot] : robots_) {
+    if (input.robot.valid() && input.robot.value() != r) continue;
+    WorldInput own = input;
+    own.robot = RobotId(r);
+    if (end(own, own.robot)) log_.note_order(step, own, EventKind::kOrdered);
+  }
+}
+
+void OrderBook::show(std::uint64_t step) {
+  for (auto& [r, robot] : robots_) {
+    if (robot.waiting.empty()) continue;
+    RobotGroup& group = roster_.group_of(RobotId(r));
+    ProgramSlots& program = group.program;
+    const std::size_t m = roster_.member_of(RobotId(r));
+    if (program.spec == nullptr || program.failed[m] != 0) {
+      robot.waiting.clear();
+      continue;
+    }
+    if (!is_due(step, program.spec->period_steps, program.spec->phase_steps)) continue;
+    robot.show();
+    program.items[m].orders = robot.items.data();
+    program.items[m].order_count = static_cast<std::uint32_t>(robot.items.size());
+  }
+}
+
+void OrderBook::hide() {
+  for (auto& [r, robot] : robots_) {
+    if (robot.shown.empty()) continue;
+    DecideItem& item = roster_.group_of(RobotId(r)).program.items[roster_.member_of(RobotId(r))];
+    item.orders = nullptr;
+    item.order_count = 0;
+    robot.shown.clear();
+  }
+}
+
+void OrderBook::take_answers(const OrderMoment& moment, AnswerBook& answers) {
+  std::uint32_t number = 0;
+  std::uint32_t of_robot = RobotId::kNone;
+  for (AnswerBook::Answer& answer : answers.take(static_cast<std::int64_t>(moment.now.seconds()))) {
+    const RobotId id(answer.robot);
+    number = answer.robot == of_robot ? number + 1 : 0;
+    of_robot = answer.robot;
+    ItemHash item(moment.step, answer.robot, HashChannel::kCommand, 0x8000'0000U | number);
+    item.add_bytes(std::as_bytes(std::span(answer.text)));
+    moment.hash.add(item);
+    if (!answer.text.empty()) {
+      moment.events.push_back(
+          {moment.step, id, EventKind::kSaid, BodyId(), std::move(answer.text)});
+    }
+    OrderedRobot* const robot = answer.done ? find(id) : nullptr;
+    if (robot == nullptr || !robot->of_program) continue;
+    robot->of_program = false;
+    robot->under_way.clear();
+    robot->by.clear();
+  }
+}
+
+void OrderBook::steer(const OrderMoment& moment) {
+  for (auto& [r, robot] : robots_) {
+    if (!robot.controller) continue;
+    RobotGroup& group = roster_.group_of(RobotId(r));
+    const std::size_t m = roster_.member_of(RobotId(r));
+    ControllerSlots& own = group.controllers[*robot.controller];
+    const auto present = static_cast<std::int64_t>(moment.step);
+    for (ControllerSlots& slots : group.controllers) {
+      // The one that was given a command last speaks to the actuator.
+      if (slots.spec->actuator != own.spec->actuator) continue;
+      slots.last_step[m] = std::min(slots.last_step[m], present - 1);
+    }
+    own.last[m] = robot.command;
+    own.last_step[m] = present;
+    if (!robot.driven && !robot.reached) look_at_goal(moment, RobotId(r), robot);
+  }
+}
+
+void OrderBook::look_at_goal(const OrderMoment& moment, RobotId id, OrderedRobot& robot) {
+  const ReportedPose& pose = moment.reported[id.value()];
+  const double dx_m = robot.command.value[0] - pose.pose.x_m;
+  const double dy_m = robot.command.value[1] - pose.pose.y_m;
+  const bool there = pose.known && !pose.stale &&
+                     dx_m * dx_m + dy_m * dy_m <= robot.tolerance_m * robot.tolerance_m;
+  if (!there) return;
+  robot.reached = true;
+  moment.events.push_back(
+      {moment.step, id, EventKind::kOrdered, BodyId(), robot.under_way + ": reached"});
+  robot.under_way += ", reached";
 }
 
 }  // namespace rave::sim

@@ -4,12 +4,17 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "answer_book.hpp"
+#include "input_log.hpp"
 #include "rave/robot/command.hpp"
 #include "rave/robot/order.hpp"
 #include "rave/sim/world_input.hpp"
+#include "robot_guard.hpp"
+#include "roster.hpp"
 
 namespace rave::sim {
 
@@ -35,18 +40,68 @@ struct OrderedRobot {
   void show();
 };
 
-/// The robots that people have asked something of, by number: nothing for all others.
+/// A step in which orders are carried out. Views into the engine.
+struct OrderMoment {
+  std::uint64_t step = 0;
+  SimTime now;
+  std::span<const ReportedPose> reported;  ///< By robot.
+  RunHash& hash;
+  std::vector<Event>& events;  ///< Of the step.
+};
+
+/// What people have asked of robots that run here, and what becomes of it: orders wait for
+/// programs, or take the place of what programs give to controllers. Costs nothing while it is
+/// empty. Belongs to the thread of the engine.
 class OrderBook {
  public:
-  [[nodiscard]] OrderedRobot& at(RobotId robot) { return robots_[robot.value()]; }
-  [[nodiscard]] OrderedRobot* find(RobotId robot) noexcept {
-    const auto found = robots_.find(robot.value());
-    return found == robots_.end() ? nullptr : &found->second;
-  }
-  [[nodiscard]] std::map<std::uint32_t, OrderedRobot>& robots() noexcept { return robots_; }
+  /// All must outlive it.
+  OrderBook(const EngineSpec& spec, Roster& roster, InputLog& log)
+      : spec_(spec), roster_(roster), log_(log) {}
+
+  /// A run begins: nobody has asked anything yet.
+  void clear() { robots_.clear(); }
+  [[nodiscard]] bool empty() const noexcept { return robots_.empty(); }
+  /// Which orders a robot that runs here takes now.
+  [[nodiscard]] OrderSet takes(RobotId robot) const;
+  /// The order that a robot is carrying out, for people; empty: none.
+  [[nodiscard]] std::string under_way(RobotId robot) const;
+
+  // Between two steps; `step` comes next.
+
+  /// A text, or an order to move, which `holds` and a hand-over may forbid. Errors: kState (it may
+  /// not move), kInvalidArgument (the robot does not take it).
+  Status take(std::uint64_t step, const WorldInput& input, const GuardHolds& holds,
+              bool handed_over);
+  /// Ends what was asked of the robot of `input`, or of all if it has none.
+  void cancel(std::uint64_t step, const WorldInput& input);
+  /// Ends what was asked of one, without a note. False: there was nothing.
+  bool end(RobotId robot, const Author& author);
+
+  // In a step, in this order.
+
+  /// Programs that decide in this step get what waits for them.
+  void show(std::uint64_t step);
+  /// What programs said becomes events, and part of the hash; orders may be done with it.
+  void take_answers(const OrderMoment& moment, AnswerBook& answers);
+  void hide();
+  /// What is asked of controllers takes the place of what programs gave them.
+  void steer(const OrderMoment& moment);
 
  private:
-  std::map<std::uint32_t, OrderedRobot> robots_;
+  Status take_text(std::uint64_t step, const WorldInput& input);
+  Status take_motion(std::uint64_t step, const WorldInput& input);
+  void give_to_program(std::uint64_t step, const WorldInput& input);
+  void give_to_controller(std::uint64_t step, const WorldInput& input, std::uint32_t controller);
+  void tell_cancelled(const WorldInput& input, OrderedRobot& robot);
+  void give_back(RobotId id, OrderedRobot& robot);
+  [[nodiscard]] bool end(const WorldInput& input, RobotId id);
+  static void look_at_goal(const OrderMoment& moment, RobotId id, OrderedRobot& robot);
+  [[nodiscard]] OrderedRobot* find(RobotId robot) noexcept;
+
+  const EngineSpec& spec_;
+  Roster& roster_;
+  InputLog& log_;
+  std::map<std::uint32_t, OrderedRobot> robots_;  ///< By number: nothing for all others.
 };
 
 }  // namespace rave::sim

@@ -95,8 +95,7 @@ bool is_inside(const std::vector<Vec2>& corners, Vec2 p) {
 
 tl::unexpected<Error> wrong(const EngineSpec& spec, const WorldInput& input,
                             const std::string& what) {
-  return fail(ErrorCode::kInvalidArgument, "robot `{}`, {}: {}",
-              spec.robots[input.robot.value()].name, to_string(order_kind(input.kind)), what);
+  return refused_order(spec, input, ErrorCode::kInvalidArgument, what);
 }
 
 Status check_point(const EngineSpec& spec, const WorldInput& input, const Box& box, Vec2 p_W) {
@@ -263,6 +262,12 @@ std::string order_text(const WorldInput& input) {
   }
   if (order.yaw_rad) text += fmt::format(", yaw {:.0f} deg", rad_to_deg(*order.yaw_rad));
   return text;
+}
+
+tl::unexpected<Error> refused_order(const EngineSpec& spec, const WorldInput& input, ErrorCode code,
+                                    std::string_view why) {
+  return fail(code, "robot `{}`, {}: {}", spec.robots[input.robot.value()].name,
+              to_string(order_kind(input.kind)), why);
 }
 
 }  // namespace rave::sim

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
+#include <string_view>
 
 #include "rave/base/result.hpp"
 #include "rave/robot/order.hpp"
@@ -24,5 +24,9 @@ namespace rave::sim {
 /// their length, points are in the world, in no obstacle, and within the fence of the robot.
 /// Errors: kInvalidArgument, with the name of the robot.
 [[nodiscard]] Status check_order(const EngineSpec& spec, const WorldInput& input);
+
+/// The error of an order that was refused: with robot and kind.
+[[nodiscard]] tl::unexpected<Error> refused_order(const EngineSpec& spec, const WorldInput& input,
+                                                  ErrorCode code, std::string_view why);
 
 }  // namespace rave::sim

@@ -4,11 +4,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "declared_fan.hpp"
 #include "plugin_call.hpp"
 #include "radio.hpp"
-#include "rave/base/crash_note.hpp"
-#include "sensor_age.hpp"
+#include "robot_group_parts.hpp"
 
 namespace rave::sim {
 
@@ -22,16 +20,23 @@ HostServices services_of(RobotLog& log) {
   return services;
 }
 
-namespace {
-
-/// What a crash says of the driver or program of one robot; see CrashScope.
-CrashNote crash_note(const GroupContext& context, RobotId id, const char* part,
-                     const std::string& driver) {
+CrashNote crash_note_of(const GroupContext& context, RobotId id, const char* part,
+                        const std::string& driver) {
   const char* const robot = context.spec.robots[id.value()].name.c_str();
   return {part, driver.c_str(), robot, robot};
 }
 
-}  // namespace
+Error named_error(const GroupContext& context, RobotId id, std::string_view kind,
+                  std::string_view name, std::string_view driver, Error error) {
+  return std::move(error).with_context(fmt::format("robot `{}`, {} `{}` (driver `{}`)",
+                                                   context.spec.robots[id.value()].name, kind, name,
+                                                   driver));
+}
+
+HardwareDevice* device_of(const RobotGroup& group, std::optional<std::uint32_t> index,
+                          std::size_t member) {
+  return index ? group.devices[*index].bases[member] : nullptr;
+}
 
 RobotInfo info_of(const GroupContext& context, RobotId id) {
   const RobotSpec& robot = context.spec.robots[id.value()];
@@ -56,100 +61,6 @@ void show_sensors(RobotGroup& group) {
 
 namespace {
 
-constexpr std::size_t kQueueDepth = 256;
-
-Error named(const GroupContext& context, RobotId id, std::string_view kind, std::string_view name,
-            std::string_view driver, Error error) {
-  return std::move(error).with_context(fmt::format("robot `{}`, {} `{}` (driver `{}`)",
-                                                   context.spec.robots[id.value()].name, kind, name,
-                                                   driver));
-}
-
-void allocate(SensorSlots& slots, std::size_t count) {
-  slots.stride = slots.capacity * record_size(slots.spec->kind);
-  // Whole words, so that records of every member are aligned.
-  slots.stride = (slots.stride + 7U) / 8U * 8U;
-  slots.headers.resize(count);
-  slots.records.resize(slots.stride * count);
-  if (slots.uses_fan) {
-    slots.bodies.resize(std::size_t{slots.capacity} * count);
-    slots.near.resize((count + kMemberBlock - 1) / kMemberBlock);
-  }
-  slots.sequence.resize(count);
-  slots.failed.resize(count);
-  slots.flip.resize(count);
-  if (slots.is_virtual()) slots.driver_state.resize(slots.spec->virtual_ops->state_size * count);
-  if (!slots.is_virtual()) {
-    slots.scratch.resize(slots.stride);
-    slots.heard_ns.resize(count);
-  }
-  if (slots.queued()) {
-    slots.raw_headers.resize(count);
-    slots.raw_records.resize(slots.stride * count);
-    slots.processing_state.resize(slots.processing->state_size() * count);
-  }
-}
-
-void clear_samples(SensorSlots& slots) {
-  std::fill(slots.headers.begin(), slots.headers.end(), SampleHeader{});
-  std::fill(slots.raw_headers.begin(), slots.raw_headers.end(), SampleHeader{});
-  std::fill(slots.records.begin(), slots.records.end(), std::byte{});
-  std::fill(slots.raw_records.begin(), slots.raw_records.end(), std::byte{});
-  std::fill(slots.bodies.begin(), slots.bodies.end(), BodyId::kNone);
-  std::fill(slots.driver_state.begin(), slots.driver_state.end(), std::byte{});
-  std::fill(slots.sequence.begin(), slots.sequence.end(), 0U);
-  std::fill(slots.failed.begin(), slots.failed.end(), std::uint8_t{0});
-  std::fill(slots.heard_ns.begin(), slots.heard_ns.end(), kNeverHeard_ns);
-  std::fill(slots.flip.begin(), slots.flip.end(), std::uint8_t{0});
-  if (slots.fusion) slots.fusion->clear();
-  if (!slots.queued()) return;
-  for (std::size_t m = 0; m < slots.headers.size(); ++m) {
-    slots.processing->reset(slots.processing_state_of(m));
-  }
-}
-
-void describe(SensorSlots& slots, double step_s) {
-  SensorInfo& info = slots.info;
-  info.name = slots.spec->name.c_str();
-  info.kind = slots.spec->kind;
-  info.capacity = slots.capacity;
-  info.X_RS = slots.spec->X_RS;
-  info.z_m = slots.spec->z_m;
-  info.period_s = slots.spec->period_steps * step_s;
-  info.max_age_s = told_max_age_s(slots);
-}
-
-Status configure_virtual(const GroupContext& context, RobotGroup& group, SensorSlots& slots) {
-  const SensorSpec& spec = *slots.spec;
-  RAVE_TRY(slots.instances.make(spec.virtual_ops->instance, 1));
-  VirtualSensorSetup setup;
-  setup.host = services_of(context.logs[group.members.front().value()]);
-  setup.params = spec.params.values().data();
-  setup.param_count = spec.params.values().size();
-  setup.layers = spec.layers;
-  setup.period_s = spec.period_steps * context.spec.step.seconds();
-  setup.z_m = spec.z_m;
-  VirtualDeclaration declaration;
-  RAVE_TRY(called([&](ErrorText* error) {
-    return spec.virtual_ops->configure(slots.instances.at(0), &setup, &declaration, error);
-  }));
-  slots.capacity = declaration.capacity;
-  slots.uses_fan = declaration.uses_fan != 0;
-  if (slots.uses_fan) {
-    RAVE_TRY(check_fan(declaration, spec.kind));
-    slots.fan = FanTable::make(declaration.fan, spec.layers);
-    slots.capacity = slots.fan.readings();
-    describe_fan(declaration, slots.info);
-  }
-  return {};
-}
-
-/// The object of the device that a sensor or actuator names; null if it names none.
-HardwareDevice* device_of(const RobotGroup& group, std::optional<std::uint32_t> index,
-                          std::size_t member) {
-  return index ? group.devices[*index].bases[member] : nullptr;
-}
-
 Status configure_device(const GroupContext& context, RobotGroup& group, DeviceSlots& slots,
                         std::size_t member) {
   HardwareDeviceSetup setup;
@@ -160,7 +71,8 @@ Status configure_device(const GroupContext& context, RobotGroup& group, DeviceSl
   setup.folder = group.type->folder.c_str();
   void* const instance = slots.instances.at(member);
   slots.bases.push_back(slots.spec->ops->base(instance));
-  const CrashNote whose = crash_note(context, group.members[member], "device", slots.spec->driver);
+  const CrashNote whose =
+      crash_note_of(context, group.members[member], "device", slots.spec->driver);
   const CrashScope scope(whose);
   return called(
       [&](ErrorText* error) { return slots.spec->ops->configure(instance, &setup, error); });
@@ -176,8 +88,8 @@ Status make_devices(const GroupContext& context, RobotGroup& group) {
     for (std::size_t m = 0; m < group.members.size(); ++m) {
       const Status status = configure_device(context, group, slots, m);
       if (!status) {
-        return tl::unexpected(named(context, group.members[m], "device", slots.spec->name,
-                                    slots.spec->driver, status.error()));
+        return tl::unexpected(named_error(context, group.members[m], "device", slots.spec->name,
+                                          slots.spec->driver, status.error()));
       }
     }
   }
@@ -190,86 +102,17 @@ Status open_devices(const GroupContext& context, RobotGroup& group) {
       // close() comes also after an error of open().
       slots.open[m] = 1;
       context.note("device", slots.spec->name, slots.spec->driver);
-      const CrashNote whose = crash_note(context, group.members[m], "device", slots.spec->driver);
+      const CrashNote whose =
+          crash_note_of(context, group.members[m], "device", slots.spec->driver);
       const CrashScope scope(whose);
       const Status status = called(
           [&](ErrorText* error) { return slots.spec->ops->open(slots.instances.at(m), error); });
       if (!status) {
-        return tl::unexpected(named(context, group.members[m], "device", slots.spec->name,
-                                    slots.spec->driver, status.error()));
+        return tl::unexpected(named_error(context, group.members[m], "device", slots.spec->name,
+                                          slots.spec->driver, status.error()));
       }
     }
   }
-  return {};
-}
-
-/// Its age has a limit of its own: RobotType::staleness.
-bool is_pose_source(const RobotGroup& group, const SensorSlots& slots) {
-  return group.type->pose_from == static_cast<std::uint32_t>(&slots - group.sensors.data());
-}
-
-Status configure_hardware(const GroupContext& context, RobotGroup& group, SensorSlots& slots) {
-  const SensorSpec& spec = *slots.spec;
-  RAVE_TRY(slots.instances.make(spec.hardware_ops->instance, group.members.size()));
-  for (std::size_t m = 0; m < group.members.size(); ++m) {
-    HardwareSetup setup;
-    setup.robot = info_of(context, group.members[m]);
-    setup.host = services_of(context.logs[group.members[m].value()]);
-    setup.params = spec.params.values().data();
-    setup.param_count = spec.params.values().size();
-    setup.folder = group.type->folder.c_str();
-    setup.device = device_of(group, spec.device, m);
-    HardwareDeclaration declaration;
-    const CrashNote whose = crash_note(context, group.members[m], "sensor", spec.hardware_driver());
-    const CrashScope scope(whose);
-    RAVE_TRY(called([&](ErrorText* error) {
-      return spec.hardware_ops->configure(slots.instances.at(m), &setup, &declaration, error);
-    }));
-    if (declaration.capacity == 0) return fail(ErrorCode::kPlugin, "declared room for 0 records");
-    slots.capacity = std::max(slots.capacity, declaration.capacity);
-    slots.collect = declaration.collect != 0;
-    slots.live = declaration.clock == DriverClock::kLive;
-    RAVE_TRY_ASSIGN(slots.max_age_s, max_age_s(spec, declaration, is_pose_source(group, slots)));
-    slots.info.range_min_m = declaration.range_min_m;
-    slots.info.range_max_m = declaration.range_max_m;
-    slots.info.bearings_rad = declaration.bearings_rad;
-    slots.info.cone_rad = declaration.cone_rad;
-  }
-  if (slots.live && context.spec.live_clock == nullptr) {
-    return fail(ErrorCode::kState, "follows the wall clock, but the run is stepped");
-  }
-  for (std::size_t m = 0; m < group.members.size(); ++m) {
-    slots.queues.push_back(std::make_unique<SampleQueue>(
-        spec.kind, slots.capacity, kQueueDepth, slots.live ? context.spec.live_clock : nullptr));
-  }
-  return {};
-}
-
-Status make_sensor(const GroupContext& context, RobotGroup& group, SensorSlots& slots) {
-  Status configured = slots.is_virtual() ? configure_virtual(context, group, slots)
-                                         : configure_hardware(context, group, slots);
-  if (!configured && slots.spec->hybrid) {
-    return tl::unexpected(
-        std::move(configured)
-            .error()
-            .with_context(fmt::format("real half (driver `{}`)", slots.spec->hardware_driver())));
-  }
-  RAVE_TRY(configured);
-  const double step_s = context.spec.step.seconds();
-  describe(slots, step_s);
-  if (!slots.spec->processing.empty()) {
-    const double period_s = slots.is_virtual() ? slots.spec->period_steps * step_s : 0;
-    RAVE_TRY_ASSIGN(slots.processing,
-                    Processing::make(slots.spec->processing, slots.spec->kind, slots.capacity,
-                                     period_s, range_limits_of(slots.info)));
-  }
-  allocate(slots, group.members.size());
-  if (slots.spec->hybrid) {
-    const auto count = static_cast<std::uint32_t>(group.members.size());
-    const HostServices host = services_of(context.logs[group.members.front().value()]);
-    RAVE_TRY_ASSIGN(slots.fusion, FusionSlots::make(*slots.spec, slots.info, count, host));
-  }
-  clear_samples(slots);
   return {};
 }
 
@@ -295,14 +138,14 @@ Status start_controllers(const GroupContext& context, RobotGroup& group) {
     for (std::size_t m = 0; m < count; ++m) {
       const DeviceSetup setup = device_setup(context, group.members[m], slots.spec->params);
       const CrashNote whose =
-          crash_note(context, group.members[m], "controller", slots.spec->driver);
+          crash_note_of(context, group.members[m], "controller", slots.spec->driver);
       const CrashScope scope(whose);
       const Status status = called([&](ErrorText* error) {
         return slots.spec->ops->start(slots.instances.at(m), &setup, error);
       });
       if (!status) {
-        return tl::unexpected(named(context, group.members[m], "controller", slots.spec->name,
-                                    slots.spec->driver, status.error()));
+        return tl::unexpected(named_error(context, group.members[m], "controller", slots.spec->name,
+                                          slots.spec->driver, status.error()));
       }
     }
   }
@@ -314,7 +157,7 @@ Status start_actuator(const GroupContext& context, RobotGroup& group, ActuatorSl
   DeviceSetup setup = device_setup(context, group.members[m], slots.spec->params);
   setup.device = device_of(group, slots.spec->device, m);
   void* instance = slots.instances.at(m);
-  const CrashNote whose = crash_note(context, group.members[m], "actuator", slots.spec->driver);
+  const CrashNote whose = crash_note_of(context, group.members[m], "actuator", slots.spec->driver);
   const CrashScope scope(whose);
   if (slots.spec->virtual_ops != nullptr) {
     return called(
@@ -344,8 +187,8 @@ Status start_actuators(const GroupContext& context, RobotGroup& group) {
       context.note("actuator", slots.spec->name, slots.spec->driver);
       const Status status = start_actuator(context, group, slots, m);
       if (!status) {
-        return tl::unexpected(named(context, group.members[m], "actuator", slots.spec->name,
-                                    slots.spec->driver, status.error()));
+        return tl::unexpected(named_error(context, group.members[m], "actuator", slots.spec->name,
+                                          slots.spec->driver, status.error()));
       }
     }
   }
@@ -415,15 +258,16 @@ Status start_programs(const GroupContext& context, RobotGroup& group) {
         status = tl::unexpected(std::move(process).error());
       }
     } else {
-      const CrashNote whose = crash_note(context, group.members[m], "program", slots.spec->driver);
+      const CrashNote whose =
+          crash_note_of(context, group.members[m], "program", slots.spec->driver);
       const CrashScope scope(whose);
       status = called([&](ErrorText* error) {
         return slots.spec->ops->start(slots.instances.at(m), &slots.setups[m], error);
       });
     }
     if (!status) {
-      return tl::unexpected(named(context, group.members[m], "program", slots.spec->driver,
-                                  slots.spec->driver, status.error()));
+      return tl::unexpected(named_error(context, group.members[m], "program", slots.spec->driver,
+                                        slots.spec->driver, status.error()));
     }
   }
   return {};
@@ -436,14 +280,6 @@ Status start_devices(const GroupContext& context, RobotGroup& group) {
   return start_programs(context, group);
 }
 
-/// Sensors as new, their queues open.
-void clear_sensors(RobotGroup& group) {
-  for (SensorSlots& slots : group.sensors) {
-    clear_samples(slots);
-    for (auto& queue : slots.queues) queue->reopen();
-  }
-}
-
 }  // namespace
 
 Status make_body(GroupContext context, RobotGroup& group) {
@@ -454,8 +290,8 @@ Status make_body(GroupContext context, RobotGroup& group) {
     slots.spec = &group.type->sensors[s];
     const Status status = make_sensor(context, group, slots);
     if (!status) {
-      return tl::unexpected(named(context, group.members.front(), "sensor", slots.spec->name,
-                                  slots.spec->driver, status.error()));
+      return tl::unexpected(named_error(context, group.members.front(), "sensor", slots.spec->name,
+                                        slots.spec->driver, status.error()));
     }
   }
   group.actuators.resize(group.type->actuators.size());
@@ -488,27 +324,6 @@ Status make_group(GroupContext context, RobotGroup& group) {
 Status reset_group(GroupContext context, RobotGroup& group) {
   clear_sensors(group);
   return start_devices(context, group);
-}
-
-Status open_sensors(GroupContext context, RobotGroup& group) {
-  for (SensorSlots& slots : group.sensors) {
-    slots.open.assign(slots.queues.size(), 0);
-    for (std::size_t m = 0; m < slots.queues.size(); ++m) {
-      context.note("sensor", slots.spec->name, slots.spec->hardware_driver());
-      const CrashNote whose =
-          crash_note(context, group.members[m], "sensor", slots.spec->hardware_driver());
-      const CrashScope scope(whose);
-      const Status status = called([&](ErrorText* error) {
-        return slots.spec->hardware_ops->open(slots.instances.at(m), slots.queues[m].get(), error);
-      });
-      if (!status) {
-        return tl::unexpected(named(context, group.members[m], "sensor", slots.spec->name,
-                                    slots.spec->hardware_driver(), status.error()));
-      }
-      slots.open[m] = 1;
-    }
-  }
-  return {};
 }
 
 }  // namespace rave::sim

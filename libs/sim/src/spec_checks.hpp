@@ -26,6 +26,11 @@ Status check_local(const EngineSpec& spec);
 /// Whether the system gave the run all threads that it asked for. Error: kIo.
 Status check_threads(const EngineSpec& spec, unsigned given);
 
+/// Whether a robot of this type need not be armed before it moves.
+[[nodiscard]] inline bool is_armed_at_first(const RobotType& type) noexcept {
+  return type.simulated || !type.guard.value_or(GuardSpec{}).arm;
+}
+
 /// By robot: 1 if it runs here.
 [[nodiscard]] std::vector<std::uint8_t> local_robots(const EngineSpec& spec);
 

@@ -223,7 +223,8 @@ TEST(Protocol, HandOversAndShadowsAreToldWithTheirRobots) {
   auto& robot = answer.status.robots.emplace_back();
   robot.name = "create";
   robot.hand_over = {true, 2, 1, "simulated -> real", 1.5, -2, 0.25};
-  robot.shadow = {true, 3, 0.125, 0.5, 0.25, 0.75, {{"laser", "m", 0.0625, 0.5}}};
+  robot.shadow = {
+      true, 3, 0.125, 0.5, 0.25, 0.75, {{"laser", "m", 0.0625, 0.5}}, Pose2{0.25, -0.5, 1}};
   answer.status.robots.push_back({"plain", true, true, false, {}, {}});
   const auto read = parse_answer(write_answer(answer));
   ASSERT_TRUE(read) << read.error().text();

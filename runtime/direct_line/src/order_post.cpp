@@ -8,6 +8,9 @@ namespace rave::direct_line {
 namespace {
 
 constexpr std::chrono::seconds kNow{0};
+/// The run lets a robot stand whose driver is silent for 250 ms. To say so once more would take the
+/// robot from its program.
+constexpr std::chrono::seconds kStandsAnyway{1};
 
 bool is_ready(const std::future<Result<std::string>>& answer) {
   return answer.wait_for(kNow) == std::future_status::ready;
@@ -42,12 +45,14 @@ void OrderPost::give(Line line, std::vector<runtime::RunRequest> requests, Answe
 
 void OrderPost::drive(Line line, runtime::RunRequest request, bool echo, Answer answer) {
   Drive& drive = drives_[{line, request.robot}];
-  // Whoever asked for an answer gets one, though the run never sees that drive.
+  // The sender of a replaced drive command still gets its answer, though the run never receives the
+  // command.
   if (auto replaced = std::exchange(drive.next, std::nullopt); replaced && replaced->first) {
     replaced->second(true, "replaced by a newer drive");
   }
   drive.moves = request.v_mps != 0 || request.w_radps != 0;
   drive.newest = std::move(request);
+  drive.since = std::chrono::steady_clock::now();
   if (drive.under_way && !is_ready(*drive.under_way)) {
     drive.next.emplace(echo, std::move(answer));
     return;
@@ -71,7 +76,7 @@ void OrderPost::poll(Drive& drive) {
   drive.under_way.reset();
   const Answer answer = std::exchange(drive.answer, nullptr);
   if (!text) {
-    // Somebody else drives it, so nothing has to be stopped when this line goes.
+    // Another person drives the robot, so the end of this line need not stop it.
     drive.moves = false;
     answer(false, text.error().message);
   } else if (drive.echo) {
@@ -84,15 +89,16 @@ void OrderPost::poll(Drive& drive) {
 }
 
 void OrderPost::forget(Line line) {
+  const auto now = std::chrono::steady_clock::now();
   for (auto drive = drives_.begin(); drive != drives_.end();) {
     if (drive->first.first != line) {
       ++drive;
       continue;
     }
-    if (drive->second.moves) {
+    if (drive->second.moves && now - drive->second.since < kStandsAnyway) {
       runtime::RunRequest stand = std::move(drive->second.newest);
       stand.v_mps = stand.w_radps = 0;
-      // Nobody is there to be told.
+      // The line is gone, so the answer is not needed.
       if (control_.post(std::move(stand))) ++given_;
     }
     drive = drives_.erase(drive);

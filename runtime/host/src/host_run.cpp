@@ -76,8 +76,7 @@ Status SteppedExchange::propose() {
 Result<HostPort::Answer> SteppedExchange::exchange() {
   return port_.exchange(report_, run_.engine.hash().value(), world_, [this] {
     serve_requests(run_);
-    // Somebody may look elsewhere while the run is held.
-    run_.observers.held(run_.engine);
+    look_on_while_held(run_);
     return run_.stopping();
   });
 }

@@ -46,7 +46,7 @@ bool LoneExchange::wait() {
     const auto asked = RunSession::Clock::now();
     // The world outside a live run goes on, so that is not held.
     const bool held = !run_.live && control->paused();
-    const auto show = [this] { run_.observers.held(run_.engine); };
+    const auto show = [this] { look_on_while_held(run_); };
     if (held ? !control->wait_for_turn(serve, show) : control->stopping()) return false;
     if (held) run_.pace.shift(RunSession::Clock::now() - asked);
     const auto factor = run_.live ? std::nullopt : control->take_pace();
@@ -74,7 +74,7 @@ std::vector<sim::Event> unfinished_hand_overs(const sim::Engine& engine) {
     const sim::RobotSpec& robot = spec.robots[r];
     events.push_back(
         {engine.steps_done(), RobotId(r), sim::EventKind::kHandOverRefused, BodyId(),
-         fmt::format("{} -> {}: the run ended before that was done{}", word(robot.type),
+         fmt::format("{} -> {}: the run ended before the hand-over{}", word(robot.type),
                      word(robot.twin.value_or(robot.type)), state->by_hand ? " (by hand)" : "")});
   }
   return events;

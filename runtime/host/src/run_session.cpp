@@ -151,6 +151,17 @@ void serve_requests(RunSession& run) {
       [&run](RunStatus& status) { refresh(run, status); });
 }
 
+void look_on_while_held(RunSession& run) {
+  run.observers.held(run.engine);
+  run.observers.tick(run.engine);
+  const auto now = Clock::now();
+  if (run.options.control == nullptr || !run.observers.has_orders() || now < run.next_status) {
+    return;
+  }
+  run.next_status = now + kStatusInterval;
+  run.options.control->refresh([&run](RunStatus& status) { refresh(run, status); });
+}
+
 void look_back(RunSession& run, std::span<const sim::Event> beside, Duration world_age) {
   // Who looks on is neither a driver nor a program.
   run.watch.step_ends();

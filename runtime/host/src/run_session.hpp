@@ -70,6 +70,10 @@ Status go_through(RunSession& run, WorldExchange& exchange);
 /// Does what somebody has asked for since the last step.
 void serve_requests(RunSession& run);
 
+/// Shows a held run to its observers. Drivers are watched by wall time, which continues while a run
+/// is held: a driver that falls silent stops driving.
+void look_on_while_held(RunSession& run);
+
 /// A step is done: all look at it, it is recorded, its events are told, and those that `beside` the
 /// engine has. `world_age`: of the world of others in which robots drive.
 void look_back(RunSession& run, std::span<const sim::Event> beside = {}, Duration world_age = {});

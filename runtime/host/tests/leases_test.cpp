@@ -17,7 +17,10 @@ const HostLeases::Person kRoot{"root", true};
 const HostLeases::Person kTerminal{};
 const HostLeases::Time kStart{1h};
 
-std::string why(const Status& status) { return status ? "" : status.error().message; }
+template <class Outcome>
+std::string why(const Outcome& outcome) {
+  return outcome ? "" : outcome.error().message;
+}
 
 TEST(HostLeases, TheFirstOrderTakesTheLease) {
   HostLeases leases;
@@ -135,7 +138,8 @@ TEST(HostLeases, WhatAPageLeavesTheNextPageOfThePersonHas) {
   HostLeases leases;
   ASSERT_TRUE(leases.use("r1", first, Use::kDrive, kStart));
   static_cast<void>(leases.take_changes());
-  EXPECT_EQ(leases.give("r1", first, "anna", kStart + 1s).value(), "r1 is any page's of yours");
+  EXPECT_EQ(leases.give("r1", first, "anna", kStart + 1s).value(),
+            "any of your pages can drive r1 now");
   EXPECT_TRUE(leases.take_changes().empty()) << "anna drives it as before";
   EXPECT_EQ(why(leases.use("r1", kBert, Use::kOrder, kStart + 1s)), "`anna` drives r1");
   EXPECT_TRUE(leases.use("r1", second, Use::kOrder, kStart + 2s));
@@ -145,6 +149,10 @@ TEST(HostLeases, WhatAPageLeavesTheNextPageOfThePersonHas) {
   EXPECT_EQ(leases.give("r1", second, "bert", kStart + 3s).value(), "r1 is now `bert`'s");
   EXPECT_TRUE(leases.use("r1", {"bert", false, 8}, Use::kDrive, kStart + 3s));
   EXPECT_NE(why(leases.use("r1", {"bert", false, 9}, Use::kDrive, kStart + 3s)), "");
+  // A page that goes takes nothing, not even that of a super-user.
+  EXPECT_EQ(why(leases.give("r1", kRoot, "root", kStart + 4s)), "`bert` drives r1");
+  EXPECT_EQ(why(leases.give("r2", first, "anna", kStart + 4s)), "nobody drives r2");
+  EXPECT_EQ(leases.holder("r2"), "");
   // A page that goes keeps nobody longer from the robot than it would have.
   HostLeases left;
   ASSERT_TRUE(left.use("r1", first, Use::kDrive, kStart));

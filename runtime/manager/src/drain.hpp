@@ -42,7 +42,7 @@ void drain(const Slots& slots, LogSink* log, Owes&& owes_findings, Turn&& turn,
       for (const auto& slot : slots) {
         if (owes(slot)) names.emplace_back(slot.name);
       }
-      log->warn(kSource, "waits up to {:.0f} s for what {} know of the run", seconds(limits.owing),
+      log->warn(kSource, "waits up to {:.0f} s for the results of {}", seconds(limits.owing),
                 join_names(names));
     }
     if (!turn()) break;

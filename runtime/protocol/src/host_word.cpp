@@ -54,7 +54,7 @@ void HostWord::write(const Facts& facts) {
   bus::HostRun message{};
   fill(message, {scenario_, facts.phase, facts.step, steps_, step_s_, speed_, text},
        std::span(seen).first(facts.managed ? 2 : 1));
-  // Who looks on and does not keep up misses some.
+  // A monitor that is too slow misses some messages.
   static_cast<void>(writer_.write(message));
 }
 

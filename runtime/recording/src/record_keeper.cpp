@@ -101,6 +101,7 @@ void RecordKeeper::after_step(const StepView& step) {
     group.keep_actuators(engine, recorder_);
   }
   keep_poses(engine);
+  variances_.keep(engine, told_truth_, recorder_);
   record_radio(engine, recorder_);
   keep(engine.events());
   // A failure was told to the log when it happened, and end() returns it: the run goes on.

@@ -103,5 +103,64 @@ TEST(RecordKeeper, KeepsWhereEachRobotWasAndWasToldToBe) {
   std::filesystem::remove(file);
 }
 
+/// Says where its robot is, and how sure that is: from 2.5 s on less so in each sample, until 4 s.
+class Unsure final : public VirtualSensor {
+ public:
+  static constexpr ReadingKind kReading = ReadingKind::kPose;
+  Status configure(const VirtualSensorSetup& /*setup*/, VirtualDeclaration& /*what*/) override {
+    return {};
+  }
+  void sample(const WorldView& /*world*/, const SampleItem& item) const override {
+    const double time_s = static_cast<double>(item.header->stamp_ns) * 1e-9;
+    const double variance_m2 = time_s < 2.5 ? 0.25 : time_s < 4 ? 0.1 * time_s : 0;
+    auto* const reading = static_cast<PoseReading*>(item.records);
+    *reading = {item.X_WR.x, item.X_WR.y, item.X_WR.yaw, variance_m2, 0};
+    item.header->count = 1;
+  }
+};
+
+TEST(RecordKeeper, KeepsVariancesAsTheyChangeAndOnceASecond) {
+  using sim::testing::add_robot;
+  sim::EngineSpec spec;
+  add_robot(spec, sim::testing::simulated_type(), {0, 0, 0});
+  sim::RobotType unsure = sim::testing::simulated_type();
+  unsure.sensors.push_back(sim::testing::virtual_sensor<Unsure>("unsure"));
+  unsure.pose_from = 0;
+  add_robot(spec, std::move(unsure), {0, 5, 0});
+  const auto engine = sim::testing::make_engine(std::move(spec));
+  ASSERT_NE(engine, nullptr);
+  const BodyKinds kinds(engine->spec(), std::vector<std::string>(2));
+  const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) /
+                                     fmt::format("rave_variances_{}.mcap", ::getpid());
+  auto keeper = RecordKeeper::open(file, *engine, kinds, info_of(*engine, kinds), {}, nullptr);
+  ASSERT_TRUE(keeper) << keeper.error().text();
+  while (engine->time().seconds() < 8) {
+    ASSERT_TRUE(engine->step());
+    (*keeper)->after_step(*engine);
+  }
+  ASSERT_TRUE((*keeper)->end(engine->hash().value()));
+  const auto reader = record::McapReader::open(file);
+  ASSERT_TRUE(reader) << reader.error().text();
+  std::vector<record::StepOf<record::PoseVariance>> told;
+  const auto take = [&](const record::MessageView& message) -> Status {
+    RAVE_TRY_ASSIGN(told.emplace_back(), record::decode_variances(message.bytes));
+    return {};
+  };
+  ASSERT_TRUE(record::for_each_message(*reader, record::topic::kVariances, take));
+  const auto between = [&](double from_s, double to_s) {
+    return std::ranges::count_if(told, [&](const auto& message) {
+      return message.time.seconds() >= from_s && message.time.seconds() < to_s;
+    });
+  };
+  EXPECT_EQ(between(0, 2.4), 3) << "what stands is told at first and once a second";
+  EXPECT_GE(between(2.6, 3.9), 12) << "what changes ten times a second";
+  EXPECT_LE(between(2.6, 3.9), 14);
+  EXPECT_EQ(between(4.3, 9), 0) << "nothing, once there are none";
+  ASSERT_GE(told.size(), 2U);
+  EXPECT_EQ(told.front().items, (std::vector<record::PoseVariance>{{RobotId(1), 0.25, 0}}));
+  EXPECT_TRUE(told.back().items.empty()) << "the last one voids those before";
+  std::filesystem::remove(file);
+}
+
 }  // namespace
 }  // namespace rave::runtime::testing

@@ -10,6 +10,7 @@
 
 #include "foxglove_scene.hpp"
 #include "foxglove_schemas.hpp"
+#include "page_text.hpp"
 
 namespace rave::gui_server {
 namespace {
@@ -43,20 +44,6 @@ void add_float(std::string& bytes, double value) {
   for (unsigned shift = 0; shift < 32; shift += 8) {
     bytes += static_cast<char>((bits >> shift) & 0xffU);
   }
-}
-
-const char* run_word(PlayState::Kind kind) {
-  switch (kind) {
-    case PlayState::Kind::kRunning:
-      return "running";
-    case PlayState::Kind::kPaused:
-      return "paused";
-    case PlayState::Kind::kWaiting:
-      return "waiting";
-    case PlayState::Kind::kEnded:
-      return "ended";
-  }
-  return "ended";
 }
 
 /// As `foxglove.Log` counts: 2 info, 3 warning, 4 error.
@@ -201,7 +188,7 @@ std::string FoxgloveTopics::log(const LogEvent& event) {
 std::string FoxgloveTopics::run(const PlayState& state) {
   const TopicJson message = {{"timestamp", foxglove_stamp(state.now_s)},
                              {"time_s", state.now_s},
-                             {"state", run_word(state.kind)},
+                             {"state", state_word(state.kind)},
                              {"pace", state.pace},
                              {"speed", state.speed}};
   return message.dump(-1, ' ', false, TopicJson::error_handler_t::replace);

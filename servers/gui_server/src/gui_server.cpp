@@ -74,6 +74,7 @@ class GuiServer::Impl final : public web::Handler {
         foxglove_(options.foxglove),
         foxglove_door_(door_, parts.audit, options.foxglove_origins),
         guests_(door_, visitors_) {
+    visitors_.offer_foxglove(foxglove_);
     // Elsewhere the address would be that of a super-user on everybody's network.
     if (foxglove_ && web::is_loopback(options.listen)) {
       foxglove_token_ = foxglove_door_.token_of(door_.new_session());

@@ -73,6 +73,11 @@ runtime::RunStatus::Shadow rounded(runtime::RunStatus::Shadow shadow) {
        {&shadow.m, &shadow.rad, &shadow.most_m, &shadow.most_rad, &shadow.since_s}) {
     *value = to_tenth_of_mm(*value);
   }
+  if (auto& offset = shadow.offset_W) {
+    for (double* const value : {&offset->x, &offset->y, &offset->yaw}) {
+      *value = to_tenth_of_mm(*value);
+    }
+  }
   for (auto& reading : shadow.readings) {
     reading.last = to_tenth_of_mm(reading.last);
     reading.most = to_tenth_of_mm(reading.most);
@@ -124,8 +129,11 @@ void LiveSource::command(const CommandMessage& command, const Author& author,
   if (command.of_obstacle()) return post(request_of(command, author), kNoSlot);
   // Robots that are driven by way of a server would stop with it.
   using Kind = CommandMessage::Kind;
+  // Placing takes a lease, which a page that goes leaves by the same way.
+  const bool leaves = command.kind == Kind::kGive && command.value == author.name;
   const bool passes = command.kind == Kind::kSet || command.kind == Kind::kPlace ||
-                      command.kind == Kind::kHandOver || command.kind == Kind::kResetShadow;
+                      command.kind == Kind::kHandOver || command.kind == Kind::kResetShadow ||
+                      leaves;
   if (!start_.about.relay && !passes) {
     for (const std::uint32_t slot : command.slots) reply(slot, false, kNoRelay);
     return;

@@ -6,6 +6,21 @@
 #include <utility>
 
 namespace rave::gui_server {
+namespace {
+
+/// The run lets a robot stand whose driver is silent for 250 ms. To say so once more would take the
+/// robot from its program, or from whoever drives it since.
+constexpr std::chrono::seconds kStandsAnyway{1};
+
+/// Whoever orders it has the lease then.
+bool takes_lease(CommandMessage::Kind kind) {
+  using Kind = CommandMessage::Kind;
+  return kind == Kind::kDrive || kind == Kind::kGoal || kind == Kind::kPath ||
+         kind == Kind::kCancel || kind == Kind::kText || kind == Kind::kPlace ||
+         kind == Kind::kTake;
+}
+
+}  // namespace
 
 /// A message whose robots have not all answered.
 struct PageCommands::Open {
@@ -27,12 +42,35 @@ void PageCommands::begin(std::shared_ptr<Source> source, Author author) {
 }
 
 void PageCommands::let_go() {
-  if (driven_.empty() || !source_) return;
-  CommandMessage stand;
-  stand.slots.assign(driven_.begin(), driven_.end());
-  driven_.clear();
   newest_.reset();
-  source_->command(stand, author_, [](std::uint32_t, bool, const std::string&) {});
+  CommandMessage stand;
+  const auto now = web::RateLimit::Clock::now();
+  for (const auto& [slot, since] : driven_) {
+    if (now - since < kStandsAnyway) stand.slots.push_back(slot);
+  }
+  driven_.clear();
+  if (!stand.slots.empty() && source_) {
+    source_->command(stand, author_, [](std::uint32_t, bool, const std::string&) {});
+  }
+  leave();
+}
+
+void PageCommands::leave() {
+  // Leases from before a restart of the server; those of direct lines their hosts leave.
+  if (source_ && source_->about().relay) {
+    for (const DriveState& state : source_->leases_changed_since(0)) {
+      if (state.page != 0 && state.is_of(author_)) ordered_.insert(state.slot);
+    }
+  }
+  if (!ordered_.empty()) {
+    CommandMessage leave;
+    leave.kind = CommandMessage::Kind::kGive;
+    leave.value = author_.name;
+    leave.slots.assign(ordered_.begin(), ordered_.end());
+    // Refused where it has the lease no more.
+    source_->command(leave, author_, [](std::uint32_t, bool, const std::string&) {});
+  }
+  ordered_.clear();
 }
 
 bool PageCommands::too_many(const CommandMessage& command) {
@@ -61,7 +99,7 @@ void PageCommands::take(const CommandMessage& command) {
       if (command.stands()) {
         driven_.erase(slot);
       } else {
-        driven_.insert(slot);
+        driven_[slot] = web::RateLimit::Clock::now();
       }
     }
     if (waiting_ >= kMostWaiting && !command.stands()) {
@@ -73,7 +111,23 @@ void PageCommands::take(const CommandMessage& command) {
   post(command);
 }
 
+void PageCommands::set_author(Author author) {
+  // Leases are those of a page, and for the run this is another one now.
+  if (author.page != author_.page) leave();
+  author_ = std::move(author);
+}
+
+/// Refused orders, too: the page may have the lease from before.
+void PageCommands::remember(const CommandMessage& command) {
+  for (const std::uint32_t slot : command.slots) {
+    // Who sends wrong slots must not fill the memory.
+    if (takes_lease(command.kind) && slot < source_->robot_count()) ordered_.insert(slot);
+    if (command.kind == CommandMessage::Kind::kGive) ordered_.erase(slot);
+  }
+}
+
 void PageCommands::post(const CommandMessage& command) {
+  remember(command);
   auto open = std::make_shared<Open>();
   open->command = command;
   open->missing = std::max<std::size_t>(1, command.slots.size());

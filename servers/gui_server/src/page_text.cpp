@@ -27,6 +27,12 @@ const char* level_word(LogEvent::Level level) {
   return "info";
 }
 
+Json person_json(const Person& person) {
+  return {{"name", person.name}, {"role", to_string(person.role)}};
+}
+
+}  // namespace
+
 const char* state_word(PlayState::Kind kind) {
   switch (kind) {
     case PlayState::Kind::kRunning:
@@ -40,12 +46,6 @@ const char* state_word(PlayState::Kind kind) {
   }
   return "ended";
 }
-
-Json person_json(const Person& person) {
-  return {{"name", person.name}, {"role", to_string(person.role)}};
-}
-
-}  // namespace
 
 std::string hello_text(const Source& source, const Greeting& greeting) {
   const RunAbout& about = source.about();
@@ -79,6 +79,7 @@ std::string hello_text(const Source& source, const Greeting& greeting) {
     hello["components"].push_back(
         {{"name", component.name}, {"url", component_path(i, component)}});
   }
+  if (greeting.foxglove) hello["foxglove"] = true;
   if (greeting.seen_by) hello["seen_by"] = person_json(*greeting.seen_by);
   return text_of(hello);
 }
@@ -119,6 +120,7 @@ Json shadow_json(const runtime::RunStatus::Shadow& shadow) {
       {"running", shadow.running}, {"since_s", shadow.since_s}, {"m", shadow.m},
       {"rad", shadow.rad},         {"most_m", shadow.most_m},   {"most_rad", shadow.most_rad},
       {"readings", Json::array()}};
+  if (const auto& offset = shadow.offset_W) json["offset"] = {offset->x, offset->y, offset->yaw};
   for (const auto& reading : shadow.readings) {
     json["readings"].push_back({{"sensor", reading.sensor},
                                 {"unit", reading.unit},

@@ -16,11 +16,15 @@
 // What the server says to a page, as JSON; schemas/gui/messages.schema.json describes it.
 namespace rave::gui_server {
 
+/// The word for what the time of a run does, in all protocols.
+[[nodiscard]] const char* state_word(PlayState::Kind kind);
+
 /// As whom a page is greeted.
 struct Greeting {
   Person user;
   std::optional<Person> seen_by{};  ///< The super-user who sees what `user` gets.
   Author author{};                  ///< As whom the run knows who looks.
+  bool foxglove = false;            ///< `/foxglove` gives addresses for Foxglove clients.
 };
 
 /// What became of a request of a page.

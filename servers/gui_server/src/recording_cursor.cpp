@@ -35,6 +35,9 @@ RecordingCursor::RecordingCursor(const record::McapReader& reader, const FlagHis
   if (const auto* const percepts = reader.channel(record::topic::kPercepts)) {
     percepts_channel_ = percepts->id;
   }
+  if (const auto* const variances = reader.channel(record::topic::kVariances)) {
+    variances_channel_ = variances->id;
+  }
   poses_.robots.resize(real.size());
 }
 
@@ -42,21 +45,43 @@ void RecordingCursor::begin_at(double time_s) {
   record::MessageFilter filter;
   filter.channels = {poses_channel_};
   if (percepts_channel_) filter.channels.push_back(*percepts_channel_);
+  if (variances_channel_) filter.channels.push_back(*variances_channel_);
   filter.from_ns = ns_of(time_s - look_back_s_);
   cursor_ = reader_.messages(filter);
   ahead_.reset();
   newest_.clear();
   percepts_.clear();
+  variances_.clear();
+}
+
+Status RecordingCursor::find_variances(std::uint64_t until_ns) {
+  if (!variances_channel_) return {};
+  // Of merged recordings each host has steps of its own, so one more may lie between.
+  const auto back_ns =
+      static_cast<std::uint64_t>(record::kVariancesHold_ns + 100'000'000) + ns_of(2 * step_s_);
+  record::MessageFilter filter;
+  filter.channels = {*variances_channel_};
+  filter.from_ns = until_ns > back_ns ? until_ns - back_ns : 0;
+  record::MessageCursor before = reader_.messages(filter);
+  while (true) {
+    RAVE_TRY_ASSIGN(const auto message, before.next());
+    if (!message || message->log_time_ns > until_ns) return {};
+    variances_.assign(message->bytes.begin(), message->bytes.end());
+  }
 }
 
 Status RecordingCursor::go_to(double time_s) {
   // Half a step more, since a moment that was named in text is rounded.
   const double until_s = time_s + step_s_ / 2;
-  if (!cursor_ || until_s < time_s_ || until_s > time_s_ + kFar_s) begin_at(until_s);
+  if (!cursor_ || until_s < time_s_ || until_s > time_s_ + kFar_s) {
+    begin_at(until_s);
+    RAVE_TRY(find_variances(ns_of(until_s)));
+  }
   time_s_ = until_s;
   RAVE_TRY(read_until(until_s));
   if (newest_.empty()) return {};
   RAVE_TRY(show(newest_));
+  RAVE_TRY(show_variances());
   set_flags();
   return {};
 }
@@ -74,6 +99,8 @@ Status RecordingCursor::read_until(double time_s) {
     if (at_ns > until_ns) break;
     if (channel == poses_channel_) {
       newest_ = std::move(bytes);
+    } else if (channel == variances_channel_) {
+      variances_ = std::move(bytes);
     } else {
       percepts_.emplace_back(static_cast<double>(at_ns) * 1e-9, std::move(bytes));
     }
@@ -104,6 +131,18 @@ Status RecordingCursor::show(const Bytes& bytes) {
         pose.velocity_W.vx * std::cos(robot.yaw_rad) + pose.velocity_W.vy * std::sin(robot.yaw_rad);
     robot.speed_mps = std::copysign(std::hypot(pose.velocity_W.vx, pose.velocity_W.vy), ahead);
     robot.flags |= kKnown;
+  }
+  return {};
+}
+
+Status RecordingCursor::show_variances() {
+  if (variances_.empty()) return {};
+  RAVE_TRY_ASSIGN(const auto told, record::decode_variances(variances_));
+  for (const record::PoseVariance& variance : told.items) {
+    if (variance.robot.value() >= poses_.robots.size()) continue;
+    RobotState& robot = poses_.robots[variance.robot.value()];
+    robot.variance_xy_m2 = static_cast<float>(variance.xy_m2);
+    robot.variance_yaw_rad2 = static_cast<float>(variance.yaw_rad2);
   }
   return {};
 }

@@ -40,7 +40,10 @@ class RecordingCursor final : public Cursor {
   using Bytes = std::vector<std::byte>;
   void begin_at(double time_s);
   [[nodiscard]] Status read_until(double time_s);
+  /// What is told of variances before `until_ns`, beyond where the cursor begins.
+  [[nodiscard]] Status find_variances(std::uint64_t until_ns);
   [[nodiscard]] Status show(const Bytes& poses);
+  [[nodiscard]] Status show_variances();
   void set_flags();
 
   const record::McapReader& reader_;
@@ -51,10 +54,12 @@ class RecordingCursor final : public Cursor {
   double look_back_s_;
   std::uint16_t poses_channel_ = 0;
   std::optional<std::uint16_t> percepts_channel_;
+  std::optional<std::uint16_t> variances_channel_;
   std::optional<record::MessageCursor> cursor_;
   std::optional<std::tuple<std::uint64_t, std::uint16_t, Bytes>> ahead_;  ///< Read, and later.
   double time_s_ = -1;
-  Bytes newest_;  ///< The last message of poses that was read.
+  Bytes newest_;     ///< The last message of poses that was read.
+  Bytes variances_;  ///< The last one of variances; empty: none are known.
   /// Messages of percepts within the longest period, oldest first.
   std::vector<std::pair<double, Bytes>> percepts_;
   PosesAt poses_;

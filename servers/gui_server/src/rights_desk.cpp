@@ -43,12 +43,6 @@ void RightsDesk::begin(const std::string& run, const Rights& scenario,
   renew();
 }
 
-void RightsDesk::set_cast(std::shared_ptr<const Cast> cast) {
-  cast_ = std::move(cast);
-  views_.clear();
-  ++revision_;
-}
-
 void RightsDesk::renew() {
   rights_ = scenario_;
   for (const KeptChange& kept : kept_) {

@@ -35,8 +35,6 @@ class RightsDesk {
 
   /// Begins with another run. `scenario`: its rights.
   void begin(const std::string& run, const Rights& scenario, std::shared_ptr<const Cast> cast);
-  /// Robots or bodies of the run are others.
-  void set_cast(std::shared_ptr<const Cast> cast);
   /// In force from the next view on. Errors: kInvalidArgument (of a super-user) and kParse (names),
   /// and then nothing changes; kIo: it is in force but will not outlive the server.
   [[nodiscard]] Status change(const RightChange& change);

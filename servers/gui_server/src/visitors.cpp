@@ -46,7 +46,7 @@ std::string command_text(const CommandMessage& command, const PageAnswer& answer
 std::string halt_text(const HaltMessage& halt, bool good) {
   const std::string robots =
       halt.slots.empty() ? "all robots" : fmt::format("{} robots", halt.slots.size());
-  return fmt::format("{}{}", robots, good ? "" : ", in vain");
+  return fmt::format("{}{}", robots, good ? "" : ", failed");
 }
 
 }  // namespace
@@ -99,9 +99,8 @@ void Visitors::closed(std::uint64_t id) {
   if (found == visitors_.end()) return;
   Visitor gone = std::move(found->second);
   visitors_.erase(found);
-  // What it drives stands, before it is let go.
+  // What it drives stands, and is left.
   gone.page.reset();
-  leave_leases(gone);
   told_people_.clear();
   ++accounts_news_;
   const bool more = std::any_of(visitors_.begin(), visitors_.end(), [&gone](const auto& entry) {
@@ -134,6 +133,7 @@ void Visitors::show_to(Visitor& visitor, bool same_run) {
   Greeting greeting{visitor.eyes.value_or(visitor.person), {}};
   if (visitor.eyes) greeting.seen_by = visitor.person;
   greeting.author = author_of(visitor);
+  greeting.foxglove = foxglove_;
   visitor.page->show(source_for(visitor.view), greeting, same_run);
   visitor.page->send(payload(
       room_.text_for({known_as(visitor.eyes.value_or(visitor.person)), *visitor.view}, 0, true)));
@@ -287,8 +287,6 @@ SessionCalls Visitors::calls_of(std::uint64_t id) {
   calls.page_key = [this, id](const PageKeyMessage& page) {
     const auto found = visitors_.find(id);
     if (found == visitors_.end()) return;
-    // What it asked before is its own, too.
-    leave_leases(found->second);
     found->second.number = direct_line::page_number(page.key);
     found->second.page->set_author(author_of(found->second));
   };

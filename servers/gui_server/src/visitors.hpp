@@ -26,6 +26,8 @@ class Visitors {
   Visitors(Door& door, RightsDesk desk, std::shared_ptr<Accounts> accounts,
            std::shared_ptr<AuditLog> audit, PeopleDesk::Post post);
 
+  /// Whether pages are told that Foxglove clients may connect; before anybody comes.
+  void offer_foxglove(bool offered) noexcept { foxglove_ = offered; }
   /// All see this run from now on.
   void show(std::shared_ptr<Source> source);
   /// Somebody came whose session the door knows.
@@ -67,7 +69,6 @@ class Visitors {
     }
   };
   [[nodiscard]] static Author author_of(const Visitor& visitor);
-  void leave_leases(const Visitor& gone);
   void show_to(Visitor& visitor, bool same_run);
   void show_again_if_other();
   void tell_rights();
@@ -89,6 +90,7 @@ class Visitors {
   RightsDesk desk_;
   std::shared_ptr<Accounts> accounts_;
   std::shared_ptr<AuditLog> audit_;
+  bool foxglove_ = false;
   std::shared_ptr<Source> source_;  ///< Null: none yet.
   std::map<const View*, std::weak_ptr<RestrictedSource>> restricted_;
   std::map<std::uint64_t, Visitor> visitors_;

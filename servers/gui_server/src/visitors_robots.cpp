@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What visitors say to people and robots, and what becomes of their leases.
+// What visitors say to people and robots.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,21 +7,6 @@
 #include "visitors.hpp"
 
 namespace rave::gui_server {
-
-/// What a page that goes had the lease of is any page's of the same person; so one that is loaded
-/// anew need not take anything from itself.
-void Visitors::leave_leases(const Visitor& gone) {
-  if (!source_ || !gone.view) return;
-  const Author author = author_of(gone);
-  CommandMessage leave;
-  leave.kind = CommandMessage::Kind::kGive;
-  leave.value = author.name;
-  for (const DriveState& state : source_->leases_changed_since(0)) {
-    if (state.page != 0 && state.is_of(author)) leave.slots.push_back(state.slot);
-  }
-  if (leave.slots.empty()) return;
-  source_->command(leave, author, [](std::uint32_t, bool, const std::string&) {});
-}
 
 Result<std::string> Visitors::chat(std::uint64_t id, const ChatMessage& chat) {
   using To = ChatMessage::To;

@@ -29,7 +29,7 @@ class FakeRun : public Source {
   inline static const std::vector<std::uint8_t> kSecretCells{91, 92, 93, 94, 95, 96, 97, 98};
 
   FakeRun() {
-    facts.live = true;
+    facts.live = facts.relay = true;
     facts.name = "fake";
     facts.step_s = 0.01;
     facts.recording = "/nowhere/fake.mcap";

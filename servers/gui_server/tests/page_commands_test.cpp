@@ -50,9 +50,50 @@ TEST_F(PageCommandsTest, WhoGoesLeavesNoRobotDriving) {
     commands.let_go();
   }
   const auto asked = run_->commands();
-  ASSERT_EQ(asked.size(), 3U);
+  ASSERT_EQ(asked.size(), 4U);
   EXPECT_TRUE(asked[2].first.stands());
   EXPECT_EQ(asked[2].first.slots, (std::vector<std::uint32_t>{0}));
+}
+
+/// The run of the test tells of no lease, as one does that has just been asked.
+TEST_F(PageCommandsTest, WhoGoesLeavesTheLeasesOfWhatItHasOrdered) {
+  PageCommands commands([](const PageAnswer&) {}, [](const auto&, const auto&) {});
+  commands.begin(run_, {"ada", false, 7});
+  CommandMessage goal;
+  goal.kind = CommandMessage::Kind::kGoal;
+  // The last is refused, though the page may have its lease from before; there is no fifth.
+  goal.slots = {3, 2, 4};
+  commands.take(goal);
+  CommandMessage set;
+  set.kind = CommandMessage::Kind::kSet;
+  set.slots = {0};
+  commands.take(set);
+  CommandMessage take;
+  take.kind = CommandMessage::Kind::kTake;
+  take.slots = {1};
+  commands.take(take);
+  CommandMessage give;
+  give.kind = CommandMessage::Kind::kGive;
+  give.value = "ben";
+  give.slots = {3};
+  commands.take(give);
+  commands.let_go();
+  commands.let_go();
+  auto asked = run_->commands();
+  ASSERT_EQ(asked.size(), 5U);
+  EXPECT_EQ(asked[4].first.kind, CommandMessage::Kind::kGive);
+  EXPECT_EQ(asked[4].first.value, "ada");
+  EXPECT_EQ(asked[4].first.slots, (std::vector<std::uint32_t>{1, 2}));
+  EXPECT_EQ(asked[4].second, (Author{"ada", false, 7}));
+  // For the run it is another page when it has shown its key.
+  commands.take(take);
+  commands.set_author({"ada", true, 7});
+  EXPECT_EQ(run_->commands().size(), 6U);
+  commands.set_author({"ada", true, 8});
+  asked = run_->commands();
+  ASSERT_EQ(asked.size(), 7U);
+  EXPECT_EQ(asked[6].first.value, "ada");
+  EXPECT_EQ(asked[6].second.page, 7U);
 }
 
 TEST_F(PageCommandsTest, TooMuchIsRefusedButToStandNeverIs) {

@@ -280,7 +280,8 @@ TEST(PageMessage, APathHasAThousandPointsAndNoMore) {
   };
   EXPECT_TRUE(path(1000));
   ASSERT_FALSE(path(10'000));
-  EXPECT_NE(path(10'000).error().message.find("10000 points; expected 2 to 1000"), std::string::npos);
+  EXPECT_NE(path(10'000).error().message.find("10000 points; expected 2 to 1000"),
+            std::string::npos);
 }
 
 }  // namespace

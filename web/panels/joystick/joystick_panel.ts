@@ -33,7 +33,7 @@ export class JoystickPanel extends LitElement {
   override connectedCallback(): void {
     super.connectedCallback();
     this.requestUpdate();
-    const {model, selection, commands, link} = this.context;
+    const {model, selection, commands, link, windows} = this.context;
     this.loop ??= new DriveLoop(commands, () => this.requestUpdate());
     this.car ??= new CarDesk(this.loop, this.keys);
     let chosen = this.driven;
@@ -50,16 +50,7 @@ export class JoystickPanel extends LitElement {
     this.ends.push(selection.changed.on(choose), model.drivesChanged.on(choose), model.runChanged.on(choose));
     this.ends.push(link.changed.on(() => !link.reaches && this.letGo()));
     // The dead-man: whoever does not look at the page does not drive.
-    const hidden = () => document.visibilityState === 'hidden' && this.letGo();
-    const blur = () => this.letGo();
-    document.addEventListener('visibilitychange', hidden);
-    window.addEventListener('blur', blur);
-    window.addEventListener('pagehide', blur);
-    this.ends.push(
-      () => document.removeEventListener('visibilitychange', hidden),
-      () => window.removeEventListener('blur', blur),
-      () => window.removeEventListener('pagehide', blur),
-    );
+    this.ends.push(windows.left.on(() => this.letGo()));
     this.timers = [window.setInterval(() => this.requestUpdate(), kRefresh_ms), window.setInterval(() => this.readPad(), kPad_ms)];
   }
 

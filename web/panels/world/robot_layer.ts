@@ -35,6 +35,21 @@ export class RobotLayer {
     return this.outlines[slot]?.radius ?? 0.2;
   }
 
+  /** The outline of a robot as if it were at a place of the screen; `scale`: pixels per metre. */
+  strokeOutline(ctx: CanvasRenderingContext2D, slot: number, x: number, y: number, yaw: number, scale: number): void {
+    const outline = this.outlines[slot];
+    if (outline === undefined) return;
+    const [width, dash] = [ctx.lineWidth, ctx.getLineDash()];
+    ctx.save();
+    ctx.translate(x, y);
+    ctx.rotate(-yaw);
+    ctx.scale(scale, -scale);
+    ctx.lineWidth = width / scale;
+    ctx.setLineDash(dash.map((part) => part / scale));
+    ctx.stroke(outline.path);
+    ctx.restore();
+  }
+
   draw(
     ctx: CanvasRenderingContext2D, camera: Camera, placed: Placed, slot: number, robot: Robot, tint: string | null,
   ): void {

@@ -21,6 +21,7 @@ import {Surface} from './surface';
 import {kTailParts, type Swarm, type Tone} from './swarm';
 import {Tint} from './tint';
 import {drawTrail, kTrail_s, trailFrames} from './trail_layer';
+import {drawShadows} from './shadow_layer';
 import {drawVariances} from './variance_layer';
 
 /** Below this many pixels per metre, or beyond so many robots in the picture, simulated ones are arrowheads. */
@@ -101,6 +102,7 @@ export class TopView {
     }
     drawReadings(ctx, camera, model, selection, palette, placed, layers, this.surface, camera.scale >= kFar_px);
     if (layers.uncertainty) drawVariances(ctx, camera, model, selection, palette, placed);
+    if (!layers.hidden.includes('real')) drawShadows(ctx, camera, model, selection, palette, placed, this.robots);
     const speeds = model.poses.newest?.speed;
     for (const slot of cast.whole) {
       const robot = model.robots[slot];

@@ -4,6 +4,7 @@ import {icon, type IconName} from '../../app/icons';
 import {controls, glyphs} from '../../app/styles';
 import {Placed} from '../../model/pose_history';
 import type {PanelContext} from '../../panel_api';
+import {viewOf} from '../../panel_api/windows';
 import {kColourBy, kLayers, readLayers, type Layers} from './layers';
 import {drawnSensors} from './scan_layer';
 import {orderStyles} from './orders/order_cards';
@@ -53,6 +54,8 @@ export class WorldPanel extends LitElement {
 
   override connectedCallback(): void {
     super.connectedCallback();
+    // A picture that another window was to draw does not come.
+    this.drawQueued = false;
     // The dock takes panels out while they are hidden: what came meanwhile is to be shown.
     this.requestUpdate();
     const {model, palette, selection} = this.context;
@@ -258,13 +261,14 @@ export class WorldPanel extends LitElement {
 
   /** No other panel is beside it. */
   private get alone(): boolean {
+    const {innerWidth, innerHeight} = viewOf(this);
     return innerWidth >= 600 && this.clientWidth > kAlone * innerWidth && this.clientHeight > 0.6 * innerHeight;
   }
 
   private draw(): void {
     if (this.drawQueued) return;
     this.drawQueued = true;
-    requestAnimationFrame(() => {
+    viewOf(this).requestAnimationFrame(() => {
       this.drawQueued = false;
       this.paint();
     });

@@ -11,15 +11,15 @@
 
 namespace rave {
 
-/// The value of a fallible call, or the Error that kept it from having one.
-/// Every public function that can fail returns this; nothing in RAVE throws across a library edge.
+/// The value of a fallible call, or an Error. Every public function that can fail returns a Result
+/// or Status; no exception crosses a library boundary.
 template <class T>
 using Result = tl::expected<T, Error>;
 
 /// A fallible call without a value.
 using Status = Result<void>;
 
-/// Makes the failing alternative of any Result: `return fail(ErrorCode::kIo, "cannot open {}", p);`
+/// Makes a failed Result: `return fail(ErrorCode::kIo, "cannot open {}", p);`
 template <class... Args>
 [[nodiscard]] tl::unexpected<Error> fail(ErrorCode code, fmt::format_string<Args...> format,
                                          Args&&... args) {
@@ -27,7 +27,7 @@ template <class... Args>
       Error{code, fmt::format(format, std::forward<Args>(args)...), SourceLocation{}});
 }
 
-/// The same with a place in the user's file.
+/// Like fail(), with a place in the user's file.
 template <class... Args>
 [[nodiscard]] tl::unexpected<Error> fail_at(SourceLocation where, ErrorCode code,
                                             fmt::format_string<Args...> format, Args&&... args) {
@@ -37,7 +37,7 @@ template <class... Args>
 
 }  // namespace rave
 
-/// Leaves the calling function with the error of `expr` if it failed.
+/// Returns the error of `expr` from the calling function if `expr` failed.
 #define RAVE_TRY(expr)                                                             \
   do {                                                                             \
     if (auto rave_try_status_ = (expr); !rave_try_status_) {                       \
@@ -55,6 +55,6 @@ template <class... Args>
   target = *std::move(temporary)
 
 /// `RAVE_TRY_ASSIGN(const auto file, open(path));` declares the target with the value of `expr`, or
-/// leaves the calling function with its error.
+/// returns its error from the calling function.
 #define RAVE_TRY_ASSIGN(target, expr) \
   RAVE_TRY_ASSIGN_IMPL_(RAVE_TRY_CONCAT_(rave_try_result_, __LINE__), target, expr)

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A robot changes between two sets of drivers while the run goes.
+#include "hand_overs.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
-#include "engine_impl.hpp"
-#include "input_notes.hpp"
-#include "rave/base/check.hpp"
+#include "pose_reading.hpp"
 #include "rave/math/scalar.hpp"
 #include "rave/math/transform.hpp"
 
@@ -35,81 +34,105 @@ bool is_below(const Twist2& twist, double mps, double radps) noexcept {
   return std::sqrt(squared_norm(Vec2{twist.vx, twist.vy})) <= mps && std::abs(twist.wz) <= radps;
 }
 
+/// Whether a type has what may take seconds to be found.
+bool has_hardware(const RobotType& type) {
+  const auto is_real = [](const auto& device) { return device.hardware_ops != nullptr; };
+  return std::any_of(type.sensors.begin(), type.sensors.end(), is_real) ||
+         std::any_of(type.actuators.begin(), type.actuators.end(), is_real) ||
+         !type.devices.empty();
+}
+
 }  // namespace
 
-Status Engine::Impl::hand_over(RobotId robot, DriverSet to, const Author& author) {
-  const std::string& name = spec.robots[robot.value()].name;
-  Twin* const twin = find_twin(robot);
-  if (twin == nullptr) {
-    return fail(ErrorCode::kInvalidArgument,
-                "robot `{}` has one set of drivers; `twin:` in the scenario names another", name);
-  }
-  const RobotType& target = spec.types[twin->type_of(to)];
-  if (twin->stage != Twin::Stage::kIdle) {
+void HandOvers::set_step(std::uint64_t step) noexcept {
+  step_ = step;
+  now_ = {static_cast<std::int64_t>(step) * spec_.step.ns};
+}
+
+Status HandOvers::check(const Twin& twin, DriverSet to) const {
+  const std::string& name = spec_.robots[twin.robot.value()].name;
+  const RobotType& target = spec_.types[twin.type_of(to)];
+  if (twin.stage != Twin::Stage::kIdle) {
     return fail(ErrorCode::kState, "robot `{}` is already being handed over", name);
   }
-  if (twin->given_up) {
+  if (twin.given_up) {
     return fail(ErrorCode::kState,
                 "the {} drivers of robot `{}` are still opening for an abandoned hand-over",
                 reality_of(target), name);
   }
-  if (twin->state.active == to) {
+  if (twin.state.active == to) {
     return fail(ErrorCode::kState, "robot `{}` already has its {} drivers", name,
                 reality_of(target));
   }
-  if (!target.simulated && truth.scale_of(robot) != 1) {
+  const double scale = truth_.scale_of(twin.robot);
+  if (!target.simulated && scale != 1) {
     return fail(ErrorCode::kState, "the body of robot `{}` has `scale` {}; a real one has 1", name,
-                truth.scale_of(robot));
+                scale);
   }
-  if (author.by_hand) ++by_hand;
+  return {};
+}
+
+Status HandOvers::ask(std::uint64_t step, RobotId robot, DriverSet to, const Author& author) {
+  Twin* const twin = find(robot);
+  if (twin == nullptr) {
+    return fail(ErrorCode::kInvalidArgument,
+                "robot `{}` has one set of drivers; `twin:` in the scenario names another",
+                spec_.robots[robot.value()].name);
+  }
+  RAVE_TRY(check(*twin, to));
+  set_step(step);
+  log_.count(author);
   twin->author = author;
   twin->state.under_way = true;
   twin->state.by_hand = author.by_hand;
   twin->state.to = to;
   twin->heard.reset();
   begin_stage(*twin, Twin::Stage::kOpening);
-  const bool waits =
-      std::any_of(target.sensors.begin(), target.sensors.end(),
-                  [](const SensorSpec& sensor) { return sensor.hardware_ops != nullptr; }) ||
-      std::any_of(target.actuators.begin(), target.actuators.end(),
-                  [](const ActuatorSpec& actuator) { return actuator.hardware_ops != nullptr; }) ||
-      !target.devices.empty();
-  // Hardware may take seconds to be found, for which nobody else shall wait. A stepped run waits.
+  // Nobody else shall wait for hardware. A stepped run waits.
+  const bool beside = spec_.live_clock != nullptr && has_hardware(spec_.types[twin->type_of(to)]);
   auto open = [this, twin, before = std::move(twin->work)] {
     before.wait();
     return open_other(*twin);
   };
-  twin->work = waits && spec.live_clock != nullptr ? SideTask::in_thread(std::move(open))
-                                                   : SideTask::later(std::move(open));
+  twin->work = beside ? SideTask::in_thread(std::move(open)) : SideTask::later(std::move(open));
   return {};
 }
 
-void Engine::Impl::begin_stage(Twin& twin, Twin::Stage stage) {
+void HandOvers::begin_stage(Twin& twin, Twin::Stage stage) {
   twin.stage = stage;
-  twin.since = step_time(step);
+  twin.since = now_;
   twin.moved_at = twin.since;
-  robot_guards[twin.robot.value()].hold(stage == Twin::Stage::kStanding);
+  guards_[twin.robot.value()].hold(stage == Twin::Stage::kStanding);
 }
 
-void Engine::Impl::advance_hand_overs() {
-  for (Twin& twin : twins) {
+void HandOvers::advance(std::uint64_t step) {
+  set_step(step);
+  begin_scheduled();
+  for (Twin& twin : twins_) {
     if (twin.given_up) close_late(twin);
     if (twin.stage != Twin::Stage::kIdle) advance(twin);
   }
 }
 
 /// Drivers that were open too late for the hand-over that waited for them.
-void Engine::Impl::close_late(Twin& twin) {
+void HandOvers::close_late(Twin& twin) {
   if (!twin.work.ready()) return;
   twin.given_up = false;
   // Who could not be opened has been closed by whoever tried.
   if (twin.work.get()) close_other(twin);
 }
 
-void Engine::Impl::advance(Twin& twin) {
+void HandOvers::skip_to(std::uint64_t step) {
+  set_step(step);
+  for (Twin& twin : twins_) {
+    if (twin.stage != Twin::Stage::kIdle) twin.since = twin.moved_at = now_;
+  }
+}
+
+void HandOvers::advance(Twin& twin) {
   if (twin.stage == Twin::Stage::kOpening) {
     if (!twin.work.ready()) {
-      if (now - twin.since <= kOpen) return;
+      if (now_ - twin.since <= kOpen) return;
       twin.given_up = true;
       return refuse(twin, fmt::format("its drivers did not open within {:.0f} s", kOpen.seconds()));
     }
@@ -124,30 +147,30 @@ void Engine::Impl::advance(Twin& twin) {
     begin_stage(twin, Twin::Stage::kStanding);
   }
   if (!stands(twin)) {
-    if (now - twin.since <= kComeToStand) return;
+    if (now_ - twin.since <= kComeToStand) return;
     return refuse(twin, fmt::format("it did not come to rest within {} s", kComeToStand.seconds()));
   }
   // Where it was long ago is not where it is; silence is listen()'s to judge.
-  if (twin.heard && now - twin.heard_at > twin.other.type->staleness) return;
+  if (twin.heard && now_ - twin.heard_at > twin.other.type->staleness) return;
   const Status near = check_near(twin);
   if (!near) return refuse(twin, near.error().text());
   change_drivers(twin);
 }
 
 /// Whether the other set says where the robot is, if it has to.
-bool Engine::Impl::is_heard(const Twin& twin) const noexcept {
+bool HandOvers::is_heard(const Twin& twin) const noexcept {
   const RobotType& type = *twin.other.type;
   const bool asks = type.pose_from && type.sensors[*type.pose_from].hardware_ops != nullptr;
   return !asks || twin.heard.has_value();
 }
 
 /// Takes in what the other set has said, so that nothing old is left when it begins to serve.
-Status Engine::Impl::listen(Twin& twin) {
+Status HandOvers::listen(Twin& twin) {
   for (std::size_t s = 0; s < twin.other.sensors.size(); ++s) {
     SensorSlots& slots = twin.other.sensors[s];
     if (slots.is_virtual()) continue;
     SampleHeader sample;
-    while (slots.queues[0]->next(now, &sample, slots.scratch.data())) {
+    while (slots.queues[0]->next(now_, &sample, slots.scratch.data())) {
       if (twin.other.type->pose_from != s || sample.count == 0) continue;
       const PoseReading said = pose_reading(slots.spec->kind, slots.scratch.data());
       if (!std::isfinite(said.x_m) || !std::isfinite(said.y_m) || !std::isfinite(said.yaw_rad))
@@ -160,32 +183,32 @@ Status Engine::Impl::listen(Twin& twin) {
       return fail(ErrorCode::kState, "sensor `{}`: {}", slots.spec->name, failure);
     }
   }
-  const bool lost = twin.heard && now - twin.heard_at > kListen;
-  if (!lost && (is_heard(twin) || now - twin.since <= kListen)) return {};
+  const bool lost = twin.heard && now_ - twin.heard_at > kListen;
+  if (!lost && (is_heard(twin) || now_ - twin.since <= kListen)) return {};
   return fail(ErrorCode::kTimeout, "sensor `{}` has not reported the pose of the robot for {} s",
               twin.other.sensors[*twin.other.type->pose_from].spec->name, kListen.seconds());
 }
 
-bool Engine::Impl::stands(Twin& twin) {
+bool HandOvers::stands(Twin& twin) {
   const std::uint32_t r = twin.robot.value();
-  const RobotGroup& group = group_of_twin(twin);
+  const RobotGroup& group = group_of(twin);
   // The command that makes it stand has to reach it first.
-  if (now <= twin.since) return false;
+  if (now_ <= twin.since) return false;
   if (group.type->simulated) {
-    return is_below(truth.velocity[r], kTrueStill_mps, kTrueStill_radps);
+    return is_below(truth_.velocity[r], kTrueStill_mps, kTrueStill_radps);
   }
   // A recording goes its way, whatever it is told.
   const bool obeys = std::any_of(group.actuators.begin(), group.actuators.end(),
                                  [](const ActuatorSlots& slots) { return slots.obeys[0] != 0; });
   if (!obeys) return true;
-  if (!moves_seen(group, r)) return now - twin.moved_at >= kSeenToStand;
-  twin.moved_at = now;
+  if (!moves_seen(group, r)) return now_ - twin.moved_at >= kSeenToStand;
+  twin.moved_at = now_;
   return false;
 }
 
 /// Whether a real robot is seen to move, or cannot be seen.
-bool Engine::Impl::moves_seen(const RobotGroup& group, std::uint32_t robot) const {
-  const ReportedPose& pose = reported[robot];
+bool HandOvers::moves_seen(const RobotGroup& group, std::uint32_t robot) const {
+  const ReportedPose& pose = reported_[robot];
   if (!pose.known || pose.stale) return true;
   if (!is_below(pose.velocity, kReportedStill_mps, kReportedStill_radps)) return true;
   for (const ActuatorSlots& slots : group.actuators) {
@@ -194,7 +217,7 @@ bool Engine::Impl::moves_seen(const RobotGroup& group, std::uint32_t robot) cons
   for (const SensorSlots& slots : group.sensors) {
     if (slots.spec->kind != ReadingKind::kOdometry) continue;
     if (slots.headers[0].count == 0) return true;
-    if (now.ns - slots.headers[0].stamp_ns > kFresh.ns) return true;
+    if (now_.ns - slots.headers[0].stamp_ns > kFresh.ns) return true;
     OdometryReading wheels;
     std::memcpy(&wheels, slots.records.data(), sizeof wheels);
     if (!is_below({wheels.v_mps, 0, wheels.w_radps}, kWheelsStill_mps, kWheelsStill_radps)) {
@@ -204,44 +227,37 @@ bool Engine::Impl::moves_seen(const RobotGroup& group, std::uint32_t robot) cons
   return false;
 }
 
-void Engine::Impl::refuse(Twin& twin, const std::string& why) {
+void HandOvers::refuse(Twin& twin, const std::string& why) {
   // What is still being opened belongs to who opens it.
   if (!twin.given_up && twin.made) close_other(twin);
   ++twin.state.refused;
-  const std::string from(reality_of(*group_of_twin(twin).type));
-  end_hand_over(twin, EventKind::kHandOverRefused,
-                fmt::format("{} -> {}: {}", from, reality_of(*twin.other.type), why));
+  const std::string from(reality_of(*group_of(twin).type));
+  end(twin, EventKind::kHandOverRefused,
+      fmt::format("{} -> {}: {}", from, reality_of(*twin.other.type), why));
 }
 
-void Engine::Impl::end_hand_over(Twin& twin, EventKind kind, std::string text) {
+void HandOvers::end(Twin& twin, EventKind kind, std::string text) {
   begin_stage(twin, Twin::Stage::kIdle);
   twin.state.under_way = false;
   twin.state.last = text;
-  const Author author = twin.author;
-  pending.push_back(noted_input(step, twin.robot, kind, std::move(text), author, hash));
+  log_.note_outcome(step_, twin.robot, kind, std::move(text), twin.author);
 }
 
-void Engine::Impl::begin_hand_overs() {
-  for (; next_hand_over < spec.hand_overs.size() && spec.hand_overs[next_hand_over].step <= step;
-       ++next_hand_over) {
-    const ScheduledHandOver& asked = spec.hand_overs[next_hand_over];
-    if (!is_local(asked.robot.value())) continue;
-    const Status begun = hand_over(asked.robot, asked.to, Author::kRun);
+void HandOvers::begin_scheduled() {
+  for (; next_ < spec_.hand_overs.size() && spec_.hand_overs[next_].step <= step_; ++next_) {
+    const ScheduledHandOver& asked = spec_.hand_overs[next_];
+    if (!roster_.is_local(asked.robot)) continue;
+    const Status begun = ask(step_, asked.robot, asked.to, Author::kRun);
     if (begun) continue;
-    if (Twin* const twin = find_twin(asked.robot)) ++twin->state.refused;
-    note_input(asked.robot, EventKind::kHandOverRefused, begun.error().text(), Author::kRun);
+    if (Twin* const twin = find(asked.robot)) ++twin->state.refused;
+    log_.note(step_, asked.robot, EventKind::kHandOverRefused, begun.error().text(), Author::kRun);
   }
 }
 
-Status Engine::hand_over(RobotId robot, DriverSet to, const Author& author) {
-  RAVE_CHECK(robot.value() < impl_->spec.robots.size());
-  return impl_->hand_over(robot, to, author);
-}
-
-std::optional<HandOverState> Engine::hand_over_state(RobotId robot) const {
-  const Twin* const twin = impl_->find_twin(robot);
-  if (twin == nullptr) return std::nullopt;
-  return twin->state;
+const HandOverState* HandOvers::state(RobotId robot) const noexcept {
+  const auto found = std::find_if(twins_.begin(), twins_.end(),
+                                  [robot](const Twin& twin) { return twin.robot == robot; });
+  return found == twins_.end() ? nullptr : &found->state;
 }
 
 }  // namespace rave::sim

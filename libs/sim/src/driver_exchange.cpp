@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The two sets of drivers of a robot: made, opened, exchanged.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 
-#include "engine_impl.hpp"
-#include "rave/base/check.hpp"
+#include "hand_overs.hpp"
 #include "rave/math/scalar.hpp"
 #include "rave/math/transform.hpp"
 
@@ -91,48 +91,47 @@ void carry_sample(const SensorSlots& from, SensorSlots& to) {
 
 }  // namespace
 
-void Engine::Impl::make_twins() {
-  for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
-    if (!spec.robots[r].twin || !is_local(r)) continue;
-    Twin& twin = twins.emplace_back();
+void HandOvers::make(const Radio* radio) {
+  radio_ = radio;
+  for (std::uint32_t r = 0; r < spec_.robots.size(); ++r) {
+    if (!spec_.robots[r].twin || !roster_.is_local(RobotId(r))) continue;
+    Twin& twin = twins_.emplace_back();
     twin.robot = RobotId(r);
-    twin.types = {spec.robots[r].type, *spec.robots[r].twin};
-    twin.other.type = &spec.types[twin.types[1]];
+    twin.types = {spec_.robots[r].type, *spec_.robots[r].twin};
+    twin.other.type = &spec_.types[twin.types[1]];
     twin.other.members = {twin.robot};
   }
 }
 
-Twin* Engine::Impl::find_twin(RobotId robot) noexcept {
-  for (Twin& twin : twins) {
+Twin* HandOvers::find(RobotId robot) noexcept {
+  for (Twin& twin : twins_) {
     if (twin.robot == robot) return &twin;
   }
   return nullptr;
 }
 
-RobotGroup& Engine::Impl::group_of_twin(const Twin& twin) noexcept {
-  return groups[group_index[twin.robot.value()]];
+const RobotType* HandOvers::other_type(RobotId robot) const noexcept {
+  for (const Twin& twin : twins_) {
+    if (twin.robot == robot) return twin.other.type;
+  }
+  return nullptr;
 }
 
-/// The first set serves again, and nothing is under way.
-Status Engine::Impl::restore_twins() {
-  if (!close_twins()) {
+Status HandOvers::restore() {
+  if (!close()) {
     return fail(ErrorCode::kState,
                 "the run cannot restart while drivers of a hand-over are opening or closing");
   }
-  for (Twin& twin : twins) {
+  for (Twin& twin : twins_) {
     if (twin.state.active != DriverSet::kFirst) {
-      RobotGroup& group = group_of_twin(twin);
-      if (!close_all(sim::take_open(group))) {
+      if (!site_.close_all(take_open(group_of(twin)))) {
         return fail(ErrorCode::kState,
                     "the run cannot restart while drivers of the last run are closing");
       }
       exchange(twin);
-      const bool simulated = group.type->simulated;
-      truth.set_reality(twin.robot, simulated, spec.robots[twin.robot.value()].X_WR);
-      body_changed(twin.robot);
-      if (host) host->set_type(twin.robot, *group.type);
+      site_.drivers_restored(twin.robot);
     }
-    group_of_twin(twin).X_WM.reset();
+    group_of(twin).X_WM.reset();
     twin.stage = Twin::Stage::kIdle;
     twin.state = {};
   }
@@ -140,11 +139,11 @@ Status Engine::Impl::restore_twins() {
 }
 
 /// Maybe in a thread of its own: touches nothing but the set that does not serve.
-Status Engine::Impl::open_other(Twin& twin) {
-  const GroupContext context{spec, logs, radio.get(), &twin.opening};
+Status HandOvers::open_other(Twin& twin) {
+  const GroupContext context{spec_, roster_.logs, radio_, &twin.opening};
   if (!twin.made) {
     Status made = make_body(context, twin.other);
-    if (made) made = check_readings(group_of_twin(twin), twin.other);
+    if (made) made = check_readings(group_of(twin), twin.other);
     if (made) made = check_live(twin.other);
     if (!made) {
       throw_away(twin.other);
@@ -161,10 +160,10 @@ Status Engine::Impl::open_other(Twin& twin) {
 }
 
 /// Where the robot is when the other set serves, and the frame of its pose source.
-Engine::Impl::Arrival Engine::Impl::arrival(const Twin& twin) const {
+Arrival HandOvers::arrival(const Twin& twin) const {
   const std::uint32_t r = twin.robot.value();
   const RobotType& type = *twin.other.type;
-  Arrival place{truth.movers[r].X_WR, {}, std::nullopt, now};
+  Arrival place{truth_.movers[r].X_WR, {}, std::nullopt, now_};
   if (!type.pose_from) return place;
   const PoseReading heard = twin.heard.value_or(PoseReading{});
   const Pose2 X_MR{heard.x_m, heard.y_m, heard.yaw_rad};
@@ -181,16 +180,16 @@ Engine::Impl::Arrival Engine::Impl::arrival(const Twin& twin) const {
   return place;
 }
 
-Status Engine::Impl::check_near(const Twin& twin) const {
+Status HandOvers::check_near(const Twin& twin) const {
   const std::uint32_t r = twin.robot.value();
-  if (!truth.movers[r].present) {
+  if (!truth_.movers[r].present) {
     return fail(ErrorCode::kState, "its pose is not known yet");
   }
-  const Pose2 X_before = truth.movers[r].X_WR;
+  const Pose2 X_before = truth_.movers[r].X_WR;
   const Pose2 X_after = arrival(twin).X_WR;
   const double apart_m = distance_m(X_before, X_after);
   const double turned_rad = std::abs(wrap_angle(X_after.yaw - X_before.yaw));
-  const HandOverLimits& limits = spec.robots[r].hand_over;
+  const HandOverLimits& limits = spec_.robots[r].hand_over;
   const bool finite =
       std::isfinite(X_after.x) && std::isfinite(X_after.y) && std::isfinite(X_after.yaw);
   if (finite && apart_m <= limits.within_m && turned_rad <= limits.within_rad) return {};
@@ -202,8 +201,8 @@ Status Engine::Impl::check_near(const Twin& twin) const {
 }
 
 /// The sets change places; program and controllers stay.
-void Engine::Impl::exchange(Twin& twin) {
-  RobotGroup& group = group_of_twin(twin);
+void HandOvers::exchange(Twin& twin) {
+  RobotGroup& group = group_of(twin);
   std::swap(group.type, twin.other.type);
   std::swap(group.devices, twin.other.devices);
   std::swap(group.sensors, twin.other.sensors);
@@ -215,46 +214,29 @@ void Engine::Impl::exchange(Twin& twin) {
   show_sensors(group);
   const bool first = twin.state.active == DriverSet::kFirst;
   twin.state.active = first ? DriverSet::kTwin : DriverSet::kFirst;
-  RobotSpec& robot = spec.robots[twin.robot.value()];
+  RobotSpec& robot = spec_.robots[twin.robot.value()];
   robot.type = twin.type_of(twin.state.active);
   robot.twin = twin.type_of(first ? DriverSet::kFirst : DriverSet::kTwin);
 }
 
-void Engine::Impl::change_drivers(Twin& twin) {
+void HandOvers::change_drivers(Twin& twin) {
   const std::uint32_t r = twin.robot.value();
-  RobotGroup& group = group_of_twin(twin);
-  const Pose2 X_before = truth.movers[r].X_WR;
+  RobotGroup& group = group_of(twin);
+  const Pose2 X_before = truth_.movers[r].X_WR;
   const Arrival place = arrival(twin);
-  halt(group);
+  site_.halt(group);
   for (std::size_t s = 0; s < group.sensors.size(); ++s) {
     carry_sample(group.sensors[s], twin.other.sensors[s]);
   }
   exchange(twin);
   const RobotType& type = *group.type;
   group.X_WM = place.X_WM;
-  truth.set_reality(twin.robot, type.simulated, place.X_WR);
-  body_changed(twin.robot);
-  if (host) {
-    host->set_type(twin.robot, type);
-    // What the other drivers said since the last report is nothing that these can say.
-    std::erase_if(host->samples,
-                  [&twin](const PoseSample& sample) { return sample.robot == twin.robot; });
-  }
-  reported[r] = {{place.X_WR.x, place.X_WR.y, place.X_WR.yaw, place.variance.variance_xy_m2,
-                  place.variance.variance_yaw_rad2},
-                 {},
-                 place.stamp,
-                 true,
-                 false};
-  tracks[r].clear();
-  tracks[r].add(place.stamp, place.X_WR);
-  // Who armed the robot before armed another one.
-  robot_guards[r].set_armed(is_armed_at_first(r));
+  site_.drivers_changed(twin.robot, place);
   close_other(twin);
-  const Status guarded = start_guards(group);
-  if (!guarded && spec.log != nullptr) {
-    spec.log->error("guard", "{}; from now on only the steps of the run guard it",
-                    guarded.error().text());
+  const Status guarded = site_.start_guards(group);
+  if (!guarded && spec_.log != nullptr) {
+    spec_.log->error("guard", "{}; from now on only the steps of the run guard it",
+                     guarded.error().text());
   }
   ++twin.state.made;
   const double jump_m = distance_m(X_before, place.X_WR);
@@ -263,32 +245,60 @@ void Engine::Impl::change_drivers(Twin& twin) {
       "{} -> {} at ({:.3f}, {:.3f}) m, {:.1f} degrees; moved by {:.4f} m and {:.2f} degrees",
       reality_of(*twin.other.type), reality_of(type), place.X_WR.x, place.X_WR.y,
       rad_to_deg(place.X_WR.yaw), jump_m, rad_to_deg(turn_rad));
-  if (!robot_guards[r].holds().armed) text += "; it stands until it is armed";
-  end_hand_over(twin, EventKind::kHandedOver, std::move(text));
+  if (!guards_[r].holds().armed) text += "; it stands until it is armed";
+  end(twin, EventKind::kHandedOver, std::move(text));
 }
 
-bool Engine::show_reality(RobotId robot, bool simulated) {
-  Impl& engine = *impl_;
-  const std::uint32_t r = robot.value();
-  RAVE_CHECK(r < engine.spec.robots.size() && !engine.is_local(r));
-  RobotSpec& its = engine.spec.robots[r];
-  if (engine.spec.types[its.type].simulated == simulated) return true;
-  if (!its.twin || engine.spec.types[*its.twin].simulated != simulated) return false;
-  std::swap(its.type, *its.twin);
-  const bool present = engine.truth.movers[r].present;
-  engine.truth.set_reality(robot, simulated, engine.truth.movers[r].X_WR);
-  engine.truth.movers[r].present = present;
-  engine.body_changed(robot);
-  return true;
-}
-
-void Engine::Impl::close_other(Twin& twin) {
-  tell_complaints(twin.other);
-  if (spec.live_clock == nullptr) return close_group(twin.other);
+void HandOvers::close_other(Twin& twin) {
+  site_.before_closing(twin.other);
+  if (spec_.live_clock == nullptr) return close_group(twin.other);
   twin.work = SideTask::in_thread([&twin]() -> Status {
     close_group(twin.other);
     return {};
   });
+}
+
+std::string HandOvers::still_busy(const Twin& twin) {
+  const std::string opening = twin.opening.text();
+  return fmt::format("its {} drivers, which do not serve, are still being {}{}{}",
+                     reality_of(*twin.other.type),
+                     opening.empty() ? "made or closed" : "opened: ", opening,
+                     opening.empty() ? "" : " has not returned");
+}
+
+bool HandOvers::close() noexcept {
+  const auto end = std::chrono::steady_clock::now() + spec_.last_wait;
+  bool all = true;
+  std::vector<ToClose> open;
+  for (Twin& twin : twins_) {
+    if (!twin.work.ready_by(end)) {
+      all = false;
+      if (spec_.log == nullptr) continue;
+      spec_.log->error(roster_.logs[twin.robot.value()].source, "{}; the run ends without it",
+                       still_busy(twin));
+      continue;
+    }
+    twin.work.wait();
+    twin.work = {};
+    twin.given_up = false;
+    twin.stage = Twin::Stage::kIdle;
+    twin.state.under_way = false;
+    const std::vector<ToClose> more = take_open(twin.other);
+    open.insert(open.end(), more.begin(), more.end());
+  }
+  return site_.close_all(std::move(open)) && all;
+}
+
+void HandOvers::leave_behind(const std::function<void(const RobotType&)>& keep) noexcept {
+  for (Twin& twin : twins_) {
+    if (twin.work.ready()) {
+      static_cast<void>(site_.close_all(take_open(twin.other)));
+      continue;
+    }
+    twin.left = true;
+    keep(*twin.other.type);
+    twin.work.leave_alone();
+  }
 }
 
 }  // namespace rave::sim

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "order_book.hpp"
+#include "order_checks.hpp"
+
+namespace rave::sim {
+
+void OrderedRobot::wait_for_program(const WorldInput& input) {
+  const bool text = input.kind == WorldInput::Kind::kText;
+  if (!text) {
+    std::erase_if(waiting,
+                  [](const WorldInput& one) { return one.kind != WorldInput::Kind::kText; });
+  } else if (waiting.size() >= kMostWaitingOrders) {
+    const auto oldest = std::find_if(waiting.begin(), waiting.end(), [](const WorldInput& one) {
+      return one.kind == WorldInput::Kind::kText;
+    });
+    waiting.erase(oldest);
+  }
+  waiting.push_back(input);
+}
+
+void OrderedRobot::show() {
+  shown.swap(waiting);
+  waiting.clear();
+  items.clear();
+  for (const WorldInput& input : shown) {
+    OrderItem& item = items.emplace_back();
+    const OrderDetails& order = input.order;
+    item.kind = order_kind(input.kind);
+    item.points = order.points_W.data();
+    item.point_count = static_cast<std::uint32_t>(order.points_W.size());
+    item.has_yaw = order.yaw_rad ? 1 : 0;
+    item.yaw_rad = order.yaw_rad.value_or(0);
+    item.speed_mps = order.speed_mps;
+    item.text = order.text.data();
+    item.text_size = static_cast<std::uint32_t>(order.text.size());
+    item.by = input.author.name.data();
+    item.by_size = static_cast<std::uint32_t>(input.author.name.size());
+  }
+}
+
+}  // namespace rave::sim

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "request_fields.hpp"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "rave/control/chat_line.hpp"
+#include "rave/robot/order.hpp"
+
+namespace rave::control {
+namespace {
+
+constexpr std::size_t kMaxWordBytes = 4096;
+constexpr std::uint64_t kMaxSteps = 1'000'000'000;
+
+/// Moves a text out of an object; false if the member exists but is not a valid text.
+bool take_text(Json& json, const char* key, std::string& text) {
+  if (!json.contains(key)) return true;
+  const Json& value = json.at(key);
+  if (!value.is_string()) return false;
+  text = value.get<std::string>();
+  json.erase(key);
+  return text.size() <= kMaxWordBytes && text.find('\0') == std::string::npos;
+}
+
+bool take_count(Json& json, std::uint64_t& count) {
+  if (!json.contains("count")) return true;
+  const Json& value = json.at("count");
+  if (!value.is_number_unsigned()) return false;
+  count = value.get<std::uint64_t>();
+  json.erase("count");
+  return count >= 1 && count <= kMaxSteps;
+}
+
+bool take_flag(Json& json, const char* key, bool& value) {
+  if (!json.contains(key)) return true;
+  if (!json.at(key).is_boolean()) return false;
+  value = json.at(key).get<bool>();
+  json.erase(key);
+  return true;
+}
+
+bool take_page(Json& json, std::uint64_t& page) {
+  if (!json.contains("page")) return true;
+  if (!json.at("page").is_number_unsigned()) return false;
+  page = json.at("page").get<std::uint64_t>();
+  json.erase("page");
+  return page > 0;
+}
+
+/// The author of a request; only requests that change something may name one.
+bool take_author(Json& json, Request& request) {
+  return take_text(json, "by", request.by) && request.by.size() <= kMostOrderAuthor &&
+         take_flag(json, "overrides", request.overrides) && take_page(json, request.page);
+}
+
+/// Reads a finite number; with `needed` it must exist.
+bool take_number(Json& json, const char* key, bool needed, double& value) {
+  if (!json.contains(key)) return !needed;
+  if (!json.at(key).is_number()) return false;
+  value = json.at(key).get<double>();
+  json.erase(key);
+  return std::isfinite(value);
+}
+
+bool take_yaw(Json& json, Request& request) {
+  if (!json.contains("yaw")) return true;
+  return take_number(json, "yaw", true, request.yaw_rad.emplace());
+}
+
+/// A list of points, each a list of x and y.
+bool take_points(Json& json, std::size_t least, std::size_t most, Request& request) {
+  if (!json.contains("points") || !json.at("points").is_array()) return false;
+  const Json points = std::move(json.at("points"));
+  json.erase("points");
+  if (points.size() < least || points.size() > most) return false;
+  for (const Json& point : points) {
+    const bool is_point =
+        point.is_array() && point.size() == 2 && point[0].is_number() && point[1].is_number();
+    if (!is_point) return false;
+    request.points.push_back({point[0].get<double>(), point[1].get<double>()});
+    const Vec2 last = request.points.back();
+    if (!std::isfinite(last.x) || !std::isfinite(last.y)) return false;
+  }
+  return true;
+}
+
+bool take_robot(Json& json, Request& request) {
+  return take_text(json, "robot", request.robot) && !request.robot.empty();
+}
+
+/// The members of orders and leases.
+bool take_order(Json& json, Request& request) {
+  if (!take_author(json, request)) return false;
+  switch (request.what) {
+    case Request::What::kDrive:
+      return take_robot(json, request) && take_number(json, "v", true, request.v_mps) &&
+             take_number(json, "w", true, request.w_radps);
+    case Request::What::kGoal:
+      return take_robot(json, request) && take_points(json, 1, 1, request) &&
+             take_yaw(json, request) && take_number(json, "speed", false, request.speed_mps);
+    case Request::What::kPath:
+      return take_robot(json, request) && take_points(json, 2, kMostOrderPoints, request) &&
+             take_number(json, "speed", false, request.speed_mps);
+    case Request::What::kPlace:
+      return take_robot(json, request) && take_points(json, 1, 1, request) &&
+             take_yaw(json, request);
+    case Request::What::kText:
+      return take_robot(json, request) && take_text(json, "value", request.value) &&
+             !request.value.empty() && request.value.size() <= kMostOrderText;
+    case Request::What::kCancel:
+      return take_text(json, "robot", request.robot);
+    case Request::What::kChat:
+      return take_text(json, "key", request.key) && take_text(json, "value", request.value) &&
+             runtime::chat_line(run_request(request)).has_value();
+    default:
+      return take_robot(json, request) && take_text(json, "value", request.value) &&
+             request.value.size() <= kMostOrderAuthor;
+  }
+}
+
+}  // namespace
+
+bool take_request_fields(Json& json, Request& request) {
+  if (request.what >= Request::What::kDrive) return take_order(json, request);
+  const bool changes =
+      request.what != Request::What::kStatus && request.what != Request::What::kList;
+  if (changes && !take_author(json, request)) return false;
+  switch (request.what) {
+    case Request::What::kStop:
+    case Request::What::kRelease:
+    case Request::What::kArm:
+    case Request::What::kResetShadow:
+      return take_text(json, "robot", request.robot);
+    case Request::What::kSet:
+      return take_text(json, "robot", request.robot) && take_text(json, "key", request.key) &&
+             take_text(json, "value", request.value) && !request.robot.empty() &&
+             !request.key.empty() && !request.value.empty();
+    case Request::What::kHandOver:
+      return take_text(json, "robot", request.robot) && take_text(json, "value", request.value) &&
+             !request.robot.empty() && !request.value.empty();
+    case Request::What::kStep:
+      return take_count(json, request.count);
+    case Request::What::kAdd:
+    case Request::What::kMove:
+      return take_text(json, "value", request.value) && !request.value.empty();
+    case Request::What::kRemove:
+      return take_text(json, "key", request.key) && !request.key.empty();
+    default:
+      return true;
+  }
+}
+
+}  // namespace rave::control

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// The main path in Firefox, driven through WebDriver BiDi: node firefox_test.mjs RAVE SCENARIO FOLDER
+import assert from 'node:assert/strict';
+import {existsSync, mkdirSync, rmSync} from 'node:fs';
+import {join} from 'node:path';
+import {launchFirefox, startServer, whereFirefox} from './browser.mjs';
+import {app, check, report, showFailures, until} from './checks.mjs';
+
+const [rave, scenario, folder] = process.argv.slice(2);
+if (!existsSync(whereFirefox)) {
+  console.log(`SKIPPED: there is no ${whereFirefox}; install the package firefox-esr, or name another Firefox in RAVE_FIREFOX.`);
+  process.exit(77);
+}
+rmSync(folder, {recursive: true, force: true});
+mkdirSync(folder, {recursive: true});
+const newest = `${app}.model.poses.newest`;
+const kStopped = 4;
+const stopped = `[...${newest}.flags].filter((flags) => flags & ${kStopped}).length`;
+const gui = await startServer(rave, ['run', scenario, '--gui', '--quiet', '--no-picture', '--duration', '60', '--output', join(folder, 'run')]);
+const browser = await launchFirefox();
+try {
+  const context = await browser.newContext({viewport: {width: 1400, height: 900}});
+  const page = await context.newPage();
+  showFailures(page, join(folder, 'failed.png'));
+  const errors = [];
+  page.on('pageerror', (error) => errors.push(String(error)));
+  page.on('console', (message) => message.type() === 'error' && errors.push(message.text()));
+
+  await check('the link opens the run', async () => {
+    await page.goto(gui.link);
+    await until(page, `${app}?.model?.robots?.length === 16 && ${newest} !== null`);
+    assert.match(await page.evaluate('navigator.userAgent'), /Firefox/);
+    assert.equal(await page.evaluate(`${app}.model.hello.run.source`), 'live');
+  });
+
+  await check('the World View shows robots that move', async () => {
+    const first = await page.evaluate(`({time_s: ${newest}.time_s, x: [...${newest}.x], painted: document.querySelector('rave-world').painted})`);
+    await until(page, `${newest}.time_s > ${first.time_s} + 1 && document.querySelector('rave-world').painted > ${first.painted} + 10`);
+    const x = await page.evaluate(`[...${newest}.x]`);
+    assert.ok(x.filter((value, slot) => Math.abs(value - first.x[slot]) > 0.02).length > 5, 'robots that moved');
+    const colours = await page.evaluate(() => {
+      const canvas = document.querySelector('rave-world').renderRoot.querySelector('canvas');
+      const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+      return new Set(new Uint32Array(data.buffer)).size;
+    });
+    assert.ok(colours > 50, `${colours} colours`);
+  });
+
+  await check('a click on a row selects, and its laser is read', async () => {
+    await page.locator('rave-robots .row', {hasText: 'real-3'}).click();
+    await until(page, `(() => { const a = ${app}; const slot = a.selection.primary;
+      const laser = a.model.robots[slot]?.sensors.findIndex((sensor) => sensor.kind === 'ranges');
+      return a.model.readings.of(slot, laser)?.rows === 121; })()`);
+    await page.locator('rave-sensors').getByText('121 rays').waitFor();
+  });
+
+  await check('a click in the World View selects the robot that is there', async () => {
+    const stand = {type: 'halt', do: 'stop', slots: []};
+    await page.evaluate((what) => document.querySelector('rave-app').link.send(what), stand);
+    await until(page, `${stopped} === 16`);
+    await page.waitForTimeout(500);
+    const at = await page.evaluate(() => {
+      const world = document.querySelector('rave-world');
+      const box = world.renderRoot.querySelector('.canvas').getBoundingClientRect();
+      const slot = document.querySelector('rave-app').model.robots.findIndex((robot) => robot.name === 'hunter');
+      const [x, y] = world.screenOf(slot);
+      return {x: box.left + x, y: box.top + y, slot};
+    });
+    await page.mouse.click(at.x, at.y);
+    await until(page, `${app}.selection.primary === ${at.slot}`);
+    await page.screenshot({path: join(folder, 'live.png')});
+    await page.evaluate((what) => document.querySelector('rave-app').link.send(what), {...stand, do: 'release'});
+    await until(page, `${stopped} === 0`);
+  });
+
+  await check('STOP stops all robots; a button that is held releases them', async () => {
+    await page.getByTitle('Stop all robots').click();
+    await until(page, `${stopped} === 16`);
+    const box = await page.getByRole('button', {name: /Hold to release/}).boundingBox();
+    await page.mouse.move(box.x + 30, box.y + 30);
+    await page.mouse.down();
+    await until(page, `${stopped} === 0`);
+    await page.mouse.up();
+  });
+
+  await check('a panel moves to a window of its own, and comes back', async () => {
+    const group = page.locator('.dv-groupview', {has: page.locator('rave-world')});
+    const [other] = await Promise.all([context.waitForEvent('page'), group.getByLabel('Into a window of its own').click()]);
+    await other.locator('rave-world').waitFor();
+    const painted = await other.evaluate(`document.querySelector('rave-world').painted`);
+    await until(other, `document.querySelector('rave-world').painted > ${painted} + 10`);
+    assert.equal(await other.evaluate(`getComputedStyle(document.querySelector('rave-world').renderRoot.querySelector('.bar')).display`), 'flex');
+    await Promise.all([other.waitForEvent('close'), other.getByLabel('Back into the page').click().catch(() => {})]);
+    await page.locator('rave-world').waitFor();
+  });
+
+  await check('the run that is over is its own replay', async () => {
+    await page.evaluate((what) => document.querySelector('rave-app').link.send(what), {type: 'transport', do: 'pace', value: 0});
+    await until(page, `${app}.model.hello.run.source === 'replay' && ${app}.model.may('seek')`, 60000);
+    await page.getByLabel('Pause').or(page.getByLabel('Play')).first().waitFor();
+    await page.keyboard.press('Control+k');
+    await page.keyboard.type('12.5');
+    await page.keyboard.press('Enter');
+    await page.evaluate((what) => document.querySelector('rave-app').link.send(what), {type: 'transport', do: 'pause'});
+    await until(page, `${newest}?.time_s > 12.4 && ${app}.model.time.state === 'paused'`);
+    const step = await page.evaluate(`${newest}.step`);
+    await page.keyboard.press('.');
+    await until(page, `${newest}.step === ${step} + 1`);
+    await page.screenshot({path: join(folder, 'replay.png')});
+  });
+
+  await check('nothing was complained of', () => assert.deepEqual(errors, []) ?? Promise.resolve());
+} finally {
+  await browser.close();
+  gui.child.kill('SIGKILL');
+}
+report();
+process.exit(0);

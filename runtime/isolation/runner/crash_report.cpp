@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kHandlerStackBytes = 512 * 1024;
 constexpr unsigned kHandlerLimitS = 1;
 
-/// What a signal handler needs must be where it can find it without being given it.
+/// A signal handler gets no arguments of ours, so its data is global.
 struct HandlerState {
   int socket = -1;
   PlaceFinder finder;
@@ -37,7 +37,7 @@ void send_crash(std::string_view place) {
   ::_exit(128 + state.signal);
 }
 
-/// The search for the place hangs or crashed itself: report without it.
+/// The search for the source line hangs or crashed itself: report without it.
 void on_second_fault(int) { send_crash({}); }
 
 bool is_stack_overflow(int number, const siginfo_t& info, const void* context) {
@@ -65,7 +65,8 @@ void guard_against_second_fault() {
 }
 
 void on_crash(int number, siginfo_t* info, void* context) {
-  if (state.busy.test_and_set()) ::pause();  // Another thread is reporting and will end us.
+  // Another thread is reporting and will end this process.
+  if (state.busy.test_and_set()) ::pause();
   state.signal = number;
   state.stack_overflow = is_stack_overflow(number, *info, context) ? 1 : 0;
   guard_against_second_fault();

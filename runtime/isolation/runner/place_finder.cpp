@@ -16,9 +16,9 @@ namespace rave::isolation {
 struct PlaceFinder::Search {
   PlaceFinder* finder;
   std::uintptr_t pc = 0;              ///< The frame under inspection.
-  const char* linker_name = nullptr;  ///< Of the function that holds it.
-  std::size_t size = 0;               ///< Of what was found so far in `text_`.
-  bool own = false;                   ///< It is the author's, not a header's.
+  const char* linker_name = nullptr;  ///< The linker's name of the function that contains `pc`.
+  std::size_t size = 0;               ///< The length of the text in `text_` so far.
+  bool own = false;  ///< The line is in the author's source, not in a header of a library.
 };
 
 namespace {
@@ -112,7 +112,7 @@ int PlaceFinder::on_frame(void* data, std::uintptr_t pc) {
   search.linker_name = nullptr;
   ::backtrace_syminfo(self.state_, pc, &on_symbol, &ignore_error, &search);
   ::backtrace_pcinfo(self.state_, pc, &on_line, &ignore_error, &search);
-  if (search.size == 0) {  // No debug information: the file and what the linker knows.
+  if (search.size == 0) {  // Without debug information: report the file and the linker's name.
     self.note(search, self.plugin_name_.data(), 0, search.linker_name);
   }
   return search.own ? 1 : 0;
@@ -124,8 +124,8 @@ int PlaceFinder::on_line(void* data, std::uintptr_t, const char* file, int line,
   if (file == nullptr || search.pc == 0) return 0;
   const bool own = !of_a_library(file);
   if (own || search.size == 0) {
-    // The linker's name says the class as well; it is that of the whole frame, so it counts only
-    // where nothing was inlined, that is, where it contains the function's own name.
+    // The linker's name contains the class, too. But it names the whole frame, so it is usable only
+    // if nothing was inlined there: then it contains the name of the function itself.
     const bool same = search.linker_name != nullptr &&
                       (function == nullptr || std::strstr(search.linker_name, function) != nullptr);
     search.finder->note(search, file, line, same ? search.linker_name : function);

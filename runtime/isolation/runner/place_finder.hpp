@@ -10,11 +10,11 @@ struct backtrace_state;
 
 namespace rave::isolation {
 
-/// Finds the source line of the plug-in that a thread is in. Works in a signal handler: it takes
-/// no memory but pages of its own and no lock that a program could hold.
+/// Finds the source line at which a thread is inside the plug-in. Usable in a signal handler: it
+/// allocates only pages of its own and takes no lock that a program could hold.
 class PlaceFinder {
  public:
-  /// Takes the part of the file that holds `address` as the plug-in.
+  /// Treats the loaded segment that contains `address` as the plug-in.
   void learn(const void* address);
 
   /// `file\nline\nfunction\nframe` (see parse_place) of the innermost frame of the calling thread

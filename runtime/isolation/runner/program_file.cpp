@@ -10,7 +10,8 @@
 namespace rave::isolation {
 
 struct ProgramFile::Impl {
-  // A program uses nothing of the virtual world, so any version of that interface will do: 0.
+  // A program uses no part of the interface of virtual drivers, so that version is 0, which fits
+  // any.
   plugin::Catalogue catalogue{plugin::make_stamp(robot_interface_hash(), 0, "")};
 };
 

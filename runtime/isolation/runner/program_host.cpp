@@ -20,7 +20,7 @@ Result<std::unique_ptr<ProgramHost>> ProgramHost::create(SharedMemory memory, in
       head->total_bytes != memory.size() || head->setup_bytes > memory.size()) {
     return fail(ErrorCode::kParse, "the shared memory was created by another version of the host");
   }
-  // Where the setup lies does not depend on what comes after it.
+  // The offset of the setup does not depend on the parts after it.
   const std::size_t at = make_layout(head->setup_bytes, {}, {}, 0).setup;
   RAVE_TRY_ASSIGN(auto setup, SetupCopy::decode({memory.at<char>(at), head->setup_bytes}));
   std::unique_ptr<ProgramHost> host(new ProgramHost(std::move(memory), std::move(setup), socket));

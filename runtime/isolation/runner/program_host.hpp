@@ -18,26 +18,26 @@
 
 namespace rave::isolation {
 
-/// Frees memory of the aligned operator new.
+/// Frees memory that was allocated with the aligned operator new.
 struct FreeAligned {
   std::align_val_t alignment{1};
   void operator()(void* memory) const noexcept { ::operator delete(memory, alignment); }
 };
 
-/// One program in its own process: takes percepts from the shared memory and answers its host
-/// until the host closes the socket.
+/// Runs one program in its own process: takes percepts from the shared memory and answers the host
+/// until that closes the socket.
 class ProgramHost {
  public:
-  /// Reads what is to run from `memory`. Errors: kParse.
+  /// Reads from `memory` which program to run. Errors: kParse.
   [[nodiscard]] static Result<std::unique_ptr<ProgramHost>> create(SharedMemory memory, int socket);
   ~ProgramHost();
   ProgramHost(const ProgramHost&) = delete;
   ProgramHost& operator=(const ProgramHost&) = delete;
 
   [[nodiscard]] const Order& order() const noexcept { return setup_->order(); }
-  /// Loads, constructs and starts the program, and tells the host how that went.
+  /// Loads, constructs and starts the program, and reports the result to the host.
   Status start();
-  /// Answers until the host is gone or a decision failed.
+  /// Serves the host until it is gone or a decision fails.
   void serve();
 
  private:
@@ -45,9 +45,9 @@ class ProgramHost {
 
   Status load_and_start();
   bool decide(std::uint32_t decision);
-  /// One direction of a communicator as the shared memory has it now.
+  /// The current view of one direction of a communicator in the shared memory.
   [[nodiscard]] Mailbox mailbox(const Layout::Box& box) const;
-  /// Offers new parameters to the program; false: the conversation cannot go on.
+  /// Offers new parameters to the program; false if the connection cannot continue.
   bool update(std::string_view bytes);
 
   int socket_;
@@ -57,7 +57,7 @@ class ProgramHost {
   LogSender log_;
   std::unique_ptr<ProgramFile> file_;
   std::vector<SensorView> views_;
-  std::vector<Mailbox> boxes_;  ///< In and out of each communicator.
+  std::vector<Mailbox> boxes_;  ///< The incoming and outgoing mailboxes of each communicator.
   std::vector<CommunicatorView> communicators_;
   std::vector<OrderItem> orders_;
   std::unique_ptr<AnswerWriter> answers_;

@@ -38,7 +38,7 @@ void ChildProcess::note(const process::ChildEnd& end) {
   } else if (end.signal) {
     how_ = fmt::format("was killed by {}", signal_name(*end.signal));
   } else {
-    how_ = "ended";  // The host reaps all its children itself.
+    how_ = "ended";  // Another part of the host has already reaped the child.
   }
 }
 

@@ -22,16 +22,16 @@ class ChildProcess {
   ChildProcess() = default;
   ChildProcess(ChildProcess&&) noexcept = default;
   ChildProcess& operator=(ChildProcess&&) noexcept = default;
-  /// Must be gone by then: see wait_for_end() and kill().
+  /// The process must have ended before; see wait_for_end() and kill().
   ~ChildProcess() = default;
 
-  /// 0 once it is gone.
+  /// 0 once the process has ended.
   [[nodiscard]] pid_t id() const noexcept { return child_.id(); }
   void signal(int number) const noexcept { child_.signal(number); }
-  /// Waits at most `milliseconds`; true if it is gone, and `how` says how it ended.
+  /// Waits at most `milliseconds`; true if the process has ended, then how() describes it.
   bool wait_for_end(int milliseconds);
   void kill();
-  /// `ended itself with exit code 3`, `was ended by segmentation fault`.
+  /// For example `exited with code 3` or `was killed by segmentation fault`.
   [[nodiscard]] const std::string& how() const noexcept { return how_; }
 
  private:

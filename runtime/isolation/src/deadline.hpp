@@ -6,8 +6,8 @@
 
 namespace rave::isolation {
 
-/// A moment of wall time after which a child counts as stuck. Nothing of a run depends on it but
-/// whether the child is given up.
+/// The point in wall time after which a child counts as stuck. It affects a run only through giving
+/// up that child.
 class Deadline {
  public:
   Deadline() = default;

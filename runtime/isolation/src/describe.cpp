@@ -24,7 +24,7 @@ std::string readable_name(std::string_view name) {
   return text;
 }
 
-/// `Wander::` for a function of the table of class Wander: see detail::program_ops.
+/// `Wander::` for a function in the function table of class Wander; see detail::program_ops.
 std::string program_class(const std::string& frame) {
   constexpr std::string_view kTable = "program_ops<";
   std::size_t begin = frame.find(kTable);
@@ -64,7 +64,7 @@ std::string signal_name(int signal) {
 
 std::string short_function(std::string_view name, std::string_view frame) {
   std::string text = readable_name(name);
-  // The parameters begin at the first parenthesis that is not that of a call operator.
+  // The parameters start at the first parenthesis that does not belong to `operator()`.
   std::size_t end = text.find('(');
   if (end != std::string::npos && text.substr(0, end).ends_with("operator")) {
     end = text.find('(', end + 1);

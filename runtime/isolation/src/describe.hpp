@@ -8,7 +8,7 @@
 
 namespace rave::isolation {
 
-/// `segmentation fault`, `bus error`, ...; `signal 12` for those that are not faults.
+/// The name of a fault, such as `segmentation fault` or `bus error`; `signal 12` for other signals.
 [[nodiscard]] std::string signal_name(int signal);
 
 /// `Wander::decide` for a linker name or a function with its parameters. `frame` is the linker's
@@ -19,7 +19,7 @@ namespace rave::isolation {
 /// ` at programs/wander/wander.cpp:42 in Wander::decide`, leaving out what is unknown.
 [[nodiscard]] std::string at_place(const Place& place);
 
-/// `1.0 s`, `0.25 s`.
+/// A duration as text, such as `1.0 s` or `0.25 s`.
 [[nodiscard]] std::string seconds_text(double seconds);
 
 }  // namespace rave::isolation

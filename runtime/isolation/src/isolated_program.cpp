@@ -108,7 +108,8 @@ void IsolatedProgram::Impl::copy_messages_out(const DecideItem& item) const {
     const SharedMailbox state = *memory.at<SharedMailbox>(box.state);
     const auto* heads = memory.at<rave::MessageHead>(box.heads);
     const auto* data = memory.at<std::byte>(box.data);
-    // The child can write what it likes here: a message that it could not have sent is not taken.
+    // The memory is writable for the child, so skip messages that a correct child could not have
+    // sent.
     for (std::uint32_t i = 0; i < std::min(state.count, box.max_messages); ++i) {
       const rave::MessageHead head = heads[i];
       const bool inside = head.size <= box.max_message_bytes && head.offset <= box.max_bytes &&
@@ -157,7 +158,7 @@ Result<std::unique_ptr<IsolatedProgram>> IsolatedProgram::start(const IsolationO
                                                                 const ProgramSetup& setup) {
   const std::string who =
       fmt::format("program `{}` of robot `{}`", options.program, setup.robot.name);
-  // The upper limit keeps milliseconds within an int.
+  // The upper limit keeps the milliseconds within an int.
   for (const double timeout_s :
        {options.decide_timeout_s, options.start_timeout_s, options.last_word_s}) {
     if (!(timeout_s > 0 && timeout_s <= 1e6)) {

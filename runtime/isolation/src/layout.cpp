@@ -4,7 +4,7 @@
 namespace rave::isolation {
 namespace {
 
-/// Hands out stretches of memory that begin on cache lines.
+/// Assigns parts of the memory, each aligned to a cache line.
 class Allocator {
  public:
   std::size_t take(std::size_t bytes) {

@@ -10,7 +10,7 @@
 
 namespace rave::isolation {
 
-/// Stands at offset 0 of the shared memory.
+/// The header at offset 0 of the shared memory.
 struct SharedHead {
   static constexpr std::uint64_t kMagic = 0x314f534945564152ULL;  // "RAVEISO1", little endian
   std::uint64_t magic = kMagic;
@@ -18,7 +18,7 @@ struct SharedHead {
   std::uint64_t setup_bytes = 0;
 };
 
-/// The part of a DecideItem that is no pointer.
+/// The members of a DecideItem that are not pointers.
 struct SharedDecide {
   std::int64_t now_ns = 0;
   PoseReading pose;
@@ -27,24 +27,25 @@ struct SharedDecide {
   std::uint64_t seed = 0;
 };
 
-/// What people ask, as bytes: see order_bytes.hpp.
+/// The orders of people as bytes; see order_bytes.hpp.
 struct SharedOrders {
   std::uint32_t count = 0;
   std::uint32_t bytes = 0;
   std::uint32_t driven = 0;
-  std::uint32_t listens = 0;  ///< Not 0: answers are taken.
+  std::uint32_t listens = 0;  ///< Not 0 if answers are accepted.
 };
-/// Room for the orders of one decision: a path, texts, and the names of who asks.
+/// The space for the orders of one decision: a path, texts, and the names of the authors.
 inline constexpr std::size_t kOrderBytes = 32'768;
 
-/// What a program says to people in one decision: this, then size and text of each answer.
+/// The answers of a program to people in one decision: this header, then size and text of each
+/// answer.
 struct SharedAnswers {
   std::uint32_t count = 0;
   std::uint32_t bytes = 0;
 };
 inline constexpr std::size_t kAnswerBytes = 8'192;
 
-/// The part of a Mailbox that is no pointer and no limit.
+/// The members of a Mailbox that are neither pointers nor limits.
 struct SharedMailbox {
   std::uint32_t count = 0;
   std::uint32_t bytes = 0;
@@ -52,8 +53,8 @@ struct SharedMailbox {
   std::uint32_t reserved = 0;
 };
 
-/// Where things lie in the memory that host and child share. A function of the setup alone, so
-/// both sides compute it and the host never trusts a number that the child could change.
+/// The offsets in the memory that host and child share. They depend only on the setup, so both
+/// sides compute them and the host never relies on a number that the child could change.
 struct Layout {
   struct Sensor {
     std::size_t header = 0;   ///< Offset of the SampleHeader.

@@ -14,12 +14,12 @@
 namespace rave::isolation {
 namespace {
 
-/// How long a child may take to end when it was asked to.
+/// The time that a child has to end after it was asked to.
 constexpr int kEndMs = 500;
-/// How long after its socket has closed a child is taken to be about to end.
+/// After its socket has closed, a child is expected to end within this time.
 constexpr int kEndAfterCloseMs = 1000;
-/// More than a child can send in one decision without breaking the bounds of message.hpp; room
-/// for threads of a program that log between decisions.
+/// More messages than a child can send in one decision within the limits of message.hpp; the rest
+/// is for threads of a program that log between decisions.
 constexpr int kMaxMessages = 4096;
 
 ErrorCode error_code(std::uint32_t number) {
@@ -39,14 +39,14 @@ Link::Link(std::string who, HostServices host, ChildProcess child, process::Desc
       buffer_(kMaxMessageBytes + 1) {}
 
 Link::~Link() {
-  socket_.reset();  // The child takes the end of its socket as the wish that it end.
+  socket_.reset();  // The closed socket asks the child to end.
   if (!child_.wait_for_end(kEndMs)) child_.kill();
 }
 
 Status Link::ask(std::uint32_t decision) {
   RAVE_TRY(state_);
   if (!send_message(socket_.get(), {MessageKind::kDecide, decision, 0}, {}, false)) {
-    // What the child said before it went tells why.
+    // Messages that the child sent before it ended explain the reason.
     return await(MessageKind::kDecided, decision, Deadline(last_word_s_), "did not read its input");
   }
   return {};
@@ -64,11 +64,11 @@ Status Link::tell(MessageKind kind, std::string_view text) {
 Link::Receipt Link::receive(int timeout_ms, Message& message) {
   pollfd watch{socket_.get(), POLLIN, 0};
   const int ready = ::poll(&watch, 1, timeout_ms);
-  if (ready <= 0) return Receipt::kNothing;  // Also when a signal came: the caller asks again.
+  if (ready <= 0) return Receipt::kNothing;  // Also after a signal: the caller repeats the call.
   const ssize_t size = ::recv(socket_.get(), buffer_.data(), buffer_.size(), MSG_DONTWAIT);
   if (size == 0) return Receipt::kClosed;
   if (size < 0) {
-    // A reset is told once, before what the child had sent.
+    // A connection reset is reported once, before the data that the child had sent.
     return errno == EAGAIN || errno == EINTR || errno == ECONNRESET ? Receipt::kNothing
                                                                     : Receipt::kClosed;
   }

@@ -17,12 +17,11 @@
 
 namespace rave::isolation {
 
-/// The host's end of the conversation with one child. The first failure ends the child and is
-/// kept.
+/// The host's side of the connection to one child. The first failure ends the child and is kept.
 class Link {
  public:
-  /// `who` begins every error: "program `wander` of robot `anna`". `last_word_s`: how long a child
-  /// that is late may take to say where it is.
+  /// `who` begins each error message, such as "program `wander` of robot `anna`". `last_word_s` is
+  /// the time that a late child has to report its source line.
   Link(std::string who, HostServices host, ChildProcess child, process::Descriptor socket,
        double last_word_s);
   Link(const Link&) = delete;
@@ -33,21 +32,21 @@ class Link {
   [[nodiscard]] const Status& state() const noexcept { return state_; }
   [[nodiscard]] int process_id() const noexcept { return child_.id(); }
 
-  /// Wakes the child to make `decision`.
+  /// Wakes the child to compute `decision`.
   Status ask(std::uint32_t decision);
   /// Sends a message that the child answers.
   Status tell(MessageKind kind, std::string_view text);
-  /// Why the program refused what it was told last; empty: it did not.
+  /// The reason why the program refused the last message; empty if it did not.
   [[nodiscard]] std::string take_refusal() { return std::exchange(refusal_, {}); }
-  /// Waits for `kind` with `number`, delivering log lines on the way. `late` says what the child
-  /// has not done by then: "has not decided for 1.0 s".
+  /// Waits for `kind` with `number` and passes on log lines meanwhile. `late` describes what the
+  /// child failed to do in time, such as "has not decided for 1.0 s".
   Status await(MessageKind kind, std::uint32_t number, const Deadline& deadline,
                std::string_view late);
 
  private:
   enum class Receipt { kMessage, kNothing, kClosed, kGarbage };
   Receipt receive(int timeout_ms, Message& message);
-  /// Success: `message` was the awaited one. Nothing: go on waiting.
+  /// Success if `message` is the awaited one; empty to continue waiting.
   std::optional<Status> handle(const Message& message, MessageKind kind, std::uint32_t number);
   Status end_of_conversation();
   Status stuck(std::string_view late);

@@ -8,19 +8,19 @@
 
 namespace rave::isolation {
 
-/// What host and child say to one another: one packet each over a SOCK_SEQPACKET pair.
+/// The messages between host and child: one packet each over a SOCK_SEQPACKET pair.
 enum class MessageKind : std::uint32_t {
-  kDecide = 1,     ///< Host to child; number: the decision. All but the last go to the host.
-  kStarted,        ///< count: log lines that were dropped, here and in the next three.
-  kStartFailed,    ///< number: ErrorCode, text: why.
-  kDecided,        ///< number: the decision.
-  kDecideFailed,   ///< number: the decision, text: why.
+  kDecide = 1,   ///< Host to child; number: the decision. All others except kUpdate go to the host.
+  kStarted,      ///< count: dropped log lines, here and in the next three kinds.
+  kStartFailed,  ///< number: ErrorCode; text: the reason.
+  kDecided,      ///< number: the decision.
+  kDecideFailed,   ///< number: the decision; text: the reason.
   kLog,            ///< number: LogLevel, text: the line.
   kCrash,          ///< number: the signal, count: 1 for a stack overflow, text: a Place.
   kWhere,          ///< Answer to kWhereSignal; text: a Place.
-  kUpdated,        ///< New parameters were taken.
-  kUpdateRefused,  ///< text: why.
-  kUpdate,         ///< Host to child; text: what encode_update() gave.
+  kUpdated,        ///< The program accepted the new parameters.
+  kUpdateRefused,  ///< text: the reason.
+  kUpdate,         ///< Host to child; text: the result of encode_update().
 };
 
 struct MessageHead {
@@ -36,18 +36,18 @@ struct Message {
 };
 
 inline constexpr std::size_t kMaxMessageBytes = 8192;
-/// Bounds of the log lines of one decision. Their sum stays below what a socket buffers by
-/// default, so a line is dropped for their sake only and a run drops the same lines each time.
+/// Limits of the log lines of one decision. Their sum is below the default buffer of a socket, so
+/// lines are dropped only because of these limits, and a repeated run drops the same lines.
 inline constexpr std::size_t kMaxLogLines = 64;
 inline constexpr std::size_t kMaxLogLineBytes = 4096;
 inline constexpr std::size_t kMaxLogBytes = 65536;
 
-/// File descriptors of the child.
+/// File descriptors in the child.
 inline constexpr int kChildSocket = 3;
 inline constexpr int kChildMemory = 4;
 
-/// Asks a child that does not answer where it is. The thread sanitizer delivers only what it
-/// takes for the program's own fault to a loop that calls nothing.
+/// Asks a child that does not answer for its source line. The thread sanitizer delivers a signal to
+/// a loop without calls only if it takes the signal for a fault of the program itself.
 #if defined(__SANITIZE_THREAD__)
 inline constexpr int kWhereSignal = 31;  // SIGSYS
 #else
@@ -58,14 +58,14 @@ inline constexpr int kWhereSignal = 10;  // SIGUSR1
 /// side is gone, or with `wait` false if there is no room.
 bool send_message(int socket, const MessageHead& head, std::string_view text, bool wait) noexcept;
 
-/// Reads what a child sent; nothing if it is not a message that a child sends. `text` points into
+/// Parses a message from a child; empty if it is none that a child may send. `text` points into
 /// `bytes`.
 [[nodiscard]] std::optional<Message> parse_message(std::string_view bytes) noexcept;
 
-/// Where in the source a program was: `file\nline\nfunction\nframe`.
+/// The source position of a program: `file\nline\nfunction\nframe`.
 struct Place {
-  std::string_view file;      ///< Empty: not known.
-  int line = 0;               ///< 0: not known.
+  std::string_view file;      ///< Empty if unknown.
+  int line = 0;               ///< 0 if unknown.
   std::string_view function;  ///< As the source or the linker writes it.
   std::string_view frame;     ///< The linker's name of the function that it is inlined in.
 };

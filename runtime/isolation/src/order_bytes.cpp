@@ -7,7 +7,7 @@
 namespace rave::isolation {
 namespace {
 
-/// How an order lies in the memory: this, its points, its text, its name, filled up to whole words.
+/// The header of an order in memory; its points, text and author follow, padded to whole words.
 struct OrderHead {
   std::uint32_t kind = 0;
   std::uint32_t point_count = 0;

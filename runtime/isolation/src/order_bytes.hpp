@@ -11,14 +11,14 @@
 
 namespace rave::isolation {
 
-/// Writes the orders of a decision for the child; `to` has room for kOrderBytes. An order that does
-/// not fit is left out, with all that come behind it.
+/// Writes the orders of a decision for the child; `to` has space for kOrderBytes. An order that
+/// does not fit is omitted, with all orders after it.
 [[nodiscard]] SharedOrders write_orders(const DecideItem& item, std::byte* to) noexcept;
 
-/// The orders of a decision in the child. `items` points into `from`; its room is used again.
+/// Reads the orders of a decision in the child. `items` is cleared and points into `from`.
 void read_orders(const SharedOrders& head, const std::byte* from, std::vector<OrderItem>& items);
 
-/// What the program of the child says, kept in the shared memory until its host takes it.
+/// Collects the answers of the program in the shared memory until the host reads them.
 class AnswerWriter {
  public:
   AnswerWriter(SharedAnswers* head, std::byte* bytes) noexcept : head_(head), bytes_(bytes) {
@@ -40,7 +40,8 @@ class AnswerWriter {
   std::byte* bytes_;
 };
 
-/// Passes on what a child has said. It can write what it likes: nothing beyond the room is read.
+/// Passes on the answers of a child. The memory is writable for the child, so nothing beyond its
+/// limits is read.
 void take_answers(const SharedAnswers& head, const std::byte* bytes, const DecideItem& item);
 
 }  // namespace rave::isolation

@@ -92,7 +92,8 @@ std::string encode_update(std::span<const ParamValue> params, double radius_m) {
   return out.take();
 }
 
-/// Reads in the order of Writer; after the first thing that does not fit all values are empty.
+/// Reads in the order of Writer; after the first value that is missing or invalid, all further
+/// values are empty.
 class SetupCopy::Reader {
  public:
   Reader(std::string_view bytes, SetupCopy& copy) : bytes_(bytes), copy_(copy) {}
@@ -103,7 +104,8 @@ class SetupCopy::Reader {
     std::memcpy(&value, bytes_.data(), sizeof value);
     bytes_.remove_prefix(sizeof value);
   }
-  /// How many things follow, each of at least `least_bytes`.
+  /// Reads the number of elements that follow; refuses a number for which, at `least_bytes` each,
+  /// too few bytes are left.
   std::size_t count(std::size_t least_bytes) {
     std::uint64_t number = 0;
     value(number);

@@ -14,7 +14,7 @@
 
 namespace rave::isolation {
 
-/// What a child is told to run.
+/// Which plug-in and program a child must run.
 struct Order {
   std::string plugin;
   std::string program;
@@ -27,7 +27,7 @@ struct Order {
 /// New parameters and the radius of the body as bytes.
 [[nodiscard]] std::string encode_update(std::span<const ParamValue> params, double radius_m);
 
-/// A setup read back from bytes, with all that it points to.
+/// A setup decoded from bytes, which owns all data that it points to.
 class SetupCopy {
  public:
   /// Errors: kParse.
@@ -38,9 +38,9 @@ class SetupCopy {
   [[nodiscard]] const Order& order() const noexcept { return order_; }
   /// Points into this object.
   [[nodiscard]] const ProgramSetup& setup() const noexcept { return setup_; }
-  /// Takes new parameters and radius over into the setup. Errors: kParse, and all is as it was.
+  /// Copies new parameters and radius into the setup. Errors: kParse; then nothing has changed.
   Status update(std::string_view bytes);
-  /// Takes the last update back.
+  /// Undoes the last update.
   void revert();
   void set_host(const HostServices& host) noexcept { setup_.host = host; }
 

@@ -11,9 +11,10 @@ namespace rave::isolation {
 /// Memory of fixed size that a child can map through its file descriptor.
 class SharedMemory {
  public:
-  /// Zeroed. Nobody can change its size, so a child cannot make the host fault. Errors: kIo.
+  /// Zeroed memory. Its size is sealed, so a child cannot shrink it and make the host fault.
+  /// Errors: kIo.
   [[nodiscard]] static Result<SharedMemory> create(std::size_t bytes);
-  /// Maps what a host created. Takes the descriptor. Errors: kIo.
+  /// Maps memory that a host created. Takes ownership of the descriptor. Errors: kIo.
   [[nodiscard]] static Result<SharedMemory> map(process::Descriptor file);
 
   SharedMemory() = default;
@@ -23,7 +24,7 @@ class SharedMemory {
 
   [[nodiscard]] int file() const noexcept { return file_.get(); }
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
-  /// The object at `offset`, which must fit.
+  /// The object at `offset`, which must lie within the memory.
   template <class T>
   [[nodiscard]] T* at(std::size_t offset) const noexcept {
     return static_cast<T*>(static_cast<void*>(data_ + offset));

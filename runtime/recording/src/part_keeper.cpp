@@ -37,7 +37,7 @@ void PartKeeper::follow(const sim::EngineSpec& spec) {
       if (same) hybrid.seen = before.seen;
     }
   }
-  // Of a sensor that is no hybrid at present it is still known what was kept.
+  // Remember what was kept of a sensor that is not hybrid at present.
   for (const Hybrid& before : hybrids_) {
     const bool gone =
         std::none_of(now.hybrids_.begin(), now.hybrids_.end(), [&](const Hybrid& hybrid) {
@@ -64,9 +64,9 @@ record::StringMap PartKeeper::describe(const sim::EngineSpec& spec, bool all) {
 void PartKeeper::keep(const sim::Engine& engine, record::RunRecorder& recorder) {
   for (Hybrid& hybrid : hybrids_) {
     const sim::SensorParts parts = engine.sensor_parts(hybrid.robot, hybrid.sensor);
-    if (parts.imagined == nullptr) continue;  // it has other drivers at present
-    // Made together, so the later of the two tells that both are there. Drivers that were opened
-    // for a hand-over have made none yet.
+    if (parts.imagined == nullptr) continue;  // The sensor has other drivers at present.
+    // Both parts are produced together, so the later one shows that both exist. Drivers that were
+    // opened for a hand-over have produced none yet.
     if (parts.imagined->sequence <= hybrid.seen) continue;
     hybrid.seen = parts.imagined->sequence;
     const auto put = [&](record::PerceptPart part, const SampleHeader& header,

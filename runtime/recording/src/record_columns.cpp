@@ -7,7 +7,7 @@
 namespace rave::runtime {
 namespace {
 
-/// How many actuator commands are compared at a time before each is looked at.
+/// The number of actuator commands that are compared in one block before each one is.
 constexpr std::size_t kCompared = 64;
 
 [[nodiscard]] bool alike(const SampleHeader& a, const SampleHeader& b) noexcept {
@@ -19,7 +19,7 @@ constexpr std::size_t kCompared = 64;
   return {header.stamp_ns, header.sequence, header.count, 1, header.dropped};
 }
 
-/// By bits: -0 is another command than 0.
+/// Compared by bits, because -0 and 0 are different commands.
 [[nodiscard]] bool same_bits(const Command* a, const Command* b, std::size_t count) noexcept {
   return std::memcmp(a, b, count * sizeof(Command)) == 0;
 }
@@ -73,7 +73,7 @@ void RecordColumns::keep_row(const RobotRow& row, const sim::SampleColumns& samp
   }
   if (fresh == 0) return;
   const std::uint32_t bytes = headers[0].count * known.record_bytes;
-  // A block takes the records as they lie, so there must be no gaps between them.
+  // A block contains the records without gaps, so records with gaps are copied one by one.
   if (fresh < row.robots || !uniform || bytes == 0 || bytes != samples.stride_bytes) {
     for (std::uint32_t i = 0; i < row.robots; ++i) {
       if (headers[i].sequence == seen[i]) continue;

@@ -13,7 +13,7 @@
 namespace rave::runtime {
 namespace {
 
-/// The wall time of the start, for people.
+/// The wall time of the start, as text for people.
 std::string utc_now() {
   const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   std::tm broken_down{};
@@ -51,7 +51,7 @@ bool same_bits(const Pose2& a, const PoseReading& b) noexcept {
   return std::bit_cast<Words>(a) == std::bit_cast<Words>(Pose2{b.x_m, b.y_m, b.yaw_rad});
 }
 
-/// Writes the messages that the last step sent and delivered.
+/// Records the messages that the last step sent and delivered.
 void record_radio(const sim::Engine& engine, record::RunRecorder& recorder) {
   for (const sim::RadioTrace& trace : engine.radio()) {
     recorder.radio({trace.from, trace.to, static_cast<std::uint16_t>(trace.device), trace.delivered,
@@ -104,7 +104,7 @@ void RecordKeeper::after_step(const StepView& step) {
   variances_.keep(engine, told_truth_, recorder_);
   record_radio(engine, recorder_);
   keep(engine.events());
-  // A failure was told to the log when it happened, and end() returns it: the run goes on.
+  // A failure is already in the log and is returned by end(); the run continues.
   if (hashed_) static_cast<void>(recorder_.hash(engine.hash().value()));
   static_cast<void>(recorder_.end_step());
 }
@@ -124,7 +124,7 @@ void RecordKeeper::keep_poses(const sim::Engine& engine) {
   const auto count = static_cast<std::uint32_t>(told_truth_.size());
   std::uint32_t begin = 0;
   for (std::uint32_t r = 0; r < count; ++r) {
-    // A simulated robot that made way for a real one in this step was told where it was before.
+    // A simulated robot that made way for a real one in this step was told its previous position.
     const bool in_row =
         told_truth_[r] != 0 && (!with_real_ || same_bits(engine.snapshot().robots()[r].X_WR,
                                                          engine.reported(RobotId(r)).pose));
@@ -207,7 +207,7 @@ void record_events(const BodyKinds& kinds, std::span<const sim::Event> events,
     recorded.robot = event.robot;
     recorded.kind = to_string(event.kind);
     recorded.text = words_of(kinds, event);
-    // Names of obstacles may be used again, numbers are not.
+    // The names of obstacles may be used again; their numbers are unique.
     if (is_of_obstacle(event.kind)) {
       recorded.values.push_back(static_cast<double>(event.other.value()));
       if (event.detail != 0) recorded.values.push_back(static_cast<double>(event.detail));

@@ -21,8 +21,8 @@ double degrees_between(const Pose2& a, const Pose2& b) {
   return rad_to_deg(std::abs(wrap_angle(a.yaw - b.yaw)));
 }
 
-/// The twin's velocities, step by step; step `first + i` has `twists[i]`. They do not depend on
-/// where it is, so every window can use them.
+/// The velocities of the twin: step `first + i` has `twists[i]`. They do not depend on its pose, so
+/// all windows share them.
 struct Drive {
   std::uint64_t first = 0;
   std::int64_t step_ns = 0;
@@ -45,7 +45,7 @@ Result<Drive> drive(GapTwin& twin, const GapCommands& commands, const GapTrack& 
     return fail(ErrorCode::kInvalidArgument,
                 "the pose is known in fewer than two steps, so there is nothing to compare");
   }
-  // What it was told before counts for a twin with inertia.
+  // A twin with inertia also depends on its commands before the first pose.
   for (std::uint64_t k = 0; k < end; ++k) {
     const SimTime now{static_cast<std::int64_t>(k) * step_ns};
     RAVE_TRY_ASSIGN(const Twist2 twist, twin.propose(commands.at(now), k));
@@ -58,7 +58,7 @@ void note_moment(GapReport& report, double after_s, const Pose2& X_WR, const Pos
   report.after.push_back({after_s, metres_between(X_WR, X_WT), degrees_between(X_WR, X_WT)});
 }
 
-/// The whole drive from the first pose on.
+/// The whole drive from the first pose on, without restarts.
 void follow(const Drive& drive, const GapTrack& track, GapReport& report) {
   Pose2 X_WT = *track.at(drive.time(0));
   double squares_m2 = 0;
@@ -95,13 +95,13 @@ void follow(const Drive& drive, const GapTrack& track, GapReport& report) {
   report.duration_s = end_s;
 }
 
-/// By nearest rank; `values` is sorted.
+/// The percentile by the nearest-rank method; `values` must be sorted.
 double percentile(const std::vector<double>& values, double percent) {
   const double rank = std::ceil(percent / 100 * static_cast<double>(values.size()));
   return values[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
 }
 
-/// Drives of one window each, which start anew where the robot was.
+/// Drives of one window each; each restarts at the recorded pose of the robot.
 GapWindows start_anew(const Drive& drive, const GapTrack& track, double window_s) {
   GapWindows windows;
   windows.window_s = window_s;
@@ -194,7 +194,7 @@ Result<GapReport> measure_gap(const std::filesystem::path& record, plugin::Catal
   }
   report.steps = driven.twists.size() + 1;
   follow(driven, track, report);
-  // The first one is where the twin was put.
+  // The first point is the start of the twin, so it has no gap.
   if (report.points.size() < 2) {
     return fail(ErrorCode::kInvalidArgument,
                 "the pose of robot `{}` is known only in the first of {} steps, so there is "

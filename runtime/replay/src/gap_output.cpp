@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Points of a picture closer in time than this look the same.
+/// Points of a picture closer in time than this are indistinguishable.
 constexpr Duration kPictureStep = from_seconds(0.1);
 
 Json json_of(const GapAt& gap) {

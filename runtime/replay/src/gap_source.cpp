@@ -11,7 +11,7 @@
 namespace rave::runtime {
 namespace {
 
-/// A driver that takes commands and obeys none.
+/// A driver that takes commands but executes none.
 constexpr std::string_view kDeaf = "replay_ignored";
 
 Pose2 pose_of(const config::PoseFile& file) {
@@ -26,7 +26,7 @@ std::optional<Reading> reading_of(std::span<const std::byte> records) {
   return reading;
 }
 
-/// From the sensor that the robot file names: its samples bear stamps of their own.
+/// The track from the sensor that the robot file names; its samples have their own stamps.
 Result<GapTrack> track_of_sensor(const GapSource& source, const record::RecordedSensor& sensor,
                                  const Pose2& X_WM) {
   RAVE_TRY_ASSIGN(const auto all,
@@ -50,7 +50,7 @@ Result<GapTrack> track_of_sensor(const GapSource& source, const record::Recorded
   return track;
 }
 
-/// The frame that the pose source reports in, as the engine takes it; none if it cannot be told.
+/// The frame of the pose source, as the engine uses it; empty if it is unknown.
 std::optional<Pose2> frame_of(const GapSource& source, const record::RecordedSensor& sensor) {
   const config::PoseFile& frame = source.file().source_frame;
   if (frame != config::PoseFile{}) return pose_of(frame);
@@ -117,7 +117,7 @@ Result<GapCommands> commands_of_actuator(const GapSource& source, CommandKind ki
   return commands;
 }
 
-/// For records from before actuators were recorded: what the program asked for.
+/// For old recordings without the commands to actuators: the commands of the program.
 Result<GapCommands> commands_of_program(const GapSource& source, CommandKind kind) {
   GapCommands commands;
   commands.source = "what the program asked for";

@@ -12,14 +12,15 @@
 
 namespace rave::runtime {
 
-/// Where a robot was, from samples with stamps of their own.
+/// The path of a robot, from samples with their own stamps.
 class GapTrack {
  public:
-  /// Samples further apart than this say nothing of the time between them.
+  /// Between samples further apart than this the pose is unknown.
   static constexpr Duration kLongestGap = from_seconds(0.5);
 
   void add(SimTime time, const Pose2& X_WR);
-  /// Between samples in a straight line; none before the first, behind the last, and in a gap.
+  /// Interpolated linearly between samples; empty before the first sample, after the last and
+  /// within a gap.
   [[nodiscard]] std::optional<Pose2> at(SimTime time) const;
   [[nodiscard]] bool empty() const noexcept { return points_.empty(); }
   [[nodiscard]] SimTime first() const noexcept { return points_.front().time; }
@@ -33,7 +34,7 @@ class GapTrack {
   std::vector<Point> points_;
 };
 
-/// Commands that hold from their time on.
+/// Commands, each valid from its time until the next.
 struct GapCommands {
   struct At {
     SimTime time;
@@ -42,11 +43,11 @@ struct GapCommands {
   std::vector<At> commands;
   std::string source;
 
-  /// The command in force at `time`; kNone before the first.
+  /// The command valid at `time`; kNone before the first.
   [[nodiscard]] Command at(SimTime time) const;
 };
 
-/// What a record holds of one robot, for the comparison with its twin.
+/// The recorded data of one robot, for the comparison with its twin.
 struct GapSource {
   const record::McapReader& reader;
   const record::RunInfo& run;
@@ -61,11 +62,12 @@ struct GapSource {
   }
 };
 
-/// The track of the robot and, in `from`, what it is. Errors: kInvalidArgument without a pose.
+/// The track of the robot; `from` receives the name of its source. Errors: kInvalidArgument without
+/// a pose.
 [[nodiscard]] Result<GapTrack> read_track(const GapSource& source, bool truth, std::string& from);
 
-/// The commands of a kind. `sensor`: see GapOptions::commands. Errors: kInvalidArgument (there are
-/// none, or nobody obeyed them), kNotFound.
+/// The commands of a kind; for `sensor` see GapOptions::commands. Errors: kInvalidArgument if there
+/// are none or no actuator executed them, kNotFound.
 [[nodiscard]] Result<GapCommands> read_commands(const GapSource& source, const std::string& sensor,
                                                 CommandKind kind);
 

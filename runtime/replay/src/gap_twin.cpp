@@ -14,7 +14,7 @@ namespace {
 /// engine.
 constexpr std::uint32_t kActuatorDevice = 0x4000'0000U;
 
-/// An instance of a driver in memory of ours.
+/// An instance of a driver in memory owned by this object.
 class Instance {
  public:
   Instance() = default;
@@ -43,7 +43,7 @@ class Instance {
   bool made_ = false;
 };
 
-/// A scenario of the robot alone, stripped to what moves it.
+/// A scenario with only this robot and the parts that move it.
 config::ExpandedScenario alone(config::RobotFile robot, const std::filesystem::path& file,
                                double step_s, std::uint64_t seed) {
   config::ExpandedScenario scenario;
@@ -87,7 +87,7 @@ CommandKind GapTwin::accepts() const noexcept { return impl_->accepts; }
 Result<GapTwin> GapTwin::make(config::RobotFile robot, const std::filesystem::path& file,
                               double step_s, std::uint64_t seed, RobotId id,
                               plugin::Catalogue& catalogue) {
-  // What is real of the robot is not opened: it need not even be there.
+  // Real devices are not opened; they may be absent.
   constexpr std::array kVirtual = {DriverKind::kVirtualActuator};
   const auto found = std::ranges::find_if(robot.actuators, [&](const auto& actuator) {
     return catalogue.find(kVirtual, actuator.driver.value).has_value();
@@ -98,7 +98,7 @@ Result<GapTwin> GapTwin::make(config::RobotFile robot, const std::filesystem::pa
                 "simulated robot with --twin",
                 file.empty() ? "the robot in the recording" : fmt::format("`{}`", file.string()));
   }
-  // Its place in the file is part of its chance.
+  // The place of the device in the file determines its random numbers.
   const auto device = static_cast<std::uint32_t>(found - robot.actuators.begin());
   robot.actuators = {config::ActuatorFile(*found)};
   auto impl = std::make_unique<Impl>();

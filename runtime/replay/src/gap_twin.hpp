@@ -12,11 +12,11 @@
 
 namespace rave::runtime {
 
-/// One simulated actuator on its own, without an engine around it.
+/// A simulated actuator that runs without an engine.
 class GapTwin {
  public:
-  /// The simulated actuator of a robot file; `folder` is where that lies. `robot`: whose chance it
-  /// draws. Errors: kInvalidArgument if the robot has none, those of loading the driver.
+  /// Loads the simulated actuator of a robot file in `folder`. `robot` selects its random numbers.
+  /// Errors: kInvalidArgument if the robot has none; those of loading the driver.
   [[nodiscard]] static Result<GapTwin> make(config::RobotFile robot,
                                             const std::filesystem::path& file, double step_s,
                                             std::uint64_t seed, RobotId id,
@@ -27,7 +27,7 @@ class GapTwin {
 
   [[nodiscard]] const std::string& driver() const noexcept;
   [[nodiscard]] CommandKind accepts() const noexcept;
-  /// The body velocity in the step of that number of the record. Errors: kPlugin.
+  /// The body velocity in step `step` of the recording. Errors: kPlugin.
   [[nodiscard]] Result<Twist2> propose(const Command& command, std::uint64_t step);
 
  private:

@@ -53,7 +53,7 @@ Result<std::unique_ptr<HostAgain>> HostAgain::create(const config::ExpandedScena
 
 Result<std::string> HostAgain::ask(const RunRequest& request) {
   auto input = input_of(authority_->spec(), request);
-  // The rest was asked of the host itself.
+  // All other requests were made to the host itself.
   if (!input) return serve_request(*own_, request);
   RAVE_TRY(authority_->ask(*std::move(input)));
   return std::string();

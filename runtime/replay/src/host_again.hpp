@@ -15,8 +15,8 @@
 
 namespace rave::runtime {
 
-/// A run of several hosts in lock-step once more, in this process: one engine for the host whose
-/// record is looked at, one for all others, and the authority between them. Belongs to one thread.
+/// Repeats a run of several hosts in lock-step in this process: one engine for the host whose
+/// recording is checked, one for all others, and the authority between them. Used by one thread.
 class HostAgain {
  public:
   /// `catalogue` must outlive it. Errors: those of build() and Engine::create(), kNotFound (the
@@ -25,16 +25,16 @@ class HostAgain {
       const config::ExpandedScenario& scenario, const std::string& host,
       plugin::Catalogue& catalogue, const BuildOptions& options);
 
-  /// Asks for something that counts from the next step on, as the host's record says it did.
-  /// Returns what was done, for people.
+  /// Makes a request that counts from the next step on, as recorded by the host. Returns a
+  /// description for people.
   Result<std::string> ask(const RunRequest& request);
-  /// Errors as of Engine::propose(), Engine::apply() and WorldAuthority::step().
+  /// Errors: those of Engine::propose(), Engine::apply() and WorldAuthority::step().
   Status step();
-  /// Events of the last step that the engine of the host does not have.
+  /// The events of the last step that are missing in the engine of the host.
   [[nodiscard]] std::vector<sim::Event> beside() const;
   [[nodiscard]] sim::Engine& engine() noexcept { return *own_; }
 
-  /// Called when a step is done, as EngineSpec::on_step_done of the host.
+  /// Called after each step, like EngineSpec::on_step_done of the host.
   std::function<void()> look;
 
  private:
@@ -42,7 +42,7 @@ class HostAgain {
   Status propose();
 
   std::unique_ptr<sim::Engine> own_;
-  std::unique_ptr<sim::Engine> rest_;  ///< Null: the host runs all robots.
+  std::unique_ptr<sim::Engine> rest_;  ///< Null if the host runs all robots.
   std::unique_ptr<sim::WorldAuthority> authority_;
   sim::HostReport own_report_;
   sim::HostReport rest_report_;

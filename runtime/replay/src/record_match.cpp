@@ -19,13 +19,13 @@ namespace {
 using Bytes = std::vector<std::byte>;
 using ByteSpan = std::span<const std::byte>;
 
-/// In the order in which one follows from the other within a step.
+/// In the order of cause and effect within a step.
 constexpr std::array kTopics = {record::topic::kPoses,     record::topic::kPercepts,
                                 record::topic::kRadio,     record::topic::kCommands,
                                 record::topic::kActuators, record::topic::kEvents,
                                 record::topic::kHash};
 
-/// One item of a step: whose it is, and its bits.
+/// One item of a step: its robot and its bits.
 struct Item {
   std::uint32_t robot = RobotId::kNone;
   std::string channel;
@@ -168,7 +168,7 @@ std::vector<Item> hash_of(const record::StepHash& hash) {
   return {std::move(item)};
 }
 
-/// What a message holds, item by item. Nothing for one that cannot be decoded.
+/// The items of one message; empty if it cannot be decoded.
 std::vector<Item> items_of(std::string_view topic, ByteSpan message, const record::RunInfo& run) {
   if (topic == record::topic::kPoses) {
     if (const auto step = record::decode_poses(message)) return poses_of(*step);
@@ -219,24 +219,25 @@ bool is_lease(const Bytes& message) {
          });
 }
 
-/// Who may give orders is decided by wall time, and no part of the run.
+/// Leases depend on wall time and are no part of the deterministic run, so they are omitted.
 std::vector<Bytes> without_leases(std::string_view topic, const std::vector<Bytes>& messages) {
   std::vector<Bytes> left = messages;
   if (topic == record::topic::kEvents) std::erase_if(left, is_lease);
   return left;
 }
 
-/// In which order robots of different hosts come in a step is chance; what one of them says in one
-/// channel keeps its order.
+/// The order of robots of different hosts within a step depends on chance; the messages of one
+/// robot in one channel keep their order.
 void sort_items(std::vector<Item>& items) {
   std::stable_sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
     if (a.robot != b.robot) return a.robot < b.robot;
-    // Two kinds of event of one robot may come from two processes.
+    // Two kinds of events of one robot may come from two processes.
     return a.channel != b.channel ? a.channel < b.channel : a.channel == "event" && a.text < b.text;
   });
 }
 
-/// Nothing if, of a merged record, the same was said in another order, or in other rows.
+/// Empty if the messages of a merged recording differ only in their order or in their division into
+/// rows.
 std::optional<RunDifference> difference_of(std::string_view topic,
                                            const std::vector<Bytes>& recorded,
                                            const std::vector<Bytes>& again,
@@ -254,7 +255,7 @@ std::optional<RunDifference> difference_of(std::string_view topic,
                             first->robot == second->robot && first->channel == second->channel;
     if (same_place && first->bits == second->bits) continue;
     if (same_place || first == nullptr || second == nullptr) return describe(first, second, run);
-    // One of the two is missing in the other list: the one that comes earlier by robot.
+    // One of the two items is missing in the other list: the one of the earlier robot.
     if (first->robot < second->robot) return describe(first, nullptr, run);
     if (second->robot < first->robot) return describe(nullptr, second, run);
     return describe(first, second, run);
@@ -263,7 +264,7 @@ std::optional<RunDifference> difference_of(std::string_view topic,
   return RunDifference{0, 0, "", std::string(topic), "the messages differ in form"};
 }
 
-/// One in the step of that time.
+/// A difference in the step at `time_ns`.
 RunDifference difference_at(std::uint64_t time_ns, const record::RunInfo& run,
                             std::string_view channel, std::string text) {
   const std::int64_t step_ns = std::max<std::int64_t>(1, from_seconds(run.step_s).ns);
@@ -291,7 +292,8 @@ Result<RecordMatch> match_records(const record::McapReader& recorded,
   while (true) {
     RAVE_TRY_ASSIGN(const bool more_a, a.next());
     RAVE_TRY_ASSIGN(const bool more_b, b.next());
-    // The second run stops behind the first step that differs, so its end alone says nothing.
+    // The second run ends after the first step that differs, so an early end alone is no
+    // difference.
     if (!more_b || (!more_a && form.cut)) return match;
     if (!more_a) {
       match.difference = difference_at(b.time_ns(), run, "record",
@@ -305,7 +307,7 @@ Result<RecordMatch> match_records(const record::McapReader& recorded,
       static const std::vector<Bytes> kNoMessages;
       const auto& recorded_messages = first == a.messages().end() ? kNoMessages : first->second;
       const auto& new_messages = second == b.messages().end() ? kNoMessages : second->second;
-      // The last step of a record that broke off need not be whole.
+      // The last step of an interrupted recording may be incomplete.
       if (broken_off && recorded_messages.size() < new_messages.size()) continue;
       match.messages += recorded_messages.size();
       if (a.time_ns() == b.time_ns() && recorded_messages == new_messages) continue;

@@ -12,21 +12,22 @@
 
 namespace rave::runtime {
 
-/// How the exact streams of two records compare.
+/// The result of comparing the exact streams of two recordings.
 struct RecordMatch {
-  std::uint64_t messages = 0;  ///< That were compared.
+  std::uint64_t messages = 0;  ///< The number of compared messages.
   std::optional<RunDifference> difference;
-  std::vector<std::string> absent;  ///< Streams that the first does not have; not compared.
+  std::vector<std::string> absent;  ///< Streams missing in the first recording; not compared.
 };
 
-/// What is to be known of the first of two records.
+/// Properties of the first of two recordings.
 struct RecordForm {
-  bool cut = false;     ///< It broke off, so the second may go on where it ends.
-  bool merged = false;  ///< It was made of several: in a step robots come in any order.
+  bool cut = false;  ///< It was interrupted, so the second one may continue after its end.
+  /// It was merged from several, so the order of robots within a step is arbitrary.
+  bool merged = false;
 };
 
-/// Compares the exact streams that the first record has, up to the first difference. `run` and the
-/// device names come from the first. Errors: those of MessageCursor::next().
+/// Compares the exact streams of the first recording, up to the first difference. `run` and the
+/// device names come from the first one. Errors: those of MessageCursor::next().
 [[nodiscard]] Result<RecordMatch> match_records(const record::McapReader& recorded,
                                                 const record::McapReader& again,
                                                 const record::RunInfo& run, RecordForm form);

@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-/// A folder for the second record, removed again.
+/// A temporary folder for the second recording.
 class Scratch {
  public:
   [[nodiscard]] static Result<Scratch> create() {
@@ -52,7 +52,7 @@ class Scratch {
   fs::path path_;
 };
 
-/// The run hash after each step, by step; empty for records without them.
+/// The run hash after each step; empty for recordings without hashes.
 Result<std::vector<std::uint64_t>> read_hashes(const record::McapReader& reader) {
   std::vector<std::uint64_t> hashes;
   const auto take = [&](const record::MessageView& message) -> Status {
@@ -64,7 +64,7 @@ Result<std::vector<std::uint64_t>> read_hashes(const record::McapReader& reader)
   return hashes;
 }
 
-/// What was asked of the recorded run by hand, in its order.
+/// The requests made by hand in the recorded run, in their order.
 Result<std::vector<record::RunInput>> read_inputs(const record::McapReader& reader) {
   std::vector<record::RunInput> inputs;
   const auto take = [&](const record::MessageView& message) -> Status {
@@ -76,13 +76,13 @@ Result<std::vector<record::RunInput>> read_inputs(const record::McapReader& read
   return inputs;
 }
 
-/// The run that is done again: of all robots in one engine, or of one host of several.
+/// The repeated run: all robots in one engine, or one host of several.
 struct Again {
   sim::Engine& engine;
   std::function<Status()> step;
   std::function<Result<std::string>(const RunRequest&)> ask;
-  std::function<std::vector<sim::Event>()> beside;  ///< Events that the engine does not have.
-  bool looks = false;                               ///< It says by itself when a step is done.
+  std::function<std::vector<sim::Event>()> beside;  ///< Events missing in the engine.
+  bool looks = false;  ///< The run reports by itself when a step is done.
 };
 
 Again again_of(sim::Engine& engine) {
@@ -97,7 +97,7 @@ Again again_of(HostAgain& host) {
           [&host] { return host.beside(); }, true};
 }
 
-/// The request that was recorded.
+/// Converts a recorded request.
 Result<RunRequest> request_of(RunRequest::Kind kind, const record::RunInput& input) {
   RunRequest request;
   request.kind = kind;
@@ -112,12 +112,13 @@ Result<RunRequest> request_of(RunRequest::Kind kind, const record::RunInput& inp
   return request;
 }
 
-/// Asks for the same again, at the same steps.
+/// Repeats the recorded requests at the same steps.
 class InputReplay {
  public:
   explicit InputReplay(std::vector<record::RunInput> inputs) : inputs_(std::move(inputs)) {}
 
-  /// Those before the step that comes next. What is refused now was not refused then.
+  /// Makes the requests due before the next step. A refusal is a difference: in the recorded run
+  /// they succeeded.
   Status serve(const Again& again, RecordKeeper& keeper, VerifyOutcome& outcome) {
     const std::uint64_t step = again.engine.steps_done();
     for (; next_ < inputs_.size() && inputs_[next_].step <= step; ++next_) {
@@ -171,7 +172,7 @@ void compare_versions(const record::RunInfo& run, const record::StringMap& now,
   }
 }
 
-/// How long the recorded run was. Of one that broke off: up to its last step that is whole.
+/// Notes the length of the recorded run; of an interrupted one, up to its last complete step.
 Status note_length(const record::McapReader& reader, const record::RunInfo& run,
                    const std::optional<record::RunEnd>& end, VerifyOutcome& outcome) {
   if (end) {
@@ -188,7 +189,8 @@ Status note_length(const record::McapReader& reader, const record::RunInfo& run,
   return {};
 }
 
-/// A record that broke off is compared as far as it goes; a damaged one proves nothing.
+/// An interrupted recording is compared up to its end; a damaged one is refused because it proves
+/// nothing.
 Status check_record(const fs::path& record, VerifyOutcome& outcome) {
   RAVE_TRY_ASSIGN(const record::CheckedFile checked, record::check_record(record));
   if (!checked.damages.empty()) {
@@ -219,7 +221,7 @@ Result<config::ExpandedScenario> scenario_of(const record::RunInfo& run, const f
   return *std::move(scenario);
 }
 
-/// The second run, and all who write its record.
+/// The second run and the writers of its recording.
 struct SecondRun {
   const Again& again;
   RecordKeeper& keeper;
@@ -236,8 +238,8 @@ struct SecondRun {
   }
 };
 
-/// Steps until the recorded run ended, or one step beyond the first whose hash differs: what a step
-/// resolves is seen in the poses of the next.
+/// Steps until the end of the recorded run, or one step beyond the first one with a different hash:
+/// the result of a step appears in the poses of the next.
 Status run_again(SecondRun& run, InputReplay inputs, const std::vector<std::uint64_t>& hashes,
                  const VerifyOptions& options, VerifyOutcome& outcome) {
   sim::Engine& engine = run.again.engine;
@@ -274,7 +276,7 @@ Status run_again(SecondRun& run, InputReplay inputs, const std::vector<std::uint
   return {};
 }
 
-/// What the streams do not show but the hash does.
+/// Reports differences that appear in the hash but not in the streams.
 void judge_hash(const std::vector<std::uint64_t>& hashes, const sim::Engine& engine,
                 VerifyOutcome& outcome) {
   if (outcome.difference || outcome.ended_early) return;

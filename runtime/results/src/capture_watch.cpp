@@ -10,7 +10,7 @@
 namespace rave::runtime {
 namespace {
 
-/// More than the distance of two poses rounds by.
+/// Larger than the rounding error of the distance of two poses.
 constexpr double kRounding_m = 1e-6;
 
 std::vector<RobotId> ids_of(const config::ExpandedScenario& scenario, const std::string& name) {
@@ -45,7 +45,7 @@ void CaptureWatch::look(const world::Snapshot& world, std::uint64_t step) {
       }
       const world::Body& hunter = world.model().robots[predator.value()];
       const world::Body& hunted = world.model().robots[prey.value()];
-      // What is certainly farther than all that counts needs no closer look.
+      // Pairs certainly farther apart than any relevant distance need no exact computation.
       const Vec2 apart = world.pose(predator).position() - world.pose(prey).position();
       const double least_m =
           std::sqrt(squared_norm(apart)) - hunter.radius_m() - hunted.radius_m() - kRounding_m;

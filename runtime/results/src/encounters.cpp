@@ -9,7 +9,7 @@
 namespace rave::runtime {
 namespace {
 
-/// Above this many robots every tenth step must do.
+/// Above this number of robots, only every tenth step is examined.
 constexpr std::size_t kManyRobots = 100;
 
 }  // namespace
@@ -43,7 +43,7 @@ void Encounters::look_around(const sim::Engine& engine, RobotId robot) {
   const std::uint32_t self = kinds_->body_of(robot);
   const auto obstacles = static_cast<std::uint32_t>(model.obstacles.size());
   const Pose2 X_WR = world.pose(robot);
-  radius_m_[self] = engine.body_radius_m(robot);  // it may have been scaled
+  radius_m_[self] = engine.body_radius_m(robot);  // The radius may have been changed by scaling.
   world.gather(X_WR.position(), radius_m_[self] + reach_now_m_, found_);
   std::uint32_t last = BodyId::kNone;
   for (const std::uint32_t shape : found_) {
@@ -51,7 +51,7 @@ void Encounters::look_around(const sim::Engine& engine, RobotId robot) {
     if (body == last || body == self) continue;
     last = body;
     const bool other_robot = kinds_->is_robot(body);
-    if (other_robot && body < self) continue;  // each pair once
+    if (other_robot && body < self) continue;  // Each pair once.
     if (other_robot) radius_m_[body] = engine.body_radius_m(RobotId(body - obstacles));
     const Pose2 X_WB =
         other_robot ? world.pose(RobotId(body - obstacles)) : world.obstacle_pose(BodyId(body));
@@ -65,11 +65,11 @@ void Encounters::look_around(const sim::Engine& engine, RobotId robot) {
   }
 }
 
-/// Each robot asks for each neighbour in each step: words are told apart by where they stand.
+/// Called for each robot, neighbour and step, so words are compared by address instead of by text.
 Encounters::Kind& Encounters::kind_of(std::uint32_t robot, std::uint32_t other) {
   std::string_view a = kinds_->word(robot);
   std::string_view b = kinds_->word(other);
-  // Real robots come first in a name, so that each kind of pair has one.
+  // Real robots come first in a name, so that each kind of pair has exactly one.
   if (kinds_->is_robot(other) && a > b) std::swap(a, b);
   for (Kind& kind : kinds_of_pairs_) {
     if (kind.a.data() == a.data() && kind.b.data() == b.data()) return kind;
@@ -77,11 +77,11 @@ Encounters::Kind& Encounters::kind_of(std::uint32_t robot, std::uint32_t other) 
   return kinds_of_pairs_.emplace_back(Kind{a, b});
 }
 
-/// Makes an entry for each kind of pair that there can be from now on.
+/// Creates an entry for each kind of pair that is possible from now on.
 void Encounters::foresee_kinds() {
   if (foreseen_ == kinds_->revision()) return;
   foreseen_ = kinds_->revision();
-  // One body of each word.
+  // One body for each word.
   std::vector<std::uint32_t> bodies;
   for (std::uint32_t body = 0; body < kinds_->count(); ++body) {
     const auto same = [&](std::uint32_t other) {
@@ -95,7 +95,7 @@ void Encounters::foresee_kinds() {
   }
 }
 
-/// How near a body has to come to be closer than the closest of its kind, whichever that is.
+/// A body closer than this may be closer than the closest of its kind, whichever kind that is.
 double Encounters::reach_m() const {
   double reach_m = 0;
   for (const Kind& kind : kinds_of_pairs_) {

@@ -42,7 +42,8 @@ void tell_events(const sim::Engine& engine, std::span<const sim::Event> events, 
   const sim::EngineSpec& spec = engine.spec();
   for (const sim::Event& event : events) {
     all.push_back(event);
-    // Contacts are daily bread in a crowd; the rest somebody should read now.
+    // Contacts are frequent in a crowd and stay out of the log; the other events should be seen at
+    // once.
     if (log == nullptr || event.kind == sim::EventKind::kContact) continue;
     const std::string who =
         fmt::format("{}{}", event.robot.valid() ? "robot " : "", subject_of(spec, event));

@@ -16,7 +16,7 @@ void append(std::vector<T>& into, std::vector<T> from) {
               std::make_move_iterator(from.end()));
 }
 
-/// Appends, in the order of robots. Who is in both came back: what was before is forgotten.
+/// Appends, in the order of robots. A robot in both lists came back; its earlier entry is dropped.
 template <class T>
 void append_by_robot(std::vector<T>& into, std::vector<T> from) {
   const auto is_newer = [&from](const T& old) {
@@ -29,9 +29,9 @@ void append_by_robot(std::vector<T>& into, std::vector<T> from) {
                    [](const T& a, const T& b) { return a.robot < b.robot; });
 }
 
-/// A change of an obstacle in real time: which obstacle, and which change of all.
+/// A change of an obstacle in real time: the obstacle and the number of the change.
 using Change = std::pair<BodyId, std::uint32_t>;
-/// What a process says first of it.
+/// The first event that a process reported for a change.
 using Word = std::tuple<std::uint64_t, sim::EventKind, std::string>;
 
 bool is_counted(const sim::Event& event) {
@@ -53,8 +53,8 @@ bool is_added(const sim::Event& event) {
   return event.kind == sim::EventKind::kObstacleAdded && is_counted(event);
 }
 
-/// The event of each obstacle's coming, which is that of its smallest change, as soon as any says
-/// that it was there.
+/// The event that added each obstacle, which is that of its smallest change; only for obstacles
+/// that some process reported as added.
 std::map<BodyId, sim::Event> comings(const std::vector<sim::Event>& one,
                                      const std::vector<sim::Event>& other) {
   std::map<BodyId, sim::Event> comings;
@@ -71,9 +71,9 @@ std::map<BodyId, sim::Event> comings(const std::vector<sim::Event>& one,
   return comings;
 }
 
-/// An obstacle comes once. Who hears of it when it has been moved or removed already says that it
-/// came with that change; where another knows of the change with which it came, that other one was
-/// what it was.
+/// An obstacle is added only once. A process that learned of it only when it was moved or removed
+/// reports that it was added with that change; if another process knows the change that really
+/// added it, the event is turned back into what it was.
 void tell_apart(const std::map<BodyId, sim::Event>& comings, std::vector<sim::Event>& events) {
   std::set<Change> removals;
   for (const sim::Event& event : events) {
@@ -96,8 +96,8 @@ void tell_apart(const std::map<BodyId, sim::Event>& comings, std::vector<sim::Ev
   }
 }
 
-/// In real time each host has a change when it comes, and who comes late several of them as one:
-/// of each counts what was said first.
+/// In real time each host receives a change at its own time, and a late one receives several as
+/// one: of each change the earliest report counts.
 void keep_first_words(std::vector<sim::Event>& from, std::vector<sim::Event>& into) {
   const std::map<Change, Word> here = words_of(into);
   std::set<Change> sooner;
@@ -122,7 +122,7 @@ void merge_events(std::vector<sim::Event> from, std::vector<sim::Event>& into) {
   tell_apart(came, into);
   keep_first_words(from, into);
   append(into, std::move(from));
-  // As an engine that is alone has them, and behind them what was seen by who looked on.
+  // In the order of a single engine, followed by the sightings of observers.
   std::stable_sort(into.begin(), into.end(), [](const sim::Event& a, const sim::Event& b) {
     const bool a_seen = a.kind == sim::EventKind::kCaptured;
     const bool b_seen = b.kind == sim::EventKind::kCaptured;
@@ -131,7 +131,8 @@ void merge_events(std::vector<sim::Event> from, std::vector<sim::Event>& into) {
     }
     return std::tie(a.robot, a.kind, a.other, a.text) < std::tie(b.robot, b.kind, b.other, b.text);
   });
-  // Without a manager every host makes what the scenario says of the world.
+  // Without a manager each host makes the scheduled changes of the world itself, so they are
+  // reported several times.
   const auto same = [](const sim::Event& a, const sim::Event& b) {
     return !a.robot.valid() && !b.robot.valid() && a.step == b.step && a.kind == b.kind &&
            a.other == b.other && a.text == b.text;
@@ -144,7 +145,7 @@ void merge_closest(const std::map<std::string, Encounter>& from,
   for (const auto& [pair, found] : from) {
     const auto [known, is_new] = into.try_emplace(pair, found);
     Encounter& best = known->second;
-    // Of equal ones the first that an engine that is alone would have come to.
+    // Of equal distances, the one that a single engine would have found first.
     const bool nearer =
         std::tie(found.gap_m, found.time_s, found.a) < std::tie(best.gap_m, best.time_s, best.a);
     if (!is_new && nearer) best = found;
@@ -211,7 +212,7 @@ void merge_instant(std::optional<InstantFacts> from, std::optional<InstantFacts>
                    });
 }
 
-/// Of several who tell of the world the one counts who tells the most.
+/// Of several reports on the world the most complete one counts.
 void merge_world(std::optional<WorldFacts> from, std::optional<WorldFacts>& into) {
   if (!from) return;
   const bool more = !into || from->first_step < into->first_step ||

@@ -13,7 +13,8 @@ namespace {
 constexpr const char* kMark = "rave findings";
 constexpr std::uint32_t kVersion = 3;
 
-/// Which members there are, in which order, once for both directions: each is named to `archive`.
+/// The list of members and their order, used for reading and writing: each member is passed to
+/// `archive`.
 template <class Archive>
 struct Members {
   Archive& archive;
@@ -149,7 +150,7 @@ class Reader {
     value.reset();
     if (cdr_.get<std::uint8_t>() != 0) take(value.emplace());
   }
-  /// A count is believed only as far as there are bytes.
+  /// A count is accepted only if enough bytes follow.
   template <class T>
   void take(std::vector<T>& values) {
     values.clear();
@@ -170,8 +171,8 @@ class Reader {
   record::CdrReader cdr_;
 };
 
-/// Enumerators come as numbers; so that none is outside of its type, they are read as they are and
-/// looked at before anybody uses them.
+/// Enumerators are stored as numbers; they are checked before use, because a number may be outside
+/// of its type.
 bool is_kind(report::Kind kind) {
   return std::ranges::find(report::kAllKinds, kind) != report::kAllKinds.end();
 }
@@ -247,7 +248,7 @@ std::vector<std::byte> encode_facts(const FactsOf& about, const RunFacts& facts)
   Writer writer;
   std::string mark = kMark;
   std::uint32_t version = kVersion;
-  // Nothing is changed: the list of members is the same for both directions.
+  // Writing changes nothing; the copy is needed because the same list of members serves reading.
   FactsOf whose = about;
   RunFacts copy = facts;
   writer(mark, version, whose.run_number, whose.host, copy);
@@ -283,8 +284,8 @@ Result<RunFacts> decode_facts(std::span<const std::byte> bytes, const FactsOf& a
   if (!fits(facts, limits)) {
     return fail(ErrorCode::kParse, "the results name robots or bodies that do not exist");
   }
-  // What it was told of the world may be somebody else's fault, and its own robots do not hang on
-  // it.
+  // Invalid facts on the world may be the fault of another process and do not invalidate those on
+  // the own robots.
   if (facts.world && !fits(*facts.world, limits)) {
     facts.world.reset();
     facts.problems.emplace_back("its world names robots or bodies that do not exist");

@@ -7,7 +7,7 @@
 namespace rave::runtime {
 namespace {
 
-/// The robots that a name of a robot or of an entry stands for.
+/// The robots that the name of a robot or of an entry means.
 std::vector<RobotId> robots_named(const config::ExpandedScenario& scenario,
                                   const std::string& name) {
   std::vector<RobotId> found;
@@ -28,7 +28,7 @@ bool contains(const std::vector<RobotId>& robots, RobotId robot) {
   return std::find(robots.begin(), robots.end(), robot) != robots.end();
 }
 
-/// The robots of an entry, each once.
+/// The robots of an entry, without duplicates.
 std::vector<RobotId> robots_of(const config::ExpandedScenario& scenario,
                                const config::TouchesCheckFile& file) {
   std::vector<RobotId> robots;
@@ -109,7 +109,7 @@ GoalFacts GoalChecks::facts() const {
 
 namespace {
 
-/// The one that pushes has the event; the one that is pushed has been touched as well.
+/// Only the robot that pushes has the event, but the robot that is pushed was touched as well.
 std::uint64_t count_contacts(const sim::EngineSpec& spec, const std::vector<sim::Event>& events,
                              const std::vector<RobotId>& robots) {
   const auto first_robot = static_cast<std::uint32_t>(spec.world.obstacles.size());
@@ -153,7 +153,7 @@ CheckResult arrival_result(const config::ArrivalCheckFile& file, const std::stri
   return result;
 }
 
-/// What stands in the place of a result if nothing is known of a robot that it needs.
+/// Marks a result as not evaluated if nothing is known of a robot that it needs.
 void note_lost(const std::vector<RobotId>& robots, const sim::EngineSpec& spec,
                const std::vector<std::uint8_t>& lost, CheckResult& result) {
   for (const RobotId robot : robots) {
@@ -166,8 +166,8 @@ void note_lost(const std::vector<RobotId>& robots, const sim::EngineSpec& spec,
   }
 }
 
-/// The same if a sensor that counts never gave a reading, or if nobody knows where a robot was:
-/// then nothing could have been counted.
+/// Marks a result as not evaluated if a counting sensor never had a reading, or a robot never had a
+/// known position.
 void note_missing(const config::TouchesCheckFile& file, const std::vector<RobotId>& robots,
                   const std::vector<std::uint32_t>& silent, const sim::EngineSpec& spec,
                   const RunFacts& facts, CheckResult& result) {
@@ -188,7 +188,7 @@ void note_missing(const config::TouchesCheckFile& file, const std::vector<RobotI
   }
 }
 
-/// The same if contacts are known only since a manager took over.
+/// Marks a result as not evaluated if contacts are known only since a manager took over.
 void note_unknown(const RunFacts& facts, CheckResult& result) {
   if (facts.world_from == 0) return;
   result.holds = false;

@@ -16,7 +16,7 @@ void HitCounter::after_step(const StepView& view) {
     const sim::RobotType& type = spec.types[spec.robots[r].type];
     for (std::uint32_t s = 0; s < type.sensors.size(); ++s) {
       const sim::SensorSample sample = engine.sensor(RobotId(r), s);
-      // `bodies` belong to the newest scan, which latency may keep from the program for a while.
+      // `bodies` belongs to the newest scan, which latency may still withhold from the program.
       const std::uint64_t step = engine.steps_done() - 1;
       const sim::SensorSpec& sensor = type.sensors[s];
       const bool due =
@@ -30,8 +30,8 @@ void HitCounter::after_step(const StepView& view) {
   }
 }
 
-/// There are a handful of words, and each ray of each robot asks: they are told apart by where they
-/// stand.
+/// Called for each ray of each robot, and there are few words, so they are compared by address
+/// instead of by text.
 std::uint64_t* HitCounter::count_of(Counters& counters, std::string_view what) {
   for (const auto& [word, count] : counters.known) {
     if (word == what.data()) return count;

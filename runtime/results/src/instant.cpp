@@ -9,11 +9,11 @@
 namespace rave::runtime {
 namespace {
 
-/// Cameras speak a few times a second: sightings this fresh belong to the instant.
+/// Cameras deliver a few images per second: sightings within this time belong to the instant.
 constexpr double kSightingWindow_s = 0.5;
 constexpr int kDiscCorners = 32;
 
-/// The place of a landmark with this code, as the world knows it.
+/// The pose of the landmark with this code in the world.
 std::optional<Landmark> landmark_of(const world::Snapshot& world, std::int32_t code) {
   for (const Landmark& landmark : world.landmarks()) {
     if (landmark.code == code) return landmark;
@@ -115,9 +115,9 @@ void InstantKeeper::add_hits(const sim::Engine& engine, RobotId robot, std::uint
   if (bodies.empty() || sample.info->bearings_rad == nullptr || sample.header->sequence == 0) {
     return;
   }
-  // What a real ray met nobody knows: it shapes the fan of a hybrid and gets no dot.
+  // What a real ray hit is unknown: it shapes the fan of a hybrid sensor but gets no dot.
   const auto* const virtual_m = static_cast<const float*>(parts.imagined_records);
-  // The newest scan may be some steps old: it belongs to where the robot was then.
+  // The newest scan may be some steps old, so it is drawn from the pose at its stamp.
   const Pose2 X_WR = engine.pose_at(robot, SimTime{sample.header->stamp_ns})
                          .value_or(engine.snapshot().pose(robot));
   const Pose2 X_WS = compose(X_WR, sample.info->X_RS);

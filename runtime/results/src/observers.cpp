@@ -13,7 +13,8 @@ std::string odometry_sensor(const config::ScenarioFile& scenario) {
 
 RobotFacts robot_facts(const Observers& observers, const sim::Engine& engine, RobotId robot) {
   const sim::RobotType& type = engine.spec().types[engine.spec().robots[robot.value()].type];
-  // By now a host may have asked hardware for the step that is not done any more.
+  // In the step in progress a host may already have read its hardware, so use the poses noted
+  // before.
   const sim::ReportedPose* const told = observers.tracks.reported(robot);
   const sim::ReportedPose& reported = told != nullptr ? *told : engine.reported(robot);
   RobotFacts facts;
@@ -52,7 +53,8 @@ void add_instruments(const sim::Engine& engine, RobotId robot, RunFacts& facts) 
 }  // namespace
 
 void keep_history_for_observers(config::ScenarioFile& scenario) {
-  // The check and the frozen instant look back; a second is enough for both, but for long steps.
+  // The check and the frozen instant look back in time; one second is enough for both, except with
+  // long steps.
   if (scenario.checks.sightings || scenario.picture) {
     const double wait_s = kLongestWaitForPoses.seconds() + 2 * scenario.step_s.value;
     scenario.history_s = std::max({scenario.history_s, 1.0, wait_s});

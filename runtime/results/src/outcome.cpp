@@ -12,7 +12,7 @@
 namespace rave::runtime {
 namespace {
 
-/// Events that mean that something of the run was lost.
+/// Events that mean the loss of a part of the run.
 bool is_loss(sim::EventKind kind) {
   return kind == sim::EventKind::kProgramFailed || kind == sim::EventKind::kDriverFailed;
 }
@@ -141,7 +141,7 @@ RunOutcome judge(const Findings& findings) {
                                            event.text));
   }
   for (const sim::Event& event : facts.events) {
-    // Whoever asked by hand has been told.
+    // A refusal of a request by hand was reported to the person who made it.
     const bool scheduled = !sim::says_by_hand(event.text);
     if (event.kind != sim::EventKind::kHandOverRefused || !scheduled) continue;
     outcome.problems.push_back(fmt::format(
@@ -149,7 +149,8 @@ RunOutcome judge(const Findings& findings) {
         static_cast<double>(event.step) * spec.step.seconds(), event.text));
   }
   outcome.whole = outcome.problems.empty();
-  // The run did all it could with what its recordings gave it; who reads the result should know.
+  // The run used all that its recordings contained, but the reader of the result should know of
+  // gaps.
   for (std::string& loss : stream_losses(findings)) outcome.problems.push_back(std::move(loss));
   judge_checks(findings, outcome);
   if (findings.hash) outcome.hash = fmt::format("{:016x}", *findings.hash);

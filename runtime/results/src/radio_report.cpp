@@ -15,7 +15,7 @@ Json transmitters_json(const sim::EngineSpec& spec,
                        const std::vector<InstrumentFacts>& transmitters) {
   Json all = Json::array();
   for (const InstrumentFacts& instrument : transmitters) {
-    // A driver's text is not ours: what is no JSON is left out.
+    // A transmitter's report comes from its driver: text that is not JSON is omitted.
     const Json report = Json::parse(instrument.report, nullptr, false);
     if (!report.is_object() || report.empty()) continue;
     Json entry = {{"robot", spec.robots[instrument.robot].name},

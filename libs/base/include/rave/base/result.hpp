@@ -13,8 +13,13 @@ namespace rave {
 
 /// The value of a fallible call, or the Error that kept it from having one.
 /// Every public function that can fail returns this; nothing in RAVE throws across a library edge.
+/// A type of its own, so that the compiler refuses a call whose result is dropped, whatever the
+/// declaration of the function says. Who means to drop one writes `static_cast<void>(...)` and why.
 template <class T>
-using Result = tl::expected<T, Error>;
+class [[nodiscard]] Result : public tl::expected<T, Error> {
+ public:
+  using tl::expected<T, Error>::expected;
+};
 
 /// A fallible call without a value.
 using Status = Result<void>;
